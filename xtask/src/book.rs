@@ -1,8 +1,8 @@
 //! `cargo xtask book`: the documentation as a book in `target/book`, by mdBook, which cargo installs into
 //! `target/tools` once.
 //!
-//! The pages are those of the repository, copied with their folders, so that links between them hold; links to
-//! other files lead to the repository on the web.
+//! The pages are those of the repository, copied with their folders, so that links between them hold; links
+//! to other files lead to the repository on the web.
 
 use std::fs;
 use std::path::{Component, Path, PathBuf};

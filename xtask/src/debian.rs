@@ -52,8 +52,8 @@ fn apt(arguments: &[&str]) -> Result<(), String> {
 
 fn advice(missing: &[&str]) -> String {
     format!(
-        "Missing, and could not be installed: {}. On Debian an administrator installs it with `apt-get install {}`; \
-         `cargo xtask test --only` runs other checks without it.",
+        "Missing, and could not be installed: {}. On Debian an administrator installs it with `apt-get \
+         install {}`; `cargo xtask test --only` runs other checks without it.",
         missing.join(", "),
         missing.join(" ")
     )

@@ -31,8 +31,8 @@ pub fn environment(root: &Path, name: &str, requirements: &Path) -> Result<PathB
     );
     make(&folder, &program, requirements).map_err(|error| {
         format!(
-            "The Python environment `{name}` could not be made; it needs Python 3.10 or later with `venv` (Debian: python3-venv) \
-             and network.\n{error}"
+            "The Python environment `{name}` could not be made; it needs Python 3.10 or later with `venv` \
+             (Debian: python3-venv) and network.\n{error}"
         )
     })?;
     // Last: an environment without it is not finished.

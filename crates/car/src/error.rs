@@ -41,8 +41,8 @@ pub enum BuildError {
     Track(#[from] wheelrail::track::TrackError),
     /// There is no equilibrium to start from.
     #[error(
-        "cannot start from equilibrium: {0}; look at lading off the center, coils that do not carry it, a car that \
-         tips; a start in the nominal layout needs none"
+        "cannot start from equilibrium: {0}; look at lading off the center, coils that do not carry it, a \
+         car that tips; a start in the nominal layout needs none"
     )]
     Equilibrium(#[from] NoEquilibrium),
 }

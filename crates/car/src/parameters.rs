@@ -290,8 +290,8 @@ impl Parameters {
                 return Err(InvalidParameter::new(
                     "the distance (m) of a curve under trucks with massless wedges or empirical warp springs",
                     at,
-                    "beyond the track: these elements know displacements from straight track only; take wedge \
-                     bodies, or a track without curves",
+                    "beyond the track: these elements know displacements from straight track only; take \
+                     wedge bodies, or a track without curves",
                 ));
             }
             if heading != 0.0 {

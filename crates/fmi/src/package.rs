@@ -79,7 +79,8 @@ impl Platform {
             return Ok(());
         }
         Err(Error::new(format!(
-            "{} is no library for {}: it does not begin as a file of the kind {kind}; name the library wedgelab_fmu that was built there",
+            "{} is no library for {}: it does not begin as a file of the kind {kind}; name the library \
+             wedgelab_fmu that was built there",
             path.display(),
             self.three
         )))
@@ -158,7 +159,8 @@ pub fn merged(parts: &[PathBuf]) -> Result<(Vec<u8>, usize), Error> {
                 }
                 None => {
                     return Err(Error::new(format!(
-                        "{} holds {name}, which {} does not: only FMUs of the same case and version can be merged",
+                        "{} holds {name}, which {} does not: only FMUs of the same case and version can be \
+                         merged",
                         part.display(),
                         parts[0].display()
                     )));
@@ -166,8 +168,8 @@ pub fn merged(parts: &[PathBuf]) -> Result<(Vec<u8>, usize), Error> {
                 Some((_, known)) if *known == bytes => {}
                 Some(_) => {
                     return Err(Error::new(format!(
-                        "{name} in {} is not that of the FMUs before it: only FMUs of the same case and version, for \
-                         different platforms, can be merged",
+                        "{name} in {} is not that of the FMUs before it: only FMUs of the same case and \
+                         version, for different platforms, can be merged",
                         part.display()
                     )));
                 }
@@ -272,11 +274,12 @@ fn page(description: &Description) -> String {
     }
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{name}</title>\n\
-         <style>body {{ font-family: sans-serif; max-width: 70em; margin: 2em auto; padding: 0 1em }} \
-         td, th {{ text-align: left; padding: 0.1em 0.8em 0.1em 0; vertical-align: top }}</style></head>\n\
+         <style>body {{ font-family: sans-serif; max-width: 70em; margin: 2em auto; padding: 0 1em }} td, \
+         th {{ text-align: left; padding: 0.1em 0.8em 0.1em 0; vertical-align: top }}</style></head>\n\
          <body>\n<h1>{name}</h1>\n<p>{text}</p>\n\
          <p>Made by wedgelab {version}. {conventions} All values are in SI units.</p>\n\
-         <p>What it is made of is in <code>resources/{file}</code>; licences are in <code>documentation/licenses</code>.</p>\n\
+         <p>What it is made of is in <code>resources/{file}</code>; licences are in \
+         <code>documentation/licenses</code>.</p>\n\
          <table>\n<tr><th>variable</th><th>causality</th><th>variability</th><th>unit</th><th></th></tr>\n{rows}</table>\n\
          </body>\n</html>\n",
         name = description.model.name(),

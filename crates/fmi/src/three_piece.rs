@@ -1,7 +1,8 @@
 //! A three-piece truck with wedge bodies, as data of [`crate::system`]: a case with `model = "truck"`.
 //!
-//! Bolster, side frames and wheelsets that are prescribed move as the inputs say, or as the case says; bodies that are
-//! free are loaded by inputs. Outputs are the fixed columns of its results: warp angle and moment, loads of nests, forces and places of wedges.
+//! Bolster, side frames and wheelsets that are prescribed move as the inputs say, or as the case says; bodies
+//! that are free are loaded by inputs. Outputs are the fixed columns of its results: warp angle and moment,
+//! loads of nests, forces and places of wedges.
 
 use mechanics::body::COORDINATES;
 use mechanics::motion::Motion;
@@ -24,7 +25,8 @@ use crate::system::{
 pub fn plant(case: &TruckCase, driven: bool) -> Result<Plant, Error> {
     if case.settle > 0.0 {
         return Err(Error::new(
-            "`start.settle` is more than 0 s: an FMU starts where its case starts; let the importer settle it",
+            "`start.settle` is more than 0 s: an FMU starts where its case starts; let the importer settle \
+             it",
         ));
     }
     let moved = if driven { drivable(case) } else { case.clone() };
@@ -63,8 +65,8 @@ pub fn element(case: &TruckCase, setting: &Setting) -> Result<SystemElement, Err
     SystemElement::new(plant(case, driven)?, setting, start, driven)
 }
 
-/// Returns the same case with prescribed bodies that can be moved, since a system takes what is held for fixed, and
-/// without loads of its own.
+/// Returns the same case with prescribed bodies that can be moved, since a system takes what is held for
+/// fixed, and without loads of its own.
 fn drivable(case: &TruckCase) -> TruckCase {
     let mut case = case.clone();
     let parameters = &mut case.parameters;
@@ -121,10 +123,12 @@ fn all(case: &TruckCase, system: &System, table: &TruckTable) -> (Entries, Ports
         .unzip();
     let mut entries = Entries {
         options: options(
-            "who moves prescribed bodies: 0 the inputs bolster_*, left_side_frame_*, ..., 1 the case, whose loads act too then",
+            "who moves prescribed bodies: 0 the inputs bolster_*, left_side_frame_*, ..., 1 the case, whose \
+             loads act too then",
             (
                 i32::from(equilibrium),
-                "the truck at the start: 0 at rest in the nominal layout, 1 at rest in static equilibrium without friction",
+                "the truck at the start: 0 at rest in the nominal layout, 1 at rest in static equilibrium \
+                 without friction",
             ),
         ),
         inputs,

@@ -1,5 +1,5 @@
-//! The three-piece truck behind the variables: the columns of its run, inputs that move it, saved states, what is
-//! refused.
+//! The three-piece truck behind the variables: the columns of its run, inputs that move it, saved states,
+//! what is refused.
 #![allow(missing_docs, clippy::panic, clippy::unwrap_used)]
 
 use fmi::description::{Description, Version};

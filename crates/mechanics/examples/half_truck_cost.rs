@@ -79,7 +79,8 @@ fn main() {
             system.solve(black_box(&mut b));
         });
         println!(
-            "  right-hand side {derivative:.2} us, Jacobian {jacobian:.2} us (ratio {:.1}), factor {factor:.2} us, solve {solve:.2} us",
+            "  right-hand side {derivative:.2} us, Jacobian {jacobian:.2} us (ratio {:.1}), factor \
+             {factor:.2} us, solve {solve:.2} us",
             jacobian / derivative
         );
         let x = system.initial_state();

@@ -44,7 +44,8 @@ pub enum CharacteristicError {
     },
     /// Points so close to each other that the stiffness overflows.
     #[error(
-        "at point {index} (counted from 1) the stiffness is not finite: compressions are too close to each other"
+        "at point {index} (counted from 1) the stiffness is not finite: compressions are too close to each \
+         other"
     )]
     Steep {
         /// Number of the point, counted from 1.

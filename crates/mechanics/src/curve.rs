@@ -205,7 +205,8 @@ impl Curve {
             points.extend(crossings(i, point[0], to));
         }
         points.dedup_by(|b, a| b[0] <= a[0]);
-        // Beyond the ends the clamped curve is flat, or goes on as before, from a limit too that it leaves there.
+        // Beyond the ends the clamped curve is flat, or goes on as before, from a limit too that it leaves
+        // there.
         let (first, end) = (points[0], points[points.len() - 1]);
         let beyond = |[x, y]: [f64; 2], slope: f64, outwards: f64| {
             let held = (y <= low && slope * outwards < 0.0) || (y >= high && slope * outwards > 0.0);

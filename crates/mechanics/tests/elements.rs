@@ -401,9 +401,9 @@ fn input_frames_that_do_not_fit_are_refused() {
     assert!(matches!(error, ModelError::Layout { .. }), "{error}");
 }
 
-/// An element whose marker A is on a prescribed, moving body gives the free body the same accelerations as the
-/// same element on a free body that is so heavy that it keeps this motion; and the loads that it reports on
-/// the body with marker A are the opposite of those on the free body.
+/// An element whose marker A is on a prescribed, moving body gives the free body the same accelerations as
+/// the same element on a free body that is so heavy that it keeps this motion; and the loads that it reports
+/// on the body with marker A are the opposite of those on the free body.
 #[test]
 fn analytic_either_body_of_an_element_may_be_prescribed() {
     let mut random = Random(11);
@@ -446,7 +446,8 @@ fn analytic_either_body_of_an_element_may_be_prescribed() {
         assert!((found.energy - expected.energy).abs() < 1e-9 * expected.energy);
         assert!(found.force.0.iter().any(|f| f.abs() > 1.0));
     }
-    // The ledger closes, with the work of the driver. (The bushing's torsion keeps no energy at large angles.)
+    // The ledger closes, with the work of the driver. (The bushing's torsion keeps no energy at large
+    // angles.)
     let mut prescribed = build(driver, 0.0);
     let start = prescribed.observe(0.0, &x).energies.total();
     let mut integrator = Integrator::new(prescribed.clone(), Options::default(), 0.0, &x).unwrap();

@@ -1,5 +1,5 @@
-//! Elements, connections and applied loads on bodies with finite and with linearized kinematics in one system:
-//! derivatives, the energy ledger, closed forms.
+//! Elements, connections and applied loads on bodies with finite and with linearized kinematics in one
+//! system: derivatives, the energy ledger, closed forms.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
@@ -206,8 +206,8 @@ fn energy_the_ledger_closes_over_mixed_kinematics() {
     }
 }
 
-/// A mass on a spring from rest under the load F sin Ωt: `x = F (sin Ωt - Ω/ω sin ωt) / (k - m Ω²)`, with either
-/// kinematics, on a spring as a connection or as an element; the work is what mass and spring hold.
+/// A mass on a spring from rest under the load F sin Ωt: `x = F (sin Ωt - Ω/ω sin ωt) / (k - m Ω²)`, with
+/// either kinematics, on a spring as a connection or as an element; the work is what mass and spring hold.
 #[test]
 fn analytic_a_mass_on_a_spring_under_a_load() {
     let (mass, stiffness, load, frequency, end): (f64, f64, f64, f64, f64) = (4.0, 4e3, 50.0, 20.0, 0.7);

@@ -321,8 +321,8 @@ fn input_a_finding_in_words_has_all_that_a_reader_needs() {
     let words = all[0].words(&place, Units::Us);
     assert_eq!(
         words,
-        "the sole face of the box has left its surface: the gap is 1000 in at 0.02 s; the limit is 7.874 in (the smallest \
-         extent of the face), exceeded from 0.01 s on"
+        "the sole face of the box has left its surface: the gap is 1000 in at 0.02 s; the limit is 7.874 in \
+         (the smallest extent of the face), exceeded from 0.01 s on"
     );
     let shown = all[0].to_string();
     assert!(

@@ -89,7 +89,8 @@ fn analytic_a_spring_pushes_shears_goes_solid_and_lifts_off() {
     close(force([0.01, 0.02, 0.021], [1.0, 2.0, 3.0]), [0.0; 3]);
 }
 
-/// Loads of the table, never negative; shear and damping act without load too; a tilt is pushed back by `k_t sin`.
+/// Loads of the table, never negative; shear and damping act without load too; a tilt is pushed back by `k_t
+/// sin`.
 #[test]
 fn analytic_a_table_spring_pushes_by_its_table_and_rights_its_body() {
     let spring = table_spring();

@@ -90,8 +90,8 @@ pub fn kind(source: &SourceText) -> Result<FileKind, LoadError> {
     FileKind::of(source).ok_or_else(|| {
         LoadError::new(
             format!("{} is no file of NUCARS", source.name()),
-            "names end with .SYS, .INP, .DAT or .RUN; or the file holds a keyword such as `\\BODY DATA` at the \
-             beginning of a line",
+            "names end with .SYS, .INP, .DAT or .RUN; or the file holds a keyword such as `\\BODY DATA` at \
+             the beginning of a line",
         )
     })
 }

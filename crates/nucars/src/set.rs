@@ -286,8 +286,8 @@ pub fn set(
         [section, ..] => Err(wrong(match nearest(section, SECTIONS) {
             Some(near) if !SECTIONS.contains(section) => format!("did you mean {near}?"),
             _ => format!(
-                "write for example characteristic.301.column_friction, wedges.column_friction or body.2.mass; \
-                 paths begin with {}",
+                "write for example characteristic.301.column_friction, wedges.column_friction or \
+                 body.2.mass; paths begin with {}",
                 SECTIONS.join(", ")
             ),
         })),

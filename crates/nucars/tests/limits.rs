@@ -31,7 +31,8 @@ fn large(section: &str, bytes: usize) -> (String, usize) {
             "\\CHARACTERISTIC DATA" => writeln!(records, "  {number}   11   12   1.0E09  -1.0E09"),
             _ => writeln!(
                 records,
-                "  {number}   3            0.0      2.225E3       1.09E5\n                    0.0         0.50         0.60"
+                "  {number}   3            0.0      2.225E3       1.09E5\n                    0.0         \
+                 0.50         0.60"
             ),
         };
     }

@@ -72,8 +72,9 @@ pub const SOLVERS: &[Solver] = &[
         method: "rodas5p",
         ours: true,
         span: 10.0,
-        options: "defaults (all quadratures of the energy ledger, kinks foreseen; a wedge's positions and speeds held to 1e-5 of their \
-                  scales where a wider tolerance is asked for), but contact modes not recorded",
+        options: "defaults (all quadratures of the energy ledger, kinks foreseen; a wedge's positions and \
+                  speeds held to 1e-5 of their scales where a wider tolerance is asked for), but contact \
+                  modes not recorded",
     },
     Solver {
         name: "wedgelab TR-BDF2",
@@ -81,7 +82,8 @@ pub const SOLVERS: &[Solver] = &[
         method: "own_tr_bdf2",
         ours: true,
         span: 10.0,
-        options: "the same, method TR-BDF2: the tolerance holds for displacements alone; steps of 0.01 s at most, the distance of the rows",
+        options: "the same, method TR-BDF2: the tolerance holds for displacements alone; steps of 0.01 s at \
+                  most, the distance of the rows",
     },
     Solver {
         name: "wedgelab ESDIRK3",
@@ -169,8 +171,8 @@ pub const SOLVERS: &[Solver] = &[
         method: "octave",
         ours: false,
         span: 1.0,
-        options: "right-hand side in Octave's language (drivers/wedge_rates.m), Jacobian by ode15s's own differences, first step 1e-9 s, \
-                  relative tolerance 1e-13; the yawed cases only",
+        options: "right-hand side in Octave's language (drivers/wedge_rates.m), Jacobian by ode15s's own \
+                  differences, first step 1e-9 s, relative tolerance 1e-13; the yawed cases only",
     },
     Solver {
         name: "Exudyn",

@@ -93,8 +93,9 @@ pub fn figures(standings: &[Standing]) -> Vec<(&'static str, Figure)> {
         let figure = Figure {
             title: title.to_owned(),
             caption: format!(
-                "{title}. CPU time over error, both as powers of ten; lower and further left is better. A curve ends on the left where its \
-                 solver becomes no more exact, or where the reference is not known better."
+                "{title}. CPU time over error, both as powers of ten; lower and further left is better. A \
+                 curve ends on the left where its solver becomes no more exact, or where the reference is \
+                 not known better."
             ),
             columns: panels.len().min(3),
             panels,

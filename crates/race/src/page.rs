@@ -153,7 +153,8 @@ impl Race {
             limit,
         } = &self.measured;
         let mut text = format!(
-            "Measured on {date}: {machine}, {cores} cores, rustc {rustc}, compiled for {compiled_for}; {limit} s of CPU time a run at most.\n"
+            "Measured on {date}: {machine}, {cores} cores, rustc {rustc}, compiled for {compiled_for}; \
+             {limit} s of CPU time a run at most.\n"
         );
         for remark in &self.remarks {
             let _ = write!(text, "\n{remark}\n");
@@ -331,7 +332,8 @@ fn failed(failures: &Table) -> String {
 /// The options of every solver.
 fn options() -> String {
     let mut text = format!(
-        "All: {COMMON_OPTIONS}; reference: {} at {}.\n\n| solver | options beyond its defaults |\n|---|---|\n",
+        "All: {COMMON_OPTIONS}; reference: {} at {}.\n\n| solver | options beyond its defaults \
+         |\n|---|---|\n",
         REFERENCE.0, REFERENCE.1
     );
     for solver in SOLVERS {

@@ -85,8 +85,9 @@ pub fn figure(loops: &[Named]) -> Figure {
     });
     Figure {
         title: "Suspension of a three-piece truck".to_owned(),
-        caption: "What both nests with their wedges resist over the bolster's motion, in the last whole cycle. The slope of the loop is \
-                  the stiffness, its height in the middle twice what friction holds, its area the energy lost."
+        caption: "What both nests with their wedges resist over the bolster's motion, in the last whole \
+                  cycle. The slope of the loop is the stiffness, its height in the middle twice what \
+                  friction holds, its area the energy lost."
             .to_owned(),
         panels: vec![Panel {
             x_label: axis(motion, a, Units::Us),

@@ -58,7 +58,8 @@ pub enum FileError {
     /// A file cannot be written.
     #[error("cannot write `{}`: {reason}", .file.display())]
     #[diagnostic(help(
-        "nothing of this result was left there; look for space and rights, or choose another folder with --out"
+        "nothing of this result was left there; look for space and rights, or choose another folder with \
+         --out"
     ))]
     Write {
         /// The file.

@@ -113,8 +113,9 @@ pub fn figure(fit: &Fit, shown: &Shown<'_>) -> Figure {
     Figure {
         title: format!("{name}: measured and fitted"),
         caption: format!(
-            "(a) The measured values and the run with the parameters found. (b) Measured less fitted over time, with the standard error of one value ({} {}), up and down. \
-             What is left over should look like noise: a pattern says that the model lacks something.",
+            "(a) The measured values and the run with the parameters found. (b) Measured less fitted over \
+             time, with the standard error of one value ({} {}), up and down. What is left over should look \
+             like noise: a pattern says that the model lacks something.",
             crate::figures::digits(size),
             kind.label(units)
         ),

@@ -15,7 +15,8 @@
 //! - [`run_files`]: the files of a run.
 //! - [`half_truck_files`]: the files of a half-truck's run.
 //! - [`warp_files`], [`curves_files`]: the files of `wedgelab warp` and `wedgelab curves`;
-//!   [`stability_files`]: those of `wedgelab stability`; [`wheelrail_files`]: those of `wedgelab wheelrail plot`; [`track_files`]: those of `wedgelab track show`.
+//!   [`stability_files`]: those of `wedgelab stability`; [`wheelrail_files`]: those of `wedgelab wheelrail
+//!   plot`; [`track_files`]: those of `wedgelab track show`.
 //! - [`table`]: tables of results, read back.
 //! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table,
 //!   [`study_digest`] what their page shows.

@@ -76,8 +76,8 @@ pub fn write(case: &Case, result: &RunResult, out: &mut dyn Write) -> io::Result
     mat5::text("about", &about(result, &variables), out)
 }
 
-/// Writes the columns of a table under their full names, in the units of its summary, and appends a line on each
-/// to `about`.
+/// Writes the columns of a table under their full names, in the units of its summary, and appends a line on
+/// each to `about`.
 ///
 /// # Errors
 /// The writer's.

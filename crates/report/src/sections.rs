@@ -134,8 +134,8 @@ pub fn comparison(outcomes: &[Outcome], trucks: &[TruckOutcome]) -> Option<Plan>
     (!exhibits.is_empty()).then(|| Plan {
         id: "compared".to_owned(),
         title: "Against types 6.8 and 6.9, toe out".to_owned(),
-        intro: "The thesis's comparison: its stand-alone wedge against the comparison program's wedges, here our reading of them in \
-                the half-truck."
+        intro: "The thesis's comparison: its stand-alone wedge against the comparison program's wedges, \
+                here our reading of them in the half-truck."
             .to_owned(),
         exhibits,
         folded: false,
@@ -162,18 +162,20 @@ pub fn sensitivity(found: &Sensitivity) -> Option<Plan> {
 fn intro(damping: Damping, yawed: bool) -> &'static str {
     match (damping, yawed) {
         (Damping::Variable, false) => {
-            "The coil stands on the side frame: it presses the wedge while the bolster is low, and the bolster lifts off when \
-             it is high. Then the wedge rings on its coil."
+            "The coil stands on the side frame: it presses the wedge while the bolster is low, and the \
+             bolster lifts off when it is high. Then the wedge rings on its coil."
         }
         (Damping::Variable, true) => {
-            "The bolster is turned by 0.012 rad, so that the wedge is carried on edges and corners; the ringing of contacts is \
-             less, and the pitch and yaw moments are larger."
+            "The bolster is turned by 0.012 rad, so that the wedge is carried on edges and corners; the \
+             ringing of contacts is less, and the pitch and yaw moments are larger."
         }
         (Damping::Constant, false) => {
-            "The coil stands in the bolster's pocket: its force hardly changes, and the bolster never lifts off."
+            "The coil stands in the bolster's pocket: its force hardly changes, and the bolster never lifts \
+             off."
         }
         (Damping::Constant, true) => {
-            "With the bolster turned by 0.012 rad the corners carry unequal loads, which gives moments about all axes."
+            "With the bolster turned by 0.012 rad the corners carry unequal loads, which gives moments \
+             about all axes."
         }
     }
 }

@@ -103,8 +103,8 @@ pub fn write_numbers(case: &str, found: &Stability, units: Units, out: &mut dyn 
                 its_frequency_hz: first(branch, |mode| mode.frequency),
             })
             .collect(),
-        about: "Vibrations of 0.05 to 30 Hz about steady running on straight track. Friction stuck: bristles are springs; absent: \
-                no friction in wedges, plates, adapters, side bearings.",
+        about: "Vibrations of 0.05 to 30 Hz about steady running on straight track. Friction stuck: \
+                bristles are springs; absent: no friction in wedges, plates, adapters, side bearings.",
     };
     serde_json::to_writer_pretty(&mut *out, &document)?;
     writeln!(out)
@@ -143,8 +143,9 @@ pub fn figure(case: &str, found: &Stability, units: Units) -> Figure {
     };
     Figure {
         title: format!("{case}: linear stability"),
-        caption: "The vibration that grows most about steady running on straight track: positive growth is hunting. Friction stuck: \
-                  bristles are springs; absent: no friction in wedges, plates, adapters, side bearings."
+        caption: "The vibration that grows most about steady running on straight track: positive growth is \
+                  hunting. Friction stuck: bristles are springs; absent: no friction in wedges, plates, \
+                  adapters, side bearings."
             .to_owned(),
         panels: vec![
             panel("(a) growth", "growth (1/s)", |mode| mode.growth),

@@ -354,9 +354,9 @@ impl Digest {
         let (residual, number) = self.worst_residual;
         (self.doubtful > 0).then(|| {
             format!(
-                "the energy ledger of {} runs does not close: their relative residual (`ledger_residual`) is above {DOUBTFUL:e}, and \
-                 {residual:.2e} at most, in run {number}; compute those that matter with accuracy = \"case\" or a lower \
-                 simulation.relative_tolerance",
+                "the energy ledger of {} runs does not close: their relative residual (`ledger_residual`) \
+                 is above {DOUBTFUL:e}, and {residual:.2e} at most, in run {number}; compute those that \
+                 matter with accuracy = \"case\" or a lower simulation.relative_tolerance",
                 self.doubtful
             )
         })

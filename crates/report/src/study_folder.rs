@@ -391,7 +391,8 @@ pub fn columns(study: &Study) -> Vec<ParquetColumn> {
         column(
             "status".to_owned(),
             "",
-            "complete; refused: its values make no run; stopped: it did not come to its end; failed: its energy ledger does not close, and its measures are not to be used"
+            "complete; refused: its values make no run; stopped: it did not come to its end; failed: its \
+             energy ledger does not close, and its measures are not to be used"
                 .to_owned(),
             Content::Text,
         ),

@@ -237,16 +237,41 @@ impl<'t> Survey<'t> {
         let superelevation = over(&|row| line.at(row.distance).superelevation[0] / INCH);
         Figure {
             title: format!("Track {name}"),
-            caption: "Curvature is positive to the left, superelevation where the right rail is raised, lateral irregularities to the \
-                      left, vertical ones up. Offsets are mid-chord offsets of a chord of 62 ft."
+            caption: "Curvature is positive to the left, superelevation where the right rail is raised, \
+                      lateral irregularities to the left, vertical ones up. Offsets are mid-chord offsets \
+                      of a chord of 62 ft."
                 .to_owned(),
             panels: vec![
-                panel("(a) curvature", "degree of curve", vec![curve("", blue, Line::Solid, curvature)]),
-                panel("(b) superelevation", "right above left (in)", vec![curve("", blue, Line::Solid, superelevation)]),
-                panel("(c) profile", "vertical irregularity (in)", pair(&|row, rail| row.rails[rail].vertical[0])),
-                panel("(d) alignment", "lateral irregularity (in)", pair(&|row, rail| row.rails[rail].lateral[0])),
-                panel("(e) 62 ft offsets of profile", "mid-chord offset (in)", pair(&|row, rail| row.offsets[rail][1])),
-                panel("(f) 62 ft offsets of alignment", "mid-chord offset (in)", pair(&|row, rail| row.offsets[2 + rail][1])),
+                panel(
+                    "(a) curvature",
+                    "degree of curve",
+                    vec![curve("", blue, Line::Solid, curvature)],
+                ),
+                panel(
+                    "(b) superelevation",
+                    "right above left (in)",
+                    vec![curve("", blue, Line::Solid, superelevation)],
+                ),
+                panel(
+                    "(c) profile",
+                    "vertical irregularity (in)",
+                    pair(&|row, rail| row.rails[rail].vertical[0]),
+                ),
+                panel(
+                    "(d) alignment",
+                    "lateral irregularity (in)",
+                    pair(&|row, rail| row.rails[rail].lateral[0]),
+                ),
+                panel(
+                    "(e) 62 ft offsets of profile",
+                    "mid-chord offset (in)",
+                    pair(&|row, rail| row.offsets[rail][1]),
+                ),
+                panel(
+                    "(f) 62 ft offsets of alignment",
+                    "mid-chord offset (in)",
+                    pair(&|row, rail| row.offsets[2 + rail][1]),
+                ),
             ],
             columns: 2,
             ..Figure::default()

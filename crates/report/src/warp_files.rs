@@ -114,8 +114,8 @@ pub fn write_loops(tests: &[Tested], out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Writes the piecewise linear functions of one nest (half of the truck's moment), as NUCARS reads them: mirrored
-/// about the origin, lbf·in over rad.
+/// Writes the piecewise linear functions of one nest (half of the truck's moment), as NUCARS reads them:
+/// mirrored about the origin, lbf·in over rad.
 ///
 /// # Errors
 /// The writer's.
@@ -126,7 +126,8 @@ pub fn write_pwl(tests: &[Tested], out: &mut dyn Write) -> io::Result<()> {
     )?;
     writeln!(
         out,
-        "! in-lb over rad, where an angle is reached first; from wedgelab. Beyond the last point its slope goes on."
+        "! in-lb over rad, where an angle is reached first; from wedgelab. Beyond the last point its slope \
+         goes on."
     )?;
     for (number, test) in tests.iter().enumerate() {
         if !test.label.is_empty() {
@@ -249,9 +250,10 @@ pub fn figure(tests: &[Tested]) -> Figure {
     }
     Figure {
         title: "Warp of a three-piece truck".to_owned(),
-        caption: "Warp moment on the bolster over the warp angle (mean yaw of the side frames less that of the bolster) over the \
-                  last whole cycle. Grey: NUCARS's empirical stiffnesses, which stand for wedging action where wedges \
-                  have no bodies. Where a nest locks, contact and bristle stiffness set the moment."
+        caption: "Warp moment on the bolster over the warp angle (mean yaw of the side frames less that of \
+                  the bolster) over the last whole cycle. Grey: NUCARS's empirical stiffnesses, which stand \
+                  for wedging action where wedges have no bodies. Where a nest locks, contact and bristle \
+                  stiffness set the moment."
             .to_owned(),
         panels,
         ..Figure::default()

@@ -1,4 +1,5 @@
-//! The files of `wedgelab wheelrail plot`: a rigid wheelset on rails over its lateral shift, as CSV and figure.
+//! The files of `wedgelab wheelrail plot`: a rigid wheelset on rails over its lateral shift, as CSV and
+//! figure.
 
 use std::io::{self, Write};
 
@@ -18,7 +19,8 @@ pub const NAMES: [&str; 3] = [TABLE, FIGURE, PICTURE];
 
 const INCH: f64 = 0.0254;
 
-/// Writes a row for each position: shift, rolling radius difference, contact angles, places on wheel and rail.
+/// Writes a row for each position: shift, rolling radius difference, contact angles, places on wheel and
+/// rail.
 ///
 /// # Errors
 /// The writer's.
@@ -46,8 +48,8 @@ pub fn write(positions: &[RigidPosition], out: &mut dyn Write) -> io::Result<()>
     Ok(())
 }
 
-/// Returns the figure: profiles, rolling radius difference, contact angles, places, and equivalent conicity over the
-/// amplitude (m).
+/// Returns the figure: profiles, rolling radius difference, contact angles, places, and equivalent conicity
+/// over the amplitude (m).
 #[must_use]
 pub fn figure(
     wheel: &Profile,
@@ -84,8 +86,8 @@ pub fn figure(
     let (blue, red) = (Colour::Blue, Colour::Vermillion);
     Figure {
         title: format!("{} on {}", wheel.name(), rail.name()),
-        caption: "A rigid wheelset on rigid rails: both wheels touch at each lateral shift. Profiles are shown in their own axes. \
-                  Equivalent conicity after EN 15302."
+        caption: "A rigid wheelset on rigid rails: both wheels touch at each lateral shift. Profiles are \
+                  shown in their own axes. Equivalent conicity after EN 15302."
             .to_owned(),
         panels: vec![
             panel(
@@ -101,15 +103,30 @@ pub fn figure(
                 "(b) rolling radius difference",
                 shift,
                 "left less right (in)",
-                vec![curve("", blue, Line::Solid, over_shift(&|p| p.rolling_radius_difference() / INCH))],
+                vec![curve(
+                    "",
+                    blue,
+                    Line::Solid,
+                    over_shift(&|p| p.rolling_radius_difference() / INCH),
+                )],
             ),
             panel(
                 "(c) contact angles",
                 shift,
                 "contact angle (deg)",
                 vec![
-                    curve("left", blue, Line::Solid, over_shift(&|p| p.contact_angles()[0].to_degrees())),
-                    curve("right", red, Line::Dashed, over_shift(&|p| p.contact_angles()[1].to_degrees())),
+                    curve(
+                        "left",
+                        blue,
+                        Line::Solid,
+                        over_shift(&|p| p.contact_angles()[0].to_degrees()),
+                    ),
+                    curve(
+                        "right",
+                        red,
+                        Line::Dashed,
+                        over_shift(&|p| p.contact_angles()[1].to_degrees()),
+                    ),
                 ],
             ),
             panel(
@@ -117,8 +134,18 @@ pub fn figure(
                 shift,
                 "y on the wheel (in)",
                 vec![
-                    curve("left", blue, Line::Solid, over_shift(&|p| p.touches[0].profile / INCH)),
-                    curve("right", red, Line::Dashed, over_shift(&|p| p.touches[1].profile / INCH)),
+                    curve(
+                        "left",
+                        blue,
+                        Line::Solid,
+                        over_shift(&|p| p.touches[0].profile / INCH),
+                    ),
+                    curve(
+                        "right",
+                        red,
+                        Line::Dashed,
+                        over_shift(&|p| p.touches[1].profile / INCH),
+                    ),
                 ],
             ),
             panel(
@@ -129,7 +156,10 @@ pub fn figure(
                     "",
                     blue,
                     Line::Solid,
-                    conicity.iter().map(|(amplitude, value)| (amplitude / INCH, *value)).collect(),
+                    conicity
+                        .iter()
+                        .map(|(amplitude, value)| (amplitude / INCH, *value))
+                        .collect(),
                 )],
             ),
         ],

@@ -1,4 +1,5 @@
-//! What the report says of the three-piece truck: closed forms hold, what differs is told, stiffnesses move answers.
+//! What the report says of the three-piece truck: closed forms hold, what differs is told, stiffnesses move
+//! answers.
 
 #![allow(clippy::unwrap_used)]
 
@@ -48,8 +49,8 @@ fn analytic_all_closed_forms_and_the_independent_calculation_agree() {
     }
 }
 
-/// With much toe slopes slide and the massless wedge's branches are reached; with little toe, and without, they are
-/// not, and the page says so.
+/// With much toe slopes slide and the massless wedge's branches are reached; with little toe, and without,
+/// they are not, and the page says so.
 #[test]
 fn limits_the_massless_wedge_is_told_where_it_agrees_and_where_not() {
     let of = |what: &str| {

@@ -1,4 +1,5 @@
-//! A truck's run as the page shows it: a scene that moves as the mechanics does, with the forces of its corners.
+//! A truck's run as the page shows it: a scene that moves as the mechanics does, with the forces of its
+//! corners.
 
 #![allow(clippy::unwrap_used)]
 
@@ -64,8 +65,9 @@ fn scene_of(run: &TruckRun) -> Scene {
     report::view::truck::scene(&run.case).unwrap()
 }
 
-/// Bodies placed by their columns, solids by their mounts, corners by their points: together they give the gaps that
-/// the mechanics computed, also with toe, a worn column, half a car that drops, and side frames that roll.
+/// Bodies placed by their columns, solids by their mounts, corners by their points: together they give the
+/// gaps that the mechanics computed, also with toe, a worn column, half a car that drops, and side frames
+/// that roll.
 #[test]
 fn the_scene_has_the_gaps_of_the_run() {
     for (name, set) in [
@@ -135,7 +137,8 @@ fn check_gaps(name: &str, scene: &Scene, columns: &BTreeMap<&str, &[f64]>) {
     assert!(closed > 100, "{name}: {closed} corners in contact only");
 }
 
-/// A half-truck's wedges that are bodies are drawn as a truck's: where their corners are, and with their forces.
+/// A half-truck's wedges that are bodies are drawn as a truck's: where their corners are, and with their
+/// forces.
 #[test]
 fn a_half_trucks_wedge_bodies_have_the_gaps_and_forces_of_the_run() {
     for name in ["nucars_69_variable_toe_out", "nucars_69_constant_toe_out"] {
@@ -208,8 +211,8 @@ fn a_half_trucks_wedge_bodies_have_the_gaps_and_forces_of_the_run() {
     }
 }
 
-/// The forces of a wedge's corners add up to what the table says of its faces; a corner that is open has none, and
-/// friction stays within its limit.
+/// The forces of a wedge's corners add up to what the table says of its faces; a corner that is open has
+/// none, and friction stays within its limit.
 #[test]
 fn the_corners_add_up_to_the_faces() {
     let run = ran("truck_warp_nest_variable_rising", &["simulation.duration=4.5 s"]);

@@ -205,9 +205,9 @@ fn run(setup: &Setup, method: Method, tolerance: f64, end: f64) -> Result<Run, F
 fn runs() -> Result<(), Failure> {
     let words: Vec<String> = std::env::args().skip(1).collect();
     println!(
-        "| track | rails | search | method | tolerance | steps | rejected | mean step, ms | longest | f | J | CPU, s | times real \
-         time | two patches, % | largest lateral, mm | largest N, kN | ledger: residual, creep and damping loss, geometry's \
-         work, J | lateral at the end, mm |"
+        "| track | rails | search | method | tolerance | steps | rejected | mean step, ms | longest | f | J \
+         | CPU, s | times real time | two patches, % | largest lateral, mm | largest N, kN | ledger: \
+         residual, creep and damping loss, geometry's work, J | lateral at the end, mm |"
     );
     println!("|{}", "---|".repeat(18));
     let tracks: Vec<(&str, Track, f64)> = vec![
@@ -236,7 +236,8 @@ fn runs() -> Result<(), Failure> {
                         print!("{label}");
                         match run(&setup, method, tolerance, end) {
                             Ok(run) => println!(
-                                "| {} | {} | {:.2} | {:.1} | {} | {} | {:.2} | {:.1} | {:.0} | {:.2} | {:.1} | {:.1e}, {:.0}, {:.2} | {:.3} |",
+                                "| {} | {} | {:.2} | {:.1} | {} | {} | {:.2} | {:.1} | {:.0} | {:.2} | \
+                                 {:.1} | {:.1e}, {:.0}, {:.2} | {:.3} |",
                                 run.steps,
                                 run.rejected,
                                 end / run.steps as f64 * 1e3,
@@ -304,7 +305,8 @@ fn costs() -> Result<(), Failure> {
             black_box(setup.lines.section(wheelrail::track::Line::Left, point));
         });
         println!(
-            "{}: right-hand side {:.1} us (two wheels, carriage), matrix {:.1} us, section of a rail {:.2} us",
+            "{}: right-hand side {:.1} us (two wheels, carriage), matrix {:.1} us, section of a rail {:.2} \
+             us",
             if table { "table" } else { "search" },
             rates * 1e6,
             matrix * 1e6,
@@ -347,7 +349,8 @@ fn continuity() -> Result<(), Failure> {
         (wheel.evaluate(&motion), count)
     };
     println!(
-        "changes of force between places h apart, from the tread over two patches to the flange (0 to 11.8 mm):"
+        "changes of force between places h apart, from the tread over two patches to the flange (0 to 11.8 \
+         mm):"
     );
     println!("| h, um | largest change of Fx, Fy, Fz, N | at, mm | patches there |");
     println!("|---|---|---|---|");

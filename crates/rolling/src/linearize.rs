@@ -1,11 +1,12 @@
 //! Free vibrations about steady rolling, on straight track and in curves of constant radius.
 //!
-//! On straight track the Jacobian matrix does not change along the track. In a curve it turns with the heading, and
-//! its eigenvalues alone say nothing; in axes that turn along with the track it is constant, and the rotation adds a
-//! term ([`System::eigenvalues_turning`](mechanics::system::System::eigenvalues_turning)).
+//! On straight track the Jacobian matrix does not change along the track. In a curve it turns with the
+//! heading, and its eigenvalues alone say nothing; in axes that turn along with the track it is constant, and
+//! the rotation adds a term
+//! ([`System::eigenvalues_turning`](mechanics::system::System::eigenvalues_turning)).
 //!
-//! Limits: the state must be one of steady rolling (in a curve: what remains of a run when nothing changes any more);
-//! no irregularities, no spiral, no grade there.
+//! Limits: the state must be one of steady rolling (in a curve: what remains of a run when nothing changes
+//! any more); no irregularities, no spiral, no grade there.
 
 use mechanics::system::NoVibration;
 use wheelrail::track::{Line, RailLines};
@@ -14,8 +15,9 @@ use crate::rig::{RAILS, Rig, WHEELSET};
 use crate::wheelset::coordinate;
 
 impl Rig {
-    /// Returns the eigenvalues (real and imaginary part, 1/s) of the motion about steady rolling in a state at a time
-    /// (s), by falling real part; `shift` (1/s) is a positive number of the size of those that matter.
+    /// Returns the eigenvalues (real and imaginary part, 1/s) of the motion about steady rolling in a state
+    /// at a time (s), by falling real part; `shift` (1/s) is a positive number of the size of those that
+    /// matter.
     ///
     /// # Errors
     /// They are not found.
@@ -30,7 +32,8 @@ impl Rig {
         let body = &seen.bodies[WHEELSET];
         let place = self.in_track(body.origin);
         let section = lines.section(Line::Center, place.0);
-        // The carriage's speed is that of the center line: steady rolling turns with the heading of the track.
+        // The carriage's speed is that of the center line: steady rolling turns with the heading of the
+        // track.
         let along = section.of(self.in_track(body.velocity).0)[0];
         let [_, lateral, _] = section.of([0, 1, 2].map(|i| place.0[i] - section.origin[i]));
         let rate = along * section.curvature / (1.0 - section.curvature * lateral);

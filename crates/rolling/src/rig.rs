@@ -76,8 +76,8 @@ pub enum RigError {
     Model(#[from] ModelError),
     /// No height carries the load.
     #[error(
-        "the wheels do not carry {load} N at {distance} m along the track, {lateral} m to the left: the wheelset is off its \
-         rails there, or the load is not positive"
+        "the wheels do not carry {load} N at {distance} m along the track, {lateral} m to the left: the \
+         wheelset is off its rails there, or the load is not positive"
     )]
     NotCarried {
         /// The load, N.

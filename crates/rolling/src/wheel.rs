@@ -4,8 +4,8 @@
 //! along the axle, up; marker B is the origin of the track's fixed axes, on the ground or on a sprung rail.
 //! At a motion of A relative to B:
 //!
-//! 1. The foot of the center on the actual rail, irregularities included ([`RailLines::foot`]): the center lies
-//!    in the section there, so the contact's longitudinal place is that of the silhouette alone.
+//! 1. The foot of the center on the actual rail, irregularities included ([`RailLines::foot`]): the center
+//!    lies in the section there, so the contact's longitudinal place is that of the silhouette alone.
 //! 2. The wheel's pose and velocities in the axes of the section, which lead along the rail, tilted with it.
 //!    The rail is at rest: no velocity of irregularities is added anywhere; the rate of the approach is the
 //!    velocity of the wheel's material along the normal.

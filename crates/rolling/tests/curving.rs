@@ -1,5 +1,5 @@
-//! analytic: about steady curving going on is neutral; vibrations are those that runs show, and become those of straight
-//! track.
+//! analytic: about steady curving going on is neutral; vibrations are those that runs show, and become those
+//! of straight track.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
@@ -55,8 +55,8 @@ fn least(found: &[[f64; 2]]) -> [f64; 2] {
         .expect("a vibration")
 }
 
-/// Going on along the curve and spinning on are neutral: two eigenvalues of zero, on rigid and on sprung rails. The Jacobian
-/// matrix alone has one, since a step along the curve turns.
+/// Going on along the curve and spinning on are neutral: two eigenvalues of zero, on rigid and on sprung
+/// rails. The Jacobian matrix alone has one, since a step along the curve turns.
 #[test]
 fn analytic_going_on_along_a_curve_is_neutral() {
     for sprung in [false, true] {
@@ -128,7 +128,8 @@ fn analytic_vibrations_in_a_curve_are_those_of_runs() {
     };
     let (steady, swung) = (lateral(&x), lateral(&pushed));
     let difference: Vec<f64> = swung.iter().zip(&steady).map(|(a, b)| a - b).collect();
-    // Extremes of the swing after the first quarter second: half periods apart, each smaller by exp(growth T/2).
+    // Extremes of the swing after the first quarter second: half periods apart, each smaller by exp(growth
+    // T/2).
     let mut extremes: Vec<[f64; 2]> = Vec::new();
     for k in 50..difference.len() - 1 {
         let [before, own, next] = [difference[k - 1], difference[k], difference[k + 1]];
@@ -158,8 +159,8 @@ fn analytic_vibrations_in_a_curve_are_those_of_runs() {
     );
 }
 
-/// In a curve of 100 km radius vibrations are those of straight track, with linear creep forces: Polach's law rounds a
-/// corner at zero creepage.
+/// In a curve of 100 km radius vibrations are those of straight track, with linear creep forces: Polach's law
+/// rounds a corner at zero creepage.
 #[test]
 fn limits_vibrations_in_a_wide_curve_are_those_of_straight_track() {
     let law = ContactLaw {

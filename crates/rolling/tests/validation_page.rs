@@ -14,7 +14,8 @@ fn reproduction_the_validation_page_holds_what_is_computed() {
         assert_eq!(
             written,
             computed,
-            "line {} of docs/validation-rolling.md: run cargo run --release -p rolling --example wheelset_validation",
+            "line {} of docs/validation-rolling.md: run cargo run --release -p rolling --example \
+             wheelset_validation",
             number + 1
         );
     }

@@ -46,8 +46,8 @@ macro_rules! each {
 }
 
 impl AnyCase {
-    /// Reads a case file of a wedge, of a truck (`model = "truck"`) or of a car (`model = "car"`) and lays `--set` overrides
-    /// (`path.key=value`) over it.
+    /// Reads a case file of a wedge, of a truck (`model = "truck"`) or of a car (`model = "car"`) and lays
+    /// `--set` overrides (`path.key=value`) over it.
     ///
     /// # Errors
     /// As [`Case::read`].
@@ -147,8 +147,8 @@ impl AnyCase {
         }
     }
 
-    /// Returns the whole case as a commented case file, with the points of tables from other files in it; `None`
-    /// of a half-truck, which is made of other files.
+    /// Returns the whole case as a commented case file, with the points of tables from other files in it;
+    /// `None` of a half-truck, which is made of other files.
     #[must_use]
     pub fn to_toml(&self) -> Option<String> {
         match self {

@@ -17,8 +17,8 @@ pub fn of(wedge: &Wedge) -> Vec<String> {
     let mut list = Vec::new();
     let stiffness = p.contact.stiffness * INCH / POUND_FORCE;
     list.push(format!(
-        "Contact stiffness is {stiffness:.4e} lbf/in per corner ({:.4e} per face): the thesis gives none; 2.5e5 is the \
-         value that reproduces its force levels.",
+        "Contact stiffness is {stiffness:.4e} lbf/in per corner ({:.4e} per face): the thesis gives none; \
+         2.5e5 is the value that reproduces its force levels.",
         4.0 * stiffness
     ));
     if p.contact.damping == 0.0 {
@@ -31,11 +31,14 @@ pub fn of(wedge: &Wedge) -> Vec<String> {
         Damping::Constant => "The coil stands in the bolster pocket (constant damping).".to_owned(),
     });
     list.push(match p.coil.acts_at {
-        CoilLine::CenterOfGravity => "The coil's force acts through the centre of gravity although its length is \
-             measured at the wedge's bottom, as in the thesis's moment equations; the work of the guiding couple \
-             that this takes is in the ledger as coil_guide_work."
+        CoilLine::CenterOfGravity => "The coil's force acts through the centre of gravity although its \
+                                      length is measured at the wedge's bottom, as in the thesis's moment \
+                                      equations; the work of the guiding couple that this takes is in the \
+                                      ledger as coil_guide_work."
             .to_owned(),
-        CoilLine::Seat => "The coil's force acts where the coil ends, at the wedge's bottom, with its moment.".to_owned(),
+        CoilLine::Seat => "The coil's force acts where the coil ends, at the wedge's bottom, with its \
+                           moment."
+            .to_owned(),
     });
     if p.coil.pulls {
         list.push(match p.coil.law {
@@ -55,11 +58,12 @@ pub fn of(wedge: &Wedge) -> Vec<String> {
         list.extend(of_face(name, face));
     }
     list.push(match p.start {
-        Start::Rest => "The run starts at rest in the nominal position, whatever penetrates: with toe or yaw the first \
-             moments are a release of stored energy."
+        Start::Rest => "The run starts at rest in the nominal position, whatever penetrates: with toe or \
+                        yaw the first moments are a release of stored energy."
             .to_owned(),
         Start::Touching => format!(
-            "The run starts at rest; column and pocket were moved apart by {:.6} and {:.6} in until nothing penetrates.",
+            "The run starts at rest; column and pocket were moved apart by {:.6} and {:.6} in until nothing \
+             penetrates.",
             wedge.column_shift / INCH,
             wedge.pocket_shift / INCH
         ),
@@ -67,8 +71,8 @@ pub fn of(wedge: &Wedge) -> Vec<String> {
     });
     if p.wear != Wear::default() {
         list.push(format!(
-            "The faces are worn by {:.4} in (column) and {:.4} in (slope), and still flat: a rigid wedge stands {:.4} in \
-             higher for it.",
+            "The faces are worn by {:.4} in (column) and {:.4} in (slope), and still flat: a rigid wedge \
+             stands {:.4} in higher for it.",
             p.wear.column / INCH,
             p.wear.slope / INCH,
             p.wedge_rise() / INCH
@@ -76,13 +80,13 @@ pub fn of(wedge: &Wedge) -> Vec<String> {
     }
     list.push("Friction holds a wedge where it came to rest, so the start matters for seconds.".to_owned());
     list.push(
-        "The bolster turns about the centre of its pocket's slope unless a centre is named; the side frame about the \
-         centre of its column face."
+        "The bolster turns about the centre of its pocket's slope unless a centre is named; the side frame \
+         about the centre of its column face."
             .to_owned(),
     );
     list.push(
-        "Face A lies at p1 - h1/3 in the wedge frame, so that the centre of gravity is as far from it as the prism's centroid; moments of \
-         inertia are principal, about the centre of gravity."
+        "Face A lies at p1 - h1/3 in the wedge frame, so that the centre of gravity is as far from it as \
+         the prism's centroid; moments of inertia are principal, about the centre of gravity."
             .to_owned(),
     );
     let held: Vec<&str> = mechanics::body::COORDINATES
@@ -105,7 +109,8 @@ pub(crate) fn of_face(name: &str, face: &FaceProperties) -> Option<String> {
     let mut parts = Vec::new();
     if face.grid != Grid::default() {
         parts.push(format!(
-            "{} x {} points with the weights of the trapezoidal rule, so that it resists tilting less than four corners",
+            "{} x {} points with the weights of the trapezoidal rule, so that it resists tilting less than \
+             four corners",
             face.grid.up, face.grid.across
         ));
     }
@@ -146,7 +151,8 @@ pub(crate) fn of_face(name: &str, face: &FaceProperties) -> Option<String> {
     }
     if let Some(pad) = &face.pad {
         parts.push(format!(
-            "a pad of {:.4e} lbf/in, which is no steel on steel and stands for all of the contact's stiffness",
+            "a pad of {:.4e} lbf/in, which is no steel on steel and stands for all of the contact's \
+             stiffness",
             pad.stiffness * INCH / POUND_FORCE
         ));
     }
@@ -156,15 +162,16 @@ pub(crate) fn of_face(name: &str, face: &FaceProperties) -> Option<String> {
 fn friction_assumption(face: &str, friction: &FaceFriction) -> String {
     match friction.law {
         FrictionLaw::Tanh { reference_speed } => format!(
-            "Friction at the {face}: tanh law, μ = {}, v0 = {:.3e} in/s: it never sticks truly, a corner that holds half its \
-             limit creeps by {:.2e} in/s; v0 is part of the model (ten times v0 moves the branches by a fifth and more).",
+            "Friction at the {face}: tanh law, μ = {}, v0 = {:.3e} in/s: it never sticks truly, a corner \
+             that holds half its limit creeps by {:.2e} in/s; v0 is part of the model (ten times v0 moves \
+             the branches by a fifth and more).",
             friction.coefficient,
             reference_speed / INCH,
             friction.law.creep_speed(0.5) / INCH
         ),
         FrictionLaw::Bristle { stiffness, damping } => format!(
-            "Friction at the {face}: bristle law, μ = {}, {:.3e} lbf/in and {:.3e} lbf s/in per face: it holds a load \
-             without creep.",
+            "Friction at the {face}: bristle law, μ = {}, {:.3e} lbf/in and {:.3e} lbf s/in per face: it \
+             holds a load without creep.",
             friction.coefficient,
             stiffness * INCH / POUND_FORCE,
             damping * INCH / POUND_FORCE

@@ -1,5 +1,5 @@
-//! What happens at each corner, or each point of a grid, of the wedges that are bodies in a run: taken along only
-//! where it is asked for, since a table of all corners has twice as many columns as the result.
+//! What happens at each corner, or each point of a grid, of the wedges that are bodies in a run: taken along
+//! only where it is asked for, since a table of all corners has twice as many columns as the result.
 
 use std::ops::{ControlFlow, Range};
 
@@ -15,7 +15,8 @@ use crate::run::{Recorder, Run, RunCase, RunError};
 /// A corner of a wedge at a face, or another point of its grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Corner {
-    /// Its name, as in columns: `leading_left_column_lower_right`, `leading_left_slope_point_3_2`. Left and right are those of the truck.
+    /// Its name, as in columns: `leading_left_column_lower_right`, `leading_left_slope_point_3_2`. Left and
+    /// right are those of the truck.
     pub name: String,
     /// The number of the face among those of the system.
     pub face: usize,
@@ -75,8 +76,8 @@ pub fn corners(system: &System, wedges: Range<usize>) -> Vec<Corner> {
     all
 }
 
-/// Returns the names of the points of a wedge's face, left and right as in the truck, and what share of the face the
-/// points of a grid have.
+/// Returns the names of the points of a wedge's face, left and right as in the truck, and what share of the
+/// face the points of a grid have.
 fn point_names(points: &[ContactPoint]) -> Vec<(String, Option<f64>)> {
     let count = points.len() as f64;
     let mean = |k: usize| points.iter().map(|point| point.position.0[k]).sum::<f64>() / count;

@@ -42,8 +42,9 @@ pub fn failure(balance: &EnergyBalance, what_to_do: &str) -> Option<String> {
 pub const WHAT_TO_DO: &str = "lower simulation.relative_tolerance, and look for values out of all proportion";
 
 /// The same with a method that damps the vibrations of contacts.
-pub const WHAT_TO_DO_WHERE_DAMPED: &str = "the method damps the vibrations of contacts, whose energy is lost to the ledger: lower \
-     simulation.relative_tolerance, or take the default method where they carry a part of the force";
+pub const WHAT_TO_DO_WHERE_DAMPED: &str = "the method damps the vibrations of contacts, whose energy is \
+                                           lost to the ledger: lower simulation.relative_tolerance, or take \
+                                           the default method where they carry a part of the force";
 
 /// What to do about a half-truck's ledger that does not close.
 pub const WHAT_TO_DO_WITH_FILES: &str =

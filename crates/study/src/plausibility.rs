@@ -13,8 +13,9 @@ use crate::run::{Recorder, Run, RunCase};
 const BEGINNING: &str = "implausible: ";
 
 /// The warning about a case file that gives no values.
-pub const NOTHING_GIVEN: &str = "the case file gives no values of wedge, coil, contact, friction and motions: \
-     all are defaults, the thesis's with variable damping; write your own (`wedgelab case` shows all keys)";
+pub const NOTHING_GIVEN: &str = "the case file gives no values of wedge, coil, contact, friction and \
+                                 motions: all are defaults, the thesis's with variable damping; write your \
+                                 own (`wedgelab case` shows all keys)";
 
 /// Returns those of a run's warnings that are about something implausible.
 pub fn among(warnings: &[String]) -> impl Iterator<Item = &str> {
@@ -41,8 +42,8 @@ pub fn warnings<C: RunCase>(run: &Run<C>) -> Vec<String> {
     findings.iter().map(words).collect()
 }
 
-/// Returns the same, of each kind the first only, with the number of places that have it: a model of many parts
-/// says everything many times.
+/// Returns the same, of each kind the first only, with the number of places that have it: a model of many
+/// parts says everything many times.
 #[must_use]
 pub fn warnings_by_kind<C: RunCase>(run: &Run<C>) -> Vec<String> {
     by_kind(run, |_| true)
@@ -89,8 +90,8 @@ pub fn nonsense<C: RunCase>(run: &Run<C>) -> Option<String> {
     nonsense_among(run, |_| true)
 }
 
-/// Returns the same of a truck's run. That corners are pressed in is none: it is how a nest locks in warp, and the
-/// contact stiffness then sets the moment.
+/// Returns the same of a truck's run. That corners are pressed in is none: it is how a nest locks in warp,
+/// and the contact stiffness then sets the moment.
 #[must_use]
 pub fn nonsense_in_truck<C: RunCase>(run: &Run<C>) -> Option<String> {
     nonsense_among(run, |kind| !matches!(kind, FindingKind::Penetration))
@@ -168,8 +169,8 @@ pub(crate) fn in_wedge(system: &System, points: &PointNames, finding: &Finding, 
             "shorten simulation.output_interval, or use averages, not single values, extremes or spectra"
         }
         FindingKind::Separation | FindingKind::SlidOff | FindingKind::Tilt => {
-            "do not use what follows; look at weight, angle, friction, coil and the motions of bolster and side frame \
-                 for a value out of all proportion"
+            "do not use what follows; look at weight, angle, friction, coil and the motions of bolster and \
+             side frame for a value out of all proportion"
         }
         kind => kind.advice(),
     };

@@ -81,8 +81,8 @@ fn attempts<P: Problem>(integrator: &Integrator<P>) -> u64 {
 /// A run hardly progresses.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "the run hardly progresses at {} s: {attempts} attempted steps brought it forward by {advance:.1e} s, and {} are \
-     admissible for {} s",
+    "the run hardly progresses at {} s: {attempts} attempted steps brought it forward by {advance:.1e} s, \
+     and {} are admissible for {} s",
     Number(*time),
     most_attempts(*required),
     Number(*required)
@@ -105,8 +105,9 @@ pub const WHAT_TO_TRY: &str = "try a softer contact.stiffness, a larger friction
      simulation.relative_tolerance, and look for values out of all proportion";
 
 /// What to try where a run of a half-truck cannot go on.
-pub const WHAT_TO_TRY_WITH_FILES: &str = "look at this body or connection with `wedgelab nucars show`: a stiffness or a damping out of \
-     all proportion, or a mass that is too small, makes steps so short";
+pub const WHAT_TO_TRY_WITH_FILES: &str = "look at this body or connection with `wedgelab nucars show`: a \
+                                          stiffness or a damping out of all proportion, or a mass that is \
+                                          too small, makes steps so short";
 
 /// Returns what the integrator says of a step that it cannot make, with the state in words; `name` names a
 /// state.

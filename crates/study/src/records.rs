@@ -139,8 +139,8 @@ fn ledger(definitions: &Definitions, measures: &Measures) -> Option<String> {
     let residual = definitions.get(measures, "ledger_residual")?;
     (Verdict::of(residual) == Verdict::Failed).then(|| {
         format!(
-            "the energy ledger does not close: its relative residual is {residual:.2e} (above {FAILED:e}); compute this run with \
-             accuracy = \"case\" or a lower simulation.relative_tolerance"
+            "the energy ledger does not close: its relative residual is {residual:.2e} (above {FAILED:e}); \
+             compute this run with accuracy = \"case\" or a lower simulation.relative_tolerance"
         )
     })
 }

@@ -1,9 +1,9 @@
 //! Runs of any model: a case being integrated, row by row, with a state that can be saved and continued.
 //!
 //! What is run is a [`RunCase`]: a wedge's [`Case`](crate::case::Case), a half-truck's
-//! [`HalfTruckCase`](crate::half_truck::HalfTruckCase). [`Run`] has the one loop: a step of the integrator, the output
-//! times that it reached, the energy balance, the rule for runs that hardly progress. The case's [`Recorder`]
-//! takes from it what the results need: a table with counts, or measures alone.
+//! [`HalfTruckCase`](crate::half_truck::HalfTruckCase). [`Run`] has the one loop: a step of the integrator,
+//! the output times that it reached, the energy balance, the rule for runs that hardly progress. The case's
+//! [`Recorder`] takes from it what the results need: a table with counts, or measures alone.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -56,8 +56,9 @@ pub enum RunError {
     },
     /// A force is so large that it would tear the model apart.
     #[error(
-        "the force of `{element}` is {force:.3e} lbf at {time} s, above the limit of {limit:.1e} lbf at which a run is taken \
-         for a truck torn apart: lower the motion that presses its parts together, or give them more clearance"
+        "the force of `{element}` is {force:.3e} lbf at {time} s, above the limit of {limit:.1e} lbf at \
+         which a run is taken for a truck torn apart: lower the motion that presses its parts together, or \
+         give them more clearance"
     )]
     TornApart {
         /// The element.
@@ -97,8 +98,8 @@ pub enum RunError {
     },
     /// A saved state has a member that no run of this case can have.
     #[error(
-        "the saved run state is damaged: `{member}` is {found}; it must be {expected}. Continue from the state as it was saved, \
-         or run the case from its start"
+        "the saved run state is damaged: `{member}` is {found}; it must be {expected}. Continue from the \
+         state as it was saved, or run the case from its start"
     )]
     Damaged {
         /// The member.

@@ -6,14 +6,16 @@ use std::f64::consts::{PI, SQRT_2};
 
 use thiserror::Error;
 
-/// A low-pass filter of fourth order without phase: Butterworth's filter of second order, forward and then backward.
+/// A low-pass filter of fourth order without phase: Butterworth's filter of second order, forward and then
+/// backward.
 ///
-/// Its gain is `1 / (1 + (√2 - 1) (tan πfΔ / tan πf₀Δ)⁴)` with the time Δ between rows: `1/√2` (-3 dB) at the cutoff
-/// f₀, without any delay, so that a peak stays where it is. The values are continued at both ends by their
-/// reflection in the end point.
+/// Its gain is `1 / (1 + (√2 - 1) (tan πfΔ / tan πf₀Δ)⁴)` with the time Δ between rows: `1/√2` (-3 dB) at the
+/// cutoff f₀, without any delay, so that a peak stays where it is. The values are continued at both ends by
+/// their reflection in the end point.
 ///
-/// Limits: a real channel filters while it records and delays what it sees; one without phase uses what comes later.
-/// Rows must be so near that nothing above half their rate is in the values: it would be taken for something slower.
+/// Limits: a real channel filters while it records and delays what it sees; one without phase uses what comes
+/// later. Rows must be so near that nothing above half their rate is in the values: it would be taken for
+/// something slower.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LowPass {
     interval: f64,
@@ -24,7 +26,8 @@ pub struct LowPass {
 
 /// Rows are too far apart for a filter.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[error("rows {interval} s apart are too far from each other for a filter of {cutoff} Hz, which needs {} s or less", LowPass::longest_interval(*.cutoff))]
+#[error("rows {interval} s apart are too far from each other for a filter of {cutoff} Hz, which needs {} s \
+         or less", LowPass::longest_interval(*.cutoff))]
 pub struct TooCoarse {
     /// Time between rows, s.
     pub interval: f64,
@@ -122,8 +125,8 @@ pub struct Found {
     pub length: f64,
 }
 
-/// Returns the largest value that is reached or exceeded without interruption over a `length` of `places` (both of
-/// one unit: time or distance; places grow). `None` if the places do not reach so far.
+/// Returns the largest value that is reached or exceeded without interruption over a `length` of `places`
+/// (both of one unit: time or distance; places grow). `None` if the places do not reach so far.
 #[must_use]
 pub fn sustained(places: &[f64], values: &[f64], length: f64) -> Option<Found> {
     let (first, last) = (*places.first()?, *places.last()?);
@@ -181,8 +184,8 @@ pub fn peak_to_peak(values: &[f64]) -> f64 {
     range(values).map_or(0.0, |[low, high]| high - low)
 }
 
-/// Returns the value below which a `share` (0 to 1) of the values lies, straight between two values; `None` without
-/// values.
+/// Returns the value below which a `share` (0 to 1) of the values lies, straight between two values; `None`
+/// without values.
 #[must_use]
 pub fn percentile(values: &[f64], share: f64) -> Option<f64> {
     let mut sorted = values.to_vec();
@@ -193,8 +196,8 @@ pub fn percentile(values: &[f64], share: f64) -> Option<f64> {
     Some(sorted[below] + (place - below as f64) * (sorted[above] - sorted[below]))
 }
 
-/// Returns the largest standard deviation of the values within stretches of this length; of all rows where there are
-/// fewer, whose length is then told. `None` without values.
+/// Returns the largest standard deviation of the values within stretches of this length; of all rows where
+/// there are fewer, whose length is then told. `None` without values.
 #[must_use]
 pub fn largest_deviation(places: &[f64], values: &[f64], length: f64) -> Option<Found> {
     largest(places, values, length, true)

@@ -248,8 +248,8 @@ pub struct LedgerSummary {
 }
 
 impl LedgerSummary {
-    /// Returns the ledger at the time that a run has reached: losses and works by element, the stored energy, the
-    /// residual.
+    /// Returns the ledger at the time that a run has reached: losses and works by element, the stored energy,
+    /// the residual.
     pub(crate) fn of_run<C: RunCase>(run: &mut Run<C>, units: Units) -> Self {
         run.system.segment_like(run.integrator.problem());
         let seen = run.system.observe(run.integrator.time(), run.integrator.x());
@@ -263,8 +263,8 @@ impl LedgerSummary {
         Self::new(entries, run.start_energy, &run.energy_balance, units)
     }
 
-    /// Returns the ledger with these entries, beside what a run's balance found; `start` is the energy stored at the
-    /// start, J.
+    /// Returns the ledger with these entries, beside what a run's balance found; `start` is the energy stored
+    /// at the start, J.
     pub(crate) fn new(
         entries: BTreeMap<String, SummaryValue>,
         start: f64,

@@ -388,7 +388,8 @@ mod random {
             let direction = if toe.1 { "in" } else { "out" };
             format!(
                 "[wedge]\ndamping = \"{damping}\"\nangle = {angle}\nweight = {weight}\nheight = {height}\n\
-                 free_coordinates = {free:?}\n[control_coil]\nstiffness = {stiffness}\ndamping = {coil_damping}\n\
+                 free_coordinates = {free:?}\n[control_coil]\nstiffness = {stiffness}\ndamping = \
+                 {coil_damping}\n\
                  [friction]\ncolumn = {}\nslope = {}\n[side_frame]\ntoe = \"{} deg {direction}\"\n\
                  [bolster]\nvertical = {vertical}\nyaw = {yaw}\n\
                  [simulation]\nduration = {duration}\nrelative_tolerance = {tolerance}\n",
@@ -409,12 +410,14 @@ mod random {
         }
 
         #[test]
-        fn no_text_breaks_the_reader(text in "(\\[wedge\\]|bolster|angle| |=|\"32 deg\"|\\{|\\}|\n|[ -~]){0,30}") {
+        fn no_text_breaks_the_reader(text in "(\\[wedge\\]|bolster|angle| |=|\"32 deg\"|\\{|\\}|\n|[ \
+                                              -~]){0,30}") {
             let _ = Case::parse("case.toml", &text, Path::new(""), &[]);
         }
 
         #[test]
-        fn no_override_breaks_the_reader(text in "(wedge|bolster|angle|yaw|\\.|=|\"32 deg\"|\\{|\\}|[ -~]){0,12}") {
+        fn no_override_breaks_the_reader(text in "(wedge|bolster|angle|yaw|\\.|=|\"32 deg\"|\\{|\\}|[ \
+            -~]){0,12}") {
             let _ = Case::parse("case.toml", "", Path::new(""), &[text]);
         }
     }

@@ -210,7 +210,8 @@ fn judge(outcomes: &[Outcome]) {
         .max()
         .unwrap_or_default();
     println!(
-        "{} cases: {bad} nonsense, {silent} without a finding, {stopped} stopped, {} failed; the longest took {longest:?}",
+        "{} cases: {bad} nonsense, {silent} without a finding, {stopped} stopped, {} failed; the longest \
+         took {longest:?}",
         outcomes.len(),
         outcomes
             .iter()

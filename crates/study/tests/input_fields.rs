@@ -125,8 +125,10 @@ fn mistakes_name_the_path_that_was_set() {
 #[test]
 fn sums_and_tables_have_fields_and_fields_have_both_units() {
     let overrides = [
-        "bolster.vertical=[{shape=\"sine\", amplitude=\"1 in\", frequency=\"2 rad/s\"}, {shape=\"ramp\", amplitude=\"0.5 in\", duration=\"1 s\"}, \"0.1 in\"]",
-        "bolster.yaw={shape=\"table\", points=[[\"0 s\", \"0 rad\"], [\"1 s\", \"0.01 rad\"], [\"2 s\", \"0 rad\"], [\"10 s\", \"0.01 rad\"]]}",
+        "bolster.vertical=[{shape=\"sine\", amplitude=\"1 in\", frequency=\"2 rad/s\"}, {shape=\"ramp\", \
+         amplitude=\"0.5 in\", duration=\"1 s\"}, \"0.1 in\"]",
+        "bolster.yaw={shape=\"table\", points=[[\"0 s\", \"0 rad\"], [\"1 s\", \"0.01 rad\"], [\"2 s\", \"0 \
+         rad\"], [\"10 s\", \"0.01 rad\"]]}",
     ];
     let case = builtin::case_with("vdrun_toe_0_psi_0", &overrides.map(str::to_owned)).unwrap();
     let fields = fields(&case);

@@ -36,7 +36,8 @@ fn analytic_a_sine_passes_with_the_filters_gain_and_no_delay() {
     }
 }
 
-/// A constant and a straight line pass unchanged, to the ends; no value, one value, two values are no trouble.
+/// A constant and a straight line pass unchanged, to the ends; no value, one value, two values are no
+/// trouble.
 #[test]
 fn limits_lines_pass_a_filter_to_their_ends() {
     let filter = LowPass::new(0.005, 10.0).unwrap();
@@ -93,8 +94,8 @@ fn analytic_the_level_that_a_half_sine_holds_for_50_ms() {
     }
 }
 
-/// A plateau that is shorter than the length does not count, one that is as long does; and straight flanks between
-/// rows are taken as straight.
+/// A plateau that is shorter than the length does not count, one that is as long does; and straight flanks
+/// between rows are taken as straight.
 #[test]
 fn limits_an_exceedance_of_exactly_the_length_counts() {
     let t = times(0.01, 201);
@@ -115,7 +116,8 @@ fn limits_an_exceedance_of_exactly_the_length_counts() {
     assert!(sustained(&[], &[], 0.05).is_none());
 }
 
-/// Exceedance over a distance with uneven places: a ramp of slope one from 0 to 10 holds 10 - L over L at its end.
+/// Exceedance over a distance with uneven places: a ramp of slope one from 0 to 10 holds 10 - L over L at its
+/// end.
 #[test]
 fn analytic_a_ramp_over_uneven_places_holds_its_end_less_the_length() {
     let places: Vec<f64> = (0..=100).map(|i| 10.0 * (f64::from(i) / 100.0).powi(2)).collect();
@@ -134,8 +136,8 @@ fn analytic_percentiles_of_a_uniform_row() {
     assert_eq!(peak_to_peak(&values), 100.0);
 }
 
-/// A sine that lasts for a part of the run: over a stretch within it, deviation and rms are `a/√2`; with a mean, the
-/// rms has it and the deviation has not.
+/// A sine that lasts for a part of the run: over a stretch within it, deviation and rms are `a/√2`; with a
+/// mean, the rms has it and the deviation has not.
 #[test]
 fn analytic_deviation_and_rms_of_a_sine_within_a_run() {
     let t = times(0.01, 2001);

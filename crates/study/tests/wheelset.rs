@@ -64,12 +64,13 @@ fn run(wheelset: Wheelset) -> WheelsetResult {
     Run::new(&case).unwrap().finish(|_| ())
 }
 
-const CURVE: &str = "[[segments]]\ntangent = \"20 m\"\n[[segments]]\nspiral = \"40 m\"\n[[segments]]\ncurve = \"120 m\"\n\
+const CURVE: &str = "[[segments]]\ntangent = \"20 m\"\n[[segments]]\nspiral = \"40 m\"\n[[segments]]\ncurve \
+                     = \"120 m\"\n\
                      radius = \"400 m\"\nsuperelevation = \"80 mm\"\n";
 
-/// In steady curving the wheels' forces carry the load and turn the wheelset: with the springs and the load of the
-/// carriage they are the mass times the centripetal acceleration, less gravity, in the plane of the track. The patches
-/// of each wheel sum up to its forces.
+/// In steady curving the wheels' forces carry the load and turn the wheelset: with the springs and the load
+/// of the carriage they are the mass times the centripetal acceleration, less gravity, in the plane of the
+/// track. The patches of each wheel sum up to its forces.
 #[test]
 fn analytic_rows_of_a_curve_balance() {
     for rigid in [true, false] {

@@ -1,6 +1,6 @@
-//! The warp loop of a truck: both side frames yaw by ±20 mrad while the bolster is held. Prints the warp moment
-//! on the bolster over the warp angle as CSV, with what load coils and slopes do of it, and the column's normal
-//! force of one wedge. (`wedgelab warp` does that and more.)
+//! The warp loop of a truck: both side frames yaw by ±20 mrad while the bolster is held. Prints the warp
+//! moment on the bolster over the warp angle as CSV, with what load coils and slopes do of it, and the
+//! column's normal force of one wedge. (`wedgelab warp` does that and more.)
 //!
 //! `cargo run --release -p truck --example warp -- 0.25 > warp.csv`
 

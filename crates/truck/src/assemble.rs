@@ -25,9 +25,9 @@ pub const CAR_BODY: usize = 9;
 /// A truck, ready to be integrated.
 #[derive(Clone, Debug)]
 pub struct Truck {
-    /// The equations of motion. Faces: column and slope of each wedge; with wheelsets the adapters of each side
-    /// frame, leading and trailing; with a car body the center plate, and constant-contact side bearings. Connections:
-    /// wedges without mass, and empirical warp springs.
+    /// The equations of motion. Faces: column and slope of each wedge; with wheelsets the adapters of each
+    /// side frame, leading and trailing; with a car body the center plate, and constant-contact side
+    /// bearings. Connections: wedges without mass, and empirical warp springs.
     pub system: System,
     /// The state at time zero.
     pub initial_state: Vec<f64>,

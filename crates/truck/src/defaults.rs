@@ -62,8 +62,8 @@ fn bristle(coefficient: f64, stiffness: f64, damping: f64) -> FaceFriction {
 }
 
 impl Bolster {
-    /// Returns a bolster that is rigid with half of a car, and can only move up and down: half a car on one truck
-    /// falls over in pitch. The inertia of the empty one is a guess.
+    /// Returns a bolster that is rigid with half of a car, and can only move up and down: half a car on one
+    /// truck falls over in pitch. The inertia of the empty one is a guess.
     #[must_use]
     pub fn with_half_car(lading: Lading) -> Self {
         Self {
@@ -91,8 +91,8 @@ impl Adapter {
         })
     }
 
-    /// Returns an elastomeric pad with the least stiffnesses that claim 32 of US patent 9,637,143 names, as stiff
-    /// vertically as steel (a guess).
+    /// Returns an elastomeric pad with the least stiffnesses that claim 32 of US patent 9,637,143 names, as
+    /// stiff vertically as steel (a guess).
     #[must_use]
     pub fn pad() -> Self {
         Self::Pad(AdapterPad {
@@ -132,7 +132,8 @@ impl SideBearings {
 }
 
 impl CarBody {
-    /// Returns half of a car's body, free to bounce and to roll, on a center plate of 14 in with a friction of
+    /// Returns half of a car's body, free to bounce and to roll, on a center plate of 14 in with a friction
+    /// of
     /// 0.2.
     ///
     /// The plate's stiffness (3e6 lbf/in a point), the rim's clearance (0.1875 in), and inertia and center of

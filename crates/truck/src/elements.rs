@@ -121,8 +121,9 @@ impl Mount {
     };
 }
 
-/// Adds the elements of a truck to a model whose bodies are there, at rest in their nominal places. (Those between
-/// two prescribed bodies, or between two that are one, are left out: nothing depends on their forces.)
+/// Adds the elements of a truck to a model whose bodies are there, at rest in their nominal places. (Those
+/// between two prescribed bodies, or between two that are one, are left out: nothing depends on their
+/// forces.)
 pub fn add_elements(model: &mut Model, parameters: &Parameters, mount: &Mount) {
     add(model, parameters, mount, [[0.0; 2]; 4]);
     let joins = |face: usize| {
@@ -154,8 +155,8 @@ pub fn mounted(model: &mut Model, parameters: &Parameters, mount: &Mount) -> Mou
     MountedTruck::new(parameters, *mount, added, axes)
 }
 
-/// Adds them, and returns what was added; `gaps` (m) are how far column and slope of each wedge are moved away along
-/// their normals.
+/// Adds them, and returns what was added; `gaps` (m) are how far column and slope of each wedge are moved
+/// away along their normals.
 pub(crate) fn add(model: &mut Model, parameters: &Parameters, mount: &Mount, gaps: [[f64; 2]; 4]) -> Added {
     let first = (model.faces.len(), model.connections.len(), model.coils.len());
     let builder = Builder {

@@ -2,8 +2,8 @@
 //!
 //! Axes: x forward, y left, z up from the top of rail, origin at the truck's center. The nominal layout is
 //! the loaded one: coils carry their static loads there and faces just touch. Bodies and elements, and where
-//! their numbers come from: [`Parameters`]. How it becomes a system of bodies: [`Truck`]. What one sees of it:
-//! [`Loads`].
+//! their numbers come from: [`Parameters`]. How it becomes a system of bodies: [`Truck`]. What one sees of
+//! it: [`Loads`].
 //!
 //! ```
 //! use truck::{Parameters, Truck};

@@ -1,10 +1,10 @@
 //! What a truck's elements do, from an observation of its system.
 //!
-//! Signs: the *warp angle* is the mean yaw of the side frames less that of the bolster. The *warp moment* acts
-//! on the bolster, about z through the truck's center. The *inter-axle shear moment* is the axle's distance
-//! from the center times the difference of the lateral forces that the leading and the trailing wheelset
-//! exert. The *vertical load of a nest* acts on the side frame, from all that bolster, wedges and coils exert,
-//! positive down. Column friction acts on the side frame, positive up.
+//! Signs: the *warp angle* is the mean yaw of the side frames less that of the bolster. The *warp moment*
+//! acts on the bolster, about z through the truck's center. The *inter-axle shear moment* is the axle's
+//! distance from the center times the difference of the lateral forces that the leading and the trailing
+//! wheelset exert. The *vertical load of a nest* acts on the side frame, from all that bolster, wedges and
+//! coils exert, positive down. Column friction acts on the side frame, positive up.
 
 use mechanics::connection::ConnectionState;
 use mechanics::element::{Element, Wrench};
@@ -23,7 +23,8 @@ pub struct WarpMoment {
     pub load_coils: f64,
     /// Control coils that stand on the bolster.
     pub control_coils: f64,
-    /// Slopes of the pockets: normal forces and friction; all of a wedge without mass, whatever its coil stands on.
+    /// Slopes of the pockets: normal forces and friction; all of a wedge without mass, whatever its coil
+    /// stands on.
     pub slopes: f64,
     /// Sides of the pockets.
     pub pocket_sides: f64,
@@ -53,8 +54,8 @@ pub struct WedgeLoads {
     pub column_friction_z: f64,
     /// Normal force of the slope, N.
     pub slope_normal: f64,
-    /// Displacement of the center of gravity from its nominal place, m. A wedge without mass goes with the column
-    /// along x, with the bolster along y, and up by what the bolster and its rise in the pocket make.
+    /// Displacement of the center of gravity from its nominal place, m. A wedge without mass goes with the
+    /// column along x, with the bolster along y, and up by what the bolster and its rise in the pocket make.
     pub displacement: [f64; 3],
     /// Roll, pitch, yaw, rad; zero for a wedge without mass.
     pub angles: [f64; 3],
@@ -65,8 +66,8 @@ pub struct WedgeLoads {
 pub struct CenterPlateLoads {
     /// Normal force of all points, N.
     pub load: f64,
-    /// Moment on the bolster about the truck's z axis and the plate's height (roll, pitch, turning), fixed axes,
-    /// N·m.
+    /// Moment on the bolster about the truck's z axis and the plate's height (roll, pitch, turning), fixed
+    /// axes, N·m.
     pub moment: [f64; 3],
 }
 
@@ -77,8 +78,8 @@ pub struct Loads {
     pub warp_angle: f64,
     /// Warp moment on the bolster.
     pub warp_moment: WarpMoment,
-    /// Moment on the bolster about the truck's x axis at the bolster's center of gravity, from coils, slopes and stops,
-    /// N·m.
+    /// Moment on the bolster about the truck's x axis at the bolster's center of gravity, from coils, slopes
+    /// and stops, N·m.
     pub roll_moment: f64,
     /// Inter-axle shear moment, N·m; zero without wheelsets.
     pub interaxle_shear_moment: f64,
@@ -106,7 +107,8 @@ impl Truck {
         self.mounted.suspension_name(number)
     }
 
-    /// Returns the stops that have no clearance left at an observation, with how far their parts are beyond it, m.
+    /// Returns the stops that have no clearance left at an observation, with how far their parts are beyond
+    /// it, m.
     #[must_use]
     pub fn closed_stops(&self, observation: &Observation) -> Vec<(&str, f64)> {
         self.mounted.closed_stops(observation)
@@ -239,7 +241,8 @@ impl MountedTruck {
             })
     }
 
-    /// Returns the stops that have no clearance left at an observation, with how far their parts are beyond it, m.
+    /// Returns the stops that have no clearance left at an observation, with how far their parts are beyond
+    /// it, m.
     #[must_use]
     pub fn closed_stops(&self, observation: &Observation) -> Vec<(&str, f64)> {
         let depth = |element: &Suspended| {

@@ -10,7 +10,8 @@ use crate::units::{INCH, POUND_FORCE, POUND_PER_INCH};
 
 /// Greatest normal force of a column, N: 1e5 lbf, as in NUCARS's files of a half-truck.
 const NORMAL_LIMIT: f64 = 1e5 * POUND_FORCE;
-/// Friction by tanh is a damping of 1e4 lbf·s/in up to the limit, as in their elements without bristles, N·s/m.
+/// Friction by tanh is a damping of 1e4 lbf·s/in up to the limit, as in their elements without bristles,
+/// N·s/m.
 const LVB: f64 = 1e4 * POUND_PER_INCH;
 /// Where the warp of a truck meets its stop in these files, rad, and the stop's stiffness, N·m/rad.
 const WARP_STOP: f64 = 0.030;
@@ -18,8 +19,8 @@ const WARP_STOP_STIFFNESS: f64 = 6.4e7 * POUND_FORCE * INCH;
 
 /// Returns a nest's empirical warp spring, which has this moment (N·m) at 30 mrad and meets a stop there.
 ///
-/// NUCARS's files have 52.5 kip·in for a worn truck, 255 for a new one, 1,275 for a stiff H-frame; they say that
-/// these values stand for the missing effects of wedging action.
+/// NUCARS's files have 52.5 kip·in for a worn truck, 255 for a new one, 1,275 for a stiff H-frame; they say
+/// that these values stand for the missing effects of wedging action.
 ///
 /// # Errors
 /// The moment is not finite.
@@ -40,8 +41,8 @@ pub(crate) fn warp_spring(name: String, [a, b]: [usize; 2], point: [f64; 3], mom
     }
 }
 
-/// Returns the massless wedge between bolster `a` and side frame `b`; `end` is 1 at the leading end, -1 at the
-/// trailing one.
+/// Returns the massless wedge between bolster `a` and side frame `b`; `end` is 1 at the leading end, -1 at
+/// the trailing one.
 pub(crate) fn massless_wedge(
     name: &str,
     [a, b]: [usize; 2],
@@ -78,7 +79,8 @@ pub(crate) fn massless_wedge(
     }
 }
 
-/// Returns the force of a control coil less its preload (N, negative where it pushes less) by its extension (m).
+/// Returns the force of a control coil less its preload (N, negative where it pushes less) by its extension
+/// (m).
 fn coil(coil: &ControlCoil) -> Curve {
     match coil {
         ControlCoil::Shear(spring) => {

@@ -61,9 +61,9 @@ pub fn whole_nest(damping: Damping) -> Vec<Place> {
     coils
 }
 
-/// Returns the springs of the coils of a nest. `load` (N) is what the whole nest carries in the nominal layout;
-/// all coils have one free height. `shear_ratio` is their shear stiffness over their stiffness (0.69 and 0.67 in
-/// the input files of NUCARS).
+/// Returns the springs of the coils of a nest. `load` (N) is what the whole nest carries in the nominal
+/// layout; all coils have one free height. `shear_ratio` is their shear stiffness over their stiffness (0.69
+/// and 0.67 in the input files of NUCARS).
 ///
 /// A broken or missing coil: leave it out of the result, not of `coils`; the others keep their loads, and the
 /// truck settles.

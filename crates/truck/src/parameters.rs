@@ -39,8 +39,8 @@ pub struct Bolster {
     pub applied: Applied,
 }
 
-/// Loads over time on the free coordinates of a body: forces along x, y, z at its center of gravity (N), moments
-/// about the axes of roll, pitch, yaw (N·m).
+/// Loads over time on the free coordinates of a body: forces along x, y, z at its center of gravity (N),
+/// moments about the axes of roll, pitch, yaw (N·m).
 pub type Applied = [Motion; 6];
 
 /// Returns no load at all.
@@ -115,8 +115,8 @@ pub enum Adapter {
     Pad(AdapterPad),
 }
 
-/// An elastomeric pad: two springs beside each other, which push, and hold sideways while they do; no stops. Its
-/// stiffness in yaw is the shear stiffness times the square of their half distance.
+/// An elastomeric pad: two springs beside each other, which push, and hold sideways while they do; no stops.
+/// Its stiffness in yaw is the shear stiffness times the square of their half distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdapterPad {
     /// Static load, N.
@@ -152,9 +152,9 @@ pub enum WedgeKind {
     /// A rigid body with faces in contact.
     #[default]
     Body,
-    /// The industry's element without mass ([`mechanics::connection::Wedge`] with a plane column): quasi-static
-    /// balance on both faces, no moments, no sides of the pocket; its coil has neither shear stiffness nor damping.
-    /// Its weight is the bolster's.
+    /// The industry's element without mass ([`mechanics::connection::Wedge`] with a plane column):
+    /// quasi-static balance on both faces, no moments, no sides of the pocket; its coil has neither shear
+    /// stiffness nor damping. Its weight is the bolster's.
     Massless,
 }
 
@@ -203,7 +203,8 @@ pub enum ControlCoil {
     /// The coil of Steets (2007): its force acts along the line from the seat to the wedge; with the place of
     /// the wedge's center of gravity from the coil's end (x towards the bolster, y, z), m.
     Thesis(ThesisCoil, [f64; 3]),
-    /// A spring whose load is a table, below the wedge's center of gravity. Its name is given where it is mounted.
+    /// A spring whose load is a table, below the wedge's center of gravity. Its name is given where it is
+    /// mounted.
     Table(TableSpring),
     /// None: it is broken or missing.
     Nothing,
@@ -223,8 +224,8 @@ pub enum Lading {
 pub struct CarBody {
     /// Its mass properties.
     pub body: RigidBody,
-    /// Which of x, y, z, roll, pitch, yaw are free; the others are held. Half a car on one truck falls over in
-    /// pitch.
+    /// Which of x, y, z, roll, pitch, yaw are free; the others are held. Half a car on one truck falls over
+    /// in pitch.
     pub free: [bool; 6],
     /// Applied loads.
     pub applied: Applied,
@@ -303,8 +304,8 @@ pub struct Parameters {
     pub gib: Clearance,
     /// Longitudinal stops between bolster and side frame, four a column.
     pub lands: Clearance,
-    /// An empirical warp spring in each nest: its moment (N·m) by the yaw of bolster against side frame (rad). In the
-    /// industry's models it stands for what massless wedges leave out.
+    /// An empirical warp spring in each nest: its moment (N·m) by the yaw of bolster against side frame
+    /// (rad). In the industry's models it stands for what massless wedges leave out.
     pub warp_spring: Option<Curve>,
     /// What stands on the bolster, as a body of its own.
     pub car_body: Option<CarBody>,
@@ -399,8 +400,8 @@ impl Parameters {
         coils.map(|coil| coil.spring.preload).sum()
     }
 
-    /// Returns how much more the coils carry in the nominal layout than stands on them, N: zero for a truck that
-    /// rests there. `None` if the bolster's motion is prescribed.
+    /// Returns how much more the coils carry in the nominal layout than stands on them, N: zero for a truck
+    /// that rests there. `None` if the bolster's motion is prescribed.
     #[must_use]
     pub fn surplus(&self) -> Option<f64> {
         if self.bolster.is_prescribed() {
@@ -426,9 +427,9 @@ impl Wedge {
         [column, column / libm::cos(self.angle)]
     }
 
-    /// Returns where the center of gravity is from the body's origin, in the axes of the truck, m; `end` is that
-    /// of the mount. Coordinates are those of the origin: the center of gravity, or the end of the thesis's coil,
-    /// which the wedge of Steets (2007) turns about where y is locked.
+    /// Returns where the center of gravity is from the body's origin, in the axes of the truck, m; `end` is
+    /// that of the mount. Coordinates are those of the origin: the center of gravity, or the end of the
+    /// thesis's coil, which the wedge of Steets (2007) turns about where y is locked.
     pub(crate) fn origin_to_center(&self, end: f64) -> [f64; 3] {
         match self.control_coil {
             ControlCoil::Shear(_) | ControlCoil::Table(_) | ControlCoil::Nothing => [0.0; 3],

@@ -1,5 +1,6 @@
-//! A wedge with mass between a pocket and a column: its body, its two faces, its control coil and the sides of its
-//! pocket. Trucks mount four of them; so can any model that has a body with a pocket and a body with a column.
+//! A wedge with mass between a pocket and a column: its body, its two faces, its control coil and the sides
+//! of its pocket. Trucks mount four of them; so can any model that has a body with a pocket and a body with a
+//! column.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -19,8 +20,8 @@ use wedge::parameters::{Contact, ControlCoil as ThesisCoil, Damping, FaceFrictio
 use crate::elements::{Law, Role, Suspended, join};
 use crate::parameters::{ControlCoil, Wedge};
 
-/// Where a wedge is mounted in a model whose bodies are there, at rest in their nominal places. Its neighbors stand
-/// along the fixed axes.
+/// Where a wedge is mounted in a model whose bodies are there, at rest in their nominal places. Its neighbors
+/// stand along the fixed axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WedgeMount<'n> {
     /// Its name, with which those of its elements begin.
@@ -48,14 +49,15 @@ pub struct WedgeMount<'n> {
 pub struct WedgeElements {
     /// Column and slope, among the faces.
     pub faces: [usize; 2],
-    /// The control coil among the elements; `None` without one, and for a coil of the thesis, which is among the coils.
+    /// The control coil among the elements; `None` without one, and for a coil of the thesis, which is among
+    /// the coils.
     pub coil: Option<usize>,
     /// The sides of the pocket, among the elements.
     pub pocket_sides: usize,
 }
 
-/// Returns the body of a wedge whose center of gravity is at `center` (m) in the nominal layout; `end` is +1 where its
-/// column lies ahead of it, else -1.
+/// Returns the body of a wedge whose center of gravity is at `center` (m) in the nominal layout; `end` is +1
+/// where its column lies ahead of it, else -1.
 #[must_use]
 pub fn wedge_body(name: &str, wedge: &Wedge, center: [f64; 3], end: f64) -> Body {
     let to_center = wedge.origin_to_center(end);
@@ -175,8 +177,8 @@ impl WedgeMount<'_> {
     }
 }
 
-/// Returns the marker of a body in its nominal place at a point (m), turned by roll, pitch, yaw (rad), both along
-/// the fixed axes, in the axes of the body, which may have a reference frame that is turned.
+/// Returns the marker of a body in its nominal place at a point (m), turned by roll, pitch, yaw (rad), both
+/// along the fixed axes, in the axes of the body, which may have a reference frame that is turned.
 pub(crate) fn marker_on(body: &Body, place: [f64; 3], angles: [f64; 3]) -> Marker {
     let origin = body.frame.origin;
     let along = Marker::new(std::array::from_fn(|k| place[k] - origin[k]), angles);
@@ -199,8 +201,8 @@ pub(crate) fn in_axes_of(body: &Body, vector: [f64; 3]) -> [f64; 3] {
     own.0
 }
 
-/// Adds the coil of Steets (2007), which ends at the wedge's origin; the center of gravity is `to_center` (m) from
-/// there.
+/// Adds the coil of Steets (2007), which ends at the wedge's origin; the center of gravity is `to_center` (m)
+/// from there.
 fn thesis_coil(model: &mut Model, at: &WedgeMount<'_>, seat: usize, to_center: [f64; 3], coil: &ThesisCoil) {
     let law = Coil {
         end: Vector::zero(),

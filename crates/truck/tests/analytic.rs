@@ -45,9 +45,9 @@ fn analytic_nests_and_adapters_carry_the_car_in_the_nominal_layout() {
 }
 
 /// Without friction the half car rests where coils and adapters carry the weights. With constant damping the
-/// wedges' forces are internal to bolster and wedges, so that the height has a closed form: coils and adapters
-/// less the weights on them, over their stiffnesses. With variable damping the control coils stand on the side
-/// frames and the faces give way: 0.0058 in, from a calculation in another program.
+/// wedges' forces are internal to bolster and wedges, so that the height has a closed form: coils and
+/// adapters less the weights on them, over their stiffnesses. With variable damping the control coils stand
+/// on the side frames and the faces give way: 0.0058 in, from a calculation in another program.
 #[test]
 fn analytic_the_frictionless_equilibrium_lies_at_the_nominal_height() {
     let on_coils = (8.0 * 15_403.8 - 123_230.0) / (8.0 * 6468.7);
@@ -71,8 +71,8 @@ fn analytic_the_frictionless_equilibrium_lies_at_the_nominal_height() {
     }
 }
 
-/// One truck under its half car, adapters in series, friction off: 2.014 Hz of bounce (constant damping), from
-/// a separate calculation.
+/// One truck under its half car, adapters in series, friction off: 2.014 Hz of bounce (constant damping),
+/// from a separate calculation.
 #[test]
 fn analytic_bounce_of_a_truck_under_its_half_car() {
     let mut truck = Truck::new(&half_car(Damping::Constant)).unwrap();

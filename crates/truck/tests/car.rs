@@ -17,8 +17,8 @@ use wedge::parameters::{Damping, STANDARD_GRAVITY};
 /// From the car's center to its trucks, m.
 const TRUCKS: f64 = 243.0 * INCH;
 
-/// Mass (kg), height of the center of gravity (m) and moments of inertia (kg·m²) of a loaded body with two bolsters
-/// and, if they are rigid with it, eight wedges.
+/// Mass (kg), height of the center of gravity (m) and moments of inertia (kg·m²) of a loaded body with two
+/// bolsters and, if they are rigid with it, eight wedges.
 fn loaded_car(with_wedges: bool) -> (f64, f64, [f64; 3]) {
     let pounds = 0.453_592_37;
     let inertia = POUND_FORCE * INCH;
@@ -50,15 +50,16 @@ fn loaded_car(with_wedges: bool) -> (f64, f64, [f64; 3]) {
     (mass, height, moments)
 }
 
-/// The loaded car on two trucks without friction, side frames fixed; body 0 is the car. Wedges are bodies, or rigid
-/// with the bolster, without contacts.
+/// The loaded car on two trucks without friction, side frames fixed; body 0 is the car. Wedges are bodies, or
+/// rigid with the bolster, without contacts.
 fn car(damping: Damping, wedges_move: bool) -> System {
     let mut parameters = Parameters {
         wheelsets: None,
         ..Parameters::new(damping).with_wedge_friction(0.0)
     };
     if !wedges_move {
-        // A control coil holds its wedge sideways, and the wedge slides on the slope: the bolster does not feel it.
+        // A control coil holds its wedge sideways, and the wedge slides on the slope: the bolster does not
+        // feel it.
         for wedge in &mut parameters.wedges {
             if let ControlCoil::Shear(coil) = &mut wedge.control_coil {
                 coil.shear_stiffness = 0.0;
@@ -126,8 +127,8 @@ fn car_frequencies(mut system: System) -> Vec<f64> {
     found
 }
 
-/// Springs and coil shear alone: bounce, yaw, longitudinal motion with pitch (two) and sway with roll (two) of the
-/// loaded car, with the moment of its weight: from a separate calculation.
+/// Springs and coil shear alone: bounce, yaw, longitudinal motion with pitch (two) and sway with roll (two)
+/// of the loaded car, with the moment of its weight: from a separate calculation.
 #[test]
 fn analytic_frequencies_of_the_loaded_car_on_its_springs() {
     for (damping, expected) in [
@@ -145,9 +146,9 @@ fn analytic_frequencies_of_the_loaded_car_on_its_springs() {
     }
 }
 
-/// Wedge bodies stiffen a truck along the track even without friction: a bolster that moves by x presses four of its
-/// wedges down their columns by x cot θ and lets the four others rise, on coils of stiffness k: k cot² θ each. With
-/// constant damping wedges do not take part in bounce and sway.
+/// Wedge bodies stiffen a truck along the track even without friction: a bolster that moves by x presses four
+/// of its wedges down their columns by x cot θ and lets the four others rise, on coils of stiffness k: k cot²
+/// θ each. With constant damping wedges do not take part in bounce and sway.
 #[test]
 fn analytic_wedge_bodies_stiffen_a_car_along_the_track() {
     let [springs, wedges] = [false, true].map(|move_| car_frequencies(car(Damping::Constant, move_)));
@@ -169,8 +170,8 @@ fn analytic_wedge_bodies_stiffen_a_car_along_the_track() {
     );
 }
 
-/// Normal forces of all contact points of a dropped half car after `time` (s), in a model whose fixed frame is
-/// tilted by a quarter turn about y and moved by a mile if `moved`.
+/// Normal forces of all contact points of a dropped half car after `time` (s), in a model whose fixed frame
+/// is tilted by a quarter turn about y and moved by a mile if `moved`.
 fn dropped(moved: bool, time: f64) -> Vec<f64> {
     let parameters = Parameters {
         bolster: Bolster::with_half_car(Lading::Loaded),

@@ -1,5 +1,5 @@
-//! Wedges without mass in the truck: the industry's model, against closed forms, published numbers, and the same
-//! truck with linearized kinematics; loads in place of motions.
+//! Wedges without mass in the truck: the industry's model, against closed forms, published numbers, and the
+//! same truck with linearized kinematics; loads in place of motions.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
@@ -86,10 +86,10 @@ fn analytic_bounce_with_massless_wedges_is_that_of_the_half_truck() {
     );
 }
 
-/// Up and down by 1 in with 0.2 deg of toe out, side frames fixed: branches of the column's friction and loss per
-/// cycle of each wedge are those of the half-truck's elements: 1148 and 2165 lbf, 6.63e3 lbf·in (constant damping).
-/// With variable damping and the half-truck's coil (3000 lbf/in without preload) they are 1235 and 2058 lbf at 1 in
-/// down, 1646 lbf·in, without the rise of the wedge that the toe makes there.
+/// Up and down by 1 in with 0.2 deg of toe out, side frames fixed: branches of the column's friction and loss
+/// per cycle of each wedge are those of the half-truck's elements: 1148 and 2165 lbf, 6.63e3 lbf·in (constant
+/// damping). With variable damping and the half-truck's coil (3000 lbf/in without preload) they are 1235 and
+/// 2058 lbf at 1 in down, 1646 lbf·in, without the rise of the wedge that the toe makes there.
 #[test]
 fn reproduction_loops_are_those_of_the_half_truck() {
     for (damping, [loading, unloading, loop_area]) in [
@@ -183,8 +183,8 @@ fn analytic_sliding_wedges_follow_the_quasi_static_balance() {
     }
 }
 
-/// Without wedge bodies the warp moment is that of coil shear (0.5006e6 in·lbf/rad a nest) and of the empirical springs
-/// (3.5 kip·in/mrad of a worn truck), which stand for what is left out.
+/// Without wedge bodies the warp moment is that of coil shear (0.5006e6 in·lbf/rad a nest) and of the
+/// empirical springs (3.5 kip·in/mrad of a worn truck), which stand for what is left out.
 #[test]
 fn analytic_warp_by_empirical_springs() {
     let moment = 52.5 * KIP_INCH;
@@ -215,8 +215,8 @@ fn analytic_warp_by_empirical_springs() {
     }
 }
 
-/// Wedges with mass and without in one truck: between neighbors that are prescribed the bodies do to the last bit
-/// what they do among themselves, and the others follow the quasi-static balance.
+/// Wedges with mass and without in one truck: between neighbors that are prescribed the bodies do to the last
+/// bit what they do among themselves, and the others follow the quasi-static balance.
 #[test]
 fn limits_wedges_of_both_kinds_in_one_truck() {
     let rig = |kinds: [WedgeKind; 4]| {
@@ -266,8 +266,8 @@ fn limits_wedges_of_both_kinds_in_one_truck() {
     }
 }
 
-/// A load on a free coordinate in place of a motion: the half car, without friction, sinks by the load over the
-/// stiffness of coils and adapters in series.
+/// A load on a free coordinate in place of a motion: the half car, without friction, sinks by the load over
+/// the stiffness of coils and adapters in series.
 #[test]
 fn analytic_a_load_on_the_half_car() {
     let load = -10e3 * POUND_FORCE;
@@ -291,8 +291,8 @@ fn analytic_a_load_on_the_half_car() {
     assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
 }
 
-/// The truck with massless wedges again, of bodies with linearized kinematics and of connections alone, as the
-/// industry's programs have it.
+/// The truck with massless wedges again, of bodies with linearized kinematics and of connections alone, as
+/// the industry's programs have it.
 fn linearized(parameters: &Parameters) -> System {
     let truck = Truck::new(parameters).unwrap();
     let mut bodies: Vec<Body> = truck.system.bodies().to_vec();
@@ -363,9 +363,10 @@ fn linearized(parameters: &Parameters) -> System {
     System::new(model).unwrap()
 }
 
-/// Small rotations agree with the exact ones: below 5 mrad of roll or of yaw of the bolster the wedges' normal forces,
-/// heights and yaw of the side frames are the same within 1 % of what changes (4 mrad: lands do not meet). (Levers of the layout leave out the
-/// moment of a nest's load on its own lateral travel, which rolls the side frames by a tenth of a milliradian.)
+/// Small rotations agree with the exact ones: below 5 mrad of roll or of yaw of the bolster the wedges'
+/// normal forces, heights and yaw of the side frames are the same within 1 % of what changes (4 mrad: lands
+/// do not meet). (Levers of the layout leave out the moment of a nest's load on its own lateral travel, which
+/// rolls the side frames by a tenth of a milliradian.)
 #[test]
 fn limits_linearized_kinematics_agree_with_exact_ones() {
     for coordinate in [3, 5] {

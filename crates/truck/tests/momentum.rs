@@ -6,8 +6,8 @@ use mechanics::vector::Vector;
 use truck::{CarBody, Lading, Parameters, SideBearings, Truck};
 use wedge::parameters::Damping;
 
-/// A truck in free fall without wheelsets, all its bodies free, displaced, turned and moving: what acts between them
-/// changes neither momentum nor angular momentum of the whole.
+/// A truck in free fall without wheelsets, all its bodies free, displaced, turned and moving: what acts
+/// between them changes neither momentum nor angular momentum of the whole.
 #[test]
 fn analytic_a_free_truck_keeps_its_momentum() {
     for damping in [Damping::Constant, Damping::Variable] {

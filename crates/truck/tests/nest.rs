@@ -76,7 +76,8 @@ fn limits_missing_coils_let_the_car_settle() {
         - left.iter().map(|coil| coil.spring.stiffness).sum::<f64>();
     let lost = missing / whole.iter().map(|coil| coil.spring.stiffness).sum::<f64>();
     let z = rest_with(left);
-    // The bolster cannot roll on this rig: both nests give way alike, and one has lost that share of its load.
+    // The bolster cannot roll on this rig: both nests give way alike, and one has lost that share of its
+    // load.
     let expected = -lost * load / (2.0 - lost) / (load / 2.3816);
     assert!(
         (z / expected - 1.0).abs() < 0.02,

@@ -1,7 +1,7 @@
 //! The stand-alone friction wedge between side frame and bolster.
 //!
-//! One wedge body, two contact faces of four corners each or finer grids of points, a control coil, two prescribed neighbors: put
-//! together from [`mechanics`] by [`Wedge::new`]. [`outputs`] defines the results.
+//! One wedge body, two contact faces of four corners each or finer grids of points, a control coil, two
+//! prescribed neighbors: put together from [`mechanics`] by [`Wedge::new`]. [`outputs`] defines the results.
 
 pub mod face;
 pub mod inputs;

@@ -277,7 +277,8 @@ impl Outputs {
             "vertical_force_on_side_frame",
             Kind::Force,
             none,
-            "the same, less the coil's spring force where the coil stands on the side frame (eq. 5-3, reversed)",
+            "the same, less the coil's spring force where the coil stands on the side frame (eq. 5-3, \
+             reversed)",
             |s| s.derived.vertical_on_side_frame,
         );
         for (name, face, text) in [

@@ -22,8 +22,8 @@ const REFERENCE_SPEED: f64 = 0.001 * 0.0254;
 /// The wedge cannot slide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error(
-    "the quasi-static wedge jams with these angles and coefficients of friction: there is no steady sliding; choose a larger wedge \
-     angle, more toe out, or less friction"
+    "the quasi-static wedge jams with these angles and coefficients of friction: there is no steady \
+     sliding; choose a larger wedge angle, more toe out, or less friction"
 )]
 pub struct Jams;
 

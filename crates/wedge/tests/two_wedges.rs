@@ -205,7 +205,8 @@ fn a_reversed_wedge_gives_what_one_gives() {
                 row += 1;
             });
             println!(
-                "{damping:?} {law:?}: between the two {between:.1e}, against one {against:.1e} (in, lbf), steps {} {}",
+                "{damping:?} {law:?}: between the two {between:.1e}, against one {against:.1e} (in, lbf), \
+                 steps {} {}",
                 end.steps, both.steps
             );
             assert_eq!(row, alone.len());

@@ -15,8 +15,8 @@ type SavedState = Saved;
 /// Why a pointer that leads to no saved state is refused.
 fn no_state(what: &str) -> Error {
     Error::new(format!(
-        "the pointer to {what} leads to no state that is alive: it was freed, or comes from elsewhere; set pointers to null before their \
-         first use"
+        "the pointer to {what} leads to no state that is alive: it was freed, or comes from elsewhere; set \
+         pointers to null before their first use"
     ))
 }
 
@@ -85,7 +85,8 @@ pub(crate) unsafe fn serialize(state: *mut c_void, target: *mut u8, size: usize)
     let bytes = unsafe { saved(state) }?.to_bytes()?;
     if size < bytes.len() {
         return Err(Error::new(format!(
-            "room for {size} bytes of a state that takes {}: the function that tells the size of a serialized state tells it",
+            "room for {size} bytes of a state that takes {}: the function that tells the size of a \
+             serialized state tells it",
             bytes.len()
         )));
     }

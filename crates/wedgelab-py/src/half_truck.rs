@@ -207,7 +207,8 @@ impl NativeHalfTruckCase {
                     return Err(refused(
                         py,
                         &format!("yaw does not fit the built-in run {name}"),
-                        "built-in runs with yaw as intended end with _yaw, those as printed with _yaw_as_printed",
+                        "built-in runs with yaw as intended end with _yaw, those as printed with \
+                         _yaw_as_printed",
                     ));
                 }
                 if system.is_some() || data.is_some() || input.is_some() {

@@ -24,8 +24,8 @@ use failure::Failure;
 /// A laboratory for railway friction wedges.
 ///
 /// Wedgelab computes the friction wedge of a three-piece truck: a rigid body between side frame and bolster,
-/// with unilateral contact, stick-slip friction and its control coil, as in Steets (2007); and whole trucks with
-/// four of them.
+/// with unilateral contact, stick-slip friction and its control coil, as in Steets (2007); and whole trucks
+/// with four of them.
 #[derive(Debug, Parser)]
 #[command(
     name = "wedgelab",

@@ -101,7 +101,10 @@ fn input_commands_say_what_they_take() {
             &["stability", "car_hunting_empty", "--speeds", "60 mph..30 mph"],
             &["must be the higher one"],
         ),
-        (&["warp", "car_tangent_empty"], &["is no truck"]),
+        (
+            &["warp", "car_tangent_empty"],
+            &["is the case of a car", "a truck's is expected"],
+        ),
         (&["explore", "car_tangent_empty"], &["is a car", "wedgelab study"]),
         (
             &["run", "car_tangent_emty"],

@@ -88,7 +88,8 @@ fn energy_a_ledger_that_does_not_close_is_a_failure_that_keeps_the_files() {
 #[test]
 fn energy_rows_of_a_study_are_marked_and_keep_their_values() {
     let folder = tempfile::tempdir().unwrap();
-    let study = "case = \"vdrun_toe_0_psi_0.012\"\nsampling = \"full_factorial\"\naccuracy = \"engineering\"\n\
+    let study = "case = \"vdrun_toe_0_psi_0.012\"\nsampling = \"full_factorial\"\naccuracy \
+                 = \"engineering\"\n\
                  [vary]\nsimulation.relative_tolerance = [1e-6, 1e-3, 1e-2]\n";
     fs::write(folder.path().join("some.toml"), study).unwrap();
     let done = wedgelab(folder.path(), &["study", "some.toml", "--quiet", "--jobs", "1"]);

@@ -34,8 +34,8 @@ fn json(folder: &Path, name: &str) -> serde_json::Value {
     serde_json::from_str(&text).unwrap()
 }
 
-/// Wedges become bodies where that is asked for: what is added is told, the summary has it, and columns are those of
-/// massless wedges and more.
+/// Wedges become bodies where that is asked for: what is added is told, the summary has it, and columns are
+/// those of massless wedges and more.
 #[test]
 fn wedges_become_bodies() {
     let folder = tempfile::tempdir().unwrap();
@@ -55,7 +55,8 @@ fn wedges_become_bodies() {
         &told,
         &[
             "Wedges as bodies:",
-            "wedges of connections 127, 128, 129, 130: from the files: 37.5 deg, a column inclined by 0.2 deg, toe out",
+            "wedges of connections 127, 128, 129, 130: from the files: 37.5 deg, a column inclined by 0.2 \
+             deg, toe out",
             "added: mass 50 lb",
             "200 lb, are taken from body 1",
         ],

@@ -192,8 +192,10 @@ fn curves_tell_stiffness_and_friction() {
 fn a_study_varies_single_wedges() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    let study = "case = \"truck_vertical_variable\"\nsampling = \"full_factorial\"\n[set]\nsimulation.duration = \"7 s\"\n\
-                 [vary]\nwedge.leading_left.friction.column = [0.2, 0.4]\nwedge.leading_left.toe = [\"0 deg\", \"0.2 deg out\"]\n";
+    let study = "case = \"truck_vertical_variable\"\nsampling \
+                 = \"full_factorial\"\n[set]\nsimulation.duration = \"7 s\"\n\
+                 [vary]\nwedge.leading_left.friction.column = [0.2, 0.4]\nwedge.leading_left.toe = [\"0 \
+                 deg\", \"0.2 deg out\"]\n";
     fs::write(at.join("study.toml"), study).unwrap();
     let out = done(at, &["study", "study.toml", "-q"]);
     assert!(out.contains("4 runs: 4 complete"), "{out}");
@@ -281,13 +283,16 @@ fn wheelrail_checks_profiles_and_tells_conicity() {
     }
 }
 
-/// A sine of 62 ft has twice its amplitude as offset of a chord of 62 ft, none of 124 ft, and a curve is told.
+/// A sine of 62 ft has twice its amplitude as offset of a chord of 62 ft, none of 124 ft, and a curve is
+/// told.
 #[test]
 fn track_show_tells_chord_offsets() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    let track = "[[segments]]\ntangent = \"1000 ft\"\n[[segments]]\nspiral = \"100 ft\"\n[[segments]]\ncurve = \"300 ft\"\n\
-                 degree = \"5 deg\"\n[[irregularities]]\nshape = \"sine\"\ndirection = \"vertical\"\namplitude = \"0.5 in\"\n\
+    let track = "[[segments]]\ntangent = \"1000 ft\"\n[[segments]]\nspiral = \"100 \
+                 ft\"\n[[segments]]\ncurve = \"300 ft\"\n\
+                 degree = \"5 deg\"\n[[irregularities]]\nshape = \"sine\"\ndirection \
+                 = \"vertical\"\namplitude = \"0.5 in\"\n\
                  wavelength = \"62 ft\"\ncycles = 10\nstart = \"200 ft\"\n";
     fs::write(at.join("sine.toml"), track).unwrap();
     let out = done(at, &["track", "show", "sine.toml", "--interval", "0.5 ft"]);

@@ -1,19 +1,19 @@
 //! Elastic contact of two curved bodies of one material (Hertz 1882).
 //!
 //! The gap of the undeformed bodies is `A x² + B y²`, with A = ½ (1/R_wheel,x + 1/R_rail,x) along the rolling
-//! direction and B likewise across it; convex curvatures are positive. With `E* = E / (2 (1 - ν²))` the load N
-//! presses an ellipse whose ratio of semi-axes g solves
+//! direction and B likewise across it; convex curvatures are positive. With `E* = E / (2 (1 - ν²))` the load
+//! N presses an ellipse whose ratio of semi-axes g solves
 //!
 //! ```text
 //! (K - E) / (E/g² - K) = min(A, B) / max(A, B)
 //! ```
 //!
 //! with the complete elliptic integrals K and E of the parameter `1 - g²`; then
-//! `N = (4 E*/3) d^1.5 / (r_d^1.5 √(A + B))` at an approach d. K and E come from the arithmetic-geometric mean.
-//! Units: N, m, Pa.
+//! `N = (4 E*/3) d^1.5 / (r_d^1.5 √(A + B))` at an approach d. K and E come from the arithmetic-geometric
+//! mean. Units: N, m, Pa.
 //!
-//! Limits: half-spaces (a patch small against the radii), no friction in the normal problem; conformal contact
-//! in the flange throat is outside of it.
+//! Limits: half-spaces (a patch small against the radii), no friction in the normal problem; conformal
+//! contact in the flange throat is outside of it.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -48,8 +48,8 @@ impl Material {
 pub enum HertzError {
     /// The bodies fit or overlap in one direction.
     #[error(
-        "the sum of curvatures of wheel and rail {direction} is {sum} 1/m; it must be positive: the surfaces conform, \
-         and Hertz's theory does not hold there"
+        "the sum of curvatures of wheel and rail {direction} is {sum} 1/m; it must be positive: the \
+         surfaces conform, and Hertz's theory does not hold there"
     )]
     Conformal {
         /// Along or across the rolling direction.
@@ -81,8 +81,8 @@ pub struct Hertz {
 }
 
 impl Hertz {
-    /// Returns the contact of bodies whose curvatures (1/m) sum up to `rolling` along the rolling direction and
-    /// to `lateral` across it.
+    /// Returns the contact of bodies whose curvatures (1/m) sum up to `rolling` along the rolling direction
+    /// and to `lateral` across it.
     ///
     /// # Errors
     /// A sum is not positive, or a constant of the material is not admissible.
@@ -202,8 +202,8 @@ pub fn elliptic_integrals(g: f64) -> [f64; 2] {
     [k, k * (1.0 - sum)]
 }
 
-/// Returns the ratio of the semi-axes, by bisection of its logarithm. Near a circle the equation loses digits;
-/// there `g = ratio^(2/3)` to second order.
+/// Returns the ratio of the semi-axes, by bisection of its logarithm. Near a circle the equation loses
+/// digits; there `g = ratio^(2/3)` to second order.
 fn axis_ratio(ratio: f64) -> f64 {
     if ratio > 1.0 - 1e-6 {
         return libm::cbrt(ratio * ratio);

@@ -125,8 +125,8 @@ pub enum LoadError {
     },
     /// No height carries the load.
     #[error(
-        "no height of the {side} wheel carries {load:.0} N: pressed down by up to {:.1} mm, its vertical force \
-         is at most {most:.0} N, at y = {:.1} mm",
+        "no height of the {side} wheel carries {load:.0} N: pressed down by up to {:.1} mm, its vertical \
+         force is at most {most:.0} N, at y = {:.1} mm",
         DEEPEST * 1e3, place * 1e3
     )]
     NoHeight {
@@ -148,8 +148,8 @@ impl LoadError {
         match self {
             Self::Number { .. } => "give a number in that range",
             Self::NoHeight { .. } => {
-                "give the load of one wheel (freight cars have 30 to 160 kN); on a steep flange creep forces can \
-                 carry or pull down the whole load: look at yaw, friction and creep law"
+                "give the load of one wheel (freight cars have 30 to 160 kN); on a steep flange creep \
+                 forces can carry or pull down the whole load: look at yaw, friction and creep law"
             }
         }
     }

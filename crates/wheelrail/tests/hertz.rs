@@ -9,8 +9,8 @@ const STEEL: Material = Material {
     poisson: 0.27,
 };
 
-/// Semi-axes and approach by the angle θ with cos θ = |B - A| / (A + B), from exact elliptic integrals of another
-/// program, to four decimals.
+/// Semi-axes and approach by the angle θ with cos θ = |B - A| / (A + B), from exact elliptic integrals of
+/// another program, to four decimals.
 #[test]
 fn analytic_semi_axes_and_approach_by_the_table() {
     for (degrees, major, minor, approach) in [

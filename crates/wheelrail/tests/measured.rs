@@ -67,7 +67,8 @@ fn analytic_a_spline_through_a_sine() {
 /// The sign row turns each column to up, left, right high, wide; units are those of the header.
 #[test]
 fn analytic_sign_row_and_units() {
-    let mut text = "# a car\ndistance [ft]; left_profile [mm]; right_profile (in); alignment_in; gauge [in]; speed [mph]\n\
+    let mut text = "# a car\ndistance [ft]; left_profile [mm]; right_profile (in); alignment_in; gauge \
+                    [in]; speed [mph]\n\
                     ; down; up; right; wide; \n"
         .to_owned();
     for k in 0..400 {

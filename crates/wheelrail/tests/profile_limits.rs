@@ -20,7 +20,8 @@ impl Random {
     }
 }
 
-/// Files with bytes changed, taken out and doubled are read or refused with a place; what is read can be used.
+/// Files with bytes changed, taken out and doubled are read or refused with a place; what is read can be
+/// used.
 #[test]
 fn limits_broken_files_are_read_or_refused() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");

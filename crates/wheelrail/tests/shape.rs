@@ -53,8 +53,8 @@ fn analytic_slopes_are_those_of_differences_and_values_are_continuous() {
     }
 }
 
-/// Joints are low by the depth less what rounds the tip; rails are level in the middle. Two rails with their joints
-/// half a rail apart have a cross level of at most the depth.
+/// Joints are low by the depth less what rounds the tip; rails are level in the middle. Two rails with their
+/// joints half a rail apart have a cross level of at most the depth.
 #[test]
 fn analytic_joints_and_their_cross_level() {
     let Shape::Joints {

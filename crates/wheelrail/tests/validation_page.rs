@@ -15,7 +15,8 @@ fn reproduction_the_validation_page_holds_what_is_computed() {
         assert_eq!(
             written,
             computed,
-            "line {} of docs/validation-wheelrail.md: run cargo run --release -p wheelrail --example validation",
+            "line {} of docs/validation-wheelrail.md: run cargo run --release -p wheelrail --example \
+             validation",
             number + 1
         );
     }

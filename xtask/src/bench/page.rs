@@ -26,15 +26,18 @@ pub struct Section {
     pub program: &'static [&'static str],
 }
 
-const COLUMNS_OF_RUNS: &str = "Ten seconds each. Mean forces while the bolster rises and falls, friction energy per cycle at the side frame, relative residual of the energy ledger, accepted \
-     steps, explicit ones among them, rejected attempts, wall time. It includes contact events and output times each 0.01 s, but no files.";
+const COLUMNS_OF_RUNS: &str = "Ten seconds each. Mean forces while the bolster rises and falls, friction \
+                               energy per cycle at the side frame, relative residual of the energy ledger, \
+                               accepted steps, explicit ones among them, rejected attempts, wall time. It \
+                               includes contact events and output times each 0.01 s, but no files.";
 
 /// The sections, in the order of the page.
 pub const SECTIONS: [Section; 12] = [
     Section {
         heading: "One evaluation",
-        about: "A wedge in the middle of a branch, pressed into both faces and sliding, yawed; and the half-truck, sliding: right-hand side, Jacobian matrix with the derivative by time, and \
-                one factorization with a solution.",
+        about: "A wedge in the middle of a branch, pressed into both faces and sliding, yawed; and the \
+                half-truck, sliding: right-hand side, Jacobian matrix with the derivative by time, and one \
+                factorization with a solution.",
         program: &[],
     },
     Section {
@@ -54,45 +57,60 @@ pub const SECTIONS: [Section; 12] = [
     },
     Section {
         heading: "Studies",
-        about: "The six yawed runs with a study's measures at engineering accuracy, one after the other on one core: wall time, steps, and how far measures are from those at 1e-9 (friction energies per cycle at \
-                side frame and bolster; equivalent damping, stiffness, and damping on the bolster; mean vertical wedge forces up and down; mean longitudinal ones). Then 24 variants of them.",
+        about: "The six yawed runs with a study's measures at engineering accuracy, one after the other on \
+                one core: wall time, steps, and how far measures are from those at 1e-9 (friction energies \
+                per cycle at side frame and bolster; equivalent damping, stiffness, and damping on the \
+                bolster; mean vertical wedge forces up and down; mean longitudinal ones). Then 24 variants \
+                of them.",
         program: &["study_rate", "1.5e-5", "0.01 s", "tr-bdf2", "5"],
     },
     Section {
         heading: "The half-truck",
-        about: "Twenty seconds of its files, 18 coordinates, 48 to 50 connections, at 1e-5. Wedges that jam and yaw take longer; `nucars_69_variable_toe_in_yaw` flutters between sticking and the limit of the files.",
+        about: "Twenty seconds of its files, 18 coordinates, 48 to 50 connections, at 1e-5. Wedges that jam \
+                and yaw take longer; `nucars_69_variable_toe_in_yaw` flutters between sticking and the \
+                limit of the files.",
         program: &["half_truck", "1e-5"],
     },
     Section {
         heading: "A communication step of an FMU",
-        about: "Steps of 1 ms of a driven wedge through the interface of FMI, without and with reading the outputs, average over a run.",
+        about: "Steps of 1 ms of a driven wedge through the interface of FMI, without and with reading the \
+                outputs, average over a run.",
         program: &["steps"],
     },
     Section {
         heading: "A three-piece truck",
-        about: "Two side frames and four wedges with six coordinates each, 40 contact points with bristles, a prescribed bolster or a half car on it: its rigs, 5 to 22 s, at 1e-5. Newton: steps rejected because a stage could not be solved. \
-                Residual: the relative residual of the energy ledger.",
+        about: "Two side frames and four wedges with six coordinates each, 40 contact points with bristles, \
+                a prescribed bolster or a half car on it: its rigs, 5 to 22 s, at 1e-5. Newton: steps \
+                rejected because a stage could not be solved. Residual: the relative residual of the energy \
+                ledger.",
         program: &["truck", "1e-5"],
     },
     Section {
         heading: "A body on a circle of track",
-        about: "A wheelset carried once round a curve, in coordinates of several kinds: how far it came, steps, the largest error of the lateral force, the relative residual of the energy ledger.",
+        about: "A wheelset carried once round a curve, in coordinates of several kinds: how far it came, \
+                steps, the largest error of the lateral force, the relative residual of the energy ledger.",
         program: &["circle"],
     },
     Section {
         heading: "The contact of a wheel",
-        about: "A nominal AAR-1B wheel on a nominal 136RE rail, 0.1 mm of overlap, by its lateral place: search or table, normal and creep forces; the best of 40 batches each. Floors: with Polach 5 µs, by tables 1 µs, FASTSIM 21 × 21 20 µs.",
+        about: "A nominal AAR-1B wheel on a nominal 136RE rail, 0.1 mm of overlap, by its lateral place: \
+                search or table, normal and creep forces; the best of 40 batches each. Floors: with Polach \
+                5 µs, by tables 1 µs, FASTSIM 21 × 21 20 µs.",
         program: &["wheel_contact"],
     },
     Section {
         heading: "Many wedges in one system",
-        about: "1 to 200 wedges with variable damping while the bolsters go down, by implicit steps of a fixed length. Uncoupled: each between a column and a bolster of its own. Chained: column, wedge, bolster, \
-                wedge, column ..., free bodies on stiff supports, a block-tridiagonal matrix. Supports: these free bodies alone, so that the chain less them is what wedges between free bodies cost. The cost of a step is proportional to the number of wedges.",
+        about: "1 to 200 wedges with variable damping while the bolsters go down, by implicit steps of a \
+                fixed length. Uncoupled: each between a column and a bolster of its own. Chained: column, \
+                wedge, bolster, wedge, column ..., free bodies on stiff supports, a block-tridiagonal \
+                matrix. Supports: these free bodies alone, so that the chain less them is what wedges \
+                between free bodies cost. The cost of a step is proportional to the number of wedges.",
         program: &["wedge_count"],
     },
     Section {
         heading: "Instructions",
-        about: "Counted by callgrind, of programs compiled for all processors. They repeat to the last digit for the same binary, but they are no times.",
+        about: "Counted by callgrind, of programs compiled for all processors. They repeat to the last \
+                digit for the same binary, but they are no times.",
         program: INSTRUCTIONS,
     },
 ];
@@ -272,7 +290,8 @@ mod tests {
         ];
         let page = page(&machine, Some("0.50"), &printed);
         for part in [
-            "Measured on 2026-11-25: Some CPU, 2 cores, rustc 1.95.0; load average of the machine at the beginning 0.50",
+            "Measured on 2026-11-25: Some CPU, 2 cores, rustc 1.95.0; load average of the machine at the \
+             beginning 0.50",
             "| right-hand side, Jacobian matrix of a sliding wedge (variable damping) | 217 ns, 1,017 ns |",
             "| the twelve runs of ten seconds, default method | 0.73 s |",
             "| one yawed run, variable damping | 40 to 45 ms |",

@@ -209,7 +209,7 @@ mod tests {
         );
         assert_eq!(found.len(), 2);
         assert!(
-            found[0].contains("`study` (floor 6, asking), on a higher floor"),
+            found[0].contains("`study` (floor 7, asking), on a higher floor"),
             "{found:?}"
         );
     }

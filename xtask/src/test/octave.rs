@@ -56,9 +56,10 @@ fn draws(program: &str) -> bool {
 
 fn advice() -> String {
     format!(
-        "Octave is missing or cannot draw, and it could not be installed. On Debian and Ubuntu an administrator installs it \
-         with `apt-get install {}`; elsewhere install Octave and gnuplot, and name the program in WEDGELAB_OCTAVE if it \
-         is not called octave-cli. `cargo xtask test --only` runs other checks without it.",
+        "Octave is missing or cannot draw, and it could not be installed. On Debian and Ubuntu an \
+         administrator installs it with `apt-get install {}`; elsewhere install Octave and gnuplot, and \
+         name the program in WEDGELAB_OCTAVE if it is not called octave-cli. `cargo xtask test --only` runs \
+         other checks without it.",
         PACKAGES.join(" ")
     )
 }

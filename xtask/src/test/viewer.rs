@@ -80,8 +80,8 @@ fn found() -> Option<String> {
 }
 
 fn advice() -> String {
-    "Chromium is missing and could not be installed. On Debian an administrator installs it with `apt-get install chromium`; \
-     elsewhere install Chromium or Chrome and name the program in WEDGELAB_CHROMIUM. `cargo xtask test --only` runs other \
-     checks without it."
+    "Chromium is missing and could not be installed. On Debian an administrator installs it with `apt-get \
+     install chromium`; elsewhere install Chromium or Chrome and name the program in WEDGELAB_CHROMIUM. \
+     `cargo xtask test --only` runs other checks without it."
         .to_owned()
 }

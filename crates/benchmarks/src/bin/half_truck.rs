@@ -61,8 +61,8 @@ fn measure_all() -> Result<(), String> {
         system.next_time_discontinuity(0.0);
         let [derivative, jacobian, factor, solve] = costs(&mut system, 2.0, &x, 1e4, 2000);
         println!(
-            "{name}: right-hand side {derivative:.2} us, Jacobian {jacobian:.2} us (ratio {:.1}), factor {factor:.2} us, \
-             solve {solve:.2} us",
+            "{name}: right-hand side {derivative:.2} us, Jacobian {jacobian:.2} us (ratio {:.1}), factor \
+             {factor:.2} us, solve {solve:.2} us",
             jacobian / derivative
         );
     }

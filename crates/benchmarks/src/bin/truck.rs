@@ -1,4 +1,5 @@
-//! `truck [TOLERANCE] [NAME-PART] [METHOD]`: the rigs of the three-piece truck on one core, for example `truck 1e-5 vertical esdirk3`.
+//! `truck [TOLERANCE] [NAME-PART] [METHOD]`: the rigs of the three-piece truck on one core, for example
+//! `truck 1e-5 vertical esdirk3`.
 //!
 //! CPU times of integration with contact states recorded, without rows or files. Changes: of contact states,
 //! a second. Newton: steps rejected because a stage could not be solved. Residual: the relative residual of
@@ -84,8 +85,8 @@ fn measure_all() -> Result<(), String> {
     };
     let [rates, jacobian, factor, solve] = costs(&mut system, time, &x, 1e4, 1000);
     println!(
-        "{} states: right-hand side {rates:.2} µs, Jacobian matrix {jacobian:.1} µs ({:.1} right-hand sides), \
-         factorization {factor:.1} µs, solution {solve:.2} µs",
+        "{} states: right-hand side {rates:.2} µs, Jacobian matrix {jacobian:.1} µs ({:.1} right-hand \
+         sides), factorization {factor:.1} µs, solution {solve:.2} µs",
         x.len(),
         jacobian / rates
     );

@@ -63,7 +63,8 @@ fn one(arrangement: &str, count: &str, number: &str, recorded: bool) -> Result<(
 /// The costs of all systems up to this number of wedges.
 fn table(most: usize) -> Result<(), String> {
     println!(
-        "CPU times, µs, each divided by the number of wedges; events: changes of contact modes a step and wedge."
+        "CPU times, µs, each divided by the number of wedges; events: changes of contact modes a step and \
+         wedge."
     );
     println!("Step: contact modes not recorded; recorded: with them.");
     for arrangement in [
@@ -109,7 +110,8 @@ fn measure(count: usize, arrangement: Arrangement) -> Result<String, String> {
     let events = events as f64 / f64::from(STEPS) / count as f64;
     let [bare, recorded, rates, jacobian, factor, solve] = each;
     Ok(format!(
-        "{bare:>10.2} {recorded:>10.2} {events:>8.4} {rates:>10.3} {jacobian:>10.3} {factor:>10.3} {solve:>10.3}"
+        "{bare:>10.2} {recorded:>10.2} {events:>8.4} {rates:>10.3} {jacobian:>10.3} {factor:>10.3} \
+         {solve:>10.3}"
     ))
 }
 

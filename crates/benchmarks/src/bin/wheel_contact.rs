@@ -1,5 +1,6 @@
-//! What an evaluation of the contact of one wheel costs: search or table, normal force, creep forces; and what the
-//! rails in space and creep laws alone do. Each number is the best of 40 batches: machines are shared.
+//! What an evaluation of the contact of one wheel costs: search or table, normal force, creep forces; and
+//! what the rails in space and creep laws alone do. Each number is the best of 40 batches: machines are
+//! shared.
 
 use std::hint::black_box;
 use std::time::Instant;

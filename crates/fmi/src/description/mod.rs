@@ -59,20 +59,24 @@ impl FmuModel {
     fn text(self) -> &'static str {
         match self {
             Self::Wedge => {
-                "Friction wedge of a three-piece truck between bolster and side frame: rigid body with mass, unilateral \
-                 contact at eight corners, stick-slip friction"
+                "Friction wedge of a three-piece truck between bolster and side frame: rigid body with \
+                 mass, unilateral contact at eight corners, stick-slip friction"
             }
             Self::QuasiStatic => {
-                "Friction wedge of a three-piece truck between bolster and side frame: quasi-static, without mass"
+                "Friction wedge of a three-piece truck between bolster and side frame: quasi-static, \
+                 without mass"
             }
             Self::Truck => {
-                "Loaded half of a three-piece truck without its four friction wedges: half a car on a bolster, side frames, springs"
+                "Loaded half of a three-piece truck without its four friction wedges: half a car on a \
+                 bolster, side frames, springs"
             }
             Self::ThreePieceTruck => {
-                "Three-piece truck with four friction wedges that have mass: bolster, side frames, coils, stops, adapters"
+                "Three-piece truck with four friction wedges that have mass: bolster, side frames, coils, \
+                 stops, adapters"
             }
             Self::HalfTruck => {
-                "Loaded half of a three-piece truck from files of NUCARS: half a car on a bolster, friction wedges, side frames, springs"
+                "Loaded half of a three-piece truck from files of NUCARS: half a car on a bolster, friction \
+                 wedges, side frames, springs"
             }
         }
     }
@@ -81,21 +85,25 @@ impl FmuModel {
     pub(crate) fn conventions(self) -> &'static str {
         match self {
             Self::Wedge | Self::QuasiStatic => {
-                "Fixed frame: x longitudinal, positive from the column towards the bolster; y lateral; z up. \
-                 Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). Forces act on the named neighbour, along the fixed axes; moments are taken \
-                 about the neighbour's turning center, the point whose displacements are the inputs."
+                "Fixed frame: x longitudinal, positive from the column towards the bolster; y lateral; z \
+                 up. Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). Forces act on the named neighbour, \
+                 along the fixed axes; moments are taken about the neighbour's turning center, the point \
+                 whose displacements are the inputs."
             }
             Self::Truck => {
-                "Axes: x forward, y left, z up; displacements from the drawn position, small angles. Quantities of a wedge are in the axes \
-                 of that wedge, which has x from the column towards the bolster."
+                "Axes: x forward, y left, z up; displacements from the drawn position, small angles. \
+                 Quantities of a wedge are in the axes of that wedge, which has x from the column towards \
+                 the bolster."
             }
             Self::ThreePieceTruck => {
-                "Axes: x forward, y left, z up from the top of rail, origin at the truck's center; displacements of centers of gravity from the \
-                 nominal (loaded) layout. Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). The warp moment acts on the bolster."
+                "Axes: x forward, y left, z up from the top of rail, origin at the truck's center; \
+                 displacements of centers of gravity from the nominal (loaded) layout. Angles turn by R = \
+                 Ry(pitch) Rz(yaw) Rx(roll). The warp moment acts on the bolster."
             }
             Self::HalfTruck => {
-                "Axes: x forward, y left, z up; displacements of centers of gravity from the drawn position, small angles. Bodies, wedges and \
-                 connections have the numbers of the files; forces of connections are positive in extension."
+                "Axes: x forward, y left, z up; displacements of centers of gravity from the drawn \
+                 position, small angles. Bodies, wedges and connections have the numbers of the files; \
+                 forces of connections are positive in extension."
             }
         }
     }

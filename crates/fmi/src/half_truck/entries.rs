@@ -37,7 +37,8 @@ pub(super) fn all(case: &HalfTruckCase, system: &System, table: &[Column]) -> (E
             "who moves the input bodies: 0 the inputs body_*, 1 the files",
             (
                 start_option(case.start),
-                "the half-truck at the start: 0 at rest in the drawn layout, 1 at rest in static equilibrium without friction",
+                "the half-truck at the start: 0 at rest in the drawn layout, 1 at rest in static \
+                 equilibrium without friction",
             ),
         ),
         inputs,

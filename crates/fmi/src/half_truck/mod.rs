@@ -120,7 +120,8 @@ impl HalfTruck {
         };
         if !case.wedge_bodies.is_empty() {
             return Err(Error::new(
-                "FMUs of half-trucks have massless wedges, and wedges=bodies is set; leave it out, or export a truck or a wedge"
+                "FMUs of half-trucks have massless wedges, and wedges=bodies is set; leave it out, or \
+                 export a truck or a wedge"
                     .to_owned(),
             ));
         }

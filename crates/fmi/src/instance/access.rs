@@ -33,7 +33,8 @@ impl Type {
 
 fn unknown(reference: u32, count: usize) -> Error {
     Error::new(format!(
-        "there is no variable with value reference {reference}; those of modelDescription.xml go from 0 to {}",
+        "there is no variable with value reference {reference}; those of modelDescription.xml go from 0 to \
+         {}",
         count.saturating_sub(1)
     ))
 }

@@ -140,7 +140,8 @@ impl Instance {
         let own = description.token(version);
         if let Some(token) = token.filter(|token| *token != own) {
             return Err(Error::new(format!(
-                "the token {token} is not that of this FMU, {own}: modelDescription.xml and library do not belong together"
+                "the token {token} is not that of this FMU, {own}: modelDescription.xml and library do not \
+                 belong together"
             )));
         }
         let values = Values::of(&description);

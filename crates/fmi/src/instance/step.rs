@@ -58,7 +58,8 @@ impl Instance {
         let end = time + length;
         if end <= self.time {
             return Err(Error::new(format!(
-                "a communication step of {length} s from {time} s ends at {end} s, which is not after the time reached, {} s: make it longer",
+                "a communication step of {length} s from {time} s ends at {end} s, which is not after the \
+                 time reached, {} s: make it longer",
                 self.time
             )));
         }

@@ -115,8 +115,8 @@ pub(crate) fn add_table(
     entries.columns.splice(0..0, columns);
 }
 
-/// Returns the options of a system whose prescribed bodies inputs may move; `motion` and `start` are their texts, and
-/// how it starts if nothing is said.
+/// Returns the options of a system whose prescribed bodies inputs may move; `motion` and `start` are their
+/// texts, and how it starts if nothing is said.
 pub(crate) fn options(motion: &str, (start, text): (i32, &str)) -> Vec<Entry> {
     vec![
         Entry::integer("motion", Some(0), [0, 1], motion),
@@ -124,12 +124,14 @@ pub(crate) fn options(motion: &str, (start, text): (i32, &str)) -> Vec<Entry> {
         Entry::boolean(
             "derive_rates",
             false,
-            "co-simulation: rates of prescribed bodies are found from their positions, the inputs *_rate are not read",
+            "co-simulation: rates of prescribed bodies are found from their positions, the inputs *_rate \
+             are not read",
         ),
         Entry::boolean(
             "inputs_at_end",
             false,
-            "co-simulation: inputs are those of the end of a communication step (else of its beginning, and continued)",
+            "co-simulation: inputs are those of the end of a communication step (else of its beginning, and \
+             continued)",
         ),
     ]
 }

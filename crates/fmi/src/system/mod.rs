@@ -219,8 +219,8 @@ fn discontinuity_at(system: &System, driven: bool, point: f64, length: f64) -> O
         .filter(|time| *time <= point + slack)
 }
 
-/// Largest size of an input, SI: no motion and no load of a machine comes near it, and steps under larger ones
-/// would be so short that they lead nowhere.
+/// Largest size of an input, SI: no motion and no load of a machine comes near it, and steps under larger
+/// ones would be so short that they lead nowhere.
 const LARGEST_INPUT: f64 = 1e15;
 
 /// Checks the values of all inputs.

@@ -70,7 +70,8 @@ pub(crate) fn relative_residual() -> Entry {
         "ledger_relative_residual",
         None,
         None,
-        "residual of the energy ledger now over the largest of work, losses and change of stored energy since the start",
+        "residual of the energy ledger now over the largest of work, losses and change of stored energy \
+         since the start",
     )
 }
 
@@ -156,25 +157,27 @@ pub(crate) fn options(case: &Case) -> Vec<Entry> {
             OPTIONS[0],
             Some(0),
             [0, 2],
-            "where the coil's spring force comes from: 0 the coil of the case, 1 coil_stiffness_input times coil_compression, \
-             2 coil_force_input",
+            "where the coil's spring force comes from: 0 the coil of the case, 1 coil_stiffness_input times \
+             coil_compression, 2 coil_force_input",
         ),
         Entry::integer(
             OPTIONS[1],
             Some(start),
             [0, 2],
-            "the wedge at the start: 0 nominal position, 1 the same with column and pocket moved apart until nothing penetrates, \
-             2 frictionless static equilibrium",
+            "the wedge at the start: 0 nominal position, 1 the same with column and pocket moved apart \
+             until nothing penetrates, 2 frictionless static equilibrium",
         ),
         Entry::boolean(
             OPTIONS[2],
             false,
-            "co-simulation: rates of bolster and side frame are found from their positions, the inputs *_rate are not read",
+            "co-simulation: rates of bolster and side frame are found from their positions, the inputs \
+             *_rate are not read",
         ),
         Entry::boolean(
             OPTIONS[3],
             false,
-            "co-simulation: inputs are those of the end of a communication step (else of its beginning, and continued)",
+            "co-simulation: inputs are those of the end of a communication step (else of its beginning, and \
+             continued)",
         ),
     ]
 }
@@ -258,7 +261,8 @@ fn outputs() -> Vec<Entry> {
                 unit(Kind::Moment),
                 None,
                 format!(
-                    "moment of wedge and coil on the {words} about its turning center, {axis} axis of the fixed frame"
+                    "moment of wedge and coil on the {words} about its turning center, {axis} axis of the \
+                     fixed frame"
                 ),
             ));
         }

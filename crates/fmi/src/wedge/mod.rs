@@ -133,8 +133,8 @@ impl WedgeElement {
         };
         if element.states().len() != entries.states.len() {
             return Err(Error::new(format!(
-                "with these parameters the wedge has {} states, but the FMU was made with {}: a damping that was zero stays zero, \
-                 and one that was not stays so; export another FMU",
+                "with these parameters the wedge has {} states, but the FMU was made with {}: a damping \
+                 that was zero stays zero, and one that was not stays so; export another FMU",
                 element.states().len(),
                 entries.states.len()
             )));

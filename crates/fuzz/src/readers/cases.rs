@@ -56,8 +56,10 @@ const DICTIONARY: &[&[u8]] = &[
     b"{ shape = \"sine\", amplitude = \"1 in\", frequency = \"2 rad/s\" }",
     b"{ shape = \"ramp\", amplitude = \"1 in\", duration = \"1 s\", profile = \"smooth\" }",
     b"{ shape = \"triangle\", amplitude = \"1 in\", frequency = \"1 Hz\" }",
-    b"{ shape = \"swept_sine\", amplitude = \"1 in\", start_frequency = \"1 Hz\", end_frequency = \"2 Hz\", duration = \"1 s\" }",
-    b"{ shape = \"table\", points = [[\"0 s\", \"0 in\"], [\"1 s\", \"1 in\"], [\"2 s\", \"0 in\"], [\"3 s\", \"1 in\"]] }",
+    b"{ shape = \"swept_sine\", amplitude = \"1 in\", start_frequency = \"1 Hz\", end_frequency = \"2 Hz\", \
+      duration = \"1 s\" }",
+    b"{ shape = \"table\", points = [[\"0 s\", \"0 in\"], [\"1 s\", \"1 in\"], [\"2 s\", \"0 in\"], [\"3 \
+      s\", \"1 in\"]] }",
     b"{ shape = \"table\", file = \"table.csv\" }",
     b"bolster.vertical.",
     b"lbf/in",

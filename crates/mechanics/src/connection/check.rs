@@ -39,8 +39,9 @@ pub enum ConnectionError {
     },
     /// A connection joins a body whose coordinates are not displacements from the drawn layout.
     #[error(
-        "connection {index} ({name}) joins {body}, whose coordinates are no displacements along x, y, z: its reference frame must \
-         not be turned, and must stand still if the body has free coordinates; or use a contact face, a coil or another element"
+        "connection {index} ({name}) joins {body}, whose coordinates are no displacements along x, y, z: \
+         its reference frame must not be turned, and must stand still if the body has free coordinates; or \
+         use a contact face, a coil or another element"
     )]
     NotDisplacements {
         /// Number of the connection.
@@ -266,7 +267,8 @@ impl Connection {
                     "lie between 0 and π/2 rad",
                 )?;
                 let slides = wedge.slope_friction * libm::tan(angle) < 1.0;
-                let must = "stay below π/2 less the slope's angle of friction: beyond, the slope cannot carry the wedge";
+                let must = "stay below π/2 less the slope's angle of friction: beyond, the slope cannot \
+                            carry the wedge";
                 rule("the wedge angle", angle, slides, must)?;
                 let inclined =
                     |slope: f64| angle - libm::atan(slope) > 0.0 && angle - libm::atan(slope) < right;

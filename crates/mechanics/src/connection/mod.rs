@@ -67,8 +67,8 @@ pub use wedge::{ColumnFace, Wedge, WedgeState};
 pub struct Connection {
     /// Its name, for messages and outputs; names need not differ.
     pub name: String,
-    /// Under which name its losses stand in the energy ledger; empty: together with those of all others of their
-    /// kind.
+    /// Under which name its losses stand in the energy ledger; empty: together with those of all others of
+    /// their kind.
     pub account: String,
     /// Number of body A.
     pub a: usize,

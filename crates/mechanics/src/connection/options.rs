@@ -96,18 +96,19 @@ impl Default for Options {
 const FIXED: [&str; 11] = [
     "small displacements: levers of the drawn layout, no gyroscopic terms, no geometric stiffness of weights",
     "wedge: quasi-static balance of a massless wedge",
-    "wedge: vertical and lateral friction share one circle, the normal force being taken at the fraction Fz/|F|",
-    "wedge: the column's normal force is capped by its limit, also where no steady sliding exists (the wedge is then \
-     reported as jammed)",
+    "wedge: vertical and lateral friction share one circle, the normal force being taken at the fraction \
+     Fz/|F|",
+    "wedge: the column's normal force is capped by its limit, also where no steady sliding exists (the \
+     wedge is then reported as jammed)",
     "wedge: a zero toe takes the toe-out branch",
     "wedge: the profile of the column is taken at the vertical extension, not at the wedge's own height",
-    "wedge components: vertical is the whole force (coil where it stands on the side frame, friction, inclined normal \
-     force); longitudinal is the force across the column",
+    "wedge components: vertical is the whole force (coil where it stands on the side frame, friction, \
+     inclined normal force); longitudinal is the force across the column",
     "coil groups (type 1.3): no coupling of shear into roll",
     "surface friction (type 6.5): the limit is taken from the spring's force without the damper's",
     "coils never pull, vertical springs as their limits say; a limit holds for the sum of spring and damper",
-    "viscous wedges (types 6.3, 6.7): friction = velocity times LVB, at most the friction limit; one coefficient \
-     (6.3) holds for both faces, toe out",
+    "viscous wedges (types 6.3, 6.7): friction = velocity times LVB, at most the friction limit; one \
+     coefficient (6.3) holds for both faces, toe out",
 ];
 
 impl Options {
@@ -129,12 +130,15 @@ impl Options {
         });
         lines.push(match self.slope {
             SlopeDirection::Toe => {
-                "wedge: the toe's sign decides which way the slope slips, also under yaw; while the wedge sticks both friction \
-                 coefficients are scaled by the mobilised fraction"
+                "wedge: the toe's sign decides which way the slope slips, also under yaw; while the wedge \
+                 sticks both friction coefficients are scaled by the mobilised fraction"
                     .to_owned()
             }
             SlopeDirection::OwnSlip { reference_speed } => {
-                format!("wedge: slope friction acts against the slip on the slope, over {reference_speed} m/s")
+                format!(
+                    "wedge: slope friction acts against the slip on the slope, over {reference_speed} \
+                         m/s"
+                )
             }
         });
         lines.push(

@@ -9,8 +9,8 @@
 //! ```
 //!
 //! where the fading factor `f = min(1, F / (0.05 F0))` acts on shear and damping alone: a coil off its seat
-//! carries neither. The force acts at A and its reaction on the other body at the same place, so that momentum
-//! and angular momentum are kept. Units: m, N, s.
+//! carries neither. The force acts at A and its reaction on the other body at the same place, so that
+//! momentum and angular momentum are kept. Units: m, N, s.
 //!
 //! Energy: `½ k (F0/k - d_z)²` while the spring is on its seat, the solid coil's, and the shear's `½ k_s f
 //! |d_s|²`. What the fading takes out of the shear is lost: the power lost is `c f |ḋ|² - ½ k_s ḟ |d_s|²`.

@@ -1,8 +1,8 @@
 //! A stop with clearance along one axis: gib, land, pocket side, adapter stop, roller side bearing.
 //!
 //! Along the x axis of marker B, with d the x coordinate of marker A: where `d > g₊` the stop pushes back by
-//! `max(0, k (d - g₊) + c ḋ)`, where `d < -g₋` by `max(0, k (-g₋ - d) - c ḋ)`, else not at all. The force acts
-//! at marker A. Units: m, N, s. An infinite clearance leaves one side out.
+//! `max(0, k (d - g₊) + c ḋ)`, where `d < -g₋` by `max(0, k (-g₋ - d) - c ḋ)`, else not at all. The force
+//! acts at marker A. Units: m, N, s. An infinite clearance leaves one side out.
 //!
 //! Defects: the force jumps by `c ḋ` at an impact. Nothing acts across the axis: a stop has no friction.
 //! Remedy where friction matters: a [`ContactFace`](crate::contact::ContactFace).

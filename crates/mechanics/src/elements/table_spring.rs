@@ -9,9 +9,9 @@
 //! ```
 //!
 //! with F(d_z) the load, never negative. They are the gradient of the energy `-∫ F dd_z + ½ k_s |d_s|² +
-//! k_t (1 - a_z)`, the tilt's part exact at any angle; the coil does not resist a turn about its own axis. The
-//! power lost is `c |ḋ|²`. Force and moment act at A and their reactions on the other body at the same place.
-//! Units: m, N, s.
+//! k_t (1 - a_z)`, the tilt's part exact at any angle; the coil does not resist a turn about its own axis.
+//! The power lost is `c |ḋ|²`. Force and moment act at A and their reactions on the other body at the same
+//! place. Units: m, N, s.
 //!
 //! Defects: seats hold the ends of the coil, so that shear, tilt and damping act without load too, also where
 //! the body is lifted off. A [`ShearSpring`](super::ShearSpring) lets go instead, at the price of an energy
@@ -30,7 +30,8 @@ use crate::vector::Vector;
 pub struct TableSpring {
     /// Its name in results.
     pub name: String,
-    /// Load (N) over the displacement of its end along z (m), which is zero at the nominal place; not negative.
+    /// Load (N) over the displacement of its end along z (m), which is zero at the nominal place; not
+    /// negative.
     load: Curve,
     /// Stiffness along x and y, N/m.
     pub shear_stiffness: f64,
@@ -41,8 +42,8 @@ pub struct TableSpring {
 }
 
 impl TableSpring {
-    /// Returns a spring with a load (N) over the displacement along z (m), without shear, tilt and damping. Where
-    /// the table is negative, the load is zero.
+    /// Returns a spring with a load (N) over the displacement along z (m), without shear, tilt and damping.
+    /// Where the table is negative, the load is zero.
     #[must_use]
     pub fn new(name: &str, load: &Curve) -> Self {
         Self {

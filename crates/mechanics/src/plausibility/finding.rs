@@ -135,8 +135,8 @@ impl FindingKind {
                 "raise the contact stiffness, or lower the load or the motion that presses the face in"
             }
             Self::Tilt => {
-                "do not use what follows: edges and sides touch that the model does not have; look for a motion, \
-                 a friction or a position of the center of gravity out of proportion"
+                "do not use what follows: edges and sides touch that the model does not have; look for a \
+                 motion, a friction or a position of the center of gravity out of proportion"
             }
             Self::LargeAngle(_) => "lower the motion, or model the body with finite rotations",
             Self::Solid => {
@@ -255,9 +255,9 @@ impl Finding {
             }
             FindingKind::CoarseOutput { frequency, scatter } => {
                 return format!(
-                    "the normal force at {place} scatters by {} % of its mean (or of the body's weight) from output time \
-                 to output time: the contact vibrates at about {} Hz, which the output interval of {value} does not \
-                 resolve (at most {limit}, a {}th of the period)",
+                    "the normal force at {place} scatters by {} % of its mean (or of the body's weight) \
+                     from output time to output time: the contact vibrates at about {} Hz, which the output \
+                     interval of {value} does not resolve (at most {limit}, a {}th of the period)",
                     percent(scatter),
                     rounded(frequency),
                     ROWS_A_PERIOD

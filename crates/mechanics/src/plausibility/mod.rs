@@ -30,8 +30,9 @@ pub const LARGEST_TILT: f64 = 0.2;
 pub const LARGEST_SMALL_ANGLE: f64 = 0.1;
 
 /// Largest contact energy that overlap at the start may release, as a share of the run's energy scale
-/// (largest of work, losses, change of stored energy, and stored energy at the start, which does not depend on
-/// how long the run is). Beyond a fifth, the release and not the motion determines the energies of the run.
+/// (largest of work, losses, change of stored energy, and stored energy at the start, which does not depend
+/// on how long the run is). Beyond a fifth, the release and not the motion determines the energies of the
+/// run.
 pub const RELEASED_SHARE: f64 = 0.2;
 
 /// Largest coefficient of friction. Dry steel on steel stays below 0.8.

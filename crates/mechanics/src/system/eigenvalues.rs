@@ -6,10 +6,10 @@
 //! and spin angle, which only drift; they give eigenvalues of zero, and the others are those of the motion
 //! relative to the wheelset's steady course.
 //!
-//! About **steady turning** (a curve of constant radius) J turns with the motion: with the rotation R(θ) of level
-//! coordinates by the heading θ it is `J(θ) = R(θ) J(0) R(-θ)`. In axes that turn along, `ξ = R(-θ) δx`, the motion is
-//! `ξ˙ = (J(0) - θ˙ G) ξ` with the generator G of R, `(x, y) → (-y, x)` for each pair of level displacements and of
-//! their rates: a matrix that does not depend on time.
+//! About **steady turning** (a curve of constant radius) J turns with the motion: with the rotation R(θ) of
+//! level coordinates by the heading θ it is `J(θ) = R(θ) J(0) R(-θ)`. In axes that turn along, `ξ = R(-θ)
+//! δx`, the motion is `ξ˙ = (J(0) - θ˙ G) ξ` with the generator G of R, `(x, y) → (-y, x)` for each pair of
+//! level displacements and of their rates: a matrix that does not depend on time.
 //!
 //! The eigenvalues μ of `(σ I - J)⁻¹`, which the integrator's factors give, are `1/(σ - λ)`: those near σ,
 //! the slow ones, are found best.
@@ -30,9 +30,9 @@ impl System {
         self.eigenvalues_turning(time, x, shift, 0.0, &[])
     }
 
-    /// Returns the same in axes that turn about the vertical at a steady `rate` (rad/s), positive from x to y; `level`
-    /// has the numbers (among the positions) of the displacements along x and y of each free body. All else must be
-    /// the same at all headings.
+    /// Returns the same in axes that turn about the vertical at a steady `rate` (rad/s), positive from x to
+    /// y; `level` has the numbers (among the positions) of the displacements along x and y of each free body.
+    /// All else must be the same at all headings.
     ///
     /// # Errors
     /// As [`System::eigenvalues`].
@@ -63,7 +63,8 @@ impl System {
         if !inverse.iter().all(|value: &f64| value.is_finite()) {
             return Err(NoVibration);
         }
-        // (σ I - J + θ˙ G)⁻¹ = (I + θ˙ M G)⁻¹ M with M = (σ I - J)⁻¹; G takes column x from y and column y from x.
+        // (σ I - J + θ˙ G)⁻¹ = (I + θ˙ M G)⁻¹ M with M = (σ I - J)⁻¹; G takes column x from y and column y
+        // from x.
         if rate != 0.0 {
             let mut turned = DMatrix::identity(n, n);
             let rates = self.layout.speeds;
@@ -77,9 +78,10 @@ impl System {
         }
         // Lengths, angles and their rates, deflections: of very different sizes.
         balance_parlett_reinsch(&mut inverse);
-        // Where the sizes of eigenvalues differ by many orders, sub-diagonal entries stay a little above
-        // the smallest bound for being zero.
-        let bounds = [1.0, 10.0, 100.0, 1000.0].map(|times| times * f64::EPSILON);
+        // Eigenvalues μ of fast motions are so small that rounding keeps sub-diagonal entries beside them
+        // above the smallest bound for being zero, which is relative to its neighbors. A bound t moves the μ
+        // of slow motions by about t of themselves: the largest by 2e-10.
+        let bounds = [1.0, 100.0, 1e4, 1e6].map(|times| times * f64::EPSILON);
         let found = bounds
             .into_iter()
             .find_map(|bound| Schur::try_new(inverse.clone(), bound, 20 * n + 1000));

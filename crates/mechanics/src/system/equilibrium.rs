@@ -11,8 +11,8 @@ use crate::motion::Motion;
 /// No equilibrium was found.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error(
-    "no static equilibrium found: after {iterations} iterations {body} still accelerates by {acceleration:.3e} \
-     (m/s² or rad/s²) in {coordinate}"
+    "no static equilibrium found: after {iterations} iterations {body} still accelerates by \
+     {acceleration:.3e} (m/s² or rad/s²) in {coordinate}"
 )]
 pub struct NoEquilibrium {
     /// Iterations done.

@@ -31,8 +31,8 @@ pub enum InputError {
     },
     /// The body was built with motions that do not move, or has free coordinates.
     #[error(
-        "{body} cannot be driven: it must be prescribed, and its motions must be able to move from the start on (all of \
-         them, unless its kinematics are linearized)"
+        "{body} cannot be driven: it must be prescribed, and its motions must be able to move from the \
+         start on (all of them, unless its kinematics are linearized)"
     )]
     NotPrescribed {
         /// Its name.

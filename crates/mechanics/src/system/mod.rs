@@ -202,8 +202,8 @@ pub struct System {
     internal_ends: Vec<Vec<usize>>,
     /// The quadratures that connections share.
     added: Range<usize>,
-    /// Accelerations of free bodies where they are differentiated, and of prescribed ones that connections act
-    /// on.
+    /// Accelerations of free bodies where they are differentiated, and of prescribed ones that connections
+    /// act on.
     accelerations: Vec<[f64; 6]>,
     force: Vec<Vector<f64>>,
     moment: Vec<Vector<f64>>,

@@ -112,7 +112,8 @@ pub enum ModelError {
     },
     /// An interface does not fit its face.
     #[error(
-        "an interface is for face {face} of {faces} (counted from 0); it has {factors} factors of friction for {points} points"
+        "an interface is for face {face} of {faces} (counted from 0); it has {factors} factors of friction \
+         for {points} points"
     )]
     Interface {
         /// The number of the face that it names.
@@ -140,7 +141,8 @@ pub enum ModelError {
     /// A free body with linearized kinematics has a frame that moves or is turned, or does not start in the
     /// drawn layout.
     #[error(
-        "{body} has linearized kinematics; its reference frame must stand still along the fixed axes, and all coordinates start at zero"
+        "{body} has linearized kinematics; its reference frame must stand still along the fixed axes, and \
+         all coordinates start at zero"
     )]
     Layout {
         /// The body's name.
@@ -164,8 +166,8 @@ pub enum ModelError {
     /// A carrier goes with a body that has linearized kinematics or is a carrier itself, or a connection
     /// acts on it.
     #[error(
-        "{carrier} cannot go with body {body} without its last angle: a carrier goes with a body of finite kinematics, and \
-         no connections act on it"
+        "{carrier} cannot go with body {body} without its last angle: a carrier goes with a body of finite \
+         kinematics, and no connections act on it"
     )]
     Carrier {
         /// The carrier's name.
@@ -175,8 +177,8 @@ pub enum ModelError {
     },
     /// A free body has held coordinates in a moving frame.
     #[error(
-        "{body} has held coordinates in a reference frame that moves: the work of what holds them would be missing \
-         in the energy ledger; free all six coordinates, and hold the body by stiff elements"
+        "{body} has held coordinates in a reference frame that moves: the work of what holds them would be \
+         missing in the energy ledger; free all six coordinates, and hold the body by stiff elements"
     )]
     HeldInMovingFrame {
         /// The body's name.

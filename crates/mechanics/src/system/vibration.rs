@@ -60,7 +60,8 @@ pub struct Vibrations {
 /// Eigenvalues could not be found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error(
-    "the eigenvalues of the linearized system were not found: its stiffness holds values that are not finite or too far apart"
+    "the eigenvalues of the linearized system were not found: its stiffness holds values that are not \
+     finite or too far apart"
 )]
 pub struct NoVibration;
 

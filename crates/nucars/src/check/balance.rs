@@ -129,13 +129,15 @@ pub(super) fn check(file: &SystemFile, findings: &mut Findings) {
             "preload",
             body.mass.span,
             format!(
-                "body {} is not in balance when nothing is deformed: its weight is {} lb, connections push it up by {} lb",
+                "body {} is not in balance when nothing is deformed: its weight is {} lb, connections push \
+                 it up by {} lb",
                 body.id,
                 shown(weight),
                 shown(carried)
             ),
             format!(
-                "{reason}: shift them so that they carry the static load at stroke 0, or look for the equilibrium first"
+                "{reason}: shift them so that they carry the static load at stroke 0, or look for the \
+                 equilibrium first"
             ),
         );
     }

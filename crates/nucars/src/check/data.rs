@@ -60,7 +60,10 @@ pub fn data_of_system(read: &Read<DataFile>, system: &SystemFile) -> Findings {
                     findings.note(
                         "switched-off",
                         section.keyword.0,
-                        format!("this section, which is switched off, asks for {missing} things the system does not have"),
+                        format!(
+                            "this section, which is switched off, asks for {missing} things the system \
+                                 does not have"
+                        ),
                         "correct it before taking the `$` away",
                     );
                 }

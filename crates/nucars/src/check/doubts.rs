@@ -48,8 +48,8 @@ fn shared_by_turns(file: &SystemFile, findings: &mut Findings) {
             numbers(straight),
             numbers(turning)
         );
-        let help = "the same numbers are lb/in for the one and in·lb/rad for the other, a thousand times less on a lever of \
-                    40 in: give the turns a characteristic of their own";
+        let help = "the same numbers are lb/in for the one and in·lb/rad for the other, a thousand times \
+                    less on a lever of 40 in: give the turns a characteristic of their own";
         let dress = |finding: Finding| finding.label("used for both").help(help);
         findings.add(
             Severity::Warning,
@@ -100,7 +100,8 @@ fn copied_stops(file: &SystemFile, findings: &mut Findings) {
             };
             let place = odd.abscissae.last().map_or(odd.id.span, |last| last.span);
             let message = format!(
-                "the stop of function {} ends at {} as that of function {}, though it begins earlier: {} against {} lb/in",
+                "the stop of function {} ends at {} as that of function {}, though it begins earlier: {} \
+                 against {} lb/in",
                 odd.id,
                 shown(end),
                 base.id,

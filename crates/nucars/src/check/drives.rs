@@ -175,8 +175,8 @@ pub(super) fn check(file: &SystemFile, findings: &mut Findings) {
             list(&drive.held_by)
         );
         let help = format!(
-            "of a commanded {axis} only one part in {} arrives; give the turn a characteristic of its own with a much \
-             higher stiffness and limit, or leave out the springs that hold it",
+            "of a commanded {axis} only one part in {} arrives; give the turn a characteristic of its own \
+             with a much higher stiffness and limit, or leave out the springs that hold it",
             shown(1.0 + drive.holding / drive.stiffness)
         );
         let dress = |finding: Finding| finding.label("turns the body").help(help);

@@ -160,11 +160,13 @@ fn characteristics_of_connections(file: &SystemFile, findings: &mut Findings) {
                     "two-forms",
                     characteristic.span,
                     format!(
-                        "connection {} of type {code} cannot use characteristic {characteristic}, which is one of type {}",
+                        "connection {} of type {code} cannot use characteristic {characteristic}, which is \
+                         one of type {}",
                         connection.id,
                         law.types()
                     ),
-                    "the values of a characteristic mean what the type of most of its connections says: give this one its own",
+                    "the values of a characteristic mean what the type of most of its connections says: \
+                     give this one its own",
                 );
             }
         }

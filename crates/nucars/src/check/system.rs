@@ -195,7 +195,8 @@ fn laws(file: &SystemFile, findings: &mut Findings) {
             } => {
                 if **extension < **compression {
                     let message = format!(
-                        "the limit of characteristic {id} in extension, {extension}, is below that in compression, {compression}"
+                        "the limit of characteristic {id} in extension, {extension}, is below that in \
+                         compression, {compression}"
                     );
                     findings.error(
                         "range",

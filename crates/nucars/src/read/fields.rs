@@ -269,7 +269,8 @@ impl<'a, 'f> Fields<'a, 'f> {
     pub fn dof(&mut self, what: &str) -> Result<Spanned<Dof>, Stop> {
         self.value(
             what,
-            "a degree of freedom, 1 to 9 (1 x, 2 y, 3 z, 4 roll, 5 pitch, 6 yaw, 7 to 9 flexible, 7.01 a mode of 7)",
+            "a degree of freedom, 1 to 9 (1 x, 2 y, 3 z, 4 roll, 5 pitch, 6 yaw, 7 to 9 flexible, 7.01 a \
+             mode of 7)",
             crate::tree::DofKind::X.into(),
             number::dof,
         )

@@ -84,7 +84,8 @@ fn histories(mut fields: Fields<'_, '_>) -> (Vec<History>, bool) {
             *count
         );
         let help = format!(
-            "the first of them is in line {line}: correct the number of histories, or that of the last one's segments"
+            "the first of them is in line {line}: correct the number of histories, or that of the last \
+             one's segments"
         );
         fields.findings.error("count", count.span, message, help);
     }

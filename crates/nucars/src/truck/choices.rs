@@ -52,7 +52,8 @@ pub enum Wedges {
     Bodies,
 }
 
-/// What a wedge's body has that the files do not say; what is left open takes a default of what adds the body.
+/// What a wedge's body has that the files do not say; what is left open takes a default of what adds the
+/// body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct WedgeBody {
@@ -92,20 +93,28 @@ impl Choices {
     pub fn describe(&self) -> Vec<String> {
         let mut lines = vec![
             match self.bend {
-                Bend::HalfCosine => "shape BEND: rises as half a cosine within its first coefficient, then held".to_owned(),
-                Bend::Linear => "shape BEND: rises straight within its first coefficient, then held".to_owned(),
+                Bend::HalfCosine => "shape BEND: rises as half a cosine within its first coefficient, then \
+                                     held"
+                    .to_owned(),
+                Bend::Linear => {
+                    "shape BEND: rises straight within its first coefficient, then held".to_owned()
+                }
             },
             "shape CUSP: peaks of exp(-|t|/c1), one in the middle of each c2".to_owned(),
-            "shapes SIN, SSIN: the phase is the integral of a frequency that grows from c1 to c2 over the segment".to_owned(),
+            "shapes SIN, SSIN: the phase is the integral of a frequency that grows from c1 to c2 over the \
+             segment"
+                .to_owned(),
             "base of a segment: straight from its start to its end value".to_owned(),
             match self.yaw {
                 Yaw::AsPrinted => "yaw: the springs that drive the bolster are those of the files".to_owned(),
                 Yaw::Dropped => format!(
-                    "yaw as intended: the longitudinal springs to the outer input bodies are left out; the yaw spring has \
-                     {:.0e} in-lb/rad and no limit",
+                    "yaw as intended: the longitudinal springs to the outer input bodies are left out; the \
+                     yaw spring has {:.0e} in-lb/rad and no limit",
                     super::yaw::PRINTED_UNITS_STIFFNESS
                 ),
-                Yaw::Driven => "yaw as intended: the outer input bodies move along the track by -y times the yaw".to_owned(),
+                Yaw::Driven => "yaw as intended: the outer input bodies move along the track by -y times \
+                                the yaw"
+                    .to_owned(),
             },
             match self.speed {
                 Some(speed) => format!("speed along the track: {speed} m/s"),

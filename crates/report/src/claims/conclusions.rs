@@ -27,8 +27,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Conclusions,
         place: "section 7.1, page 75",
         says: "Lateral forces are zero for the inputs looked at: without yaw.",
-        test: "the peak lateral force on the bolster is below 1e-6 of the peak longitudinal force, for each run \
-               without yaw",
+        test: "the peak lateral force on the bolster is below 1e-6 of the peak longitudinal force, for each \
+               run without yaw",
         runs: [vd_out, vd_none, vd_in, cd_out, cd_none, cd_in],
         holds: every([vd_out, vd_none, vd_in, cd_out, cd_none, cd_in], |run| {
             peak(run, lateral_force, settled) < 1e-6 * peak(run, longitudinal_force, settled)
@@ -39,23 +39,23 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Conclusions,
         place: "section 7.1, page 75",
         says: "Lateral forces are zero for the inputs looked at: with yaw.",
-        test: "the peak lateral force on the bolster is below 1 % of the peak longitudinal force, for each run \
-               with yaw",
+        test: "the peak lateral force on the bolster is below 1 % of the peak longitudinal force, for each \
+               run with yaw",
         runs: [vd_out_yaw, vd_none_yaw, vd_in_yaw, cd_out_yaw, cd_none_yaw, cd_in_yaw],
         holds: every([vd_out_yaw, vd_none_yaw, vd_in_yaw, cd_out_yaw, cd_none_yaw, cd_in_yaw], |run| {
             peak(run, lateral_force, settled) < 0.01 * peak(run, longitudinal_force, settled)
         }),
-        but: "With yaw the slope's friction has a large lateral part, and its normal force a small one; the model \
-              holds the wedge's lateral coordinate, and that restraint carries what the column's friction does \
-              not.",
+        but: "With yaw the slope's friction has a large lateral part, and its normal force a small one; the \
+              model holds the wedge's lateral coordinate, and that restraint carries what the column's \
+              friction does not.",
     },
     undecidable! {
         id: "7.1-moments-not-validated",
         group: Conclusions,
         place: "section 7.1, page 75",
         says: "The yaw and pitch moments cannot be validated yet.",
-        reason: "Validation needs measurements, and the thesis has none: twelve runs of one model can only be \
-                 checked for consistency.",
+        reason: "Validation needs measurements, and the thesis has none: twelve runs of one model can only \
+                 be checked for consistency.",
     },
     claim! {
         id: "7.1-moments-calculated",
@@ -74,8 +74,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Conclusions,
         place: "section 7.1, page 75",
         says: "With variable damping no energy is dissipated during lift-off: whatever toe and yaw.",
-        test: "the greatest rate of dissipation at the side frame in lift-off is below 1 % of the run's greatest, \
-               for each run with variable damping",
+        test: "the greatest rate of dissipation at the side frame in lift-off is below 1 % of the run's \
+               greatest, for each run with variable damping",
         runs: [vd_out, vd_none, vd_in, vd_out_yaw, vd_none_yaw, vd_in_yaw],
         holds: every([vd_out, vd_none, vd_in, vd_out_yaw, vd_none_yaw, vd_in_yaw], |run| {
             peak(run, dissipation, lift_off) < 0.01 * peak(run, dissipation, settled)
@@ -86,8 +86,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Conclusions,
         place: "section 7.1, page 75",
         says: "That nothing is dissipated in lift-off helps to prove the model accurate.",
-        reason: "It follows from the equations (no contact, no friction); a right and a wrong model both show it. \
-                 Accuracy needs measurements.",
+        reason: "It follows from the equations (no contact, no friction); a right and a wrong model both \
+                 show it. Accuracy needs measurements.",
     },
     claim! {
         id: "7.1-energy-toe-in-most",
@@ -100,31 +100,31 @@ pub(super) static CLAIMS: &[Claim] = &[
             energy_per_cycle(vd_in) > energy_per_cycle(vd_out),
             energy_per_cycle(vd_in_yaw) > energy_per_cycle(vd_out_yaw),
         ]),
-        but: "What toe in dissipates more going down it dissipates less going up, as the gap opens for it: over \
-              the cycle it comes out slightly below toe out, without yaw as with it.",
+        but: "What toe in dissipates more going down it dissipates less going up, as the gap opens for it: \
+              over the cycle it comes out slightly below toe out, without yaw as with it.",
     },
     claim! {
         id: "7.1-surface-in-contact",
         group: Conclusions,
         place: "section 7.1, pages 75 and 76",
         says: "That is because a larger surface is in contact with toe in.",
-        test: "mean number of column corners that touch, bolster below its middle: toe in > toe out by more than \
-               10 %, without and with yaw",
+        test: "mean number of column corners that touch, bolster below its middle: toe in > toe out by more \
+               than 10 %, without and with yaw",
         runs: [vd_in, vd_out, vd_in_yaw, vd_out_yaw],
         holds: all([
             mean(vd_in, corners_touching, pressed) > 1.1 * mean(vd_out, corners_touching, pressed),
             mean(vd_in_yaw, corners_touching, pressed) > 1.1 * mean(vd_out_yaw, corners_touching, pressed),
         ]),
-        but: "A flat face between surfaces at an angle rests on an edge: about two corners touch with toe in (the \
-              lower ones) as with toe out (the upper ones).",
+        but: "A flat face between surfaces at an angle rests on an edge: about two corners touch with toe \
+              in (the lower ones) as with toe out (the upper ones).",
     },
     claim! {
         id: "7.1-energy-conserved-constant",
         group: Conclusions,
         place: "section 7.1, page 76",
         says: "With constant damping, too, energy is conserved.",
-        test: "read as: nothing is lost that is not accounted for. The relative residual of the energy ledger is \
-               below 0.1 %, for each run with constant damping",
+        test: "read as: nothing is lost that is not accounted for. The relative residual of the energy \
+               ledger is below 0.1 %, for each run with constant damping",
         runs: [cd_out, cd_none, cd_in, cd_out_yaw, cd_none_yaw, cd_in_yaw],
         holds: every([cd_out, cd_none, cd_in, cd_out_yaw, cd_none_yaw, cd_in_yaw], |run| ledger_residual(run) < 1e-3),
     },
@@ -133,8 +133,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Conclusions,
         place: "section 7.1, page 76",
         says: "The model captures stick-slip at the side frame.",
-        test: "after the first half period the column sticks at some time, and slips at some time, in each of the \
-               twelve runs",
+        test: "after the first half period the column sticks at some time, and slips at some time, in each \
+               of the twelve runs",
         runs: [
             vd_out, vd_none, vd_in, vd_out_yaw, vd_none_yaw, vd_in_yaw,
             cd_out, cd_none, cd_in, cd_out_yaw, cd_none_yaw, cd_in_yaw,
@@ -155,8 +155,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: Conclusions,
         place: "section 7.1, page 76",
         says: "The wedge sticks to the bolster too, and slides against it.",
-        test: "after the first half period the slope sticks at some time, and slips at some time, in each of the \
-               twelve runs",
+        test: "after the first half period the slope sticks at some time, and slips at some time, in each \
+               of the twelve runs",
         runs: [
             vd_out, vd_none, vd_in, vd_out_yaw, vd_none_yaw, vd_in_yaw,
             cd_out, cd_none, cd_in, cd_out_yaw, cd_none_yaw, cd_in_yaw,
@@ -171,37 +171,39 @@ pub(super) static CLAIMS: &[Claim] = &[
                 share(run, slope_slips, settled) > 0.0,
             ])
         ),
-        but: "Eleven runs do both; with constant damping and neither toe nor yaw, the slope sticks all the time: \
-              the wedge goes up and down with the bolster as one body.",
+        but: "Eleven runs do both; with constant damping and neither toe nor yaw, the slope sticks all the \
+              time: the wedge goes up and down with the bolster as one body.",
     },
     claim! {
         id: "7.1-largest-forces-stuck-variable",
         group: Conclusions,
         place: "section 7.1, page 76",
-        says: "In the hysteresis plots the largest forces come with the wedge stuck to the side frame: variable \
-               damping.",
-        test: "the column sticks where the force on the side frame has its peak, for each run with variable damping",
+        says: "In the hysteresis plots the largest forces come with the wedge stuck to the side frame: \
+               variable damping.",
+        test: "the column sticks where the force on the side frame has its peak, for each run with variable \
+               damping",
         runs: [vd_out, vd_none, vd_in, vd_out_yaw, vd_none_yaw, vd_in_yaw],
         holds: every([vd_out, vd_none, vd_in, vd_out_yaw, vd_none_yaw, vd_in_yaw], |run| {
             so_at_peak(run, side_frame_force, settled, column_sticks)
         }),
         but: "With one coefficient for rest and sliding, friction has no break-out peak: a stuck face never \
-              carries more than a sliding one, and the force has its peak while the wedge still slides, slowly, \
-              just before the reversal.",
+              carries more than a sliding one, and the force has its peak while the wedge still slides, \
+              slowly, just before the reversal.",
     },
     claim! {
         id: "7.1-largest-forces-stuck-constant",
         group: Conclusions,
         place: "section 7.1, page 76",
-        says: "In the hysteresis plots the largest forces come with the wedge stuck to the side frame: constant \
-               damping.",
-        test: "the column sticks where the vertical wedge force has its peak, for each run with constant damping",
+        says: "In the hysteresis plots the largest forces come with the wedge stuck to the side frame: \
+               constant damping.",
+        test: "the column sticks where the vertical wedge force has its peak, for each run with constant \
+               damping",
         runs: [cd_out, cd_none, cd_in, cd_out_yaw, cd_none_yaw, cd_in_yaw],
         holds: every([cd_out, cd_none, cd_in, cd_out_yaw, cd_none_yaw, cd_in_yaw], |run| {
             so_at_peak(run, vertical_force, settled, column_sticks)
         }),
-        but: "With one coefficient for rest and sliding, friction has no break-out peak: the force has its peak \
-              while the wedge slides, near the end of the stroke where it is wedged in deepest.",
+        but: "With one coefficient for rest and sliding, friction has no break-out peak: the force has its \
+              peak while the wedge slides, near the end of the stroke where it is wedged in deepest.",
     },
     undecidable! {
         id: "7.2-curved-slope",

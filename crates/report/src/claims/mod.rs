@@ -15,9 +15,9 @@
 //! above 10 %.
 //!
 //! Verdicts are those of the runs as they are: friction keeps what the start does for seconds, and with
-//! `start = "touching"` some dozen orders that are close (mostly those with yaw) come out the other way. In which
-//! part of all that is open a statement holds, says [`crate::sensitivity`]. What counts peaks or measures
-//! roughness depends on the rows' spacing; the thesis's is that of the built-in cases, 0.01 s.
+//! `start = "touching"` some dozen orders that are close (mostly those with yaw) come out the other way. In
+//! which part of all that is open a statement holds, says [`crate::sensitivity`]. What counts peaks or
+//! measures roughness depends on the rows' spacing; the thesis's is that of the built-in cases, 0.01 s.
 //!
 //! Forces of chapter 5 are those that its figures draw: the vertical force on the side frame with the coil's
 //! part. Those of chapter 6 are the column friction.

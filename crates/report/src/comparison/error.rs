@@ -42,7 +42,8 @@ pub enum ComparisonError {
     },
     /// Numbers so large that differences, means or squares of them are not finite.
     #[error(
-        "the comparison of `{column}` with `{result}` is not finite: its numbers are too large to compute with"
+        "the comparison of `{column}` with `{result}` is not finite: its numbers are too large to compute \
+         with"
     )]
     #[diagnostic(help("look for wrong units or damage in this column, or leave it out with --columns"))]
     NotFinite {

@@ -152,7 +152,8 @@ pub fn exhibits(run: &CarRun) -> Vec<Exhibit> {
             "wheel_loads",
             "vertical wheel forces",
             &format!(
-                "Vertical force of each wheel on its rail over the distance, normal to the track's plane, below {filter} Hz."
+                "Vertical force of each wheel on its rail over the distance, normal to the track's plane, \
+                 below {filter} Hz."
             ),
             of_wheels("vertical", ("vertical force", Kind::Force)),
         ),
@@ -160,7 +161,8 @@ pub fn exhibits(run: &CarRun) -> Vec<Exhibit> {
             "lateral_forces",
             "lateral wheel forces",
             &format!(
-                "Lateral force of each wheel on its rail, positive where it spreads the gauge, below {filter} Hz."
+                "Lateral force of each wheel on its rail, positive where it spreads the gauge, below \
+                 {filter} Hz."
             ),
             of_wheels("lateral", ("lateral force", Kind::Force)),
         ),
@@ -173,7 +175,8 @@ pub fn exhibits(run: &CarRun) -> Vec<Exhibit> {
         exhibit(
             "axles",
             "axles on the track",
-            "Places of the axles from the track's center line, positive to the left, and their yaw against the track.",
+            "Places of the axles from the track's center line, positive to the left, and their yaw against \
+             the track.",
             vec![
                 run.panel("(a) lateral", ("lateral", Kind::Length), &axles("lateral")),
                 run.panel("(b) yaw", ("yaw", Kind::Angle), &axles("yaw")),
@@ -226,7 +229,8 @@ pub fn exhibits(run: &CarRun) -> Vec<Exhibit> {
         exhibit(
             "energy_ledger",
             "energy ledger",
-            "Work since the start and where it went; every loss is integrated from its own force and velocity.",
+            "Work since the start and where it went; every loss is integrated from its own force and \
+             velocity.",
             vec![
                 run.panel(
                     "(a) entries",

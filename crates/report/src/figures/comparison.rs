@@ -42,9 +42,10 @@ const QUANTITIES: [Quantity; 4] = [
         column: "vertical_force_on_side_frame",
         name: "vertical force on the side frame",
         kind: Kind::Force,
-        about: "friction and inclined normal force of the column on the side frame less the force of the coil that stands \
-                on it, positive up, of all models alike: the thesis draws this of its own model (eq. 5-3), and says that \
-                its curves of types 6.8 and 6.9 are friction alone, which the next figures compare",
+        about: "friction and inclined normal force of the column on the side frame less the force of the \
+                coil that stands on it, positive up, of all models alike: the thesis draws this of its own \
+                model (eq. 5-3), and says that its curves of types 6.8 and 6.9 are friction alone, which \
+                the next figures compare",
         thesis: ["figure 5-1", "figure 5-9", "", ""],
         loops: Some(["figure 5-2", "figure 5-10", "", ""]),
         constant: false,
@@ -64,8 +65,9 @@ const QUANTITIES: [Quantity; 4] = [
         column: "longitudinal_wedge_force",
         name: "longitudinal wedge force",
         kind: Kind::Force,
-        about: "the column's forces along the track; type 6.8 has none. Of the stand-alone model the normal forces only (eq. \
-                5-2), of the others the friction's part too, which is 0.15 % of it with 0.2° of toe",
+        about: "the column's forces along the track; type 6.8 has none. Of the stand-alone model the normal \
+                forces only (eq. 5-2), of the others the friction's part too, which is 0.15 % of it with \
+                0.2° of toe",
         thesis: ["figure 5-5", "figure 5-13", "figure 6-5", ""],
         loops: None,
         constant: true,
@@ -75,8 +77,9 @@ const QUANTITIES: [Quantity; 4] = [
         column: "side_frame_friction_power",
         name: "rate of energy dissipation",
         kind: Kind::Power,
-        about: "the power of the column's friction on the side frame, negative where energy is lost. The thesis's scripts make the types' curves \
-                from their force and velocity (in chapter 5 its size); here it is the friction's own power",
+        about: "the power of the column's friction on the side frame, negative where energy is lost. The \
+                thesis's scripts make the types' curves from their force and velocity (in chapter 5 its \
+                size); here it is the friction's own power",
         thesis: ["figure 5-7", "figure 5-15", "figure 6-7", "figure 6-16"],
         loops: None,
         constant: true,
@@ -270,7 +273,8 @@ impl<'o> Sheet<'o> {
         }
         if first > 0.0 {
             caption += &format!(
-                " The stand-alone model's first {first} s, in which it is released, are left out as in the thesis."
+                " The stand-alone model's first {first} s, in which it is released, are left out as in the \
+                 thesis."
             );
         }
         Exhibit {
@@ -288,8 +292,8 @@ impl<'o> Sheet<'o> {
 
     /// What the curves are.
     fn labels(&self, quantity: &Quantity, over_time: bool) -> String {
-        let mut text = " Types 6.8 and 6.9 are our reading of them, in the half-truck: no output of the comparison program is \
-                        known."
+        let mut text = " Types 6.8 and 6.9 are our reading of them, in the half-truck: no output of the \
+                        comparison program is known."
             .to_owned();
         if let Some(part) = quantity.equation {
             let what = ["friction", "longitudinal force"][part];
@@ -299,8 +303,8 @@ impl<'o> Sheet<'o> {
                 "the coil force that the input's full stroke gives"
             };
             text += &format!(
-                " Eq. 5-1, with its misprint put right, and its like for the way down, is drawn as the {what} of steady sliding, \
-                 under {under}."
+                " Eq. 5-1, with its misprint put right, and its like for the way down, is drawn as the \
+                 {what} of steady sliding, under {under}."
             );
         }
         if self.set.yawed {
@@ -347,9 +351,9 @@ impl<'o> Sheet<'o> {
             ),
         ];
         let caption = format!(
-            "Hysteresis: {} from {} to {} s over the vertical displacement, of the stand-alone model that of (a) its wedge, as in \
-             the thesis, and (b) its bolster; of types 6.8 and 6.9, which know no displacement of the wedge, the stroke (bolster \
-             against side frame) in both. It is {}.{}",
+            "Hysteresis: {} from {} to {} s over the vertical displacement, of the stand-alone model that \
+             of (a) its wedge, as in the thesis, and (b) its bolster; of types 6.8 and 6.9, which know no \
+             displacement of the wedge, the stroke (bolster against side frame) in both. It is {}.{}",
             quantity.name,
             piece.0,
             piece.1,

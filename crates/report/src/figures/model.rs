@@ -38,8 +38,8 @@ fn bolster_motion(outcomes: &[Outcome]) -> Option<Exhibit> {
         thesis: "figures 4-1 and 4-2".to_owned(),
         figure: Figure {
             title: "The bolster's prescribed motion".to_owned(),
-            caption: "(a) Vertical displacement of the bolster, the same in all runs: it rises first. (b) Its yaw, which is \
-                      held from the start."
+            caption: "(a) Vertical displacement of the bolster, the same in all runs: it rises first. (b) \
+                      Its yaw, which is held from the start."
                 .to_owned(),
             panels: vec![
                 Panel {
@@ -84,10 +84,10 @@ fn friction_law(outcomes: &[Outcome]) -> Option<Exhibit> {
         figure: Figure {
             title: "The friction laws".to_owned(),
             caption: format!(
-                "(a) The thesis's law (eq. 3-8): friction over the friction limit as a function of the slip speed, v0 = {} \
-                 {}. It is zero at rest, so that a loaded corner creeps. (b) The bristle law, the alternative: friction \
-                 over the friction limit as a function of the displacement, back and forth. It is elastic until it slips, \
-                 and holds a load.",
+                "(a) The thesis's law (eq. 3-8): friction over the friction limit as a function of the slip \
+                 speed, v0 = {} {}. It is zero at rest, so that a loaded corner creeps. (b) The bristle \
+                 law, the alternative: friction over the friction limit as a function of the displacement, \
+                 back and forth. It is elastic until it slips, and holds a load.",
                 digits(converted(reference_speed, Kind::Speed, units)),
                 Kind::Speed.label(units)
             ),
@@ -200,9 +200,9 @@ fn coil(outcomes: &[Outcome], damping: Damping) -> Option<Exhibit> {
         figure: Figure {
             title: format!("{} damping: the control coil's force", super::capital(name)),
             caption: format!(
-                "Force of the control coil on the wedge (a) over its length, with the law, and (b) over time, bolster not \
-                 yawed. {seat}. The force is the spring's, without the coil's damping. The thesis draws it over \
-                 the displacement.",
+                "Force of the control coil on the wedge (a) over its length, with the law, and (b) over \
+                 time, bolster not yawed. {seat}. The force is the spring's, without the coil's damping. \
+                 The thesis draws it over the displacement.",
             ),
             panels: vec![
                 Panel {

@@ -37,15 +37,16 @@ pub fn figure(case: &Case, result: &RunResult) -> Option<Figure> {
         return None;
     }
     Some(Figure {
-            title: format!("{}: pressure over the faces", case.name),
-            caption: "Lines of equal pressure over the faces of the wedge, seen from the counterface: on the left at the time of the \
-                      greatest pressure after the first tenth of the run, on the right on average over the same time. The pressure of a \
-                      point of the grid is its normal force over the part of the face that it stands for; lines are straight between \
+        title: format!("{}: pressure over the faces", case.name),
+        caption: "Lines of equal pressure over the faces of the wedge, seen from the counterface: on \
+                      the left at the time of the greatest pressure after the first tenth of the run, on \
+                      the right on average over the same time. The pressure of a point of the grid is its \
+                      normal force over the part of the face that it stands for; lines are straight between \
                       points. Left (+y) is the wedge's left side."
-                .to_owned(),
-            panels: maps.into_iter().flatten().collect(),
-            columns: 2,
-            ..Figure::default()
+            .to_owned(),
+        panels: maps.into_iter().flatten().collect(),
+        columns: 2,
+        ..Figure::default()
     })
 }
 

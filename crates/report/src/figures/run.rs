@@ -63,8 +63,9 @@ fn ledger(name: &str, result: &RunResult) -> Exhibit {
         "energy_ledger",
         Figure {
             title: format!("{name}: the energy ledger"),
-            caption: "(a) Work done on the wedge since the start and where it went; every loss is integrated from its own force \
-                      and velocity. (b) What does not add up: the work less stored energy and losses."
+            caption: "(a) Work done on the wedge since the start and where it went; every loss is \
+                      integrated from its own force and velocity. (b) What does not add up: the work less \
+                      stored energy and losses."
                 .to_owned(),
             panels: vec![
                 Panel {
@@ -130,8 +131,9 @@ fn contact_states(name: &str, result: &RunResult) -> Exhibit {
         "contact_states",
         Figure {
             title: format!("{name}: contact states"),
-            caption: "State of each corner of the wedge at the column and at the slope, at the output times: open, stick (with \
-                      the tanh law: slower than its reference speed), slip. Left is the wedge's +y side."
+            caption: "State of each corner of the wedge at the column and at the slope, at the output \
+                      times: open, stick (with the tanh law: slower than its reference speed), slip. Left \
+                      is the wedge's +y side."
                 .to_owned(),
             panels: vec![Panel {
                 x_label: "time (s)".to_owned(),
@@ -182,12 +184,13 @@ fn corner_forces(name: &str, result: &RunResult) -> Exhibit {
             });
         }
     }
-    let mut caption = "Normal force and size of the friction force at each corner, at the column and at the slope. Left is \
-                       the wedge's +y side."
+    let mut caption = "Normal force and size of the friction force at each corner, at the column and at the \
+                       slope. Left is the wedge's +y side."
         .to_owned();
     if start > 0.0 {
         caption += &format!(
-            " The first {start} s are cut: there the wedge is released from its start, and the normal forces reach {} {}.",
+            " The first {start} s are cut: there the wedge is released from its start, and the normal \
+             forces reach {} {}.",
             digits(converted(
                 largest_normal(result, |time| time < start),
                 Kind::Force,
@@ -284,9 +287,9 @@ fn stick_and_wear(name: &str, result: &RunResult, cycles: &[CycleShare]) -> Exhi
         "stick_and_wear",
         Figure {
             title: format!("{name}: stick and wear, cycle by cycle"),
-            caption: "(a) Share of stick: of the output times at which corners touch, counted corner by corner, the part at \
-                      which they stick. (b) Wear power: energy lost in friction at each face in a cycle, over its \
-                      length in time."
+            caption: "(a) Share of stick: of the output times at which corners touch, counted corner by \
+                      corner, the part at which they stick. (b) Wear power: energy lost in friction at each \
+                      face in a cycle, over its length in time."
                 .to_owned(),
             panels: vec![
                 Panel {

@@ -60,9 +60,9 @@ pub fn exhibits(found: &Sensitivity) -> Vec<Exhibit> {
         figure: Figure {
             title: "How many of the thesis's statements hold over the contact stiffness".to_owned(),
             caption: format!(
-                "Left: all statements that runs decide. Right: the {} required statements and axes. Blue: each \
-                 stiffness with all else as decided (2.5e5 lbf/in, the default, is at 5.4). Black: means over the {} \
-                 points of the space whose stiffness lies in that fifth of the range.",
+                "Left: all statements that runs decide. Right: the {} required statements and axes. Blue: \
+                 each stiffness with all else as decided (2.5e5 lbf/in, the default, is at 5.4). Black: \
+                 means over the {} points of the space whose stiffness lies in that fifth of the range.",
                 stiffness.of_required, found.points
             ),
             panels: vec![

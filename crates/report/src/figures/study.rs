@@ -144,8 +144,9 @@ pub fn main_effects(study: &Study, digest: &Digest, name: &str) -> Option<Exhibi
         figure: Figure {
             title: format!("Main effects: {}", words(name)),
             caption: format!(
-                "{}: mean, least and greatest value over the runs that share a value of one parameter (or lie in one part of its range), \
-                 over that parameter. All other parameters vary within each point. All runs together: {} to {}, mean {}.",
+                "{}: mean, least and greatest value over the runs that share a value of one parameter (or \
+                 lie in one part of its range), over that parameter. All other parameters vary within each \
+                 point. All runs together: {} to {}, mean {}.",
                 words(name),
                 super::digits(all.least * factor),
                 super::digits(all.most * factor),
@@ -252,8 +253,8 @@ fn contours(study: &Study, digest: &Digest, pair: &Pair) -> Option<Exhibit> {
         thesis: String::new(),
         figure: Figure {
             title: format!("Contours over {} and {}", names[0], names[1]),
-            caption: "Lines of equal value of the means over all runs with these two values (or in these two parts of the ranges), \
-                      marked with it. All other parameters vary within each point."
+            caption: "Lines of equal value of the means over all runs with these two values (or in these \
+                      two parts of the ranges), marked with it. All other parameters vary within each point."
                 .to_owned(),
             columns: 2,
             panels,

@@ -40,8 +40,9 @@ const QUANTITIES: [Quantity; 7] = [
         column: "vertical_force_on_side_frame",
         name: "vertical force on the side frame",
         kind: Kind::Force,
-        about: "the column's friction on the side frame less the force of the coil that stands on it (eq. 5-3), positive \
-                up: the thesis's scripts draw this as the vertical wedge force of variable damping",
+        about: "the column's friction on the side frame less the force of the coil that stands on it (eq. \
+                5-3), positive up: the thesis's scripts draw this as the vertical wedge force of variable \
+                damping",
         thesis: ["figure 5-3", "figure 5-11", "", ""],
         loops: Some(["figure 5-4", "figure 5-12", "", ""]),
         constant: false,
@@ -71,7 +72,8 @@ const QUANTITIES: [Quantity; 7] = [
         column: "bolster_friction_power",
         name: "rate of energy dissipation at the bolster",
         kind: Kind::Power,
-        about: "the power of the slope's friction (eq. 5-5, which the thesis does not draw): negative where energy is lost",
+        about: "the power of the slope's friction (eq. 5-5, which the thesis does not draw): negative where \
+                energy is lost",
         thesis: ["", "", "", ""],
         loops: None,
         constant: true,
@@ -147,10 +149,10 @@ const WINDOWS: [Windows; 4] = [
 
 /// What the phases are, in words.
 const PHASES: [&str; 2] = [
-    "(1) wedge and bolster move up, (2) the bolster has lifted off, (3) the wedge slips down the column, (4) it sticks at \
-     the lowest place before the motion turns",
-    "(1) the bolster begins to rise and the wedge sticks, (2) it slips up, (3) the bolster begins to sink and the wedge \
-     sticks, (4) it slips down",
+    "(1) wedge and bolster move up, (2) the bolster has lifted off, (3) the wedge slips down the column, \
+     (4) it sticks at the lowest place before the motion turns",
+    "(1) the bolster begins to rise and the wedge sticks, (2) it slips up, (3) the bolster begins to sink \
+     and the wedge sticks, (4) it slips down",
 ];
 
 /// The windows of a group of runs: variable damping without and with yaw, constant damping without and with
@@ -172,8 +174,8 @@ pub(super) fn cut_text(curves: &[Curve], start: f64, kind: Kind, units: Units) -
         return String::new();
     }
     format!(
-        " The first {start} s are cut, as in the thesis: there the wedge is released from its start, and the values \
-         lie between {} and {} {}.",
+        " The first {start} s are cut, as in the thesis: there the wedge is released from its start, and \
+         the values lie between {} and {} {}.",
         digits(low),
         digits(high),
         kind.label(units)
@@ -440,8 +442,8 @@ impl Group<'_> {
             });
         }
         let caption = format!(
-            "Hysteresis: {} from {} to {} s over (a) the vertical displacement of the wedge from its nominal place, as the \
-             thesis draws it, and (b) that of the bolster. It is {}. {}.",
+            "Hysteresis: {} from {} to {} s over (a) the vertical displacement of the wedge from its \
+             nominal place, as the thesis draws it, and (b) that of the bolster. It is {}. {}.",
             quantity.name,
             piece.0,
             piece.1,
@@ -491,8 +493,8 @@ fn with_and_without_yaw(outcomes: &[Outcome]) -> Option<Exhibit> {
         figure: Figure {
             title: "Constant damping, toe out: longitudinal wedge force without and with yaw".to_owned(),
             caption: format!(
-                "Longitudinal wedge force (eq. 5-2) over time, constant damping, toe out, without and with yaw of the \
-                 bolster. The first {start} s are cut, as in the thesis: there it reaches {} {}.",
+                "Longitudinal wedge force (eq. 5-2) over time, constant damping, toe out, without and with \
+                 yaw of the bolster. The first {start} s are cut, as in the thesis: there it reaches {} {}.",
                 digits(peak),
                 Kind::Force.label(units)
             ),

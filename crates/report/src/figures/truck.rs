@@ -103,8 +103,8 @@ fn wedges(run: &TruckRun) -> Figure {
     };
     Figure {
         title: "Forces of the wedges".to_owned(),
-        caption: "Wedge by wedge: normal force of the column, its friction on the side frame along z (positive up), normal \
-                  force of the slope."
+        caption: "Wedge by wedge: normal force of the column, its friction on the side frame along z \
+                  (positive up), normal force of the slope."
             .to_owned(),
         panels: vec![
             panel('a', "column, normal", "column_normal"),
@@ -175,8 +175,9 @@ fn contact_states(run: &TruckRun, contacts: &ContactTable) -> Figure {
     }
     Figure {
         title: "Contact states".to_owned(),
-        caption: "Of the corners (or points of a grid) of each wedge at column and slope, the share that is open, sticks, and slips. With bristles a corner \
-                  slips where its friction has reached its limit."
+        caption: "Of the corners (or points of a grid) of each wedge at column and slope, the share that is \
+                  open, sticks, and slips. With bristles a corner slips where its friction has reached its \
+                  limit."
             .to_owned(),
         panels,
         columns: 4,
@@ -215,25 +216,26 @@ fn ledger(run: &TruckRun) -> Figure {
         });
     Figure {
         title: "Energy ledger".to_owned(),
-        caption: "(a) Work since the start and where it went; every loss is integrated from its own force and velocity. (b) What the \
-                  friction of each wedge's faces took. (c) What does not add up: the work less stored energy and losses."
+        caption: "(a) Work since the start and where it went; every loss is integrated from its own force \
+                  and velocity. (b) What the friction of each wedge's faces took. (c) What does not add up: \
+                  the work less stored energy and losses."
             .to_owned(),
         panels: vec![
             panel(
                 "(a) entries",
-                entries.map(|(number, (name, label))| curve(number, name, label)).collect(),
+                entries
+                    .map(|(number, (name, label))| curve(number, name, label))
+                    .collect(),
             ),
             panel("(b) by wedge and face", faces.collect()),
-            panel(
-                "(c) residual",
-                vec![curve(1, "ledger_residual", "residual")],
-            ),
+            panel("(c) residual", vec![curve(1, "ledger_residual", "residual")]),
         ],
         ..Figure::default()
     }
 }
 
-/// The figures of all rigs together, for the report: vertical and roll loops, warp loops, states of the wedges.
+/// The figures of all rigs together, for the report: vertical and roll loops, warp loops, states of the
+/// wedges.
 #[must_use]
 pub fn of_rigs(runs: &[TruckRun], worn: Option<&TruckRun>) -> Vec<Exhibit> {
     let exhibit = |name: &str, title: &str, figure: Figure| Exhibit {

@@ -94,15 +94,21 @@ pub fn exhibits(case: &WheelsetCase, result: &WheelsetResult) -> Vec<Exhibit> {
     };
     let motion = Figure {
         title: format!("{name}: where the wheelset is"),
-        caption: "Over the distance: curvature (to the left) and irregularities under the wheels (lateral to the left, vertical up); \
-                  lateral place of the wheelset's center (to the left), its yaw to the track (the angle of attack), its roll \
-                  (left side up)."
+        caption: "Over the distance: curvature (to the left) and irregularities under the wheels (lateral \
+                  to the left, vertical up); lateral place of the wheelset's center (to the left), its yaw \
+                  to the track (the angle of attack), its roll (left side up)."
             .to_owned(),
         panels: vec![
             track,
             both("(b) alignment", "rail, lateral", Kind::Length, "rail_lateral"),
             both("(c) profile", "rail, vertical", Kind::Length, "rail_vertical"),
-            panel(result, "(d) lateral", "to the left", Kind::Length, &[("lateral", "")]),
+            panel(
+                result,
+                "(d) lateral",
+                "to the left",
+                Kind::Length,
+                &[("lateral", "")],
+            ),
             panel(result, "(e) yaw", "yaw", Kind::Angle, &[("yaw", "")]),
             panel(result, "(f) roll", "roll", Kind::Angle, &[("roll", "")]),
         ],
@@ -111,14 +117,20 @@ pub fn exhibits(case: &WheelsetCase, result: &WheelsetResult) -> Vec<Exhibit> {
     };
     let forces = Figure {
         title: format!("{name}: forces of the wheels"),
-        caption: "Over the distance: forces of the wheels on the rails, vertical ones square to the track, lateral ones positive where \
-                  they spread the gauge, their quotient; longitudinal forces on the wheels, forward; the wear number (energy that \
-                  creep takes by distance); contact patches a wheel."
+        caption: "Over the distance: forces of the wheels on the rails, vertical ones square to the track, \
+                  lateral ones positive where they spread the gauge, their quotient; longitudinal forces on \
+                  the wheels, forward; the wear number (energy that creep takes by distance); contact \
+                  patches a wheel."
             .to_owned(),
         panels: vec![
             both("(a) vertical", "force", Kind::Force, "vertical_force"),
             both("(b) lateral", "force", Kind::Force, "lateral_force"),
-            both("(c) lateral over vertical", "L/V", Kind::Dimensionless, "lateral_over_vertical"),
+            both(
+                "(c) lateral over vertical",
+                "L/V",
+                Kind::Dimensionless,
+                "lateral_over_vertical",
+            ),
             both("(d) longitudinal", "force", Kind::Force, "longitudinal_force"),
             both("(e) wear number", "wear number", Kind::Force, "wear_number"),
             both("(f) patches", "patches", Kind::Count, "patches"),

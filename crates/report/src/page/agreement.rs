@@ -21,10 +21,12 @@ pub struct Comparison<'c> {
 }
 
 /// What stands before the tables.
-const ABOUT: &str = "The thesis compares its wedge with types 6.8 and 6.9 of the comparison program, which are massless: friction \
-    of the column and coil in balance at every instant. No output of that program is at hand. What is compared here is our \
-    reading of these types, in the half-truck of the thesis's files: a bolster with load on two side frames, with four wedges, \
-    of which the leading left one (connection 127) is looked at. All with toe out.";
+const ABOUT: &str = "The thesis compares its wedge with types 6.8 and 6.9 of the comparison program, which \
+                     are massless: friction of the column and coil in balance at every instant. No output \
+                     of that program is at hand. What is compared here is our reading of these types, in \
+                     the half-truck of the thesis's files: a bolster with load on two side frames, with \
+                     four wedges, of which the leading left one (connection 127) is looked at. All with toe \
+                     out.";
 
 /// The section; nothing without half-trucks.
 pub(super) fn section(comparison: &Comparison<'_>) -> Markup {
@@ -33,10 +35,11 @@ pub(super) fn section(comparison: &Comparison<'_>) -> Markup {
             h2 id="agreement" { "How far the models agree" }
             p { (ABOUT) }
             p {
-                "Means: the column's friction on the side frame, positive up, over the branches in which the bolster goes up or \
-                 down. Energy: lost at the column per cycle. Loop: the area of that friction over the wedge's displacement \
-                 (stand-alone model) or the stroke (types). Closed form: eq. 5-1 put right, under the input's full stroke. In \
-                 brackets: how much more than the stand-alone model."
+                "Means: the column's friction on the side frame, positive up, over the branches in which \
+                 the bolster goes up or down. Energy: lost at the column per cycle. Loop: the area of that \
+                 friction over the wedge's displacement (stand-alone model) or the stroke (types). Closed \
+                 form: eq. 5-1 put right, under the input's full stroke. In brackets: how much more than \
+                 the stand-alone model."
             }
             @for group in comparison.groups { (agreement(group, comparison.units)) }
             @if !comparison.trucks.is_empty() { (trucks(comparison.trucks)) }
@@ -97,9 +100,10 @@ fn trucks(trucks: &[TruckOutcome]) -> Markup {
     html! {
         h3 { "All runs of the half-truck" }
         p {
-            "Wedge 127. Type 6.8 has no angle: no toe and toe out are the same to it. The yawed input as printed hardly yaws; as \
-             intended the springs against it are taken out, and a slow undamped swing about the mean stays. Jammed: share of the time in which no \
-             steady sliding exists and only the limit of the files holds the normal force. Ledger residual: the largest at any output \
+            "Wedge 127. Type 6.8 has no angle: no toe and toe out are the same to it. The yawed input as \
+             printed hardly yaws; as intended the springs against it are taken out, and a slow undamped \
+             swing about the mean stays. Jammed: share of the time in which no steady sliding exists and \
+             only the limit of the files holds the normal force. Ledger residual: the largest at any output \
              time, over the largest of work, losses and change of stored energy."
         }
         div.wide {

@@ -48,8 +48,9 @@ fn doubts(summary: &CarSummary) -> Markup {
 fn limits(summary: &CarSummary) -> Markup {
     html! {
         p {
-            "The worst value of each kind beside limits that are remembered of AAR M-1001, chapter XI: check them against your edition \
-             of the standard. A limit counts for the regimes named. Margin: what is left, in parts of the limit."
+            "The worst value of each kind beside limits that are remembered of AAR M-1001, chapter XI: \
+             check them against your edition of the standard. A limit counts for the regimes named. Margin: \
+             what is left, in parts of the limit."
         }
         div.wide {
             table {

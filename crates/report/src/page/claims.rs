@@ -20,26 +20,30 @@ pub(super) fn tables(claims: &Claims, sensitivity: Option<&Sensitivity>) -> Mark
                     "What chapters 5 to 7 say of the stand-alone runs, in our words. Over " (found.points) " points of "
                     a href="#open" { "what the thesis leaves open" } ", " strong { (always) } " statements hold always, "
                     strong { (mostly) } " mostly, " strong { (seldom) } " seldom, " strong { (never) } " never, and "
-                    strong { (open) } " cannot be decided from runs. These are the verdicts. What the runs of this report \
-                    show, with one choice of all that is open, stands beside them:"
+                    strong { (open) } " cannot be decided from runs. These are the verdicts. What the runs \
+                                       of this report show, with one choice of all that is open, stands \
+                                       beside them:"
                 }
             } @else {
                 p {
-                    "What chapters 5 to 7 say of the stand-alone runs, in our words, with one choice of all that the thesis leaves open; "
+                    "What chapters 5 to 7 say of the stand-alone runs, in our words, with one choice of all \
+                     that the thesis leaves open; "
                     code { "wedgelab reproduce --sensitivity 200" } " says how far the verdicts hang on it."
                 }
             }
             p {
                 "These runs show that "
                 strong { (claims.hold) } " statements hold, " strong { (claims.do_not) } " do not, and "
-                strong { (claims.undecided) } " cannot be decided from these runs. Each has a predicate, evaluated from the \
-                runs' tables when this page was made; below it stands the code that was evaluated. A statement that does not \
-                hold is a finding, not a fault of the page."
+                strong { (claims.undecided) } " cannot be decided from these runs. Each has a predicate, \
+                                               evaluated from the runs' tables when this page was made; \
+                                               below it stands the code that was evaluated. A statement \
+                                               that does not hold is a finding, not a fault of the page."
             }
             p {
-                "Where the thesis gives no number: \u{201c}small\u{201d}, \u{201c}similar\u{201d} and \u{201c}close\u{201d} mean within 10 %, \
-                \u{201c}zero\u{201d} below 1 % of the peak. Chapter 5's vertical force is the one that its figures draw: the vertical \
-                force on the side frame, coil included; chapter 6's is the column's friction."
+                "Where the thesis gives no number: \u{201c}small\u{201d}, \u{201c}similar\u{201d} \
+                 and \u{201c}close\u{201d} mean within 10 %, \u{201c}zero\u{201d} below 1 % of the peak. \
+                 Chapter 5's vertical force is the one that its figures draw: the vertical force on the \
+                 side frame, coil included; chapter 6's is the column's friction."
             }
             @for group in Group::ALL {
                 @let rows: Vec<&Row> = claims.claims.iter().filter(|row| row.group == group).collect();

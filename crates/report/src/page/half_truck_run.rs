@@ -85,8 +85,8 @@ fn loops(case: &HalfTruckCase, result: &HalfTruckResult) -> Exhibit {
         thesis: String::new(),
         figure: Figure {
             title: format!("{}: forces of the columns", case.name),
-            caption: "Wedge by wedge, over the vertical stroke of the bolster against the side frame: friction of the column \
-                      on the side frame, positive up, and the column's normal force."
+            caption: "Wedge by wedge, over the vertical stroke of the bolster against the side frame: \
+                      friction of the column on the side frame, positive up, and the column's normal force."
                 .to_owned(),
             panels: vec![
                 panel("(a) friction", "column_friction"),
@@ -106,8 +106,8 @@ fn wedges(summary: &HalfTruckSummary) -> Markup {
     };
     html! {
         p {
-            "Column friction on the side frame, positive up: its mean while the input goes up, and while it goes down; what it \
-             takes in a cycle."
+            "Column friction on the side frame, positive up: its mean while the input goes up, and while it \
+             goes down; what it takes in a cycle."
         }
         div.wide {
             table {

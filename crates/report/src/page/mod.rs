@@ -93,8 +93,9 @@ pub fn render(contents: &Contents<'_>) -> String {
     let (open, folded): (Vec<&Section>, Vec<&Section>) =
         contents.sections.iter().partition(|section| !section.folded);
     let lead = html! {
-        "One friction wedge of a three-piece truck between the column of the side frame and the slope of the bolster: a rigid \
-         body with unilateral contact, stick-slip friction and its control coil. Computed by "
+        "One friction wedge of a three-piece truck between the column of the side frame and the slope of \
+         the bolster: a rigid body with unilateral contact, stick-slip friction and its control coil. \
+         Computed by "
         (program) "."
     };
     let nav = html! {
@@ -108,7 +109,8 @@ pub fn render(contents: &Contents<'_>) -> String {
                 @if contents.comparison.is_some() { li { a href="#agreement" { "How far the models agree" } } }
                 @for section in &open { li { a href={ "#" (anchor(&section.id)) } { (section.title) } } }
                 @if !folded.is_empty() { li { a href="#run-by-run" { "Run by run" } } }
-                @if contents.truck { li { a href=(truck::FILE_NAME) { "The three-piece truck (a page of its own)" } } }
+                @if contents.truck { li { a href=(truck::FILE_NAME) { "The three-piece truck (a page of its \
+                    own)" } } }
                 li { a href="#assumptions" { "Assumptions" } }
                 li { a href="#files" { "Files" } }
             }
@@ -132,8 +134,9 @@ pub fn render(contents: &Contents<'_>) -> String {
                     p { "Open a run to see it move in 3D, with its plots on the same clock." }
                 }
                 p {
-                    "Of the thesis's runs, what the thesis does not show: the energy ledger, the state of each contact, the \
-                     forces at the corners, how much of the contact sticks, and the power that wears the faces."
+                    "Of the thesis's runs, what the thesis does not show: the energy ledger, the state of \
+                     each contact, the forces at the corners, how much of the contact sticks, and the power \
+                     that wears the faces."
                 }
                 @for sections in folded.chunk_by(|a, b| a.group == b.group) {
                     @if !sections[0].group.is_empty() { h3 { (sections[0].group) } }
@@ -210,8 +213,8 @@ fn moving(name: &str) -> Markup {
     }
 }
 
-/// A page with its heading, what stands below it, links to its parts (may be empty), and its interactive part if there is
-/// one.
+/// A page with its heading, what stands below it, links to its parts (may be empty), and its interactive part
+/// if there is one.
 fn document(
     heading: &str,
     lead: &impl Render,

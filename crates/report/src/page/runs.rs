@@ -23,11 +23,12 @@ pub(super) fn table(outcomes: &[Outcome]) -> Markup {
         section {
             h2 id="runs" { "Runs" }
             p {
-                "Each run gives the bolster a vertical motion and computes the wedge. Mean force: vertical wedge force \
-                 (friction of the column on the side frame, positive up), averaged over the branch in which the bolster goes \
-                 up or down. Energy per cycle: lost in friction at the side frame. Equivalent damping: that energy over \
-                 π ω A². Ledger residual: the largest at any output time, over the largest of work, losses and change of \
-                 stored energy; above 1e-3 a run has a warning, above 1e-2 it has failed."
+                "Each run gives the bolster a vertical motion and computes the wedge. Mean force: vertical \
+                 wedge force (friction of the column on the side frame, positive up), averaged over the \
+                 branch in which the bolster goes up or down. Energy per cycle: lost in friction at the \
+                 side frame. Equivalent damping: that energy over π ω A². Ledger residual: the largest at \
+                 any output time, over the largest of work, losses and change of stored energy; above 1e-3 \
+                 a run has a warning, above 1e-2 it has failed."
             }
             div.wide {
                 table {
@@ -104,8 +105,8 @@ pub(super) fn assumptions(contents: &Contents<'_>) -> Markup {
         section {
             h2 id="assumptions" { "Assumptions" }
             p {
-                "The thesis is silent or contradicts itself in places. What these runs assume; each is a parameter of the \
-                 case file."
+                "The thesis is silent or contradicts itself in places. What these runs assume; each is a \
+                 parameter of the case file."
             }
             h3 { "In all runs" }
             ul { @for (text, _) in &all { li { (text) } } }

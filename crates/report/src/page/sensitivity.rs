@@ -41,39 +41,41 @@ fn decides(split: &Split) -> String {
 /// What was done.
 fn about(found: &Sensitivity) -> String {
     format!(
-        "The thesis does not say how stiff the contacts are, where the coil's force acts, and more. The twelve \
-         runs were made at {points} points of the space of these parameters (Sobol' sequence), and every \
-         statement was decided at each. Always and never: at all and at none of the points that decide it; mostly \
-         and seldom: at half or more, and at fewer. Where {points} points show no exception, a share of {missed:.1} % \
-         of exceptions would be missed once in twenty times. The half-truck has nothing of what is open.",
+        "The thesis does not say how stiff the contacts are, where the coil's force acts, and more. The \
+         twelve runs were made at {points} points of the space of these parameters (Sobol' sequence), and \
+         every statement was decided at each. Always and never: at all and at none of the points that \
+         decide it; mostly and seldom: at half or more, and at fewer. Where {points} points show no \
+         exception, a share of {missed:.1} % of exceptions would be missed once in twenty times. The \
+         half-truck has nothing of what is open.",
         points = found.points,
         missed = 300.0 / found.points as f64
     )
 }
 
 /// What is meant by a parameter that decides.
-const DECIDES: &str = "A parameter decides if one cut of it (a range at a quarter, half or three quarters; a choice \
-    against the others) tells best where the statement holds, and better than chance would: the cut whose \u{3c6}\u{b2} \
-    is largest, the square of the correlation of two yes-or-no quantities, if the number of points times \
-    \u{3c6}\u{b2} is above 12.";
+const DECIDES: &str = "A parameter decides if one cut of it (a range at a quarter, half or three quarters; \
+                       a choice against the others) tells best where the statement holds, and better than \
+                       chance would: the cut whose \u{3c6}\u{b2} is largest, the square of the correlation \
+                       of two yes-or-no quantities, if the number of points times \u{3c6}\u{b2} is above 12.";
 
 /// What the axes are.
-const AXES_OF_FIGURES: &str = "The thesis's curves stay within the axes of its figures, which begin at 0.1 to 0.5 s. \
-    Where these runs do, after 0.5 s:";
+const AXES_OF_FIGURES: &str = "The thesis's curves stay within the axes of its figures, which begin at 0.1 \
+                               to 0.5 s. Where these runs do, after 0.5 s:";
 
 /// How the other frictions were run.
-const FRICTION: &str = "The same points once more with another reference speed, and with bristles in place of tanh: how \
-    many statements hold at a point, on average, and how many hold at half of the points with one friction and not \
-    with the other.";
+const FRICTION: &str = "The same points once more with another reference speed, and with bristles in place \
+                        of tanh: how many statements hold at a point, on average, and how many hold at half \
+                        of the points with one friction and not with the other.";
 
 /// The rule for the stiffness.
 fn rule(found: &Sensitivity) -> String {
     format!(
-        "Required are {} statements (orders by toe without yaw, lift-off and its silence, stick at the reversal, no \
-         lateral force) and the {} axes: {} in all. The stiffness is the middle of that fifth of the range in which \
-         most of them hold over all else that is open, and of fifths that do not differ in that, most of all \
-         statements. Means differ if they do by more than two standard errors; without such a difference the middle \
-         fifth stays, whose middle is the stiffness of the comparison program's wedge.",
+        "Required are {} statements (orders by toe without yaw, lift-off and its silence, stick at the \
+         reversal, no lateral force) and the {} axes: {} in all. The stiffness is the middle of that fifth \
+         of the range in which most of them hold over all else that is open, and of fifths that do not \
+         differ in that, most of all statements. Means differ if they do by more than two standard errors; \
+         without such a difference the middle fifth stays, whose middle is the stiffness of the comparison \
+         program's wedge.",
         REQUIRED.len(),
         AXES.len(),
         found.stiffness.of_required

@@ -84,12 +84,14 @@ fn lead(study: &Study, digest: &Digest) -> String {
     let accuracy = match study.accuracy {
         Accuracy::Case => "the case's accuracy",
         Accuracy::Engineering => {
-            "engineering accuracy (tr-bdf2, which damps the vibrations of contacts: wedges that rattle for long may have forces some 10 % off)"
+            "engineering accuracy (tr-bdf2, which damps the vibrations of contacts: wedges that rattle for \
+             long may have forces some 10 % off)"
         }
     };
     let [complete, refused, stopped, failed] = digest.ended;
     format!(
-        "{} runs of the case {}: {how}, at {accuracy}. {complete} are complete, {refused} were refused, {stopped} stopped on their way, {failed} failed.",
+        "{} runs of the case {}: {how}, at {accuracy}. {complete} are complete, {refused} were refused, \
+         {stopped} stopped on their way, {failed} failed.",
         study.count(),
         study.base.name()
     )
@@ -158,8 +160,9 @@ fn failures(digest: &Digest) -> Markup {
         @if failed > 0 {
             div.warning {
                 p {
-                    (failed) " runs are left out of all figures: they have no measures, or have failed: their energy ledger does \
-                     not close, or their bodies left the range in which the model means something. The first ones:"
+                    (failed) " runs are left out of all figures: they have no measures, or have failed: \
+                              their energy ledger does not close, or their bodies left the range in which \
+                              the model means something. The first ones:"
                 }
                 ul { @for (number, reason) in &digest.reasons { li { "run " (number) ": " (reason) } } }
             }
@@ -210,7 +213,8 @@ fn files(study: &Study) -> Markup {
     html! {
         h2 { "The table" }
         p {
-            a href=(TABLE_FILE) { (TABLE_FILE) } " has a row for each run and these columns; their units stand in its metadata under "
+            a href=(TABLE_FILE) { (TABLE_FILE) } " has a row for each run and these columns; their units \
+                stand in its metadata under "
             code { (crate::parquet::COLUMNS_KEY) } "."
         }
         div.wide {

@@ -36,8 +36,8 @@ pub fn render(contents: &TruckContents<'_>) -> String {
         .first()
         .map_or("", |run| run.summary.program.as_str());
     let lead = format!(
-        "A bolster, two side frames and four wedges that have mass, on spring nests and adapters, on rigs. Every number here is \
-         computed from runs of this report. Computed by {program}."
+        "A bolster, two side frames and four wedges that have mass, on spring nests and adapters, on rigs. \
+         Every number here is computed from runs of this report. Computed by {program}."
     );
     let main = html! {
         p { a href=(super::FILE_NAME) { "The friction wedge alone, and the half-truck" } }
@@ -47,8 +47,8 @@ pub fn render(contents: &TruckContents<'_>) -> String {
                 findings.checks.iter().partition(|check| check.basis == Basis::MasslessWedge);
             p {
                 (massless.iter().filter(|check| check.agrees).count()) " of " (massless.len())
-                " numbers agree with massless wedges: their branches are reached only where toe makes the slope slide by more \
-                 than the faces give, and in warp empirical springs stand for them. "
+                " numbers agree with massless wedges: their branches are reached only where toe makes the \
+                 slope slide by more than the faces give, and in warp empirical springs stand for them. "
                 (others.iter().filter(|check| check.agrees).count()) " of " (others.len())
                 " others, from closed forms and an independent calculation, agree."
             }
@@ -121,9 +121,10 @@ fn checks(basis: Basis, all: &[Check]) -> Markup {
                 h2 { (basis.heading()) }
                 @if basis == Basis::MasslessWedge {
                     p {
-                        "Steady sliding of a wedge without mass under the coil's force of that moment (eq. 5-1 of Steets 2007 put right), \
-                         beside the truck's wedges where the bolster passes the middle of its stroke in the last cycle. Then \
-                         the same rigs with massless wedges in the truck, in warp with NUCARS's empirical springs."
+                        "Steady sliding of a wedge without mass under the coil's force of that moment (eq. \
+                         5-1 of Steets 2007 put right), beside the truck's wedges where the bolster passes \
+                         the middle of its stroke in the last cycle. Then the same rigs with massless \
+                         wedges in the truck, in warp with NUCARS's empirical springs."
                     }
                 }
                 div.wide {
@@ -164,7 +165,8 @@ fn sentence(all: &[Sensitivity]) -> String {
     let most = |of: fn(&Sensitivity) -> f64| all.iter().max_by(|a, b| of(a).abs().total_cmp(&of(b).abs()));
     match (most(|own| own.contacts), most(|own| own.bristles)) {
         (Some(contacts), Some(bristles)) => format!(
-            "Contacts of twice the stiffness move the answers by up to {} ({}: {}), bristles of twice the stiffness by up to {} ({}: {}).",
+            "Contacts of twice the stiffness move the answers by up to {} ({}: {}), bristles of twice the \
+             stiffness by up to {} ({}: {}).",
             percent(contacts.contacts),
             contacts.rig,
             contacts.answer,
@@ -182,8 +184,8 @@ fn sensitivities(all: &[Sensitivity]) -> Markup {
             section {
                 h2 id="stiffness" { "What hangs on the stiffness of contacts and bristles" }
                 p {
-                    "Both are decided, not measured: 250,000 lbf/in a corner, 1,000,000 lbf/in a face. Where a nest locks, or a slope \
-                     sticks, they are part of the answer."
+                    "Both are decided, not measured: 250,000 lbf/in a corner, 1,000,000 lbf/in a face. \
+                     Where a nest locks, or a slope sticks, they are part of the answer."
                 }
                 div.wide {
                     table {
@@ -229,7 +231,8 @@ fn energies(rigs: &[TruckResult]) -> Markup {
     html! {
         section {
             h2 id="energies" { "Energy a cycle takes, wedge by wedge" }
-            p { "Lost in friction at column and slope, " (unit) " a cycle, from the second cycle on; drops have none." }
+            p { "Lost in friction at column and slope, " (unit) " a cycle, from the second cycle on; drops \
+                have none." }
             div.wide {
                 table {
                     thead {
@@ -282,7 +285,8 @@ fn runs(contents: &TruckContents<'_>) -> Markup {
                     }
                 }
             }
-            p { "Rigs that reach lands, gibs, solid coils, pocket sides and adapter stops: " code { "wedgelab run NAME" } ", each with a page of its own." }
+            p { "Rigs that reach lands, gibs, solid coils, pocket sides and adapter stops: " code { "wedgelab run NAME" } ", each with a \
+                page of its own." }
         }
     }
 }

@@ -61,8 +61,8 @@ fn wedges(summary: &TruckSummary) -> Markup {
     let cell = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.1}"));
     html! {
         p {
-            "Normal force of the column at any output time; energy lost in friction in a cycle of the first periodic motion, from \
-             its second one on."
+            "Normal force of the column at any output time; energy lost in friction in a cycle of the first \
+             periodic motion, from its second one on."
             @if !summary.cycles.missing.is_empty() { " No energies: " (summary.cycles.missing) "." }
         }
         div.wide {

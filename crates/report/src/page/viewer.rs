@@ -6,8 +6,9 @@ const SCRIPT: &str = include_str!(concat!(env!("OUT_DIR"), "/viewer.js"));
 const STYLE: &str = include_str!(concat!(env!("OUT_DIR"), "/viewer.css"));
 
 /// What to tell people whose program was built without it.
-pub const MISSING: &str = "The page is static: this program was built without its interactive part (plots that zoom, the 3D \
-                           view). To get it, install Node.js 20.19 or later, run `cargo xtask viewer`, and build again.";
+pub const MISSING: &str = "The page is static: this program was built without its interactive part (plots \
+                           that zoom, the 3D view). To get it, install Node.js 20.19 or later, run `cargo \
+                           xtask viewer`, and build again.";
 
 /// The interactive part of pages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -108,7 +108,8 @@ fn numbers(summary: &WheelsetSummary) -> Markup {
         }
         @if let Some(hunting) = &summary.hunting {
             p {
-                "About steady rolling at this speed on straight perfect track the least damped lateral vibration has "
+                "About steady rolling at this speed on straight perfect track the least damped lateral \
+                 vibration has "
                 (format!("{:.2}", hunting.frequency_hz)) " Hz and a damping ratio of "
                 (format!("{:.3}", hunting.damping_ratio))
                 @if hunting.damping_ratio < 0.0 { ": the wheelset hunts." } @else { ": it dies out." }

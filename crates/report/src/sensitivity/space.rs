@@ -150,8 +150,8 @@ pub fn open_parameters() -> Vec<OpenParameter> {
             },
             labels: &[],
             decided: "2.5e5 lbf/in",
-            reason: "a corner; the thesis gives none. A tenth to ten times a quarter of the comparison program's \
-                     accumulator",
+            reason: "a corner; the thesis gives none. A tenth to ten times a quarter of the comparison \
+                     program's accumulator",
         },
         choices(
             "contact damping",
@@ -206,8 +206,8 @@ pub fn open_parameters() -> Vec<OpenParameter> {
                 "below the center of gravity",
                 "2.15 in towards the bolster",
             ],
-            "on the wedge's bottom, from the center of gravity, which stays that of the prism; the thesis does not say where \
-             the faces are from B",
+            "on the wedge's bottom, from the center of gravity, which stays that of the prism; the thesis \
+             does not say where the faces are from B",
         ),
     ]
 }

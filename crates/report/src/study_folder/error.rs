@@ -36,8 +36,8 @@ pub enum StudyFolderError {
     /// It holds another study.
     #[error("`{}` holds runs of another study: {changed}", .folder.display())]
     #[diagnostic(help(
-        "runs of two studies cannot stand in one table. Choose another folder with --out for the changed study, or undo the \
-         change to go on with this one; nothing was touched"
+        "runs of two studies cannot stand in one table. Choose another folder with --out for the changed \
+         study, or undo the change to go on with this one; nothing was touched"
     ))]
     Changed {
         /// The folder.
@@ -48,8 +48,8 @@ pub enum StudyFolderError {
     /// A file cannot be read or understood.
     #[error("cannot read `{}`: {reason}", .file.display())]
     #[diagnostic(help(
-        "look for rights and for damage of the disk; nothing was touched. Without this file the study can go on once it is moved \
-         away: its runs are computed again, all others are kept"
+        "look for rights and for damage of the disk; nothing was touched. Without this file the study can \
+         go on once it is moved away: its runs are computed again, all others are kept"
     ))]
     Unreadable {
         /// The file.
@@ -71,8 +71,8 @@ pub enum StudyFolderError {
     /// Two records of one variant.
     #[error("`{}` holds two different results of run {number}", .file.display())]
     #[diagnostic(help(
-        "the same run gives the same bits; two versions of the program may have worked here. Move this file away: its runs are \
-         computed again, all others are kept"
+        "the same run gives the same bits; two versions of the program may have worked here. Move this file \
+         away: its runs are computed again, all others are kept"
     ))]
     Contradiction {
         /// The variant.
@@ -83,8 +83,8 @@ pub enum StudyFolderError {
     /// A record could not be written.
     #[error("cannot write into `{}`: {reason}", .file.display())]
     #[diagnostic(help(
-        "all runs that were written before are kept. Look for space and rights, then give the same command again: the study goes on \
-         where it was"
+        "all runs that were written before are kept. Look for space and rights, then give the same command \
+         again: the study goes on where it was"
     ))]
     Append {
         /// The file.
@@ -95,7 +95,8 @@ pub enum StudyFolderError {
     /// The table or the page could not be written.
     #[error("cannot write `{}`: {reason}", .file.display())]
     #[diagnostic(help(
-        "every run is kept. Look for space and rights, then give the same command again: no run is computed again, only this file is made"
+        "every run is kept. Look for space and rights, then give the same command again: no run is computed \
+         again, only this file is made"
     ))]
     Table {
         /// The file.

@@ -40,7 +40,8 @@ pub enum TableError {
         reason: io::Error,
     },
     /// Not a table of numbers as text at all.
-    #[error("`{}` is {what}; a table is expected: lines of numbers with `,` between them, below a line of names", .file.display())]
+    #[error("`{}` is {what}; a table is expected: lines of numbers with `,` between them, below a line of \
+             names", .file.display())]
     #[diagnostic(help("{advice}"))]
     Foreign {
         /// The file.
@@ -195,7 +196,9 @@ impl TableError {
         Self::Foreign {
             file: file.to_owned(),
             what,
-            advice: "name a result.csv, the folder it is in, or another CSV file with columns such as time_s, wedge_x_in".to_owned(),
+            advice: "name a result.csv, the folder it is in, or another CSV file with columns such as \
+                     time_s, wedge_x_in"
+                .to_owned(),
         }
     }
 

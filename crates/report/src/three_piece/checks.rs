@@ -57,8 +57,8 @@ pub struct Check {
     pub expected: [f64; 2],
     /// The unit of both.
     pub unit: &'static str,
-    /// By how much more than expected was found, relative to that; zero within a range. In the unit of both where
-    /// zero is expected.
+    /// By how much more than expected was found, relative to that; zero within a range. In the unit of both
+    /// where zero is expected.
     pub difference: f64,
     /// The most that counts as agreement, alike.
     pub margin: f64,
@@ -138,8 +138,8 @@ fn masses(parameters: &Parameters) -> [f64; 2] {
     [parameters.bolster.body.mass + parameters.wedge_mass(), frames]
 }
 
-/// Nominal load (N) and vertical stiffness (N/m) of all coils on the side frames: with variable damping control coils
-/// stand there too.
+/// Nominal load (N) and vertical stiffness (N/m) of all coils on the side frames: with variable damping
+/// control coils stand there too.
 fn coils(parameters: &Parameters) -> [f64; 2] {
     let mut sums = [parameters.load_preload(), parameters.load_stiffness()];
     for wedge in &parameters.wedges {
@@ -176,12 +176,14 @@ fn rest(found: &mut Found, rigs: &Rigs) {
         (
             "constant",
             1e-4,
-            "Coils and adapters in series are relieved of the lading; the wedges' forces are internal to bolster and wedges.",
+            "Coils and adapters in series are relieved of the lading; the wedges' forces are internal to \
+             bolster and wedges.",
         ),
         (
             "variable",
             5e-3,
-            "As with constant damping, and control coils carry too; the wedges' faces give a little less than loaded.",
+            "As with constant damping, and control coils carry too; the wedges' faces give a little less \
+             than loaded.",
         ),
     ] {
         if let Some((empty, result)) = rigs.get(&format!("rest, {damping}_empty"))
@@ -287,7 +289,8 @@ fn frictionless(found: &mut Found, rigs: &Rigs) {
             at(result, "leading_left_column_normal", 1.9).map(|force| force / POUND),
             exactly((coil - weight) * cotangent / POUND),
             ("lbf", 2e-2),
-            "(F_s - m g)/tan θ, F_s being the coil's static load; the contacts' give relaxes the coil a little.",
+            "(F_s - m g)/tan θ, F_s being the coil's static load; the contacts' give relaxes the coil a \
+             little.",
         );
     }
     if let Some((case, result)) = rigs.get("frictionless vertical")
@@ -364,7 +367,8 @@ fn plate_and_ledger(found: &mut Found, rigs: &Rigs) {
     }
 }
 
-/// The values of a column where the bolster passes its middle height in the last cycle: going up, going down (SI).
+/// The values of a column where the bolster passes its middle height in the last cycle: going up, going down
+/// (SI).
 fn in_the_middle(result: &TruckResult, name: &str, period: f64) -> Option<[f64; 2]> {
     let (times, z, values) = (
         result.column("time")?,
@@ -407,16 +411,18 @@ fn massless(found: &mut Found, rigs: &Rigs) {
         };
         let [coil, weight] = coil_and_weight(case);
         let stroke = case.parameters.bolster.motion.coordinates[2].evaluate(0.25 * PI, 0.0)[0];
-        // How far the wedge slides along the slope from the middle of the stroke to its end, and what corners give.
+        // How far the wedge slides along the slope from the middle of the stroke to its end, and what corners
+        // give.
         let slide = stroke.abs() * libm::sin(own.toe) / libm::sin(own.angle + own.toe);
         let give = coil / (4.0 * own.contact.stiffness);
         let remark = if own.toe == 0.0 {
-            "The slope sticks and the wedge goes with the bolster: its normal force is not that of a branch, which lets the slope \
-             slide."
+            "The slope sticks and the wedge goes with the bolster: its normal force is not that of a \
+             branch, which lets the slope slide."
                 .to_owned()
         } else {
             format!(
-                "Toe makes the wedge slide on the slope by {:.4} in in half a stroke, where the faces give by about {:.4} in{}.",
+                "Toe makes the wedge slide on the slope by {:.4} in in half a stroke, where the faces give \
+                 by about {:.4} in{}.",
                 slide / INCH,
                 give / INCH,
                 if slide > 4.0 * give {
@@ -442,7 +448,8 @@ fn massless(found: &mut Found, rigs: &Rigs) {
         let normals = in_the_middle(result, "leading_left_column_normal", PI);
         let frictions = in_the_middle(result, "leading_left_column_friction_z", PI);
         for (k, (way, direction)) in WAYS.into_iter().enumerate() {
-            // The coil is as long as the run says: a wedge between faces that lean by the toe rides on edges, and rises.
+            // The coil is as long as the run says: a wedge between faces that lean by the toe rides on edges,
+            // and rises.
             let load = lift.map(|both| coil - stiffness * both[k] - weight);
             let sliding = load.and_then(|load| wedge.slide(direction, wedge.branch(direction), load));
             found.add(
@@ -463,8 +470,8 @@ fn massless(found: &mut Found, rigs: &Rigs) {
     }
 }
 
-/// The same rigs with massless wedges in the truck, and with the industry's empirical warp springs in place of what
-/// they leave out.
+/// The same rigs with massless wedges in the truck, and with the industry's empirical warp springs in place
+/// of what they leave out.
 fn massless_trucks(found: &mut Found, rigs: &Rigs) {
     for damping in ["constant", "variable"] {
         let loss = |key: &str| {
@@ -472,23 +479,27 @@ fn massless_trucks(found: &mut Found, rigs: &Rigs) {
             result.summary.cycles.loss_of_wedges(&WEDGE_NAMES[..1])
         };
         found.add(
-            format!("loss of a wedge in a cycle, {damping} damping, toe out 0.2°, against massless wedges in the truck"),
+            format!(
+                "loss of a wedge in a cycle, {damping} damping, toe out 0.2°, against massless wedges \
+                     in the truck"
+            ),
             loss(&format!("truck_vertical_{damping}_toe_out")),
             loss(&format!("massless, {damping}")).map(exactly),
             ("lbf·in", 0.05),
-            "A massless wedge turns its slope's friction over at once; a body's faces give way first, and it slides less.",
+            "A massless wedge turns its slope's friction over at once; a body's faces give way first, and \
+             it slides less.",
         );
     }
     for (condition, remark) in [
         (
             "new",
-            "NUCARS's empirical stiffness grows in proportion to warp; wedges of a friction of 0.4 lock, and resist far more \
-             at small angles.",
+            "NUCARS's empirical stiffness grows in proportion to warp; wedges of a friction of 0.4 lock, \
+             and resist far more at small angles.",
         ),
         (
             "worn",
-            "NUCARS's empirical stiffness of worn trucks is a third of what wedges of a friction of 0.25 hold on their plateau, \
-             and less still at small angles.",
+            "NUCARS's empirical stiffness of worn trucks is a third of what wedges of a friction of 0.25 \
+             hold on their plateau, and less still at small angles.",
         ),
     ] {
         let moment = |key: &str| {
@@ -496,7 +507,10 @@ fn massless_trucks(found: &mut Found, rigs: &Rigs) {
             Some(at(result, "warp_moment", 4.5)?.abs() / KIP_INCH)
         };
         found.add(
-            format!("warp moment, {condition}, axles apart by 20 mrad, against massless wedges with empirical warp springs"),
+            format!(
+                "warp moment, {condition}, axles apart by 20 mrad, against massless wedges with \
+                     empirical warp springs"
+            ),
             moment("axles"),
             moment("massless axles").map(exactly),
             ("kip·in", 0.05),
@@ -524,7 +538,8 @@ fn independent(found: &mut Found, rigs: &Rigs) {
         moment("warp, worn", 4.5),
         exactly(225.0),
         ("kip·in", 0.05),
-        "With friction of 0.25 the moment has a plateau; lateral friction at the columns adds to what their edges hold.",
+        "With friction of 0.25 the moment has a plateau; lateral friction at the columns adds to what their \
+         edges hold.",
     );
     found.add(
         "its growth from 10 to 20 mrad",

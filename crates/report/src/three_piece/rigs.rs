@@ -1,4 +1,5 @@
-//! The runs that are told of: the rigs of loaded and empty trucks, which the page shows, and variants for comparison.
+//! The runs that are told of: the rigs of loaded and empty trucks, which the page shows, and variants for
+//! comparison.
 
 use std::collections::BTreeMap;
 
@@ -80,7 +81,8 @@ pub fn variants() -> Result<Vec<Variant>, CaseError> {
         &[
             "load.kind=car_body",
             "bolster.vertical=0 in",
-            "bolster.yaw={ shape = \"ramp\", amplitude = \"0.02 rad\", start = \"0.1 s\", duration = \"1 s\", profile = \"half_cosine\" }",
+            "bolster.yaw={ shape = \"ramp\", amplitude = \"0.02 rad\", start = \"0.1 s\", duration = \"1 \
+             s\", profile = \"half_cosine\" }",
             "simulation.duration=1.5 s",
         ],
     )?;

@@ -1,7 +1,7 @@
 //! What bolster, side frames, wedges and springs look like, of any model that has them.
 //!
-//! Models have places, angles and toes, but hardly sizes of bodies: how far columns, pockets, chords and seats
-//! reach is for the eye.
+//! Models have places, angles and toes, but hardly sizes of bodies: how far columns, pockets, chords and
+//! seats reach is for the eye.
 
 use std::collections::BTreeMap;
 

@@ -1,11 +1,11 @@
 //! What a half-truck's run looks like: bolster, side frames, wedges with their coils, springs.
 //!
-//! The comparison program's files have places, wedge angles and toes, but no sizes of bodies: its wedges are as
-//! large as the stand-alone one, all else is for the eye. They are massless and have no angles of
-//! their own: they are drawn in the bolster's pocket, where they rise as the law says. The law has one state
-//! a wedge, that of the friction at the column; the slope's friction follows it, and is shown with the same
-//! state while it is pressed. Wedges that are bodies are as large as they are, at their places, with the forces of
-//! their corners.
+//! The comparison program's files have places, wedge angles and toes, but no sizes of bodies: its wedges are
+//! as large as the stand-alone one, all else is for the eye. They are massless and have no angles of their
+//! own: they are drawn in the bolster's pocket, where they rise as the law says. The law has one state a
+//! wedge, that of the friction at the column; the slope's friction follows it, and is shown with the same
+//! state while it is pressed. Wedges that are bodies are as large as they are, at their places, with the
+//! forces of their corners.
 
 use mechanics::connection::{ColumnFace as Face, Law, SpringDamper};
 use mechanics::output::Column;
@@ -101,8 +101,8 @@ fn wedges(case: &HalfTruckCase) -> Vec<Seen> {
     all.into_iter().filter_map(seen).collect()
 }
 
-/// Columns that the scene needs of massless wedges and the table does not have: parts of forces in the fixed axes,
-/// states of slopes, the wedges' shift.
+/// Columns that the scene needs of massless wedges and the table does not have: parts of forces in the fixed
+/// axes, states of slopes, the wedges' shift.
 #[must_use]
 pub fn drawn(case: &HalfTruckCase, result: &HalfTruckResult) -> (Vec<Column>, Vec<Vec<f64>>) {
     let (mut columns, mut values) = (Vec::new(), Vec::new());

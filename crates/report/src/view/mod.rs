@@ -3,9 +3,9 @@
 //! - [`data`]: numbers as text, each list once.
 //! - [`chart`]: figures as curves instead of drawings.
 //! - [`run`]: a run's columns, and which belong in one plot.
-//! - [`scene`]: what a run looks like: bodies, solids, coils, contacts; [`truck`] and [`half_truck`]: that of a truck
-//!   and of a half-truck, by what both have in common; [`rolling`]: track, wheels and contact patches of all that rolls,
-//!   [`wheelset`]: one wheelset.
+//! - [`scene`]: what a run looks like: bodies, solids, coils, contacts; [`truck`] and [`half_truck`]: that of
+//!   a truck and of a half-truck, by what both have in common; [`rolling`]: track, wheels and contact patches
+//!   of all that rolls, [`wheelset`]: one wheelset.
 //!
 //! All numbers are in SI units; how they are shown in either system stands with them.
 

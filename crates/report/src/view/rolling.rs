@@ -1,9 +1,9 @@
-//! What runs on a track looks like: the track with its rails and ties, wheels as bodies of revolution, contact
-//! patches with their forces. One wheelset or the four of a car use the same functions, with the names of their
-//! columns.
+//! What runs on a track looks like: the track with its rails and ties, wheels as bodies of revolution,
+//! contact patches with their forces. One wheelset or the four of a car use the same functions, with the
+//! names of their columns.
 //!
-//! Treads, flanges and railheads are those of the profiles; webs, feet, plates, hubs, axles and ties are for the
-//! eye.
+//! Treads, flanges and railheads are those of the profiles; webs, feet, plates, hubs, axles and ties are for
+//! the eye.
 
 use std::collections::BTreeMap;
 
@@ -108,8 +108,8 @@ fn section(head: &[[f64; 2]], top: f64) -> Vec<[f64; 2]> {
     points
 }
 
-/// Returns the two bodies of a wheelset whose columns have these names: one that goes along with it, and one on it
-/// that spins. Their names are `id` and `id_spin`.
+/// Returns the two bodies of a wheelset whose columns have these names: one that goes along with it, and one
+/// on it that spins. Their names are `id` and `id_spin`.
 #[must_use]
 pub fn wheelset_bodies(id: &str, radius: f64, column: &dyn Fn(&str) -> String) -> [SceneBody; 2] {
     let coordinates = [
@@ -172,8 +172,8 @@ pub fn wheelset_solids(id: &str, name: &str, wheel: &Profile, radius: f64, tape_
     ]
 }
 
-/// Outline of a wheel: y from the tape circle and radius, from the bore on the gauge side over the tread to the bore on
-/// the field side.
+/// Outline of a wheel: y from the tape circle and radius, from the bore on the gauge side over the tread to
+/// the bore on the field side.
 fn revolved(profile: &[[f64; 2]], nominal: f64) -> Vec<[f64; 2]> {
     let [rim, plate, hub, wide] = WHEEL;
     let mut points: Vec<[f64; 2]> = profile.iter().map(|[y, z]| [*y, nominal - z]).collect();

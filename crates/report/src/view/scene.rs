@@ -44,8 +44,8 @@ pub struct Scene {
     /// The track that bodies run along.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub track: Option<SceneTrack>,
-    /// The body that the view goes along with: all is drawn in the axes of the track where it is. None: in the
-    /// fixed axes.
+    /// The body that the view goes along with: all is drawn in the axes of the track where it is. None: in
+    /// the fixed axes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub follow: Option<String>,
 }
@@ -85,8 +85,8 @@ pub struct SceneBody {
     /// The body in whose axes place and angles are given; none: the fixed ones.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,
-    /// The column of its distance along the track: place and angles are given in the track's axes there (along, to
-    /// the left, up).
+    /// The column of its distance along the track: place and angles are given in the track's axes there
+    /// (along, to the left, up).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub along: Option<String>,
     /// The column of a turn about its own y axis that is never exaggerated.
@@ -184,7 +184,8 @@ pub struct SceneTrack {
     pub step: f64,
     /// The samples: places in `data`.
     pub samples: BTreeMap<&'static str, usize>,
-    /// The sections of the left and the right rail, y and z in the axes of the track, anticlockwise seen from behind.
+    /// The sections of the left and the right rail, y and z in the axes of the track, anticlockwise seen from
+    /// behind.
     pub rails: [Vec<[f64; 2]>; 2],
     /// Ties: spacing, half length, half width, height of their tops (negative), thickness.
     pub ties: [f64; 5],

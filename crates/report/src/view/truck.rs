@@ -1,5 +1,5 @@
-//! What a truck's run looks like: bolster, side frames, wedges with their corners and coils, springs, wheelsets, and
-//! what stands on the bolster.
+//! What a truck's run looks like: bolster, side frames, wedges with their corners and coils, springs,
+//! wheelsets, and what stands on the bolster.
 //!
 //! Wedges are as large as they are; wheelsets, car body and the rest are for the eye.
 
@@ -18,14 +18,15 @@ use super::run::Plot;
 use super::scene::{Role, Scene, SceneBody, Solid, SolidPose, extruded};
 
 const INCH: f64 = 0.0254;
-/// How much displacements are exaggerated at first: a warp of 20 mrad is then as large as the eye takes for small.
+/// How much displacements are exaggerated at first: a warp of 20 mrad is then as large as the eye takes for
+/// small.
 const FACTOR: f64 = 5.0;
 /// The exaggerated size beyond which displacements grow to scale, m.
 const LIMIT: f64 = 4.0 * INCH;
 /// Radius of wheels and of axles, width and place of wheels as drawn, m.
 const WHEEL: [f64; 4] = [18.0 * INCH, 3.5 * INCH, 5.0 * INCH, 29.5 * INCH];
-/// Height of the floor of what stands on the bolster, as drawn, m: that of the center plate; its half length, half
-/// width and thickness.
+/// Height of the floor of what stands on the bolster, as drawn, m: that of the center plate; its half length,
+/// half width and thickness.
 const FLOOR: [f64; 4] = [30.0 * INCH, 22.0 * INCH, 58.0 * INCH, 5.0 * INCH];
 /// Names of coordinates in columns.
 const COORDINATES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];

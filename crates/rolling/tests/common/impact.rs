@@ -62,8 +62,8 @@ pub fn loads(rig: &Rig, start: &[f64], end: f64) -> Vec<[f64; 2]> {
     found
 }
 
-/// Wheel and track as two masses, the wheel on Hertz's spring `k d^1.5`, that meet at a velocity: loads (s, N) by the
-/// classical Runge-Kutta method.
+/// Wheel and track as two masses, the wheel on Hertz's spring `k d^1.5`, that meet at a velocity: loads (s,
+/// N) by the classical Runge-Kutta method.
 pub fn two_masses(stiffness: f64, damping: f64, velocity: f64, end: f64) -> Vec<[f64; 2]> {
     let [mass, spring, damper] = TRACK;
     let rest = [(LOAD / stiffness).powf(2.0 / 3.0), LOAD / spring];
@@ -113,8 +113,8 @@ pub fn closed_forms(velocity: f64, hertz: f64) -> [f64; 2] {
 /// Damping with which P2 is looked at, s/m: the contact's vibration is over when it comes.
 const DAMPED: f64 = 6.0;
 
-/// The peaks P1 (without damping of the contact) and P2 (with it), N above the static load, of a wheel that meets its rail at
-/// a velocity (m/s): by the elements, by two masses, by closed forms.
+/// The peaks P1 (without damping of the contact) and P2 (with it), N above the static load, of a wheel that
+/// meets its rail at a velocity (m/s): by the elements, by two masses, by closed forms.
 pub fn meeting(velocity: f64) -> [[f64; 2]; 3] {
     let [mut found, mut masses] = [[0.0; 2]; 2];
     let mut hertz = 0.0;

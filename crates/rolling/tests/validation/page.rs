@@ -43,10 +43,13 @@ fn percent(found: f64, source: f64) -> String {
 
 fn suspended(out: &mut String) {
     *out += "## A wheelset on lateral and yaw springs\n\n\
-             Critical speeds with linear geometry and creep. The closed form, with c1 = 2 f22, c2 = 2 f11 l², X = 4 f11 f22 λ l / r:\n\
-             ω² = (c1 kψ + c2 ky) / (c1 I + c2 m), V² = c1 c2 ω² / (X + (ky - m ω²)(kψ - I ω²)). By linearization to lie within 0.01 %,\n\
+             Critical speeds with linear geometry and creep. The closed form, with c1 = 2 f22, c2 = 2 f11 \
+             l², X = 4 f11 f22 λ l / r:\n\
+             ω² = (c1 kψ + c2 ky) / (c1 I + c2 m), V² = c1 c2 ω² / (X + (ky - m ω²)(kψ - I ω²)). By \
+             linearization to lie within 0.01 %,\n\
              by time steps (where the growth of runs 1 % below and above is zero) within 1 %.\n\n\
-             | wheelset | by | critical speed here, m/s | closed form |  | frequency here, Hz | closed form |\n\
+             | wheelset | by | critical speed here, m/s | closed form |  | frequency here, Hz | closed form \
+             |\n\
              |---|---|---|---|---|---|---|\n";
     for (number, (suspension, creep, geometry, [critical, frequency])) in SUSPENDED.into_iter().enumerate() {
         let [found, hertz] = critical_speed(&(suspension, creep, geometry));
@@ -74,8 +77,10 @@ fn cooperrider(out: &mut String) {
     let _ = write!(
         out,
         "## Cooperrider's bogie\n\n\
-         Seven degrees of freedom on linear wheels, parameters of Kaas-Petersen's form (from memory, confirmed by the number). The\n\
-         published bifurcation (Hassard) is at 68.66 m/s; the eigenvalue problem of the model by itself gives 68.644 m/s and 3.998 Hz.\n\n\
+         Seven degrees of freedom on linear wheels, parameters of Kaas-Petersen's form (from memory, \
+         confirmed by the number). The\n\
+         published bifurcation (Hassard) is at 68.66 m/s; the eigenvalue problem of the model by itself \
+         gives 68.644 m/s and 3.998 Hz.\n\n\
          |  | here | by itself |  | published |\n|---|---|---|---|---|\n\
          | critical speed, m/s | {found:.3} | 68.644 | {} | 68.66 |\n\
          | frequency, Hz | {frequency:.3} | 3.998 | {} |  |\n",
@@ -86,7 +91,8 @@ fn cooperrider(out: &mut String) {
 
 fn klingel(out: &mut String) {
     *out += "## Klingel's wavelength through patches\n\n\
-             Coned wheels with contact patches on round crowns, 2 m/s, no springs. The wavelength by linearization against\n\
+             Coned wheels with contact patches on round crowns, 2 m/s, no springs. The wavelength by \
+             linearization against\n\
              2π √(r l / λ) with l and λ of the rigid wheelset; to lie within 1 %.\n\n\
              | cone | crown, mm | wavelength here, m | Klingel, m |  |\n|---|---|---|---|---|\n";
     let law = ContactLaw {
@@ -160,8 +166,10 @@ fn bump(out: &mut String) {
     let _ = write!(
         out,
         "## A frictionless mass over a bump\n\n\
-         A wheelset of 1250 kg without friction runs at 5 m/s through a dip of 10 mm over 3 m. The rail is at rest, so that\n\
-         nothing may be put in: its energy after the dip is to be that before within 1e-5 of what was exchanged.\n\n\
+         A wheelset of 1250 kg without friction runs at 5 m/s through a dip of 10 mm over 3 m. The rail is \
+         at rest, so that\n\
+         nothing may be put in: its energy after the dip is to be that before within 1e-5 of what was \
+         exchanged.\n\n\
          | sinks by, mm | energy exchanged, J | change of energy after the dip, at most |\n|---|---|---|\n\
          | {:.1} | {exchanged:.0} | {} |\n",
         -1e3 * lowest,
@@ -205,9 +213,11 @@ fn forces(heading: f64, time: f64) -> [f64; 4] {
 
 fn circle(out: &mut String) {
     *out += "## A circle from any heading\n\n\
-             Steady curving at 60 km/h in a curve of 10 deg, half a lap and more after the start; the fixed axes turned by the\n\
+             Steady curving at 60 km/h in a curve of 10 deg, half a lap and more after the start; the fixed \
+             axes turned by the\n\
              heading. Forces are to be the same within 1e-6 of the wheel load.\n\n\
-             | heading, rad | after, s | normal forces left, right, kN | creep forces across, left, right, kN | largest difference |\n\
+             | heading, rad | after, s | normal forces left, right, kN | creep forces across, left, right, \
+             kN | largest difference |\n\
              |---|---|---|---|---|\n";
     let first = forces(0.0, 20.0);
     for (heading, time) in [(0.0, 20.0), (0.5 * PI, 40.0), (PI, 55.0), (3.9, 30.0)] {
@@ -231,10 +241,14 @@ fn impact(out: &mut String) {
     let velocity = 0.01;
     let [found, masses, closed] = meeting(velocity);
     *out += "## Impact at a dipped joint: P1 and P2\n\n\
-1250 kg unsprung and 125 kN a wheel; track 345 kg, 80 MN/m, 140 kN·s/m a rail. A wheel meets its rail at 2αv: both\n\
-             peaks of its load above the static one, per velocity; by two masses on Hertz's spring (integrated by themselves), and the\n\
-             closed forms of Jenkins and others (1974; from memory). P1 without damping of the contact, P2 with 6 s/m, so that the\n\
-             contact's vibration is over. To lie within 2 % of the two masses and 15 % of the closed forms.\n\n\
+             1250 kg unsprung and 125 kN a wheel; track 345 kg, 80 MN/m, 140 kN·s/m a rail. A wheel meets \
+             its rail at 2αv: both\n\
+             peaks of its load above the static one, per velocity; by two masses on Hertz's spring \
+             (integrated by themselves), and the\n\
+             closed forms of Jenkins and others (1974; from memory). P1 without damping of the contact, P2 \
+             with 6 s/m, so that the\n\
+             contact's vibration is over. To lie within 2 % of the two masses and 15 % of the closed \
+             forms.\n\n\
              |  | here, kN s/m | two masses |  | closed form |  |\n|---|---|---|---|---|---|\n";
     for (number, name) in ["P1", "P2"].into_iter().enumerate() {
         let of = |own: [f64; 2]| 1e-3 * own[number] / velocity;
@@ -254,9 +268,12 @@ fn impact(out: &mut String) {
     let joint = joint(angle, speed);
     let _ = write!(
         out,
-        "\nThe closed form's own example (2α = 0.02, 26.8 m/s) gives {:.1} kN, in the source 228.9 kN. A joint of a track, 2α = 0.002 at\n\
-         40 m/s: P2 is {:.1} kN above the static load, the closed form {:.1} kN ({:+.1} %). Rails are kept at points 1/8 m apart, which\n\
-         round a joint over that length: P1, which a wheel passes within a few centimeters, needs a sharper one and is not shown there.\n",
+        "\nThe closed form's own example (2α = 0.02, 26.8 m/s) gives {:.1} kN, in the source 228.9 kN. A \
+         joint of a track, 2α = 0.002 at\n\
+         40 m/s: P2 is {:.1} kN above the static load, the closed form {:.1} kN ({:+.1} %). Rails are kept \
+         at points 1/8 m apart, which\n\
+         round a joint over that length: P1, which a wheel passes within a few centimeters, needs a sharper \
+         one and is not shown there.\n",
         1e-3 * (LOAD + example),
         1e-3 * joint,
         1e-3 * second,

@@ -11,15 +11,15 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
     let p = &case.parameters;
     let mut list = vec![
         "Out of scope: flexible bodies, braking, coupler forces.".to_owned(),
-        "Bodies are rigid; coils, stops and faces are springs with dampers. Stiffnesses of contacts of wedges, center plates \
-         and adapters are guesses."
+        "Bodies are rigid; coils, stops and faces are springs with dampers. Stiffnesses of contacts of \
+         wedges, center plates and adapters are guesses."
             .to_owned(),
     ];
     match &p.wheels {
         Wheels::OnRails(own) => {
             list.push(
-                "The profiles AAR-1B and 136RE are nominal, from memory: check them against drawings, or give profiles from \
-                 files."
+                "The profiles AAR-1B and 136RE are nominal, from memory: check them against drawings, or \
+                 give profiles from files."
                     .to_owned(),
             );
             list.push(format!(
@@ -40,7 +40,9 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
             ));
         }
         Wheels::Linear { .. } => list.push(
-            "Linear wheels: geometry and creep of small motions, no flange, no saturation: for stability alone.".to_owned(),
+            "Linear wheels: geometry and creep of small motions, no flange, no saturation: for stability \
+             alone."
+                .to_owned(),
         ),
     }
     list.push(match &p.support {
@@ -60,24 +62,27 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
     }
     list.push(match &p.drive {
         Drive::Held { .. } | Drive::Over { .. } => {
-            "A force on the car body along the track holds the speed; it stands for all that pulls and brakes.".to_owned()
+            "A force on the car body along the track holds the speed; it stands for all that pulls and \
+             brakes."
+                .to_owned()
         }
         Drive::Coasting => "No force holds the speed.".to_owned(),
     });
     list.push(match p.start.kind {
         StartKind::Equilibrium => {
-            "The car starts in equilibrium without friction, bristles undeflected, wheels rolling; statistics leave out the \
-             settling time."
+            "The car starts in equilibrium without friction, bristles undeflected, wheels rolling; \
+             statistics leave out the settling time."
                 .to_owned()
         }
         StartKind::Nominal => {
-            "The car starts in the nominal layout, which is that of the loaded car; statistics leave out the settling time."
+            "The car starts in the nominal layout, which is that of the loaded car; statistics leave out \
+             the settling time."
                 .to_owned()
         }
     });
     list.push(
-        "Filters, times, distances and limits of the statistics are remembered of AAR M-1001, chapter XI: check them against \
-         your edition."
+        "Filters, times, distances and limits of the statistics are remembered of AAR M-1001, chapter XI: \
+         check them against your edition."
             .to_owned(),
     );
     list

@@ -1,4 +1,5 @@
-//! The built-in cars, after the regimes by which freight cars are assessed. Every one is the text of a case file.
+//! The built-in cars, after the regimes by which freight cars are assessed. Every one is the text of a case
+//! file.
 //!
 //! Amplitudes and curves are remembered of AAR M-1001, chapter XI: check them against your edition.
 
@@ -33,7 +34,8 @@ direction = \"lateral\"
 seed = 3
 ";
 
-/// A curve to the left with spirals at both ends: lengths of tangent, spiral and curve (ft), degree, superelevation (in).
+/// A curve to the left with spirals at both ends: lengths of tangent, spiral and curve (ft), degree,
+/// superelevation (in).
 fn curve([tangent, spiral, curve]: [f64; 3], degree: f64, superelevation: f64, after: &str) -> String {
     format!(
         "[[track.segments]]
@@ -109,9 +111,10 @@ start.axle_shift = \"0.2 in\"";
         Group {
             name: "car",
             title: "A freight car on track",
-            look_at: "Tangent: accelerations at the truck centers, losses of the wedges. Curves: lateral forces of the leading \
-                      axles, L/V, and the trucks' turning against center plates and wedges. Amplitudes and limits are remembered \
-                      of AAR M-1001, chapter XI: check them against your edition.",
+            look_at: "Tangent: accelerations at the truck centers, losses of the wedges. Curves: lateral \
+                      forces of the leading axles, L/V, and the trucks' turning against center plates and \
+                      wedges. Amplitudes and limits are remembered of AAR M-1001, chapter XI: check them \
+                      against your edition.",
             cases: [
                 &both(
                     "tangent",
@@ -133,9 +136,9 @@ start.axle_shift = \"0.2 in\"";
         Group {
             name: "car_regimes",
             title: "Regimes of freight cars",
-            look_at: "Spiral: the least wheel load. Hunting: where the lateral motion dies while the car slows down, and the \
-                      standard deviation of the lateral acceleration. Twist and roll: the roll of the body, greatest less least, \
-                      over speeds. Pitch and bounce: wheel loads.",
+            look_at: "Spiral: the least wheel load. Hunting: where the lateral motion dies while the car \
+                      slows down, and the standard deviation of the lateral acceleration. Twist and roll: \
+                      the roll of the body, greatest less least, over speeds. Pitch and bounce: wheel loads.",
             cases: vec![
                 case(
                     "spiral",

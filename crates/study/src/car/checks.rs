@@ -1,4 +1,5 @@
-//! What no single key shows: a lading that tips the car, a track that is too short, a curve that is too tight.
+//! What no single key shows: a lading that tips the car, a track that is too short, a curve that is too
+//! tight.
 
 use car::{Drive, Parameters};
 use quantity::Number;
@@ -15,8 +16,8 @@ const INCH: f64 = 0.0254;
 pub(super) const POUND_FORCE: f64 = 4.448_221_615_260_5;
 /// Coils that rise or sink by less are not spoken of, m.
 const SMALL_RISE: f64 = 0.05 * INCH;
-/// The curve below whose radius no truck of this kind runs, m: 150 ft, the least that rules for the design of cars
-/// name (remembered).
+/// The curve below whose radius no truck of this kind runs, m: 150 ft, the least that rules for the design of
+/// cars name (remembered).
 const LEAST_RADIUS: f64 = 150.0 * FOOT;
 
 /// Notes what is wrong. Returns what is doubtful.
@@ -41,8 +42,8 @@ fn balance(r: &mut Reader<'_>, parameters: &Parameters, lading: LadingKind) {
     let half = 0.5 * parameters.truck_distance;
     if forward.abs() >= half {
         let message = format!(
-            "the center of gravity of body and lading lies {:.1} in from the middle, beyond the {} truck, {:.1} in from it: \
-             the car tips",
+            "the center of gravity of body and lading lies {:.1} in from the middle, beyond the {} truck, \
+             {:.1} in from it: the car tips",
             forward.abs() / INCH,
             if forward > 0.0 { "front" } else { "rear" },
             half / INCH
@@ -58,8 +59,8 @@ fn balance(r: &mut Reader<'_>, parameters: &Parameters, lading: LadingKind) {
         .fold(f64::INFINITY, f64::min);
     if left.abs() >= bearing {
         let message = format!(
-            "the center of gravity of body and lading lies {:.1} in to the {} of the middle, beyond the side bearings at \
-             {:.1} in: the body tips over them",
+            "the center of gravity of body and lading lies {:.1} in to the {} of the middle, beyond the \
+             side bearings at {:.1} in: the body tips over them",
             left.abs() / INCH,
             if left > 0.0 { "left" } else { "right" },
             bearing / INCH
@@ -75,8 +76,8 @@ fn balance(r: &mut Reader<'_>, parameters: &Parameters, lading: LadingKind) {
             && body.side_bearings.preload() > carried
         {
             let message = format!(
-                "the side bearings of the {name} truck push with {:.0} lbf, more than the {:.0} lbf of the body that stand \
-                 there: they lift it off the center plate",
+                "the side bearings of the {name} truck push with {:.0} lbf, more than the {:.0} lbf of the \
+                 body that stand there: they lift it off the center plate",
                 body.side_bearings.preload() / POUND_FORCE,
                 carried / POUND_FORCE
             );
@@ -105,8 +106,8 @@ fn height(parameters: &Parameters) -> Option<String> {
     }
     let (rise, name, travel) = worst.filter(|(rise, ..)| rise.abs() > SMALL_RISE)?;
     Some(format!(
-        "the coils of the {name} truck would give by {:.2} in under what stands on them, but go solid after {:.2} in: raise \
-         load_springs.preload of the truck, or carry less",
+        "the coils of the {name} truck would give by {:.2} in under what stands on them, but go solid after \
+         {:.2} in: raise load_springs.preload of the truck, or carry less",
         -rise / INCH,
         travel / INCH
     ))
@@ -132,8 +133,8 @@ fn way(r: &mut Reader<'_>, parameters: &Parameters, simulation: &Simulation) {
     let lead = straight_until(line);
     if start + reach > lead {
         let message = format!(
-            "the car starts with its front axle at {:.1} ft, but the track is straight and level across only until {:.1} ft: a \
-             run begins on tangent track",
+            "the car starts with its front axle at {:.1} ft, but the track is straight and level across \
+             only until {:.1} ft: a run begins on tangent track",
             (start + reach) / FOOT,
             lead / FOOT
         );
@@ -188,9 +189,10 @@ fn way(r: &mut Reader<'_>, parameters: &Parameters, simulation: &Simulation) {
             .as_ref()
             .map_or(0.0, |own| own.side_bearings.distance);
         let message = format!(
-            "the curve at {:.0} ft has a radius of {:.0} ft, tighter than the 150 ft that cars are built for: the trucks would \
-             turn by {:.1} deg under the body, the side bearings would move by {:.1} in, and between the axles of a truck the \
-             outer rail lies {:.2} in off the line through them, where the flanges press",
+            "the curve at {:.0} ft has a radius of {:.0} ft, tighter than the 150 ft that cars are built \
+             for: the trucks would turn by {:.1} deg under the body, the side bearings would move by {:.1} \
+             in, and between the axles of a truck the outer rail lies {:.2} in off the line through them, \
+             where the flanges press",
             place / FOOT,
             1.0 / tightest / FOOT,
             turn.to_degrees(),

@@ -123,7 +123,8 @@ impl Columns {
                     text,
                     move |seen| seen.loads.wheels[axle][side].vertical,
                 );
-                let text = "force of the wheel on its rail along the track's plane, positive where it spreads the gauge";
+                let text = "force of the wheel on its rail along the track's plane, positive where it \
+                            spreads the gauge";
                 self.add(format!("{stem}_lateral"), Kind::Force, TRACK, text, move |seen| {
                     seen.loads.wheels[axle][side].lateral
                 });
@@ -271,8 +272,8 @@ impl Columns {
             ),
             (
                 "contact_work",
-                "work of the contacts of wheels and rails that is not stored and not lost in creep and damping: it comes from \
-                 forces that no energy belongs to",
+                "work of the contacts of wheels and rails that is not stored and not lost in creep and \
+                 damping: it comes from forces that no energy belongs to",
                 of(&|kind, element| kind.is_work() && is_wheel(element)),
             ),
             (
@@ -282,7 +283,8 @@ impl Columns {
             ),
             (
                 "friction_loss",
-                "energy lost in the friction of wedges, adapters, center plates and side bearings since the start",
+                "energy lost in the friction of wedges, adapters, center plates and side bearings since the \
+                 start",
                 of(&|kind, _| {
                     matches!(
                         kind,

@@ -3,8 +3,8 @@
 use car::{Loads, Parameters, Wheels};
 use wheelrail::track::Track;
 
-/// A wheelset this far from the middle of the rails has a wheel with its flange on top of the rail or beyond, m: the flange's
-/// clearance of 3/8 in, and from its face to its tip 7/8 in; 1 1/4 in with nominal profiles.
+/// A wheelset this far from the middle of the rails has a wheel with its flange on top of the rail or beyond,
+/// m: the flange's clearance of 3/8 in, and from its face to its tip 7/8 in; 1 1/4 in with nominal profiles.
 const ON_TOP: f64 = 1.25 * 0.0254;
 /// A wheelset this far below its height on the rails has fallen between them, m.
 const FALLEN: f64 = 1.5 * 0.0254;
@@ -21,7 +21,8 @@ pub(super) struct Left {
     pub what: String,
 }
 
-/// Returns the first wheel from the front that has left its rail; `heights` are those of the axles at the start, m.
+/// Returns the first wheel from the front that has left its rail; `heights` are those of the axles at the
+/// start, m.
 pub(super) fn of(loads: &Loads, track: &Track, heights: [f64; 4]) -> Option<Left> {
     loads.axles.iter().enumerate().find_map(|(axle, own)| {
         let sunk = heights[axle] - own.height;
@@ -32,10 +33,15 @@ pub(super) fn of(loads: &Loads, track: &Track, heights: [f64; 4]) -> Option<Left
         let [left, right] = track.rails(own.distance);
         let (to_left, to_right) = (own.lateral - left.lateral[0], right.lateral[0] - own.lateral);
         let sunk = sunk + 0.5 * (left.vertical[0] + right.vertical[0]);
-        let (side, beyond) = if to_left > to_right { (0, to_left) } else { (1, to_right) };
+        let (side, beyond) = if to_left > to_right {
+            (0, to_left)
+        } else {
+            (1, to_right)
+        };
         let what = if beyond > ON_TOP {
             format!(
-                "the axle is {:.2} in from the middle of that rail's track, so that the flange is on top of the rail",
+                "the axle is {:.2} in from the middle of that rail's track, so that the flange is on top of \
+                 the rail",
                 beyond / 0.0254
             )
         } else if sunk > FALLEN {
@@ -52,8 +58,8 @@ pub(super) fn of(loads: &Loads, track: &Track, heights: [f64; 4]) -> Option<Left
     })
 }
 
-/// Returns the static loads of the wheels on level track by axle from the front, left and right, N: each axle carries half
-/// of its truck, and the body by the place of its center of gravity.
+/// Returns the static loads of the wheels on level track by axle from the front, left and right, N: each axle
+/// carries half of its truck, and the body by the place of its center of gravity.
 pub(super) fn static_loads(parameters: &Parameters) -> [[f64; 2]; 4] {
     let [forward, left, _] = parameters.center_of_gravity();
     let half = match &parameters.wheels {

@@ -65,16 +65,17 @@ pub(super) fn masses(r: &mut Reader<'_>, kind: LadingKind) -> Vec<Mass> {
             _ => Vec::new(),
         };
     }
-    let comment = "rigid masses: weight; place forward, to the left, above the top of rail; inertia about x, y, z; \
-                   off the middle allowed";
+    let comment = "rigid masses: weight; place forward, to the left, above the top of rail; inertia about \
+                   x, y, z; off the middle allowed";
     let read = r.other("masses", comment, Vec::new(), list, |list: &Vec<Typed>| {
         let lines: Vec<String> = list.iter().map(|own| format!("\n    {},", own.toml)).collect();
         Written::toml(format!("[{}\n]", lines.concat()))
     });
     if read.is_empty() && !r.has("lading.masses") {
         let problem = Problem::new("`lading.kind` is \"masses\", but there are none").label("which masses?");
-        let help = "write lading.masses = [{ name = \"coil\", weight = \"40 kip\", place = [\"0 in\", \"10 in\", \"70 in\"], \
-                    inertia = [\"0 lbf in s^2\", \"0 lbf in s^2\", \"0 lbf in s^2\"] }], or lading.kind = \"empty\"";
+        let help = "write lading.masses = [{ name = \"coil\", weight = \"40 kip\", place = [\"0 in\", \"10 \
+                    in\", \"70 in\"], inertia = [\"0 lbf in s^2\", \"0 lbf in s^2\", \"0 lbf in s^2\"] }], \
+                    or lading.kind = \"empty\"";
         r.problem("lading.kind", problem.help(help));
     }
     read.into_iter().map(|own| own.mass).collect()
@@ -145,7 +146,8 @@ fn list(section: &Section<'_>, problems: &mut Problems) -> Option<Vec<Typed>> {
 pub(super) fn body(r: &mut Reader<'_>, parameters: &mut Parameters) {
     r.section(
         "car",
-        "The car body without lading. Axes: x forward, y left, z up from the top of rail, origin midway between the trucks.",
+        "The car body without lading. Axes: x forward, y left, z up from the top of rail, origin midway \
+         between the trucks.",
     );
     sections::rigid_body(r, &mut parameters.body);
     r.quantity(

@@ -28,8 +28,8 @@ pub struct Limit {
     pub margin: f64,
 }
 
-/// A limit as rules state it: what it is, the regimes, the ending of its statistics, the limit, its unit, the limit in SI
-/// of that unit, and whether values must lie above.
+/// A limit as rules state it: what it is, the regimes, the ending of its statistics, the limit, its unit, the
+/// limit in SI of that unit, and whether values must lie above.
 struct Stated {
     quantity: &'static str,
     regimes: &'static str,

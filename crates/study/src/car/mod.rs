@@ -1,7 +1,8 @@
 //! Freight cars on track: cases, runs, statistics, results.
 //!
-//! [`CarCase`] is what a user writes, completed and in SI; [`builtin`] has cases after the regimes of the field;
-//! [`statistics`] says what rules for the assessment of cars ask, [`limits`] beside what they allow; [`run`] records a run; [`stability`] linearizes.
+//! [`CarCase`] is what a user writes, completed and in SI; [`builtin`] has cases after the regimes of the
+//! field; [`statistics`] says what rules for the assessment of cars ask, [`limits`] beside what they allow;
+//! [`run`] records a run; [`stability`] linearizes.
 
 mod assumptions;
 pub mod builtin;
@@ -60,8 +61,8 @@ impl PartialEq for CarCase {
 }
 
 impl CarCase {
-    /// Reads a case file and lays `--set` overrides (`path.key=value`) over it. A case without a name takes that
-    /// of its file.
+    /// Reads a case file and lays `--set` overrides (`path.key=value`) over it. A case without a name takes
+    /// that of its file.
     ///
     /// # Errors
     /// The file cannot be read, or something in it, in a file it names, or in an override is wrong; all
@@ -72,8 +73,8 @@ impl CarCase {
         Self::parse(&path.display().to_string(), &text, folder, overrides)
     }
 
-    /// As [`CarCase::read`], from a text. `source` names it in messages; `tables` says where files that it names
-    /// are looked for.
+    /// As [`CarCase::read`], from a text. `source` names it in messages; `tables` says where files that it
+    /// names are looked for.
     ///
     /// # Errors
     /// As [`CarCase::read`].
@@ -90,8 +91,9 @@ impl CarCase {
         Self::of_tree(tree, source, tables.into(), problems)
     }
 
-    /// Lays values over the text of a case: TOML as in a case file, but a bare number where a quantity is expected is
-    /// in SI units. Tables are merged key by key; the lists of a track and of a lading are replaced.
+    /// Lays values over the text of a case: TOML as in a case file, but a bare number where a quantity is
+    /// expected is in SI units. Tables are merged key by key; the lists of a track and of a lading are
+    /// replaced.
     ///
     /// # Errors
     /// As [`CarCase::parse`].
@@ -149,14 +151,15 @@ impl CarCase {
         }
     }
 
-    /// Returns the whole case as TOML: every key in groups, each with what it means. Reads back to the same case.
+    /// Returns the whole case as TOML: every key in groups, each with what it means. Reads back to the same
+    /// case.
     #[must_use]
     pub fn to_toml(&self) -> &str {
         &self.text
     }
 
-    /// Returns the same with the contents of a track file written into it. Profiles of wheels and rails and measured
-    /// tables stay files.
+    /// Returns the same with the contents of a track file written into it. Profiles of wheels and rails and
+    /// measured tables stay files.
     #[must_use]
     pub fn to_toml_embedded(&self) -> &str {
         &self.embedded

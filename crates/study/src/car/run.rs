@@ -325,7 +325,8 @@ fn statistics_of(run: &Run<CarCase>, columns: &[Column], values: &[Vec<f64>]) ->
     let mut told = Statistics::of(&histories, &run.case.rules, run.case.simulation.output_units);
     if let Some(time) = run.recorder.continued {
         told.remarks.push(format!(
-            "the run went on from a state saved at {time} s: rows before it are neither in its table nor in its statistics"
+            "the run went on from a state saved at {time} s: rows before it are neither in its table nor in \
+             its statistics"
         ));
     }
     told

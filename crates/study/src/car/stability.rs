@@ -1,10 +1,8 @@
-//! Linear stability of a car about steady running: the motions that grow, over speed, and the critical speed, with
-//! friction that sticks and without friction.
+//! Linear stability of a car about steady running: the motions that grow, over speed, and the critical speed,
+//! with friction that sticks and without friction.
 //!
-//! The car runs on straight track without irregularities, whatever its case's track is; the springs under its rails are
-//! the case's. What is linearized, and how, says [`car::Parameters::modes`].
-//!
-//! Limits: with profiles of wheels and rails the search for eigenvalues does not succeed; with linear wheels it does.
+//! The car runs on straight track without irregularities, whatever its case's track is; the springs under its
+//! rails are the case's. What is linearized, and how, says [`car::Parameters::modes`].
 
 use std::ops::ControlFlow;
 
@@ -47,7 +45,8 @@ pub struct Stability {
 pub const FRICTION: [(FrictionState, &str); 2] =
     [(FrictionState::Stuck, "stuck"), (FrictionState::Absent, "absent")];
 
-/// Returns the vibrations at these speeds (m/s, rising), and the critical speeds. `go_on` is told the share that is done.
+/// Returns the vibrations at these speeds (m/s, rising), and the critical speeds. `go_on` is told the share
+/// that is done.
 ///
 /// # Errors
 /// The car cannot be linearized at a speed.

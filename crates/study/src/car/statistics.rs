@@ -1,7 +1,8 @@
 //! What rules for the assessment of freight cars ask of a run, from its columns.
 //!
-//! All lengths of time and distance, frequencies and limits are those that are remembered of AAR M-1001, chapter XI
-//! (1993, and a later edition): **check them against your edition**. They are parameters ([`Rules`]).
+//! All lengths of time and distance, frequencies and limits are those that are remembered of AAR M-1001,
+//! chapter XI (1993, and a later edition): **check them against your edition**. They are parameters
+//! ([`Rules`]).
 //!
 //! | statistic | how |
 //! |---|---|
@@ -14,8 +15,9 @@
 //! | accelerations at the truck centers | greatest less least, largest size, largest standard deviation over a distance, largest rms over a time |
 //!
 //! Raw: from the rows. Filtered: wheel forces and accelerations through a low-pass filter
-//! ([`crate::signal::LowPass`]), ratios of filtered forces. Before the settling time nothing counts. A ratio is zero
-//! where a wheel carries less than a hundredth of its static load: what is told there is the least wheel load.
+//! ([`crate::signal::LowPass`]), ratios of filtered forces. Before the settling time nothing counts. A ratio
+//! is zero where a wheel carries less than a hundredth of its static load: what is told there is the least
+//! wheel load.
 
 use std::collections::BTreeMap;
 
@@ -471,7 +473,8 @@ fn whole(rows: &Rows<'_>) -> impl Fn(&[f64]) -> Option<Found> {
     }
 }
 
-/// The largest value that lasts over a distance, with its time. Where the car stands or goes back there is none.
+/// The largest value that lasts over a distance, with its time. Where the car stands or goes back there is
+/// none.
 fn over_distance(rows: &Rows<'_>, values: &[f64], distance: f64) -> Option<Found> {
     if rows.distance.windows(2).any(|pair| pair[1] <= pair[0]) {
         return None;

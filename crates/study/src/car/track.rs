@@ -27,7 +27,8 @@ pub(super) fn tangent(length: f64) -> Option<Track> {
 pub(super) fn track(r: &mut Reader<'_>) -> Option<(Track, Support)> {
     r.section(
         "track",
-        "The track: the keys of a track file, or file = \"my_track.toml\". Rails are at rest; what they lie on is track.support.",
+        "The track: the keys of a track file, or file = \"my_track.toml\". Rails are at rest; what they lie \
+         on is track.support.",
     );
     let Some(section) = r.given() else {
         let segments = format!("[{{ tangent = \"{USUAL} ft\" }}]");

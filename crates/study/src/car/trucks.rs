@@ -1,7 +1,7 @@
 //! The sections of the trucks: `[truck]` for both, `[front_truck]` and `[rear_truck]` over it.
 //!
-//! The keys are those of a truck's case, in tables of the truck: `[truck.wedge]`, `[front_truck.friction]`. Where both
-//! trucks have the same values the complete case has `[truck]` alone, else both in full.
+//! The keys are those of a truck's case, in tables of the truck: `[truck.wedge]`, `[front_truck.friction]`.
+//! Where both trucks have the same values the complete case has `[truck]` alone, else both in full.
 
 use truck::{CarBody, Lading, Parameters, SideBearings};
 use wedge::parameters::Damping;
@@ -15,8 +15,8 @@ use crate::truck::wedges;
 const BOTH: &str = "truck";
 const EACH: [&str; 2] = ["front_truck", "rear_truck"];
 
-/// Lays `[truck]` below `[front_truck]` and `[rear_truck]` where one of them is given: then both stand for themselves.
-/// Notes values for both trucks that each truck has its own of.
+/// Lays `[truck]` below `[front_truck]` and `[rear_truck]` where one of them is given: then both stand for
+/// themselves. Notes values for both trucks that each truck has its own of.
 pub(super) fn complete(tree: &mut Table, problems: &mut Problems) {
     if EACH.iter().all(|name| tree.table(name).is_none()) {
         return;

@@ -125,7 +125,8 @@ pub(super) fn wheels(r: &mut Reader<'_>, parameters: &mut Parameters, rails: Rai
         parameters.wheels = linear_wheels(r, radius, static_load);
         return;
     }
-    let comment = "\"aar_1b\" (nominal, from memory), \"cone_1:20\" of any slope, or a file: CSV with units, Simpack's .prw";
+    let comment = "\"aar_1b\" (nominal, from memory), \"cone_1:20\" of any slope, or a file: CSV with \
+                   units, Simpack's .prw";
     let name = text(r, "profile", "aar_1b", comment);
     let mut tape_distance = 59.21875 * INCH;
     r.quantity("tape_distance", LENGTH, &mut tape_distance, "of the tape circles");
@@ -170,7 +171,8 @@ fn contact_law(r: &mut Reader<'_>, sprung: bool) -> ContactLaw {
         "of wheel on rail",
     );
     let mut creep = Creep::Polach;
-    let comment = "\"polach\", \"shen_hedrick_elkins\", \"fastsim\", \"kalker\" (linear, no saturation), \"frictionless\"";
+    let comment = "\"polach\", \"shen_hedrick_elkins\", \"fastsim\", \"kalker\" (linear, no \
+                   saturation), \"frictionless\"";
     r.choice("creep", CREEPS, &mut creep, comment);
     let mut damping = if sprung { 0.3 } else { 2.0 };
     let comment = "of the normal force, s/m (Hunt and Crossley): 0.3 on sprung track, 2 on rigid; guesses";
@@ -202,8 +204,8 @@ fn contact_law(r: &mut Reader<'_>, sprung: bool) -> ContactLaw {
     }
 }
 
-/// Linear geometry and creep: defaults are those of a cone of 1:20 with Kalker's coefficients of a loaded wheel,
-/// rounded.
+/// Linear geometry and creep: defaults are those of a cone of 1:20 with Kalker's coefficients of a loaded
+/// wheel, rounded.
 fn linear_wheels(r: &mut Reader<'_>, radius: f64, axle_load: f64) -> Wheels {
     let slope = Range::Between(0.0, 1.0, "between 0 and 1");
     let mut conicity = 0.05;

@@ -17,8 +17,10 @@ pub(crate) const SECTIONS: [&str; 2] = ["column_face", "slope_face"];
 /// What the sections are about.
 pub(crate) const ABOUT: [&str; 2] = [
     "The wedge's vertical face at the column. A surface is \"flat\", or one of\n\
-     # { shape = \"crown\", radius = \"60 in\", direction = \"up\" }       direction \"up\" the face or \"across\" it; or shape \"hollow\"\n\
-     # { shape = \"table\", direction = \"up\", points = [[place, depth], ...] }   from edge to edge, places from the middle, up or to\n\
+     # { shape = \"crown\", radius = \"60 in\", direction = \"up\" }       direction \"up\" the face \
+     or \"across\" it; or shape \"hollow\"\n\
+     # { shape = \"table\", direction = \"up\", points = [[place, depth], ...] }   from edge to edge, \
+     places from the middle, up or to\n\
      #                                                the left; or file = \"profile.csv\"",
     "The wedge's slope face at the slope of the bolster's pocket.",
 ];
@@ -144,14 +146,19 @@ impl FaceSection {
             (self.pad.as_ref().map(PadSection::written), PadSection::EXAMPLE),
         ];
         const COMMENTS: [&str; 8] = [
-            "points up the face and across it, edges included; [2, 2]: the corners. More points spread the pressure",
-            "the wedge's surface: \"flat\", or { shape = \"crown\", radius = \"60 in\", direction = \"up\" }, ...",
+            "points up the face and across it, edges included; [2, 2]: the corners. More points spread the \
+             pressure",
+            "the wedge's surface: \"flat\", or { shape = \"crown\", radius = \"60 in\", direction = \"up\" \
+             }, ...",
             "the surface that it touches, in the same words",
             "coefficient of sliding; left out, that of rest, which is friction.column or friction.slope",
             "slip speed at which half of the way from rest to sliding is gone; left out, 0.1 in/s",
-            "load of the face at which its coefficients are half of those without load; left out, no dependence",
-            "factors of the coefficients, rows from the lower edge, each from the right to the left edge; left out, 1",
-            "a resilient pad in place of contact.stiffness and .damping, with friction of its own; left out, steel on steel",
+            "load of the face at which its coefficients are half of those without load; left out, no \
+             dependence",
+            "factors of the coefficients, rows from the lower edge, each from the right to the left edge; \
+             left out, 1",
+            "a resilient pad in place of contact.stiffness and .damping, with friction of its own; left \
+             out, steel on steel",
         ];
         let lines = Self::KEYS.iter().zip(values).zip(COMMENTS);
         lines

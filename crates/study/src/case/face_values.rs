@@ -192,8 +192,9 @@ impl Surface {
 }
 
 impl PadSection {
-    pub(super) const EXAMPLE: &str = "{ stiffness = \"2e5 lbf/in\", damping = \"100 lbf s/in\", hardening = \"0.1 in\", \
-                                      friction = 0.5, shear_stiffness = \"1e5 lbf/in\", shear_damping = \"100 lbf s/in\" }";
+    pub(super) const EXAMPLE: &str = "{ stiffness = \"2e5 lbf/in\", damping = \"100 lbf s/in\", hardening \
+                                      = \"0.1 in\", friction = 0.5, shear_stiffness = \"1e5 lbf/in\", \
+                                      shear_damping = \"100 lbf s/in\" }";
 
     pub(super) fn read(node: &Node, path: &str, problems: &mut Problems) -> Option<Self> {
         let Value::Table(own) = &node.value else {
@@ -234,7 +235,8 @@ impl PadSection {
                     None => ("shear_damping", "shear_stiffness"),
                 };
                 let message = format!("`{path}` has {has} but no {lacks}");
-                let help = "write both, and friction is by bristles of this stiffness; or none, and it is by friction.law";
+                let help = "write both, and friction is by bristles of this stiffness; or none, and it is \
+                            by friction.law";
                 problems.push(
                     Problem::new(message)
                         .at(&node.place)
@@ -353,7 +355,10 @@ pub(super) fn map(node: &Node, path: &str, problems: &mut Problems) -> Option<Fr
         Problem::new(message)
             .at(&node.place)
             .label("factors of the coefficients of friction")
-            .help("write for example friction_map = [[1.0, 1.0], [0.5, 0.5]]: half of the friction at the upper edge"),
+            .help(
+                "write for example friction_map = [[1.0, 1.0], [0.5, 0.5]]: half of the friction at the \
+                   upper edge",
+            ),
     );
     None
 }

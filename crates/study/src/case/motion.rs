@@ -78,8 +78,8 @@ pub enum Profile {
 }
 
 const SHAPES: [&str; 6] = ["constant", "sine", "triangle", "swept_sine", "ramp", "table"];
-const EXAMPLE: &str = "write for example { shape = \"sine\", amplitude = \"1 in\", frequency = \"2 rad/s\" }, \
-                       or one held value";
+const EXAMPLE: &str = "write for example { shape = \"sine\", amplitude = \"1 in\", frequency = \"2 rad/s\" \
+                       }, or one held value";
 
 /// Reads a motion whose values measure `kind`. `tables` says where those in files lie.
 pub(crate) fn read(

@@ -365,8 +365,8 @@ pub(crate) fn read_laws(s: &Section<'_>, problems: &mut Problems) -> Option<[Fri
 }
 
 pub(crate) fn read_toe(s: &Section<'_>, problems: &mut Problems) -> Option<Toe> {
-    const HELP: &str = "write for example \"0.2 deg out\" (the gap between column and bolster opens downwards), \
-                        \"0.2 deg in\", or \"0 deg\"";
+    const HELP: &str = "write for example \"0.2 deg out\" (the gap between column and bolster opens \
+                        downwards), \"0.2 deg in\", or \"0 deg\"";
     let node = s.require("toe", HELP, problems)?;
     let path = s.path_of("toe");
     if let Value::Number(angle) = node.value

@@ -126,8 +126,8 @@ impl Value {
         }
     }
 
-    /// Returns it as TOML: in one line, but a list of tables with one table a line. A date, which nothing reads, is empty
-    /// text.
+    /// Returns it as TOML: in one line, but a list of tables with one table a line. A date, which nothing
+    /// reads, is empty text.
     pub fn to_toml(&self) -> String {
         match self {
             Value::Text(text) => quoted(text),

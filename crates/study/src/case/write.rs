@@ -271,12 +271,15 @@ impl CaseDocument {
         page.section(
             "bolster",
             "The bolster. A motion is one held value, a list of motions to be added up, or one of\n\
-             # { shape = \"sine\", amplitude, frequency, phase, start }         frequency in rad/s, Hz or rpm\n\
+             # { shape = \"sine\", amplitude, frequency, phase, start }         frequency in rad/s, Hz or \
+             rpm\n\
              # { shape = \"triangle\", amplitude, frequency, start }\n\
-             # { shape = \"swept_sine\", amplitude, start_frequency, end_frequency, duration }   then end_frequency\n\
-             # { shape = \"ramp\", amplitude, start, duration, profile }            profile \"smooth\", \"linear\" or \"half_cosine\"; then held\n\
-             # { shape = \"table\", file = \"motion.csv\" }                            a cubic spline; \
-             or points = [[time, value], ...]",
+             # { shape = \"swept_sine\", amplitude, start_frequency, end_frequency, duration }   then \
+             end_frequency\n\
+             # { shape = \"ramp\", amplitude, start, duration, profile }            \
+             profile \"smooth\", \"linear\" or \"half_cosine\"; then held\n\
+             # { shape = \"table\", file = \"motion.csv\" }                            a cubic spline; or \
+             points = [[time, value], ...]",
         );
         write_neighbour(
             page,

@@ -140,7 +140,8 @@ pub(super) fn text(
     if let (Accuracy::Engineering, false, Some(node)) = (accuracy, is_file, tree.get("accuracy")) {
         let problem =
             Problem::new("engineering accuracy is a choice for case files, and the case is a half-truck");
-        let help = "take `accuracy` out; simulation.relative_tolerance below [set] says how tightly half-trucks are integrated";
+        let help = "take `accuracy` out; simulation.relative_tolerance below [set] says how tightly \
+                    half-trucks are integrated";
         problems.push(problem.at(&node.place).label("not here").help(help));
         return Err(failed(problems));
     }
@@ -359,7 +360,8 @@ fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Problems) 
         Ok(None) => {}
         Ok(Some(source)) => return Some(source),
         Err(error) => {
-            let help = "files are looked for from the folder of the study; `wedgelab nucars run --list` lists the built-in half-trucks";
+            let help = "files are looked for from the folder of the study; `wedgelab nucars run --list` \
+                        lists the built-in half-trucks";
             let problem = Problem::new(error.to_string()).at(&node.place);
             problems.push(problem.label("this run file").help(help));
             return None;
@@ -396,7 +398,9 @@ fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Problems) 
                 ),
                 None => (
                     format!("there is neither a case file {shown} nor a built-in case \"{case}\""),
-                    "files are looked for from the folder of the study; `wedgelab case` lists the built-in cases".to_owned(),
+                    "files are looked for from the folder of the study; `wedgelab case` lists the built-in \
+                     cases"
+                        .to_owned(),
                 ),
             };
             problems.push(

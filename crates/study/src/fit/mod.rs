@@ -51,12 +51,11 @@ impl Free {
     /// # Errors
     /// It is not of this form, or its bounds contradict each other.
     pub fn parse(text: &str) -> Result<Self, FreeError> {
-        let error = |problem: String| {
-            FreeError {
+        let error = |problem: String| FreeError {
             problem: bounded(problem),
-            advice: "write for example --free friction.column=0.2..0.6 --free 'control_coil.stiffness=1500 lbf/in..2500 lbf/in'"
+            advice: "write for example --free friction.column=0.2..0.6 --free 'control_coil.stiffness=1500 \
+                     lbf/in..2500 lbf/in'"
                 .to_owned(),
-        }
         };
         let parts = text.split_once('=').and_then(|(path, range)| {
             let (low, high) = range.split_once("..")?;
@@ -152,7 +151,8 @@ pub enum FitError {
     },
     /// The sum of squared differences overflows.
     #[error(
-        "the differences between run and measured values are too large to compute with: their squares are not finite"
+        "the differences between run and measured values are too large to compute with: their squares are \
+         not finite"
     )]
     NotFinite,
     /// The run does not give what is to be compared.

@@ -80,7 +80,8 @@ pub enum FilesError {
     NoDuration,
     /// Duration and interval give no rows, or too many.
     #[error(
-        "{duration} s with a row each {interval} s: both must be positive, and give at least one row and at most {}",
+        "{duration} s with a row each {interval} s: both must be positive, and give at least one row and at \
+         most {}",
         limits::OUTPUT_ROWS
     )]
     Rows {
@@ -155,16 +156,18 @@ pub fn case(
         match settings.start {
             HalfTruckStart::Drawn => "start: at rest in the drawn layout, springs and wedges without history",
             HalfTruckStart::Equilibrium => {
-                "start: at rest in static equilibrium without friction, input bodies where they are at time zero"
+                "start: at rest in static equilibrium without friction, input bodies where they are at time \
+                 zero"
             }
         }
         .to_owned(),
     );
     if let Some(stepping) = stepping {
         assumptions.push(format!(
-            "the run file's stepping constants {} {} {} s: the second is the end of the run; the third, the interval of \
-             its results, is that of the thesis's arrays, while the table has a row each {interval} s; the first, \
-             presumably its largest step, is not used, because steps are chosen by their error",
+            "the run file's stepping constants {} {} {} s: the second is the end of the run; the third, the \
+             interval of its results, is that of the thesis's arrays, while the table has a row each \
+             {interval} s; the first, presumably its largest step, is not used, because steps are chosen by \
+             their error",
             *stepping.step, *stepping.end, *stepping.output
         ));
     }

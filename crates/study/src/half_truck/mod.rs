@@ -1,8 +1,8 @@
 //! Runs of the half-truck of the comparison program's files.
 //!
 //! [`catalog`] lists the thesis's runs, [`files`] makes a run of any files, with single values [`mod@set`]
-//! over them. [`HalfTruckCase`] is a model made from files with what a run needs besides, [`run`](run::run) runs
-//! it, [`requests`] holds what a data file asks for, and [`HalfTruckResult`] what came out.
+//! over them. [`HalfTruckCase`] is a model made from files with what a run needs besides, [`run`](run::run)
+//! runs it, [`requests`] holds what a data file asks for, and [`HalfTruckResult`] what came out.
 
 pub mod catalog;
 pub mod columns;
@@ -63,8 +63,8 @@ pub struct HalfTruckCase {
     pub duration: f64,
     /// Time between two rows, s.
     pub interval: f64,
-    /// Time between two rows of the array for the thesis's scripts, s: that of the printed runs, or of the run
-    /// file; zero if it names none.
+    /// Time between two rows of the array for the thesis's scripts, s: that of the printed runs, or of the
+    /// run file; zero if it names none.
     pub script_interval: f64,
     /// Relative tolerance of the integrator.
     pub relative_tolerance: f64,

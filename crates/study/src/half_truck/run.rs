@@ -145,8 +145,8 @@ impl RunCase for HalfTruckCase {
 }
 
 impl HalfTruckCase {
-    /// Returns the state of rest without friction, also on the faces of wedges' bodies; with it the bristles, which
-    /// are not deflected there, hold nothing.
+    /// Returns the state of rest without friction, also on the faces of wedges' bodies; with it the bristles,
+    /// which are not deflected there, hold nothing.
     fn rest(&self) -> Result<Vec<f64>, RunError> {
         let mut model = self.truck.model.clone();
         for (.., face) in &mut model.faces {
@@ -300,8 +300,8 @@ pub(crate) fn cycle(case: &HalfTruckCase) -> Option<Cycle> {
 }
 
 /// The work of each wedge's friction at the column over whole cycles, taken step by step from the dense
-/// output (of massless ones by Simpson's rule: the input springs ring, which rows would miss; of bodies from the
-/// ledger's loss).
+/// output (of massless ones by Simpson's rule: the input springs ring, which rows would miss; of bodies from
+/// the ledger's loss).
 struct Works {
     window: Option<(f64, f64, u32)>,
     wedges: Vec<usize>,
@@ -441,8 +441,8 @@ fn summarize(case: &HalfTruckCase, system: &System, works: &Works, result: &mut 
         .collect();
     if !jams.is_empty() {
         summary.warnings.push(format!(
-            "jammed wedges, with the share of the output times: {}; no steady sliding exists there, and only the limit of \
-             the files holds the normal force",
+            "jammed wedges, with the share of the output times: {}; no steady sliding exists there, and \
+             only the limit of the files holds the normal force",
             jams.join(", ")
         ));
     }

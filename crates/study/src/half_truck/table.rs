@@ -165,9 +165,12 @@ impl Table {
         self.add(
             format!("{wedge}_vertical_force"),
             Kind::Force,
-            "vertical force on the side frame, positive up: friction and inclined normal force, and the coil where it \
-             stands on the side frame",
-            { let at = at(); move |seen| at(seen).force[2] },
+            "vertical force on the side frame, positive up: friction and inclined normal force, and the \
+             coil where it stands on the side frame",
+            {
+                let at = at();
+                move |seen| at(seen).force[2]
+            },
         );
         let coordinates = model.connections[place].law.coordinates();
         if coordinates.contains(&0) || matches!(source, Source::Body(_)) {
@@ -458,7 +461,8 @@ pub(super) fn ledger_name(kind: EnergyTermKind) -> &'static str {
     }
 }
 
-/// Takes the force of a component of a connection, extension positive: of a wedge's body that on the side frame.
+/// Takes the force of a component of a connection, extension positive: of a wedge's body that on the side
+/// frame.
 fn force(
     case: &HalfTruckCase,
     connection: usize,

@@ -79,8 +79,8 @@ impl YawSummary {
     #[must_use]
     pub fn warning(&self) -> String {
         format!(
-            "body {} is commanded to yaw by {:.4} rad and reaches {:.1e} rad on the mean over the second half of the run: \
-             the springs that drive it hold it more than they yaw it",
+            "body {} is commanded to yaw by {:.4} rad and reaches {:.1e} rad on the mean over the second \
+             half of the run: the springs that drive it hold it more than they yaw it",
             self.body, self.commanded.value, self.reached.value
         )
     }

@@ -1,5 +1,5 @@
-//! What a study keeps of a car's run: the worst of its statistics ([`crate::car::statistics`]), filtered, or raw where
-//! nothing is filtered.
+//! What a study keeps of a car's run: the worst of its statistics ([`crate::car::statistics`]), filtered, or
+//! raw where nothing is filtered.
 
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -13,7 +13,8 @@ use crate::plausibility;
 use crate::progress;
 use crate::run::Run;
 
-/// A measure of a statistic: its name, kind, meaning, the ending of the statistics, and whether the least is worst.
+/// A measure of a statistic: its name, kind, meaning, the ending of the statistics, and whether the least is
+/// worst.
 type Worst = (&'static str, Kind, &'static str, &'static str, bool);
 
 const WORST: [Worst; 11] = [
@@ -108,7 +109,8 @@ const OTHERS: [(&str, Kind, &str); 6] = [
     (
         "ledger_residual",
         Kind::Dimensionless,
-        "relative residual of the energy ledger: the largest residual over the largest of work, losses and change of stored energy",
+        "relative residual of the energy ledger: the largest residual over the largest of work, losses and \
+         change of stored energy",
     ),
     ("steps", Kind::Count, "accepted steps of the integrator"),
 ];

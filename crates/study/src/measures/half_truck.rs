@@ -85,7 +85,8 @@ pub fn definitions(case: &HalfTruckCase) -> Definitions {
     all.push(define(
         "ledger_residual".to_owned(),
         Kind::Dimensionless,
-        "relative residual of the energy ledger: the largest residual over the largest of work, losses and change of stored energy",
+        "relative residual of the energy ledger: the largest residual over the largest of work, losses and \
+         change of stored energy",
         true,
     ));
     all.push(define(

@@ -194,7 +194,8 @@ const WEDGE: [(&str, Kind, &str); COUNT] = [
     (
         "column_force_ratio_up",
         Kind::Dimensionless,
-        "normal forces of the column along x over the coil's force less the wedge's weight; means while the bolster rises",
+        "normal forces of the column along x over the coil's force less the wedge's weight; means while the \
+         bolster rises",
     ),
     (
         "column_force_ratio_down",
@@ -223,7 +224,8 @@ const WEDGE: [(&str, Kind, &str); COUNT] = [
     (
         "ledger_residual",
         Kind::Dimensionless,
-        "relative residual of the energy ledger: the largest residual over the largest of work, losses and change of stored energy",
+        "relative residual of the energy ledger: the largest residual over the largest of work, losses and \
+         change of stored energy",
     ),
     (
         "contact_events",

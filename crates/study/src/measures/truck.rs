@@ -66,7 +66,8 @@ const OF_ALL: [(&str, Kind, &str, bool); 9] = [
     (
         "ledger_residual",
         Kind::Dimensionless,
-        "relative residual of the energy ledger: the largest residual over the largest of work, losses and change of stored energy",
+        "relative residual of the energy ledger: the largest residual over the largest of work, losses and \
+         change of stored energy",
         true,
     ),
     ("steps", Kind::Count, "accepted steps of the integrator", true),

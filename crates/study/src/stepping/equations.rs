@@ -31,7 +31,8 @@ pub enum SteppingError {
     Input(#[from] InputError),
     /// A step that is no step.
     #[error(
-        "a step of {step} s from time {time} s is none: it must be positive, finite, and not lost against the time"
+        "a step of {step} s from time {time} s is none: it must be positive, finite, and not lost against \
+         the time"
     )]
     NoStep {
         /// The step, s.
@@ -59,8 +60,8 @@ pub enum SteppingError {
     },
     /// A communication step hardly progresses ([`crate::progress`]).
     #[error(
-        "the step of {step} s from time {time} s cannot be finished: {why}; make it shorter, or look for places or rates of the \
-         neighbours that are far out"
+        "the step of {step} s from time {time} s cannot be finished: {why}; make it shorter, or look for \
+         places or rates of the neighbours that are far out"
     )]
     TooLong {
         /// The step, s.

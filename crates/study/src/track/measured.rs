@@ -61,8 +61,8 @@ pub(super) fn irregularities(
         "table", "form", "signs", "chord", "shortest", "longest", "taper", "start", "beyond",
     ];
     section.allow_in(&keys, &[], "a track", problems);
-    let help = "write form = \"space_curve\" if the columns are the rails' own offsets; mid-chord offsets, as track \
-                geometry cars and inspectors give them, are form = \"mid_chord\"";
+    let help = "write form = \"space_curve\" if the columns are the rails' own offsets; mid-chord offsets, \
+                as track geometry cars and inspectors give them, are form = \"mid_chord\"";
     section.require("form", help, problems)?;
     let form = match named(section, "form", &FORMS, problems)? {
         "mid_chord" => {

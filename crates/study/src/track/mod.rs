@@ -115,8 +115,8 @@ fn read(tree: &Table, source: &str, problems: &mut Problems) -> Option<TrackFile
     })
 }
 
-/// Reads what a track file says of the track and of what its rails lie on, from the file or from a table of a case;
-/// `tables` says where measured tables are looked for.
+/// Reads what a track file says of the track and of what its rails lie on, from the file or from a table of a
+/// case; `tables` says where measured tables are looked for.
 pub(crate) fn of_section(
     top: &Section<'_>,
     tables: Tables<'_>,

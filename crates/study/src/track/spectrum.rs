@@ -70,16 +70,16 @@ fn coefficients(section: &Section<'_>, key: &str, problems: &mut Problems) -> Op
 fn rational(section: &Section<'_>, problems: &mut Problems) -> Option<Rational> {
     let names = WavenumberUnit::ALL.map(|(name, _)| name);
     let help = format!(
-        "write the unit in which the coefficients take the wavenumber, one of \"{}\": a density over rad/m read as one over \
-         cycle/m is another track",
+        "write the unit in which the coefficients take the wavenumber, one of \"{}\": a density over rad/m \
+         read as one over cycle/m is another track",
         names.join("\", \"")
     );
     let wavenumber = section.require("wavenumber", &help, problems).and_then(|_| {
         let name = named(section, "wavenumber", &names, problems)?;
         WavenumberUnit::ALL.iter().find(|(own, _)| *own == name)
     });
-    let help = "write the unit of the density, such as density = \"cm^2/(rad/m)\": the square of m, cm, mm or in, by rad/m, \
-                cycle/m, rad/ft or cycle/ft";
+    let help = "write the unit of the density, such as density = \"cm^2/(rad/m)\": the square of m, cm, mm \
+                or in, by rad/m, cycle/m, rad/ft or cycle/ft";
     let density = section.require("density", help, problems).and_then(|node| {
         let (text, _) = section.text("density", problems)?;
         let unit = DensityUnit::parse(text);
@@ -109,8 +109,9 @@ pub(super) fn realized(
     if text.contains(['.', '/', '\\']) {
         let problem = Problem::new(format!("`{}` is \"{text}\"", section.path_of("spectrum")));
         problems.push(problem.at(&node.place).label("a file?").help(format!(
-            "spectra from files are not read, since their densities say no unit (m²/(rad/m) and m²/(cycle/m) differ by 2π); write \
-             one of {}, of which rational takes your coefficients with their units, or give a realization as table = \"file.csv\"",
+            "spectra from files are not read, since their densities say no unit (m²/(rad/m) and \
+             m²/(cycle/m) differ by 2π); write one of {}, of which rational takes your coefficients with \
+             their units, or give a realization as table = \"file.csv\"",
             SPECTRA.join(", ")
         )));
         return None;

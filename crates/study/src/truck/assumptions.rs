@@ -15,17 +15,18 @@ pub(super) fn of(case: &TruckCase) -> Vec<String> {
     let [wedge, ..] = &p.wedges;
     let stiffness = wedge.contact.stiffness * INCH / POUND_FORCE;
     let mut list = vec![
-        "Bodies are rigid; coils, stops and faces are springs with dampers. Coils act at one point each, with shear \
-         stiffness, and hold nothing when they are off their seats."
+        "Bodies are rigid; coils, stops and faces are springs with dampers. Coils act at one point each, \
+         with shear stiffness, and hold nothing when they are off their seats."
             .to_owned(),
         format!(
-            "Contact stiffness is {stiffness:.4e} lbf/in per corner: no source gives one, nor one for bristles. In the built-in \
-             rigs contacts twice as stiff move the warp moment at 20 mrad by 58 % where the nest locks (friction of 0.4) and by \
-             0.2 % on a plateau (0.25); up and down, where slopes stick, they move the largest column force by 8 to 13 %, and \
-             bristles twice as stiff by 6 to 13 %. `wedgelab reproduce` computes these numbers anew."
+            "Contact stiffness is {stiffness:.4e} lbf/in per corner: no source gives one, nor one for \
+             bristles. In the built-in rigs contacts twice as stiff move the warp moment at 20 mrad by 58 % \
+             where the nest locks (friction of 0.4) and by 0.2 % on a plateau (0.25); up and down, where \
+             slopes stick, they move the largest column force by 8 to 13 %, and bristles twice as stiff by \
+             6 to 13 %. `wedgelab reproduce` computes these numbers anew."
         ),
-        "Clearances of pockets (0.25 in), lands (0.21 in) and center plate's rim, damping of contacts, and inertias of \
-         empty cars are decided, not measured."
+        "Clearances of pockets (0.25 in), lands (0.21 in) and center plate's rim, damping of contacts, and \
+         inertias of empty cars are decided, not measured."
             .to_owned(),
     ];
     for (name, wedge) in WEDGE_NAMES.iter().zip(&p.wedges) {
@@ -43,9 +44,10 @@ pub(super) fn of(case: &TruckCase) -> Vec<String> {
         .collect();
     if !massless.is_empty() {
         list.push(format!(
-            "Wedges without mass ({}) are the industry's elements: quasi-static balance, friction of the slope as the \
-             toe's sign says, no moments, small displacements; their weight is the bolster's, their coils have neither \
-             shear stiffness nor damping. They do not lock in warp: the wedges' part of it is left out{}.",
+            "Wedges without mass ({}) are the industry's elements: quasi-static balance, friction of the \
+             slope as the toe's sign says, no moments, small displacements; their weight is the bolster's, \
+             their coils have neither shear stiffness nor damping. They do not lock in warp: the wedges' \
+             part of it is left out{}.",
             massless.join(", "),
             match p.warp_spring {
                 Some(_) => ", and an empirical warp spring stands for it",
@@ -59,8 +61,8 @@ pub(super) fn of(case: &TruckCase) -> Vec<String> {
     }
     if p.damping == Damping::Constant {
         list.push(
-            "Constant damping without toe: slopes stick, the wedges go with the bolster, and the normal forces of the \
-             columns are those that the start locked in."
+            "Constant damping without toe: slopes stick, the wedges go with the bolster, and the normal \
+             forces of the columns are those that the start locked in."
                 .to_owned(),
         );
     }
@@ -81,7 +83,8 @@ pub(super) fn of(case: &TruckCase) -> Vec<String> {
         });
         if p.side_frames.iter().any(|own| own.free == [false; 6]) {
             list.push(
-                "Adapters of side frames whose motion is prescribed are left out, and the inter-axle shear moment with them."
+                "Adapters of side frames whose motion is prescribed are left out, and the inter-axle shear \
+                 moment with them."
                     .to_owned(),
             );
         }

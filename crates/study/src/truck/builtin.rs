@@ -66,7 +66,8 @@ impl Rig {
 fn warp_by_nests(amplitude: &str) -> String {
     format!(
         "side_frame.free_coordinates = []\n\
-         side_frame.yaw = {{ shape = \"triangle\", amplitude = \"{amplitude}\", frequency = \"0.1 Hz\", start = \"2 s\" }}\n\
+         side_frame.yaw = {{ shape = \"triangle\", amplitude = \"{amplitude}\", frequency = \"0.1 Hz\", \
+         start = \"2 s\" }}\n\
          adapter.kind = \"nothing\"\n"
     )
 }
@@ -77,7 +78,8 @@ fn approach(rising: bool) -> Vec<String> {
     vec![
         format!("\"{from} in\""),
         format!(
-            "{{ shape = \"ramp\", amplitude = \"{by} in\", start = \"0.2 s\", duration = \"1 s\", profile = \"half_cosine\" }}"
+            "{{ shape = \"ramp\", amplitude = \"{by} in\", start = \"0.2 s\", duration = \"1 s\", profile \
+             = \"half_cosine\" }}"
         ),
     ]
 }
@@ -104,8 +106,10 @@ fn rigs(damping: &'static str) -> Vec<Rig> {
         duration,
     };
     let up_and_down = vec![sine("0.5 in", "2 rad/s")];
-    let axles = "leading_wheelset.lateral = { shape = \"triangle\", amplitude = \"0.7 in\", frequency = \"0.1 Hz\", start = \"2 s\" }\n\
-                 trailing_wheelset.lateral = { shape = \"triangle\", amplitude = \"-0.7 in\", frequency = \"0.1 Hz\", start = \"2 s\" }\n";
+    let axles = "leading_wheelset.lateral = { shape = \"triangle\", amplitude = \"0.7 in\", frequency \
+                 = \"0.1 Hz\", start = \"2 s\" }\n\
+                 trailing_wheelset.lateral = { shape = \"triangle\", amplitude = \"-0.7 in\", frequency \
+                 = \"0.1 Hz\", start = \"2 s\" }\n";
     let toe_out = "side_frame.toe = \"0.2 deg out\"\n".to_owned();
     vec![
         rig(
@@ -241,24 +245,25 @@ static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
         Group {
             name: "truck",
             title: "A three-piece truck on rigs, loaded",
-            look_at: "Warp: the moment over the angle, its parts, and the normal forces of the columns, which grow where \
-                      the nest locks; `--set truck.condition=worn` has a plateau instead. Vertical, without toe: slopes \
-                      stick and the start sets the normal forces with constant damping; with variable damping they \
-                      follow the coil.",
+            look_at: "Warp: the moment over the angle, its parts, and the normal forces of the columns, \
+                      which grow where the nest locks; `--set truck.condition=worn` has a plateau instead. \
+                      Vertical, without toe: slopes stick and the start sets the normal forces with \
+                      constant damping; with variable damping they follow the coil.",
             cases: all(rigs, false),
         },
         Group {
             name: "truck_empty",
             title: "The same rigs with an empty car",
-            look_at: "Coils are longer by the height that an empty car rises, and with variable damping columns carry a \
-                      third of the loaded car's forces. Constant damping keeps them.",
+            look_at: "Coils are longer by the height that an empty car rises, and with variable damping \
+                      columns carry a third of the loaded car's forces. Constant damping keeps them.",
             cases: all(rigs, true),
         },
         Group {
             name: "truck_limits",
             title: "Rigs that reach lands, gibs, solid coils, pocket sides and adapter stops",
-            look_at: "Each stop shows as a corner in the loop: warp moment at 30 mrad (lands), lateral force at 0.5 in \
-                      (gibs), nest force at 1.3 to 1.4 in (solid coils). The energy ledger must close there too.",
+            look_at: "Each stop shows as a corner in the loop: warp moment at 30 mrad (lands), lateral \
+                      force at 0.5 in (gibs), nest force at 1.3 to 1.4 in (solid coils). The energy ledger \
+                      must close there too.",
             cases: all(limits, false),
         },
     ]

@@ -58,8 +58,8 @@ impl TruckTable {
         self.columns.fixed
     }
 
-    /// Appends the values of all columns (SI) at an observation; `start_energy` (J) is the stored energy at the start.
-    /// Returns the loads.
+    /// Appends the values of all columns (SI) at an observation; `start_energy` (J) is the stored energy at
+    /// the start. Returns the loads.
     pub fn read(&self, observation: &Observation, start_energy: f64, out: &mut Vec<f64>) -> Loads {
         let loads = self.truck.loads(observation);
         let seen = Seen {
@@ -122,8 +122,8 @@ impl Columns {
         });
         let wheelsets = parameters.wheelsets.is_some();
         if wheelsets {
-            let text = "distance of the axles from the center, times the leading wheelset's lateral force on the side \
-                        frames less the trailing one's";
+            let text = "distance of the axles from the center, times the leading wheelset's lateral force \
+                        on the side frames less the trailing one's";
             own.add("interaxle_shear_moment", Kind::Moment, text, |seen| {
                 seen.loads.interaxle_shear_moment
             });

@@ -74,14 +74,14 @@ pub struct LoopCurve {
     pub friction: f64,
     /// Its area, J.
     pub energy: f64,
-    /// Damping ratio of a spring of this stiffness that loses as much: energy over 2π times stiffness and the square
-    /// of the amplitude.
+    /// Damping ratio of a spring of this stiffness that loses as much: energy over 2π times stiffness and the
+    /// square of the amplitude.
     pub loss_ratio: f64,
 }
 
 impl LoopCurve {
-    /// Returns the loop of a run; `None` where the bolster neither moves up and down nor rolls periodically, or
-    /// there is no whole cycle.
+    /// Returns the loop of a run; `None` where the bolster neither moves up and down nor rolls periodically,
+    /// or there is no whole cycle.
     #[must_use]
     pub fn of(case: &TruckCase, result: &TruckResult) -> Option<Self> {
         let motions = &case.parameters.bolster.motion.coordinates;
@@ -134,7 +134,8 @@ impl LoopCurve {
     }
 }
 
-/// Returns the rows of the last whole cycle of a motion with this period and beginning (s); `None` if there is none.
+/// Returns the rows of the last whole cycle of a motion with this period and beginning (s); `None` if there
+/// is none.
 pub(super) fn last_cycle(times: &[f64], [period, start]: [f64; 2]) -> Option<Range<usize>> {
     // Output times are multiples of the interval but for rounding.
     const SLACK: f64 = 1e-9;

@@ -78,8 +78,8 @@ pub(crate) fn model(tree: &Table, problems: &mut Problems) -> Option<Model> {
 }
 
 impl TruckCase {
-    /// Reads a case file and lays `--set` overrides (`path.key=value`) over it. A case without a name takes that
-    /// of its file.
+    /// Reads a case file and lays `--set` overrides (`path.key=value`) over it. A case without a name takes
+    /// that of its file.
     ///
     /// # Errors
     /// The file cannot be read, or something in it, in a table it names, or in an override is wrong; all
@@ -90,8 +90,8 @@ impl TruckCase {
         Self::parse(&path.display().to_string(), &text, folder, overrides)
     }
 
-    /// As [`TruckCase::read`], from a text. `source` names it in messages; `tables` says where tables are looked
-    /// for.
+    /// As [`TruckCase::read`], from a text. `source` names it in messages; `tables` says where tables are
+    /// looked for.
     ///
     /// # Errors
     /// As [`TruckCase::read`].
@@ -108,9 +108,9 @@ impl TruckCase {
         Self::of_tree(&tree, source, tables.into(), problems)
     }
 
-    /// Lays values over the text of a case: TOML as in a case file, but a bare number where a quantity is expected is
-    /// in SI units (a toe in rad, positive out). Tables are merged key by key; a motion of another shape replaces
-    /// the whole motion.
+    /// Lays values over the text of a case: TOML as in a case file, but a bare number where a quantity is
+    /// expected is in SI units (a toe in rad, positive out). Tables are merged key by key; a motion of
+    /// another shape replaces the whole motion.
     ///
     /// # Errors
     /// As [`TruckCase::parse`].
@@ -173,7 +173,8 @@ impl TruckCase {
         }
     }
 
-    /// Returns the whole case as TOML: every key in groups, each with what it means. Reads back to the same case.
+    /// Returns the whole case as TOML: every key in groups, each with what it means. Reads back to the same
+    /// case.
     #[must_use]
     pub fn to_toml(&self) -> &str {
         &self.text

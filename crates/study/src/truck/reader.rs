@@ -1,7 +1,7 @@
 //! Reading a case key by key: what is left out has a default, and everything is written down as it is read.
 //!
-//! One line for each key says its name, what it measures, its range, its default and what it means. From these
-//! lines come the values, the complete, commented case file and the fields of the explorer.
+//! One line for each key says its name, what it measures, its range, its default and what it means. From
+//! these lines come the values, the complete, commented case file and the fields of the explorer.
 
 use mechanics::motion::Motion;
 use quantity::{Kind, Quantity, STANDARD_GRAVITY, System};
@@ -69,8 +69,8 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Takes the sections that follow from a table of the case; from the case itself where that is empty. Paths of
-    /// sections are relative to it.
+    /// Takes the sections that follow from a table of the case; from the case itself where that is empty.
+    /// Paths of sections are relative to it.
     pub fn within(&mut self, table: &'static str) {
         self.within = table;
     }
@@ -380,7 +380,8 @@ impl<'r> Reader<'r> {
     /// The loads on the free coordinates of a body, in a section within its own.
     pub fn loads(&mut self, body: &str, applied: &mut [Motion; 6], free: [bool; 6]) {
         let path = format!("{body}.load");
-        let about = "Loads on its free coordinates over time: forces at its center of gravity, moments about its axes.\n\
+        let about = "Loads on its free coordinates over time: forces at its center of gravity, moments \
+                     about its axes.\n\
                      # Written as motions are, in units of forces and moments.";
         if !self.overlay(&path, about) {
             return;
@@ -541,8 +542,8 @@ impl<'r> Reader<'r> {
         self.pages[1].line(key, Written::toml(text), "");
     }
 
-    /// Notes keys that nobody asked for; `what` is read: a truck's case. Returns the completed case, as typed and with the points of tables
-    /// in files, and its fields.
+    /// Notes keys that nobody asked for; `what` is read: a truck's case. Returns the completed case, as typed
+    /// and with the points of tables in files, and its fields.
     pub fn finish(self, what: &str) -> (String, String, Vec<FieldSection>) {
         let owners: Vec<(&str, &[&str])> = self
             .known
@@ -591,7 +592,8 @@ impl<'r> Reader<'r> {
     }
 }
 
-/// An SI value in the customary unit of its kind, with the fewest digits that differ from it by rounding only.
+/// An SI value in the customary unit of its kind, with the fewest digits that differ from it by rounding
+/// only.
 fn in_customary_units(value: f64, kind: Kind) -> Option<Quantity> {
     let unit = match kind {
         Kind::Inertia => "lbf in s^2",

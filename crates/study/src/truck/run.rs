@@ -30,8 +30,8 @@ use crate::summary::{LedgerSummary, Stopped, SummaryValue};
 pub type TruckResult = RunResult<TruckSummary>;
 
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
-/// Forces of faces, coils and stops above this tear a truck apart, N: 5 million lbf, forty times the weight of a
-/// loaded half car.
+/// Forces of faces, coils and stops above this tear a truck apart, N: 5 million lbf, forty times the weight
+/// of a loaded half car.
 const MOST_FORCE: f64 = 5e6 * POUND_FORCE;
 
 /// Records a truck's run: its table, and the energies at both ends of the whole cycles.
@@ -353,7 +353,8 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
     }
 }
 
-/// A truck that rises or sinks by less is not spoken of, m: the truck's own data close to a ten-thousandth of that.
+/// A truck that rises or sinks by less is not spoken of, m: the truck's own data close to a ten-thousandth of
+/// that.
 const SMALL_RISE: f64 = 0.05 * 0.0254;
 
 /// The warning about coils that do not carry what stands on them.
@@ -385,8 +386,8 @@ fn surplus(case: &TruckCase, units: Units) -> Option<String> {
         ("less", "sinks")
     };
     Some(format!(
-        "the coils carry {force} {more} than stands on them in the nominal layout: the truck {way} by about {length}{solid}; set \
-         start.kind = \"equilibrium\" or start.lift, or mend the preloads"
+        "the coils carry {force} {more} than stands on them in the nominal layout: the truck {way} by about \
+         {length}{solid}; set start.kind = \"equilibrium\" or start.lift, or mend the preloads"
     ))
 }
 
@@ -404,8 +405,8 @@ fn without_coil(case: &TruckCase) -> Option<String> {
         .collect();
     (!names.is_empty()).then(|| {
         format!(
-            "no coil presses the wedges {} in the nominal layout: they lie loose between column and slope; give \
-             control_coil.preload, unless their coils are meant to be broken",
+            "no coil presses the wedges {} in the nominal layout: they lie loose between column and slope; \
+             give control_coil.preload, unless their coils are meant to be broken",
             names.join(", ")
         )
     })
@@ -426,8 +427,8 @@ fn closed(truck: &Truck, units: Units) -> Option<String> {
     };
     (!stops.is_empty()).then(|| {
         format!(
-            "gaps that are closed at the start, with how far their parts are pressed in: {}{more}; give more clearance, or \
-             begin with motions at zero",
+            "gaps that are closed at the start, with how far their parts are pressed in: {}{more}; give \
+             more clearance, or begin with motions at zero",
             list.join(", ")
         )
     })

@@ -149,13 +149,17 @@ pub(crate) fn bolster(r: &mut Reader<'_>, parameters: &mut Parameters, load: Loa
     } = &mut parameters.bolster;
     r.section(
         "bolster",
-        "The bolster, with load.kind = \"half_car\" together with half a car. A motion is one held value, a list of\n\
+        "The bolster, with load.kind = \"half_car\" together with half a car. A motion is one held value, a \
+         list of\n\
          # motions to be added up, or one of\n\
          # { shape = \"sine\", amplitude, frequency, phase, start }         frequency in rad/s, Hz or rpm\n\
          # { shape = \"triangle\", amplitude, frequency, start }\n\
-         # { shape = \"swept_sine\", amplitude, start_frequency, end_frequency, duration, start }   then end_frequency\n\
-         # { shape = \"ramp\", amplitude, start, duration, profile }            profile \"smooth\", \"linear\" or \"half_cosine\"\n\
-         # { shape = \"table\", file = \"motion.csv\" }                            a cubic spline; or points = [[time, value], ...]",
+         # { shape = \"swept_sine\", amplitude, start_frequency, end_frequency, duration, start }   then \
+         end_frequency\n\
+         # { shape = \"ramp\", amplitude, start, duration, profile }            \
+         profile \"smooth\", \"linear\" or \"half_cosine\"\n\
+         # { shape = \"table\", file = \"motion.csv\" }                            a cubic spline; or \
+         points = [[time, value], ...]",
     );
     let comment = "of x, y, z, roll, pitch, yaw; the others are held. [] prescribes the motions below";
     r.free_coordinates(free, None, comment);
@@ -206,8 +210,10 @@ enum WarpSpring {
 pub(crate) fn warp_spring(r: &mut Reader<'_>, parameters: &mut Parameters) {
     r.section(
         "warp_spring",
-        "An empirical spring in each nest between the yaw of bolster and side frame, with a stop at 30 mrad: in NUCARS's\n\
-         # files it stands for what massless wedges leave out. With wedge bodies warp would be counted twice.",
+        "An empirical spring in each nest between the yaw of bolster and side frame, with a stop at 30 \
+         mrad: in NUCARS's\n\
+         # files it stands for what massless wedges leave out. With wedge bodies warp would be counted \
+         twice.",
     );
     const KINDS: Names<WarpSpring> = &[
         ("nothing", WarpSpring::Nothing),
@@ -245,7 +251,8 @@ pub(crate) fn start(r: &mut Reader<'_>, parameters: &mut Parameters) -> f64 {
         "start",
         "Where the run starts; simulation.start is read as start.kind.",
     );
-    let comment = "\"rest\": nominal layout, faces may start inside; \"touching\"; or \"equilibrium\" (without friction)";
+    let comment = "\"rest\": nominal layout, faces may start inside; \"touching\"; or \"equilibrium\" \
+                   (without friction)";
     // The key of a single wedge's case.
     if let Some(node) = r.at("simulation.start") {
         if r.has("start.kind") {
@@ -287,7 +294,8 @@ pub(crate) fn check_something_moves(r: &mut Reader<'_>, parameters: &Parameters)
         && parameters.car_body.is_none()
     {
         let message = "nothing can move: bolster and side frames are prescribed, and no wedge has mass";
-        let help = "free the side frames on their adapters and drive the wheelsets, as truck_warp_axles_constant_rising does";
+        let help = "free the side frames on their adapters and drive the wheelsets, as \
+                    truck_warp_axles_constant_rising does";
         let problem = Problem::new(message).label("no mass").help(help);
         r.problem("wedge.kind", problem);
     }

@@ -69,15 +69,16 @@ pub struct Cycles {
 }
 
 impl Cycles {
-    /// Returns what friction takes at a wedge's face (`column` or `slope`) in a cycle, whether the wedge is a body or
-    /// has no mass.
+    /// Returns what friction takes at a wedge's face (`column` or `slope`) in a cycle, whether the wedge is a
+    /// body or has no mass.
     #[must_use]
     pub fn loss_at(&self, wedge: &str, face: &str) -> Option<&SummaryValue> {
         let of_body = self.losses.get(&format!("{wedge}_{face}_friction_loss"));
         of_body.or_else(|| self.losses.get(&format!("{wedge}_wedge_{face}_loss")))
     }
 
-    /// Returns what friction takes at both faces of these wedges in a cycle, output units; `None` without whole cycles.
+    /// Returns what friction takes at both faces of these wedges in a cycle, output units; `None` without
+    /// whole cycles.
     #[must_use]
     pub fn loss_of_wedges(&self, wedges: &[&str]) -> Option<f64> {
         let faces = wedges
@@ -91,10 +92,10 @@ impl Cycles {
 /// The angles at which warp stiffness is told, mrad.
 pub const WARP_ANGLES: [f64; 6] = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0];
 
-/// Returns how a moment, or a part of it (N·m), grows until the rows reach a warp angle (rad) first, in either sense;
-/// positive where it resists, for on the bolster it has the sign of the warp angle then. Straight between two rows, from
-/// the values at the row before the warp begins: what is there before any warp is no part of its stiffness. `None` if
-/// the rows do not reach it.
+/// Returns how a moment, or a part of it (N·m), grows until the rows reach a warp angle (rad) first, in
+/// either sense; positive where it resists, for on the bolster it has the sign of the warp angle then.
+/// Straight between two rows, from the values at the row before the warp begins: what is there before any
+/// warp is no part of its stiffness. `None` if the rows do not reach it.
 #[must_use]
 pub fn growth(angles: &[f64], moments: &[f64], angle: f64) -> Option<f64> {
     let first = angles.iter().position(|own| own.abs() > 1e-9)?.saturating_sub(1);

@@ -6,8 +6,8 @@ use super::loop_curve::{last_cycle, work};
 use super::run::{TruckResult, period};
 use super::summary::{self, WARP_ANGLES, warp_stiffness};
 
-/// NUCARS's empirical warp stiffnesses of a truck (both nests), N·m/rad: worn and new. In its input files they
-/// stand for the missing effects of wedging action.
+/// NUCARS's empirical warp stiffnesses of a truck (both nests), N·m/rad: worn and new. In its input files
+/// they stand for the missing effects of wedging action.
 pub const NUCARS_STIFFNESS: [(&str, f64); 2] = [
     ("NUCARS, worn (empirical)", 3.5 * PER_MRAD),
     ("NUCARS, new (empirical)", 17.0 * PER_MRAD),

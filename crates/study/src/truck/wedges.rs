@@ -240,7 +240,8 @@ impl Draft {
     }
 
     fn friction(&mut self, r: &mut Reader<'_>) {
-        let comment = "\"bristle\" (holds) or \"tanh\" (the thesis's; creeps under load); or { column = ..., slope = ... }";
+        let comment = "\"bristle\" (holds) or \"tanh\" (the thesis's; creeps under load); or { column = \
+                       ..., slope = ... }";
         let laws = r.other(
             "law",
             comment,
@@ -287,7 +288,8 @@ impl Draft {
     }
 
     fn coil(&mut self, r: &mut Reader<'_>, path: &str) {
-        let comment = "\"shear\": a coil with shear stiffness; \"thesis\": a line from seat to wedge (Steets 2007); \"nothing\": broken";
+        let comment = "\"shear\": a coil with shear stiffness; \"thesis\": a line from seat to wedge \
+                       (Steets 2007); \"nothing\": broken";
         r.choice("kind", COIL_KINDS, &mut self.kind, comment);
         let others: &[(&[&'static str], &str)] = match self.kind {
             CoilKind::Shear => &[(&OF_THESIS, "thesis")],
@@ -358,8 +360,10 @@ pub(crate) fn all(r: &mut Reader<'_>, parameters: &Parameters, friction: f64) ->
     let mut draft = Draft::new(parameters, friction);
     r.section(
         "wedge",
-        "All four wedges: right triangular prisms. [wedge.leading_left], leading_right, trailing_left, trailing_right\n\
-         # set one: with these keys and toe, and tables friction, contact, control_coil, column_face, slope_face.",
+        "All four wedges: right triangular prisms. [wedge.leading_left], leading_right, trailing_left, \
+         trailing_right\n\
+         # set one: with these keys and toe, and tables friction, contact, control_coil, column_face, \
+         slope_face.",
     );
     draft.body(r);
     let about = match parameters.damping {

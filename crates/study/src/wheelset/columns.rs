@@ -314,8 +314,8 @@ impl Wheel {
         });
     }
 
-    /// Makes one patch of those of one area: where two areas grow together they come as one with a share and as two
-    /// with the rest. Then keeps the largest ones, from the field side to the gauge side.
+    /// Makes one patch of those of one area: where two areas grow together they come as one with a share and
+    /// as two with the rest. Then keeps the largest ones, from the field side to the gauge side.
     fn merge(&mut self) {
         let (mut kept, parts): (Vec<Shown>, Vec<Shown>) =
             self.patches.iter().partition(|patch| patch.share >= HALF);

@@ -1,7 +1,7 @@
 //! Runs of one wheelset under a carriage on a track.
 //!
-//! [`Wheelset`] is what a user says: profiles, a track file, speed, load, springs. [`WheelsetCase`] is the model
-//! made of it, [`run`](mod@run) runs it, [`columns`] has its table, [`summary`] its numbers.
+//! [`Wheelset`] is what a user says: profiles, a track file, speed, load, springs. [`WheelsetCase`] is the
+//! model made of it, [`run`](mod@run) runs it, [`columns`] has its table, [`summary`] its numbers.
 
 pub mod columns;
 pub mod run;
@@ -123,8 +123,8 @@ pub enum WheelsetError {
     },
     /// The run leaves the track.
     #[error(
-        "from {start:.1} m a run of {duration:.2} s at {speed:.2} m/s ends at {end:.1} m, but the track `{track}` is {length:.1} m \
-         long"
+        "from {start:.1} m a run of {duration:.2} s at {speed:.2} m/s ends at {end:.1} m, but the track \
+         `{track}` is {length:.1} m long"
     )]
     BeyondTrack {
         /// Name of the track.
@@ -201,8 +201,8 @@ impl WheelsetCase {
         })
     }
 
-    /// Returns growth (1/s) and frequency (rad/s) of the least damped lateral vibration about steady rolling on
-    /// straight perfect track; none if there is none, of the frequencies that wheelsets hunt with.
+    /// Returns growth (1/s) and frequency (rad/s) of the least damped lateral vibration about steady rolling
+    /// on straight perfect track; none if there is none, of the frequencies that wheelsets hunt with.
     #[must_use]
     pub fn hunting(&self) -> Option<[f64; 2]> {
         let center_line = CenterLine::new(&[Segment::Tangent(100.0)], 1.5, &[]).ok()?;
@@ -234,18 +234,22 @@ impl WheelsetCase {
             }
         }
         words.push(
-            "One wheelset under a carriage that follows the track: its springs are lateral and yaw springs to the track's \
-             direction, its load acts square to the track, its drive holds the speed; no car body, no truck."
+            "One wheelset under a carriage that follows the track: its springs are lateral and yaw springs \
+             to the track's direction, its load acts square to the track, its drive holds the speed; no car \
+             body, no truck."
                 .to_owned(),
         );
         words.push(match &self.setup.support {
-            None => "The rails are rigid; normal forces are damped with 2 s/m (Hunt and Crossley), a guess.".to_owned(),
-            Some(_) => "Each wheel has its own piece of sprung rail; its lateral values are guesses, and so is the damping of \
-                        normal forces of 0.3 s/m (Hunt and Crossley)."
+            None => "The rails are rigid; normal forces are damped with 2 s/m (Hunt and Crossley), a guess."
+                .to_owned(),
+            Some(_) => "Each wheel has its own piece of sprung rail; its lateral values are guesses, and so \
+                        is the damping of normal forces of 0.3 s/m (Hunt and Crossley)."
                 .to_owned(),
         });
         words.push(
-            "Normal forces are Hertz's with curvatures averaged over each patch; up to three areas of contact a wheel.".to_owned(),
+            "Normal forces are Hertz's with curvatures averaged over each patch; up to three areas of \
+             contact a wheel."
+                .to_owned(),
         );
         words
     }

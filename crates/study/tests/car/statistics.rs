@@ -58,8 +58,8 @@ fn value(told: &Statistics, name: &str) -> [f64; 2] {
     [&own.raw, &own.filtered].map(|own| own.as_ref().map_or(f64::NAN, |own| own.value))
 }
 
-/// A lateral force that lasts for a time: wheel, axle sum and truck side have their own lengths; what happens while
-/// the car settles does not count.
+/// A lateral force that lasts for a time: wheel, axle sum and truck side have their own lengths; what happens
+/// while the car settles does not count.
 #[test]
 fn analytic_ratios_that_last() {
     let mut columns = quiet();
@@ -209,7 +209,8 @@ fn analytic_limits_name_the_worst_statistic() {
     assert!((load.value - 60.0).abs() < 1e-6 && (load.margin - 5.0).abs() < 1e-6);
 }
 
-/// Rows too far apart for a filter: raw values stay, and what is missing is said. A run that only settles has none.
+/// Rows too far apart for a filter: raw values stay, and what is missing is said. A run that only settles has
+/// none.
 #[test]
 fn limits_coarse_rows_and_short_runs_are_told() {
     let columns = quiet();

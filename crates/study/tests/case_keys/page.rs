@@ -12,8 +12,8 @@ type Cases = &'static [(&'static str, &'static [&'static str])];
 const MODELS: [(&str, &str, Cases); 2] = [
     (
         "A wedge",
-        "The model of a case without `model`. Defaults are those of the thesis; where they depend on the damping, \
-         that of variable damping comes first.",
+        "The model of a case without `model`. Defaults are those of the thesis; where they depend on the \
+         damping, that of variable damping comes first.",
         &[
             ("vdrun_toe_0_psi_0", &[]),
             ("cdrun_toe_0_psi_0", &[]),
@@ -46,10 +46,10 @@ struct Key {
 /// Returns the page.
 pub fn page() -> String {
     let mut page = String::from(
-        "# Keys of cases\n\nAll keys of all models, as the program knows them; \
-         `cargo run --release -p study --example case_keys` writes this page. Values are text with units; US customary \
-         and SI units mix freely. A key is what `--set` takes; in a file the part before the last point is the name of \
-         a table. `wedgelab case NAME` prints a whole case with the same words.\n",
+        "# Keys of cases\n\nAll keys of all models, as the program knows them; `cargo run --release -p \
+         study --example case_keys` writes this page. Values are text with units; US customary and SI units \
+         mix freely. A key is what `--set` takes; in a file the part before the last point is the name of a \
+         table. `wedgelab case NAME` prints a whole case with the same words.\n",
     );
     for (title, about, cases) in MODELS {
         let _ = write!(

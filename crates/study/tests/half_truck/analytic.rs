@@ -202,7 +202,8 @@ fn the_other_frequencies() {
         let all = own.vibrations(0.0, &x, Held::Surfaces).unwrap();
         let list: Vec<f64> = all.modes.iter().map(|mode| mode.frequency).collect();
         println!(
-            "{name}: yaw, lateral, longitudinal, pitch {found:.4?}, with sliding wedges {sliding:.4?}; {list:.2?}"
+            "{name}: yaw, lateral, longitudinal, pitch {found:.4?}, with sliding wedges {sliding:.4?}; \
+             {list:.2?}"
         );
         let close = |k: usize, expected: f64, digit: f64| {
             assert!(

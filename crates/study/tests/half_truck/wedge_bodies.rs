@@ -68,7 +68,8 @@ fn analytic_column_force_without_friction() {
     }
 }
 
-/// A run that starts at rest starts there whatever the friction: its faces carry what they carry without, and no friction.
+/// A run that starts at rest starts there whatever the friction: its faces carry what they carry without, and
+/// no friction.
 #[test]
 fn analytic_rest_with_friction_is_that_without() {
     let name = "nucars_69_constant_toe_out";
@@ -113,11 +114,12 @@ fn stiffer(factor: f64, with_bodies: bool) -> Vec<String> {
     set
 }
 
-/// With toe out the branches have a meaning: a light wedge with stiff contacts and stiff bristles goes to the massless law
-/// with the same accumulators. Soft ones do not: over 1 in of travel the toe moves the wedge in its pocket by 0.0045 in,
-/// and contacts and bristles of 1e6 lb/in take up as much as half of that before the slope slips back. The massless law's
-/// energy is that of the bolster's way; the wedge's is shorter by its rise, `tan φ / tan θ` of it. With variable damping
-/// the branches go with the travel, so that stiffer parts are needed, and the ringing of the input springs must die down.
+/// With toe out the branches have a meaning: a light wedge with stiff contacts and stiff bristles goes to the
+/// massless law with the same accumulators. Soft ones do not: over 1 in of travel the toe moves the wedge in
+/// its pocket by 0.0045 in, and contacts and bristles of 1e6 lb/in take up as much as half of that before the
+/// slope slips back. The massless law's energy is that of the bolster's way; the wedge's is shorter by its
+/// rise, `tan φ / tan θ` of it. With variable damping the branches go with the travel, so that stiffer parts
+/// are needed, and the ringing of the input springs must die down.
 #[test]
 fn convergence_of_a_light_stiff_wedge_to_the_massless_law() {
     for (name, angle, duration, factors, last) in [
@@ -160,8 +162,9 @@ fn convergence_of_a_light_stiff_wedge_to_the_massless_law() {
     }
 }
 
-/// A slope without friction makes the normal force determinate, whatever the toe: then the wedge needs no travel to come
-/// to the massless law, and only the give of its contacts (a share of the coil's stroke) parts them.
+/// A slope without friction makes the normal force determinate, whatever the toe: then the wedge needs no
+/// travel to come to the massless law, and only the give of its contacts (a share of the coil's stroke) parts
+/// them.
 #[test]
 fn limits_a_slope_without_friction_leaves_nothing_to_the_start() {
     for name in ["nucars_69_constant_toe_none", "nucars_68_constant_toe_out"] {
@@ -185,8 +188,8 @@ fn limits_a_slope_without_friction_leaves_nothing_to_the_start() {
     }
 }
 
-/// With no toe the slope sticks, and the normal force is what the start locked in: the branches of the massless law
-/// are not those of a wedge with mass.
+/// With no toe the slope sticks, and the normal force is what the start locked in: the branches of the
+/// massless law are not those of a wedge with mass.
 #[test]
 fn limits_without_toe_the_start_sets_the_normal_force() {
     let name = "nucars_69_constant_toe_none";
@@ -243,8 +246,8 @@ fn energy_ledgers_close_with_wedge_bodies() {
     }
 }
 
-/// Under yaw a wedge whose roll is free rolls by the difference of the yaws times cot θ, and stays flush on both faces. Its
-/// column's moment about z stays within what its corners can carry: `N (h3/2 + μ h1/3)`.
+/// Under yaw a wedge whose roll is free rolls by the difference of the yaws times cot θ, and stays flush on
+/// both faces. Its column's moment about z stays within what its corners can carry: `N (h3/2 + μ h1/3)`.
 #[test]
 fn analytic_yawed_wedges_roll_and_stay_flush() {
     for (name, angle) in [
@@ -280,8 +283,8 @@ fn analytic_yawed_wedges_roll_and_stay_flush() {
     }
 }
 
-/// The half-truck with its input bodies turned: the bolster is driven in roll, pitch and yaw by stiff springs of the middle
-/// one alone, by `size` (rad).
+/// The half-truck with its input bodies turned: the bolster is driven in roll, pitch and yaw by stiff springs
+/// of the middle one alone, by `size` (rad).
 fn turned(size: f64, linearized: bool, set: &[&str]) -> HalfTruckCase {
     let mut case = bodies("nucars_69_constant_toe_out", 1.5, set);
     let middle = case.truck.body(8).unwrap();
@@ -338,8 +341,8 @@ fn differences(size: f64, set: &[&str]) -> [[f64; 2]; 2] {
     })
 }
 
-/// Below 5 mrad bodies with linearized and with finite kinematics differ by less than 1 %, and the difference falls with
-/// the square of the rotations.
+/// Below 5 mrad bodies with linearized and with finite kinematics differ by less than 1 %, and the difference
+/// falls with the square of the rotations.
 #[test]
 fn cross_code_linearized_against_finite_kinematics() {
     let smooth = [

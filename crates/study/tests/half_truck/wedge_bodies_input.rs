@@ -112,8 +112,9 @@ fn input_what_is_taken_and_what_is_added_is_said() {
     let (truck, replaced) = replaced("nucars_69_constant_toe_out", |_, _| ()).unwrap();
     let text = replaced.assumptions.join("\n");
     for piece in [
-        "wedges of connections 127, 128, 129, 130: from the files: 37.5 deg, a column inclined by 0.2 deg, toe out; friction \
-         0.4 (column) and 0.4 (slope); coil in the bolster's pocket (constant damping) with 3702 lbf",
+        "wedges of connections 127, 128, 129, 130: from the files: 37.5 deg, a column inclined by 0.2 deg, \
+         toe out; friction 0.4 (column) and 0.4 (slope); coil in the bolster's pocket (constant damping) \
+         with 3702 lbf",
         "added: mass 50 lb, moments of inertia",
         "height 6.125 in, width 10.5 in",
         "all six coordinates free",

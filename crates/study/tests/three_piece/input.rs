@@ -98,7 +98,8 @@ fn input_messages_say_what_is_wrong_and_what_to_write() {
             &["`wedge.kind` cannot be \"weightless\"", "massless"],
         ),
         (
-            "[wedge]\nkind = \"massless\"\n[side_frame]\nfree_coordinates = []\n[adapter]\nkind = \"nothing\"",
+            "[wedge]\nkind = \"massless\"\n[side_frame]\nfree_coordinates = []\n[adapter]\nkind \
+             = \"nothing\"",
             &["nothing can move", "no wedge has mass", "drive the wheelsets"],
         ),
         (
@@ -129,7 +130,8 @@ fn input_messages_say_what_is_wrong_and_what_to_write() {
             &["`friction.law` cannot be \"coulomb\""],
         ),
         (
-            "[load]\nkind = \"car_body\"\n[side_bearing]\nkind = \"constant_contact\"\npreload = \"90000 lbf\"",
+            "[load]\nkind = \"car_body\"\n[side_bearing]\nkind = \"constant_contact\"\npreload = \"90000 \
+             lbf\"",
             &["more than the body's weight"],
         ),
     ] {
@@ -172,7 +174,8 @@ fn input_conditions_are_defaults() {
     assert_eq!(mixed.wedges[0].toe, 0.0);
 }
 
-/// Preloads that do not carry the load are told by how much; a motion that tears the truck apart stops the run.
+/// Preloads that do not carry the load are told by how much; a motion that tears the truck apart stops the
+/// run.
 #[test]
 fn input_what_only_a_run_can_tell() {
     let set = [
@@ -203,7 +206,8 @@ fn input_what_only_a_run_can_tell() {
     assert!(stopped.time > 0.0 && !result.values[0].is_empty());
 }
 
-/// A stop tears the truck apart as a face does, also between two bodies that are prescribed; the run is kept until then.
+/// A stop tears the truck apart as a face does, also between two bodies that are prescribed; the run is kept
+/// until then.
 #[test]
 fn input_a_gib_that_is_pressed_too_hard_stops_the_run() {
     let set = [

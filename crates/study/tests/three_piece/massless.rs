@@ -38,8 +38,8 @@ fn energy_of_rigs_with_massless_wedges_is_accounted_for() {
     assert!(residual < 1e-5, "{residual:e}");
 }
 
-/// The loss of each massless wedge stands under its name, and is the area of its loop: on the column, and on the
-/// slope, whose friction toe out makes it rub too.
+/// The loss of each massless wedge stands under its name, and is the area of its loop: on the column, and on
+/// the slope, whose friction toe out makes it rub too.
 #[test]
 fn energy_of_a_massless_wedge_stands_under_its_name() {
     let result = run("truck_vertical_constant_toe_out", &["wedge.kind=massless"]);
@@ -71,8 +71,8 @@ fn energy_of_a_massless_wedge_stands_under_its_name() {
     }
 }
 
-/// NUCARS's worn truck: 105 kip·in of the truck at 30 mrad, besides the shear of the coils; the inter-axle shear moment
-/// that turns it has the adapters' friction beside.
+/// NUCARS's worn truck: 105 kip·in of the truck at 30 mrad, besides the shear of the coils; the inter-axle
+/// shear moment that turns it has the adapters' friction beside.
 #[test]
 fn reproduction_an_empirical_warp_spring_has_its_stiffness() {
     let set = ["wedge.kind=massless", "warp_spring.kind=worn"];
@@ -92,7 +92,8 @@ fn reproduction_an_empirical_warp_spring_has_its_stiffness() {
 /// A load in place of a motion: the half car without friction rises by it over the stiffness of its springs.
 #[test]
 fn analytic_a_load_lifts_the_half_car() {
-    let load = "bolster.load.vertical={ shape = \"ramp\", amplitude = \"20000 lbf\", duration = \"2 s\", profile = \"half_cosine\" }";
+    let load = "bolster.load.vertical={ shape = \"ramp\", amplitude = \"20000 lbf\", duration = \"2 s\", \
+                profile = \"half_cosine\" }";
     let set = [
         load,
         "start.lift=0 in",

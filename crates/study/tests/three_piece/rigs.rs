@@ -7,8 +7,8 @@ use study::truck::{WEDGE_NAMES, builtin};
 
 use super::common::{INCH, KIP_INCH, POUND_FORCE, at, case, column, run};
 
-/// The energy ledger of every built-in truck over its first seconds closes below 1e-5, and no run has anything to
-/// warn of but contacts that are pressed in where a nest locks.
+/// The energy ledger of every built-in truck over its first seconds closes below 1e-5, and no run has
+/// anything to warn of but contacts that are pressed in where a nest locks.
 #[test]
 fn energy_of_every_rig_is_accounted_for() {
     assert_eq!(builtin::names().count(), 42);
@@ -30,7 +30,8 @@ fn energy_of_every_rig_is_accounted_for() {
     }
 }
 
-/// Bolster, side frames and wheelsets are prescribed in every coordinate, one side frame beside a free one too.
+/// Bolster, side frames and wheelsets are prescribed in every coordinate, one side frame beside a free one
+/// too.
 #[test]
 fn energy_of_prescribed_motions_in_every_coordinate_is_accounted_for() {
     for key in ["longitudinal", "lateral", "vertical", "roll", "pitch", "yaw"] {
@@ -56,7 +57,8 @@ fn energy_of_prescribed_motions_in_every_coordinate_is_accounted_for() {
     }
 }
 
-/// The parts of the warp moment add up to it at every angle that is told, with wedges that have mass and without.
+/// The parts of the warp moment add up to it at every angle that is told, with wedges that have mass and
+/// without.
 #[test]
 fn analytic_parts_of_the_warp_moment_add_up() {
     for set in [
@@ -141,8 +143,8 @@ fn analytic_wedges_roll_by_the_yaw_times_the_cotangent_of_the_angle() {
 /// force go on growing, to 20 to 30 kip. (Both from a calculation in another program.)
 #[test]
 fn reproduction_warp_has_a_plateau_when_worn_and_locks_when_new() {
-    // Warp moment (kip·in) and largest normal force on a column (lbf) at 10 and at 20 mrad, the first time and
-    // on the way to the other side.
+    // Warp moment (kip·in) and largest normal force on a column (lbf) at 10 and at 20 mrad, the first time
+    // and on the way to the other side.
     let run_with = |condition: &str| {
         let set = [
             format!("truck.condition={condition}"),
@@ -213,9 +215,9 @@ fn limits_rigs_reach_their_stops() {
     assert!(most > 0.25 * INCH, "{} in between pocket and wedge", most / INCH);
 }
 
-/// An empty half car stands higher by what coils and adapters are relieved of. With constant damping the wedges'
-/// forces are internal to bolster and wedges. With variable damping the control coils carry a share, and the faces,
-/// which give by 0.0058 in under the loaded car, give in proportion to the coils' force.
+/// An empty half car stands higher by what coils and adapters are relieved of. With constant damping the
+/// wedges' forces are internal to bolster and wedges. With variable damping the control coils carry a share,
+/// and the faces, which give by 0.0058 in under the loaded car, give in proportion to the coils' force.
 #[test]
 fn analytic_an_empty_half_car_rests_at_its_height() {
     let lighter = 123_030.0 - 22_830.0;
@@ -241,8 +243,8 @@ fn analytic_an_empty_half_car_rests_at_its_height() {
     }
 }
 
-/// A worn wedge between a side frame and a bolster that are held sits higher: by (w_c cos θ + w_s)/sin θ, whatever
-/// presses it in alike; the others stay where they are.
+/// A worn wedge between a side frame and a bolster that are held sits higher: by (w_c cos θ + w_s)/sin θ,
+/// whatever presses it in alike; the others stay where they are.
 #[test]
 fn analytic_a_worn_wedge_rises() {
     let set = |more: &[&'static str]| -> Vec<&'static str> {
@@ -275,8 +277,8 @@ fn analytic_a_worn_wedge_rises() {
     }
 }
 
-/// Without friction the loops are lines: coils, control coils and adapters in series; in roll, the coils' levers and
-/// their shear about the bolster's center of gravity, less what the side frames give.
+/// Without friction the loops are lines: coils, control coils and adapters in series; in roll, the coils'
+/// levers and their shear about the bolster's center of gravity, less what the side frames give.
 #[test]
 fn analytic_loops_without_friction_have_the_stiffness_of_the_coils() {
     let curve = |name: &str| {

@@ -1,5 +1,5 @@
-//! limits: a wedge of the truck between a side frame and a bolster that are prescribed is the single wedge of the
-//! thesis, whichever of the four mounts it is in.
+//! limits: a wedge of the truck between a side frame and a bolster that are prescribed is the single wedge of
+//! the thesis, whichever of the four mounts it is in.
 #![allow(clippy::unwrap_used)]
 
 use study::case::builtin;
@@ -8,7 +8,8 @@ use study::truck::{TruckCase, WEDGE_NAMES};
 
 use super::common::{INCH, column};
 
-/// Of the whole run: mean size of the column's vertical friction (N), and the energies lost at column and slope, J.
+/// Of the whole run: mean size of the column's vertical friction (N), and the energies lost at column and
+/// slope, J.
 type Averages = [f64; 3];
 
 /// From the coil's end to the center of gravity.
@@ -53,11 +54,13 @@ fn mounted(number: usize, damping: &str, toe: &str) -> Averages {
     let text = format!(
         "model = \"truck\"\n[truck]\ndamping = \"{damping}\"\n\
          [bolster]\ncenter = [\"{} in\", \"{} in\", \"{} in\"]\n\
-         vertical = {{ shape = \"sine\", amplitude = \"1 in\", frequency = \"2 rad/s\" }}\nyaw = \"0.012 rad\"\n\
+         vertical = {{ shape = \"sine\", amplitude = \"1 in\", frequency = \"2 rad/s\" }}\nyaw = \"0.012 \
+         rad\"\n\
          [side_frame]\nfree_coordinates = []\ntoe = \"{toe}\"\n[adapter]\nkind = \"nothing\"\n\
          [wedge]\ninertia = [\"100 lb in^2\", \"100 lb in^2\", \"100 lb in^2\"]\n\
          free_coordinates = [\"x\", \"z\", \"pitch\", \"yaw\"]\n\
-         [control_coil]\nkind = \"thesis\"\ncenter_of_gravity = {CENTER}\n[contact]\ndamping = \"0 lbf s/in\"\n[friction]\nlaw = \"tanh\"\n{others}\
+         [control_coil]\nkind = \"thesis\"\ncenter_of_gravity = {CENTER}\n[contact]\ndamping = \"0 lbf \
+         s/in\"\n[friction]\nlaw = \"tanh\"\n{others}\
          [simulation]\nduration = \"10 s\"\nrelative_tolerance = 1e-9\n",
         center[0], center[1], center[2]
     );
@@ -79,8 +82,8 @@ fn mounted(number: usize, damping: &str, toe: &str) -> Averages {
     ]
 }
 
-/// With variable damping the wedge rings on undamped contacts and its run depends on the last bits: the single wedge's
-/// own averages at tolerances of 1e-9 and 1e-10 are 3e-4 apart.
+/// With variable damping the wedge rings on undamped contacts and its run depends on the last bits: the
+/// single wedge's own averages at tolerances of 1e-9 and 1e-10 are 3e-4 apart.
 #[test]
 fn limits_a_wedge_of_the_truck_is_the_thesis_wedge_from_all_four_mounts() {
     for (name, damping, toe, bound) in [

@@ -10,7 +10,8 @@ use crate::component::{OK, Status, call};
 use crate::pointers::{put, slice};
 
 /// Why there is no answer to a question about a step.
-const NO_STEP: &str = "no step is under way: steps are finished when fmi2DoStep returns, and its status is all there is to know";
+const NO_STEP: &str = "no step is under way: steps are finished when fmi2DoStep returns, and its status is \
+                       all there is to know";
 
 /// Sets derivatives of inputs for the next step.
 #[unsafe(no_mangle)]
@@ -95,7 +96,8 @@ pub unsafe extern "C" fn fmi2GetRealStatus(c: *mut c_void, kind: c_int, value: *
         call("fmi2GetRealStatus", c, |component| {
             if kind != LAST_SUCCESSFUL_TIME {
                 return component.discard(&format!(
-                    "there is no real status of the kind {kind}; {LAST_SUCCESSFUL_TIME} is the last successful time"
+                    "there is no real status of the kind {kind}; {LAST_SUCCESSFUL_TIME} is the last \
+                     successful time"
                 ));
             }
             put(value, component.instance.time(), "the time")?;
@@ -120,7 +122,8 @@ pub unsafe extern "C" fn fmi2GetBooleanStatus(c: *mut c_void, kind: c_int, value
         call("fmi2GetBooleanStatus", c, |component| {
             if kind != TERMINATED {
                 return component.discard(&format!(
-                    "there is no Boolean status of the kind {kind}; {TERMINATED} says whether the FMU wants to end"
+                    "there is no Boolean status of the kind {kind}; {TERMINATED} says whether the FMU wants \
+                     to end"
                 ));
             }
             put(value, 0, "the value")?;

@@ -405,7 +405,8 @@ fn same(references: usize, values: usize) -> Result<(), Error> {
         return Ok(());
     }
     Err(Error::new(format!(
-        "{references} references and {values} values: all variables are scalars, so give one value for each reference"
+        "{references} references and {values} values: all variables are scalars, so give one value for each \
+         reference"
     )))
 }
 

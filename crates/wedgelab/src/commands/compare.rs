@@ -72,7 +72,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     writeln!(
         out,
-        "\nLargest: the difference that is largest in size, result less {first}, and its time. RMS: root mean square of the\n\
+        "\nLargest: the difference that is largest in size, result less {first}, and its time. RMS: root \
+         mean square of the\n\
          difference. Percentages are of the range (greatest less least value) of {first}."
     )?;
     for note in &comparison.notes {

@@ -19,8 +19,9 @@ use crate::table::Table;
 
 /// Stiffness, friction and energy of a truck whose bolster moves up and down or rolls
 ///
-/// Runs a truck_vertical_... or truck_roll_... rig, or a case of your own in which the bolster's vertical motion or roll is
-/// periodic, and writes curves.csv (the loop of the last whole cycle), curves.svg and curves.png. Several values of
+/// Runs a truck_vertical_... or truck_roll_... rig, or a case of your own in which the bolster's vertical
+/// motion or roll is periodic, and writes curves.csv (the loop of the last whole cycle), curves.svg and
+/// curves.png. Several values of
 /// --friction, --toe, --wear make one test for each combination.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
@@ -68,7 +69,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
                 "in {} the bolster makes no whole cycle up and down, or in roll",
                 case.name
             );
-            let advice = "take truck_vertical_variable or truck_roll_variable, or a longer duration; `wedgelab warp` is for warp";
+            let advice = "take truck_vertical_variable or truck_roll_variable, or a longer duration; \
+                          `wedgelab warp` is for warp";
             return Err(Message::new(message, advice).into());
         };
         loops.push((label.clone(), curve));
@@ -87,8 +89,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     table(&name, &loops).write(&mut out)?;
     writeln!(
         out,
-        "\nOf both nests, over the last whole cycle. Stiffness: from the lower to the upper end. Friction: half the width of the loop in\n\
-         its middle. Energy: its area. Loss ratio: energy over 2 pi, stiffness and the square of the amplitude.\n\n\
+        "\nOf both nests, over the last whole cycle. Stiffness: from the lower to the upper end. Friction: \
+         half the width of the loop in\n\
+         its middle. Energy: its area. Loss ratio: energy over 2 pi, stiffness and the square of the \
+         amplitude.\n\n\
          Written into {}: {}.",
         folder.path().display(),
         NAMES.join(", ")

@@ -148,7 +148,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut set = arguments.set.clone();
     if arguments.follow {
         if half_truck.is_some() {
-            let advice = "history.NUMBER.factor and history.NUMBER.frequency, by --set, change the motion of its files";
+            let advice = "history.NUMBER.factor and history.NUMBER.frequency, by --set, change the motion \
+                          of its files";
             return Err(Message::new(
                 "--follow moves the bolster of a wedge, and the case is a half-truck",
                 advice,
@@ -299,7 +300,8 @@ fn compare_stroke(cycle: Option<Cycle>, displacement: &[f64]) {
     let stroke = 0.5 * (ends.1 - ends.0) / cycle.amplitude - 1.0;
     if stroke.abs() > STROKE {
         say(&format!(
-            "warning: the measured stroke is {:+.1} % of the case's away from it; --follow moves the bolster as measured",
+            "warning: the measured stroke is {:+.1} % of the case's away from it; --follow moves the \
+             bolster as measured",
             100.0 * stroke
         ));
     }
@@ -371,7 +373,8 @@ fn tell(found: &Fit, shown: &Shown<'_>, folder: &std::path::Path, names: &[&str]
     if found.durbin_watson < INDEPENDENT {
         writeln!(
             out,
-            "The differences hang together (Durbin-Watson far below 2): the model lacks something, and the intervals are too narrow."
+            "The differences hang together (Durbin-Watson far below 2): the model lacks something, and the \
+             intervals are too narrow."
         )?;
     }
     if !found.settled {

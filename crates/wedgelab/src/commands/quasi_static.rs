@@ -74,17 +74,18 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut out = io::stdout().lock();
     writeln!(
         out,
-        "Massless wedge in steady sliding: angle {}, toe {}, friction {} at the column and {} at the slope,\ncoil force {}.\n",
+        "Massless wedge in steady sliding: angle {}, toe {}, friction {} at the column and {} at the \
+         slope,\ncoil force {}.\n",
         arguments.angle, arguments.toe.text, arguments.mu_column, arguments.mu_slope, arguments.coil_force
     )?;
     forces(&wedge, arguments.coil_force.to_si(), units).write(&mut out)?;
     let critical = wedge.critical_friction();
     writeln!(
         out,
-        "\n* What the motion chooses. With the bolster going down, friction of the slope acts on the wedge down the slope if\n  \
-         the toe is out, up the slope if it is in; with the bolster going up, the reverse. {}\n\nCritical friction, equal \
-         at both faces, above which the wedge jams with the bolster going down and the slope's\nfriction up the slope: \
-         {critical:.4}.",
+        "\n* What the motion chooses. With the bolster going down, friction of the slope acts on the wedge \
+         down the slope if\n  the toe is out, up the slope if it is in; with the bolster going up, the \
+         reverse. {}\n\nCritical friction, equal at both faces, above which the wedge jams with the bolster \
+         going down and the slope's\nfriction up the slope: {critical:.4}.",
         if wedge.toe == 0.0 {
             "Without toe the slope does\n  not slip; toe out is the usual choice."
         } else {
@@ -163,8 +164,8 @@ fn angle(text: &str) -> Result<Quantity, String> {
 }
 
 fn toe(text: &str) -> Result<Toe, String> {
-    const HELP: &str = "write its size and direction: \"0.2 deg out\" (the gap between column and bolster opens downwards), \
-         \"0.2 deg in\", or \"0 deg\"";
+    const HELP: &str = "write its size and direction: \"0.2 deg out\" (the gap between column and bolster \
+                        opens downwards), \"0.2 deg in\", or \"0 deg\"";
     let text = text.trim();
     let (size, sign) = match text.rsplit_once(char::is_whitespace) {
         Some((size, "out")) => (size, Some(1.0)),

@@ -43,12 +43,14 @@ const USUAL: &str = "reproduction";
 /// with and without yaw of the bolster), and the cases beyond the thesis. Writes the report index.html, its
 /// statements with verdicts claims.json, each figure as SVG and PNG, and for each run runs/NAME/result.csv,
 /// result.mat, case.toml and summary.json; prints a table of the runs. Without --only the half-truck of the
-/// comparison program's files is run too (28 runs: result.csv and summary.json), and the report compares; and the three-piece
-/// truck with four wedges that have mass on its 16 loaded rigs, told in truck.html (numbers in truck.json): loops, warp,
-/// wedges, closed forms, what contact and bristle stiffness move. With --sensitivity N the twelve runs are made at N points of
-/// the space of what the thesis leaves open (contact stiffness and damping, line of action of the coil, start, inertia, place of B),
-/// and the report says of each statement in which part of that space it holds and what decides (sensitivity.json). Points are
-/// kept in the folder sensitivity; a larger N takes those that are there, and so does the same command after an interruption.
+/// comparison program's files is run too (28 runs: result.csv and summary.json), and the report compares; and
+/// the three-piece truck with four wedges that have mass on its 16 loaded rigs, told in truck.html (numbers
+/// in truck.json): loops, warp, wedges, closed forms, what contact and bristle stiffness move. With
+/// --sensitivity N the twelve runs are made at N points of the space of what the thesis leaves open (contact
+/// stiffness and damping, line of action of the coil, start, inertia, place of B), and the report says of
+/// each statement in which part of that space it holds and what decides (sensitivity.json). Points are kept
+/// in the folder sensitivity; a larger N takes those that are there, and so does the same command after an
+/// interruption.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -176,8 +178,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     table(summaries.zip(walls.iter().copied())).write(&mut out)?;
     writeln!(
         out,
-        "\n{TABLE_NOTE}\n\nWritten into {}: {} (the report; open it in a browser), {}, {}/ ({figures} figures as SVG and PNG), \
-         runs/NAME/{{{}}}.",
+        "\n{TABLE_NOTE}\n\nWritten into {}: {} (the report; open it in a browser), {}, {}/ ({figures} \
+         figures as SVG and PNG), runs/NAME/{{{}}}.",
         places.sheets.path().display(),
         page::FILE_NAME,
         claims::FILE_NAME,

@@ -27,10 +27,11 @@ use crate::table::Table;
 
 /// Run one case
 ///
-/// Runs a case file, of a wedge, of a truck or of a car on track, and writes result.csv (the time histories), result.mat (the same, of a wedge under the
-/// thesis's names), case.toml (the case, completed) and summary.json (averages, extremes, events, energy ledger,
-/// solver statistics, assumptions) into a folder named as the case; of a truck also index.html, where it is seen moving in
-/// 3D with its loops and wedges, of a car with limits, statistics and figures over the distance.
+/// Runs a case file, of a wedge, of a truck or of a car on track, and writes result.csv (the time histories),
+/// result.mat (the same, of a wedge under the thesis's names), case.toml (the case, completed) and
+/// summary.json (averages, extremes, events, energy ledger, solver statistics, assumptions) into a folder
+/// named as the case; of a truck also index.html, where it is seen moving in 3D with its loops and wedges, of
+/// a car with limits, statistics and figures over the distance.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

@@ -9,7 +9,7 @@ use clap::Args;
 use quantity::{Kind, Quantity, System as Units};
 use report::stability_files::{self, NAMES};
 use study::any_case::AnyCase;
-use study::car::stability::{FRICTION, LinearizeError, Stability, stability};
+use study::car::stability::{FRICTION, Stability, stability};
 
 use super::run::read_any;
 use super::warp::draw;
@@ -21,15 +21,16 @@ use crate::table::Table;
 
 /// Linear stability of a car over speed: growth and frequency of its vibrations, critical speeds
 ///
-/// Linearizes the car about steady running on straight track without irregularities, at each speed, twice: with all
-/// friction of wedges, center plates, adapters and side bearings stuck (bristles are springs), and without it. Writes
-/// stability.csv (all vibrations of 0.05 to 30 Hz), stability.json (critical speeds), stability.svg and stability.png.
+/// Linearizes the car about steady running on straight track without irregularities, at each speed, twice:
+/// with all friction of wedges, center plates, adapters and side bearings stuck (bristles are springs), and
+/// without it. Writes stability.csv (all vibrations of 0.05 to 30 Hz), stability.json (critical speeds),
+/// stability.svg and stability.png.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
-  wedgelab stability car_hunting_empty --set wheels.geometry=linear --set track.support.kind=rigid
+  wedgelab stability car_hunting_empty
   wedgelab stability my_car.toml --speeds \"30 mph\"..\"80 mph\" --steps 6
-The car must have linear wheels (wheels.geometry = \"linear\") on rigid rails: with profiles eigenvalues are not found.")]
+  wedgelab stability my_car.toml --set wheels.geometry=linear --set track.support.kind=rigid")]
 pub struct Arguments {
     /// Case file, or the name of a built-in case
     case: PathBuf,
@@ -106,13 +107,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     progress.finish();
     let found = found.map_err(|error| {
         let message = format!("{} cannot be linearized: {error}", case.name);
-        let advice = match error {
-            LinearizeError::Eigenvalues(_) => {
-                "with profiles of wheels and rails they are not found: take linear wheels, --set wheels.geometry=linear \
-                 --set track.support.kind=rigid, whose conicity and creep coefficients are keys of [wheels]"
-            }
-            _ => "look at its speeds, lading and side bearings; `wedgelab run` shows how it runs",
-        };
+        let advice = "look at its speeds, lading and side bearings; `wedgelab run` shows how it runs";
         Message::new(message, advice)
     })?;
     let units = case.simulation.output_units;
@@ -148,8 +143,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     writeln!(
         out,
-        "\nGrowth and frequency of the vibration that grows most, of 0.05 to 30 Hz; positive growth is hunting. Limits: small \
-         motions;\na car may hunt below these speeds once it has been disturbed.\n\nWritten into {}: {}.",
+        "\nGrowth and frequency of the vibration that grows most, of 0.05 to 30 Hz; positive growth is \
+         hunting. Limits: small motions;\na car may hunt below these speeds once it has been \
+         disturbed.\n\nWritten into {}: {}.",
         folder.path().display(),
         NAMES.join(", ")
     )?;

@@ -91,8 +91,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     if study.count() > MANY && !arguments.yes {
         let message = format!("the study has {} runs", study.count());
-        let advice = "give --yes if you mean it, or vary fewer values; a sample of them (sampling = \"sobol\", runs = 1000) often says \
-                      as much";
+        let advice = "give --yes if you mean it, or vary fewer values; a sample of them (sampling \
+                      = \"sobol\", runs = 1000) often says as much";
         return Err(Message::new(message, advice).into());
     }
     let folder = StudyFolder::open(&path, &study)?;

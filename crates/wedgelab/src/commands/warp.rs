@@ -22,11 +22,12 @@ use crate::table::Table;
 
 /// Warp moment of a truck over the warp angle, its parts and stiffness
 ///
-/// Runs a warp test (truck_warp_nest_... or truck_warp_axles_..., or a case of your own in which the warp angle
-/// moves), and writes warp.csv (moment, stiffness and the moment's parts at 0.5 to 20 mrad), warp_loops.csv, warp.pwl
-/// (the same for one nest as piecewise linear functions of NUCARS), warp.svg and warp.png. Several values of
-/// --friction, --toe, --wear make one test for each combination. NUCARS's empirical lines for new and worn trucks stand
-/// beside.
+/// Runs a warp test (truck_warp_nest_... or truck_warp_axles_..., or a case of your own in which the warp
+/// angle moves), and writes warp.csv (moment, stiffness and the moment's parts at 0.5 to 20 mrad),
+/// warp_loops.csv, warp.pwl (the same for one nest as piecewise linear functions of NUCARS), warp.svg and
+/// warp.png. Several values of
+/// --friction, --toe, --wear make one test for each combination. NUCARS's empirical lines for new and worn
+/// trucks stand beside.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -87,7 +88,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         let Some(curve) = WarpCurve::of(case, &result) else {
             progress.finish();
             let message = format!("in {} the warp angle stays below 0.5 mrad", case.name);
-            let advice = "take truck_warp_nest_constant_rising, or move the side frames' yaw or the wheelsets against each other";
+            let advice = "take truck_warp_nest_constant_rising, or move the side frames' yaw or the \
+                          wheelsets against each other";
             return Err(Message::new(message, advice).into());
         };
         tests.push(Tested {
@@ -114,8 +116,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     table(&tests).write(&mut out)?;
     writeln!(
         out,
-        "\nWarp moment on the bolster over the warp angle where an angle is reached first, of the whole truck, kip·in/mrad. Loop:\n\
-         energy that the last whole cycle takes. Where a nest locks, contact.stiffness and the bristles set the moment.\n\n\
+        "\nWarp moment on the bolster over the warp angle where an angle is reached first, of the whole \
+         truck, kip·in/mrad. Loop:\n\
+         energy that the last whole cycle takes. Where a nest locks, contact.stiffness and the bristles set \
+         the moment.\n\n\
          Written into {}: {}.",
         folder.path().display(),
         NAMES.join(", ")
@@ -154,11 +158,15 @@ impl Varied {
                     let case = match read_any(case, &set)? {
                         AnyCase::Truck(case) => *case,
                         other => {
-                            let message = format!(
-                                "{} is the case of a single wedge; a truck's is expected",
-                                other.name()
-                            );
-                            let advice = "take a built-in truck (`wedgelab case` lists them), or a case with model = \"truck\"";
+                            let what = match &other {
+                                AnyCase::Car(_) => "a car",
+                                AnyCase::HalfTruck(_) => "a half-truck",
+                                _ => "a single wedge",
+                            };
+                            let message =
+                                format!("{} is the case of {what}; a truck's is expected", other.name());
+                            let advice = "take a built-in truck (`wedgelab case` lists them), or a case \
+                                          with model = \"truck\"";
                             return Err(Message::new(message, advice).into());
                         }
                     };

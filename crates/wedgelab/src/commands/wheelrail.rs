@@ -21,8 +21,8 @@ use crate::table::Table;
 /// Profiles of wheels and rails: checks, rolling radius difference, contact angles, equivalent conicity,
 /// contact; a wheelset that runs
 ///
-/// WHEEL is aar_1b, cylinder, cone_1:20 (any slope), or a file; RAIL is 136re, or a file: CSV with units in its header,
-/// or Simpack's .prw and .prr. The nominal profiles are from memory, not from drawings.
+/// WHEEL is aar_1b, cylinder, cone_1:20 (any slope), or a file; RAIL is 136re, or a file: CSV with units in
+/// its header, or Simpack's .prw and .prr. The nominal profiles are from memory, not from drawings.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -55,7 +55,8 @@ enum Command {
     Contact(Box<wheelrail_contact::Arguments>),
     /// Runs one wheelset along a track: hunting, curving, irregularities; with a page that shows it in 3D
     ///
-    /// Writes result.csv (place on the track, forces of both wheels, their contact patches), summary.json and index.html.
+    /// Writes result.csv (place on the track, forces of both wheels, their contact patches), summary.json and
+    /// index.html.
     Run(Box<wheelrail_run::Arguments>),
 }
 
@@ -196,8 +197,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     table(&positions, &conicity, largest).write(&mut out)?;
     writeln!(
         out,
-        "\nShift: of the wheelset to the left, at the height of the rails' tops. Angles: left, right. Conicity: equivalent, after\n\
-         EN 15302, at an amplitude of that size; - where the wheelset does not swing or the amplitude is not covered."
+        "\nShift: of the wheelset to the left, at the height of the rails' tops. Angles: left, right. \
+         Conicity: equivalent, after\n\
+         EN 15302, at an amplitude of that size; - where the wheelset does not swing or the amplitude is \
+         not covered."
     )?;
     if let Some(folder) = folder {
         let figure = wheelrail_files::figure(&wheel, &rail, &positions, &conicity);

@@ -18,9 +18,10 @@ use crate::failure::{Failure, Message};
 use crate::table::Table;
 
 /// How the answer is to be read: in the help, the table and the JSON.
-const FRAME: &str = "CONTACT's: x forward, y to the right, z down, from the middle of the track at the height of the rails' \
-                     tops; forward rolling is a negative pitch rate. Forces and the spin moment act on the rail, in the \
-                     plane of contact; creepages are the rail's velocity less the wheel's over the speed";
+const FRAME: &str = "CONTACT's: x forward, y to the right, z down, from the middle of the track at the \
+                     height of the rails' tops; forward rolling is a negative pitch rate. Forces and the \
+                     spin moment act on the rail, in the plane of contact; creepages are the rail's \
+                     velocity less the wheel's over the speed";
 
 /// Prints them with the long help of the command.
 const EXAMPLES: &str = "\
@@ -306,12 +307,13 @@ fn write(wheels: &[LoadedWheel; 2], out: &mut impl Write) -> io::Result<()> {
             )?,
             Seat::FlangeTip => writeln!(
                 out,
-                "The {side} wheel has climbed: it stands on the tip of its flange, above the flange's face; its center, at y = \
-                 {y:.2} mm,\nis {height:.3} mm above the top of its rail."
+                "The {side} wheel has climbed: it stands on the tip of its flange, above the flange's face; \
+                 its center, at y = {y:.2} mm,\nis {height:.3} mm above the top of its rail."
             )?,
             Seat::RimEdge => writeln!(
                 out,
-                "The {side} wheel stands on the outer edge of its rim, about to fall between the rails; its center is at y = {y:.2} mm."
+                "The {side} wheel stands on the outer edge of its rim, about to fall between the rails; its \
+                 center is at y = {y:.2} mm."
             )?,
             Seat::OffRail => writeln!(
                 out,

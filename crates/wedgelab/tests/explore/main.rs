@@ -117,8 +117,8 @@ fn a_case_file_is_explored_and_kept() {
     assert_eq!(preset.json()["summary"]["name"], "vdrun_toe_0_psi_0");
 }
 
-/// A truck is explored as a wedge is: its loop, its energy and its files are those of the command line; from a wedge
-/// a truck is a click away, and back.
+/// A truck is explored as a wedge is: its loop, its energy and its files are those of the command line; from
+/// a wedge a truck is a click away, and back.
 #[test]
 fn a_truck_is_explored_and_kept() {
     let folder = temporary();

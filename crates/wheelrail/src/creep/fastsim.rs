@@ -1,12 +1,12 @@
 //! FASTSIM (Kalker 1982): the simplified theory on strips of the contact ellipse.
 //!
-//! Along each strip from its leading edge the tangential stress grows with the rigid slip over the flexibilities
-//! `L1 = 8a / (3 C11 G)`, `L2 = 8a / (3 C22 G)`, `L3 = π a √(a/b) / (4 C23 G)`, and is cut off at μ times the
-//! parabolic pressure `2N/(π a b) (1 - (x/a)² - (y/b)²)` (Kalker's choice; the elliptic one is worse with spin).
-//! Forces and moment are sums over cells.
+//! Along each strip from its leading edge the tangential stress grows with the rigid slip over the
+//! flexibilities `L1 = 8a / (3 C11 G)`, `L2 = 8a / (3 C22 G)`, `L3 = π a √(a/b) / (4 C23 G)`, and is cut off
+//! at μ times the parabolic pressure `2N/(π a b) (1 - (x/a)² - (y/b)²)` (Kalker's choice; the elliptic one is
+//! worse with spin). Forces and moment are sums over cells.
 //!
-//! Defects: piecewise smooth only, where cells change from sticking to slipping; without slip the midpoint rule
-//! over strips gives the linear force times `1 + (2/n)²/8` for n strips.
+//! Defects: piecewise smooth only, where cells change from sticking to slipping; without slip the midpoint
+//! rule over strips gives the linear force times `1 + (2/n)²/8` for n strips.
 
 use std::f64::consts::PI;
 

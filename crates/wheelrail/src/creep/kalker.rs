@@ -1,9 +1,9 @@
 //! Kalker's creepage and spin coefficients of an elliptic contact (Kalker 1990, table E.3).
 //!
 //! The table has Poisson's ratios 0, 0.25, 0.5 and 19 ratios a/b from 0.1 to 10. Between Poisson's ratios 1/C
-//! is a parabola, as in CONTACT; between ratios C is a monotone cubic in ln(a/b) (Fritsch and Butland 1984), so
-//! that derivatives are continuous. Beyond 0.1 and 10 the values at the end hold; the asymptotes of the theory
-//! do not join the table.
+//! is a parabola, as in CONTACT; between ratios C is a monotone cubic in ln(a/b) (Fritsch and Butland 1984),
+//! so that derivatives are continuous. Beyond 0.1 and 10 the values at the end hold; the asymptotes of the
+//! theory do not join the table.
 
 use numerics::scalar::Real;
 
@@ -23,7 +23,8 @@ pub struct Coefficients<S> {
 /// Number of ratios.
 const ROWS: usize = 19;
 
-/// Rows by a/b from 0.1 to 1 and 1/0.9 to 1/0.1; columns C11, C22, C23, C33, each at the three Poisson's ratios.
+/// Rows by a/b from 0.1 to 1 and 1/0.9 to 1/0.1; columns C11, C22, C23, C33, each at the three Poisson's
+/// ratios.
 #[allow(clippy::approx_constant)] // 3.14 is a value of the table
 #[rustfmt::skip]
 const TABLE: [[[f64; 3]; 4]; ROWS] = [

@@ -73,8 +73,8 @@ pub enum TrackError {
     },
     /// Curvature or superelevation would jump.
     #[error(
-        "curvature or superelevation jumps from {before:?} to {after:?} at the start of segment {segment} (from 1): put a \
-         spiral between"
+        "curvature or superelevation jumps from {before:?} to {after:?} at the start of segment {segment} \
+         (from 1): put a spiral between"
     )]
     Jump {
         /// The segment, from 1.
@@ -94,7 +94,8 @@ pub enum TrackError {
     },
     /// Superelevation as large as the distance of the rails.
     #[error(
-        "segment {segment} (from 1) has a superelevation of {superelevation} m, but its rails are {distance} m apart"
+        "segment {segment} (from 1) has a superelevation of {superelevation} m, but its rails are \
+         {distance} m apart"
     )]
     Superelevation {
         /// The segment, from 1.
@@ -106,7 +107,8 @@ pub enum TrackError {
     },
     /// A table of curvature and superelevation is none.
     #[error(
-        "row {row} (from 1) of the center line's table is at {distance} m: rows begin at 0 m, rise, and have curvatures of at most 1/m"
+        "row {row} (from 1) of the center line's table is at {distance} m: rows begin at 0 m, rise, and \
+         have curvatures of at most 1/m"
     )]
     Row {
         /// The row, from 1.

@@ -36,8 +36,8 @@ pub fn transfer(wavelength: f64, chord: f64) -> f64 {
 pub enum ChordError {
     /// The wavelengths are no range, or longer than the data.
     #[error(
-        "wavelengths from {shortest} to {longest} m cannot be inverted from {length} m of offsets, {spacing} m apart: the \
-         shortest must be at least two spacings, the longest at most the length"
+        "wavelengths from {shortest} to {longest} m cannot be inverted from {length} m of offsets, \
+         {spacing} m apart: the shortest must be at least two spacings, the longest at most the length"
     )]
     Range {
         /// The shortest, m.
@@ -51,8 +51,8 @@ pub enum ChordError {
     },
     /// The chord does not see a wavelength.
     #[error(
-        "offsets of a chord of {chord} m hold a wavelength of {wavelength} m {factor:.3} times only: it cannot be \
-         inverted; from {:.1} to {:.1} m it can",
+        "offsets of a chord of {chord} m hold a wavelength of {wavelength} m {factor:.3} times only: it \
+         cannot be inverted; from {:.1} to {:.1} m it can",
         chord / 1.8, chord * 6.0
     )]
     Insensitive {
@@ -65,7 +65,8 @@ pub enum ChordError {
     },
     /// Too many rows and waves.
     #[error(
-        "{rows} rows with {waves} waves between the wavelengths are too many: choose a longer shortest wavelength"
+        "{rows} rows with {waves} waves between the wavelengths are too many: choose a longer shortest \
+         wavelength"
     )]
     Size {
         /// Rows.

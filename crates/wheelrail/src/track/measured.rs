@@ -58,8 +58,8 @@ pub enum MeasuredError {
     },
     /// Only mid-chord offsets where space curves are expected.
     #[error(
-        "{name}: the column {column} holds mid-chord offsets; an irregularity of 39 ft appears in offsets of 62 ft \
-         0.72 times as large, one of 31 ft not at all: offsets are no profile"
+        "{name}: the column {column} holds mid-chord offsets; an irregularity of 39 ft appears in offsets \
+         of 62 ft 0.72 times as large, one of 31 ft not at all: offsets are no profile"
     )]
     MidChord {
         /// The file.
@@ -95,9 +95,9 @@ impl MeasuredError {
     pub fn remedy(&self) -> String {
         match self {
             Self::Line { remedy, .. } => remedy.clone(),
-            Self::MidChord { .. } => "give space curves; or write form = \"mid_chord\" with chord = \"62 ft\" and the \
-                                      wavelengths over which to invert it, such as shortest = \"35 ft\", longest = \
-                                      \"370 ft\""
+            Self::MidChord { .. } => "give space curves; or write form = \"mid_chord\" with chord = \"62 \
+                                      ft\" and the wavelengths over which to invert it, such as shortest \
+                                      = \"35 ft\", longest = \"370 ft\""
                 .to_owned(),
             Self::Missing { .. } => "docs/wheelrail.md lists the columns".to_owned(),
             Self::Chord(_) => "state other wavelengths, or give space curves".to_owned(),
@@ -381,7 +381,8 @@ impl MeasuredTable {
             None => Ok(spacing),
             Some(own) => Err(MeasuredError::Samples {
                 what: format!(
-                    "{}: rows {own} m and {spacing} m apart; offsets are inverted from rows at equal distances",
+                    "{}: rows {own} m and {spacing} m apart; offsets are inverted from rows at equal \
+                     distances",
                     self.name
                 ),
             }),
@@ -426,8 +427,8 @@ impl MeasuredTable {
     }
 }
 
-const HEADER: &str = "write a header such as: distance [ft], left_profile [in], right_profile [in]; docs/wheelrail.md \
-                      lists the columns";
-const SIGNS: &str = "write under the header which way is positive: up or down for profiles, left or right for \
-                     alignment and curvature, right_high or left_high for cross level, wide or tight for gauge; or say \
-                     signs = \"usual\" if they are up, left, right_high, wide";
+const HEADER: &str = "write a header such as: distance [ft], left_profile [in], right_profile [in]; \
+                      docs/wheelrail.md lists the columns";
+const SIGNS: &str = "write under the header which way is positive: up or down for profiles, left or right \
+                     for alignment and curvature, right_high or left_high for cross level, wide or tight \
+                     for gauge; or say signs = \"usual\" if they are up, left, right_high, wide";

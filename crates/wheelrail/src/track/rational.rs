@@ -4,9 +4,9 @@
 //! S(w) = (a0 + a1 w + a2 w² + ...) / (b0 + b1 w + b2 w² + ...)
 //! ```
 //!
-//! Sources write w in rad/m or in cycles/m, and densities in the square of some length by a wavenumber that need
-//! not be the same one: m²/(rad/m) is 2π times m²/(cycle/m) of the same track. So a density has both units with it,
-//! and is kept in rad/m and m²/(rad/m).
+//! Sources write w in rad/m or in cycles/m, and densities in the square of some length by a wavenumber that
+//! need not be the same one: m²/(rad/m) is 2π times m²/(cycle/m) of the same track. So a density has both
+//! units with it, and is kept in rad/m and m²/(rad/m).
 
 use std::f64::consts::TAU;
 
@@ -90,8 +90,8 @@ pub struct Rational {
 }
 
 impl Rational {
-    /// Returns the density of coefficients by rising powers of the wavenumber, in the units of their source; none
-    /// if there are no coefficients or more than [`COEFFICIENTS`] of a polynomial.
+    /// Returns the density of coefficients by rising powers of the wavenumber, in the units of their source;
+    /// none if there are no coefficients or more than [`COEFFICIENTS`] of a polynomial.
     #[must_use]
     pub fn new(
         numerator: &[f64],

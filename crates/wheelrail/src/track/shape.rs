@@ -1,16 +1,18 @@
 //! Shapes of irregularities, placed by distance: cusps of rail joints, sines, dips, jogs.
 //!
-//! Each has a value (m), a slope and a second derivative (1/m) at a distance (m). Rail joints are rectified sines
-//! with their low points at the joints, `-A (1 - |sin(π u/λ)|)` with u the distance from a joint; a parabola with the
-//! same value and slope at its ends rounds the tip, which lowers the depth there by `A π t/(2 λ)` with a half length t.
-//! The form of the cusps is a guess; the amplitudes that a standard asks for are the user's.
+//! Each has a value (m), a slope and a second derivative (1/m) at a distance (m). Rail joints are rectified
+//! sines with their low points at the joints, `-A (1 - |sin(π u/λ)|)` with u the distance from a joint; a
+//! parabola with the same value and slope at its ends rounds the tip, which lowers the depth there by `A π
+//! t/(2 λ)` with a half length t. The form of the cusps is a guess; the amplitudes that a standard asks for
+//! are the user's.
 
 use std::f64::consts::{PI, TAU};
 
 /// A shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
-    /// Low joints one rail length apart, the first one at `start`; level rail before it and after the last one.
+    /// Low joints one rail length apart, the first one at `start`; level rail before it and after the last
+    /// one.
     Joints {
         /// Depth A of the joints before their tips are rounded, m.
         depth: f64,

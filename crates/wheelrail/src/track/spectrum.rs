@@ -8,15 +8,15 @@
 //! ERRI B176, vertical         S = A Ωc² / ((Ω² + Ωr²) (Ω² + Ωc²)),          Ωc = 0.8246, Ωr = 0.0206 rad/m
 //! ```
 //!
-//! A by class is published in cm² rad/m; densities by cycles/m are 2π times as large. FRA's vertical values are as
-//! quoted in open vehicle-track programs; those of alignment and cross level are remembered from the literature,
-//! unverified.
+//! A by class is published in cm² rad/m; densities by cycles/m are 2π times as large. FRA's vertical values
+//! are as quoted in open vehicle-track programs; those of alignment and cross level are remembered from the
+//! literature, unverified.
 //!
 //! Users' own densities are quotients of polynomials, [`Rational`].
 //!
-//! A realization is `Σ √(2 S_k ΔΩ) cos(Ω_k s + θ_k)` over equal steps of the wavenumber in a range of wavelengths,
-//! with phases from a seed; it begins with a taper `sin²`, so that a vehicle meets no jump. It repeats itself after
-//! 2π/ΔΩ: the number of terms must fit the length of the run.
+//! A realization is `Σ √(2 S_k ΔΩ) cos(Ω_k s + θ_k)` over equal steps of the wavenumber in a range of
+//! wavelengths, with phases from a seed; it begins with a taper `sin²`, so that a vehicle meets no jump. It
+//! repeats itself after 2π/ΔΩ: the number of terms must fit the length of the run.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -66,8 +66,8 @@ pub enum SpectrumError {
     },
     /// The wavelengths are not a range.
     #[error(
-        "wavelengths from {shortest} to {longest} m are no range: give the shortest and the longest one, both positive, such \
-         as 1.524 and 304.8 m (5 to 1000 ft)"
+        "wavelengths from {shortest} to {longest} m are no range: give the shortest and the longest one, \
+         both positive, such as 1.524 and 304.8 m (5 to 1000 ft)"
     )]
     Range {
         /// The shortest, m.
@@ -77,8 +77,9 @@ pub enum SpectrumError {
     },
     /// A density is none.
     #[error(
-        "the density is {density} m²/(rad/m) at {wavenumber:.4} rad/m, a wavelength of {:.2} m; it must be zero or positive: \
-         look at the signs and the order of the coefficients, by rising powers of the wavenumber",
+        "the density is {density} m²/(rad/m) at {wavenumber:.4} rad/m, a wavelength of {:.2} m; it must be \
+         zero or positive: look at the signs and the order of the coefficients, by rising powers of the \
+         wavenumber",
         TAU / wavenumber
     )]
     Density {
@@ -144,8 +145,8 @@ pub struct Realization {
 }
 
 impl Realization {
-    /// Returns a realization over wavelengths from `shortest` to `longest` (m) with a number of terms, by a seed.
-    /// It rises from zero at the distance 0 within `taper` (m), and is zero before.
+    /// Returns a realization over wavelengths from `shortest` to `longest` (m) with a number of terms, by a
+    /// seed. It rises from zero at the distance 0 within `taper` (m), and is zero before.
     ///
     /// # Errors
     /// [`SpectrumError`].

@@ -16,19 +16,23 @@ pub fn manchester(out: &mut String) {
     line(out, "## Manchester contact benchmark, case A-2.2\n");
     line(
         out,
-        "Wheels S1002 on rails UIC60, 10 kN each at 2 m/s, yaw of 2.4 mrad a mm; FASTSIM 50 × 50. CONTACT's results",
+        "Wheels S1002 on rails UIC60, 10 kN each at 2 m/s, yaw of 2.4 mrad a mm; FASTSIM 50 × 50. CONTACT's \
+         results",
     );
     line(
         out,
-        "(`mbench_a22_left`, `mbench_a22_right`, revision 2707) second; its frame: y to the right, forces on the rail. Up",
+        "(`mbench_a22_left`, `mbench_a22_right`, revision 2707) second; its frame: y to the right, forces \
+         on the rail. Up",
     );
     line(
         out,
-        "to 4 mm places are to lie within 1 mm, N within 1 %, creep forces within 10 % of their size (at 0 mm of the limit of",
+        "to 4 mm places are to lie within 1 mm, N within 1 %, creep forces within 10 % of their size (at 0 \
+         mm of the limit of",
     );
     line(
         out,
-        "friction). Places are means weighted with N; at 5 mm CONTACT's single place is the deeper one of two here.\n",
+        "friction). Places are means weighted with N; at 5 mm CONTACT's single place is the deeper one of \
+         two here.\n",
     );
     table(
         out,
@@ -177,7 +181,8 @@ pub fn manchester(out: &mut String) {
     }
     let _ = writeln!(
         out,
-        "\nUp to 4 mm the largest differences are {place:.2} mm, {:.2} % of N and {:.1} % of the creep forces.",
+        "\nUp to 4 mm the largest differences are {place:.2} mm, {:.2} % of N and {:.1} % of the creep \
+         forces.",
         100.0 * normal,
         100.0 * creep
     );

@@ -68,7 +68,8 @@ fn hertz(out: &mut String) {
     line(out, "## Hertz's contact\n");
     line(
         out,
-        "A 36 in wheel on a crown of 10 in, 160 kN, 207 GPa, ν = 0.27; the source is another program with exact",
+        "A 36 in wheel on a crown of 10 in, 160 kN, 207 GPa, ν = 0.27; the source is another program with \
+         exact",
     );
     line(out, "elliptic integrals.\n");
     let steel = Material {
@@ -129,7 +130,8 @@ fn kalker(out: &mut String) {
     line(out, "## Kalker's coefficients\n");
     line(
         out,
-        "At nodes of the table (Kalker 1990, table E.3) the table's own digits; between Poisson's ratios 1/C is a",
+        "At nodes of the table (Kalker 1990, table E.3) the table's own digits; between Poisson's ratios \
+         1/C is a",
     );
     line(out, "parabola: C11 at a/b = 0.5 and ν = 0.28");
     let between = Coefficients::of(0.5, POISSON).c11;
@@ -180,7 +182,8 @@ fn fastsim_limit(out: &mut String) {
     line(out, "## FASTSIM without slip\n");
     line(
         out,
-        "The force of n strips over Kalker's linear force is 1 + (2/n)²/8, the midpoint rule of a half circle.\n",
+        "The force of n strips over Kalker's linear force is 1 + (2/n)²/8, the midpoint rule of a half \
+         circle.\n",
     );
     table(out, &["n", "here", "formula"]);
     let free = Patch {
@@ -206,11 +209,13 @@ fn traction(out: &mut String) {
     line(out, "## Traction curve\n");
     line(
         out,
-        "The share Fx / (μN) by longitudinal creepage in CONTACT's example `tractcurv` (exact theory; 106.7 kN, a = 6.305 mm,",
+        "The share Fx / (μN) by longitudinal creepage in CONTACT's example `tractcurv` (exact theory; 106.7 \
+         kN, a = 6.305 mm,",
     );
     line(
         out,
-        "b = 12.611 mm, μ = 0.33, 82 GPa, ν = 0.28). FASTSIM (30 × 30) and Shen-Hedrick-Elkins are to lie within 6 %,",
+        "b = 12.611 mm, μ = 0.33, 82 GPa, ν = 0.28). FASTSIM (30 × 30) and Shen-Hedrick-Elkins are to lie \
+         within 6 %,",
     );
     line(out, "Polach within 8 %.\n");
     table(
@@ -262,7 +267,8 @@ fn spin(out: &mut String) {
     line(out, "## Lateral creepage with spin\n");
     line(
         out,
-        "CONTACT's example `fastsim`: a = 8 mm, b = 4 mm, 82 kN, μ = 0.3, lateral creepage -6.25e-4, spin 6.25e-4 1/mm;",
+        "CONTACT's example `fastsim`: a = 8 mm, b = 4 mm, 82 kN, μ = 0.3, lateral creepage -6.25e-4, spin \
+         6.25e-4 1/mm;",
     );
     line(out, "parabolic bound, 200 × 200 cells, to lie within 3 %.\n");
     let patch = Patch {
@@ -308,7 +314,8 @@ fn spin(out: &mut String) {
     line(
         out,
         &format!(
-            "\nAgainst the half-space: Fy of Polach {:+.1} %, of Shen-Hedrick-Elkins {:+.1} %; FASTSIM's spin moment is a\n\
+            "\nAgainst the half-space: Fy of Polach {:+.1} %, of Shen-Hedrick-Elkins {:+.1} %; FASTSIM's \
+             spin moment is a\n\
              fifth too small, as in CONTACT's own.",
             against(polach),
             against(cubic)
@@ -320,7 +327,8 @@ fn conicity(out: &mut String) {
     line(out, "## Coned wheels: conicity, Klingel's wavelength\n");
     line(
         out,
-        "Cones on rails 136RE, amplitude 3 mm, radius 457.2 mm, tape circles 1.491 m apart. Klingel: 2π √(r l / λ). Rolling",
+        "Cones on rails 136RE, amplitude 3 mm, radius 457.2 mm, tape circles 1.491 m apart. Klingel: 2π √(r \
+         l / λ). Rolling",
     );
     line(
         out,
@@ -392,7 +400,8 @@ fn en15302(out: &mut String) {
     line(out, "## EN 15302\n");
     line(
         out,
-        "Reference cases E1 to E3: equivalent conicity from the given rolling radius differences, by amplitude; to lie",
+        "Reference cases E1 to E3: equivalent conicity from the given rolling radius differences, by \
+         amplitude; to lie",
     );
     line(out, "within 0.0015.\n");
     table(

@@ -11,7 +11,8 @@ use crate::element::Interface;
 /// A member of a saved state that cannot be.
 pub(crate) fn damaged(member: &str, found: impl Display, expected: impl Display) -> Error {
     Error::new(format!(
-        "the saved state is damaged: {member} is {found}; it must be {expected}; restore a state as it was saved, or reset the instance"
+        "the saved state is damaged: {member} is {found}; it must be {expected}; restore a state as it was \
+         saved, or reset the instance"
     ))
 }
 

@@ -67,10 +67,10 @@ start = "equilibrium"
     Group {
         name: "warp",
         title: "Warp test: the pocket yaws slowly against the side frame",
-        look_at: "With friction 0.2 the wedge is squeezed down until the column bears on one edge: the moment runs along the \
-                  edge-loading limit N_c h3/2 (a nest of two wedges: N_c h3), and stays well below it where the wedge may \
-                  roll away. With friction 0.4 it jams instead: N_c, and the limit with it, grow with the yaw against the \
-                  contacts' stiffness.",
+        look_at: "With friction 0.2 the wedge is squeezed down until the column bears on one edge: the \
+                  moment runs along the edge-loading limit N_c h3/2 (a nest of two wedges: N_c h3), and \
+                  stays well below it where the wedge may roll away. With friction 0.4 it jams instead: \
+                  N_c, and the limit with it, grow with the yaw against the contacts' stiffness.",
         cases: [
             ("friction_0.2", "0.2", four, "friction 0.2"),
             (
@@ -110,10 +110,10 @@ start = "equilibrium"
     Group {
         name: "rig",
         title: "Rig test: a triangle at 0.1 Hz, as truck springs and snubbers are tested",
-        look_at: "The loop leans away from the straight lines of the quasi-static wedge and comes to them late in a stroke, if at \
-                  all: at each reversal the slope's friction must turn over too, and there the wedge slides by a hundredth \
-                  of an inch only. The area of the loop is the damping that a rig would report, its lean a stiffness \
-                  that no spring has.",
+        look_at: "The loop leans away from the straight lines of the quasi-static wedge and comes to them \
+                  late in a stroke, if at all: at each reversal the slope's friction must turn over too, \
+                  and there the wedge slides by a hundredth of an inch only. The area of the loop is the \
+                  damping that a rig would report, its lean a stiffness that no spring has.",
         cases: DAMPINGS.map(case).into(),
     }
 }
@@ -134,10 +134,11 @@ fn sweep() -> Group {
     Group {
         name: "sweep",
         title: "Amplitude and frequency: equivalent stiffness and damping",
-        look_at: "The equivalent damping falls with one over the frequency and one over the amplitude, as that of dry friction \
-                  does, close to the quasi-static lines: a linear damper fitted to one motion is wrong for every other. The \
-                  equivalent stiffness does not care for the frequency, but is the greater the smaller the amplitude, because \
-                  more of the stroke goes into turning the friction over.",
+        look_at: "The equivalent damping falls with one over the frequency and one over the amplitude, as \
+                  that of dry friction does, close to the quasi-static lines: a linear damper fitted to one \
+                  motion is wrong for every other. The equivalent stiffness does not care for the \
+                  frequency, but is the greater the smaller the amplitude, because more of the stroke goes \
+                  into turning the friction over.",
         cases,
     }
 }
@@ -147,8 +148,8 @@ fn twist_and_roll() -> Group {
         BuiltIn::new(
             format!("twist_and_roll_{damping}"),
             format!(
-                "{damping} damping; assumed: 39 ft rails at 15 mph (0.564 Hz), bolster rolls by 1 deg about the truck's \
-                 middle, 39 in away, which lifts it by 0.681 in at the wedge"
+                "{damping} damping; assumed: 39 ft rails at 15 mph (0.564 Hz), bolster rolls by 1 deg about \
+                 the truck's middle, 39 in away, which lifts it by 0.681 in at the wedge"
             ),
             &format!(
                 r#"
@@ -168,9 +169,10 @@ start = "equilibrium"
     Group {
         name: "twist_and_roll",
         title: "Motion of the pocket as in twist and roll: vertical and roll together",
-        look_at: "The vertical force on the bolster jumps at each reversal and, with constant damping, holds its level between, \
-                  whatever the speed; with variable damping it follows the coil as well. The roll moment peaks at the \
-                  reversals, where the wedge sticks and is turned along with the pocket, and fades as soon as it slides.",
+        look_at: "The vertical force on the bolster jumps at each reversal and, with constant damping, \
+                  holds its level between, whatever the speed; with variable damping it follows the coil as \
+                  well. The roll moment peaks at the reversals, where the wedge sticks and is turned along \
+                  with the pocket, and fades as soon as it slides.",
         cases: DAMPINGS.map(case).into(),
     }
 }
@@ -180,8 +182,8 @@ fn yaw_and_sway() -> Group {
         BuiltIn::new(
             format!("yaw_and_sway_{damping}"),
             format!(
-                "{damping} damping; assumed: 39 ft alignment at 50 mph (1.880 Hz), side frame moves by 0.25 in across under \
-                 the bolster, bolster yaws against it by 0.004 rad a quarter period later"
+                "{damping} damping; assumed: 39 ft alignment at 50 mph (1.880 Hz), side frame moves by 0.25 \
+                 in across under the bolster, bolster yaws against it by 0.004 rad a quarter period later"
             ),
             &format!(
                 r#"
@@ -204,9 +206,9 @@ start = "equilibrium"
     Group {
         name: "yaw_and_sway",
         title: "Motion of the pocket as in yaw and sway: the side frame slides across, the bolster yaws",
-        look_at: "The lateral force is the column's friction, which points where the side frame slides: it turns over at each \
-                  reversal and follows the normal force, not the displacement. The yaw moment follows the bolster's yaw \
-                  instead, up to the edge that bears.",
+        look_at: "The lateral force is the column's friction, which points where the side frame slides: it \
+                  turns over at each reversal and follows the normal force, not the displacement. The yaw \
+                  moment follows the bolster's yaw instead, up to the edge that bears.",
         cases: DAMPINGS.map(case).into(),
     }
 }
@@ -217,8 +219,11 @@ fn load() -> Group {
         for (load, height) in [("empty", EMPTY), ("loaded", LOADED)] {
             cases.push(BuiltIn::new(
                 format!("load_{damping}_{load}"),
-                format!("{damping} damping, toe out, 0.25 in at 1 Hz; assumed for an {load} car: bolster at {height}")
-                    .replace("an loaded", "a loaded"),
+                format!(
+                    "{damping} damping, toe out, 0.25 in at 1 Hz; assumed for an {load} car: bolster at \
+                         {height}"
+                )
+                .replace("an loaded", "a loaded"),
                 &sine(damping, "", "0.25", "1", height, "2.52 s"),
             ));
         }
@@ -226,9 +231,10 @@ fn load() -> Group {
     Group {
         name: "load",
         title: "Empty and loaded car: small motions about two heights of the bolster",
-        look_at: "With variable damping the loaded car's loop holds more than five times the energy of the empty car's: \
-                  friction follows the coil's load, 7300 lbf against 1350. With constant damping both loops are the same but \
-                  for the toe, so that an empty car is damped as hard as a loaded one.",
+        look_at: "With variable damping the loaded car's loop holds more than five times the energy of the \
+                  empty car's: friction follows the coil's load, 7300 lbf against 1350. With constant \
+                  damping both loops are the same but for the toe, so that an empty car is damped as hard \
+                  as a loaded one.",
         cases,
     }
 }
@@ -250,9 +256,9 @@ fn wear() -> Group {
     Group {
         name: "wear",
         title: "Wear of the faces: how far the wedge rises, and what damping is left",
-        look_at: "The wedge rises by (w_c cos θ + w_s cos φ)/sin(θ + φ), three to three and a half times the depth where both faces \
-                  wear alike: its height tells the wear. The coil lengthens by as much, and the energy lost in a cycle \
-                  falls about as its force does.",
+        look_at: "The wedge rises by (w_c cos θ + w_s cos φ)/sin(θ + φ), three to three and a half times \
+                  the depth where both faces wear alike: its height tells the wear. The coil lengthens by \
+                  as much, and the energy lost in a cycle falls about as its force does.",
         cases,
     }
 }

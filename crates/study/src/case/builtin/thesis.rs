@@ -28,9 +28,9 @@ pub(super) fn group() -> Group {
     Group {
         name: NAME,
         title: "The twelve runs of the thesis (table 4-1)",
-        look_at: "Compare the width of the loops by toe: going up with constant damping, toe out gives the greatest \
-                  force, toe in the least. With variable damping look for the lift-off after 3 s, where the wedge rings \
-                  on its coil and nothing is lost.",
+        look_at: "Compare the width of the loops by toe: going up with constant damping, toe out gives the \
+                  greatest force, toe in the least. With variable damping look for the lift-off after 3 s, \
+                  where the wedge rings on its coil and nothing is lost.",
         cases: RUNS.iter().map(built_in).collect(),
     }
 }

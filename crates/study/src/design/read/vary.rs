@@ -11,8 +11,9 @@ use crate::case::tree::{Node, Table, Value as Toml};
 use crate::design::factor::{Factor, Levels, Value};
 
 const RANGE_KEYS: [&str; 6] = ["from", "to", "values", "count", "scale", "also"];
-pub(super) const RANGE_HELP: &str = "write { from = 0.2, to = 0.6, count = 5 } (count in a full factorial study only), or a list of \
-                          values; quantities stand in quotes with their unit";
+pub(super) const RANGE_HELP: &str = "write { from = 0.2, to = 0.6, count = 5 } (count in a full factorial \
+                                     study only), or a list of values; quantities stand in quotes with \
+                                     their unit";
 /// Values that are tried out before anything runs; what is wrong with others their runs will tell.
 pub(super) const TRIED: usize = 200;
 const SCALES: Names<bool> = &[("linear", false), ("logarithmic", true)];

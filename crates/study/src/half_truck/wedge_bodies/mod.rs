@@ -97,9 +97,10 @@ pub fn replace(truck: &mut Truck, choices: &Choices, units: Units) -> Result<Rep
         return Err(WedgeBodyError::NoWedge);
     }
     let mut assumptions = vec![
-        "wedges of types 6.8 and 6.9: bodies with mass, corners with contact and friction, where the files have a massless \
-         law; accumulator, branch, jamming and limit of the normal force (FWNMAX) of that law do not apply; components of \
-         forces of their connections are those of column and coil on the side frame"
+        "wedges of types 6.8 and 6.9: bodies with mass, corners with contact and friction, where the files \
+         have a massless law; accumulator, branch, jamming and limit of the normal force (FWNMAX) of that \
+         law do not apply; components of forces of their connections are those of column and coil on the \
+         side frame"
             .to_owned(),
     ];
     for (words, numbers) in groups {
@@ -132,12 +133,13 @@ fn take_masses(truck: &mut Truck, wedges: &[MountedWedge], units: Units) -> Vec<
         if body.mass > 2.0 * mass {
             body.mass -= mass;
             lines.push(format!(
-                "the wedges' masses, {words}, are taken from body {number}, which carries them in the files; its moments of \
-                 inertia stay"
+                "the wedges' masses, {words}, are taken from body {number}, which carries them in the \
+                 files; its moments of inertia stay"
             ));
         } else {
             lines.push(format!(
-                "the wedges' masses, {words}, are added: body {number} is too light to carry them in the files"
+                "the wedges' masses, {words}, are added: body {number} is too light to carry them in the \
+                 files"
             ));
         }
     }
@@ -222,7 +224,8 @@ impl Made {
         })
     }
 
-    /// Returns how far an inclined column is moved away (m), so that corners of the upright face just touch it.
+    /// Returns how far an inclined column is moved away (m), so that corners of the upright face just touch
+    /// it.
     fn gap(&self) -> f64 {
         0.5 * self.wedge.height * libm::sin(self.wedge.toe).abs()
     }
@@ -343,8 +346,8 @@ fn inclination(connection: u32, slopes: &[f64]) -> Result<f64, WedgeBodyError> {
     })
 }
 
-/// Returns on which side of a wedge of type 6.8 its column lies: away from the other wedges on its side frame; `all` are
-/// the places of all wedges.
+/// Returns on which side of a wedge of type 6.8 its column lies: away from the other wedges on its side
+/// frame; `all` are the places of all wedges.
 fn direction(truck: &Truck, place: usize, all: &[usize]) -> Result<f64, WedgeBodyError> {
     let connections = &truck.model.connections;
     let own = &connections[place];

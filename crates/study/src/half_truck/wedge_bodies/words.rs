@@ -21,8 +21,8 @@ pub(super) fn warp_springs(truck: &Truck, wedges: &[MountedWedge]) -> Option<Str
     let numbers: Vec<String> = found.map(|place| truck.connections[place].to_string()).collect();
     (!numbers.is_empty()).then(|| {
         format!(
-            "yaw springs between the same bodies (connections {}) stay; where they stand for the wedges' resistance to warp, it \
-             is there twice: wedges' bodies have their own",
+            "yaw springs between the same bodies (connections {}) stay; where they stand for the wedges' \
+             resistance to warp, it is there twice: wedges' bodies have their own",
             numbers.join(", ")
         )
     })
@@ -36,8 +36,9 @@ impl Made {
         let degrees = |angle: f64| Number(rounded(angle.to_degrees()));
         let toe = match wedge.toe {
             0.0 if self.plain => {
-                "a vertical column (type 6.8 gives a direction of toe and no angle: give one by the option plain_toe_angle; \
-                 without it the wedge hardly slides on its slope, so that it keeps the normal force that the start locked in)"
+                "a vertical column (type 6.8 gives a direction of toe and no angle: give one by the option \
+                 plain_toe_angle; without it the wedge hardly slides on its slope, so that it keeps the \
+                 normal force that the start locked in)"
                     .to_owned()
             }
             0.0 => "a vertical column".to_owned(),
@@ -56,8 +57,9 @@ impl Made {
             Damping::Variable => ("on the side frame", "variable"),
         };
         let mut lines = vec![format!(
-            "from the files: {} deg, {toe}; friction {} (column) and {} (slope); coil {seat} ({coil} damping) with {} in the \
-             drawn layout; the accumulator's stiffness and damping are those of the bristles of both faces",
+            "from the files: {} deg, {toe}; friction {} (column) and {} (slope); coil {seat} ({coil} \
+             damping) with {} in the drawn layout; the accumulator's stiffness and damping are those of the \
+             bristles of both faces",
             degrees(law.angle),
             Number(law.column_friction),
             Number(law.slope_friction),
@@ -69,8 +71,8 @@ impl Made {
             .map(|value| Number(rounded(value * Kind::Inertia.from_si(units))).to_string())
             .collect();
         lines.push(format!(
-            "added: mass {}, moments of inertia {} {} (roll, pitch, yaw), height {}, width {}, center of gravity at the \
-             connection's point, all six coordinates free",
+            "added: mass {}, moments of inertia {} {} (roll, pitch, yaw), height {}, width {}, center of \
+             gravity at the connection's point, all six coordinates free",
             measure(wedge.mass, Kind::Mass),
             inertia.join(", "),
             Kind::Inertia.unit(units),
@@ -78,15 +80,16 @@ impl Made {
             measure(wedge.width, Kind::Length),
         ));
         lines.push(format!(
-            "added: contact of each of four corners a face {}, {}; they are a part of the answer where the slope sticks",
+            "added: contact of each of four corners a face {}, {}; they are a part of the answer where the \
+             slope sticks",
             measure(wedge.contact.stiffness, Kind::Stiffness),
             measure(wedge.contact.damping, Kind::Damping),
         ));
         if let ControlCoil::Table(coil) = &wedge.control_coil {
             let moment = coil.tilt_stiffness * Kind::Moment.from_si(units);
             lines.push(format!(
-                "added: the coil acts below the center of gravity; its shear stiffness {}, tilt stiffness {} {}/rad (both of a \
-                 guessed coil, whose ends are held in their seats), damping {}",
+                "added: the coil acts below the center of gravity; its shear stiffness {}, tilt stiffness \
+                 {} {}/rad (both of a guessed coil, whose ends are held in their seats), damping {}",
                 measure(coil.shear_stiffness, Kind::Stiffness),
                 Number(rounded(moment)),
                 Kind::Moment.unit(units),
@@ -96,7 +99,8 @@ impl Made {
         let gap = self.gap();
         if gap > 0.0 {
             lines.push(format!(
-                "added: the inclined column is moved away by {}, so that the upright wedge just touches it with an edge",
+                "added: the inclined column is moved away by {}, so that the upright wedge just touches it \
+                 with an edge",
                 measure(gap, Kind::Length),
             ));
         }

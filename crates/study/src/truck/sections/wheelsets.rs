@@ -39,7 +39,8 @@ pub(in crate::truck) fn wheelsets(r: &mut Reader<'_>, parameters: &mut Parameter
         ("pad", AdapterKind::Pad),
         ("nothing", AdapterKind::Nothing),
     ];
-    let comment = "\"friction\": steel on steel; \"pad\": elastomeric; \"nothing\": wheelsets and adapters are left out";
+    let comment = "\"friction\": steel on steel; \"pad\": elastomeric; \"nothing\": wheelsets and adapters \
+                   are left out";
     match read_adapter(r, KINDS, comment) {
         Some(adapter) => wheelsets.adapter = adapter,
         None => {
@@ -50,7 +51,8 @@ pub(in crate::truck) fn wheelsets(r: &mut Reader<'_>, parameters: &mut Parameter
             {
                 if own.free.contains(&true) {
                     let message = format!("the {} has nothing to stand on", name.replace('_', " "));
-                    let help = "write side_frame.free_coordinates = [] to prescribe its motion, or keep the adapters";
+                    let help = "write side_frame.free_coordinates = [] to prescribe its motion, or keep the \
+                                adapters";
                     r.problem(
                         "adapter.kind",
                         Problem::new(message).label("no adapters").help(help),

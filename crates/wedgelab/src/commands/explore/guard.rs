@@ -85,8 +85,9 @@ impl Guard {
 }
 
 /// What browsers may do with answers: nothing but what the page needs.
-const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; \
-                      connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src \
+                      'self' data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; \
+                      frame-ancestors 'none'";
 
 /// Refuses what is to be refused, with status 403 and the reason as text.
 pub async fn check(State(guard): State<Guard>, request: Request, next: Next) -> Response {

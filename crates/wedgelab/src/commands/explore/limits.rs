@@ -80,7 +80,8 @@ pub fn rows([duration, interval]: [f64; 2]) -> Result<(), TooManyRows> {
     }
     Err(TooManyRows {
         message: format!(
-            "{duration} s in steps of {interval} s are more than {ROWS} rows of output, which is the most here"
+            "{duration} s in steps of {interval} s are more than {ROWS} rows of output, which is the most \
+             here"
         ),
         help: format!(
             "write {} s or more for simulation.output_interval, or run the case with `wedgelab run`",

@@ -20,9 +20,9 @@ use super::guard::{self, Guard};
 use super::limits::{self, Patience};
 
 /// What a mistake of the program is answered with.
-const MISTAKE_OF_THE_PROGRAM: &str = "This request met a mistake of the program, which goes on. Change a value and \
-                                      try again; please report it with the message in the terminal and with what \
-                                      was typed.";
+const MISTAKE_OF_THE_PROGRAM: &str = "This request met a mistake of the program, which goes on. Change a \
+                                      value and try again; please report it with the message in the \
+                                      terminal and with what was typed.";
 
 /// What all requests share.
 pub struct Server {

@@ -146,8 +146,8 @@ impl Arguments {
     }
 }
 
-const BUILD: &str = "`cargo build --release -p wedgelab-fmu` makes it, in the folder target/release; `--library FILE` names it where it lies \
-     elsewhere";
+const BUILD: &str = "`cargo build --release -p wedgelab-fmu` makes it, in the folder target/release; \
+                     `--library FILE` names it where it lies elsewhere";
 
 /// The platform of this program, and the library for it: the one that is named, or the one beside the
 /// program.

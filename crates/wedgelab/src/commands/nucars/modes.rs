@@ -124,7 +124,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     if vibrations.asymmetry > 1e-9 {
         writeln!(
             out,
-            "\nThe stiffness is not symmetric (by {:.1e} of its largest entry): friction follows normal forces.",
+            "\nThe stiffness is not symmetric (by {:.1e} of its largest entry): friction follows normal \
+             forces.",
             vibrations.asymmetry
         )?;
     }

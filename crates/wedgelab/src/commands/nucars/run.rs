@@ -28,18 +28,18 @@ use crate::table::Table;
 ///
 /// Reads a run file with the files it names, and writes result.csv (the columns that the data file asks for,
 /// wedges, bodies, energies), result.mat (the same, and the array that the thesis's scripts load),
-/// summary.json (averages of each wedge, energy ledger, yaw, assumptions) and index.html (the half-truck moving
-/// in 3D, loops) into a folder named as the run file. The run ends when the run file's stepping constants say. The runs of the thesis's table 4-1 are
-/// built in; --list names them.
+/// summary.json (averages of each wedge, energy ledger, yaw, assumptions) and index.html (the half-truck
+/// moving in 3D, loops) into a folder named as the run file. The run ends when the run file's stepping
+/// constants say. The runs of the thesis's table 4-1 are built in; --list names them.
 ///
 /// What no public text says of the elements is an --option, with a default that the summary lists: bend
 /// (half_cosine, linear), speed (along the track), plain_toe_angle (column of types without an angle), branch
 /// (friction_force, or a reference speed), rise_in_slip (true, false), negative_rise (extend, stop),
 /// accumulator_damping (a factor), gap_tension (never, allowed).
 ///
-/// --wedges bodies puts a body with mass, corners with contact and a coil in the place of each wedge of type 6.8
-/// or 6.9. What the files do not say of it has defaults, which the run tells and the summary lists; wedge_mass,
-/// wedge_height, wedge_width, wedge_contact_stiffness and wedge_contact_damping are options.
+/// --wedges bodies puts a body with mass, corners with contact and a coil in the place of each wedge of type
+/// 6.8 or 6.9. What the files do not say of it has defaults, which the run tells and the summary lists;
+/// wedge_mass, wedge_height, wedge_width, wedge_contact_stiffness and wedge_contact_damping are options.
 ///
 /// --set lays single values over the files, by the numbers that these give:
 /// characteristic.301.column_friction, wedges.slope_friction (of all wedges), body.2.mass, connection.127.z,
@@ -175,7 +175,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     writeln!(
         out,
-        "\n{TABLE_NOTE}\nRelative residual of the energy ledger: {:.1e}, the largest at any output time over the largest of work, losses and\n\
+        "\n{TABLE_NOTE}\nRelative residual of the energy ledger: {:.1e}, the largest at any output time \
+         over the largest of work, losses and\n\
          change of stored energy.\n\nWritten into {}: {} (open it in a browser).",
         summary.largest_relative_residual,
         folder.path().display(),

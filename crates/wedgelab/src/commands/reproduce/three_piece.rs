@@ -73,8 +73,8 @@ pub fn written(made: &[Option<Made>], rigs: usize) -> impl Iterator<Item = bool>
     made.iter().take(rigs).map(Option::is_some)
 }
 
-/// Runs them and writes the files of rigs, as many at a time as the pool has threads; `None` for those that were
-/// interrupted.
+/// Runs them and writes the files of rigs, as many at a time as the pool has threads; `None` for those that
+/// were interrupted.
 pub fn run(planned: Vec<Planned>, progress: &Progress) -> Result<Vec<Option<Made>>, Failure> {
     planned
         .into_par_iter()
