@@ -31,12 +31,9 @@ pub(super) fn track(r: &mut Reader<'_>) -> Option<(Track, Support)> {
          on is track.support.",
     );
     let Some(section) = r.given() else {
-        let segments = format!("[{{ tangent = \"{USUAL} ft\" }}]");
-        r.write(
-            "segments",
-            [segments.clone(), segments],
-            "one after the other: tangent, spiral, curve",
-        );
+        // As it is written where it is given.
+        let segments = format!("[\n    {{ tangent = \"{USUAL} ft\" }},\n]");
+        r.write("segments", [segments.clone(), segments], meaning("segments"));
         return Some((tangent(USUAL * 0.3048)?, Support::usual()));
     };
     // Its keys are read by the reader of track files.
@@ -61,9 +58,20 @@ pub(super) fn track(r: &mut Reader<'_>) -> Option<(Track, Support)> {
     let found = of_section(&section, r.tables(), r.problems);
     for own in &section.table.entries {
         let toml = own.node.value.to_toml();
-        r.write(&own.key, [toml.clone(), toml], "");
+        r.write(&own.key, [toml.clone(), toml], meaning(&own.key));
     }
     found
+}
+
+/// Returns what a key of a track file means, in short.
+fn meaning(key: &str) -> &'static str {
+    match key {
+        "segments" => "one after the other: tangent, spiral, curve",
+        "irregularities" => "shapes, spectra, measured tables",
+        "support" => "what the rails lie on: rigid or sprung",
+        "name" => "of the track",
+        _ => "as in a track file",
+    }
 }
 
 /// Reads a track file; measured tables that it names are looked for from its folder.

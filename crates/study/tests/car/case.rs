@@ -180,3 +180,17 @@ fn input_values_over_a_case_are_si() {
     assert!((case.speed() - 10.0).abs() < 1e-12);
     assert_eq!(case.parameters.trucks[0].gib.clearance, 0.01);
 }
+
+/// A case without a track is written with the usual one, and read again it is the same.
+#[test]
+fn input_a_case_that_is_written_reads_back_the_same() {
+    for text in [
+        "model = \"car\"\n",
+        "model = \"car\"\n[track]\nsegments = [{ tangent = \"3000 ft\" }]\n",
+    ] {
+        let nowhere = std::path::Path::new("");
+        let case = study::car::CarCase::parse("car.toml", text, nowhere, &[]).unwrap();
+        let again = study::car::CarCase::parse("again.toml", case.to_toml(), nowhere, &[]).unwrap();
+        assert!(case.to_toml() == again.to_toml() && case == again);
+    }
+}

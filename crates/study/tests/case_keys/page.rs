@@ -9,7 +9,7 @@ use study::case::{Field, Input};
 type Cases = &'static [(&'static str, &'static [&'static str])];
 
 /// What the sections of a model begin with, and its cases.
-const MODELS: [(&str, &str, Cases); 2] = [
+const MODELS: [(&str, &str, Cases); 3] = [
     (
         "A wedge",
         "The model of a case without `model`. Defaults are those of the thesis; where they depend on the \
@@ -31,6 +31,18 @@ const MODELS: [(&str, &str, Cases); 2] = [
             ("truck_vertical_variable", &["load.kind=car_body"]),
             ("truck_warp_axles_variable_rising", &["adapter.kind=pad"]),
             ("truck_vertical_variable", &["wedge.kind=massless"]),
+        ],
+    ),
+    (
+        "A car on track",
+        "`model = \"car\"`. The keys of trucks are those of a truck, below `truck.` for both, `front_truck.` and \
+         `rear_truck.` for one, without its motions, loads and rigs.",
+        &[
+            ("car_tangent_loaded", &[]),
+            ("car_tangent_empty", &[]),
+            ("car_constant_curve_loaded", &[]),
+            ("car_hunting_empty", &[]),
+            ("car_twist_and_roll_loaded", &[]),
         ],
     ),
 ];
@@ -77,7 +89,10 @@ fn keys(cases: Cases) -> Vec<Key> {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         let case = AnyCase::built_in(name, &overrides).unwrap().unwrap();
         let mut last = 0;
-        for field in case.fields().into_iter().flat_map(|section| section.fields) {
+        let fields = case.fields().into_iter().flat_map(|section| section.fields);
+        // A car's trucks have the keys of trucks.
+        let is_of_truck = |path: &str| matches!(case, AnyCase::Car(_)) && path.starts_with("truck.");
+        for field in fields.filter(|field| !is_of_truck(&field.path)) {
             let value = shown(&field);
             if let Some(place) = keys.iter().position(|key| key.path == field.path) {
                 last = place + 1;

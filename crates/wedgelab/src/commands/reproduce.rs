@@ -19,6 +19,7 @@ use report::figures::{Exhibit, Outcome};
 use report::files::{FileError, Folder};
 use report::page::{self, Contents, Viewer};
 use report::sensitivity::Sensitivity;
+use report::three_piece::Basis;
 use report::view::View;
 use report::view::run::{Detail, Recording};
 use report::{beyond, run_files, sections};
@@ -187,13 +188,19 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         run_files::NAMES.join(", "),
     )?;
     if let Some(told) = &told {
-        let agreeing = told.findings.checks.iter().filter(|check| check.agrees).count();
+        let checks = &told.findings.checks;
+        let agreeing = Basis::ALL.map(|basis| {
+            let of_basis = || checks.iter().filter(|check| check.basis == basis);
+            let agreeing = of_basis().filter(|check| check.agrees).count();
+            let count = of_basis().count();
+            format!("{agreeing} of {count} {}", basis.heading().to_lowercase())
+        });
         writeln!(
             out,
-            "The three-piece truck: {} and {}, {agreeing} of {} numbers as expected.",
+            "The three-piece truck: {} and {}. Numbers as expected: {}.",
             page::truck::FILE_NAME,
             report::three_piece::FILE_NAME,
-            told.findings.checks.len()
+            agreeing.join(", ")
         )?;
     }
     if let Some(explored) = &explored {
