@@ -8,7 +8,7 @@
 //! - [`check`]: what a tree lacks or contradicts, alone and together with the files it belongs to,
 //! - [`mod@set`]: single values laid over trees,
 //! - [`show`]: a system as tables,
-//! - [`files`]: finding the files that a run names; [`together`]: files that belong together,
+//! - [`files`]: finding the files that a run names; [`file_sets`]: files that belong together,
 //! - [`truck`]: a system and its inputs as a model that can be run,
 //! - [`builtin`]: the half-truck of Steets (2007), appendices A and B.
 //!
