@@ -9,12 +9,12 @@
 
 use pyo3::prelude::*;
 
-mod car;
 mod case;
 mod errors;
 mod figures;
 mod half_truck;
 mod many;
+mod model_case;
 mod nucars;
 mod outcome;
 mod quantity;
@@ -22,7 +22,6 @@ mod quasi_static;
 mod run;
 mod step;
 mod study;
-mod truck;
 mod values;
 mod wheelrail;
 
@@ -31,8 +30,6 @@ mod wheelrail;
 mod _wedgelab {
     use pyo3::prelude::*;
 
-    #[pymodule_export]
-    use crate::car::NativeCarCase;
     #[pymodule_export]
     use crate::case::{NativeCase, built_in_groups};
     #[pymodule_export]
@@ -43,6 +40,10 @@ mod _wedgelab {
     use crate::half_truck::{NativeHalfTruckCase, built_in_half_trucks};
     #[pymodule_export]
     use crate::many::run_many;
+    #[pymodule_export]
+    use crate::model_case::NativeCarCase;
+    #[pymodule_export]
+    use crate::model_case::NativeTruckCase;
     #[pymodule_export]
     use crate::nucars::{NativeFile, check_files, read_file};
     #[pymodule_export]
@@ -55,8 +56,6 @@ mod _wedgelab {
     use crate::step::NativeWedge;
     #[pymodule_export]
     use crate::study::{NativeStudy, NativeStudyFolder};
-    #[pymodule_export]
-    use crate::truck::NativeTruckCase;
     #[pymodule_export]
     use crate::wheelrail::{NativeProfile, NativeTrack, NativeWheelset, creep_forces};
 

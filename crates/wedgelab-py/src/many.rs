@@ -12,12 +12,12 @@ use study::case::Case;
 use study::half_truck::HalfTruckCase;
 use study::truck::TruckCase;
 
-use crate::car::NativeCarCase;
 use crate::case::NativeCase;
 use crate::half_truck::NativeHalfTruckCase;
+use crate::model_case::NativeCarCase;
+use crate::model_case::NativeTruckCase;
 use crate::outcome::{NativeResult, Origin, Table};
 use crate::run::{Failure, table};
-use crate::truck::NativeTruckCase;
 
 /// How often Python is asked for signals.
 const INTERVAL: Duration = Duration::from_millis(50);

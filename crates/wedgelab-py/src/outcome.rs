@@ -21,10 +21,10 @@ use study::summary::{RunSummary, Summary};
 use study::truck::TruckCase;
 use study::truck::summary::TruckSummary;
 
-use crate::car::NativeCarCase;
 use crate::case::NativeCase;
 use crate::errors::{guarded, simple};
-use crate::truck::NativeTruckCase;
+use crate::model_case::NativeCarCase;
+use crate::model_case::NativeTruckCase;
 use crate::values;
 
 /// A summary of either kind.

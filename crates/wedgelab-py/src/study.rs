@@ -16,12 +16,12 @@ use report::parquet::Content;
 use report::study_folder::{StudyFolder, StudyFolderError, columns};
 use report::study_work;
 
-use crate::car::NativeCarCase;
 use crate::case::NativeCase;
 use crate::errors::{case_error, guarded, internal, panic_text, raise, shown, simple};
 use crate::half_truck;
+use crate::model_case::NativeCarCase;
+use crate::model_case::NativeTruckCase;
 use crate::outcome::from_saved;
-use crate::truck::NativeTruckCase;
 
 /// How often Python is asked for signals and told of progress.
 const INTERVAL: Duration = Duration::from_millis(50);

@@ -7,9 +7,9 @@ import threading
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Union
+from typing import Any, ClassVar, TypeVar, Union
 
-from ._wedgelab import NativeCase, NativeResult, NativeTruckCase, built_in_groups
+from ._wedgelab import NativeCarCase, NativeCase, NativeResult, NativeTruckCase, built_in_groups
 from .errors import CaseError
 from .result import Result, checked
 from .sections import (
@@ -73,11 +73,11 @@ def _nested(changes: Mapping[str, Any]) -> dict[str, Any]:
 
 
 class CompleteCase:
-    """What cases of wedges and of trucks have in common: complete, checked, immutable."""
+    """What cases of wedges, trucks and cars have in common: complete, checked, immutable."""
 
     __slots__ = ("_native",)
 
-    _native: NativeCase | NativeTruckCase
+    _native: NativeCase | NativeTruckCase | NativeCarCase
 
     @property
     def name(self) -> str:
@@ -117,6 +117,57 @@ class CompleteCase:
     def __repr__(self) -> str:
         kind = type(self).__name__
         return f"<{kind} {self.name}: {self.title}>" if self.title else f"<{kind} {self.name}>"
+
+
+_Own = TypeVar("_Own", bound="ModelCase")
+
+
+class ModelCase(CompleteCase):
+    """What cases of trucks and cars have in common: values are laid over a base by their paths."""
+
+    __slots__ = ()
+
+    _NATIVE: ClassVar[type[NativeTruckCase] | type[NativeCarCase]]
+    _MODEL: ClassVar[str]
+
+    _native: NativeTruckCase | NativeCarCase
+
+    def __init__(
+        self: _Own, base: str | os.PathLike[str] | _Own, values: Mapping[str, Any] | None = None, /
+    ) -> None:
+        given = _nested(values or {})
+        if isinstance(base, type(self)):
+            self._native = self._NATIVE.parse(base.to_toml(), "case.toml", "", given)
+        elif isinstance(base, (str, os.PathLike)):
+            path = Path(base)
+            looks_like_a_name = len(path.parts) == 1 and path.suffix != ".toml" and isinstance(base, str)
+            if looks_like_a_name and not path.is_file():
+                self._native = self._NATIVE.built_in(os.fspath(base), given)
+            else:
+                self._native = self._NATIVE.read(path, given)
+        else:
+            message = f"a {self._MODEL}'s case cannot be made from a {type(base).__name__}"
+            raise CaseError(f"{message}: the name of a built-in {self._MODEL}, a path or a case is expected")
+
+    @classmethod
+    def _of(cls: type[_Own], native: NativeTruckCase | NativeCarCase) -> _Own:
+        case = cls.__new__(cls)
+        case._native = native
+        return case
+
+    @classmethod
+    def parse(
+        cls: type[_Own], text: str, *, source: str = "case.toml", folder: str | os.PathLike[str] = ""
+    ) -> _Own:
+        """The text of a case file. ``source`` names it in messages; tables are looked for in ``folder``."""
+        return cls._of(cls._NATIVE.parse(text, source, folder, {}))
+
+    def replace(self: _Own, values: Mapping[str, Any], /) -> _Own:
+        """This case with other values by their paths, as in ``{"truck.condition": "worn"}``."""
+        return type(self)(self, values)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (type(self).parse, (self.to_toml(),))
 
 
 class Case(CompleteCase):

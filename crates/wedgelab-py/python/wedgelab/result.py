@@ -301,9 +301,43 @@ class _Base:
         ax.set_ylabel(self.label(column))
         return ax
 
+    def __repr__(self) -> str:
+        how = "" if self.is_complete else ", incomplete"
+        return f"<{type(self).__name__} of {self.summary.name}: {self.rows} rows, {len(self)} columns{how}>"
+
+
+class _OfCase(_Base):
+    """What results of wedges, trucks and cars share: a case file that makes them again."""
+
+    __slots__ = ()
+
+    def write(self, folder: str | os.PathLike[str], *, force: bool = False) -> list[str]:
+        """Writes what ``wedgelab run`` writes into a folder: result.csv, result.mat, case.toml, summary.json.
+
+        Existing results are overwritten only with ``force``.
+        """
+        return self._native.write(folder, force)
+
+    def _case_text(self) -> str | None:
+        native = self._native.case or self._native.truck_case or self._native.car_case
+        return None if native is None else native.to_toml()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_result_of_parts, (self._native.model, self._case_text(), *self._native.parts()))
+
 
 class UnknownColumn(WedgelabError, KeyError):
     """There is no column of this name."""
+
+
+def _ledger_table(entries: Mapping[str, Any]) -> DataTable:
+    return DataTable(
+        {
+            "entry": np.array(list(entries)),
+            "value": np.array([measure.value for measure in entries.values()], dtype=float),
+            "unit": np.array([measure.unit for measure in entries.values()]),
+        }
+    )
 
 
 def _system(units: str) -> int:
@@ -314,7 +348,7 @@ def _system(units: str) -> int:
         raise WedgelabError(f'units cannot be {units!r}; write "us" or "si"') from None
 
 
-class Result(_Base):
+class Result(_OfCase):
     """What came out of a case's run.
 
     ``result["wedge_z"]`` is an array in SI units, ``result["wedge_z_in"]`` the same in inches; `columns` says what there is.
@@ -344,13 +378,7 @@ class Result(_Base):
         """The energy ledger at the end, in the summary's units: entry, value, unit."""
         ledger = self.summary.ledger
         entries = {"stored_at_start": ledger.stored_at_start, **ledger.entries}
-        return DataTable(
-            {
-                "entry": np.array(list(entries)),
-                "value": np.array([measure.value for measure in entries.values()], dtype=float),
-                "unit": np.array([measure.unit for measure in entries.values()]),
-            }
-        )
+        return _ledger_table(entries)
 
     def figures(self) -> dict[str, Figure]:
         """The report's figures of this run by their names."""
@@ -372,22 +400,6 @@ class Result(_Base):
         """
         return self._loop(ax, over, column, options)
 
-    def write(self, folder: str | os.PathLike[str], *, force: bool = False) -> list[str]:
-        """Writes what ``wedgelab run`` writes into a folder: result.csv, result.mat, case.toml, summary.json.
-
-        Existing results are overwritten only with ``force``.
-        """
-        return self._native.write(folder, force)
-
-    def __repr__(self) -> str:
-        how = "" if self.is_complete else ", incomplete"
-        return f"<Result of {self.summary.name}: {self.rows} rows, {len(self)} columns{how}>"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        header, values = self._native.parts()
-        native = self._native.case
-        return (_result_of_parts, (None if native is None else native.to_toml(), header, values))
-
 
 class HalfTruckResult(_Base):
     """What came out of a half-truck's run; columns and their units as in `Result`."""
@@ -398,13 +410,7 @@ class HalfTruckResult(_Base):
     def ledger(self) -> DataTable:
         """The energy ledger at the end, in the summary's units: entry, value, unit."""
         entries = self.summary.ledger
-        return DataTable(
-            {
-                "entry": np.array(list(entries)),
-                "value": np.array([measure.value for measure in entries.values()], dtype=float),
-                "unit": np.array([measure.unit for measure in entries.values()]),
-            }
-        )
+        return _ledger_table(entries)
 
     def plot_hysteresis(
         self, wedge: int | None = None, ax: Axes | None = None, *, over: str = "input_vertical", **options: Any
@@ -414,15 +420,11 @@ class HalfTruckResult(_Base):
         options.setdefault("label", f"{self.summary.name}, wedge {number}")
         return self._loop(ax, over, f"wedge_{number}_column_friction", options)
 
-    def __repr__(self) -> str:
-        how = "" if self.is_complete else ", incomplete"
-        return f"<HalfTruckResult of {self.summary.name}: {self.rows} rows, {len(self)} columns{how}>"
-
     def __reduce__(self) -> tuple[Any, ...]:
         return (_half_truck_of_parts, self._native.parts())
 
 
-class TruckResult(_Base):
+class TruckResult(_OfCase):
     """What came out of a truck's run; columns and their units as in `Result`."""
 
     __slots__ = ()
@@ -431,36 +433,14 @@ class TruckResult(_Base):
     def ledger(self) -> DataTable:
         """The energy ledger at the end, in the summary's units: entry, value, unit."""
         entries = self.summary.ledger.entries
-        return DataTable(
-            {
-                "entry": np.array(list(entries)),
-                "value": np.array([measure.value for measure in entries.values()], dtype=float),
-                "unit": np.array([measure.unit for measure in entries.values()]),
-            }
-        )
+        return _ledger_table(entries)
 
     def plot_warp(self, ax: Axes | None = None, *, column: str = "warp_moment", **options: Any) -> Axes:
         """Draws the warp moment on the bolster, or another column, over the warp angle; gives the axes."""
         return self._loop(ax, "warp_angle", column, options)
 
-    def write(self, folder: str | os.PathLike[str], *, force: bool = False) -> list[str]:
-        """Writes what ``wedgelab run`` writes into a folder: result.csv, result.mat, case.toml, summary.json.
 
-        Existing results are overwritten only with ``force``.
-        """
-        return self._native.write(folder, force)
-
-    def __repr__(self) -> str:
-        how = "" if self.is_complete else ", incomplete"
-        return f"<TruckResult of {self.summary.name}: {self.rows} rows, {len(self)} columns{how}>"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        header, values = self._native.parts()
-        native = self._native.truck_case
-        return (_truck_result_of_parts, (None if native is None else native.to_toml(), header, values))
-
-
-class CarResult(_Base):
+class CarResult(_OfCase):
     """What came out of a car's run; columns and their units as in `Result`."""
 
     __slots__ = ()
@@ -469,33 +449,11 @@ class CarResult(_Base):
     def ledger(self) -> DataTable:
         """The energy ledger at the end, in the summary's units: entry, value, unit."""
         entries = self.summary.ledger.entries
-        return DataTable(
-            {
-                "entry": np.array(list(entries)),
-                "value": np.array([measure.value for measure in entries.values()], dtype=float),
-                "unit": np.array([measure.unit for measure in entries.values()]),
-            }
-        )
+        return _ledger_table(entries)
 
     def plot_over_distance(self, column: str, ax: Axes | None = None, **options: Any) -> Axes:
         """Draws a column over the distance along the track; gives the axes."""
         return self._loop(ax, "distance", column, options)
-
-    def write(self, folder: str | os.PathLike[str], *, force: bool = False) -> list[str]:
-        """Writes what ``wedgelab run`` writes into a folder: result.csv, result.mat, case.toml, summary.json.
-
-        Existing results are overwritten only with ``force``.
-        """
-        return self._native.write(folder, force)
-
-    def __repr__(self) -> str:
-        how = "" if self.is_complete else ", incomplete"
-        return f"<CarResult of {self.summary.name}: {self.rows} rows, {len(self)} columns{how}>"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        header, values = self._native.parts()
-        native = self._native.car_case
-        return (_car_result_of_parts, (None if native is None else native.to_toml(), header, values))
 
 
 AnyResult = Union[Result, HalfTruckResult, TruckResult, CarResult]
@@ -512,25 +470,18 @@ def result_of(native: NativeResult) -> AnyResult:
     return kinds[native.model](native)
 
 
-def _result_of_parts(case: str | None, header: bytes, values: Floats) -> Result:
+_CASES: dict[str, type[NativeCase] | type[NativeTruckCase] | type[NativeCarCase]] = {
+    "wedge": NativeCase,
+    "truck": NativeTruckCase,
+    "car": NativeCarCase,
+}
+
+
+def _result_of_parts(model: str, case: str | None, header: bytes, values: Floats) -> AnyResult:
     if case is None:
         raise WedgelabError("this saved result has no case")
-    native = NativeCase.parse(case, "case.toml", "", {})
-    return Result(native.result_of_parts(header, values))
-
-
-def _truck_result_of_parts(case: str | None, header: bytes, values: Floats) -> TruckResult:
-    if case is None:
-        raise WedgelabError("this saved result has no case")
-    native = NativeTruckCase.parse(case, "case.toml", "", {})
-    return TruckResult(native.result_of_parts(header, values))
-
-
-def _car_result_of_parts(case: str | None, header: bytes, values: Floats) -> CarResult:
-    if case is None:
-        raise WedgelabError("this saved result has no case")
-    native = NativeCarCase.parse(case, "case.toml", "", {})
-    return CarResult(native.result_of_parts(header, values))
+    native = _CASES[model].parse(case, "case.toml", "", {})
+    return result_of(native.result_of_parts(header, values))
 
 
 def _half_truck_of_parts(header: bytes, values: Floats) -> HalfTruckResult:

@@ -1,0 +1,177 @@
+//! Cases of trucks and of cars, and their runs: the same class for each.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use numpy::PyReadonlyArray2;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyType};
+use study::car::{CarCase, builtin as cars};
+use study::case::{CaseError, Tables, text_of};
+use study::truck::{TruckCase, builtin as trucks};
+use toml::Table;
+
+use crate::errors::{case_error, case_message, guarded};
+use crate::outcome::{NativeResult, Origin};
+use crate::run::{Progress, run_one};
+use crate::values;
+
+/// A case, from values over a text.
+fn over<C: Send>(
+    py: Python<'_>,
+    given: &Bound<'_, PyDict>,
+    make: impl FnOnce(Option<&str>) -> Result<C, CaseError> + Send,
+) -> PyResult<C> {
+    let table: Table = values::table(given, "")?;
+    let text = table.to_string();
+    let values = (!table.is_empty()).then_some(text.as_str());
+    guarded(py, || make(values).map_err(|error| case_error(py, &error)))
+}
+
+/// A class for the cases of a model: its name here and in Python, the case, its module of built-in ones, the origin of its
+/// results. (Classes for Python cannot be generic.)
+macro_rules! model_case {
+    ($native:ident, $name:literal, $case:ident, $builtin:ident, $origin:ident, $about:literal) => {
+        #[doc = $about]
+        #[pyclass(frozen, module = "wedgelab._wedgelab", name = $name)]
+        pub struct $native {
+            /// The case.
+            pub case: Arc<$case>,
+        }
+
+        impl $native {
+            /// Of a case of lower floors.
+            pub fn new(case: $case) -> Self {
+                Self {
+                    case: Arc::new(case),
+                }
+            }
+        }
+
+        #[pymethods]
+        impl $native {
+            /// Over a built-in case.
+            #[classmethod]
+            fn built_in(class: &Bound<'_, PyType>, name: &str, given: &Bound<'_, PyDict>) -> PyResult<Self> {
+                over(class.py(), given, |values| {
+                    let text = $builtin::text(name)?;
+                    $case::of_values(&format!("{name}.toml"), text, values, Tables::nowhere())
+                })
+                .map(Self::new)
+            }
+
+            /// Over a case file.
+            #[classmethod]
+            fn read(class: &Bound<'_, PyType>, path: PathBuf, given: &Bound<'_, PyDict>) -> PyResult<Self> {
+                let py = class.py();
+                if path.is_dir() {
+                    let message = format!("{} is a folder, not a case file", path.display());
+                    return Err(case_message(
+                        py,
+                        &message,
+                        "name a case file, perhaps its case.toml",
+                    ));
+                }
+                let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+                over(py, given, |values| {
+                    let text = text_of(&path)?;
+                    $case::of_values(&path.display().to_string(), &text, values, folder.as_path())
+                })
+                .map(Self::new)
+            }
+
+            /// Over the text of a case file.
+            #[classmethod]
+            fn parse(
+                class: &Bound<'_, PyType>,
+                text: &str,
+                source: &str,
+                folder: PathBuf,
+                given: &Bound<'_, PyDict>,
+            ) -> PyResult<Self> {
+                over(class.py(), given, |values| {
+                    $case::of_values(source, text, values, folder.as_path())
+                })
+                .map(Self::new)
+            }
+
+            /// The whole case as a commented case file, tables embedded.
+            fn to_toml(&self) -> &str {
+                self.case.to_toml_embedded()
+            }
+
+            /// The whole case as nested dicts.
+            fn document<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+                let table: Table = self
+                    .case
+                    .to_toml_embedded()
+                    .parse()
+                    .map_err(|error| case_message(py, &format!("{error}"), ""))?;
+                values::from_toml(py, &toml::Value::Table(table))
+            }
+
+            #[getter]
+            fn name(&self) -> &str {
+                &self.case.name
+            }
+
+            #[getter]
+            fn title(&self) -> &str {
+                &self.case.title
+            }
+
+            /// Units of results: `us` or `si`.
+            #[getter]
+            fn units(&self) -> &'static str {
+                self.case.simulation.output_units.name()
+            }
+
+            /// End of the run, s.
+            #[getter]
+            fn duration(&self) -> f64 {
+                self.case.simulation.duration
+            }
+
+            /// Runs it to its end without the interpreter lock.
+            #[pyo3(signature = (columns, progress, interruptible))]
+            fn run(
+                &self,
+                py: Python<'_>,
+                columns: Option<Vec<String>>,
+                progress: Option<Py<PyAny>>,
+                interruptible: bool,
+            ) -> PyResult<NativeResult> {
+                let progress = Progress::new(progress, interruptible);
+                let origin = Origin::$origin(Arc::clone(&self.case));
+                run_one(py, &*self.case, origin, columns.as_deref(), progress)
+            }
+
+            /// The result that was taken apart by `NativeResult.parts`.
+            fn result_of_parts(
+                &self,
+                py: Python<'_>,
+                header: &[u8],
+                values: PyReadonlyArray2<'_, f64>,
+            ) -> PyResult<NativeResult> {
+                NativeResult::of_parts(py, Origin::$origin(Arc::clone(&self.case)), header, &values)
+            }
+        }
+    };
+}
+
+model_case!(
+    NativeTruckCase,
+    "NativeTruckCase",
+    TruckCase,
+    trucks,
+    Truck,
+    "A truck's case, completed and checked."
+);
+model_case!(
+    NativeCarCase,
+    "NativeCarCase",
+    CarCase,
+    cars,
+    Car,
+    "A car's case, completed and checked."
+);
