@@ -106,8 +106,8 @@ fn the_same_run_in_both_units_is_the_same() {
 
 #[test]
 fn tables_of_others_are_read() {
-    let text = "\u{feff}# from a test rig\r\nwedge_z_m, time_s \
-                ,clearance_m,ratio,column_upper_left_state,pull_N,twist_N_m\r\n\
+    let text = "\u{feff}# from a test rig\r\n\
+                wedge_z_m, time_s ,clearance_m,ratio,column_upper_left_state,pull_N,twist_N_m\r\n\
                 0.1,0,1,0.5,2,10,20\r\n\r\n# a remark\r\n0.2,0.5,2,.5,1,1e1,-2E1";
     let table = parse(text).unwrap();
     assert_eq!((table.units, table.times()), (Units::Si, &[0.0, 0.5][..]));

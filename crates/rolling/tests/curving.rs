@@ -4,9 +4,9 @@
 
 mod common;
 
-use common::{POLACH, freight, on_rails, track};
+use common::{POLACH, after, freight, on_rails, track};
 use integrate::{Integrator, Options};
-use rolling::rig::{Rig, Setup, Start};
+use rolling::rig::{Setup, Start};
 use rolling::track::RailSupport;
 use wheelrail::contact::{ContactLaw, CreepLaw};
 use wheelrail::track::{CurveElements, Segment};
@@ -31,22 +31,6 @@ fn curve(radius: f64, sprung: bool) -> Setup {
     setup
 }
 
-/// Runs to a time from a start; gives the rig and its state.
-fn after(setup: &Setup, start: Start, time: f64) -> (Rig, Vec<f64>) {
-    let mut rig = Rig::new(setup, start).unwrap();
-    let options = Options {
-        relative_tolerance: 1e-6,
-        ..Options::default()
-    };
-    let mut integrator = Integrator::new(rig.system.clone(), options, 0.0, &rig.start).unwrap();
-    while integrator.time() < time {
-        integrator.step_to(time).unwrap();
-    }
-    let x = integrator.x().to_vec();
-    rig.start.clone_from(&x);
-    (rig, x)
-}
-
 /// The least damped vibration between 1 and 60 rad/s.
 fn least(found: &[[f64; 2]]) -> [f64; 2] {
     *found
@@ -65,7 +49,7 @@ fn analytic_going_on_along_a_curve_is_neutral() {
             distance: 400.0,
             ..Start::default()
         };
-        let (mut rig, x) = after(&setup, start, 6.0);
+        let (mut rig, x) = after(&setup, start, 1e-6, 6.0);
         let near = |found: &[[f64; 2]]| -> Vec<f64> {
             let mut sizes: Vec<f64> = found.iter().map(|[a, b]| a.hypot(*b)).collect();
             sizes.sort_by(f64::total_cmp);
@@ -88,6 +72,7 @@ fn analytic_vibrations_in_a_curve_are_those_of_runs() {
             distance: 10.0,
             ..Start::default()
         },
+        1e-6,
         8.0,
     );
     let [growth, frequency] = least(&rig.vibrations(&setup.lines, 8.0, &x, 20.0).unwrap());
@@ -178,7 +163,7 @@ fn limits_vibrations_in_a_wide_curve_are_those_of_straight_track() {
     let found = [Segment::Curve(2000.0, level), Segment::Tangent(2000.0)].map(|segment| {
         let mut setup = on_rails(&freight(), track(&[segment], Vec::new()), law, SPEED);
         setup.carriage.damping = [0.0; 2];
-        let (mut rig, x) = after(&setup, start, 4.0);
+        let (mut rig, x) = after(&setup, start, 1e-6, 4.0);
         least(&rig.vibrations(&setup.lines, 4.0, &x, 20.0).unwrap())
     });
     let [[growth, frequency], [expected, other]] = found;

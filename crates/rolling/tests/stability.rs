@@ -6,12 +6,9 @@ mod common;
 use std::f64::consts::TAU;
 
 use common::suspended::{SUSPENDED, critical_speed, growth_by_steps, hunting};
-use common::{POLACH, cones, linear, on_rails, track};
+use common::{coned_wheelset, linear};
 use integrate::{Integrator, Options};
 use rolling::rig::{Rig, Start};
-use wheelrail::conicity::LinearGeometry;
-use wheelrail::contact::{ContactLaw, CreepLaw};
-use wheelrail::track::Segment;
 
 /// `w² = (c1 kψ + c2 ky)/(c1 I + c2 m)`, `Vc² = c1 c2 w² / (X + (ky - m w²)(kψ - I w²))`, with c1 = 2 f22,
 /// c2 = 2 f11 l², X = 4 f11 f22 λ l / r.
@@ -71,18 +68,9 @@ fn reproduction_critical_speed_by_time_steps() {
 /// sharp crowns.
 #[test]
 fn analytic_kinematic_wavelength_of_coned_wheels() {
-    let law = ContactLaw {
-        creep: CreepLaw::Linear,
-        ..POLACH
-    };
     for (slope, crown) in [(0.025, 0.3), (0.05, 0.3), (0.1, 0.3), (0.05, 0.05), (0.1, 0.05)] {
-        let wheels = cones(slope, crown);
-        let speed = 2.0;
-        let mut setup = on_rails(&wheels, track(&[Segment::Tangent(200.0)], Vec::new()), law, speed);
-        setup.carriage.stiffness = [0.0; 2];
-        setup.carriage.damping = [0.0; 2];
-        setup.carriage.load = 50e3;
-        let klingel = LinearGeometry::of(&wheels.0, 1e-3).unwrap().klingel_wavelength();
+        let (setup, klingel) = coned_wheelset(slope, crown);
+        let speed = setup.carriage.speed;
         if crown < 0.1 {
             let sharp = TAU * (0.46 * 0.75 / slope).sqrt();
             assert!((klingel / sharp - 1.0).abs() < 0.01, "{slope}: {klingel} {sharp}");

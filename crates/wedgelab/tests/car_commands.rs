@@ -1,29 +1,11 @@
 //! The commands with freight cars, as a user calls them.
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
 use std::fs;
-use std::path::Path;
-use std::process::Command;
 
-struct Output {
-    code: Option<i32>,
-    out: String,
-    err: String,
-}
-
-fn wedgelab(folder: &Path, arguments: &[&str]) -> Output {
-    let output = Command::new(env!("CARGO_BIN_EXE_wedgelab"))
-        .current_dir(folder)
-        .args(arguments)
-        .env_remove("FORCE_COLOR")
-        .output()
-        .unwrap();
-    Output {
-        code: output.status.code(),
-        out: String::from_utf8(output.stdout).unwrap(),
-        err: String::from_utf8(output.stderr).unwrap(),
-    }
-}
+use common::wedgelab;
 
 /// A run writes its files, and what it prints and writes says the same; `compare` reads its table.
 #[test]

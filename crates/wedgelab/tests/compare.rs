@@ -2,39 +2,15 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 use tempfile::TempDir;
 
-struct Output {
-    code: Option<i32>,
-    out: String,
-    err: String,
-}
-
-fn wedgelab(folder: &Path, arguments: &[&str]) -> Output {
-    let output = Command::new(env!("CARGO_BIN_EXE_wedgelab"))
-        .current_dir(folder)
-        .args(arguments)
-        .env_remove("FORCE_COLOR")
-        .output()
-        .unwrap();
-    Output {
-        code: output.status.code(),
-        out: String::from_utf8(output.stdout).unwrap(),
-        err: String::from_utf8(output.stderr).unwrap(),
-    }
-}
-
-#[track_caller]
-fn done(folder: &Path, arguments: &[&str]) -> String {
-    let output = wedgelab(folder, arguments);
-    assert_eq!(output.code, Some(0), "{arguments:?}: {}", output.err);
-    output.out
-}
+use common::{done, wedgelab};
 
 fn names(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> = fs::read_dir(folder)

@@ -3,29 +3,12 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
-struct Output {
-    code: Option<i32>,
-    out: String,
-    err: String,
-}
-
-fn wedgelab(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_wedgelab"));
-    command
-        .current_dir(folder)
-        .args(arguments)
-        .env_remove("FORCE_COLOR");
-    let output = command.output().unwrap();
-    Output {
-        code: output.status.code(),
-        out: String::from_utf8(output.stdout).unwrap(),
-        err: String::from_utf8(output.stderr).unwrap(),
-    }
-}
+use common::wedgelab;
 
 /// A run of ten seconds with a method that damps, at a tolerance that is too loose for its ledger.
 fn loose<'a>(tolerance: &'a str, out: &'a str) -> [&'a str; 9] {
@@ -88,9 +71,8 @@ fn energy_a_ledger_that_does_not_close_is_a_failure_that_keeps_the_files() {
 #[test]
 fn energy_rows_of_a_study_are_marked_and_keep_their_values() {
     let folder = tempfile::tempdir().unwrap();
-    let study = "case = \"vdrun_toe_0_psi_0.012\"\nsampling = \"full_factorial\"\naccuracy \
-                 = \"engineering\"\n\
-                 [vary]\nsimulation.relative_tolerance = [1e-6, 1e-3, 1e-2]\n";
+    let study = "case = \"vdrun_toe_0_psi_0.012\"\nsampling = \"full_factorial\"\n\
+                 accuracy = \"engineering\"\n[vary]\nsimulation.relative_tolerance = [1e-6, 1e-3, 1e-2]\n";
     fs::write(folder.path().join("some.toml"), study).unwrap();
     let done = wedgelab(folder.path(), &["study", "some.toml", "--quiet", "--jobs", "1"]);
     assert_eq!(done.code, Some(0), "{}", done.err);

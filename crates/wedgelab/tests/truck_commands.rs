@@ -1,36 +1,11 @@
 //! The commands with three-piece trucks and with profiles, as a user calls them.
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
 use std::fs;
-use std::path::Path;
-use std::process::Command;
 
-struct Output {
-    code: Option<i32>,
-    out: String,
-    err: String,
-}
-
-fn wedgelab(folder: &Path, arguments: &[&str]) -> Output {
-    let output = Command::new(env!("CARGO_BIN_EXE_wedgelab"))
-        .current_dir(folder)
-        .args(arguments)
-        .env_remove("FORCE_COLOR")
-        .output()
-        .unwrap();
-    Output {
-        code: output.status.code(),
-        out: String::from_utf8(output.stdout).unwrap(),
-        err: String::from_utf8(output.stderr).unwrap(),
-    }
-}
-
-#[track_caller]
-fn done(folder: &Path, arguments: &[&str]) -> String {
-    let output = wedgelab(folder, arguments);
-    assert_eq!(output.code, Some(0), "{arguments:?}: {}", output.err);
-    output.out
-}
+use common::{done, wedgelab};
 
 /// The columns that other programs may count on, by name and order.
 #[test]
@@ -192,10 +167,9 @@ fn curves_tell_stiffness_and_friction() {
 fn a_study_varies_single_wedges() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    let study = "case = \"truck_vertical_variable\"\nsampling \
-                 = \"full_factorial\"\n[set]\nsimulation.duration = \"7 s\"\n\
-                 [vary]\nwedge.leading_left.friction.column = [0.2, 0.4]\nwedge.leading_left.toe = [\"0 \
-                 deg\", \"0.2 deg out\"]\n";
+    let study = "case = \"truck_vertical_variable\"\nsampling = \"full_factorial\"\n[set]\n\
+                 simulation.duration = \"7 s\"\n[vary]\nwedge.leading_left.friction.column = [0.2, 0.4]\n\
+                 wedge.leading_left.toe = [\"0 deg\", \"0.2 deg out\"]\n";
     fs::write(at.join("study.toml"), study).unwrap();
     let out = done(at, &["study", "study.toml", "-q"]);
     assert!(out.contains("4 runs: 4 complete"), "{out}");
@@ -289,11 +263,10 @@ fn wheelrail_checks_profiles_and_tells_conicity() {
 fn track_show_tells_chord_offsets() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    let track = "[[segments]]\ntangent = \"1000 ft\"\n[[segments]]\nspiral = \"100 \
-                 ft\"\n[[segments]]\ncurve = \"300 ft\"\n\
-                 degree = \"5 deg\"\n[[irregularities]]\nshape = \"sine\"\ndirection \
-                 = \"vertical\"\namplitude = \"0.5 in\"\n\
-                 wavelength = \"62 ft\"\ncycles = 10\nstart = \"200 ft\"\n";
+    let track = "[[segments]]\ntangent = \"1000 ft\"\n[[segments]]\nspiral = \"100 ft\"\n[[segments]]\n\
+                 curve = \"300 ft\"\ndegree = \"5 deg\"\n[[irregularities]]\nshape = \"sine\"\n\
+                 direction = \"vertical\"\namplitude = \"0.5 in\"\nwavelength = \"62 ft\"\ncycles = 10\n\
+                 start = \"200 ft\"\n";
     fs::write(at.join("sine.toml"), track).unwrap();
     let out = done(at, &["track", "show", "sine.toml", "--interval", "0.5 ft"]);
     assert!(

@@ -6,12 +6,10 @@ use std::process::Command;
 
 use serde_json::Value;
 
-const CURVE: &str = "[[segments]]\ntangent = \"60 ft\"\n[[segments]]\nspiral = \"60 \
-                     ft\"\n[[segments]]\ncurve = \"100 ft\"\n\
-                     degree = \"6 deg\"\ndirection = \"right\"\nsuperelevation = \"3 \
-                     in\"\n[[irregularities]]\nshape = \"joints\"\n\
-                     rails = \"left\"\ndirection = \"vertical\"\ndepth = \"0.5 in\"\nstart = \"40 \
-                     ft\"\njoints = 3\n";
+const CURVE: &str = "[[segments]]\ntangent = \"60 ft\"\n[[segments]]\nspiral = \"60 ft\"\n[[segments]]\n\
+                     curve = \"100 ft\"\ndegree = \"6 deg\"\ndirection = \"right\"\n\
+                     superelevation = \"3 in\"\n[[irregularities]]\nshape = \"joints\"\nrails = \"left\"\n\
+                     direction = \"vertical\"\ndepth = \"0.5 in\"\nstart = \"40 ft\"\njoints = 3\n";
 
 fn command(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_wedgelab"))

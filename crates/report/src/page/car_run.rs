@@ -4,24 +4,15 @@ use maud::{Markup, html};
 use study::car::summary::CarSummary;
 use study::summary::SummaryValue;
 
-use super::{document, shown_in};
+use super::{run_page, shown_in};
 use crate::figures::car::{CarRun, exhibits};
-use crate::figures::{capital, digits};
+use crate::figures::digits;
 
 /// The page as HTML; it needs nothing else to be shown.
 #[must_use]
 pub fn render(run: &CarRun) -> String {
     let summary = &run.result.summary;
     let exhibits = exhibits(run);
-    let heading = if summary.title.is_empty() {
-        &summary.name
-    } else {
-        &summary.title
-    };
-    let lead = format!(
-        "The run {} of a freight car on track. Computed by {}.",
-        summary.name, summary.program
-    );
     let main = html! {
         (doubts(summary))
         section { h2 { "Limits" } (limits(summary)) }
@@ -33,7 +24,8 @@ pub fn render(run: &CarRun) -> String {
         section { h2 { "Wedges" } (wedges(summary)) }
         section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
     };
-    document(&capital(heading), &lead, None, &main, None)
+    let told = (summary.title.as_str(), summary.program.as_str());
+    run_page(summary, told, "a freight car on track", &main, None)
 }
 
 fn doubts(summary: &CarSummary) -> Markup {

@@ -6,10 +6,9 @@ use study::contacts::ContactTable;
 use study::half_truck::{HalfTruckCase, HalfTruckResult, HalfTruckSummary};
 use study::summary::SummaryValue;
 
-use super::{Viewer, document, doubts, moving, shown_in};
+use super::{Viewer, doubts, interactive, moving, run_page, shown_in};
 use crate::drawing::{Figure, Panel, distinct};
-use crate::figures::{Exhibit, axis, capital, curve};
-use crate::view::View;
+use crate::figures::{Exhibit, axis, curve};
 use crate::view::run::{Detail, Recording};
 
 /// The page as HTML; it needs nothing else to be shown. `contacts` are the corners of wedges that are bodies.
@@ -24,27 +23,13 @@ pub fn render(
 ) -> Result<String, serde_json::Error> {
     let summary = &result.summary;
     let exhibit = loops(case, result);
-    let data = viewer
-        .map(|viewer| {
-            let recording = Recording::of_truck(case, result, contacts, Detail::Thinned);
-            let view = View::new(summary.units, [recording], std::slice::from_ref(&exhibit)).to_json();
-            view.map(|view| (viewer, view))
-        })
-        .transpose()?;
+    let recording = || Recording::of_truck(case, result, contacts, Detail::Thinned);
+    let data = interactive(viewer, summary.units, recording, std::slice::from_ref(&exhibit))?;
     let kind = if case.wedge_bodies.is_empty() {
         "massless wedges"
     } else {
         "wedges that are bodies"
     };
-    let heading = if summary.title.is_empty() {
-        &summary.name
-    } else {
-        &summary.title
-    };
-    let lead = format!(
-        "The run {} of a half-truck from files of NUCARS, with {kind}. Computed by {}.",
-        summary.name, summary.program
-    );
     let list = |texts: &[String]| html! { ul { @for text in texts { li { (text) } } } };
     let main = html! {
         (doubts(summary))
@@ -56,8 +41,14 @@ pub fn render(
         }
         section { h2 { "Assumptions" } (list(&summary.assumptions)) }
     };
-    let data = data.as_ref().map(|(viewer, view)| (*viewer, view.as_str()));
-    Ok(document(&capital(heading), &lead, None, &main, data))
+    let what = format!("a half-truck from files of NUCARS, with {kind}");
+    Ok(run_page(
+        summary,
+        (&summary.title, &summary.program),
+        &what,
+        &main,
+        data,
+    ))
 }
 
 /// Friction and normal force of each wedge's column over its stroke.

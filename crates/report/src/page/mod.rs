@@ -15,13 +15,16 @@ pub mod wheelset;
 
 use ::study::summary::RunSummary;
 use maud::{DOCTYPE, Markup, PreEscaped, Render, html};
+use quantity::System as Units;
 
 pub use agreement::Comparison;
 
 use crate::claims::Claims;
 use crate::drawing::Figure;
-use crate::figures::{Exhibit, Outcome};
+use crate::figures::{Exhibit, Outcome, capital};
 use crate::sensitivity::Sensitivity;
+use crate::view::View;
+use crate::view::run::Recording;
 pub use viewer::{MISSING, Viewer};
 
 /// The page's file name.
@@ -204,6 +207,35 @@ fn doubts(summary: &impl RunSummary) -> Markup {
         @for warning in summary.warnings() { p.warning { (name) ": " (warning) } }
         @if summary.failed().is_some() { p.warning { (name) (FAILED) } }
     }
+}
+
+/// The interactive part of a page with one run: the viewer, and its data as JSON.
+fn interactive(
+    viewer: Option<Viewer>,
+    units: Units,
+    recording: impl FnOnce() -> Recording,
+    exhibits: &[Exhibit],
+) -> Result<Option<(Viewer, String)>, serde_json::Error> {
+    let Some(viewer) = viewer else {
+        return Ok(None);
+    };
+    let view = View::new(units, [recording()], exhibits).to_json()?;
+    Ok(Some((viewer, view)))
+}
+
+/// The page of one run of a case with title and program, headed by the title or its name; `what` is run.
+fn run_page(
+    summary: &impl RunSummary,
+    (title, program): (&str, &str),
+    what: &str,
+    main: &Markup,
+    data: Option<(Viewer, String)>,
+) -> String {
+    let name = summary.name();
+    let heading = capital(if title.is_empty() { name } else { title });
+    let lead = format!("The run {name} of {what}. Computed by {program}.");
+    let data = data.as_ref().map(|(viewer, view)| (*viewer, view.as_str()));
+    document(&heading, &lead, None, main, data)
 }
 
 /// The fold in which a run is seen moving.

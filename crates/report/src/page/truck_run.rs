@@ -5,10 +5,8 @@ use quantity::Kind;
 use study::truck::WEDGE_NAMES;
 use study::truck::summary::TruckSummary;
 
-use super::{Viewer, document, doubts, moving, shown_in};
-use crate::figures::capital;
+use super::{Viewer, doubts, interactive, moving, run_page, shown_in};
 use crate::figures::truck::{TruckRun, exhibits};
-use crate::view::View;
 use crate::view::run::{Detail, Recording};
 
 /// The page as HTML; it needs nothing else to be shown.
@@ -18,24 +16,9 @@ use crate::view::run::{Detail, Recording};
 pub fn render(run: &TruckRun, viewer: Option<Viewer>) -> Result<String, serde_json::Error> {
     let summary = &run.result.summary;
     let exhibits = exhibits(run);
-    let data = viewer
-        .map(|viewer| {
-            let contacts = run.contacts.as_ref();
-            let recording =
-                Recording::of_three_piece_truck(&run.case, &run.result, contacts, Detail::Thinned);
-            let view = View::new(summary.units, [recording], &exhibits).to_json();
-            view.map(|view| (viewer, view))
-        })
-        .transpose()?;
-    let heading = if summary.title.is_empty() {
-        &summary.name
-    } else {
-        &summary.title
-    };
-    let lead = format!(
-        "The run {} of a three-piece truck with four wedges that have mass. Computed by {}.",
-        summary.name, summary.program
-    );
+    let recording =
+        || Recording::of_three_piece_truck(&run.case, &run.result, run.contacts.as_ref(), Detail::Thinned);
+    let data = interactive(viewer, summary.units, recording, &exhibits)?;
     let main = html! {
         (doubts(summary))
         @if data.is_some() { (moving(&summary.name)) }
@@ -46,8 +29,14 @@ pub fn render(run: &TruckRun, viewer: Option<Viewer>) -> Result<String, serde_js
         }
         section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
     };
-    let data = data.as_ref().map(|(viewer, view)| (*viewer, view.as_str()));
-    Ok(document(&capital(heading), &lead, None, &main, data))
+    let what = "a three-piece truck with four wedges that have mass";
+    Ok(run_page(
+        summary,
+        (&summary.title, &summary.program),
+        what,
+        &main,
+        data,
+    ))
 }
 
 /// The energy (output units) that the friction of a wedge's face takes in a cycle.

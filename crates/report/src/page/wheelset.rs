@@ -6,9 +6,8 @@ use study::wheelset::WheelsetCase;
 use study::wheelset::run::WheelsetResult;
 use study::wheelset::summary::WheelsetSummary;
 
-use super::{Viewer, document, shown_in};
+use super::{Viewer, document, interactive, moving, shown_in};
 use crate::figures::wheelset::exhibits;
-use crate::view::View;
 use crate::view::run::{Detail, Recording};
 
 /// The page as HTML; it needs nothing else to be shown.
@@ -22,24 +21,15 @@ pub fn render(
 ) -> Result<String, serde_json::Error> {
     let summary = &result.summary;
     let exhibits = exhibits(case, result);
-    let data = viewer
-        .map(|viewer| {
-            let recording = Recording::of_wheelset(case, result, Detail::Thinned);
-            let view = View::new(summary.units, [recording], &exhibits).to_json();
-            view.map(|view| (viewer, view))
-        })
-        .transpose()?;
+    let recording = || Recording::of_wheelset(case, result, Detail::Thinned);
+    let data = interactive(viewer, summary.units, recording, &exhibits)?;
     let lead = format!(
         "The run {} of one wheelset under a carriage. Computed by {}.",
         summary.name, summary.program
     );
     let main = html! {
         (state(summary))
-        @if data.is_some() {
-            details id={ "run-" (super::anchor(&summary.name)) } data-run=(summary.name) open {
-                summary { "Moving" }
-            }
-        }
+        @if data.is_some() { (moving(&summary.name)) }
         section { h2 { "In numbers" } (numbers(summary)) }
         section {
             h2 { "Figures" }

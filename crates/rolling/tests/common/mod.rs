@@ -7,8 +7,9 @@ pub mod suspended;
 
 use std::sync::Arc;
 
+use integrate::{Integrator, Options};
 use rolling::carriage::Carriage;
-use rolling::rig::{Setup, Wheels};
+use rolling::rig::{Rig, Setup, Start, Wheels};
 use rolling::wheel::Search;
 use rolling::wheelset::WheelsetBody;
 use wheelrail::conicity::LinearGeometry;
@@ -162,4 +163,36 @@ pub fn bisection([mut low, mut high]: [f64; 2], rising: impl Fn(f64) -> f64) -> 
         *(if rising(middle) < 0.0 { &mut low } else { &mut high }) = middle;
     }
     0.5 * (low + high)
+}
+
+/// A wheelset with cones on crowns of a radius (m) under a load alone, with linear creep, on straight track at 2 m/s;
+/// and its wavelength by Klingel's formula, m.
+pub fn coned_wheelset(slope: f64, crown: f64) -> (Setup, f64) {
+    let law = ContactLaw {
+        creep: CreepLaw::Linear,
+        ..POLACH
+    };
+    let wheels = cones(slope, crown);
+    let mut setup = on_rails(&wheels, track(&[Segment::Tangent(200.0)], Vec::new()), law, 2.0);
+    setup.carriage.stiffness = [0.0; 2];
+    setup.carriage.damping = [0.0; 2];
+    setup.carriage.load = 50e3;
+    let klingel = LinearGeometry::of(&wheels.0, 1e-3).unwrap().klingel_wavelength();
+    (setup, klingel)
+}
+
+/// Runs to a time from a start; gives the rig, which begins there then, and its state.
+pub fn after(setup: &Setup, start: Start, relative_tolerance: f64, time: f64) -> (Rig, Vec<f64>) {
+    let mut rig = Rig::new(setup, start).unwrap();
+    let options = Options {
+        relative_tolerance,
+        ..Options::default()
+    };
+    let mut integrator = Integrator::new(rig.system.clone(), options, 0.0, &rig.start).unwrap();
+    while integrator.time() < time {
+        integrator.step_to(time).unwrap();
+    }
+    let x = integrator.x().to_vec();
+    rig.start.clone_from(&x);
+    (rig, x)
 }

@@ -6,7 +6,6 @@ use std::fmt::Write;
 
 use integrate::{Integrator, Options};
 use rolling::rig::{Rig, Start};
-use wheelrail::conicity::LinearGeometry;
 use wheelrail::contact::{ContactLaw, CreepLaw, Side};
 use wheelrail::track::shape::Shape;
 use wheelrail::track::{CurveElements, Direction, Irregularity, Placed, Rails, Segment};
@@ -16,7 +15,7 @@ mod common;
 
 use common::impact::{LOAD, closed_forms, joint, meeting};
 use common::suspended::{SUSPENDED, critical_speed, growth_by_steps, hunting};
-use common::{POLACH, bogie, cones, freight, linear, on_rails, track};
+use common::{POLACH, after, bogie, coned_wheelset, freight, linear, on_rails, track};
 
 const HEAD: &str = "\
 # Validation: wheelsets on track
@@ -48,9 +47,8 @@ fn suspended(out: &mut String) {
              ω² = (c1 kψ + c2 ky) / (c1 I + c2 m), V² = c1 c2 ω² / (X + (ky - m ω²)(kψ - I ω²)). By \
              linearization to lie within 0.01 %,\n\
              by time steps (where the growth of runs 1 % below and above is zero) within 1 %.\n\n\
-             | wheelset | by | critical speed here, m/s | closed form |  | frequency here, Hz | closed form \
-             |\n\
-             |---|---|---|---|---|---|---|\n";
+             | wheelset | by | critical speed here, m/s | closed form |  | frequency here, Hz | closed \
+             form |\n|---|---|---|---|---|---|---|\n";
     for (number, (suspension, creep, geometry, [critical, frequency])) in SUSPENDED.into_iter().enumerate() {
         let [found, hertz] = critical_speed(&(suspension, creep, geometry));
         let growth = [0.99, 1.01].map(|factor| {
@@ -80,8 +78,7 @@ fn cooperrider(out: &mut String) {
          Seven degrees of freedom on linear wheels, parameters of Kaas-Petersen's form (from memory, \
          confirmed by the number). The\n\
          published bifurcation (Hassard) is at 68.66 m/s; the eigenvalue problem of the model by itself \
-         gives 68.644 m/s and 3.998 Hz.\n\n\
-         |  | here | by itself |  | published |\n|---|---|---|---|---|\n\
+         gives 68.644 m/s and 3.998 Hz.\n\n|  | here | by itself |  | published |\n|---|---|---|---|---|\n\
          | critical speed, m/s | {found:.3} | 68.644 | {} | 68.66 |\n\
          | frequency, Hz | {frequency:.3} | 3.998 | {} |  |\n",
         percent(found, 68.644),
@@ -92,26 +89,16 @@ fn cooperrider(out: &mut String) {
 fn klingel(out: &mut String) {
     *out += "## Klingel's wavelength through patches\n\n\
              Coned wheels with contact patches on round crowns, 2 m/s, no springs. The wavelength by \
-             linearization against\n\
-             2π √(r l / λ) with l and λ of the rigid wheelset; to lie within 1 %.\n\n\
-             | cone | crown, mm | wavelength here, m | Klingel, m |  |\n|---|---|---|---|---|\n";
-    let law = ContactLaw {
-        creep: CreepLaw::Linear,
-        ..POLACH
-    };
+             linearization against\n2π √(r l / λ) with l and λ of the rigid wheelset; to lie within 1 %.\n\
+             \n| cone | crown, mm | wavelength here, m | Klingel, m |  |\n|---|---|---|---|---|\n";
     for (word, slope, crown) in [
         ("1:40", 0.025, 0.3),
         ("1:20", 0.05, 0.3),
         ("1:10", 0.1, 0.3),
         ("1:20", 0.05, 0.05),
     ] {
-        let wheels = cones(slope, crown);
-        let speed = 2.0;
-        let mut setup = on_rails(&wheels, track(&[Segment::Tangent(200.0)], Vec::new()), law, speed);
-        setup.carriage.stiffness = [0.0; 2];
-        setup.carriage.damping = [0.0; 2];
-        setup.carriage.load = 50e3;
-        let klingel = LinearGeometry::of(&wheels.0, 1e-3).unwrap().klingel_wavelength();
+        let (setup, klingel) = coned_wheelset(slope, crown);
+        let speed = setup.carriage.speed;
         let [_, frequency] = hunting(&setup, [0.1, 10.0], 1.0);
         let found = TAU * speed / frequency;
         let _ = writeln!(
@@ -166,12 +153,11 @@ fn bump(out: &mut String) {
     let _ = write!(
         out,
         "## A frictionless mass over a bump\n\n\
-         A wheelset of 1250 kg without friction runs at 5 m/s through a dip of 10 mm over 3 m. The rail is \
-         at rest, so that\n\
+         A wheelset of 1250 kg without friction runs at 5 m/s through a dip of 10 mm over 3 m. The rail \
+         is at rest, so that\n\
          nothing may be put in: its energy after the dip is to be that before within 1e-5 of what was \
-         exchanged.\n\n\
-         | sinks by, mm | energy exchanged, J | change of energy after the dip, at most |\n|---|---|---|\n\
-         | {:.1} | {exchanged:.0} | {} |\n",
+         exchanged.\n\n| sinks by, mm | energy exchanged, J | change of energy after the dip, at most |\n\
+         |---|---|---|\n| {:.1} | {exchanged:.0} | {} |\n",
         -1e3 * lowest,
         if change.abs() < 1e-5 * exchanged {
             "1e-5 of that"
@@ -192,16 +178,8 @@ fn forces(heading: f64, time: f64) -> [f64; 4] {
         distance: 1.0,
         ..Start::default()
     };
-    let mut rig = Rig::new(&setup, start).unwrap();
-    let options = Options {
-        relative_tolerance: 1e-4,
-        ..Options::default()
-    };
-    let mut integrator = Integrator::new(rig.system.clone(), options, 0.0, &rig.start).unwrap();
-    while integrator.time() < time {
-        integrator.step_to(time).unwrap();
-    }
-    let seen = rig.system.observe(integrator.time(), integrator.x());
+    let (mut rig, x) = after(&setup, start, 1e-4, time);
+    let seen = rig.system.observe(time, &x);
     let mut found = [0.0; 4];
     rig.patches(&seen, |side, patch| {
         let index = usize::from(side == Side::Right);
@@ -213,12 +191,10 @@ fn forces(heading: f64, time: f64) -> [f64; 4] {
 
 fn circle(out: &mut String) {
     *out += "## A circle from any heading\n\n\
-             Steady curving at 60 km/h in a curve of 10 deg, half a lap and more after the start; the fixed \
-             axes turned by the\n\
-             heading. Forces are to be the same within 1e-6 of the wheel load.\n\n\
-             | heading, rad | after, s | normal forces left, right, kN | creep forces across, left, right, \
-             kN | largest difference |\n\
-             |---|---|---|---|---|\n";
+             Steady curving at 60 km/h in a curve of 10 deg, half a lap and more after the start; the \
+             fixed axes turned by the\nheading. Forces are to be the same within 1e-6 of the wheel load.\n\
+             \n| heading, rad | after, s | normal forces left, right, kN | creep forces across, left, \
+             right, kN | largest difference |\n|---|---|---|---|---|\n";
     let first = forces(0.0, 20.0);
     for (heading, time) in [(0.0, 20.0), (0.5 * PI, 40.0), (PI, 55.0), (3.9, 30.0)] {
         let found = forces(heading, time);
@@ -245,11 +221,10 @@ fn impact(out: &mut String) {
              its rail at 2αv: both\n\
              peaks of its load above the static one, per velocity; by two masses on Hertz's spring \
              (integrated by themselves), and the\n\
-             closed forms of Jenkins and others (1974; from memory). P1 without damping of the contact, P2 \
-             with 6 s/m, so that the\n\
+             closed forms of Jenkins and others (1974; from memory). P1 without damping of the contact, \
+             P2 with 6 s/m, so that the\n\
              contact's vibration is over. To lie within 2 % of the two masses and 15 % of the closed \
-             forms.\n\n\
-             |  | here, kN s/m | two masses |  | closed form |  |\n|---|---|---|---|---|---|\n";
+             forms.\n\n|  | here, kN s/m | two masses |  | closed form |  |\n|---|---|---|---|---|---|\n";
     for (number, name) in ["P1", "P2"].into_iter().enumerate() {
         let of = |own: [f64; 2]| 1e-3 * own[number] / velocity;
         let _ = writeln!(
@@ -270,10 +245,10 @@ fn impact(out: &mut String) {
         out,
         "\nThe closed form's own example (2α = 0.02, 26.8 m/s) gives {:.1} kN, in the source 228.9 kN. A \
          joint of a track, 2α = 0.002 at\n\
-         40 m/s: P2 is {:.1} kN above the static load, the closed form {:.1} kN ({:+.1} %). Rails are kept \
-         at points 1/8 m apart, which\n\
-         round a joint over that length: P1, which a wheel passes within a few centimeters, needs a sharper \
-         one and is not shown there.\n",
+         40 m/s: P2 is {:.1} kN above the static load, the closed form {:.1} kN ({:+.1} %). Rails are \
+         kept at points 1/8 m apart, which\n\
+         round a joint over that length: P1, which a wheel passes within a few centimeters, needs a \
+         sharper one and is not shown there.\n",
         1e-3 * (LOAD + example),
         1e-3 * joint,
         1e-3 * second,

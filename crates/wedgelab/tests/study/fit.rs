@@ -6,11 +6,10 @@ use tempfile::tempdir;
 
 use crate::common::{done, names, refused};
 
-const CASE: &str = "[wedge]\ndamping = \"constant\"\n[side_frame]\ntoe = \"0.2 deg out\"\n[bolster]\nyaw \
-                    = \"0.012 rad\"\n\
-                    vertical = { shape = \"sine\", amplitude = \"1 in\", frequency = \"20 rad/s\" \
-                    }\n[simulation]\nduration = \"0.4 s\"\n\
-                    output_interval = \"0.004 s\"\n";
+const CASE: &str = "[wedge]\ndamping = \"constant\"\n[side_frame]\ntoe = \"0.2 deg out\"\n[bolster]\n\
+                    yaw = \"0.012 rad\"\n\
+                    vertical = { shape = \"sine\", amplitude = \"1 in\", frequency = \"20 rad/s\" }\n\
+                    [simulation]\nduration = \"0.4 s\"\noutput_interval = \"0.004 s\"\n";
 
 #[test]
 fn convergence_the_friction_of_a_run_is_found_again() {

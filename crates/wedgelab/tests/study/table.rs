@@ -141,10 +141,9 @@ fn limits_units_stand_in_the_metadata() {
 fn limits_the_page_has_effects_contours_and_the_jam_map() {
     let folder = tempdir().unwrap();
     let path = folder.path();
-    let text = "case = \"cdrun_toe_0.2_psi_0.012\"\nsampling = \"sobol\"\nruns = 128\nname \
-                = \"map\"\n[set]\n\
-                bolster.vertical.frequency = \"40 rad/s\"\nsimulation.duration = \"0.25 \
-                s\"\nsimulation.relative_tolerance = 1e-5\n[vary]\n\
+    let text = "case = \"cdrun_toe_0.2_psi_0.012\"\nsampling = \"sobol\"\nruns = 128\nname = \"map\"\n\
+                [set]\nbolster.vertical.frequency = \"40 rad/s\"\nsimulation.duration = \"0.25 s\"\n\
+                simulation.relative_tolerance = 1e-5\n[vary]\n\
                 wedge.angle = { from = \"25 deg\", to = \"45 deg\" }\n\
                 friction.column = { from = 0.1, to = 0.6, also = [\"friction.slope\"] }\n";
     fs::write(path.join("a.toml"), text).unwrap();
