@@ -279,9 +279,9 @@ fn page(description: &Description) -> String {
          <body>\n<h1>{name}</h1>\n<p>{text}</p>\n\
          <p>Made by wedgelab {version}. {conventions} All values are in SI units.</p>\n\
          <p>What it is made of is in <code>resources/{file}</code>; licences are in \
-         <code>documentation/licenses</code>.</p>\n\
-         <table>\n<tr><th>variable</th><th>causality</th><th>variability</th><th>unit</th><th></th></tr>\n{rows}</table>\n\
-         </body>\n</html>\n",
+         <code>documentation/licenses</code>.</p>\n<table>\n\
+         <tr><th>variable</th><th>causality</th><th>variability</th><th>unit</th><th></th></tr>\n\
+         {rows}</table>\n</body>\n</html>\n",
         name = description.model.name(),
         text = escape(&description.text),
         version = env!("CARGO_PKG_VERSION"),

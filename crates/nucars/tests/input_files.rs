@@ -335,8 +335,8 @@ fn records_wrap_over_lines() {
         // A connection over three lines, one of them a comment.
         (
             "117 'Ld L Bol-SF LPY'  1.1  1  3   -35.0    39.5    18.0   3 1 5 6 8 9 10",
-            "117 'Ld L Bol-SF LPY'\n 1.1  1  3   -35.0    39.5 ! x, y\n! and so on\n    18.0   3 1 5 6\n8 9 \
-             10",
+            "117 'Ld L Bol-SF LPY'\n 1.1  1  3   -35.0    39.5 ! x, y\n! and so on\n    18.0   3 1 5 6\n\
+             8 9 10",
         ),
         // A body in one.
         (

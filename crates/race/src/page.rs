@@ -332,8 +332,8 @@ fn failed(failures: &Table) -> String {
 /// The options of every solver.
 fn options() -> String {
     let mut text = format!(
-        "All: {COMMON_OPTIONS}; reference: {} at {}.\n\n| solver | options beyond its defaults \
-         |\n|---|---|\n",
+        "All: {COMMON_OPTIONS}; reference: {} at {}.\n\n| solver | options beyond its defaults |\n\
+         |---|---|\n",
         REFERENCE.0, REFERENCE.1
     );
     for solver in SOLVERS {

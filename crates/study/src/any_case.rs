@@ -9,6 +9,7 @@ use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 
 use crate::car::{self, CarCase};
+use crate::case::model::{Model, model};
 use crate::case::problem::{Problems, TomlSource};
 use crate::case::{Case, CaseError, FieldSection, Problem, Tables, builtin, overrides, text_of, tree};
 use crate::half_truck::files::{FilesError, Settings, case_of_run};
@@ -68,10 +69,8 @@ impl AnyCase {
         overrides: &[String],
     ) -> Result<Self, CaseError> {
         Ok(match named(source, text, overrides) {
-            Some(truck::Model::Truck) => {
-                Self::Truck(Box::new(TruckCase::parse(source, text, tables, overrides)?))
-            }
-            Some(truck::Model::Car) => Self::Car(Box::new(CarCase::parse(source, text, tables, overrides)?)),
+            Some(Model::Truck) => Self::Truck(Box::new(TruckCase::parse(source, text, tables, overrides)?)),
+            Some(Model::Car) => Self::Car(Box::new(CarCase::parse(source, text, tables, overrides)?)),
             _ => Self::Wedge(Box::new(Case::parse(source, text, tables, overrides)?)),
         })
     }
@@ -185,11 +184,11 @@ impl AnyCase {
 }
 
 /// Returns the model that a case file says, or an override; `None` if the text cannot be read.
-fn named(source: &str, text: &str, overrides: &[String]) -> Option<truck::Model> {
+fn named(source: &str, text: &str, overrides: &[String]) -> Option<Model> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut tree = tree::parse(&TomlSource::new(source, text)).ok()?;
     overrides::apply(&mut tree, overrides);
-    truck::model(&tree, &mut Problems::new())
+    model(&tree, &mut Problems::new())
 }
 
 /// What came out of a run of any model.

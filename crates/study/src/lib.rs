@@ -19,6 +19,7 @@ pub mod measures;
 pub mod metrics;
 pub mod plausibility;
 pub mod progress;
+mod reader;
 pub mod records;
 pub mod result;
 mod rows;

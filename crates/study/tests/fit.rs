@@ -114,11 +114,10 @@ fn limits_bounds_hold_and_what_is_not_determined_is_said() {
 }
 
 /// Cheap: planar, the bolster yawed, half a second at a loose tolerance.
-const CASE: &str = "[wedge]\ndamping = \"constant\"\n[side_frame]\ntoe = \"0.2 deg out\"\n[bolster]\nyaw \
-                    = \"0.012 rad\"\n\
-                    vertical = { shape = \"sine\", amplitude = \"1 in\", frequency = \"20 rad/s\" \
-                    }\n[simulation]\nduration = \"0.4 s\"\n\
-                    output_interval = \"0.004 s\"\n";
+const CASE: &str = "[wedge]\ndamping = \"constant\"\n[side_frame]\ntoe = \"0.2 deg out\"\n[bolster]\n\
+                    yaw = \"0.012 rad\"\n\
+                    vertical = { shape = \"sine\", amplitude = \"1 in\", frequency = \"20 rad/s\" }\n\
+                    [simulation]\nduration = \"0.4 s\"\noutput_interval = \"0.004 s\"\n";
 
 fn case(set: &[String]) -> Result<AnyCase, CaseError> {
     let case = Case::parse("fit.toml", CASE, Path::new(""), set)?;

@@ -100,8 +100,9 @@ fn input_mistakes_in_faces_are_told() {
             "more than half of the face",
         ),
         (
-            "[slope_face]\ncounterface = { shape = \"table\", direction = \"up\", points = [[\"0 in\", \"0 \
-             in\"], [\"1 in\", \"0 in\"], [\"2 in\", \"0 in\"], [\"3 in\", \"0 in\"]] }",
+            "[slope_face]\n\
+             counterface = { shape = \"table\", direction = \"up\", points = [[\"0 in\", \"0 in\"], [\"1 \
+             in\", \"0 in\"], [\"2 in\", \"0 in\"], [\"3 in\", \"0 in\"]] }",
             "from edge to edge of the face",
         ),
         ("[column_face]\nsliding_friction = 11", "between 0 and 10"),
@@ -115,8 +116,9 @@ fn input_mistakes_in_faces_are_told() {
             "`slope_face.pad.damping` is missing",
         ),
         (
-            "[slope_face]\npad = { stiffness = \"1e5 lbf/in\", damping = \"0 lbf s/in\", friction = 0.5, \
-             shear_damping = \"1 lbf s/in\" }",
+            "[slope_face]\n\
+             pad = { stiffness = \"1e5 lbf/in\", damping = \"0 lbf s/in\", friction = 0.5, shear_damping \
+             = \"1 lbf s/in\" }",
             "has shear_damping but no shear_stiffness",
         ),
     ] {

@@ -157,8 +157,8 @@ fn limits_a_run_that_was_saved_and_goes_on_says_the_same() {
 #[test]
 fn limits_a_variant_that_is_nonsense_has_failed_and_says_why() {
     let text = "case = \"cdrun_toe_0_psi_0\"\nsampling = \"full_factorial\"\naccuracy = \"engineering\"\n\
-                [set]\nsimulation.duration = \"1 s\"\n[vary]\ncontact.stiffness = [\"1e3 lbf/in\", \"2.5e5 \
-                lbf/in\"]\n";
+                [set]\nsimulation.duration = \"1 s\"\n[vary]\n\
+                contact.stiffness = [\"1e3 lbf/in\", \"2.5e5 lbf/in\"]\n";
     let study = Study::parse("some.toml", text, Path::new("")).unwrap();
     let all = [0, 1].map(|number| records::run(&study, number));
     assert_eq!(

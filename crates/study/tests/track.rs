@@ -137,8 +137,8 @@ fn input_messages_of_track_files_say_what_to_write() {
         }
     }
     assert!(refused("title = \"no track\"").contains("`segments` is missing"));
-    let spectrum = "[[segments]]\ntangent = \"500 ft\"\n[[irregularities]]\nspectrum \
-                    = \"fra_vertical\"\nclass = 9\ndirection = \"vertical\"\n";
+    let spectrum = "[[segments]]\ntangent = \"500 ft\"\n[[irregularities]]\nspectrum = \"fra_vertical\"\n\
+                    class = 9\ndirection = \"vertical\"\n";
     assert!(refused(spectrum).contains("no class 9"));
 }
 
@@ -172,9 +172,8 @@ fn analytic_measured_tables_are_part_of_a_track() {
     for k in 0..=1000 {
         table += &format!("{k},0.25,-0.001,3\n");
     }
-    let track = "support = { kind = \"rigid\" }\n[center_line]\ntable \
-                 = \"car.csv\"\n[[irregularities]]\ntable = \"car.csv\"\n\
-                 form = \"space_curve\"\n";
+    let track = "support = { kind = \"rigid\" }\n[center_line]\ntable = \"car.csv\"\n[[irregularities]]\n\
+                 table = \"car.csv\"\nform = \"space_curve\"\n";
     let folder = in_folder(&[("car.csv", table.clone()), ("track.toml", track.to_owned())]);
     let file = TrackFile::read(&folder.path().join("track.toml")).unwrap();
     assert_eq!(file.support, Support::Rigid);
@@ -213,8 +212,8 @@ fn analytic_measured_tables_are_part_of_a_track() {
 fn input_spectra_of_users_state_their_units() {
     let track = |spectrum: &str| {
         format!(
-            "[[segments]]\ntangent = \"500 ft\"\n[[irregularities]]\n{spectrum}\ndirection \
-             = \"vertical\"\nseed = 3\n"
+            "[[segments]]\ntangent = \"500 ft\"\n[[irregularities]]\n{spectrum}\n\
+             direction = \"vertical\"\nseed = 3\n"
         )
     };
     let read = |spectrum: &str| TrackFile::parse("own.toml", &track(spectrum));
@@ -222,16 +221,14 @@ fn input_spectra_of_users_state_their_units() {
     // k A Ωc² / (Ωc² Ω² + Ω⁴): A in cm² rad/m, by rad/m; then by cycles/m in mm².
     let (a, corner) = (0.25 * 0.5376, 0.8245_f64 * 0.8245);
     let radians = format!(
-        "spectrum = \"rational\"\nnumerator = [{}]\ndenominator = [0, 0, {corner}, 0, 1]\nwavenumber \
-         = \"rad/m\"\n\
-         density = \"cm²/(rad/m)\"",
+        "spectrum = \"rational\"\nnumerator = [{}]\ndenominator = [0, 0, {corner}, 0, 1]\n\
+         wavenumber = \"rad/m\"\ndensity = \"cm²/(rad/m)\"",
         a * corner
     );
     let tau = std::f64::consts::TAU;
     let cycles = format!(
-        "spectrum = \"rational\"\nnumerator = [{}]\ndenominator = [0, 0, {}, 0, {}]\nwavenumber \
-         = \"cycle/m\"\n\
-         density = \"mm^2/(cycle/m)\"",
+        "spectrum = \"rational\"\nnumerator = [{}]\ndenominator = [0, 0, {}, 0, {}]\n\
+         wavenumber = \"cycle/m\"\ndensity = \"mm^2/(cycle/m)\"",
         100.0 * tau * a * corner,
         corner * tau * tau,
         tau.powi(4)
@@ -329,8 +326,8 @@ fn input_irregularities_must_cover_the_track_and_be_space_curves() {
     let both = format!("{CURVE}\n[center_line]\ntable = \"car.csv\"\n");
     assert!(refused(&both).contains("either `center_line` or `segments`"));
     // 1000 waves from 1.5 to 91.44 m repeat themselves after 5003 ft.
-    let long = "[[segments]]\ntangent = \"9000 ft\"\n[[irregularities]]\nspectrum \
-                = \"fra_vertical\"\ndirection = \"vertical\"\n";
+    let long = "[[segments]]\ntangent = \"9000 ft\"\n[[irregularities]]\nspectrum = \"fra_vertical\"\n\
+                direction = \"vertical\"\n";
     let message = refused(long);
     assert!(
         message.contains("repeats itself after 5003 ft") && message.contains("terms = 1799"),

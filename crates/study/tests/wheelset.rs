@@ -64,9 +64,8 @@ fn run(wheelset: Wheelset) -> WheelsetResult {
     Run::new(&case).unwrap().finish(|_| ())
 }
 
-const CURVE: &str = "[[segments]]\ntangent = \"20 m\"\n[[segments]]\nspiral = \"40 m\"\n[[segments]]\ncurve \
-                     = \"120 m\"\n\
-                     radius = \"400 m\"\nsuperelevation = \"80 mm\"\n";
+const CURVE: &str = "[[segments]]\ntangent = \"20 m\"\n[[segments]]\nspiral = \"40 m\"\n[[segments]]\n\
+                     curve = \"120 m\"\nradius = \"400 m\"\nsuperelevation = \"80 mm\"\n";
 
 /// In steady curving the wheels' forces carry the load and turn the wheelset: with the springs and the load
 /// of the carriage they are the mass times the centripetal acceleration, less gravity, in the plane of the

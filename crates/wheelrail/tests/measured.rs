@@ -68,8 +68,7 @@ fn analytic_a_spline_through_a_sine() {
 #[test]
 fn analytic_sign_row_and_units() {
     let mut text = "# a car\ndistance [ft]; left_profile [mm]; right_profile (in); alignment_in; gauge \
-                    [in]; speed [mph]\n\
-                    ; down; up; right; wide; \n"
+                    [in]; speed [mph]\n; down; up; right; wide; \n"
         .to_owned();
     for k in 0..400 {
         text += &format!("{k}; 10; 0.5; 0.25; 57; 40\n");

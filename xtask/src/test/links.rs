@@ -116,8 +116,8 @@ mod tests {
 
     #[test]
     fn links_and_headings_are_found() {
-        let text = "# A title, with `code`\n[x](y.md#z) \
-                    ![p](q.svg)\n```\n[not](me)\n```\n[web](https://a.b)\n## Twice\n## Twice\n";
+        let text = "# A title, with `code`\n[x](y.md#z) ![p](q.svg)\n```\n[not](me)\n```\n\
+                    [web](https://a.b)\n## Twice\n## Twice\n";
         let found: Vec<String> = links(text).into_iter().map(|(_, link)| link).collect();
         assert_eq!(found, ["y.md#z", "q.svg"]);
         let expected = ["a-title-with-code", "twice", "twice-1"].map(str::to_owned);

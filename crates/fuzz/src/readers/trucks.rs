@@ -113,10 +113,9 @@ fn truck_corpus() -> Vec<Vec<u8>> {
         .map(|text| text.as_bytes().to_vec())
         .collect();
     corpus.push(
-        b"model = \"truck\"\n[load]\nkind = \"car_body\"\n[wedge.leading_left]\ntoe = \"0.2 deg \
-          in\"\n[control_coil]\nkind = \"thesis\"\n\
-          [load_springs]\nnest = \"single_coils\"\nmissing_right = \
-          [\"outer_leading_left\"]\n[adapter]\nkind = \"pad\"\n"
+        b"model = \"truck\"\n[load]\nkind = \"car_body\"\n[wedge.leading_left]\ntoe = \"0.2 deg in\"\n\
+          [control_coil]\nkind = \"thesis\"\n[load_springs]\nnest = \"single_coils\"\n\
+          missing_right = [\"outer_leading_left\"]\n[adapter]\nkind = \"pad\"\n"
             .to_vec(),
     );
     corpus
@@ -167,12 +166,10 @@ fn car_corpus() -> Vec<Vec<u8>> {
         .map(|text| text.as_bytes().to_vec())
         .collect();
     corpus.push(
-        b"model = \"car\"\n[lading]\nkind = \"masses\"\n[[lading.masses]]\nname = \"coil\"\nweight = \"40 \
-          kip\"\n\
-          place = [\"0 in\", \"5 in\", \"70 in\"]\ninertia = [\"0 lbf in s^2\", \"1 lbf in s^2\", \"1 lbf \
-          in s^2\"]\n\
-          [front_truck.wedge]\nkind = \"massless\"\n[wheels]\nprofile = \"cone_1:20\"\ncreep \
-          = \"fastsim\"\n[speed]\n\
+        b"model = \"car\"\n[lading]\nkind = \"masses\"\n[[lading.masses]]\nname = \"coil\"\n\
+          weight = \"40 kip\"\nplace = [\"0 in\", \"5 in\", \"70 in\"]\n\
+          inertia = [\"0 lbf in s^2\", \"1 lbf in s^2\", \"1 lbf in s^2\"]\n[front_truck.wedge]\n\
+          kind = \"massless\"\n[wheels]\nprofile = \"cone_1:20\"\ncreep = \"fastsim\"\n[speed]\n\
           kind = \"coasting\"\nvalue = \"0 mph\"\n[track]\nsupport = { kind = \"rigid\" }\n\
           segments = [{ tangent = \"3000 ft\" }]\n"
             .to_vec(),
@@ -198,15 +195,14 @@ fn car(input: &[u8]) -> Outcome {
 
 fn track_corpus() -> Vec<Vec<u8>> {
     vec![
-        b"[[segments]]\ntangent = \"500 ft\"\n[[segments]]\nspiral = \"200 ft\"\n[[segments]]\ncurve \
-          = \"600 ft\"\ndegree = \"10 deg\"\n\
-          direction = \"right\"\nsuperelevation = \"4 in\"\n[[irregularities]]\nshape = \"joints\"\nrails \
-          = \"left\"\n\
-          direction = \"vertical\"\ndepth = \"0.75 in\"\nstart = \"519.5 ft\"\n"
+        b"[[segments]]\ntangent = \"500 ft\"\n[[segments]]\nspiral = \"200 ft\"\n[[segments]]\n\
+          curve = \"600 ft\"\ndegree = \"10 deg\"\ndirection = \"right\"\nsuperelevation = \"4 in\"\n\
+          [[irregularities]]\nshape = \"joints\"\nrails = \"left\"\ndirection = \"vertical\"\n\
+          depth = \"0.75 in\"\nstart = \"519.5 ft\"\n"
             .to_vec(),
-        b"name = \"flat\"\n[[segments]]\ntangent = \"100 m\"\n[[grades]]\ndistance = \"0 m\"\ngrade = \
-          0.01\n[[irregularities]]\n\
-          spectrum = \"fra_lateral\"\nclass = 6\ndirection = \"lateral\"\nterms = 70\nseed = 3\n"
+        b"name = \"flat\"\n[[segments]]\ntangent = \"100 m\"\n[[grades]]\ndistance = \"0 m\"\n\
+          grade = 0.01\n[[irregularities]]\nspectrum = \"fra_lateral\"\nclass = 6\n\
+          direction = \"lateral\"\nterms = 70\nseed = 3\n"
             .to_vec(),
     ]
 }

@@ -5,11 +5,8 @@
 
 use std::sync::LazyLock;
 
-use quantity::nearest;
-
 use super::CarCase;
-use crate::case::builtin::{BuiltIn, Group};
-use crate::case::problem::Problem;
+use crate::case::builtin::{BuiltIn, Group, names_in, text_in};
 use crate::case::{CaseError, Tables};
 
 /// Irregularities of a track of FRA class 4 by spectra, tapered at the start.
@@ -184,10 +181,7 @@ pub fn groups() -> &'static [Group] {
 
 /// The names of all built-in cars.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    groups()
-        .iter()
-        .flat_map(|group| &group.cases)
-        .map(|case| case.name.as_str())
+    names_in(groups())
 }
 
 /// The built-in car of this name, with `--set` overrides (`path.key=value`).
@@ -203,17 +197,5 @@ pub fn case_with(name: &str, overrides: &[String]) -> Result<CarCase, CaseError>
 /// # Errors
 /// There is none of this name; the help names the nearest.
 pub fn text(name: &str) -> Result<&'static str, CaseError> {
-    let found = groups()
-        .iter()
-        .flat_map(|group| &group.cases)
-        .find(|case| case.name == name);
-    found.map(BuiltIn::text).ok_or_else(|| {
-        let help = match nearest(name, names()) {
-            Some(near) => format!("did you mean {near}?"),
-            None => "`wedgelab case` lists all".to_owned(),
-        };
-        Problem::new(format!("there is no built-in car \"{name}\""))
-            .help(help)
-            .into()
-    })
+    text_in(groups(), name, "car")
 }

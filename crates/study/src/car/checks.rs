@@ -9,7 +9,7 @@ use wheelrail::track::CenterLine;
 use super::lading::LadingKind;
 use crate::case::Simulation;
 use crate::case::problem::Problem;
-use crate::truck::reader::Reader;
+use crate::reader::Reader;
 
 const FOOT: f64 = 0.3048;
 const INCH: f64 = 0.0254;

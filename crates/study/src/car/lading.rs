@@ -8,7 +8,7 @@ use crate::case::field::{Reach, Written, quoted};
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{Names, Range, Section};
 use crate::case::tree::Value;
-use crate::truck::reader::{Form, LENGTH, Reader};
+use crate::reader::{Form, LENGTH, Reader};
 use crate::truck::sections;
 
 /// What a car carries.

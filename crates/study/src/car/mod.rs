@@ -24,13 +24,12 @@ use std::path::Path;
 
 use car::Parameters;
 
-use crate::case::field::{FieldSection, Written, quoted};
-use crate::case::problem::{Problem, Problems, TomlSource};
-use crate::case::section::Section;
+use crate::case::field::FieldSection;
+use crate::case::model::{Model, model};
+use crate::case::problem::{Problem, Problems};
 use crate::case::tree::Table;
-use crate::case::{self, CaseError, Simulation, Tables, name, overrides, tree};
-use crate::truck::reader::Reader;
-use crate::truck::{MODELS, Model, model};
+use crate::case::{self, CaseError, Simulation, Tables, name};
+use crate::reader::{CaseText, Reader};
 use statistics::Rules;
 
 /// The case of a car, ready to run.
@@ -48,15 +47,13 @@ pub struct CarCase {
     pub simulation: Simulation,
     /// What reading found doubtful but not wrong.
     pub doubts: Vec<String>,
-    text: String,
-    embedded: String,
-    fields: Vec<FieldSection>,
+    text: CaseText,
 }
 
 impl PartialEq for CarCase {
     /// Two cases are the same if their completed case files are.
     fn eq(&self, other: &Self) -> bool {
-        self.embedded == other.embedded
+        self.text.embedded == other.text.embedded
     }
 }
 
@@ -84,10 +81,7 @@ impl CarCase {
         tables: impl Into<Tables<'t>>,
         overrides: &[String],
     ) -> Result<Self, CaseError> {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let mut tree = tree::parse(&TomlSource::new(source, text)).map_err(CaseError::new)?;
-        case::refuse_study(&tree, source)?;
-        let problems = overrides::apply(&mut tree, overrides);
+        let (tree, problems) = case::tree_with_overrides(source, text, overrides)?;
         Self::of_tree(tree, source, tables.into(), problems)
     }
 
@@ -103,17 +97,7 @@ impl CarCase {
         values: Option<&str>,
         tables: impl Into<Tables<'t>>,
     ) -> Result<Self, CaseError> {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let below = tree::parse(&TomlSource::new(source, text)).map_err(CaseError::new)?;
-        case::refuse_study(&below, source)?;
-        let tree = match values {
-            None => below,
-            Some(values) => {
-                let mut tree = tree::parse(&TomlSource::in_si("values", values)).map_err(CaseError::new)?;
-                tree.complete_from(&below);
-                tree
-            }
-        };
+        let tree = case::tree_with_values(source, text, values)?;
         Self::of_tree(tree, source, tables.into(), Problems::new())
     }
 
@@ -139,14 +123,9 @@ impl CarCase {
     /// Returns the same case under another name.
     #[must_use]
     pub fn named(&self, name: &str) -> Self {
-        let rename = |text: &str| {
-            let (_, rest) = text.split_once('\n').unwrap_or(("", text));
-            format!("name = {}\n{rest}", quoted(name))
-        };
         Self {
             name: name.to_owned(),
-            text: rename(&self.text),
-            embedded: rename(&self.embedded),
+            text: self.text.named(name),
             ..self.clone()
         }
     }
@@ -155,20 +134,20 @@ impl CarCase {
     /// case.
     #[must_use]
     pub fn to_toml(&self) -> &str {
-        &self.text
+        &self.text.typed
     }
 
     /// Returns the same with the contents of a track file written into it. Profiles of wheels and rails and
     /// measured tables stay files.
     #[must_use]
     pub fn to_toml_embedded(&self) -> &str {
-        &self.embedded
+        &self.text.embedded
     }
 
     /// Returns the whole case as fields, in the order of [`CarCase::to_toml`] and with its texts.
     #[must_use]
     pub fn fields(&self) -> &[FieldSection] {
-        &self.fields
+        &self.text.fields
     }
 
     /// Returns the speed at the start, m/s.
@@ -180,27 +159,10 @@ impl CarCase {
 
 /// Reads a case, section by section.
 fn read(tree: &Table, default_name: &str, tables: Tables<'_>, problems: &mut Problems) -> Option<CarCase> {
-    let top = Section {
-        path: String::new(),
-        table: tree,
-        place: None,
-    };
-    let name = name::read(&top, default_name, problems)?;
-    let title = match tree.get("title") {
-        Some(_) => top.text("title", problems).map(|(text, _)| text)?,
-        None => "",
-    };
     let mut r = Reader::new(tree, tables, problems);
-    r.expect("", &["name", "title", "model"]);
-    r.top("name", Written::text(&name), "a folder name: results go there");
-    r.top("title", Written::text(title), "one line for people");
-    r.top(
-        "model",
-        Written::choice(MODELS, &Model::Car),
-        "\"car\": a freight car on track",
-    );
+    let [name, title] = r.head(default_name, Model::Car, "\"car\": a freight car on track")?;
     let drawn = sections::everything(&mut r);
-    let (text, embedded, fields) = r.finish("a car's case");
+    let text = r.finish("a car's case");
     let sections::Drawn {
         parameters,
         rules,
@@ -209,13 +171,11 @@ fn read(tree: &Table, default_name: &str, tables: Tables<'_>, problems: &mut Pro
     } = drawn?;
     Some(CarCase {
         name,
-        title: title.to_owned(),
+        title,
         parameters,
         rules,
         simulation,
         doubts,
         text,
-        embedded,
-        fields,
     })
 }

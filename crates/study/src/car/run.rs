@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use car::Car;
-use integrate::{Family, Integrator, Options, Problem};
+use integrate::{Integrator, Options, Problem};
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
 use mechanics::plausibility::Finding;
@@ -77,16 +77,7 @@ impl RunCase for CarCase {
     }
 
     fn options(&self) -> Options {
-        let method = self.simulation.method;
-        Options {
-            relative_tolerance: self.simulation.relative_tolerance,
-            maximum_step: match method.tableau().family {
-                // Rows are to be resolved.
-                Family::DiagonallyImplicit => self.simulation.output_interval,
-                _ => f64::INFINITY,
-            },
-            ..Options::of(method)
-        }
+        self.simulation.options()
     }
 
     fn begin(&self) -> Result<Beginning<CarRecorder>, RunError> {
@@ -260,7 +251,8 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         }
     }
     let rows = time.len();
-    let (ledger, wedge_losses) = ledger(&mut run);
+    let ledger = LedgerSummary::of_run(&mut run, units);
+    let wedge_losses = losses(&mut run);
     let mut summary = CarSummary {
         schema: SCHEMA.to_owned(),
         program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
@@ -380,26 +372,18 @@ fn filtered(run: &Run<CarCase>, told: &Statistics, columns: &mut Vec<Column>, va
     }
 }
 
-/// The ledger at the end, and what the friction of each wedge took.
-fn ledger(run: &mut Run<CarCase>) -> (LedgerSummary, BTreeMap<String, SummaryValue>) {
+/// What the friction of each wedge took by the end.
+fn losses(run: &mut Run<CarCase>) -> BTreeMap<String, SummaryValue> {
     let units = run.case.simulation.output_units;
-    run.system.segment_like(run.integrator.problem());
     let seen = run.system.observe(run.integrator.time(), run.integrator.x());
-    let measure = |value: f64| SummaryValue::new(value, Kind::Energy, units);
-    let mut entries = BTreeMap::new();
-    for (term, value) in run.system.energy_terms().iter().zip(&seen.quadratures) {
-        entries.insert(term.name(), measure(*value));
-    }
-    entries.insert("stored".to_owned(), measure(seen.energies.total()));
-    entries.insert("residual".to_owned(), measure(-seen.residual(run.start_energy)));
     let mut losses = BTreeMap::new();
     for truck in 1..=2 {
         for wedge in WEDGE_NAMES {
             let places = losses_of_wedge(&run.system, truck, wedge);
             let loss = places.iter().map(|place| seen.quadratures[*place]).sum();
-            losses.insert(format!("truck_{truck}_{wedge}"), measure(loss));
+            let loss = SummaryValue::new(loss, Kind::Energy, units);
+            losses.insert(format!("truck_{truck}_{wedge}"), loss);
         }
     }
-    let ledger = LedgerSummary::new(entries, run.start_energy, &run.energy_balance, units);
-    (ledger, losses)
+    losses
 }

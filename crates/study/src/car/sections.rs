@@ -9,15 +9,13 @@ use super::checks;
 use super::lading::{self, LadingKind};
 use super::statistics::Rules;
 use super::{track, trucks, wheels};
-use crate::case::document::{METHODS, SYSTEMS};
 use crate::case::field::{Reach, Written, quoted};
 use crate::case::problem::{Problem, Problems};
-use crate::case::read::{TOLERANCE, check_rows};
 use crate::case::section::{Names, Range, Section, quantity};
 use crate::case::tree::Value;
 use crate::case::{Simulation, write};
+use crate::reader::{DAMPING, Form, Reader};
 use crate::track::Support;
-use crate::truck::reader::{DAMPING, Form, Reader};
 
 /// What the sections say.
 pub(super) struct Drawn {
@@ -49,7 +47,6 @@ const STARTS: Names<StartKind> = &[
 const USUAL_SPEED: f64 = 40.0;
 const MILE_PER_HOUR: f64 = 0.447_04;
 const SHIFT: Form = (Kind::Length, Range::Any, Reach::Signed(0.0127));
-const TIME: Form = (Kind::Time, Range::Positive, Reach::Positive);
 
 /// Reads all sections; `None` if there is no car to speak of: what is wrong has been noted.
 pub(super) fn everything(r: &mut Reader<'_>) -> Option<Drawn> {
@@ -342,7 +339,7 @@ fn frequency(r: &mut Reader<'_>, key: &'static str, hertz: &mut f64, comment: &s
 }
 
 fn simulation(r: &mut Reader<'_>) -> Simulation {
-    let mut simulation = Simulation {
+    let usual = Simulation {
         duration: 20.0,
         output_interval: 0.005,
         relative_tolerance: 1e-4,
@@ -350,21 +347,9 @@ fn simulation(r: &mut Reader<'_>) -> Simulation {
         // It damps the vibrations of contacts, and takes a tenth of the steps of others on rough track.
         method: Method::TrBdf2,
     };
-    r.section("simulation", "How to run it.");
-    let duration = r.quantity("duration", TIME, &mut simulation.duration, "");
-    let comment = "time between two rows of the result; filters need 4 rows a period";
-    let interval = r.quantity("output_interval", TIME, &mut simulation.output_interval, comment);
-    let comment = "of the integrator, between 0 and 1";
-    let tolerance = &mut simulation.relative_tolerance;
-    r.number("relative_tolerance", TOLERANCE, Reach::Wide, tolerance, comment);
-    let comment = "\"us\" (ft, mph, in, lbf, g) or \"si\" (m, N)";
-    r.choice("output_units", SYSTEMS, &mut simulation.output_units, comment);
-    let comment = "\"rodas5p\"; \"tr-bdf2\" and \"esdirk3\" damp vibrations";
-    r.choice("method", METHODS, &mut simulation.method, comment);
-    if let (Some(duration), Some(interval), Some(section)) = (&duration, &interval, r.given()) {
-        check_rows(&section, duration, interval, r.problems);
-    }
-    simulation
+    let interval = "time between two rows of the result; filters need 4 rows a period";
+    let units = "\"us\" (ft, mph, in, lbf, g) or \"si\" (m, N)";
+    r.simulation(usual, interval, units).0
 }
 
 impl LadingKind {

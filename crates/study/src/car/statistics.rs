@@ -120,10 +120,22 @@ pub struct Statistics {
     pub remarks: Vec<String>,
 }
 
-/// Force, place of a row in time and in distance.
+/// The rows from the settling time on: their times and distances.
+#[derive(Clone, Copy)]
 struct Rows<'c> {
     time: &'c [f64],
     distance: &'c [f64],
+}
+
+/// Takes statistics.
+struct Taker<'c, 'h> {
+    histories: &'c Histories<'h>,
+    rules: &'c Rules,
+    units: Units,
+    rows: Rows<'c>,
+    /// The first of the rows, and the one after the last, among all.
+    range: (usize, usize),
+    taken: Statistics,
 }
 
 /// Raw and filtered values of one quantity, from the settling time on.
@@ -192,23 +204,28 @@ impl Statistics {
                 })
                 .ok()
         });
-        own.wheels(&rows, histories, rules, wheel.as_ref(), (from, even), units);
-        own.body(&rows, histories, rules, ride.as_ref(), (from, even), units);
-        own
+        let mut taker = Taker {
+            histories,
+            rules,
+            units,
+            rows,
+            range: (from, even),
+            taken: own,
+        };
+        taker.wheels(wheel.as_ref());
+        taker.body(ride.as_ref());
+        taker.taken
     }
+}
 
+impl Taker<'_, '_> {
     /// A column, raw and filtered; the filtered one is kept.
-    fn pair(
-        &mut self,
-        histories: &Histories<'_>,
-        name: &str,
-        filter: Option<&LowPass>,
-        (from, to): (usize, usize),
-    ) -> Pair {
-        let values = (histories.column)(name);
+    fn pair(&mut self, name: &str, filter: Option<&LowPass>) -> Pair {
+        let (from, to) = self.range;
+        let values = (self.histories.column)(name);
         let filtered = filter.map(|filter| filter.apply(&values[..to]));
         if let Some(values) = &filtered {
-            self.filtered.push(Filtered {
+            self.taken.filtered.push(Filtered {
                 of: name.to_owned(),
                 values: values.clone(),
             });
@@ -219,15 +236,8 @@ impl Statistics {
         }
     }
 
-    fn wheels(
-        &mut self,
-        rows: &Rows<'_>,
-        histories: &Histories<'_>,
-        rules: &Rules,
-        filter: Option<&LowPass>,
-        range: (usize, usize),
-        units: Units,
-    ) {
+    fn wheels(&mut self, filter: Option<&LowPass>) {
+        let (histories, rows, rules) = (self.histories, self.rows, self.rules);
         let curve: Vec<bool> = rows
             .distance
             .iter()
@@ -238,12 +248,12 @@ impl Statistics {
             let mut wheels = Vec::new();
             for (side, load) in SIDES.into_iter().zip(loads) {
                 let stem = format!("axle_{axle}_{side}");
-                let [vertical, lateral] = ["vertical", "lateral"]
-                    .map(|what| self.pair(histories, &format!("{stem}_{what}"), filter, range));
+                let [vertical, lateral] =
+                    ["vertical", "lateral"].map(|what| self.pair(&format!("{stem}_{what}"), filter));
                 let ratio = Pair::of([&lateral, &vertical], |[l, v]| ratio(l, v, load));
-                self.held(&format!("{stem}_l_over_v"), &ratio, rows, rules, units);
-                self.in_curves(&format!("{stem}_l_over_v"), &ratio, &curve, rules, units);
-                self.least_load(&stem, &vertical, load, rows, rules);
+                self.held(&format!("{stem}_l_over_v"), &ratio);
+                self.in_curves(&format!("{stem}_l_over_v"), &ratio, &curve);
+                self.least_load(&stem, &vertical, load);
                 wheels.push([lateral, vertical]);
             }
             let (Some(right), Some(left)) = (wheels.pop(), wheels.pop()) else {
@@ -253,15 +263,10 @@ impl Statistics {
                 ratio(ll, lv, loads[0]).abs() + ratio(rl, rv, loads[1]).abs()
             });
             let name = format!("axle_{axle}_sum_l_over_v");
-            self.set(
-                &format!("{name}_time"),
-                &sum,
-                rows,
-                Kind::Dimensionless,
-                units,
-                |values| sustained(rows.time, values, rules.hold_time),
-            );
-            self.in_curves(&name, &sum, &curve, rules, units);
+            self.set(&format!("{name}_time"), &sum, Kind::Dimensionless, |values| {
+                sustained(rows.time, values, rules.hold_time)
+            });
+            self.in_curves(&name, &sum, &curve);
             axles.push([left, right]);
         }
         for (truck, pair) in (1..).zip(axles.chunks(2)) {
@@ -283,9 +288,7 @@ impl Statistics {
                 self.set(
                     &format!("truck_{truck}_{name}_side_l_over_v"),
                     &own,
-                    rows,
                     Kind::Dimensionless,
-                    units,
                     |values| over_distance(rows, values, rules.side_distance),
                 );
             }
@@ -293,27 +296,21 @@ impl Statistics {
     }
 
     /// Wheel L/V that lasts, over time and distance.
-    fn held(&mut self, name: &str, ratio: &Pair, rows: &Rows<'_>, rules: &Rules, units: Units) {
-        self.set(
-            &format!("{name}_time"),
-            ratio,
-            rows,
-            Kind::Dimensionless,
-            units,
-            |values| sustained(rows.time, values, rules.hold_time),
-        );
+    fn held(&mut self, name: &str, ratio: &Pair) {
+        let (rows, rules) = (self.rows, self.rules);
+        self.set(&format!("{name}_time"), ratio, Kind::Dimensionless, |values| {
+            sustained(rows.time, values, rules.hold_time)
+        });
         self.set(
             &format!("{name}_distance"),
             ratio,
-            rows,
             Kind::Dimensionless,
-            units,
             |values| over_distance(rows, values, rules.hold_distance),
         );
     }
 
     /// The percentile in full curves.
-    fn in_curves(&mut self, name: &str, own: &Pair, curve: &[bool], rules: &Rules, units: Units) {
+    fn in_curves(&mut self, name: &str, own: &Pair, curve: &[bool]) {
         let found = own.each().map(|values| {
             let inside: Vec<f64> = values?
                 .iter()
@@ -321,24 +318,25 @@ impl Statistics {
                 .filter(|(_, inside)| **inside)
                 .map(|(v, _)| *v)
                 .collect();
-            percentile(&inside, rules.percentile)
+            percentile(&inside, self.rules.percentile)
         });
         if found[0].is_none() {
             return;
         }
         let [raw, filtered] =
-            found.map(|own| own.map(|own| SummaryValue::new(own, Kind::Dimensionless, units)));
+            found.map(|own| own.map(|own| SummaryValue::new(own, Kind::Dimensionless, self.units)));
         let statistic = Statistic {
             raw,
             filtered,
             time: None,
             remark: String::new(),
         };
-        self.values.insert(format!("{name}_in_curves"), statistic);
+        self.taken.values.insert(format!("{name}_in_curves"), statistic);
     }
 
     /// The least load of a wheel, and the one that is not exceeded for the hold time, in % of the static one.
-    fn least_load(&mut self, stem: &str, vertical: &Pair, load: f64, rows: &Rows<'_>, rules: &Rules) {
+    fn least_load(&mut self, stem: &str, vertical: &Pair, load: f64) {
+        let (rows, rules) = (self.rows, self.rules);
         if load <= 0.0 {
             return;
         }
@@ -357,45 +355,24 @@ impl Statistics {
                 filtered: found[1].map(percent),
                 remark: String::new(),
             };
-            self.values.insert(format!("{stem}_{name}"), statistic);
+            self.taken.values.insert(format!("{stem}_{name}"), statistic);
         }
     }
 
-    fn body(
-        &mut self,
-        rows: &Rows<'_>,
-        histories: &Histories<'_>,
-        rules: &Rules,
-        filter: Option<&LowPass>,
-        range: (usize, usize),
-        units: Units,
-    ) {
+    fn body(&mut self, filter: Option<&LowPass>) {
+        let (rows, rules, (from, to)) = (self.rows, self.rules, self.range);
         let roll = Pair {
-            raw: (histories.column)("body_roll")[range.0..range.1].to_vec(),
+            raw: (self.histories.column)("body_roll")[from..to].to_vec(),
             filtered: None,
         };
-        self.set(
-            "body_roll_peak_to_peak",
-            &roll,
-            rows,
-            Kind::Angle,
-            units,
-            whole(rows),
-        );
+        self.set("body_roll_peak_to_peak", &roll, Kind::Angle, whole(rows));
         for end in 1..=2 {
             for direction in ["lateral", "vertical"] {
                 let name = format!("body_at_truck_{end}_{direction}_acceleration");
-                let own = self.pair(histories, &name, filter, range);
+                let own = self.pair(&name, filter);
                 let kind = Kind::RideAcceleration;
-                self.set(
-                    &format!("{name}_peak_to_peak"),
-                    &own,
-                    rows,
-                    kind,
-                    units,
-                    whole(rows),
-                );
-                self.set(&format!("{name}_largest"), &own, rows, kind, units, |values| {
+                self.set(&format!("{name}_peak_to_peak"), &own, kind, whole(rows));
+                self.set(&format!("{name}_largest"), &own, kind, |values| {
                     let sizes: Vec<f64> = values.iter().map(|own| own.abs()).collect();
                     sustained(rows.time, &sizes, 0.0)
                 });
@@ -404,10 +381,10 @@ impl Statistics {
                     Some(timed(rows, found))
                 };
                 let statistic = format!("{name}_deviation");
-                self.set(&statistic, &own, rows, kind, units, deviation);
+                self.set(&statistic, &own, kind, deviation);
                 let run = rows.distance[rows.distance.len() - 1] - rows.distance[0];
                 if run < rules.deviation_distance
-                    && let Some(own) = self.values.get_mut(&statistic)
+                    && let Some(own) = self.taken.values.get_mut(&statistic)
                 {
                     own.remark = format!(
                         "over the {:.0} ft of the run, not over {:.0} ft",
@@ -415,7 +392,7 @@ impl Statistics {
                         rules.deviation_distance / FOOT
                     );
                 }
-                self.set(&format!("{name}_rms"), &own, rows, kind, units, |values| {
+                self.set(&format!("{name}_rms"), &own, kind, |values| {
                     largest_rms(rows.time, values, rules.rms_time)
                 });
             }
@@ -423,22 +400,14 @@ impl Statistics {
     }
 
     /// Takes a number of raw and of filtered values.
-    fn set(
-        &mut self,
-        name: &str,
-        own: &Pair,
-        rows: &Rows<'_>,
-        kind: Kind,
-        units: Units,
-        take: impl Fn(&[f64]) -> Option<Found>,
-    ) {
+    fn set(&mut self, name: &str, own: &Pair, kind: Kind, take: impl Fn(&[f64]) -> Option<Found>) {
         let found = own.each().map(|values| take(values?));
-        let value = |found: Found| SummaryValue::new(found.value, kind, units);
+        let value = |found: Found| SummaryValue::new(found.value, kind, self.units);
         let remark = match found[0] {
             Some(_) => String::new(),
             None => format!(
                 "the {:.3} s after settling are too short",
-                rows.time[rows.time.len() - 1] - rows.time[0]
+                self.rows.time[self.rows.time.len() - 1] - self.rows.time[0]
             ),
         };
         let statistic = Statistic {
@@ -447,7 +416,7 @@ impl Statistics {
             filtered: found[1].map(value),
             remark,
         };
-        self.values.insert(name.to_owned(), statistic);
+        self.taken.values.insert(name.to_owned(), statistic);
     }
 }
 
@@ -462,7 +431,7 @@ pub fn ratio(lateral: f64, vertical: f64, static_load: f64) -> f64 {
 }
 
 /// Greatest less least value of all rows.
-fn whole(rows: &Rows<'_>) -> impl Fn(&[f64]) -> Option<Found> {
+fn whole(rows: Rows<'_>) -> impl Fn(&[f64]) -> Option<Found> {
     let (start, length) = (rows.time[0], rows.time[rows.time.len() - 1] - rows.time[0]);
     move |values| {
         Some(Found {
@@ -475,7 +444,7 @@ fn whole(rows: &Rows<'_>) -> impl Fn(&[f64]) -> Option<Found> {
 
 /// The largest value that lasts over a distance, with its time. Where the car stands or goes back there is
 /// none.
-fn over_distance(rows: &Rows<'_>, values: &[f64], distance: f64) -> Option<Found> {
+fn over_distance(rows: Rows<'_>, values: &[f64], distance: f64) -> Option<Found> {
     if rows.distance.windows(2).any(|pair| pair[1] <= pair[0]) {
         return None;
     }
@@ -483,7 +452,7 @@ fn over_distance(rows: &Rows<'_>, values: &[f64], distance: f64) -> Option<Found
 }
 
 /// What was found at a distance, told at its time.
-fn timed(rows: &Rows<'_>, found: Found) -> Found {
+fn timed(rows: Rows<'_>, found: Found) -> Found {
     let row = rows.distance.partition_point(|own| *own < found.start);
     Found {
         start: rows.time[row.min(rows.time.len() - 1)],

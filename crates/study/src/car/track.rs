@@ -9,8 +9,8 @@ use crate::case::problem::{Problem, TomlSource};
 use crate::case::section::Section;
 use crate::case::text_of;
 use crate::case::tree::{self, Table, Value};
+use crate::reader::Reader;
 use crate::track::{Support, of_section};
-use crate::truck::reader::Reader;
 
 /// Length of a track that is not given, ft.
 const USUAL: f64 = 5000.0;

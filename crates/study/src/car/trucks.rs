@@ -8,7 +8,7 @@ use wedge::parameters::Damping;
 
 use crate::case::problem::{Problem, Problems};
 use crate::case::tree::{Entry, Node, Table, Value};
-use crate::truck::reader::Reader;
+use crate::reader::Reader;
 use crate::truck::sections::{self, Condition};
 use crate::truck::wedges;
 

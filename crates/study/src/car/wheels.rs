@@ -16,7 +16,7 @@ use wheelrail::wheelset::{Layout, RigidWheelset};
 use crate::case::field::{Reach, Written};
 use crate::case::problem::Problem;
 use crate::case::section::{Names, Range};
-use crate::truck::reader::{Form, LENGTH, Reader};
+use crate::reader::{Form, LENGTH, Reader};
 
 const INCH: f64 = 0.0254;
 /// How far splines may lie from the points of a file, m.

@@ -128,3 +128,29 @@ pub fn text(name: &str) -> Result<&'static str, CaseError> {
         .help(help)
         .into())
 }
+
+/// Returns the names of all cases of groups.
+pub(crate) fn names_in(groups: &'static [Group]) -> impl Iterator<Item = &'static str> {
+    let cases = groups.iter().flat_map(|group| &group.cases);
+    cases.map(|case| case.name.as_str())
+}
+
+/// Returns the case file of this name in groups; `what` they have (a truck) is said where there is none.
+///
+/// # Errors
+/// There is none of this name; the help names the nearest.
+pub(crate) fn text_in(groups: &'static [Group], name: &str, what: &str) -> Result<&'static str, CaseError> {
+    let mut cases = groups.iter().flat_map(|group| &group.cases);
+    cases
+        .find(|case| case.name == name)
+        .map(BuiltIn::text)
+        .ok_or_else(|| {
+            let help = match nearest(name, names_in(groups)) {
+                Some(near) => format!("did you mean {near}?"),
+                None => "`wedgelab case` lists all".to_owned(),
+            };
+            Problem::new(format!("there is no built-in {what} \"{name}\""))
+                .help(help)
+                .into()
+        })
+}

@@ -14,6 +14,7 @@ pub(crate) mod document;
 pub(crate) mod face;
 mod face_values;
 pub(crate) mod field;
+pub(crate) mod model;
 pub(crate) mod motion;
 pub(crate) mod name;
 pub(crate) mod overrides;
@@ -43,13 +44,13 @@ pub use tables::Tables;
 
 use input::file::{Expected, Reason, read_text};
 use input::{FileType, limits};
-use integrate::Method;
+use integrate::{Family, Method, Options};
 use problem::{Problems, TomlSource};
 use quantity::System;
 use std::path::Path;
 use wedge::parameters::Parameters;
 
-use crate::truck::{Model, model};
+use model::{Model, model};
 
 /// A case that is ready to run.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,6 +85,21 @@ pub struct Simulation {
     pub method: Method,
 }
 
+impl Simulation {
+    /// Returns the integrator's options. Methods that damp end their steps at every row at least, so that rows are
+    /// resolved.
+    pub(crate) fn options(&self) -> Options {
+        Options {
+            relative_tolerance: self.relative_tolerance,
+            maximum_step: match self.method.tableau().family {
+                Family::DiagonallyImplicit => self.output_interval,
+                _ => f64::INFINITY,
+            },
+            ..Options::of(self.method)
+        }
+    }
+}
+
 impl Case {
     /// Reads a case file and lays `--set` overrides (`path.key=value`) over it. A case without a
     /// name takes that of its file.
@@ -108,10 +124,7 @@ impl Case {
         tables: impl Into<Tables<'t>>,
         overrides: &[String],
     ) -> Result<Self, CaseError> {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let mut tree = tree::parse(&TomlSource::new(source, text)).map_err(CaseError::new)?;
-        refuse_study(&tree, source)?;
-        let problems = overrides::apply(&mut tree, overrides);
+        let (tree, problems) = tree_with_overrides(source, text, overrides)?;
         let nothing_given = !tree.gives_values();
         let case = Self::of_tree(tree, source, tables.into(), problems)?;
         Ok(Self {
@@ -177,8 +190,41 @@ impl Case {
     }
 }
 
+/// Reads the text of a case file as a tree with `--set` overrides over it; returns the mistakes in these too.
+pub(crate) fn tree_with_overrides(
+    source: &str,
+    text: &str,
+    overrides: &[String],
+) -> Result<(tree::Table, Problems), CaseError> {
+    let mut tree = tree_of(source, text)?;
+    let problems = overrides::apply(&mut tree, overrides);
+    Ok((tree, problems))
+}
+
+/// Reads the text of a case file as a tree with values over it: TOML, in which a bare number is in SI units.
+pub(crate) fn tree_with_values(
+    source: &str,
+    text: &str,
+    values: Option<&str>,
+) -> Result<tree::Table, CaseError> {
+    let below = tree_of(source, text)?;
+    let Some(values) = values else {
+        return Ok(below);
+    };
+    let mut tree = tree::parse(&TomlSource::in_si("values", values)).map_err(CaseError::new)?;
+    tree.complete_from(&below);
+    Ok(tree)
+}
+
+fn tree_of(source: &str, text: &str) -> Result<tree::Table, CaseError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let tree = tree::parse(&TomlSource::new(source, text)).map_err(CaseError::new)?;
+    refuse_study(&tree, source)?;
+    Ok(tree)
+}
+
 /// Refuses a study file where a case is expected.
-pub(crate) fn refuse_study(tree: &tree::Table, source: &str) -> Result<(), CaseError> {
+fn refuse_study(tree: &tree::Table, source: &str) -> Result<(), CaseError> {
     let Some(study) = STUDY_KEYS.iter().find_map(|key| tree.entry(key)) else {
         return Ok(());
     };

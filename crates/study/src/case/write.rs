@@ -272,8 +272,7 @@ impl CaseDocument {
             "bolster",
             "The bolster. A motion is one held value, a list of motions to be added up, or one of\n\
              # { shape = \"sine\", amplitude, frequency, phase, start }         frequency in rad/s, Hz or \
-             rpm\n\
-             # { shape = \"triangle\", amplitude, frequency, start }\n\
+             rpm\n# { shape = \"triangle\", amplitude, frequency, start }\n\
              # { shape = \"swept_sine\", amplitude, start_frequency, end_frequency, duration }   then \
              end_frequency\n\
              # { shape = \"ramp\", amplitude, start, duration, profile }            \

@@ -2,16 +2,14 @@
 //! raw where nothing is filtered.
 
 use std::borrow::Cow;
-use std::ops::ControlFlow;
 
 use quantity::{Kind, System as Units};
 
+use super::measuring::run_whole;
 use super::{Definitions, Judged, Measure, Measures, Unmeasured};
 use crate::car::CarCase;
 use crate::car::run::CarResult;
 use crate::plausibility;
-use crate::progress;
-use crate::run::Run;
 
 /// A measure of a statistic: its name, kind, meaning, the ending of the statistics, and whether the least is
 /// worst.
@@ -141,17 +139,7 @@ pub fn judge(case: &CarCase) -> Result<Judged, Unmeasured> {
     // The summary's numbers are in the units of the results.
     let mut case = case.clone();
     case.simulation.output_units = Units::Si;
-    let mut run = Run::new(&case).map_err(|error| Unmeasured::Refused(error.to_string()))?;
-    let stopped = run.go_on_while(|_| ControlFlow::Continue(()));
-    let nonsense = plausibility::nonsense_in_car(&run);
-    let result = run.result(stopped);
-    if let Some(stopped) = &result.summary.stopped {
-        let reason = &stopped.reason;
-        return Err(Unmeasured::Stopped(format!(
-            "{reason}; {}",
-            progress::WHAT_TO_TRY
-        )));
-    }
+    let (result, nonsense) = run_whole(&case, plausibility::nonsense_in_car)?;
     Ok(Judged {
         measures: measures(&result),
         nonsense,

@@ -1,16 +1,14 @@
 //! The measures of half-trucks: those of the summary, by the numbers of wedges and bodies in the files.
 
 use std::borrow::Cow;
-use std::ops::ControlFlow;
 
 use mechanics::body::COORDINATES;
 use quantity::{Kind, System as Units};
 
+use super::measuring::run_whole;
 use super::{Definitions, Judged, Measure, Measures, Unmeasured};
 use crate::half_truck::{HalfTruckCase, HalfTruckSummary, WedgeSummary};
 use crate::plausibility;
-use crate::progress;
-use crate::run::Run;
 use crate::summary;
 
 /// What is measured of a wedge: its name after `wedge_NUMBER_`, kind, text, and where it stands in the
@@ -120,16 +118,9 @@ pub fn judge(case: &HalfTruckCase) -> Result<Judged, Unmeasured> {
         units: Units::Si,
         ..case.clone()
     };
-    let mut run = Run::new(&case).map_err(|error| Unmeasured::Refused(error.to_string()))?;
-    let stopped = run.go_on_while(|_| ControlFlow::Continue(()));
-    let nonsense = plausibility::nonsense(&run);
-    let summary = run.result(stopped).summary;
-    if let Some(stopped) = &summary.stopped {
-        let (reason, advice) = (&stopped.reason, progress::WHAT_TO_TRY_WITH_FILES);
-        return Err(Unmeasured::Stopped(format!("{reason}; {advice}")));
-    }
+    let (result, nonsense) = run_whole(&case, plausibility::nonsense)?;
     Ok(Judged {
-        measures: of_summary(&case, &summary),
+        measures: of_summary(&case, &result.summary),
         nonsense,
     })
 }

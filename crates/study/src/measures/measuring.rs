@@ -1,6 +1,7 @@
 //! A run that keeps its measures only.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 use integrate::{Integrator, Options};
 use mechanics::energy_balance::Entries;
@@ -20,9 +21,10 @@ use crate::closed_form;
 use crate::metrics::{Cycle, first_harmonic};
 use crate::plausibility;
 use crate::progress;
+use crate::result::RunResult;
 use crate::run::wedge_run::{contact_states_in_words, friction_losses, options};
 use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError};
-use crate::summary::Stopped;
+use crate::summary::{RunSummary, Stopped};
 
 /// Why a run has no measures.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,6 +59,32 @@ pub fn measure(case: &Case) -> Result<Measures, Unmeasured> {
 pub fn judge(case: &Case) -> Result<Judged, Unmeasured> {
     let run = Run::new(&Measured(case)).map_err(|error| Unmeasured::Refused(error.to_string()))?;
     run.finish(|_| ())
+}
+
+/// Runs a case to its end. Returns its result and, by `nonsense`, why it means nothing.
+///
+/// # Errors
+/// The run cannot begin or does not come to its end.
+pub(super) fn run_whole<C, S>(
+    case: &C,
+    nonsense: impl FnOnce(&Run<C>) -> Option<String>,
+) -> Result<(RunResult<S>, Option<String>), Unmeasured>
+where
+    C: RunCase<Output = RunResult<S>>,
+    S: RunSummary,
+{
+    let mut run = Run::new(case).map_err(|error| Unmeasured::Refused(error.to_string()))?;
+    let stopped = run.go_on_while(|_| ControlFlow::Continue(()));
+    let nonsense = nonsense(&run);
+    let result = run.result(stopped);
+    match result.summary.stopped() {
+        Some(stopped) => Err(Unmeasured::Stopped(format!(
+            "{}; {}",
+            stopped.reason,
+            C::WHAT_TO_TRY
+        ))),
+        None => Ok((result, nonsense)),
+    }
 }
 
 /// A wedge's case of which only measures are wanted.

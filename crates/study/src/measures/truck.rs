@@ -6,15 +6,13 @@
 //! [`Cycles`]: crate::truck::summary::Cycles
 
 use std::borrow::Cow;
-use std::ops::ControlFlow;
 
 use quantity::{Kind, System as Units};
 use truck::WEDGE_NAMES;
 
+use super::measuring::run_whole;
 use super::{Definitions, Judged, Measure, Measures, Unmeasured};
 use crate::plausibility;
-use crate::progress;
-use crate::run::Run;
 use crate::truck::TruckCase;
 use crate::truck::run::{TruckResult, window};
 use crate::truck::summary::{WARP_ANGLES, warp_stiffness};
@@ -127,17 +125,7 @@ pub fn judge(case: &TruckCase) -> Result<Judged, Unmeasured> {
     // The summary's numbers are in the units of the results.
     let mut case = case.clone();
     case.simulation.output_units = Units::Si;
-    let mut run = Run::new(&case).map_err(|error| Unmeasured::Refused(error.to_string()))?;
-    let stopped = run.go_on_while(|_| ControlFlow::Continue(()));
-    let nonsense = plausibility::nonsense_in_truck(&run);
-    let result = run.result(stopped);
-    if let Some(stopped) = &result.summary.stopped {
-        let reason = &stopped.reason;
-        return Err(Unmeasured::Stopped(format!(
-            "{reason}; {}",
-            progress::WHAT_TO_TRY
-        )));
-    }
+    let (result, nonsense) = run_whole(&case, plausibility::nonsense_in_truck)?;
     Ok(Judged {
         measures: measures(&case, &result),
         nonsense,

@@ -1,20 +1,26 @@
 //! Reading a case key by key: what is left out has a default, and everything is written down as it is read.
 //!
 //! One line for each key says its name, what it measures, its range, its default and what it means. From
-//! these lines come the values, the complete, commented case file and the fields of the explorer.
+//! these lines come the values, the complete, commented case file and the fields of the explorer. Cases of trucks and
+//! of cars are read so.
 
-use mechanics::motion::Motion;
-use quantity::{Kind, Quantity, STANDARD_GRAVITY, System};
-use wedge::parameters::NeighbourMotion;
+mod keys;
+mod motions;
+mod simulation;
+mod text;
 
-use crate::case::document::{Coordinate, NeighbourSection};
-use crate::case::face::FaceSection;
-use crate::case::field::{FieldSection, Reach, Written};
+pub(crate) use motions::check_motions;
+pub(crate) use text::CaseText;
+
+use quantity::Kind;
+
+use crate::case::field::{Reach, Written};
+use crate::case::model::{MODELS, Model};
 use crate::case::problem::{Problem, Problems};
-use crate::case::section::{self, Names, Range, Section};
+use crate::case::section::{Range, Section};
 use crate::case::tree::{Node, Table, Value};
-use crate::case::write::{Page, TURN, write_motion};
-use crate::case::{self, Tables, motion, resolve};
+use crate::case::write::Page;
+use crate::case::{Tables, motion, name};
 
 /// Kind, range and suggested reach of a quantity.
 pub(crate) type Form = (Kind, Range, Reach);
@@ -182,331 +188,6 @@ impl<'r> Reader<'r> {
         }
     }
 
-    pub fn quantity(
-        &mut self,
-        key: &'static str,
-        form: Form,
-        value: &mut f64,
-        comment: &str,
-    ) -> Option<Quantity> {
-        let (kind, range, reach) = form;
-        let node = self.node(key);
-        let quantity = match node {
-            Some(node) => section::quantity(node, &self.path(key), kind, range, self.problems)?,
-            None => in_customary_units(*value, kind)?,
-        };
-        *value = quantity.to_si();
-        self.line(
-            key,
-            node.is_some(),
-            Written::quantity(&quantity, kind, reach),
-            comment,
-        );
-        Some(quantity)
-    }
-
-    /// A quantity that may be left out.
-    pub fn optional(
-        &mut self,
-        key: &'static str,
-        form: Form,
-        value: &mut Option<f64>,
-        example: &str,
-        comment: &str,
-    ) {
-        let given = self
-            .table_at(&self.section)
-            .is_some_and(|table| table.get(key).is_some());
-        if let (false, None) = (given, &value) {
-            self.node(key);
-            if !self.overlay {
-                for page in &mut self.pages {
-                    page.absent(key, example, comment);
-                }
-            }
-            return;
-        }
-        let mut own = value.unwrap_or_default();
-        self.quantity(key, form, &mut own, comment);
-        *value = Some(own);
-    }
-
-    /// A mass, typed as the force that it weighs under standard gravity.
-    pub fn weight(&mut self, mass: &mut f64, comment: &str) {
-        let mut weight = *mass * STANDARD_GRAVITY;
-        self.quantity("weight", WEIGHT, &mut weight, comment);
-        *mass = weight / STANDARD_GRAVITY;
-    }
-
-    pub fn triple(&mut self, key: &'static str, form: Form, values: &mut [f64; 3], comment: &str) {
-        let (kind, range, reach) = form;
-        let given = self.node(key).is_some();
-        let triple = match self.given().filter(|_| given) {
-            Some(section) => section.triple(key, kind, range, self.problems),
-            None => {
-                let [a, b, c] = values.map(|value| in_customary_units(value, kind));
-                a.zip(b).zip(c).map(|((a, b), c)| [a, b, c])
-            }
-        };
-        let Some(triple) = triple else { return };
-        *values = triple.each_ref().map(Quantity::to_si);
-        self.line(key, given, Written::triple(&triple, kind, reach), comment);
-    }
-
-    pub fn number(&mut self, key: &'static str, range: Range, reach: Reach, value: &mut f64, comment: &str) {
-        let given = self.node(key).is_some();
-        if let Some(section) = self.given().filter(|_| given) {
-            let example = format!("{value:?}");
-            let Some(number) = section.number(key, range, &example, self.problems) else {
-                return;
-            };
-            *value = number;
-        }
-        self.line(key, given, Written::number(*value, reach), comment);
-    }
-
-    pub fn truth(&mut self, key: &'static str, value: &mut bool, comment: &str) {
-        let given = self.node(key).is_some();
-        if let Some(section) = self.given().filter(|_| given) {
-            let Some(truth) = section.truth(key, self.problems) else {
-                return;
-            };
-            *value = truth;
-        }
-        self.line(key, given, Written::truth(*value), comment);
-    }
-
-    pub fn choice<T: Copy + PartialEq>(
-        &mut self,
-        key: &'static str,
-        names: Names<T>,
-        value: &mut T,
-        comment: &str,
-    ) {
-        let node = self.node(key);
-        if let Some(node) = node {
-            let Some(choice) = section::choice(node, &self.path(key), names, self.problems) else {
-                return;
-            };
-            *value = choice;
-        }
-        self.line(key, node.is_some(), Written::choice(names, value), comment);
-    }
-
-    /// A list of names of choices.
-    pub fn several<T: Copy + PartialEq>(
-        &mut self,
-        key: &'static str,
-        names: Names<T>,
-        values: &mut Vec<T>,
-        comment: &str,
-    ) {
-        let node = self.node(key);
-        if let Some(node) = node {
-            let path = self.path(key);
-            let Value::List(items) = &node.value else {
-                let found = node.value.describe();
-                let problem = Problem::new(format!("`{path}` is {found}; a list is expected"));
-                let known: Vec<&str> = names.iter().map(|(name, _)| *name).collect();
-                let help = format!("list some of \"{}\"; [] for none", known.join("\", \""));
-                self.problems
-                    .push(problem.at(&node.place).label("not a list").help(help));
-                return;
-            };
-            let mut list = Vec::new();
-            for item in items {
-                let Some(choice) = section::choice(item, &path, names, self.problems) else {
-                    return;
-                };
-                if list.contains(&choice) {
-                    let name = section::name_of(names, &choice);
-                    let problem = Problem::new(format!("`{path}` names \"{name}\" twice"));
-                    let problem = problem.at(&item.place).label("named before").help("name it once");
-                    self.problems.push(problem);
-                    return;
-                }
-                list.push(choice);
-            }
-            *values = list;
-        }
-        self.line(key, node.is_some(), Written::several(names, values), comment);
-    }
-
-    /// The coordinates that are free; `none` says what is wrong if there are none, if that is wrong.
-    pub fn free_coordinates(&mut self, free: &mut [bool; 6], none: Option<&str>, comment: &str) {
-        let mut list: Vec<Coordinate> = Coordinate::NAMES
-            .iter()
-            .filter(|(_, coordinate)| free[*coordinate as usize])
-            .map(|(_, coordinate)| *coordinate)
-            .collect();
-        self.several("free_coordinates", Coordinate::NAMES, &mut list, comment);
-        if let Some(none) = none.filter(|_| list.is_empty()) {
-            let path = self.path("free_coordinates");
-            let problem = Problem::new(format!("`{path}` is empty: {none}"));
-            let help = "list the free ones of \"x\", \"y\", \"z\", \"roll\", \"pitch\", \"yaw\"";
-            self.problem_at(&path, problem.label("nothing is free").help(help));
-        }
-        *free = [false; 6];
-        for coordinate in list {
-            free[coordinate as usize] = true;
-        }
-    }
-
-    /// The motions of a body; `free` says that it has free coordinates and must not be moved.
-    pub fn motions(&mut self, own: &mut NeighbourMotion, free: bool) {
-        let given = self.node("center").is_some();
-        if let Some(section) = self.given().filter(|_| given) {
-            if let Some(typed) = section.triple("center", Kind::Length, Range::Any, self.problems) {
-                own.center = Some(typed.each_ref().map(Quantity::to_si));
-                let written = Written::triple(&typed, Kind::Length, Reach::Signed(0.0254));
-                self.line("center", true, written, "the point it turns about, in truck axes");
-            }
-        } else if !self.overlay {
-            for page in &mut self.pages {
-                let comment = "the point it turns about, in truck axes; left out, its center of gravity";
-                page.absent("center", r#"["0 in", "0 in", "0 in"]"#, comment);
-            }
-        }
-        for (at, key) in NeighbourSection::COORDINATES.into_iter().enumerate() {
-            let (kind, most) = if at < 3 {
-                (Kind::Length, 0.0254)
-            } else {
-                (Kind::Angle, TURN)
-            };
-            self.motion(key, kind, most, &mut own.coordinates[at], free);
-        }
-    }
-
-    /// The loads on the free coordinates of a body, in a section within its own.
-    pub fn loads(&mut self, body: &str, applied: &mut [Motion; 6], free: [bool; 6]) {
-        let path = format!("{body}.load");
-        let about = "Loads on its free coordinates over time: forces at its center of gravity, moments \
-                     about its axes.\n\
-                     # Written as motions are, in units of forces and moments.";
-        if !self.overlay(&path, about) {
-            return;
-        }
-        for (at, key) in NeighbourSection::COORDINATES.into_iter().enumerate() {
-            let (kind, most) = if at < 3 {
-                (Kind::Force, 1e5)
-            } else {
-                (Kind::Moment, 1e5)
-            };
-            self.motion(key, kind, most, &mut applied[at], false);
-            if !free[at] && applied[at] != Motion::Constant(0.0) {
-                let path = self.path(key);
-                let problem = Problem::new(format!("`{path}` loads a coordinate that is not free"));
-                let help = format!(
-                    "add \"{}\" to {body}.free_coordinates, or prescribe {body}.{key} instead",
-                    Coordinate::NAMES[at].0
-                );
-                self.problem_at(&path, problem.label("this would have no effect").help(help));
-            }
-        }
-    }
-
-    fn motion(&mut self, key: &'static str, kind: Kind, most: f64, value: &mut Motion, free: bool) {
-        let path = self.path(key);
-        let Some(node) = self.node(key) else {
-            if let (false, Motion::Constant(held)) = (self.overlay, &*value)
-                && let Some(held) = in_customary_units(*held, kind)
-            {
-                self.line(
-                    key,
-                    false,
-                    Written::quantity(&held, kind, Reach::Signed(most)),
-                    "",
-                );
-            }
-            return;
-        };
-        let Some(typed) = motion::read(node, &path, kind, self.tables, self.problems) else {
-            return;
-        };
-        match resolve::motion(&typed) {
-            Ok(motion) => *value = motion,
-            Err(reason) => {
-                let problem = Problem::new(format!("`{path}`: {reason}")).at(&node.place);
-                self.problems.push(problem);
-                return;
-            }
-        }
-        if free && *value != Motion::Constant(0.0) {
-            let problem =
-                Problem::new(format!("`{path}` moves a body that has free coordinates")).at(&node.place);
-            let help = format!(
-                "write {}.free_coordinates = [] to prescribe its motion, or leave the motion out",
-                self.section
-            );
-            self.problems
-                .push(problem.label("this would have no effect").help(help));
-        }
-        if let motion::Motion::Constant(held) = &typed {
-            self.line(key, true, Written::quantity(held, kind, Reach::Signed(most)), "");
-        } else {
-            let mut embedded = typed.clone();
-            for table in embedded.tables_mut() {
-                table.file = None;
-            }
-            for (page, motion) in self.pages.iter_mut().zip([&typed, &embedded]) {
-                page.line(
-                    key,
-                    Written::toml_in_units(|system| motion.to_toml_in(kind, system)),
-                    "",
-                );
-                write_motion(page, key, motion, kind, most);
-            }
-        }
-        self.motions.push((path, typed));
-    }
-
-    /// Anything that another function reads from the current section, if it is given, and writes.
-    pub fn other<T>(
-        &mut self,
-        key: &'static str,
-        comment: &str,
-        default: T,
-        read: impl FnOnce(&Section<'_>, &mut Problems) -> Option<T>,
-        write: impl FnOnce(&T) -> Written,
-    ) -> T {
-        let given = self.node(key).is_some();
-        let value = match self.given().filter(|_| given) {
-            Some(section) => read(&section, self.problems).unwrap_or(default),
-            None => default,
-        };
-        self.line(key, given, write(&value), comment);
-        value
-    }
-
-    /// The keys of a face of a wedge.
-    pub fn face(&mut self, face: &mut FaceSection) {
-        let given = |key: &str| {
-            self.table_at(&self.section)
-                .is_some_and(|table| table.get(key).is_some())
-        };
-        let given: Vec<bool> = FaceSection::KEYS.iter().map(|key| given(key)).collect();
-        for key in FaceSection::KEYS {
-            self.node(key);
-        }
-        if let Some(section) = self.given()
-            && let Some(read) = face.read_over(&section, self.tables, self.problems)
-        {
-            *face = read;
-        }
-        let mut embedded = face.clone();
-        embedded.tables_mut().for_each(|table| table.file = None);
-        let overlay = self.overlay;
-        for (page, face) in self.pages.iter_mut().zip([&*face, &embedded]) {
-            for (line, given) in face.lines().into_iter().zip(&given) {
-                match line.value {
-                    Some(value) if *given || !overlay => page.line(line.key, value, line.comment),
-                    None if !overlay => page.absent(line.key, line.example, line.comment),
-                    _ => {}
-                }
-            }
-        }
-    }
-
     /// A line at the top of the file.
     pub fn top(&mut self, key: &str, written: Written, comment: &str) {
         for page in &mut self.pages {
@@ -542,9 +223,27 @@ impl<'r> Reader<'r> {
         self.pages[1].line(key, Written::toml(text), "");
     }
 
-    /// Notes keys that nobody asked for; `what` is read: a truck's case. Returns the completed case, as typed
-    /// and with the points of tables in files, and its fields.
-    pub fn finish(self, what: &str) -> (String, String, Vec<FieldSection>) {
+    /// Reads and writes down the top of a case: name, title and model. Returns name and title.
+    pub fn head(&mut self, default_name: &str, model: Model, comment: &str) -> Option<[String; 2]> {
+        let top = Section {
+            path: String::new(),
+            table: self.tree,
+            place: None,
+        };
+        let name = name::read(&top, default_name, self.problems)?;
+        let title = match self.tree.get("title") {
+            Some(_) => top.text("title", self.problems).map(|(text, _)| text)?,
+            None => "",
+        };
+        self.expect("", &["name", "title", "model"]);
+        self.top("name", Written::text(&name), "a folder name: results go there");
+        self.top("title", Written::text(title), "one line for people");
+        self.top("model", Written::choice(MODELS, &model), comment);
+        Some([name, title.to_owned()])
+    }
+
+    /// Notes keys that nobody asked for; `what` is read: a truck's case. Returns the completed case.
+    pub fn finish(self, what: &str) -> CaseText {
         let owners: Vec<(&str, &[&str])> = self
             .known
             .iter()
@@ -588,41 +287,10 @@ impl<'r> Reader<'r> {
             }
         }
         let [typed, embedded] = self.pages;
-        (typed.text, embedded.text, typed.sections)
-    }
-}
-
-/// An SI value in the customary unit of its kind, with the fewest digits that differ from it by rounding
-/// only.
-fn in_customary_units(value: f64, kind: Kind) -> Option<Quantity> {
-    let unit = match kind {
-        Kind::Inertia => "lbf in s^2",
-        Kind::Acceleration => "m/s^2",
-        other => other.unit(System::Us),
-    };
-    let one = Quantity::new(1.0, unit).ok()?.to_si();
-    let number = value / one;
-    let rounded = (0..17).filter_map(|decimals| format!("{number:.decimals$e}").parse::<f64>().ok());
-    let near = |rounded: &f64| (rounded - number).abs() <= 1e-14 * number.abs();
-    Quantity::new(rounded.into_iter().find(near).unwrap_or(number), unit).ok()
-}
-
-/// The check of tables in motions against the duration.
-pub(crate) fn check_motions(reader: &mut Reader<'_>, duration: &Quantity) {
-    let (tree, tables) = (reader.tree, reader.tables);
-    let mut rows = 0;
-    for (path, motion) in &reader.motions {
-        case::read::check_motion_covers(path, motion, duration, tree, tables, reader.problems);
-        rows += motion
-            .tables()
-            .iter()
-            .map(|table| table.rows.len())
-            .sum::<usize>();
-    }
-    if rows > input::limits::CASE_ROWS {
-        let most = input::limits::CASE_ROWS;
-        let message = format!("the tables of the case have {rows} rows together; at most {most} are read");
-        let problem = Problem::new(message).help("leave out rows: motions are smooth between them");
-        reader.problems.push(problem);
+        CaseText {
+            typed: typed.text,
+            embedded: embedded.text,
+            fields: typed.sections,
+        }
     }
 }

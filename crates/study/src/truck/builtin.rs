@@ -2,11 +2,8 @@
 
 use std::sync::LazyLock;
 
-use quantity::nearest;
-
 use super::TruckCase;
-use crate::case::builtin::{BuiltIn, Group};
-use crate::case::problem::Problem;
+use crate::case::builtin::{BuiltIn, Group, names_in, text_in};
 use crate::case::{CaseError, Tables};
 
 /// Dampings, each with the height by which an empty car stands above the loaded one, in.
@@ -67,8 +64,7 @@ fn warp_by_nests(amplitude: &str) -> String {
     format!(
         "side_frame.free_coordinates = []\n\
          side_frame.yaw = {{ shape = \"triangle\", amplitude = \"{amplitude}\", frequency = \"0.1 Hz\", \
-         start = \"2 s\" }}\n\
-         adapter.kind = \"nothing\"\n"
+         start = \"2 s\" }}\nadapter.kind = \"nothing\"\n"
     )
 }
 
@@ -276,10 +272,7 @@ pub fn groups() -> &'static [Group] {
 
 /// The names of all built-in trucks.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    groups()
-        .iter()
-        .flat_map(|group| &group.cases)
-        .map(|case| case.name.as_str())
+    names_in(groups())
 }
 
 /// The built-in truck of this name, with `--set` overrides (`path.key=value`).
@@ -295,17 +288,5 @@ pub fn case_with(name: &str, overrides: &[String]) -> Result<TruckCase, CaseErro
 /// # Errors
 /// There is none of this name; the help names the nearest.
 pub fn text(name: &str) -> Result<&'static str, CaseError> {
-    let found = groups()
-        .iter()
-        .flat_map(|group| &group.cases)
-        .find(|case| case.name == name);
-    found.map(BuiltIn::text).ok_or_else(|| {
-        let help = match nearest(name, names()) {
-            Some(near) => format!("did you mean {near}?"),
-            None => "`wedgelab case` lists all".to_owned(),
-        };
-        Problem::new(format!("there is no built-in truck \"{name}\""))
-            .help(help)
-            .into()
-    })
+    text_in(groups(), name, "truck")
 }

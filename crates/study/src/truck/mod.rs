@@ -6,7 +6,6 @@ mod assumptions;
 pub mod builtin;
 pub mod columns;
 pub mod loop_curve;
-pub(crate) mod reader;
 pub mod run;
 pub(crate) mod sections;
 pub mod summary;
@@ -20,15 +19,14 @@ use quantity::{Kind, System};
 use truck::{Lading, Parameters};
 use wedge::parameters::Damping;
 
-use crate::case::document::{METHODS, SYSTEMS};
-use crate::case::field::{FieldSection, Reach, Written, quoted};
-use crate::case::problem::{Problem, Problems, TomlSource};
-use crate::case::read::TOLERANCE;
-use crate::case::section::{Names, Range, Section};
+use crate::case::field::{FieldSection, Reach};
+use crate::case::model::{Model, model};
+use crate::case::problem::{Problem, Problems};
+use crate::case::section::Range;
 use crate::case::tree::Table;
-use crate::case::{self, CaseError, Simulation, Tables, name, overrides, tree};
+use crate::case::{self, CaseError, Simulation, Tables, name};
+use crate::reader::{CaseText, Reader, check_motions};
 pub use ::truck::WEDGE_NAMES;
-use reader::{Reader, check_motions};
 pub use sections::{Condition, Load};
 
 /// The case of a truck, ready to run.
@@ -44,37 +42,7 @@ pub struct TruckCase {
     pub settle: f64,
     /// How to run it. Its start is one of the parameters.
     pub simulation: Simulation,
-    text: String,
-    embedded: String,
-    fields: Vec<FieldSection>,
-}
-
-/// The models that a case file may be about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Model {
-    Wedge,
-    Truck,
-    Car,
-}
-
-/// Their names.
-pub(crate) const MODELS: Names<Model> = &[
-    ("wedge", Model::Wedge),
-    ("truck", Model::Truck),
-    ("car", Model::Car),
-];
-
-/// Returns the model of a case; a wedge if none is named.
-pub(crate) fn model(tree: &Table, problems: &mut Problems) -> Option<Model> {
-    let top = Section {
-        path: String::new(),
-        table: tree,
-        place: None,
-    };
-    match tree.get("model") {
-        None => Some(Model::Wedge),
-        Some(_) => top.choice("model", MODELS, problems),
-    }
+    text: CaseText,
 }
 
 impl TruckCase {
@@ -101,10 +69,7 @@ impl TruckCase {
         tables: impl Into<Tables<'t>>,
         overrides: &[String],
     ) -> Result<Self, CaseError> {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let mut tree = tree::parse(&TomlSource::new(source, text)).map_err(CaseError::new)?;
-        case::refuse_study(&tree, source)?;
-        let problems = overrides::apply(&mut tree, overrides);
+        let (tree, problems) = case::tree_with_overrides(source, text, overrides)?;
         Self::of_tree(&tree, source, tables.into(), problems)
     }
 
@@ -120,17 +85,7 @@ impl TruckCase {
         values: Option<&str>,
         tables: impl Into<Tables<'t>>,
     ) -> Result<Self, CaseError> {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let below = tree::parse(&TomlSource::new(source, text)).map_err(CaseError::new)?;
-        case::refuse_study(&below, source)?;
-        let tree = match values {
-            None => below,
-            Some(values) => {
-                let mut tree = tree::parse(&TomlSource::in_si("values", values)).map_err(CaseError::new)?;
-                tree.complete_from(&below);
-                tree
-            }
-        };
+        let tree = case::tree_with_values(source, text, values)?;
         Self::of_tree(&tree, source, tables.into(), Problems::new())
     }
 
@@ -161,14 +116,9 @@ impl TruckCase {
     /// Returns the same case under another name.
     #[must_use]
     pub fn named(&self, name: &str) -> Self {
-        let rename = |text: &str| {
-            let (_, rest) = text.split_once('\n').unwrap_or(("", text));
-            format!("name = {}\n{rest}", quoted(name))
-        };
         Self {
             name: name.to_owned(),
-            text: rename(&self.text),
-            embedded: rename(&self.embedded),
+            text: self.text.named(name),
             ..self.clone()
         }
     }
@@ -177,43 +127,30 @@ impl TruckCase {
     /// case.
     #[must_use]
     pub fn to_toml(&self) -> &str {
-        &self.text
+        &self.text.typed
     }
 
     /// Returns the same with the points of tables from files written into it, so that it runs from anywhere.
     #[must_use]
     pub fn to_toml_embedded(&self) -> &str {
-        &self.embedded
+        &self.text.embedded
     }
 
     /// Returns the whole case as fields, in the order of [`TruckCase::to_toml`] and with its texts.
     #[must_use]
     pub fn fields(&self) -> &[FieldSection] {
-        &self.fields
+        &self.text.fields
     }
 }
 
 /// Reads a case, section by section.
 fn read(tree: &Table, default_name: &str, tables: Tables<'_>, problems: &mut Problems) -> Option<TruckCase> {
-    let top = Section {
-        path: String::new(),
-        table: tree,
-        place: None,
-    };
-    let name = name::read(&top, default_name, problems)?;
-    let title = match tree.get("title") {
-        Some(_) => top.text("title", problems).map(|(text, _)| text)?,
-        None => "",
-    };
     let mut r = Reader::new(tree, tables, problems);
-    r.expect("", &["name", "title", "model"]);
-    r.top("name", Written::text(&name), "a folder name: results go there");
-    r.top("title", Written::text(title), "one line for people");
-    r.top(
-        "model",
-        Written::choice(MODELS, &Model::Truck),
+    let [name, title] = r.head(
+        default_name,
+        Model::Truck,
         "\"truck\", or \"wedge\" for a single one",
-    );
+    )?;
 
     r.section(
         "truck",
@@ -248,50 +185,28 @@ fn read(tree: &Table, default_name: &str, tables: Tables<'_>, problems: &mut Pro
     sections::check_something_moves(&mut r, &parameters);
     let settle = sections::start(&mut r, &mut parameters);
     let simulation = simulation(&mut r);
-    let (text, embedded, fields) = r.finish("a truck's case");
+    let text = r.finish("a truck's case");
     Some(TruckCase {
         name,
-        title: title.to_owned(),
+        title,
         parameters,
         settle,
         simulation,
         text,
-        embedded,
-        fields,
     })
 }
 
 fn simulation(r: &mut Reader<'_>) -> Simulation {
-    let mut simulation = Simulation {
+    let usual = Simulation {
         duration: 10.0,
         output_interval: 0.01,
         relative_tolerance: 1e-6,
         output_units: System::Us,
         method: Method::default(),
     };
-    let time = (Kind::Time, Range::Positive, Reach::Positive);
-    r.section("simulation", "How to run it.");
-    let duration = r.quantity("duration", time, &mut simulation.duration, "");
-    let comment = "time between two rows of the result; steps are chosen freely";
-    let interval = r.quantity("output_interval", time, &mut simulation.output_interval, comment);
-    let comment = "of the integrator, between 0 and 1";
-    let tolerance = &mut simulation.relative_tolerance;
-    r.number("relative_tolerance", TOLERANCE, Reach::Wide, tolerance, comment);
-    r.choice(
-        "output_units",
-        SYSTEMS,
-        &mut simulation.output_units,
-        "\"us\" (in, lbf) or \"si\" (m, N)",
-    );
-    r.choice(
-        "method",
-        METHODS,
-        &mut simulation.method,
-        "\"rodas5p\"; \"tr-bdf2\" and \"esdirk3\" damp vibrations",
-    );
-    if let (Some(duration), Some(interval), Some(section)) = (&duration, &interval, r.given()) {
-        case::read::check_rows(&section, duration, interval, r.problems);
-    }
+    let interval = "time between two rows of the result; steps are chosen freely";
+    let units = "\"us\" (in, lbf) or \"si\" (m, N)";
+    let (simulation, duration) = r.simulation(usual, interval, units);
     if let Some(duration) = &duration {
         check_motions(r, duration);
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use integrate::{Family, Integrator, Options};
+use integrate::{Integrator, Options};
 use mechanics::energy_balance::Entries;
 use mechanics::motion::Motion;
 use mechanics::output::Column;
@@ -125,16 +125,7 @@ impl RunCase for TruckCase {
     }
 
     fn options(&self) -> Options {
-        let method = self.simulation.method;
-        Options {
-            relative_tolerance: self.simulation.relative_tolerance,
-            maximum_step: match method.tableau().family {
-                // Rows are to be resolved.
-                Family::DiagonallyImplicit => self.simulation.output_interval,
-                _ => f64::INFINITY,
-            },
-            ..Options::of(method)
-        }
+        self.simulation.options()
     }
 
     fn begin(&self) -> Result<Beginning<TruckRecorder>, RunError> {

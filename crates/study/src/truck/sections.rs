@@ -16,12 +16,12 @@ pub(super) use load_springs::spring_stiffnesses;
 pub(crate) use wheelsets::adapter;
 pub(super) use wheelsets::wheelsets;
 
-use super::reader::{CLEARANCE, DAMPING, Form, Reader, STIFFNESS};
 use crate::case::field::Reach;
 use crate::case::problem::Problem;
 use crate::case::read::COEFFICIENT;
 use crate::case::section::{Names, Range, choice};
 use crate::case::write::FRICTION;
+use crate::reader::{CLEARANCE, DAMPING, Form, Reader, STIFFNESS};
 
 /// A named condition of a truck.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -149,11 +149,10 @@ pub(crate) fn bolster(r: &mut Reader<'_>, parameters: &mut Parameters, load: Loa
     } = &mut parameters.bolster;
     r.section(
         "bolster",
-        "The bolster, with load.kind = \"half_car\" together with half a car. A motion is one held value, a \
-         list of\n\
-         # motions to be added up, or one of\n\
-         # { shape = \"sine\", amplitude, frequency, phase, start }         frequency in rad/s, Hz or rpm\n\
-         # { shape = \"triangle\", amplitude, frequency, start }\n\
+        "The bolster, with load.kind = \"half_car\" together with half a car. A motion is one held value, \
+         a list of\n# motions to be added up, or one of\n\
+         # { shape = \"sine\", amplitude, frequency, phase, start }         frequency in rad/s, Hz or \
+         rpm\n# { shape = \"triangle\", amplitude, frequency, start }\n\
          # { shape = \"swept_sine\", amplitude, start_frequency, end_frequency, duration, start }   then \
          end_frequency\n\
          # { shape = \"ramp\", amplitude, start, duration, profile }            \

@@ -7,7 +7,6 @@ use truck::{ControlCoil, Parameters, Spring, WEDGE_NAMES, Wedge, WedgeKind};
 use wedge::face::Rectangle;
 use wedge::parameters::{ControlCoil as ThesisCoil, Damping};
 
-use super::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
 use super::sections::{contact, spring_stiffnesses};
 use crate::case::document::{FrictionLaw as Law, Toe, ToeDirection};
 use crate::case::face::{self, FaceSection};
@@ -16,6 +15,7 @@ use crate::case::problem::Problem;
 use crate::case::read::{ANGLE, COEFFICIENT, read_toe};
 use crate::case::section::{Names, Range};
 use crate::case::write::{ANGLES, FRICTION, WEAR, toe};
+use crate::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
 
 /// A wedge while its sections are read: laws of friction keep their numbers while another one is chosen.
 #[derive(Clone)]

@@ -127,8 +127,8 @@ fn input_set_reaches_trucks_track_and_speed() {
 fn analytic_center_of_gravity_of_an_off_center_lading() {
     let case = parse(
         "lading.kind = \"masses\"\n[[lading.masses]]\nname = \"coil\"\nweight = \"43060 lbf\"\n\
-         place = [\"20 in\", \"-10 in\", \"95 in\"]\ninertia = [\"1e5 lbf in s^2\", \"2e5 lbf in \
-         s^2\", \"2e5 lbf in s^2\"]",
+         place = [\"20 in\", \"-10 in\", \"95 in\"]\n\
+         inertia = [\"1e5 lbf in s^2\", \"2e5 lbf in s^2\", \"2e5 lbf in s^2\"]",
     );
     // As heavy as the empty body, whose center is at 65 in: halfway between.
     let center = case.parameters.center_of_gravity().map(|own| own / 0.0254);
@@ -142,8 +142,8 @@ fn analytic_center_of_gravity_of_an_off_center_lading() {
 #[test]
 fn analytic_start_speed_of_speeds_over_distance() {
     let case = parse(
-        "speed.kind = \"over_distance\"\nspeed.over_distance = [[\"0 ft\", \"60 mph\"], [\"1000 ft\", \"40 \
-         mph\"]]\n\
+        "speed.kind = \"over_distance\"\n\
+         speed.over_distance = [[\"0 ft\", \"60 mph\"], [\"1000 ft\", \"40 mph\"]]\n\
          start.distance = \"500 ft\"\n",
     );
     assert!((case.speed() - 50.0 * 0.447_04).abs() < 1e-9);
@@ -155,9 +155,8 @@ fn analytic_start_speed_of_speeds_over_distance() {
 #[test]
 fn input_a_track_in_a_file_is_embedded() {
     let folder = tempfile::tempdir().unwrap();
-    let track = "[[segments]]\ntangent = \"700 ft\"\n[[segments]]\nspiral = \"100 ft\"\n[[segments]]\ncurve \
-                 = \"3000 ft\"\n\
-                 degree = \"3 deg\"\n[support]\nkind = \"rigid\"\n";
+    let track = "[[segments]]\ntangent = \"700 ft\"\n[[segments]]\nspiral = \"100 ft\"\n[[segments]]\n\
+                 curve = \"3000 ft\"\ndegree = \"3 deg\"\n[support]\nkind = \"rigid\"\n";
     std::fs::write(folder.path().join("bend.toml"), track).unwrap();
     let path = folder.path().join("case.toml");
     std::fs::write(&path, "model = \"car\"\ntrack.file = \"bend.toml\"\n").unwrap();

@@ -35,8 +35,8 @@ fn input_messages_say_what_is_wrong_and_what_to_write() {
             &["there is no key `wieght` in `car`", "weight"],
         ),
         (
-            "[truck]\ncondition = \"worn\"\n[front_truck]\ncondition = \"new\"\n[rear_truck]\ncondition \
-             = \"new\"",
+            "[truck]\ncondition = \"worn\"\n[front_truck]\ncondition = \"new\"\n[rear_truck]\n\
+             condition = \"new\"",
             &[
                 "`truck.condition` has no effect: both trucks have their own",
                 "front_truck.condition",
@@ -97,16 +97,18 @@ fn input_messages_say_what_is_wrong_and_what_to_write() {
             &["`lading.masses` has no effect", "lading.kind = \"masses\""],
         ),
         (
-            "lading.kind = \"masses\"\nlading.masses = [{ weight = \"200 kip\", place = [\"0 in\", \"40 \
-             in\", \"80 in\"], inertia = [\"0 lbf in s^2\", \"0 lbf in s^2\", \"0 lbf in s^2\"] }]",
+            "lading.kind = \"masses\"\n\
+             lading.masses = [{ weight = \"200 kip\", place = [\"0 in\", \"40 in\", \"80 in\"], inertia = \
+             [\"0 lbf in s^2\", \"0 lbf in s^2\", \"0 lbf in s^2\"] }]",
             &[
                 "to the left of the middle, beyond the side bearings",
                 "tips over them",
             ],
         ),
         (
-            "lading.kind = \"masses\"\nlading.masses = [{ weight = \"200 kip\", place = [\"400 in\", \"0 \
-             in\", \"80 in\"], inertia = [\"0 lbf in s^2\", \"0 lbf in s^2\", \"0 lbf in s^2\"] }]",
+            "lading.kind = \"masses\"\n\
+             lading.masses = [{ weight = \"200 kip\", place = [\"400 in\", \"0 in\", \"80 in\"], inertia \
+             = [\"0 lbf in s^2\", \"0 lbf in s^2\", \"0 lbf in s^2\"] }]",
             &["beyond the front truck", "the car tips"],
         ),
         (
@@ -172,8 +174,8 @@ fn input_coils_that_would_go_solid_are_told() {
 fn input_length_of_a_track_counts_the_speeds_over_distance() {
     let slowing = |length: f64| {
         let text = format!(
-            "model = \"car\"\nspeed.kind = \"over_distance\"\nspeed.over_distance = [[\"0 ft\", \"60 \
-             mph\"], [\"1000 ft\", \"20 mph\"]]\n\
+            "model = \"car\"\nspeed.kind = \"over_distance\"\n\
+             speed.over_distance = [[\"0 ft\", \"60 mph\"], [\"1000 ft\", \"20 mph\"]]\n\
              simulation.duration = \"20 s\"\n[[track.segments]]\ntangent = \"{length} ft\""
         );
         CarCase::parse("c.toml", &text, Tables::nowhere(), &[])

@@ -17,10 +17,9 @@ fn run(case: &CarCase) -> CarResult {
     Run::new(case).unwrap().finish(|_| ())
 }
 
-const JOINT: &str = "speed.value = \"40 mph\"\n[[track.segments]]\ntangent = \"500 \
-                     ft\"\n[[track.irregularities]]\nshape = \"dip\"\n\
-                     rails = \"left\"\ndirection = \"vertical\"\ndepth = \"0.3 in\"\nlength = \"10 \
-                     ft\"\nstart = \"48 ft\"\n";
+const JOINT: &str = "speed.value = \"40 mph\"\n[[track.segments]]\ntangent = \"500 ft\"\n\
+                     [[track.irregularities]]\nshape = \"dip\"\nrails = \"left\"\n\
+                     direction = \"vertical\"\ndepth = \"0.3 in\"\nlength = \"10 ft\"\nstart = \"48 ft\"\n";
 
 /// The fixed columns stand first, in their order and with their units.
 #[test]
@@ -183,11 +182,10 @@ fn limits_a_stopped_run_keeps_its_rows() {
 fn limits_a_derailment_is_a_result() {
     let jog = |length: f64| {
         case(&format!(
-            "lading.kind = \"empty\"\nspeed.value = \"60 mph\"\n[[track.segments]]\ntangent = \"600 \
-             ft\"\n[[track.irregularities]]\n\
-             shape = \"jog\"\nrails = \"both\"\ndirection = \"lateral\"\noffset = \"5 in\"\nlength \
-             = \"{length} ft\"\n\
-             start = \"50 ft\"\n[simulation]\nduration = \"0.4 s\"\n"
+            "lading.kind = \"empty\"\nspeed.value = \"60 mph\"\n[[track.segments]]\ntangent = \"600 ft\"\n\
+             [[track.irregularities]]\nshape = \"jog\"\nrails = \"both\"\ndirection = \"lateral\"\n\
+             offset = \"5 in\"\nlength = \"{length} ft\"\nstart = \"50 ft\"\n[simulation]\n\
+             duration = \"0.4 s\"\n"
         ))
     };
     let result = run(&jog(3.0));

@@ -58,10 +58,11 @@ struct Key {
 /// Returns the page.
 pub fn page() -> String {
     let mut page = String::from(
-        "# Keys of cases\n\nAll keys of all models, as the program knows them; `cargo run --release -p \
-         study --example case_keys` writes this page. Values are text with units; US customary and SI units \
-         mix freely. A key is what `--set` takes; in a file the part before the last point is the name of a \
-         table. `wedgelab case NAME` prints a whole case with the same words.\n",
+        "# Keys of cases\n\n\
+         All keys of all models, as the program knows them; `cargo run --release -p study --example \
+         case_keys` writes this page. Values are text with units; US customary and SI units mix freely. A \
+         key is what `--set` takes; in a file the part before the last point is the name of a table. \
+         `wedgelab case NAME` prints a whole case with the same words.\n",
     );
     for (title, about, cases) in MODELS {
         let _ = write!(

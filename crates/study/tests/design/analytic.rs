@@ -210,8 +210,8 @@ fn analytic_ranges_scales_and_companions() {
 #[test]
 fn analytic_a_list_is_what_is_written() {
     let study = study(&format!(
-        "{HEAD}sampling = \"list\"\n[[variants]]\nfriction.column = 0.3\n[[variants]]\nwedge.angle = \"36 \
-         deg\"\n\
+        "{HEAD}sampling = \"list\"\n[[variants]]\nfriction.column = 0.3\n[[variants]]\n\
+         wedge.angle = \"36 deg\"\n\
          bolster.vertical = {{ shape = \"triangle\", amplitude = \"1 in\", frequency = \"0.5 Hz\" }}\n"
     ));
     assert_eq!(study.count(), 2);

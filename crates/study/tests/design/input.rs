@@ -148,8 +148,8 @@ fn input_the_document() {
             "vdrun",
         ),
         (
-            "case = \"vdrun_toe_0_psi_1\"\nsampling = \"sobol\"\nruns = 3\n[vary]\nfriction.column = { from \
-             = 0.1, to = 0.2 }\n",
+            "case = \"vdrun_toe_0_psi_1\"\nsampling = \"sobol\"\nruns = 3\n[vary]\n\
+             friction.column = { from = 0.1, to = 0.2 }\n",
             "neither a case file",
             "\"vdrun_toe_0_psi_1\"",
             "vdrun_toe_0_psi_0",
@@ -180,8 +180,8 @@ fn input_the_document() {
         ),
         (
             &format!(
-                "{HEAD}sampling = \"sobol\"\nruns = 5\n[vary]\nfriction.column = {{ from = 0.1, to = 0.2, \
-                 count = 4 }}\n"
+                "{HEAD}sampling = \"sobol\"\nruns = 5\n[vary]\n\
+                 friction.column = {{ from = 0.1, to = 0.2, count = 4 }}\n"
             ),
             "takes all values",
             "count",

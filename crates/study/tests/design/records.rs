@@ -124,8 +124,8 @@ fn limits_a_study_from_its_texts_is_the_same() {
 #[test]
 fn input_variants_that_fail_are_records_with_reasons() {
     let study = study(&format!(
-        "{HEAD}sampling = \"full_factorial\"\n{SHORT}[vary]\nsimulation.output_interval = [\"0.01 \
-         s\", \"0.015 s\"]\n\
+        "{HEAD}sampling = \"full_factorial\"\n{SHORT}[vary]\n\
+         simulation.output_interval = [\"0.01 s\", \"0.015 s\"]\n\
          bolster.vertical = [\"0 in\", {{ shape = \"table\", points = [[\"0 s\", \"0 in\"], [\"0.01 \
          s\", \"0 in\"], [\"0.02 s\", \"0 in\"], [\"0.03 s\", \"0 in\"]] }}]\n\
          wedge.inertia = [[\"400 lb in^2\", \"200 lb in^2\", \"300 lb in^2\"], [\"1e-300 lb \
@@ -152,10 +152,9 @@ fn bytes_of(study: &Study, numbers: impl IntoIterator<Item = u64>) -> Vec<u8> {
 fn mixed() -> Study {
     study(&format!(
         "{HEAD}sampling = \"full_factorial\"\n[vary]\nwedge.damping = [\"variable\", \"constant\"]\n\
-         friction.law = [\"tanh\", \"bristle\"]\nsimulation.relative_tolerance = [1e-6, \
-         1e-3]\nfriction.column = [0.3, 0.4]\n\
-         simulation.output_interval = [\"0.01 s\", \"0.03 s\"]\nsimulation.duration = [\"0.02 s\", \"0.04 \
-         s\"]\n\
+         friction.law = [\"tanh\", \"bristle\"]\nsimulation.relative_tolerance = [1e-6, 1e-3]\n\
+         friction.column = [0.3, 0.4]\nsimulation.output_interval = [\"0.01 s\", \"0.03 s\"]\n\
+         simulation.duration = [\"0.02 s\", \"0.04 s\"]\n\
          wedge.inertia = [[\"400 lb in^2\", \"200 lb in^2\", \"300 lb in^2\"], [\"1e-300 lb \
          in^2\", \"1e-300 lb in^2\", \"1e-300 lb in^2\"]]\n"
     ))
@@ -180,8 +179,8 @@ fn limits_variants_have_the_same_records_in_any_order() {
 #[test]
 fn energy_a_variant_whose_ledger_does_not_close_has_failed_and_keeps_its_measures() {
     let study = study(
-        "case = \"vdrun_toe_0_psi_0.012\"\nsampling = \"full_factorial\"\naccuracy \
-         = \"engineering\"\n[vary]\nsimulation.relative_tolerance = [1.5e-5, 1e-2]\n",
+        "case = \"vdrun_toe_0_psi_0.012\"\nsampling = \"full_factorial\"\naccuracy = \"engineering\"\n\
+         [vary]\nsimulation.relative_tolerance = [1.5e-5, 1e-2]\n",
     );
     let records = [0, 1].map(|number| records::run(&study, number));
     assert_eq!(

@@ -98,8 +98,8 @@ fn input_messages_say_what_is_wrong_and_what_to_write() {
             &["`wedge.kind` cannot be \"weightless\"", "massless"],
         ),
         (
-            "[wedge]\nkind = \"massless\"\n[side_frame]\nfree_coordinates = []\n[adapter]\nkind \
-             = \"nothing\"",
+            "[wedge]\nkind = \"massless\"\n[side_frame]\nfree_coordinates = []\n[adapter]\n\
+             kind = \"nothing\"",
             &["nothing can move", "no wedge has mass", "drive the wheelsets"],
         ),
         (
@@ -130,8 +130,8 @@ fn input_messages_say_what_is_wrong_and_what_to_write() {
             &["`friction.law` cannot be \"coulomb\""],
         ),
         (
-            "[load]\nkind = \"car_body\"\n[side_bearing]\nkind = \"constant_contact\"\npreload = \"90000 \
-             lbf\"",
+            "[load]\nkind = \"car_body\"\n[side_bearing]\nkind = \"constant_contact\"\n\
+             preload = \"90000 lbf\"",
             &["more than the body's weight"],
         ),
     ] {

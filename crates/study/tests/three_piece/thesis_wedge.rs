@@ -52,16 +52,14 @@ fn mounted(number: usize, damping: &str, toe: &str) -> Averages {
         .map(|other| format!("[wedge.{other}]\ncolumn_wear = \"1 in\"\n"))
         .collect();
     let text = format!(
-        "model = \"truck\"\n[truck]\ndamping = \"{damping}\"\n\
-         [bolster]\ncenter = [\"{} in\", \"{} in\", \"{} in\"]\n\
-         vertical = {{ shape = \"sine\", amplitude = \"1 in\", frequency = \"2 rad/s\" }}\nyaw = \"0.012 \
-         rad\"\n\
-         [side_frame]\nfree_coordinates = []\ntoe = \"{toe}\"\n[adapter]\nkind = \"nothing\"\n\
-         [wedge]\ninertia = [\"100 lb in^2\", \"100 lb in^2\", \"100 lb in^2\"]\n\
-         free_coordinates = [\"x\", \"z\", \"pitch\", \"yaw\"]\n\
-         [control_coil]\nkind = \"thesis\"\ncenter_of_gravity = {CENTER}\n[contact]\ndamping = \"0 lbf \
-         s/in\"\n[friction]\nlaw = \"tanh\"\n{others}\
-         [simulation]\nduration = \"10 s\"\nrelative_tolerance = 1e-9\n",
+        "model = \"truck\"\n[truck]\ndamping = \"{damping}\"\n[bolster]\n\
+         center = [\"{} in\", \"{} in\", \"{} in\"]\n\
+         vertical = {{ shape = \"sine\", amplitude = \"1 in\", frequency = \"2 rad/s\" }}\n\
+         yaw = \"0.012 rad\"\n[side_frame]\nfree_coordinates = []\ntoe = \"{toe}\"\n[adapter]\n\
+         kind = \"nothing\"\n[wedge]\ninertia = [\"100 lb in^2\", \"100 lb in^2\", \"100 lb in^2\"]\n\
+         free_coordinates = [\"x\", \"z\", \"pitch\", \"yaw\"]\n[control_coil]\nkind = \"thesis\"\n\
+         center_of_gravity = {CENTER}\n[contact]\ndamping = \"0 lbf s/in\"\n[friction]\nlaw = \"tanh\"\n\
+         {others}[simulation]\nduration = \"10 s\"\nrelative_tolerance = 1e-9\n",
         center[0], center[1], center[2]
     );
     let case = TruckCase::parse("mount.toml", &text, study::case::Tables::nowhere(), &[]).unwrap();

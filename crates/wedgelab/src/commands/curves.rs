@@ -89,11 +89,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     table(&name, &loops).write(&mut out)?;
     writeln!(
         out,
-        "\nOf both nests, over the last whole cycle. Stiffness: from the lower to the upper end. Friction: \
-         half the width of the loop in\n\
+        "\nOf both nests, over the last whole cycle. Stiffness: from the lower to the upper end. \
+         Friction: half the width of the loop in\n\
          its middle. Energy: its area. Loss ratio: energy over 2 pi, stiffness and the square of the \
-         amplitude.\n\n\
-         Written into {}: {}.",
+         amplitude.\n\nWritten into {}: {}.",
         folder.path().display(),
         NAMES.join(", ")
     )?;

@@ -82,10 +82,11 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let critical = wedge.critical_friction();
     writeln!(
         out,
-        "\n* What the motion chooses. With the bolster going down, friction of the slope acts on the wedge \
-         down the slope if\n  the toe is out, up the slope if it is in; with the bolster going up, the \
-         reverse. {}\n\nCritical friction, equal at both faces, above which the wedge jams with the bolster \
-         going down and the slope's\nfriction up the slope: {critical:.4}.",
+        "\n* What the motion chooses. With the bolster going down, friction of the slope acts on the \
+         wedge down the slope if\n  the toe is out, up the slope if it is in; with the bolster going up, \
+         the reverse. {}\n\n\
+         Critical friction, equal at both faces, above which the wedge jams with the bolster going down \
+         and the slope's\nfriction up the slope: {critical:.4}.",
         if wedge.toe == 0.0 {
             "Without toe the slope does\n  not slip; toe out is the usual choice."
         } else {

@@ -179,8 +179,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     table(summaries.zip(walls.iter().copied())).write(&mut out)?;
     writeln!(
         out,
-        "\n{TABLE_NOTE}\n\nWritten into {}: {} (the report; open it in a browser), {}, {}/ ({figures} \
-         figures as SVG and PNG), runs/NAME/{{{}}}.",
+        "\n{TABLE_NOTE}\n\n\
+         Written into {}: {} (the report; open it in a browser), {}, {}/ ({figures} figures as SVG and \
+         PNG), runs/NAME/{{{}}}.",
         places.sheets.path().display(),
         page::FILE_NAME,
         claims::FILE_NAME,

@@ -144,8 +144,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     writeln!(
         out,
         "\nGrowth and frequency of the vibration that grows most, of 0.05 to 30 Hz; positive growth is \
-         hunting. Limits: small motions;\na car may hunt below these speeds once it has been \
-         disturbed.\n\nWritten into {}: {}.",
+         hunting. Limits: small motions;\na car may hunt below these speeds once it has been disturbed.\n\
+         \nWritten into {}: {}.",
         folder.path().display(),
         NAMES.join(", ")
     )?;

@@ -118,9 +118,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         out,
         "\nWarp moment on the bolster over the warp angle where an angle is reached first, of the whole \
          truck, kip·in/mrad. Loop:\n\
-         energy that the last whole cycle takes. Where a nest locks, contact.stiffness and the bristles set \
-         the moment.\n\n\
-         Written into {}: {}.",
+         energy that the last whole cycle takes. Where a nest locks, contact.stiffness and the bristles \
+         set the moment.\n\nWritten into {}: {}.",
         folder.path().display(),
         NAMES.join(", ")
     )?;

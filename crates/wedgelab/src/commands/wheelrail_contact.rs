@@ -307,8 +307,8 @@ fn write(wheels: &[LoadedWheel; 2], out: &mut impl Write) -> io::Result<()> {
             )?,
             Seat::FlangeTip => writeln!(
                 out,
-                "The {side} wheel has climbed: it stands on the tip of its flange, above the flange's face; \
-                 its center, at y = {y:.2} mm,\nis {height:.3} mm above the top of its rail."
+                "The {side} wheel has climbed: it stands on the tip of its flange, above the flange's \
+                 face; its center, at y = {y:.2} mm,\nis {height:.3} mm above the top of its rail."
             )?,
             Seat::RimEdge => writeln!(
                 out,

@@ -390,8 +390,7 @@ fn told(summary: &WheelsetSummary, out: &mut impl Write) -> io::Result<()> {
         writeln!(
             out,
             "\nAbout steady rolling at this speed on straight perfect track the least damped lateral \
-             vibration has {:.2} Hz and a\n\
-             damping ratio of {:.3}: {what}.",
+             vibration has {:.2} Hz and a\ndamping ratio of {:.3}: {what}.",
             found.frequency_hz, found.damping_ratio
         )?;
     }

@@ -315,8 +315,7 @@ fn spin(out: &mut String) {
         out,
         &format!(
             "\nAgainst the half-space: Fy of Polach {:+.1} %, of Shen-Hedrick-Elkins {:+.1} %; FASTSIM's \
-             spin moment is a\n\
-             fifth too small, as in CONTACT's own.",
+             spin moment is a\nfifth too small, as in CONTACT's own.",
             against(polach),
             against(cubic)
         ),

@@ -2,10 +2,10 @@
 
 use truck::{CarBody, CenterPlate, Lading, Parameters, SideBearing, SideBearings};
 
-use super::super::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
 use super::{HEIGHT, Load, clearance, contact, friction, rigid_body};
 use crate::case::problem::Problem;
 use crate::case::section::Names;
+use crate::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
 
 pub(in crate::truck) fn car_body(
     r: &mut Reader<'_>,

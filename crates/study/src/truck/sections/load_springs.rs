@@ -4,10 +4,10 @@ use quantity::Kind;
 use truck::nest::{CatalogCoil, springs, whole_nest};
 use truck::{NestCoil, Parameters, Spring};
 
-use super::super::reader::{DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
 use crate::case::field::Reach;
 use crate::case::problem::Problem;
 use crate::case::section::{Names, Range};
+use crate::reader::{DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
 
 /// Whether load coils are groups or single coils.
 #[derive(Clone, Copy, PartialEq)]

@@ -2,10 +2,10 @@
 
 use truck::{Adapter, FrictionAdapter, Parameters, Wheelsets};
 
-use super::super::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
 use super::{contact, friction};
 use crate::case::problem::Problem;
 use crate::case::section::Names;
+use crate::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
 
 /// Kinds of adapters.
 #[derive(Clone, Copy, PartialEq)]

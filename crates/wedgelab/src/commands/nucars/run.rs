@@ -175,9 +175,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     writeln!(
         out,
-        "\n{TABLE_NOTE}\nRelative residual of the energy ledger: {:.1e}, the largest at any output time \
-         over the largest of work, losses and\n\
-         change of stored energy.\n\nWritten into {}: {} (open it in a browser).",
+        "\n{TABLE_NOTE}\n\
+         Relative residual of the energy ledger: {:.1e}, the largest at any output time over the largest \
+         of work, losses and\nchange of stored energy.\n\nWritten into {}: {} (open it in a browser).",
         summary.largest_relative_residual,
         folder.path().display(),
         names.join(", ")

@@ -1,0 +1,245 @@
+//! Keys of all kinds but motions.
+
+use quantity::{Kind, Quantity, STANDARD_GRAVITY, System};
+
+use super::{Form, Reader, WEIGHT};
+use crate::case::document::Coordinate;
+use crate::case::face::FaceSection;
+use crate::case::field::{Reach, Written};
+use crate::case::problem::{Problem, Problems};
+use crate::case::section::{self, Names, Range, Section};
+use crate::case::tree::Value;
+
+impl Reader<'_> {
+    pub fn quantity(
+        &mut self,
+        key: &'static str,
+        form: Form,
+        value: &mut f64,
+        comment: &str,
+    ) -> Option<Quantity> {
+        let (kind, range, reach) = form;
+        let node = self.node(key);
+        let quantity = match node {
+            Some(node) => section::quantity(node, &self.path(key), kind, range, self.problems)?,
+            None => in_customary_units(*value, kind)?,
+        };
+        *value = quantity.to_si();
+        self.line(
+            key,
+            node.is_some(),
+            Written::quantity(&quantity, kind, reach),
+            comment,
+        );
+        Some(quantity)
+    }
+
+    /// A quantity that may be left out.
+    pub fn optional(
+        &mut self,
+        key: &'static str,
+        form: Form,
+        value: &mut Option<f64>,
+        example: &str,
+        comment: &str,
+    ) {
+        let given = self
+            .table_at(&self.section)
+            .is_some_and(|table| table.get(key).is_some());
+        if let (false, None) = (given, &value) {
+            self.node(key);
+            if !self.overlay {
+                for page in &mut self.pages {
+                    page.absent(key, example, comment);
+                }
+            }
+            return;
+        }
+        let mut own = value.unwrap_or_default();
+        self.quantity(key, form, &mut own, comment);
+        *value = Some(own);
+    }
+
+    /// A mass, typed as the force that it weighs under standard gravity.
+    pub fn weight(&mut self, mass: &mut f64, comment: &str) {
+        let mut weight = *mass * STANDARD_GRAVITY;
+        self.quantity("weight", WEIGHT, &mut weight, comment);
+        *mass = weight / STANDARD_GRAVITY;
+    }
+
+    pub fn triple(&mut self, key: &'static str, form: Form, values: &mut [f64; 3], comment: &str) {
+        let (kind, range, reach) = form;
+        let given = self.node(key).is_some();
+        let triple = match self.given().filter(|_| given) {
+            Some(section) => section.triple(key, kind, range, self.problems),
+            None => {
+                let [a, b, c] = values.map(|value| in_customary_units(value, kind));
+                a.zip(b).zip(c).map(|((a, b), c)| [a, b, c])
+            }
+        };
+        let Some(triple) = triple else { return };
+        *values = triple.each_ref().map(Quantity::to_si);
+        self.line(key, given, Written::triple(&triple, kind, reach), comment);
+    }
+
+    pub fn number(&mut self, key: &'static str, range: Range, reach: Reach, value: &mut f64, comment: &str) {
+        let given = self.node(key).is_some();
+        if let Some(section) = self.given().filter(|_| given) {
+            let example = format!("{value:?}");
+            let Some(number) = section.number(key, range, &example, self.problems) else {
+                return;
+            };
+            *value = number;
+        }
+        self.line(key, given, Written::number(*value, reach), comment);
+    }
+
+    pub fn truth(&mut self, key: &'static str, value: &mut bool, comment: &str) {
+        let given = self.node(key).is_some();
+        if let Some(section) = self.given().filter(|_| given) {
+            let Some(truth) = section.truth(key, self.problems) else {
+                return;
+            };
+            *value = truth;
+        }
+        self.line(key, given, Written::truth(*value), comment);
+    }
+
+    pub fn choice<T: Copy + PartialEq>(
+        &mut self,
+        key: &'static str,
+        names: Names<T>,
+        value: &mut T,
+        comment: &str,
+    ) {
+        let node = self.node(key);
+        if let Some(node) = node {
+            let Some(choice) = section::choice(node, &self.path(key), names, self.problems) else {
+                return;
+            };
+            *value = choice;
+        }
+        self.line(key, node.is_some(), Written::choice(names, value), comment);
+    }
+
+    /// A list of names of choices.
+    pub fn several<T: Copy + PartialEq>(
+        &mut self,
+        key: &'static str,
+        names: Names<T>,
+        values: &mut Vec<T>,
+        comment: &str,
+    ) {
+        let node = self.node(key);
+        if let Some(node) = node {
+            let path = self.path(key);
+            let Value::List(items) = &node.value else {
+                let found = node.value.describe();
+                let problem = Problem::new(format!("`{path}` is {found}; a list is expected"));
+                let known: Vec<&str> = names.iter().map(|(name, _)| *name).collect();
+                let help = format!("list some of \"{}\"; [] for none", known.join("\", \""));
+                self.problems
+                    .push(problem.at(&node.place).label("not a list").help(help));
+                return;
+            };
+            let mut list = Vec::new();
+            for item in items {
+                let Some(choice) = section::choice(item, &path, names, self.problems) else {
+                    return;
+                };
+                if list.contains(&choice) {
+                    let name = section::name_of(names, &choice);
+                    let problem = Problem::new(format!("`{path}` names \"{name}\" twice"));
+                    let problem = problem.at(&item.place).label("named before").help("name it once");
+                    self.problems.push(problem);
+                    return;
+                }
+                list.push(choice);
+            }
+            *values = list;
+        }
+        self.line(key, node.is_some(), Written::several(names, values), comment);
+    }
+
+    /// The coordinates that are free; `none` says what is wrong if there are none, if that is wrong.
+    pub fn free_coordinates(&mut self, free: &mut [bool; 6], none: Option<&str>, comment: &str) {
+        let mut list: Vec<Coordinate> = Coordinate::NAMES
+            .iter()
+            .filter(|(_, coordinate)| free[*coordinate as usize])
+            .map(|(_, coordinate)| *coordinate)
+            .collect();
+        self.several("free_coordinates", Coordinate::NAMES, &mut list, comment);
+        if let Some(none) = none.filter(|_| list.is_empty()) {
+            let path = self.path("free_coordinates");
+            let problem = Problem::new(format!("`{path}` is empty: {none}"));
+            let help = "list the free ones of \"x\", \"y\", \"z\", \"roll\", \"pitch\", \"yaw\"";
+            self.problem_at(&path, problem.label("nothing is free").help(help));
+        }
+        *free = [false; 6];
+        for coordinate in list {
+            free[coordinate as usize] = true;
+        }
+    }
+
+    /// Anything that another function reads from the current section, if it is given, and writes.
+    pub fn other<T>(
+        &mut self,
+        key: &'static str,
+        comment: &str,
+        default: T,
+        read: impl FnOnce(&Section<'_>, &mut Problems) -> Option<T>,
+        write: impl FnOnce(&T) -> Written,
+    ) -> T {
+        let given = self.node(key).is_some();
+        let value = match self.given().filter(|_| given) {
+            Some(section) => read(&section, self.problems).unwrap_or(default),
+            None => default,
+        };
+        self.line(key, given, write(&value), comment);
+        value
+    }
+
+    /// The keys of a face of a wedge.
+    pub fn face(&mut self, face: &mut FaceSection) {
+        let given = |key: &str| {
+            self.table_at(&self.section)
+                .is_some_and(|table| table.get(key).is_some())
+        };
+        let given: Vec<bool> = FaceSection::KEYS.iter().map(|key| given(key)).collect();
+        for key in FaceSection::KEYS {
+            self.node(key);
+        }
+        if let Some(section) = self.given()
+            && let Some(read) = face.read_over(&section, self.tables, self.problems)
+        {
+            *face = read;
+        }
+        let mut embedded = face.clone();
+        embedded.tables_mut().for_each(|table| table.file = None);
+        let overlay = self.overlay;
+        for (page, face) in self.pages.iter_mut().zip([&*face, &embedded]) {
+            for (line, given) in face.lines().into_iter().zip(&given) {
+                match line.value {
+                    Some(value) if *given || !overlay => page.line(line.key, value, line.comment),
+                    None if !overlay => page.absent(line.key, line.example, line.comment),
+                    _ => {}
+                }
+            }
+        }
+    }
+}
+
+/// An SI value in the customary unit of its kind, with the fewest digits that differ from it by rounding
+/// only.
+pub(super) fn in_customary_units(value: f64, kind: Kind) -> Option<Quantity> {
+    let unit = match kind {
+        Kind::Inertia => "lbf in s^2",
+        Kind::Acceleration => "m/s^2",
+        other => other.unit(System::Us),
+    };
+    let one = Quantity::new(1.0, unit).ok()?.to_si();
+    let number = value / one;
+    let rounded = (0..17).filter_map(|decimals| format!("{number:.decimals$e}").parse::<f64>().ok());
+    let near = |rounded: &f64| (rounded - number).abs() <= 1e-14 * number.abs();
+    Quantity::new(rounded.into_iter().find(near).unwrap_or(number), unit).ok()
+}

@@ -1,0 +1,144 @@
+//! Motions of bodies, and loads on them.
+
+use mechanics::motion::Motion;
+use quantity::{Kind, Quantity};
+use wedge::parameters::NeighbourMotion;
+
+use super::Reader;
+use super::keys::in_customary_units;
+use crate::case::document::{Coordinate, NeighbourSection};
+use crate::case::field::{Reach, Written};
+use crate::case::problem::Problem;
+use crate::case::section::Range;
+use crate::case::write::{TURN, write_motion};
+use crate::case::{self, motion, resolve};
+
+impl Reader<'_> {
+    /// The motions of a body; `free` says that it has free coordinates and must not be moved.
+    pub fn motions(&mut self, own: &mut NeighbourMotion, free: bool) {
+        let given = self.node("center").is_some();
+        if let Some(section) = self.given().filter(|_| given) {
+            if let Some(typed) = section.triple("center", Kind::Length, Range::Any, self.problems) {
+                own.center = Some(typed.each_ref().map(Quantity::to_si));
+                let written = Written::triple(&typed, Kind::Length, Reach::Signed(0.0254));
+                self.line("center", true, written, "the point it turns about, in truck axes");
+            }
+        } else if !self.overlay {
+            for page in &mut self.pages {
+                let comment = "the point it turns about, in truck axes; left out, its center of gravity";
+                page.absent("center", r#"["0 in", "0 in", "0 in"]"#, comment);
+            }
+        }
+        for (at, key) in NeighbourSection::COORDINATES.into_iter().enumerate() {
+            let (kind, most) = if at < 3 {
+                (Kind::Length, 0.0254)
+            } else {
+                (Kind::Angle, TURN)
+            };
+            self.motion(key, kind, most, &mut own.coordinates[at], free);
+        }
+    }
+
+    /// The loads on the free coordinates of a body, in a section within its own.
+    pub fn loads(&mut self, body: &str, applied: &mut [Motion; 6], free: [bool; 6]) {
+        let path = format!("{body}.load");
+        let about = "Loads on its free coordinates over time: forces at its center of gravity, moments \
+                     about its axes.\n\
+                     # Written as motions are, in units of forces and moments.";
+        if !self.overlay(&path, about) {
+            return;
+        }
+        for (at, key) in NeighbourSection::COORDINATES.into_iter().enumerate() {
+            let (kind, most) = if at < 3 {
+                (Kind::Force, 1e5)
+            } else {
+                (Kind::Moment, 1e5)
+            };
+            self.motion(key, kind, most, &mut applied[at], false);
+            if !free[at] && applied[at] != Motion::Constant(0.0) {
+                let path = self.path(key);
+                let problem = Problem::new(format!("`{path}` loads a coordinate that is not free"));
+                let help = format!(
+                    "add \"{}\" to {body}.free_coordinates, or prescribe {body}.{key} instead",
+                    Coordinate::NAMES[at].0
+                );
+                self.problem_at(&path, problem.label("this would have no effect").help(help));
+            }
+        }
+    }
+
+    fn motion(&mut self, key: &'static str, kind: Kind, most: f64, value: &mut Motion, free: bool) {
+        let path = self.path(key);
+        let Some(node) = self.node(key) else {
+            if let (false, Motion::Constant(held)) = (self.overlay, &*value)
+                && let Some(held) = in_customary_units(*held, kind)
+            {
+                self.line(
+                    key,
+                    false,
+                    Written::quantity(&held, kind, Reach::Signed(most)),
+                    "",
+                );
+            }
+            return;
+        };
+        let Some(typed) = motion::read(node, &path, kind, self.tables, self.problems) else {
+            return;
+        };
+        match resolve::motion(&typed) {
+            Ok(motion) => *value = motion,
+            Err(reason) => {
+                let problem = Problem::new(format!("`{path}`: {reason}")).at(&node.place);
+                self.problems.push(problem);
+                return;
+            }
+        }
+        if free && *value != Motion::Constant(0.0) {
+            let problem =
+                Problem::new(format!("`{path}` moves a body that has free coordinates")).at(&node.place);
+            let help = format!(
+                "write {}.free_coordinates = [] to prescribe its motion, or leave the motion out",
+                self.section
+            );
+            self.problems
+                .push(problem.label("this would have no effect").help(help));
+        }
+        if let motion::Motion::Constant(held) = &typed {
+            self.line(key, true, Written::quantity(held, kind, Reach::Signed(most)), "");
+        } else {
+            let mut embedded = typed.clone();
+            for table in embedded.tables_mut() {
+                table.file = None;
+            }
+            for (page, motion) in self.pages.iter_mut().zip([&typed, &embedded]) {
+                page.line(
+                    key,
+                    Written::toml_in_units(|system| motion.to_toml_in(kind, system)),
+                    "",
+                );
+                write_motion(page, key, motion, kind, most);
+            }
+        }
+        self.motions.push((path, typed));
+    }
+}
+
+/// The check of tables in motions against the duration.
+pub(crate) fn check_motions(reader: &mut Reader<'_>, duration: &Quantity) {
+    let (tree, tables) = (reader.tree, reader.tables);
+    let mut rows = 0;
+    for (path, motion) in &reader.motions {
+        case::read::check_motion_covers(path, motion, duration, tree, tables, reader.problems);
+        rows += motion
+            .tables()
+            .iter()
+            .map(|table| table.rows.len())
+            .sum::<usize>();
+    }
+    if rows > input::limits::CASE_ROWS {
+        let most = input::limits::CASE_ROWS;
+        let message = format!("the tables of the case have {rows} rows together; at most {most} are read");
+        let problem = Problem::new(message).help("leave out rows: motions are smooth between them");
+        reader.problems.push(problem);
+    }
+}

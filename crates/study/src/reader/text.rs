@@ -1,0 +1,29 @@
+//! A completed case as text.
+
+use crate::case::field::{FieldSection, quoted};
+
+/// A complete, commented case file, and its fields.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct CaseText {
+    /// As typed.
+    pub typed: String,
+    /// With the contents of files that it names.
+    pub embedded: String,
+    /// Its fields, in the order of the file.
+    pub fields: Vec<FieldSection>,
+}
+
+impl CaseText {
+    /// Returns the same of a case with another name, which stands in the first line.
+    pub fn named(&self, name: &str) -> Self {
+        let rename = |text: &str| {
+            let (_, rest) = text.split_once('\n').unwrap_or(("", text));
+            format!("name = {}\n{rest}", quoted(name))
+        };
+        Self {
+            typed: rename(&self.typed),
+            embedded: rename(&self.embedded),
+            fields: self.fields.clone(),
+        }
+    }
+}
