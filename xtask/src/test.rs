@@ -1,8 +1,8 @@
 //! `cargo xtask test`: all checks, one after the other, and a table of what came out.
 
 mod deny;
-mod floors;
 mod fmu;
+mod layers;
 mod links;
 mod octave;
 mod page;
@@ -54,9 +54,9 @@ impl Check {
 const CHECKS: &[Check] = &[
     Check::new("fmt", "the code is formatted", format),
     Check::new(
-        "floors",
-        "every crate depends on lower floors only",
-        floors::check,
+        "layers",
+        "every crate depends on lower layers only",
+        layers::check,
     ),
     Check::new("prose", "no file points outside the repository", prose::check),
     Check::new("links", "links between pages lead somewhere", links::check),

@@ -26,7 +26,7 @@ pub struct NativeCase {
 }
 
 impl NativeCase {
-    /// Of a case of lower floors.
+    /// Of a case of lower layers.
     pub fn new(case: Case) -> Self {
         Self { case: Arc::new(case) }
     }

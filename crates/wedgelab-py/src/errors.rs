@@ -1,4 +1,4 @@
-//! From errors of lower floors to Python's exceptions, which are classes of `wedgelab.errors`.
+//! From errors of lower layers to Python's exceptions, which are classes of `wedgelab.errors`.
 
 use input::{bounded, limits};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -151,7 +151,7 @@ pub fn unit_error(py: Python<'_>, text: &str, error: &UnitError) -> PyErr {
     raise(py, "UnitError", (error.to_string(), shown))
 }
 
-/// Does something that calls into lower floors; a panic there, which is a mistake of ours, becomes
+/// Does something that calls into lower layers; a panic there, which is a mistake of ours, becomes
 /// `wedgelab.InternalError`.
 pub fn guarded<T>(py: Python<'_>, work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
     match catch_unwind(AssertUnwindSafe(work)) {

@@ -1,11 +1,11 @@
 //! The native part of the Python package `wedgelab`: what its Python part calls.
 //!
-//! Python code in `python/wedgelab` gives it names, types and tables; the work is done by lower floors. One
+//! Python code in `python/wedgelab` gives it names, types and tables; the work is done by lower layers. One
 //! module a thing: `case`, `outcome` (results), `run` and `many` (running), `step` (users' own loops),
 //! `study`, `figures`, `nucars` and `half_truck`, `truck`, `quasi_static`, `wheelrail`, `quantity`, and
 //! `values` and `errors` for the way between the languages.
 //!
-//! Nothing panics through: what calls into lower floors runs in `errors::guarded`.
+//! Nothing panics through: what calls into lower layers runs in `errors::guarded`.
 
 use pyo3::prelude::*;
 

@@ -40,7 +40,7 @@ macro_rules! model_case {
         }
 
         impl $native {
-            /// Of a case of lower floors.
+            /// Of a case of lower layers.
             pub fn new(case: $case) -> Self {
                 Self {
                     case: Arc::new(case),

@@ -166,7 +166,7 @@ impl NativeResult {
         self.table.summary.get().units()
     }
 
-    /// Case and result as lower floors have them; `None` for half-trucks.
+    /// Case and result as lower layers have them; `None` for half-trucks.
     pub fn outcome(&self) -> Option<(Case, RunResult)> {
         let (Origin::Wedge(case), AnySummary::Wedge(summary)) = (&self.origin, &self.table.summary) else {
             return None;
@@ -174,7 +174,7 @@ impl NativeResult {
         Some(((**case).clone(), self.result(&**summary)))
     }
 
-    /// The half-truck's result as lower floors have it; `None` for others.
+    /// The half-truck's result as lower layers have it; `None` for others.
     pub fn half_truck(&self) -> Option<HalfTruckResult> {
         let AnySummary::HalfTruck(summary) = &self.table.summary else {
             return None;

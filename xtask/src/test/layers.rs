@@ -1,4 +1,4 @@
-//! The house has floors: a crate depends on crates of lower floors only, never on its own or a higher one.
+//! The workspace has layers: a crate depends on crates of lower layers only, never on its own or a higher one.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -9,19 +9,19 @@ use toml::{Table, Value};
 use super::Outcome;
 use crate::shell::Workspace;
 
-/// The floors from the ground up, and the crates on each.
-const FLOORS: &[(&str, &[&str])] = &[
+/// The layers from the lowest up, and the crates of each.
+const LAYERS: &[(&str, &[&str])] = &[
     ("reading", &["input"]),
-    ("ground", &["numerics", "quantity"]),
+    ("foundation", &["numerics", "quantity"]),
     ("integration", &["integrate", "wheelrail"]),
     ("mechanics", &["mechanics"]),
     ("systems", &["wedge", "nucars", "rolling"]),
     ("trucks", &["truck"]),
     ("vehicles", &["car"]),
-    ("asking", &["study"]),
-    ("telling", &["report", "fmi"]),
+    ("analysis", &["study"]),
+    ("output", &["report", "fmi"]),
     (
-        "front doors",
+        "interfaces",
         &[
             "wedgelab",
             "wedgelab-py",
@@ -40,9 +40,9 @@ pub fn check(workspace: &Workspace) -> Outcome {
     let broken: Vec<String> = crates.iter().flat_map(violations).collect();
     if broken.is_empty() {
         Ok(Some(format!(
-            "{} crates on {} floors",
+            "{} crates in {} layers",
             crates.len(),
-            FLOORS.len()
+            LAYERS.len()
         )))
     } else {
         Err(broken.join("\n"))
@@ -56,24 +56,24 @@ struct Member {
     depends_on: BTreeSet<String>,
 }
 
-fn floor(name: &str) -> Option<usize> {
-    FLOORS.iter().position(|(_, crates)| crates.contains(&name))
+fn layer(name: &str) -> Option<usize> {
+    LAYERS.iter().position(|(_, crates)| crates.contains(&name))
 }
 
 /// What is wrong with this crate, a sentence each.
 fn violations(member: &Member) -> Vec<String> {
     let name = &member.name;
-    let Some(own) = floor(name) else {
+    let Some(own) = layer(name) else {
         return vec![format!(
-            "`{name}` stands on no floor: name it in FLOORS of xtask/src/test/floors.rs."
+            "`{name}` is in no layer: name it in LAYERS of xtask/src/test/layers.rs."
         )];
     };
     let too_high = |dependency: &String| {
-        let other = floor(dependency).filter(|other| *other >= own)?;
+        let other = layer(dependency).filter(|other| *other >= own)?;
         let relation = if other == own { "the same" } else { "a higher" };
         Some(format!(
-            "`{name}` (floor {own}, {}) depends on `{dependency}` (floor {other}, {}), on {relation} floor.",
-            FLOORS[own].0, FLOORS[other].0,
+            "`{name}` (layer {own}, {}) depends on `{dependency}` (layer {other}, {}), in {relation} layer.",
+            LAYERS[own].0, LAYERS[other].0,
         ))
     };
     member.depends_on.iter().filter_map(too_high).collect()
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn lower_floors_and_strangers_are_allowed() {
+    fn lower_layers_and_strangers_are_allowed() {
         let dependencies =
             "[dependencies]\nintegrate.workspace = true\nmechanics = { path = 'm' }\nlibm = '1'";
         assert_eq!(wrong_with("wedge", dependencies), [""; 0]);
@@ -189,11 +189,13 @@ mod tests {
     }
 
     #[test]
-    fn the_same_floor_is_refused() {
+    fn the_same_layer_is_refused() {
         let found = wrong_with("numerics", "[dependencies]\nquantity.workspace = true");
         assert_eq!(
             found,
-            ["`numerics` (floor 1, ground) depends on `quantity` (floor 1, ground), on the same floor."]
+            [
+                "`numerics` (layer 1, foundation) depends on `quantity` (layer 1, foundation), in the same layer."
+            ]
         );
         assert_eq!(
             wrong_with("wedgelab-py", "[dependencies]\nwedgelab = { path = 'w' }").len(),
@@ -202,14 +204,14 @@ mod tests {
     }
 
     #[test]
-    fn a_higher_floor_is_refused() {
+    fn a_higher_layer_is_refused() {
         let found = wrong_with(
             "mechanics",
             "[dependencies]\nwedge = '1'\nstudy = '1'\nquantity = '1'",
         );
         assert_eq!(found.len(), 2);
         assert!(
-            found[0].contains("`study` (floor 7, asking), on a higher floor"),
+            found[0].contains("`study` (layer 7, analysis), in a higher layer"),
             "{found:?}"
         );
     }
@@ -241,13 +243,13 @@ mod tests {
     }
 
     #[test]
-    fn a_crate_without_a_floor_is_refused() {
-        assert!(wrong_with("attic", "")[0].contains("`attic` stands on no floor"));
+    fn a_crate_without_a_layer_is_refused() {
+        assert!(wrong_with("attic", "")[0].contains("`attic` is in no layer"));
     }
 
     #[test]
-    fn no_crate_stands_on_two_floors() {
-        let all: Vec<_> = FLOORS.iter().flat_map(|(_, crates)| *crates).collect();
+    fn no_crate_is_in_two_layers() {
+        let all: Vec<_> = LAYERS.iter().flat_map(|(_, crates)| *crates).collect();
         assert_eq!(all.iter().collect::<BTreeSet<_>>().len(), all.len());
     }
 
