@@ -1,5 +1,6 @@
 //! The files of a run: the table, the same under the thesis's names, the completed case, the summary.
 
+use serde::Serialize;
 use study::car::CarCase;
 use study::car::run::CarResult;
 use study::case::Case;
@@ -28,7 +29,7 @@ pub const PRESSURE_FILE_NAME: &str = "pressure.svg";
 /// A case whose runs are written as files.
 pub trait RunFiles: RunCase<Output = RunResult<Self::Summary>> {
     /// The summary of its runs.
-    type Summary: RunSummary;
+    type Summary: RunSummary + Serialize;
     /// The files of a run.
     const FILES: &'static [&'static str];
 

@@ -146,6 +146,31 @@ impl Table {
         })
     }
 
+    /// Gives the column of this name, written with or without unit, another name (without unit), if there is
+    /// one.
+    pub fn rename(&mut self, name: &str, new: &str) {
+        let old = self.find(name).map(|column| column.name.clone());
+        let found = self
+            .columns
+            .iter_mut()
+            .find(|column| Some(&column.name) == old.as_ref());
+        if let Some(column) = found {
+            new.clone_into(&mut column.name);
+        }
+    }
+
+    /// Keeps the rows whose times lie between two times (s), these included; returns how many.
+    pub fn keep(&mut self, from: f64, to: f64) -> usize {
+        let times = self.times();
+        let first = times.partition_point(|time| *time < from);
+        let last = times.partition_point(|time| *time <= to).max(first);
+        for column in &mut self.columns {
+            column.written.truncate(last);
+            column.written.drain(..first);
+        }
+        last - first
+    }
+
     /// The column with this name, if there is one.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<&TableColumn> {

@@ -1,10 +1,12 @@
 //! The command line of Wedgelab.
 
+mod adjust;
 mod commands;
 mod execute;
 mod failure;
 mod folders;
 mod interrupt;
+mod json;
 mod progress;
 mod select;
 mod table;
@@ -12,12 +14,12 @@ mod table;
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use numerics::processor::{OldProcessor, check};
 
 use commands::{
-    case, compare, curves, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, stability, study,
-    track, warp, wheelrail,
+    case, compare, completions, curves, explore, fit, fmu, man, nucars, plot, quasi_static, reproduce, run,
+    stability, study, track, warp, wheelrail,
 };
 use failure::Failure;
 
@@ -71,6 +73,8 @@ enum Command {
     Track(track::Arguments),
     Nucars(nucars::Arguments),
     Fmu(fmu::Arguments),
+    Completions(completions::Arguments),
+    Man(man::Arguments),
 }
 
 impl Cli {
@@ -92,6 +96,8 @@ impl Cli {
             Command::Track(arguments) => track::execute(&arguments),
             Command::Nucars(arguments) => nucars::execute(&arguments),
             Command::Fmu(arguments) => fmu::execute(&arguments),
+            Command::Completions(arguments) => completions::execute(&arguments, Self::command()),
+            Command::Man(arguments) => man::execute(&arguments, Self::command()),
         }
     }
 }

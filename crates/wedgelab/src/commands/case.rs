@@ -1,6 +1,7 @@
 //! `wedgelab case`: the built-in cases.
 
 use std::io::{self, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
@@ -11,6 +12,7 @@ use study::truck;
 
 use super::run::built_in_names;
 use crate::failure::Failure;
+use crate::folders;
 use crate::select::select;
 use crate::table::Table;
 
@@ -23,10 +25,17 @@ use crate::table::Table;
 #[command(after_long_help = "\
 Examples:
   wedgelab case
-  wedgelab case vdrun_toe_0_psi_0 > a.toml && wedgelab run a.toml")]
+  wedgelab case vdrun_toe_0_psi_0 > a.toml && wedgelab run a.toml
+  wedgelab case truck_vertical_variable --out cases")]
 pub struct Arguments {
     /// Name of a built-in case, or a beginning that only one has
     name: Option<String>,
+    /// Write it into this folder, as NAME.toml, instead of printing it
+    #[arg(long, value_name = "DIR", requires = "name")]
+    out: Option<PathBuf>,
+    /// Overwrite an existing file
+    #[arg(long, requires = "out")]
+    force: bool,
 }
 
 /// Does it.
@@ -51,11 +60,15 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     for name in select(std::slice::from_ref(name), built_in_names())? {
         let case = AnyCase::built_in(name, &[])?;
-        out.write_all(
-            case.and_then(|case| case.to_toml())
-                .unwrap_or_default()
-                .as_bytes(),
-        )?;
+        let text = case.and_then(|case| case.to_toml()).unwrap_or_default();
+        let Some(folder) = &arguments.out else {
+            out.write_all(text.as_bytes())?;
+            continue;
+        };
+        let file = format!("{name}.toml");
+        let folder = folders::check(folder, &[&file], arguments.force)?;
+        folder.write(|files| files.add(&file, |out| out.write_all(text.as_bytes())))?;
+        writeln!(out, "Written: {}.", folder.path().join(&file).display())?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -7,10 +7,13 @@ use std::process::ExitCode;
 use clap::Args;
 use report::comparison::{Comparison, Entry, FILE_NAME};
 use report::table::Table as Results;
+use serde_json::{Value, json};
 
+use crate::adjust::{Names, Span};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
+use crate::json;
 use crate::table::Table;
 
 /// Compare results: overlay figures and a table of differences
@@ -24,6 +27,7 @@ use crate::table::Table;
 Examples:
   wedgelab compare reproduction/runs/vdrun_toe_0_psi_0.012 softer
   wedgelab compare my_run other_program.csv --columns wedge_z vertical_wedge_force --out check
+  wedgelab compare my_run other_program.csv --map vertical_wedge_force=Fz --from 2 --to 8
 
 Without --columns the main columns that all results have are compared.")]
 pub struct Arguments {
@@ -36,15 +40,27 @@ pub struct Arguments {
     /// Compare only these columns, named with or without unit
     #[arg(long, value_name = "NAME", num_args = 1..)]
     columns: Vec<String>,
+    #[command(flatten)]
+    span: Span,
+    #[command(flatten)]
+    names: Names,
     /// Overwrite existing results
     #[arg(long)]
     force: bool,
+    #[arg(long, help = json::HELP)]
+    json: bool,
 }
 
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
-    let entries = read(&arguments.results)?;
+    let mut entries = read(&arguments.results)?;
+    arguments
+        .names
+        .apply(entries.iter_mut().map(|entry| &mut entry.table))?;
+    for entry in &mut entries {
+        arguments.span.apply(&mut entry.table)?;
+    }
     let comparison = Comparison::of(&entries, &arguments.columns)?;
     let figures = comparison.figures(&entries)?;
     let mut names: Vec<&str> = vec![FILE_NAME];
@@ -58,6 +74,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Ok(())
     })?;
 
+    if arguments.json {
+        json::print(&document(&comparison, &entries, folder.path(), &names))?;
+        return Ok(ExitCode::SUCCESS);
+    }
     let mut out = io::stdout().lock();
     let first = &entries[0].label;
     writeln!(
@@ -86,6 +106,43 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         names.join(", ")
     )?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The comparison as JSON; what is compared is named by its label.
+fn document(comparison: &Comparison, entries: &[Entry], folder: &Path, names: &[&str]) -> Value {
+    let differences = comparison.differences.iter().map(|one| {
+        json!({
+            "column": one.column,
+            "unit": one.unit,
+            "result": entries[one.result].label,
+            "largest": one.largest,
+            "time_s": one.time,
+            "root_mean_square": one.root_mean_square,
+            "range_of_first": one.range,
+            "mean": one.mean,
+            "mean_of_first": one.mean_of_first,
+        })
+    });
+    let energies = comparison.energies.iter().map(|one| {
+        json!({
+            "place": one.place,
+            "unit": one.unit,
+            "result": entries[one.result].label,
+            "energy_per_cycle": one.value,
+            "energy_per_cycle_of_first": one.first,
+        })
+    });
+    json!({
+        "folder": folder,
+        "files": names,
+        "first": entries[0].label,
+        "rows": comparison.rows,
+        "from_s": comparison.span.0,
+        "to_s": comparison.span.1,
+        "differences": differences.collect::<Vec<_>>(),
+        "energies": energies.collect::<Vec<_>>(),
+        "notes": comparison.notes,
+    })
 }
 
 /// Reads the results and gives them names that differ.

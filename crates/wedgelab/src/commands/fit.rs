@@ -17,6 +17,7 @@ use study::metrics::Cycle;
 
 use super::run::{is_built_in, read_any};
 use super::warp::draw;
+use crate::adjust::{self, Names};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
@@ -73,6 +74,11 @@ pub struct Arguments {
     /// Leave out the values before this time, s [default: the first half period of the bolster's motion]
     #[arg(long, value_name = "SECONDS")]
     from: Option<f64>,
+    /// Leave out the values after this time, s
+    #[arg(long, value_name = "SECONDS")]
+    to: Option<f64>,
+    #[command(flatten)]
+    names: Names,
     /// Probability with which the intervals are to hold the true values
     #[arg(long, value_name = "P", default_value_t = 0.95)]
     confidence: f64,
@@ -139,7 +145,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         )
         .into());
     }
-    let table = Measurements::read(&arguments.measured)?;
+    let mut table = Measurements::read(&arguments.measured)?;
+    arguments.names.apply([&mut table])?;
+    adjust::keep(&mut table, None, arguments.to)?;
     let force = force(&table, arguments.column.as_deref())?;
     let displacement = DISPLACEMENTS.iter().find_map(|name| table.find(name));
     let displacement = displacement.map(TableColumn::si);

@@ -2,10 +2,12 @@
 
 pub mod case;
 pub mod compare;
+pub mod completions;
 pub mod curves;
 pub mod explore;
 pub mod fit;
 pub mod fmu;
+pub mod man;
 pub mod nucars;
 pub mod plot;
 pub mod quasi_static;

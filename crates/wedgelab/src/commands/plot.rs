@@ -10,6 +10,7 @@ use report::table::Table;
 
 use super::compare::label;
 use super::warp::draw;
+use crate::adjust::Span;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -23,7 +24,7 @@ use crate::interrupt;
 #[command(after_long_help = "\
 Examples:
   wedgelab plot my_run --x time --y wedge_z
-  wedgelab plot my_run --x bolster_vertical --y vertical_wedge_force --out loop.svg
+  wedgelab plot my_run --x bolster_vertical --y vertical_wedge_force --out loop.svg --from 2
   wedgelab plot my_run --x time --y column_upper_left_gap column_lower_left_gap")]
 pub struct Arguments {
     /// Result: the folder of a run, or a CSV file
@@ -34,6 +35,8 @@ pub struct Arguments {
     /// Columns along the vertical axis
     #[arg(long, value_name = "NAME", num_args = 1.., required = true)]
     y: Vec<String>,
+    #[command(flatten)]
+    span: Span,
     /// File to write, ending in .svg or .png [default: Y_over_X.svg]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -45,7 +48,8 @@ pub struct Arguments {
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
-    let table = Table::read(&arguments.result)?;
+    let mut table = Table::read(&arguments.result)?;
+    arguments.span.apply(&mut table)?;
     let x = table.column(&arguments.x)?.name.clone();
     let mut y: Vec<String> = Vec::new();
     for name in &arguments.y {

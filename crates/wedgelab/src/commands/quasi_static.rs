@@ -6,9 +6,11 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 use mechanics::quasi_static::{Direction, QuasiStaticWedge, SlopeFriction};
 use quantity::{Kind, Quantity, System as Units};
+use serde_json::{Value, json};
 use study::case::bounds;
 
 use crate::failure::Failure;
+use crate::json;
 use crate::table::Table;
 
 /// Forces of the massless wedge in steady sliding, and its jam margin
@@ -42,6 +44,8 @@ pub struct Arguments {
     /// Units of the output
     #[arg(long, default_value = "us")]
     units: OutputUnits,
+    #[arg(long, help = json::HELP)]
+    json: bool,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -71,6 +75,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         column_friction: arguments.mu_column,
         slope_friction: arguments.mu_slope,
     };
+    if arguments.json {
+        json::print(&document(&wedge, arguments.coil_force.to_si(), units))?;
+        return Ok(ExitCode::SUCCESS);
+    }
     let mut out = io::stdout().lock();
     writeln!(
         out,
@@ -96,6 +104,56 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Both directions of the bolster, each with the slope's friction that the motion chooses, and the other.
+fn branches(wedge: &QuasiStaticWedge) -> impl Iterator<Item = (Direction, SlopeFriction, bool)> {
+    [Direction::Down, Direction::Up]
+        .into_iter()
+        .flat_map(|direction| {
+            let chosen = wedge.branch(direction);
+            let other = match chosen {
+                SlopeFriction::UpSlope => SlopeFriction::DownSlope,
+                SlopeFriction::DownSlope => SlopeFriction::UpSlope,
+            };
+            [(direction, chosen, true), (direction, other, false)]
+        })
+}
+
+fn direction_in_words(direction: Direction) -> &'static str {
+    match direction {
+        Direction::Down => "down",
+        Direction::Up => "up",
+    }
+}
+
+fn friction_in_words(slope: SlopeFriction) -> &'static str {
+    match slope {
+        SlopeFriction::UpSlope => "up the slope",
+        SlopeFriction::DownSlope => "down the slope",
+    }
+}
+
+/// Forces and jam margins as JSON; forces are null where the wedge jams.
+fn document(wedge: &QuasiStaticWedge, coil_force: f64, units: Units) -> Value {
+    let branches = branches(wedge).map(|(direction, slope, chosen)| {
+        let sliding = wedge.slide(direction, slope, coil_force);
+        let force = |value: f64| value * Kind::Force.from_si(units);
+        json!({
+            "bolster_goes": direction_in_words(direction),
+            "slope_friction_on_wedge": friction_in_words(slope),
+            "chosen_by_motion": chosen,
+            "column_normal": sliding.map(|sliding| force(sliding.column_normal)),
+            "column_friction": sliding.map(|sliding| force(sliding.column_friction)),
+            "slope_normal": sliding.map(|sliding| force(sliding.slope_normal)),
+            "jam_margin_deg": wedge.jam_margin(direction, slope).to_degrees(),
+        })
+    });
+    json!({
+        "unit_of_forces": Kind::Force.label(units),
+        "critical_friction": wedge.critical_friction(),
+        "branches": branches.collect::<Vec<_>>(),
+    })
+}
+
 fn forces(wedge: &QuasiStaticWedge, coil_force: f64, units: Units) -> Table {
     let unit = Kind::Force.label(units);
     let mut table = Table::new(
@@ -109,41 +167,25 @@ fn forces(wedge: &QuasiStaticWedge, coil_force: f64, units: Units) -> Table {
             ("jam margin", "deg"),
         ],
     );
-    for direction in [Direction::Down, Direction::Up] {
-        let chosen = wedge.branch(direction);
-        let other = match chosen {
-            SlopeFriction::UpSlope => SlopeFriction::DownSlope,
-            SlopeFriction::DownSlope => SlopeFriction::UpSlope,
+    for (direction, slope, chosen) in branches(wedge) {
+        let force = |value: f64| format!("{:.1}", value * Kind::Force.from_si(units));
+        let [column, friction, normal] = match wedge.slide(direction, slope, coil_force) {
+            Some(sliding) => [
+                force(sliding.column_normal),
+                force(sliding.column_friction),
+                force(sliding.slope_normal),
+            ],
+            None => ["jams", "-", "-"].map(str::to_owned),
         };
-        for slope in [chosen, other] {
-            let force = |value: f64| format!("{:.1}", value * Kind::Force.from_si(units));
-            let forces = match wedge.slide(direction, slope, coil_force) {
-                Some(sliding) => [
-                    force(sliding.column_normal),
-                    force(sliding.column_friction),
-                    force(sliding.slope_normal),
-                ],
-                None => ["jams", "-", "-"].map(str::to_owned),
-            };
-            let mut row = vec![
-                match direction {
-                    Direction::Down => "down",
-                    Direction::Up => "up",
-                }
-                .to_owned(),
-                format!(
-                    "{}{}",
-                    match slope {
-                        SlopeFriction::UpSlope => "up the slope",
-                        SlopeFriction::DownSlope => "down the slope",
-                    },
-                    if slope == chosen { " *" } else { "" }
-                ),
-            ];
-            row.extend(forces);
-            row.push(format!("{:.2}", wedge.jam_margin(direction, slope).to_degrees()));
-            table.row(row);
-        }
+        let mark = if chosen { " *" } else { "" };
+        table.row([
+            direction_in_words(direction).to_owned(),
+            format!("{}{mark}", friction_in_words(slope)),
+            column,
+            friction,
+            normal,
+            format!("{:.2}", wedge.jam_margin(direction, slope).to_degrees()),
+        ]);
     }
     table
 }

@@ -9,8 +9,11 @@ use clap::Args;
 use quantity::{Kind, nearest};
 use report::figures::car::CarRun;
 use report::figures::truck::TruckRun;
+use report::files::Folder;
 use report::page::{self, Viewer};
 use report::run_files::RunFiles;
+use serde::Serialize;
+use serde_json::json;
 use study::any_case::AnyCase;
 use study::car::summary::CarSummary;
 use study::car::{self, CarCase};
@@ -19,9 +22,10 @@ use study::truck::run::TruckResult;
 use study::truck::{self, TruckCase, WEDGE_NAMES};
 
 use crate::execute::{Done, TABLE_NOTE, compute, compute_with_contacts, table, unsound, write, write_page};
-use crate::failure::{Failure, Message};
+use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
+use crate::json;
 use crate::progress::Progress;
 use crate::table::Table;
 
@@ -40,6 +44,7 @@ Examples:
   wedgelab run truck_warp_nest_constant_rising --set truck.condition=worn
   wedgelab run truck_vertical_variable --set wedge.leading_left.friction.column=0.2
   wedgelab run car_twist_and_roll_loaded --set 'speed.value=\"18 mph\"' --set truck.friction.column=0.1
+  wedgelab run my.toml --json --quiet | jq .summary.ledger
   wedgelab run vdrun_toe_0_psi_0 --set 'wedge.angle=\"35 deg\"' --set 'simulation.duration=\"20 s\"'")]
 pub struct Arguments {
     /// Case file, or, if there is no such file, the name of a built-in case
@@ -56,6 +61,8 @@ pub struct Arguments {
     /// No progress
     #[arg(long, short)]
     quiet: bool,
+    #[arg(long, help = json::HELP)]
+    json: bool,
 }
 
 /// Does it.
@@ -93,15 +100,9 @@ fn run<C: RunFiles>(
         compute(case, &progress).and_then(|done| write(&done, case, &folder, &progress).map(|()| done));
     progress.finish();
     let done = done?;
-    let (table, note) = shown(&done);
-    let mut out = io::stdout().lock();
-    table.write(&mut out)?;
-    writeln!(
-        out,
-        "\n{note}\n\nWritten into {}: {}.",
-        folder.path().display(),
-        case.names().join(", ")
-    )?;
+    tell(arguments, &folder, &case.names(), &done.result.summary, || {
+        shown(&done)
+    })?;
     match unsound::<C>(&done.result.summary, folder.path()) {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),
@@ -125,16 +126,11 @@ fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failur
         contacts,
     };
     write_page(&folder, |viewer| page::truck_run::render(&run, viewer))?;
-    let mut out = io::stdout().lock();
-    truck_table(&run.result).write(&mut out)?;
-    writeln!(
-        out,
-        "\n{TRUCK_NOTE}\n\nWritten into {}: {} (open it in a browser).",
-        folder.path().display(),
-        names.join(", ")
-    )?;
+    tell(arguments, &folder, &names, &run.result.summary, || {
+        (truck_table(&run.result), TRUCK_NOTE)
+    })?;
     if Viewer::embedded().is_none() {
-        writeln!(out, "{}", page::MISSING)?;
+        say(page::MISSING);
     }
     match unsound::<TruckCase>(&run.result.summary, folder.path()) {
         Some(failure) => Err(failure),
@@ -158,23 +154,46 @@ fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     write_page(&folder, |_| Ok(page::car_run::render(&run)))?;
     let summary = &run.result.summary;
-    let mut out = io::stdout().lock();
-    if summary.limits.is_empty() {
-        writeln!(out, "No statistics: the run does not reach beyond start.settle.")?;
-    } else {
-        car_table(summary).write(&mut out)?;
-    }
-    writeln!(
-        out,
-        "\n{CAR_NOTE}\n\nWritten into {}: {} (open it in a browser).",
-        folder.path().display(),
-        names.join(", ")
-    )?;
+    tell(arguments, &folder, &names, summary, || {
+        if summary.limits.is_empty() {
+            (Table::new(1, &[]), NO_STATISTICS)
+        } else {
+            (car_table(summary), CAR_NOTE)
+        }
+    })?;
     match unsound::<CarCase>(summary, folder.path()) {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),
     }
 }
+
+/// Tells what came out and where it lies: in words, a table and what its columns are, or as JSON.
+fn tell(
+    arguments: &Arguments,
+    folder: &Folder,
+    names: &[&str],
+    summary: &impl Serialize,
+    words: impl FnOnce() -> (Table, &'static str),
+) -> Result<(), Failure> {
+    let path = folder.path();
+    if arguments.json {
+        return json::print(&json!({ "folder": path, "files": names, "summary": summary }));
+    }
+    let mut out = io::stdout().lock();
+    let (table, note) = words();
+    table.write(&mut out)?;
+    let page = if names.contains(&page::FILE_NAME) {
+        " (open it in a browser)"
+    } else {
+        ""
+    };
+    let names = names.join(", ");
+    writeln!(out, "\n{note}\n\nWritten into {}: {names}{page}.", path.display())?;
+    Ok(())
+}
+
+/// Instead of a car's table where there is nothing in it.
+const NO_STATISTICS: &str = "No statistics: the run does not reach beyond start.settle.";
 
 /// What the columns of a car's table are.
 const CAR_NOTE: &str = "\

@@ -12,11 +12,13 @@ use clap::Args;
 use report::page::study as page;
 use report::study_folder::{StudyFolder, StudyFolderError, TABLE_FILE};
 use report::study_work;
+use serde_json::json;
 use study::design::{MANY, Study};
 
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
+use crate::json;
 
 /// Run many variants of a case
 ///
@@ -57,6 +59,8 @@ pub struct Arguments {
     /// No progress
     #[arg(long, short)]
     quiet: bool,
+    #[arg(long, help = json::HELP)]
+    json: bool,
 }
 
 impl From<StudyFolderError> for Failure {
@@ -131,8 +135,27 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     let wall = clock.elapsed().as_secs_f64();
     let digest = study_work::finish(&study, &folder)?;
-    let mut out = io::stdout().lock();
     let [complete, refused, stopped, failed] = digest.ended;
+    if let Some(warning) = digest.warning() {
+        say(&format!("warning: {warning}"));
+    }
+    if arguments.json {
+        let reasons = digest.reasons.iter();
+        let reasons = reasons.map(|(run, reason)| json!({ "run": run, "reason": reason }));
+        json::print(&json!({
+            "folder": path,
+            "files": [TABLE_FILE, page::FILE_NAME],
+            "runs": study.count(),
+            "complete": complete,
+            "refused": refused,
+            "stopped": stopped,
+            "failed": failed,
+            "before": done.before,
+            "reasons": reasons.collect::<Vec<_>>(),
+        }))?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let mut out = io::stdout().lock();
     write!(out, "{} runs: {complete} complete", study.count())?;
     if refused + stopped > 0 {
         write!(out, ", {refused} refused, {stopped} stopped on their way")?;
@@ -149,9 +172,6 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     writeln!(out, ".")?;
     for (number, reason) in digest.reasons.iter().take(3) {
         writeln!(out, "  run {number}: {reason}")?;
-    }
-    if let Some(warning) = digest.warning() {
-        say(&format!("warning: {warning}"));
     }
     writeln!(
         out,

@@ -15,6 +15,7 @@ use wheelrail::wheelset::RigidWheelset;
 
 use super::wheelrail::{Pair, wrong};
 use crate::failure::{Failure, Message};
+use crate::json;
 use crate::table::Table;
 
 /// How the answer is to be read: in the help, the table and the JSON.
@@ -80,8 +81,7 @@ pub struct Arguments {
     /// Poisson's ratio of both bodies
     #[arg(long, value_name = "NUMBER", default_value_t = 0.28)]
     poisson: f64,
-    /// Print JSON
-    #[arg(long)]
+    #[arg(long, help = json::HELP)]
     json: bool,
 }
 
@@ -214,7 +214,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             "left_wheel": whole(&wheels[0]),
             "right_wheel": whole(&wheels[1]),
         });
-        writeln!(out, "{answer:#}")?;
+        json::print(&answer)?;
     } else {
         write(&wheels, &mut out)?;
         writeln!(

@@ -5,13 +5,15 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use nucars::Severity;
 use nucars::file_sets::{Files, find};
 use nucars::read::FileKind;
+use nucars::{Finding, Severity};
+use serde_json::{Value, json};
 
 use super::files::Instead;
 use super::load::tell;
 use crate::failure::{Failure, INPUT};
+use crate::json;
 
 /// Say what is wrong or doubtful with files, with line and column
 ///
@@ -36,6 +38,8 @@ pub struct Arguments {
     /// Leave out notes
     #[arg(long)]
     no_notes: bool,
+    #[arg(long, help = json::HELP)]
+    json: bool,
 }
 
 /// Does it.
@@ -52,16 +56,32 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     let sets = files.sets(&instead)?;
     files.check(&sets);
-    report(&files, arguments.no_notes)
+    report(&files, arguments)
 }
 
 /// Tells all, a line for each file at the end.
-fn report(files: &Files, no_notes: bool) -> Result<ExitCode, Failure> {
+fn report(files: &Files, arguments: &Arguments) -> Result<ExitCode, Failure> {
     let all = files.all();
-    for (_, _, findings) in &all {
-        tell(findings, |finding| {
-            !no_notes || finding.severity() > Severity::Note
+    let wrong = all.iter().any(|(_, _, findings)| findings.has_errors());
+    let code = ExitCode::from(if wrong { INPUT } else { 0 });
+    let shown = |finding: &&Finding| !arguments.no_notes || finding.severity() > Severity::Note;
+    if arguments.json {
+        let files = all.iter().map(|(kind, path, findings)| {
+            let list = findings.list().iter().filter(shown);
+            json!({
+                "file": path,
+                "kind": kind.to_string(),
+                "errors": findings.count(Severity::Error),
+                "warnings": findings.count(Severity::Warning),
+                "notes": findings.count(Severity::Note),
+                "findings": list.map(document).collect::<Vec<_>>(),
+            })
         });
+        json::print(&files.collect::<Vec<_>>())?;
+        return Ok(code);
+    }
+    for (_, _, findings) in &all {
+        tell(findings, shown);
     }
     let mut out = io::stdout().lock();
     for (kind, path, findings) in &all {
@@ -74,6 +94,18 @@ fn report(files: &Files, no_notes: bool) -> Result<ExitCode, Failure> {
             .join(", ");
         writeln!(out, "{}: {kind}, {counts}", path.display())?;
     }
-    let wrong = all.iter().any(|(_, _, findings)| findings.has_errors());
-    Ok(ExitCode::from(if wrong { INPUT } else { 0 }))
+    Ok(code)
+}
+
+/// A finding as JSON; line and column count from one.
+fn document(finding: &Finding) -> Value {
+    let (line, column) = finding.place().line_and_column();
+    json!({
+        "severity": finding.severity().to_string(),
+        "code": finding.code_name(),
+        "line": line,
+        "column": column,
+        "message": finding.message(),
+        "help": finding.advice(),
+    })
 }
