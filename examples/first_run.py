@@ -1,12 +1,12 @@
 """A first run: the wedge of the thesis with constant damping, and the force that it has on the bolster.
 
-    pip install ".[all]"
+    pip install ".[all]" pyarrow
     python examples/first_run.py
 """
 
 import wedgelab as wl
 
-case = wl.Case("cdrun_toe_-0.2_psi_0.012", {"friction.column": 0.3})
+case = wl.Case("cdrun_toe_-0.2_psi_0.012", friction={"column": 0.3})
 result = case.run()
 
 averages = result.summary.averages
@@ -17,5 +17,5 @@ print("largest residual of the energy ledger:            ", result.summary.ledge
 for assumption in result.assumptions[:3]:
     print("assumed:", assumption)
 
-result.write("first_run")  # result.csv, summary.json and a page to look at: first_run/index.html
+result.write("first_run", force=True)  # result.csv, result.mat, case.toml, summary.json
 result.plot_hysteresis().figure.savefig("first_run/loop.png")

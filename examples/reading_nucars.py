@@ -13,6 +13,7 @@ for finding in system.findings:
     print(f"line {finding.line}: {finding.severity}: {finding.message}")
 
 result = wl.HalfTruckCase(name, duration=5.0).run()
-print(result.summary.wedges)
+for number, wedge in result.summary.wedges.items():
+    print(f"wedge {number}: friction {wedge.up} while the body rises, {wedge.down} while it falls")
 for column in list(result.columns)[:5]:
     print(f"{column}: {result[column].min():.4g} to {result[column].max():.4g}")

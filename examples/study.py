@@ -7,6 +7,8 @@ Interrupt it and start it again: it goes on where it was. The folder `study` has
 
 from pathlib import Path
 
+import pandas as pd
+
 import wedgelab as wl
 
 Path("friction_and_angle.toml").write_text(
@@ -22,5 +24,5 @@ wedge.angle = ["30 deg", "32 deg", "35 deg"]
 """
 )
 outcome = wl.Study("friction_and_angle.toml").run("study", jobs=2)
-table = outcome.to_pandas()
-print(table[["friction.column", "wedge.angle", "energy_per_cycle_side_frame_lbf_in"]].to_string(index=False))
+table = pd.read_parquet(outcome.table)  # needs pyarrow
+print(table[["friction.column", "wedge.angle_deg", "energy_per_cycle_side_frame_lbf_in"]].to_string(index=False))

@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 
 import wedgelab as wl
 
-frictions = (0.1, 0.25, 0.4)
+frictions = (0.1, 0.2, 0.25)
 trucks = [
     wl.TruckCase("truck_warp_nest_constant_rising", {"friction.column": friction, "friction.slope": friction})
     for friction in frictions

@@ -48,7 +48,7 @@ def test_results_edited_by_hand(short: wl.Result) -> None:
     case = short.case.to_toml()
 
     def use(data: bytes) -> None:
-        again = result._result_of_parts(case, data, values)
+        again = result._result_of_parts("wedge", case, data, values)
         again.summary.to_dict()
         assert len(again.to_dict()) == len(again.keys())
         assert repr(again)
@@ -56,9 +56,9 @@ def test_results_edited_by_hand(short: wl.Result) -> None:
     refused, taken = tally(damaged(header, 200), use)
     assert refused > 1000 and taken > 50
     with pytest.raises(wl.WedgelabError, match="columns and values differ"):
-        result._result_of_parts(case, header, values[1:])
+        result._result_of_parts("wedge", case, header, values[1:])
     with pytest.raises(wl.WedgelabError, match=f"more than the {MOST} that are read"):
-        result._result_of_parts(case, bytes(MOST + 1), np.zeros((0, 0)))
+        result._result_of_parts("wedge", case, bytes(MOST + 1), np.zeros((0, 0)))
 
 
 def test_trucks_edited_by_hand() -> None:

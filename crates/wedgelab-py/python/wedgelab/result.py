@@ -76,6 +76,12 @@ class Record(Mapping[str, Any]):
     def __repr__(self) -> str:
         return f"Record({self.to_dict()!r})"
 
+    def __str__(self) -> str:
+        """A quantity as number and unit, ``1560.09 lbf``; anything else as `repr` has it."""
+        if self._entries.keys() == {"value", "unit"}:
+            return f"{self._entries['value']:.6g} {self._entries['unit']}".rstrip()
+        return repr(self)
+
     def __reduce__(self) -> tuple[Any, ...]:
         return (Record, (self.to_dict(),))
 
