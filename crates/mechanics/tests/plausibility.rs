@@ -191,6 +191,7 @@ fn limits_linearized_bodies_are_found_beyond_small_angles_and_the_size_of_the_sy
         a: 0,
         b: 1,
         point: [0.3, 0.4, 0.0],
+        markers: None,
         law: Law::Springs(vec![(2, spring)]),
     };
     let model = Model {
