@@ -10,6 +10,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use mechanics::body::Body;
+use mechanics::connection::{Options, SlopeDirection};
 use mechanics::frame::Frame;
 use mechanics::link::Marker;
 use mechanics::orientation::fixed;
@@ -33,6 +34,8 @@ use crate::start::{Placement, at_rest};
 const COUPLERS: f64 = 34.5 * 0.0254;
 /// Overlap up to which contact tables reach, m.
 const OVERLAP: f64 = 2e-4;
+/// Speed on the slope over which the friction of a wedge without mass changes its sign, m/s.
+const SLOPE_SLIP: f64 = 1e-3;
 /// Smallest reference speed of creepages with linear wheels, m/s.
 const SLOWEST: f64 = 0.1;
 /// Reference frames of bodies that do not spin have their axes along x, z, -y of the track.
@@ -198,8 +201,6 @@ impl Nominal {
         let (half, mut groups) = (0.5 * parameters.truck_distance, vec![(body, 2)]);
         let centers = [half, -half].map(|x| [x, 0.0, 0.0]);
         let parts = [0, 1].map(|t| free(&parameters.trucks[t]));
-        // Connections act on displacements along the fixed axes.
-        let flat = parameters.trucks.iter().any(has_connections);
         let mut mounts = [Mount::ALONE; 2];
         let mut wheelsets = [0; 4];
         for (t, mount) in mounts.iter_mut().enumerate() {
@@ -225,12 +226,13 @@ impl Nominal {
                 }
                 mount.bodies[number] = bodies.len();
                 groups.push((bodies.len(), t));
-                let mut own = if flat { own } else { upright(own) };
+                let mut own = upright(own);
                 own.name = format!("{prefix}_{}", own.name);
                 bodies.push(own);
             }
         }
         let mut model = Model::new(bodies, [0.0, 0.0, -parameters.gravity]);
+        model.options = massless_options();
         let track = Marker::new([0.0; 3], [0.0, 0.0, heading]);
         let mut rails = None;
         if let Some(support) = &parameters.support {
@@ -303,10 +305,19 @@ impl Nominal {
     }
 }
 
-/// Returns whether a truck has elements of the industry's models, which act on displacements along the
-/// fixed axes: wedges without mass and empirical warp springs.
-pub(crate) fn has_connections(own: &truck::Parameters) -> bool {
-    own.warp_spring.is_some() || own.wedges.iter().any(|wedge| wedge.kind == WedgeKind::Massless)
+/// Returns the choices of wedges without mass: friction of the slope against the wedge's slip there, and a
+/// rise that counts in the slip on the column, so that no friction feeds energy.
+///
+/// By the toe, as in half-trucks from files, slope friction of a wedge without toe follows the column's: it
+/// then makes the bolster swing along the track.
+fn massless_options() -> Options {
+    Options {
+        slope: SlopeDirection::OwnSlip {
+            reference_speed: SLOPE_SLIP,
+        },
+        rise_in_slip: true,
+        ..Options::default()
+    }
 }
 
 /// Returns a truck with all of its bodies free.

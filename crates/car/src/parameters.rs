@@ -13,7 +13,6 @@ use wheelrail::contact::{ContactLaw, LinearWheelset};
 use wheelrail::track::Track;
 use wheelrail::wheelset::RigidWheelset;
 
-use crate::assemble::has_connections;
 use crate::error::InvalidParameter;
 
 /// A rigid mass that the car body carries, fastened to it.
@@ -278,25 +277,6 @@ impl Parameters {
                         return Err(InvalidParameter::new(what, *speed, "zero or positive"));
                     }
                 }
-            }
-        }
-        if self.trucks.iter().any(has_connections) {
-            let line = &self.track.center_line;
-            let count = line.length().ceil() as usize;
-            let bent = (0..=count)
-                .map(|k| k as f64)
-                .find(|at| line.at(*at).curvature[0] != 0.0);
-            if let Some(at) = bent {
-                return Err(InvalidParameter::new(
-                    "the distance (m) of a curve under trucks with massless wedges or empirical warp springs",
-                    at,
-                    "beyond the track: these elements know displacements from straight track only; take \
-                     wedge bodies, or a track without curves",
-                ));
-            }
-            if heading != 0.0 {
-                let what = "the heading (rad) with massless wedges or empirical warp springs";
-                return Err(InvalidParameter::new(what, heading, "zero"));
             }
         }
         if matches!(self.wheels, Wheels::Linear { .. }) && self.support.is_some() {

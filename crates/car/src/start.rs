@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use mechanics::connection::Law;
 use mechanics::friction::FrictionLaw;
 use mechanics::orientation::fixed;
 use mechanics::system::{Observation, StaticFriction, System};
@@ -51,6 +52,11 @@ pub(crate) fn at_rest(
         if nominal.numbers.wedges.iter().flatten().any(|own| own == carried) {
             face.coefficient = 0.0;
             face.law = FrictionLaw::Tanh { reference_speed: 1.0 };
+        }
+    }
+    for connection in &mut nominal.model.connections {
+        if let Law::Wedge(wedge) = &mut connection.law {
+            (wedge.column_friction, wedge.slope_friction) = (0.0, 0.0);
         }
     }
     let mut system = System::new(nominal.model)?;

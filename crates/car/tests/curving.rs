@@ -3,8 +3,10 @@
 
 mod common;
 
-use car::{Car, Loads};
-use common::{INCH, Ran, at_start, curve, loaded, run};
+use car::{Car, Loads, Parameters};
+use common::{INCH, POUND_FORCE, Ran, at_start, curve, loaded, massless, run, run_by};
+use integrate::Method;
+use truck::{WedgeKind, empirical_warp};
 
 /// The force of all wheels on the rails along the track's plane, positive to the left, N.
 fn lateral(loads: &Loads) -> f64 {
@@ -13,6 +15,12 @@ fn lateral(loads: &Loads) -> f64 {
         .iter()
         .map(|[left, right]| left.lateral - right.lateral)
         .sum()
+}
+
+/// The mean of the last four seconds, some periods of what is left of the car's swaying.
+fn late(ran: &Ran, of: impl Fn(&Loads) -> f64) -> f64 {
+    let late = ran.loads.iter().rev().take(80);
+    late.map(|(_, own)| of(own)).sum::<f64>() / 80.0
 }
 
 fn steady(degree: f64, turn: f64, cant: f64, speed: f64, heading: f64) -> Ran {
@@ -35,10 +43,8 @@ fn analytic_the_rails_turn_the_car() {
         let turning = last.speed * last.speed * curvature;
         let falling = parameters.gravity * roll.sin();
         let expected = mass * (turning * roll.cos() - falling);
-        // On the rails, to the outside: to the right in a curve to the left. What is left of the car's
-        // swaying is averaged over some periods.
-        let late: Vec<&Loads> = ran.loads.iter().rev().take(80).map(|(_, own)| own).collect();
-        let found = -late.iter().map(|own| lateral(own)).sum::<f64>() / late.len() as f64;
+        // On the rails, to the outside: to the right in a curve to the left.
+        let found = -late(&ran, lateral);
         let scale = mass * turning.max(falling);
         assert!(
             (found - expected).abs() < 1e-3 * scale,
@@ -96,8 +102,73 @@ fn limits_forces_do_not_know_the_heading() {
 }
 
 fn same_as_at(heading: f64) {
-    let [here, there] = [0.0, heading].map(|heading| steady(5.0, 1.0, 0.0, 13.0, heading));
-    let (here, there) = (here.last(), there.last());
+    let ran = [0.0, heading].map(|heading| steady(5.0, 1.0, 0.0, 13.0, heading));
+    same(&ran);
+}
+
+/// The same with massless wedges and empirical warp springs, which act between markers.
+#[test]
+fn limits_forces_of_massless_wedges_do_not_know_the_heading() {
+    let ran = [0.0, 3.0].map(|heading| {
+        let mut parameters = industry(5.0, 0.0, 13.0);
+        parameters.start.heading = heading;
+        run(&parameters, 4.0, 0.05, 1e-5)
+    });
+    same(&ran);
+}
+
+/// A car with the industry's wedges and the warp springs of a new truck, in a curve.
+fn industry(degree: f64, cant: f64, speed: f64) -> Parameters {
+    let mut parameters = massless(loaded(curve(degree, 1.0, cant, 200.0), speed));
+    for own in &mut parameters.trucks {
+        own.warp_spring = Some(empirical_warp(255e3 * POUND_FORCE * INCH).unwrap());
+    }
+    parameters.start.distance = 100.0;
+    parameters
+}
+
+/// Steady curving of 7.5 deg with the industry's wedges beside wedges that are bodies: the rails' sum is that
+/// of the balance with either, forces of the leading outer wheel agree within a tenth. Massless wedges do not
+/// lock in warp: their trucks warp more and steer less, and warp springs lessen that.
+#[test]
+fn limits_massless_wedges_curve_as_wedge_bodies_do() {
+    let with_springs = industry(7.5, 4.0 * INCH, 11.0);
+    let mut without = with_springs.clone();
+    for own in &mut without.trucks {
+        own.warp_spring = None;
+    }
+    let mut bodies = without.clone();
+    for wedge in bodies.trucks.iter_mut().flat_map(|own| &mut own.wedges) {
+        wedge.kind = WedgeKind::Body;
+    }
+    let ran = [bodies, with_springs, without].map(|parameters| {
+        let ran = run_by(Method::TrBdf2, &parameters, 10.0, 0.05, 1e-4);
+        assert!(ran.residual < 1e-4, "{}", ran.residual);
+        ran
+    });
+    let of = |quantity: fn(&Loads) -> f64| ran.each_ref().map(|ran| late(ran, quantity));
+    let [expected, sprung, free] = of(lateral);
+    for found in [sprung, free] {
+        assert!((found - expected).abs() < 2e3, "{found} and {expected} N");
+    }
+    let [expected, sprung, free] = of(|loads| loads.wheels[0][1].lateral);
+    for found in [sprung, free] {
+        assert!((found / expected - 1.0).abs() < 0.1, "{found} and {expected} N");
+    }
+    let [bodies, sprung, free] = of(|loads| -loads.axles[0].yaw);
+    assert!(
+        bodies > 5e-3 && sprung > bodies && free > sprung && free < 1.25 * bodies,
+        "{bodies} {sprung} {free} rad"
+    );
+    let [locked, sprung, free] = of(|loads| loads.trucks[0].warp_angle);
+    assert!(
+        locked > 2e-3 && sprung > 1.05 * locked && free > 1.05 * sprung && free < 1.6 * locked,
+        "{locked} {sprung} {free}"
+    );
+}
+
+fn same(ran: &[Ran; 2]) {
+    let [here, there] = ran.each_ref().map(Ran::last);
     for (a, b) in here.wheels.iter().flatten().zip(there.wheels.iter().flatten()) {
         assert!((a.vertical - b.vertical).abs() < 1.5e2, "{a:?} {b:?}");
         assert!((a.lateral - b.lateral).abs() < 1.5e2, "{a:?} {b:?}");

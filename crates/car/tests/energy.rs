@@ -4,16 +4,16 @@
 mod common;
 
 use car::{Car, StartKind, Wheels};
-use common::{INCH, curve, loaded, run, tangent};
-use integrate::Problem;
+use common::{INCH, curve, loaded, massless, run, run_by, tangent};
+use integrate::{Method, Problem};
+use mechanics::system::EnergyTermKind;
 use rolling::wheelset::coordinate;
 use wheelrail::contact::CreepLaw;
 use wheelrail::track::spectrum::{Realization, Spectrum};
-use wheelrail::track::{Direction, Irregularity, Placed, Rails};
+use wheelrail::track::{Direction, Irregularity, Placed, Rails, Track};
 
-/// Work of the drive against losses and what is stored, on rough track and into a curve.
-#[test]
-fn energy_closes_on_rough_track_and_in_curves() {
+/// Tangent track with irregularities of FRA class 6.
+fn rough() -> Track {
     let mut rough = tangent(120.0);
     for (rails, direction, spectrum, seed) in [
         (Rails::Both, Direction::Lateral, Spectrum::FraLateral(6), 1),
@@ -27,13 +27,54 @@ fn energy_closes_on_rough_track_and_in_curves() {
             irregularity: Irregularity::Spectrum(own),
         });
     }
+    rough
+}
+
+/// Work of the drive against losses and what is stored, on rough track and into a curve.
+#[test]
+fn energy_closes_on_rough_track_and_in_curves() {
     for (name, track, speed, duration) in [
-        ("rough", rough, 15.0, 3.0),
+        ("rough", rough(), 15.0, 3.0),
         ("curve", curve(7.5, 1.0, 4.0 * INCH, 200.0), 11.0, 10.0),
     ] {
-        let ran = run(&loaded(track, speed), duration, 0.05, 1e-6);
-        assert!(ran.residual < 1e-4, "{name}: {}", ran.residual);
+        let bodies = loaded(track, speed);
+        for parameters in [massless(bodies.clone()), bodies] {
+            let ran = run(&parameters, duration, 0.05, 1e-6);
+            assert!(ran.residual < 1e-4, "{name}: {}", ran.residual);
+        }
     }
+}
+
+/// What does not close is the integrator's error: it falls with the tolerance.
+#[test]
+fn convergence_the_ledger_closes_with_the_tolerance() {
+    let parameters = loaded(rough(), 15.0);
+    let [large, small] = [1e-5, 1e-6].map(|tolerance| run(&parameters, 2.0, 0.05, tolerance).residual);
+    assert!(small < 1e-4 && small < 0.1 * large, "{large:e} {small:e}");
+}
+
+/// Friction of massless wedges takes energy, and the bolster does not swing on what they would feed.
+#[test]
+fn energy_massless_wedges_feed_none() {
+    let ran = run_by(Method::TrBdf2, &massless(loaded(rough(), 15.0)), 4.0, 0.05, 1e-4);
+    let mut system = ran.car.system.clone();
+    let seen = system.observe(ran.time, &ran.state);
+    let sum = |kind: EnergyTermKind| -> f64 {
+        let terms = system.energy_terms().iter().zip(&seen.quadratures);
+        terms
+            .filter(|(term, _)| term.kind == kind)
+            .map(|(_, value)| value)
+            .sum()
+    };
+    let column = sum(EnergyTermKind::ColumnFriction);
+    assert!(column > 500.0, "{column} J");
+    for (term, value) in system.energy_terms().iter().zip(&seen.quadratures) {
+        if term.kind == EnergyTermKind::SlopeFriction {
+            assert!(*value > -1.0, "{}: {value} J", term.element);
+        }
+    }
+    let fed = sum(EnergyTermKind::WedgeKinematics).abs();
+    assert!(fed < 0.01 * column, "{fed} of {column} J");
 }
 
 /// A wheelset that spins and turns with the track has the gyroscopic moment `I Ω ψ'` about its forward

@@ -346,6 +346,7 @@ fn limits_a_linearized_body_is_a_finite_one_at_small_angles() {
             a: 0,
             b: 1,
             point,
+            markers: None,
             law: Law::Springs((0..3).map(|k| (k, law.clone())).collect()),
         });
     }
@@ -387,6 +388,7 @@ fn input_frames_that_do_not_fit_are_refused() {
         a: 0,
         b: 1,
         point,
+        markers: None,
         law,
     });
     let error = System::new(model).unwrap_err();

@@ -61,6 +61,7 @@ fn link(a: usize, b: usize, point: [f64; 3]) -> Connection {
         a,
         b,
         point,
+        markers: None,
         law: Law::Springs((0..3).map(|k| (k, law.clone())).collect()),
     }
 }

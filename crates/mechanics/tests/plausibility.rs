@@ -191,6 +191,7 @@ fn limits_linearized_bodies_are_found_beyond_small_angles_and_the_size_of_the_sy
         a: 0,
         b: 1,
         point: [0.3, 0.4, 0.0],
+        markers: None,
         law: Law::Springs(vec![(2, spring)]),
     };
     let model = Model {
@@ -208,6 +209,32 @@ fn limits_linearized_bodies_are_found_beyond_small_angles_and_the_size_of_the_sy
         words.contains("pitch is 0.2 rad, where linearized levers err by 2 %"),
         "{words}"
     );
+}
+
+/// Between markers bodies may turn and travel.
+#[test]
+fn limits_bodies_between_markers_have_no_small_angles() {
+    let one = Body::free("bolster", 100.0, [10.0; 3], [0.0; 6]);
+    let at = Marker::new([0.0; 3], [0.0; 3]);
+    let spring = SpringDamper::spring(Curve::linear(1e6));
+    let connection = |markers: Option<[Marker; 2]>| Connection {
+        account: String::new(),
+        name: "spring".to_owned(),
+        a: 0,
+        b: 1,
+        point: [0.3, 0.4, 0.0],
+        markers,
+        law: Law::Springs(vec![(2, spring.clone())]),
+    };
+    for (markers, count) in [(None, 2), (Some([at; 2]), 0)] {
+        let model = Model {
+            bodies: vec![one.clone(), Body::ground()],
+            connections: vec![connection(markers)],
+            ..Model::default()
+        };
+        let all = found(&mut system(model), &[[2.0, 0.0, 0.0, 0.0, -1.0, 0.0]]);
+        assert_eq!(all.len(), count, "{all:?}");
+    }
 }
 
 #[test]

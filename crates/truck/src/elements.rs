@@ -11,7 +11,7 @@ use mechanics::system::{AppliedLoad, Model};
 use wedge::parameters::{Contact, FaceFriction};
 
 use crate::assemble::{BOLSTER, CAR_BODY, SIDE_FRAMES, WEDGES, WHEELSETS};
-use crate::massless::{massless_wedge, warp_spring};
+use crate::massless::{Joint, massless_wedge, warp_spring};
 use crate::mounted::MountedTruck;
 use crate::parameters::{
     Adapter, AdapterPad, CarBody, Clearance, FrictionAdapter, Parameters, SideBearing, Spring, WedgeKind,
@@ -277,6 +277,17 @@ impl Builder<'_> {
         (number, marker_on(&self.model.bodies[number], place, angles))
     }
 
+    /// Returns where a connection joins two bodies (their numbers in the model) at a place (m).
+    fn joint(&self, bodies: [usize; 2], at: [f64; 3]) -> Joint {
+        let point = std::array::from_fn(|k| at[k] + self.mount.center[k]);
+        let bodies = bodies.map(|body| &self.model.bodies[body]);
+        let turned = bodies.iter().any(|body| body.frame.orientation != [0.0; 3]);
+        Joint {
+            point,
+            markers: turned.then(|| bodies.map(|body| marker_on(body, point, [0.0; 3]))),
+        }
+    }
+
     /// Adds a spring that carries body `a` on the seat of body `b`.
     fn spring(&mut self, role: Role, name: String, [a, b]: [usize; 2], at: [f64; 3], spring: &Spring) {
         self.added.suspension.push(Suspended {
@@ -318,9 +329,9 @@ impl Builder<'_> {
         let bodies = &self.mount.bodies;
         let [bolster, side_frame] = [BOLSTER, SIDE_FRAMES + usize::from(way < 0.0)].map(|body| bodies[body]);
         if wedge.kind == WedgeKind::Massless {
-            let point = std::array::from_fn(|k| center[k] + self.mount.center[k]);
             let wedge = (wedge, parameters.damping, end);
-            let connection = massless_wedge(WEDGE_NAMES[number], [bolster, side_frame], point, wedge);
+            let at = self.joint([bolster, side_frame], center);
+            let connection = massless_wedge(WEDGE_NAMES[number], [bolster, side_frame], at, wedge);
             self.model.connections.push(connection);
             return;
         }
@@ -351,10 +362,9 @@ impl Builder<'_> {
         }
         if let Some(moment) = &parameters.warp_spring {
             let [a, b] = ends.map(|body| self.mount.bodies[body]);
-            let center = self.mount.center;
-            let point = [center[0], y + center[1], HEIGHT + center[2]];
+            let at = self.joint([a, b], [0.0, y, HEIGHT]);
             if ![a, b].iter().all(|body| self.model.bodies[*body].is_prescribed()) {
-                let spring = warp_spring(format!("{side}_warp_spring"), [a, b], point, moment);
+                let spring = warp_spring(format!("{side}_warp_spring"), [a, b], at, moment);
                 self.model.connections.push(spring);
             }
         }

@@ -1,8 +1,13 @@
 //! Wedges without mass and empirical warp springs: the industry's model of a truck, as connections.
+//!
+//! In rigs, whose bodies have their reference frames along the fixed axes, they act on differences of
+//! coordinates, as in the industry's programs. On track the frames of bodies are turned and headings large:
+//! there they act between markers on bolster and side frame, along the axes of the side frame.
 
 use mechanics::connection::{Accumulator, ColumnFace, Connection, Law, SpringDamper, Wedge as MasslessWedge};
 use mechanics::curve::{Curve, CurveError};
 use mechanics::friction::FrictionLaw;
+use mechanics::link::Marker;
 use wedge::parameters::Damping;
 
 use crate::parameters::{ControlCoil, Wedge};
@@ -17,6 +22,15 @@ const LVB: f64 = 1e4 * POUND_PER_INCH;
 const WARP_STOP: f64 = 0.030;
 const WARP_STOP_STIFFNESS: f64 = 6.4e7 * POUND_FORCE * INCH;
 
+/// Where a connection joins two bodies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Joint {
+    /// Its point in the nominal layout, m.
+    pub point: [f64; 3],
+    /// Markers there, of bodies whose reference frames do not stand along the fixed axes.
+    pub markers: Option<[Marker; 2]>,
+}
+
 /// Returns a nest's empirical warp spring, which has this moment (N·m) at 30 mrad and meets a stop there.
 ///
 /// NUCARS's files have 52.5 kip·in for a worn truck, 255 for a new one, 1,275 for a stiff H-frame; they say
@@ -30,13 +44,14 @@ pub fn empirical_warp(moment: f64) -> Result<Curve, CurveError> {
 }
 
 /// Returns the connection that stands for an empirical warp spring between bolster `a` and side frame `b`.
-pub(crate) fn warp_spring(name: String, [a, b]: [usize; 2], point: [f64; 3], moment: &Curve) -> Connection {
+pub(crate) fn warp_spring(name: String, [a, b]: [usize; 2], at: Joint, moment: &Curve) -> Connection {
     Connection {
         name,
         account: String::new(),
         a,
         b,
-        point,
+        point: at.point,
+        markers: at.markers,
         law: Law::Springs(vec![(5, SpringDamper::spring(moment.clone()))]),
     }
 }
@@ -46,7 +61,7 @@ pub(crate) fn warp_spring(name: String, [a, b]: [usize; 2], point: [f64; 3], mom
 pub(crate) fn massless_wedge(
     name: &str,
     [a, b]: [usize; 2],
-    point: [f64; 3],
+    at: Joint,
     (wedge, damping, end): (&Wedge, Damping, f64),
 ) -> Connection {
     // A worn column lies deeper along its normal, a worn slope too: the wedge rises.
@@ -74,7 +89,8 @@ pub(crate) fn massless_wedge(
         account: name.to_owned(),
         a,
         b,
-        point,
+        point: at.point,
+        markers: at.markers,
         law: Law::Wedge(law),
     }
 }

@@ -309,6 +309,7 @@ fn linearized(parameters: &Parameters) -> System {
             a,
             b,
             point,
+            markers: None,
             law,
         });
     };

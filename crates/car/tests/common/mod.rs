@@ -4,7 +4,7 @@
 use car::{Car, Loads, Parameters};
 use integrate::{Integrator, Method, Options, Problem};
 use mechanics::energy_balance::EnergyBalance;
-use truck::Lading;
+use truck::{Lading, WedgeKind};
 use wheelrail::track::{CenterLine, CurveElements, Segment, Track};
 
 pub const INCH: f64 = 0.0254;
@@ -43,6 +43,14 @@ pub fn loaded(track: Track, speed: f64) -> Parameters {
 
 pub fn empty(track: Track, speed: f64) -> Parameters {
     Parameters::new(Lading::Empty, track, speed).unwrap()
+}
+
+/// The same car with the industry's wedges, which have no mass.
+pub fn massless(mut parameters: Parameters) -> Parameters {
+    for wedge in parameters.trucks.iter_mut().flat_map(|own| &mut own.wedges) {
+        wedge.kind = WedgeKind::Massless;
+    }
+    parameters
 }
 
 /// What came of a run.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::between::Between;
 use super::gap::Gap;
 use super::site::{End, Row, Site};
 use super::spring::Spring;
@@ -170,7 +171,9 @@ impl ConnectionAssembler<'_> {
         coordinates: [usize; D],
         losses: [Option<EnergyTermKind>; P],
     ) -> Site<D, P> {
-        let Connection { a, b, point, .. } = connection;
+        let Connection {
+            a, b, point, markers, ..
+        } = connection;
         let numbers = [*a, *b];
         let mut sign = -1.0;
         let ends = numbers.map(|body| {
@@ -212,6 +215,8 @@ impl ConnectionAssembler<'_> {
             quadratures,
             works,
             prescribed,
+            between: markers.map(|own| Box::new(Between::new(coordinates, numbers, self.bodies, own))),
+            slots: numbers.map(|body| self.slots[body]),
         }
     }
 

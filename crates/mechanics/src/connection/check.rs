@@ -41,9 +41,22 @@ pub enum ConnectionError {
     #[error(
         "connection {index} ({name}) joins {body}, whose coordinates are no displacements along x, y, z: \
          its reference frame must not be turned, and must stand still if the body has free coordinates; or \
-         use a contact face, a coil or another element"
+         give markers, or use a contact face, a coil or another element"
     )]
     NotDisplacements {
+        /// Number of the connection.
+        index: usize,
+        /// Its name.
+        name: String,
+        /// The body.
+        body: String,
+    },
+    /// A connection between markers joins a body whose reference frame moves.
+    #[error(
+        "connection {index} ({name}) between markers joins {body}, whose reference frame moves; it must \
+         stand still: move the body by a load or an element instead, or leave the markers out"
+    )]
+    MovingFrame {
         /// Number of the connection.
         index: usize,
         /// Its name.
@@ -175,7 +188,19 @@ impl Connection {
             let Body { frame, .. } = &bodies[body];
             frame.orientation == [0.0; 3] && (bodies[body].is_prescribed() || frame.is_fixed())
         };
-        if let Some(body) = [*a, *b].into_iter().find(|body| !displaced(*body)) {
+        let moving = |body: usize| !bodies[body].frame.is_fixed();
+        if let Some(body) = [*a, *b]
+            .into_iter()
+            .find(|body| self.markers.is_some() && moving(*body))
+        {
+            return Err(ConnectionError::MovingFrame {
+                index,
+                name: name(),
+                body: bodies[body].name.clone(),
+            });
+        }
+        let along_axes = |body: usize| self.markers.is_some() || displaced(body);
+        if let Some(body) = [*a, *b].into_iter().find(|body| !along_axes(*body)) {
             return Err(ConnectionError::NotDisplacements {
                 index,
                 name: name(),

@@ -85,15 +85,14 @@ impl Friction {
 /// Returns the friction of one element.
 fn friction<L: SpatialLaw>(
     element: &Spatial<L>,
-    (positions, rates): CoordinatesAndRates<'_>,
+    coordinates: CoordinatesAndRates<'_>,
     internal: &[f64],
 ) -> Friction {
-    let site = &element.site;
-    let (extensions, rates) = (site.extensions(positions), site.extensions(rates));
+    let motion = element.site.motion(coordinates);
     let deflection = deflection_at(element.internal, internal);
     element
         .law
-        .force_at(extensions, rates, deflection, Grip::Law)
+        .force_at(motion.extensions, motion.rates, deflection, Grip::Law)
         .friction
 }
 

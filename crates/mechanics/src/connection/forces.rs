@@ -117,26 +117,26 @@ impl Connections {
 #[inline(always)]
 fn push_axis<L: AxisLaw>(
     axis: &Axis<L>,
-    (positions, rates): CoordinatesAndRates<'_>,
+    coordinates: CoordinatesAndRates<'_>,
     loads: &mut [[f64; 6]],
     powers: &mut [f64],
 ) {
     let site = &axis.site;
-    let ([extension], [rate]) = (site.extensions(positions), site.extensions(rates));
-    let done = axis.law.force_at(extension, rate);
-    site.push([done.force], loads);
+    let motion = site.motion(coordinates);
+    let done = axis.law.force_at(motion.extensions[0], motion.rates[0]);
+    site.push([done.force], &motion, loads);
     if let Some(energy_term) = site.energy_terms[0] {
         powers[energy_term] += done.loss;
     }
     if site.prescribed {
-        powers[0] += done.force * site.prescribed_rates(rates)[0];
+        powers[0] += done.force * site.prescribed_rates(coordinates.1)[0];
     }
 }
 
 #[inline(always)]
 fn push_spatial<L: SpatialLaw>(
     element: &Spatial<L>,
-    (positions, rates): CoordinatesAndRates<'_>,
+    coordinates: CoordinatesAndRates<'_>,
     grip: Grip,
     internal: &[f64],
     d_internal: &mut [f64],
@@ -144,12 +144,12 @@ fn push_spatial<L: SpatialLaw>(
     powers: &mut [f64],
 ) {
     let site = &element.site;
-    let (extensions, extension_rates) = (site.extensions(positions), site.extensions(rates));
+    let motion = site.motion(coordinates);
     let deflection = deflection_at(element.internal, internal);
     let done = element
         .law
-        .force_at(extensions, extension_rates, deflection, grip);
-    site.push(done.force, loads);
+        .force_at(motion.extensions, motion.rates, deflection, grip);
+    site.push(done.force, &motion, loads);
     if let Some(at) = element.internal {
         d_internal[at..at + 2].copy_from_slice(&done.rate);
     }
@@ -159,7 +159,7 @@ fn push_spatial<L: SpatialLaw>(
         }
     }
     if site.prescribed {
-        let prescribed_rate = site.prescribed_rates(rates);
+        let prescribed_rate = site.prescribed_rates(coordinates.1);
         powers[0] += done.force[0] * prescribed_rate[0]
             + done.force[1] * prescribed_rate[1]
             + done.force[2] * prescribed_rate[2];

@@ -26,10 +26,10 @@ pub(crate) struct JacobianInputs<'s> {
 
 /// Derivatives of one quantity by extensions, rates and deflections.
 #[derive(Clone, Copy, Debug, Default)]
-struct Partial {
-    extensions: [f64; 3],
-    rates: [f64; 3],
-    deflection: [f64; 2],
+pub(super) struct Partial {
+    pub extensions: [f64; 3],
+    pub rates: [f64; 3],
+    pub deflection: [f64; 2],
 }
 
 impl Partial {
@@ -57,11 +57,12 @@ impl Partial {
 }
 
 /// Derivatives of all that an element does.
-struct Local {
-    force: [f64; 3],
-    forces: [Partial; 3],
-    deflection_rates: [Partial; 2],
-    powers: [Partial; 3],
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Local {
+    pub force: [f64; 3],
+    pub forces: [Partial; 3],
+    pub deflection_rates: [Partial; 2],
+    pub powers: [Partial; 3],
 }
 
 impl Connections {
@@ -86,11 +87,25 @@ impl JacobianInputs<'_> {
     #[inline(always)]
     fn axis<L: AxisLaw>(&mut self, axis: &Axis<L>) {
         let site = &axis.site;
-        let ([extension], [rate]) = (site.extensions(self.positions), site.extensions(self.rates));
+        let motion = site.motion((self.positions, self.rates));
+        let ([extension], [rate]) = (motion.extensions, motion.rates);
         let done = axis
             .law
             .force_at(Dual::<2>::variable(extension, 0), Dual::<2>::variable(rate, 1));
         let [stiffness, damping] = done.force.derivative;
+        if let Some(between) = &site.between {
+            let partial = |[by_extension, by_rate]: [f64; 2]| Partial {
+                extensions: [by_extension, 0.0, 0.0],
+                rates: [by_rate, 0.0, 0.0],
+                ..Partial::default()
+            };
+            let mut local = Local::default();
+            local.force[0] = done.force.value;
+            local.forces[0] = partial(done.force.derivative);
+            local.powers[0] = partial(done.loss.derivative);
+            self.between(site, between, &local, None);
+            return;
+        }
         for (i, row_end) in site.ends.iter().enumerate() {
             for (j, column_end) in site.ends.iter().enumerate() {
                 if row_end.free.is_none() || column_end.free.is_none() {
@@ -136,7 +151,7 @@ impl JacobianInputs<'_> {
                 by_extension * prescribed_rate + by_rate * prescribed_acceleration
             };
             let force_rate = in_time(done.force.derivative);
-            site.push([force_rate], self.loads);
+            site.push_along_axes([force_rate], self.loads);
             self.d_quadratures[0] +=
                 force_rate * prescribed_rate + done.force.value * prescribed_acceleration;
             if let Some(energy_term) = site.energy_terms[0] {
@@ -152,6 +167,11 @@ impl JacobianInputs<'_> {
         } else {
             self.local::<L, 6>(element, grip)
         };
+        if let Some(between) = &element.site.between {
+            let internal = element.internal.map(|at| (at / 2, &element.internal_rows));
+            self.between(&element.site, between, &local, internal);
+            return;
+        }
         self.add_forces(&element.site, &local);
         self.add_powers(element, &local);
         if let Some(internal) = element.internal {
@@ -165,8 +185,8 @@ impl JacobianInputs<'_> {
     /// Returns the law with its derivatives.
     #[inline(always)]
     fn local<L: SpatialLaw, const N: usize>(&self, element: &Spatial<L>, grip: Grip) -> Local {
-        let site = &element.site;
-        let (extensions, rates) = (site.extensions(self.positions), site.extensions(self.rates));
+        let motion = element.site.motion((self.positions, self.rates));
+        let (extensions, rates) = (motion.extensions, motion.rates);
         let deflection = deflection_at(element.internal, self.internal);
         let first = N - 5;
         let seed = |values: [f64; 3], from: usize, count: usize| -> [Dual<N>; 3] {
@@ -296,7 +316,7 @@ impl JacobianInputs<'_> {
         let rates = local
             .forces
             .map(|force| force.in_time(&prescribed_rate, &prescribed_acceleration));
-        site.push(rates, self.loads);
+        site.push_along_axes(rates, self.loads);
         for k in 0..3 {
             self.d_quadratures[0] +=
                 rates[k] * prescribed_rate[k] + local.force[k] * prescribed_acceleration[k];

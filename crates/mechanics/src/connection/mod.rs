@@ -25,6 +25,8 @@
 
 mod accumulator;
 mod assembler;
+mod between;
+mod between_jacobian;
 mod check;
 mod contact_states;
 mod forces;
@@ -38,6 +40,8 @@ mod surface;
 mod wedge;
 
 use numerics::partitioned::Partitioned;
+
+use crate::link::Marker;
 
 use gap::Gap;
 use site::Site;
@@ -76,6 +80,10 @@ pub struct Connection {
     pub b: usize,
     /// Its point in the drawn layout, m.
     pub point: [f64; 3],
+    /// Markers on body A and body B, which coincide in the drawn layout. With them extensions are those of
+    /// marker A relative to marker B along the axes of marker B, at any heading; without, differences of
+    /// coordinates.
+    pub markers: Option<[Marker; 2]>,
     /// Its law.
     pub law: Law,
 }

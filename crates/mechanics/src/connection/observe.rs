@@ -1,5 +1,6 @@
 //! Extensions, forces and energies of connections at a state, for outputs.
 
+use super::between::Between;
 use super::forces::{CoordinatesAndRates, SpatialLaw, deflection_at};
 use super::site::Row;
 use super::wedge::{WedgeLaw, WedgeState};
@@ -56,13 +57,13 @@ impl Connections {
     fn inside(
         &self,
         wedge: &Spatial<WedgeLaw>,
-        (positions, rates): CoordinatesAndRates<'_>,
+        coordinates: CoordinatesAndRates<'_>,
         internal: &[f64],
     ) -> (WedgeState, [f64; 3]) {
-        let site = &wedge.site;
-        let (extensions, rates) = (site.extensions(positions), site.extensions(rates));
+        let motion = wedge.site.motion(coordinates);
         let deflection = deflection_at(wedge.internal, internal);
         let mut inside = WedgeState::default();
+        let (extensions, rates) = (motion.extensions, motion.rates);
         wedge
             .law
             .evaluate_with(extensions, rates, deflection, self.grips.wedges, |state| {
@@ -80,7 +81,6 @@ impl Connections {
         internal: &[f64],
         energies: &mut Energies,
     ) -> Vec<ConnectionState> {
-        let (positions, rates) = coordinates;
         let mut all: Vec<ConnectionState> = self
             .all
             .iter()
@@ -95,7 +95,8 @@ impl Connections {
             })
             .collect();
         let springs = self.springs.iter().map(|axis| {
-            let ([s], [v]) = (axis.site.extensions(positions), axis.site.extensions(rates));
+            let motion = axis.site.motion(coordinates);
+            let ([s], [v]) = (motion.extensions, motion.rates);
             (
                 &axis.site,
                 s,
@@ -105,7 +106,8 @@ impl Connections {
             )
         });
         let gaps = self.gaps.iter().map(|axis| {
-            let ([s], [v]) = (axis.site.extensions(positions), axis.site.extensions(rates));
+            let motion = axis.site.motion(coordinates);
+            let ([s], [v]) = (motion.extensions, motion.rates);
             (
                 &axis.site,
                 s,
@@ -163,6 +165,16 @@ impl Connections {
                 continue;
             }
             for (component, coordinate) in connection.law.coordinates().into_iter().enumerate() {
+                if let Some(markers) = connection.markers {
+                    let numbers = [connection.a, connection.b];
+                    let own = Between::new([coordinate], numbers, bodies, markers);
+                    let levers = own.levers_at(positions);
+                    let speeds = own.both(rates);
+                    let [row] = &levers.by_coordinates;
+                    state.extensions[component] = levers.extensions[0];
+                    state.velocities[component] = row.iter().zip(&speeds).map(|(a, b)| a * b).sum();
+                    continue;
+                }
                 let along = |coordinates: &[[f64; 6]], body: usize| {
                     let center = bodies[body].frame.origin;
                     let offset = std::array::from_fn(|k| connection.point[k] - center[k]);
@@ -182,12 +194,12 @@ impl Connections {
 fn fill<L: SpatialLaw>(
     element: &Spatial<L>,
     grip: Grip,
-    (positions, rates): CoordinatesAndRates<'_>,
+    coordinates: CoordinatesAndRates<'_>,
     internal: &[f64],
     state: &mut ConnectionState,
 ) {
-    let site = &element.site;
-    let (extensions, rates) = (site.extensions(positions), site.extensions(rates));
+    let motion = element.site.motion(coordinates);
+    let (extensions, rates) = (motion.extensions, motion.rates);
     let deflection = deflection_at(element.internal, internal);
     let done = element.law.force_at(extensions, rates, deflection, grip);
     let law_says = match grip {

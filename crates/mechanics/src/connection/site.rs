@@ -1,8 +1,10 @@
 //! Where connections act: displacements of a point of a body, linear in its six coordinates.
 //!
 //! `u = x + θ lz - ψ ly`, `v = y - φ lz + ψ lx`, `w = z + φ ly - θ lx`; rotations pass through. The offset l
-//! from the center of gravity is that of the drawn layout.
+//! from the center of gravity is that of the drawn layout. Connections between markers: [`super::between`].
 
+use super::between::Between;
+use super::forces::CoordinatesAndRates;
 use numerics::partitioned::Partitioned;
 
 /// The row of one displacement in a body's coordinates: at most three entries.
@@ -117,6 +119,21 @@ pub(crate) struct Site<const D: usize, const P: usize> {
     pub works: [Option<usize>; 2],
     /// Whether one end is prescribed and moves.
     pub prescribed: bool,
+    /// Where it acts if it is one between markers; else its rows say so.
+    pub between: Option<Box<Between<D>>>,
+    /// The numbers of the free coordinates at both ends.
+    pub slots: [[Option<usize>; 6]; 2],
+}
+
+/// Extensions and their rates at a state, and, between markers, the derivatives of the extensions by the
+/// coordinates of both bodies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Motion<const D: usize> {
+    /// Extensions.
+    pub extensions: [f64; D],
+    /// Their rates.
+    pub rates: [f64; D],
+    levers: Option<[[f64; 12]; D]>,
 }
 
 impl<const D: usize, const P: usize> Site<D, P> {
@@ -132,9 +149,29 @@ impl<const D: usize, const P: usize> Site<D, P> {
         }
     }
 
+    /// Returns the extensions and their rates.
+    #[inline(always)]
+    pub fn motion(&self, (positions, rates): CoordinatesAndRates<'_>) -> Motion<D> {
+        let Some(between) = &self.between else {
+            return Motion {
+                extensions: self.differences(positions),
+                rates: self.differences(rates),
+                levers: None,
+            };
+        };
+        let levers = between.levers_at(positions);
+        let speeds = between.both(rates);
+        let rate = |row: &[f64; 12]| row.iter().zip(&speeds).map(|(lever, speed)| lever * speed).sum();
+        Motion {
+            extensions: levers.extensions,
+            rates: levers.by_coordinates.each_ref().map(rate),
+            levers: Some(levers.by_coordinates),
+        }
+    }
+
     /// Returns the differences of both ends' displacements.
     #[inline(always)]
-    pub fn extensions(&self, coordinates: &[[f64; 6]]) -> [f64; D] {
+    fn differences(&self, coordinates: &[[f64; 6]]) -> [f64; D] {
         let (a, b) = (&coordinates[self.ends[0].body], &coordinates[self.ends[1].body]);
         let mut extensions = [0.0; D];
         for k in 0..D {
@@ -159,7 +196,24 @@ impl<const D: usize, const P: usize> Site<D, P> {
 
     /// Adds the forces on both bodies.
     #[inline(always)]
-    pub fn push(&self, force: [f64; D], loads: &mut [[f64; 6]]) {
+    pub fn push(&self, force: [f64; D], motion: &Motion<D>, loads: &mut [[f64; 6]]) {
+        let Some(levers) = &motion.levers else {
+            self.push_along_axes(force, loads);
+            return;
+        };
+        for (i, end) in self.ends.iter().enumerate().filter(|(_, end)| end.free.is_some()) {
+            let load = &mut loads[end.body];
+            for (force, levers) in force.iter().zip(levers) {
+                for (load, lever) in load.iter_mut().zip(&levers[6 * i..]) {
+                    *load -= force * lever;
+                }
+            }
+        }
+    }
+
+    /// Adds the forces on both bodies of a connection that acts on differences of coordinates.
+    #[inline(always)]
+    pub fn push_along_axes(&self, force: [f64; D], loads: &mut [[f64; 6]]) {
         for (end, rows) in self.ends.iter().zip(&self.rows) {
             if end.free.is_some() {
                 let load = &mut loads[end.body];

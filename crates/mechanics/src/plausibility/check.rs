@@ -40,7 +40,7 @@ pub(super) struct Checks {
     /// Distances between the markers of other force elements at the start, m.
     pub distances: Vec<f64>,
     /// Bodies that move, and whose displacements count as small: with linearized kinematics, or with
-    /// connections.
+    /// connections that act on differences of coordinates.
     pub linearized: Vec<usize>,
 }
 
@@ -60,7 +60,9 @@ impl Checks {
             checks.add(FindingKind::Displacement, Location::Element(element), size);
         }
         for (number, body) in system.bodies().iter().enumerate() {
-            let ends = || system.connections().iter().flat_map(|own| [own.a, own.b]);
+            // Connections between markers see relative motions, wherever the bodies are.
+            let on_coordinates = || system.connections().iter().filter(|own| own.markers.is_none());
+            let ends = || on_coordinates().flat_map(|own| [own.a, own.b]);
             let small = body.linearized || ends().any(|end| end == number);
             if small && (!body.is_prescribed() || body.is_moving_prescribed()) {
                 checks.linearized.push(number);

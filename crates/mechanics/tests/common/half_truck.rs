@@ -112,6 +112,7 @@ pub fn model(constant: bool, spatial: bool) -> Model {
             a,
             b,
             point,
+            markers: None,
             law,
         });
     };

@@ -32,6 +32,7 @@ fn an_equilibrium_follows_a_motion_that_has_ended() {
             a: 0,
             b: 1,
             point: [0.0; 3],
+            markers: None,
             law: spring,
         }],
         ..Model::default()

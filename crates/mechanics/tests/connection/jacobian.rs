@@ -125,8 +125,8 @@ fn difference(h: f64, mut f: impl FnMut(f64) -> Vec<f64>) -> Option<Vec<f64>> {
 }
 
 #[derive(Default)]
-struct Counts {
-    columns: usize,
+pub struct Counts {
+    pub columns: usize,
     open: usize,
     stick: usize,
     slip: usize,
@@ -134,7 +134,7 @@ struct Counts {
 }
 
 /// Compares at random states, column by column, leaving out columns with a kink within the difference.
-fn compare(model: &Model, seed: u64) -> Counts {
+pub fn compare(model: &Model, seed: u64) -> Counts {
     let mut system = System::new(model.clone()).unwrap();
     let layout = system.layout();
     let n = layout.len();

@@ -16,6 +16,7 @@ mod issue_004_behaviour;
 mod jacobian;
 mod limits;
 mod loops;
+mod markers;
 mod prescribed;
 mod vibration;
 mod wedges;

@@ -15,6 +15,7 @@ pub fn connection(a: usize, b: usize, point: [f64; 3], law: Law) -> Connection {
         a,
         b,
         point,
+        markers: None,
         law,
     }
 }

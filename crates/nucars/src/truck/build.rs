@@ -117,6 +117,7 @@ impl Truck {
                 a: body(*connection.body_a)?,
                 b: body(*connection.body_b)?,
                 point: point(&connection.position),
+                markers: None,
                 law: Laws { system, by: by() }.law(&connection.element)?,
             });
         }

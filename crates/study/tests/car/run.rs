@@ -200,3 +200,26 @@ fn limits_a_derailment_is_a_result() {
     let followed = run(&jog(400.0));
     assert!(followed.summary.derailed.is_none() && followed.summary.complete);
 }
+
+/// The industry's wedges in a curve: it ends, without warnings, and tells which wedges it has.
+#[test]
+fn limits_massless_wedges_run_in_a_curve() {
+    let own = case(
+        "simulation.duration = \"6 s\"\nspeed.value = \"25 mph\"\ntruck.wedge.kind = \"massless\"\n\
+         truck.warp_spring.kind = \"new\"\n[[track.segments]]\ntangent = \"100 ft\"\n\
+         [[track.segments]]\nspiral = \"60 ft\"\n[[track.segments]]\ncurve = \"300 ft\"\n\
+         degree = \"7.5 deg\"\nsuperelevation = \"3 in\"\n",
+    );
+    let summary = run(&own).summary;
+    assert!(
+        summary.complete && summary.failed.is_none(),
+        "{:?}",
+        summary.stopped
+    );
+    assert!(summary.warnings.is_empty(), "{:?}", summary.warnings);
+    let told = summary
+        .assumptions
+        .iter()
+        .any(|line| line.contains("8 of 8 wedges have no mass"));
+    assert!(told, "{:?}", summary.assumptions);
+}
