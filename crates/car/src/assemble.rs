@@ -52,8 +52,9 @@ pub struct Numbers {
     pub bolsters: [usize; 2],
     /// The side frames of each truck, left and right.
     pub side_frames: [[usize; 2]; 2],
-    /// The wedges of each truck in the order of [`truck::WEDGE_NAMES`]; those without mass stand still.
-    pub wedges: [[usize; 4]; 2],
+    /// The wedges of each truck in the order of [`truck::WEDGE_NAMES`], then the inboard halves of split ones;
+    /// those without mass stand still.
+    pub wedges: [Vec<usize>; 2],
     /// The wheelsets from the front.
     pub wheelsets: [usize; 4],
     /// The carriers of the wheelsets, on which adapters stand.
@@ -207,7 +208,8 @@ impl Nominal {
             mount.center = centers[t];
             mount.prefix = ["truck_1_", "truck_2_"][t];
             let prefix = ["front", "rear"][t];
-            for (number, own) in truck::bodies(&parts[t], centers[t]).into_iter().enumerate() {
+            let own = truck::bodies(&parts[t], centers[t]);
+            for (number, own) in truck::numbers(&parts[t]).into_iter().zip(own) {
                 if number == truck::CAR_BODY {
                     mount.bodies[number] = body;
                     continue;
@@ -280,7 +282,10 @@ impl Nominal {
             body,
             bolsters: [0, 1].map(|t| mounts[t].bodies[truck::BOLSTER]),
             side_frames: [0, 1].map(|t| [0, 1].map(|k| mounts[t].bodies[truck::SIDE_FRAMES + k])),
-            wedges: [0, 1].map(|t| [0, 1, 2, 3].map(|k| mounts[t].bodies[truck::WEDGES + k])),
+            wedges: [0, 1].map(|t| {
+                let own = parts[t].wedge_parts();
+                own.iter().map(|part| mounts[t].bodies[part.number]).collect()
+            }),
             wheelsets,
             carriers,
             rails,
@@ -333,7 +338,7 @@ fn free(own: &truck::Parameters) -> truck::Parameters {
     for wedge in own
         .wedges
         .iter_mut()
-        .filter(|wedge| wedge.kind == WedgeKind::Body)
+        .filter(|wedge| wedge.kind != WedgeKind::Massless)
     {
         wedge.free = [true; 6];
     }

@@ -101,6 +101,7 @@ impl Parameters {
         for own in &mut free.trucks {
             for wedge in &mut own.wedges {
                 (wedge.column_friction, wedge.slope_friction) = (none, none);
+                wedge.split.friction = none;
             }
             if let Some(wheelsets) = &mut own.wheelsets
                 && let Adapter::Friction(adapter) = &mut wheelsets.adapter

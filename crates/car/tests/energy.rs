@@ -8,6 +8,7 @@ use common::{INCH, curve, loaded, massless, run, run_by, tangent};
 use integrate::{Method, Problem};
 use mechanics::system::EnergyTermKind;
 use rolling::wheelset::coordinate;
+use truck::WedgeKind;
 use wheelrail::contact::CreepLaw;
 use wheelrail::track::spectrum::{Realization, Spectrum};
 use wheelrail::track::{Direction, Irregularity, Placed, Rails, Track};
@@ -75,6 +76,44 @@ fn energy_massless_wedges_feed_none() {
     }
     let fed = sum(EnergyTermKind::WedgeKinematics).abs();
     assert!(fed < 0.01 * column, "{fed} of {column} J");
+}
+
+/// A car on split wedges, pressed apart, in one truck, and spatial ones in the other: it starts in its
+/// equilibrium, its wheels carry its weight, and the ledger closes into a curve.
+#[test]
+fn energy_closes_with_wedges_of_all_kinds() {
+    let of_kinds = |track, speed| {
+        let mut parameters = loaded(track, speed);
+        for (truck, kind) in parameters
+            .trucks
+            .iter_mut()
+            .zip([WedgeKind::Split, WedgeKind::Body])
+        {
+            for wedge in &mut truck.wedges {
+                wedge.kind = kind;
+                wedge.slope_across = 0.15;
+                wedge.pocket_sides.clearance = 0.0;
+            }
+        }
+        parameters
+    };
+    let standing = of_kinds(tangent(60.0), 0.0);
+    let car = Car::new(&standing).unwrap();
+    assert_eq!(car.numbers.wedges.each_ref().map(Vec::len), [8, 4]);
+    let loads = common::at_start(&car);
+    let carried: f64 = loads.wheels.iter().flatten().map(|wheel| wheel.vertical).sum();
+    assert!((carried / standing.weight() - 1.0).abs() < 1e-7, "{carried}");
+    for own in &loads.trucks[0].wedges {
+        for half in own.halves {
+            let share = 2.0 * half.column_normal / own.column_normal;
+            assert!((share - 1.0).abs() < 0.05, "{share}");
+        }
+    }
+    let parameters = of_kinds(curve(7.5, 1.0, 4.0 * INCH, 200.0), 11.0);
+    let ran = run(&parameters, 5.0, 0.05, 1e-6);
+    assert!(ran.residual < 1e-4, "{}", ran.residual);
+    let turned = ran.last().trucks[0].warp_angle.abs();
+    assert!(turned > 1e-4, "{turned}");
 }
 
 /// A wheelset that spins and turns with the track has the gyroscopic moment `I Ω ψ'` about its forward

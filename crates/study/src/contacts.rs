@@ -1,7 +1,7 @@
 //! What happens at each corner, or each point of a grid, of the wedges that are bodies in a run: taken along
 //! only where it is asked for, since a table of all corners has twice as many columns as the result.
 
-use std::ops::{ControlFlow, Range};
+use std::ops::ControlFlow;
 
 use mechanics::contact::ContactPoint;
 use mechanics::output::Column;
@@ -41,10 +41,13 @@ pub struct ContactTable {
     areas: Vec<Option<f64>>,
 }
 
+/// The corners of the inner side of a half of a split wedge.
+const SPLIT: [&str; 3] = ["lower_column", "lower_toe", "upper"];
+
 /// A recorder that can take the corners of wedges along.
 pub trait TakesCorners: Recorder {
     /// Returns the numbers of the wedges' bodies.
-    fn wedges(&self) -> Range<usize>;
+    fn wedges(&self) -> Vec<usize>;
     /// Returns the areas of column and slope of each, m²; empty: their faces have four corners alone.
     fn face_areas(&self) -> Vec<[f64; 2]> {
         Vec::new()
@@ -55,14 +58,18 @@ pub trait TakesCorners: Recorder {
 
 /// Returns the corners and other points of all faces of the bodies with these numbers.
 #[must_use]
-pub fn corners(system: &System, wedges: Range<usize>) -> Vec<Corner> {
+pub fn corners(system: &System, wedges: &[usize]) -> Vec<Corner> {
     let mut all = Vec::new();
     let mut place = 0;
     for (number, mounted) in system.faces().iter().enumerate() {
         let points = &mounted.element.points;
         if wedges.contains(&mounted.body) {
             let name = &mounted.element.name;
-            let own = point_names(points).into_iter().enumerate();
+            let own = match points.len() {
+                3 => SPLIT.map(|point| (point.to_owned(), None)).to_vec(),
+                _ => point_names(points),
+            };
+            let own = own.into_iter().enumerate();
             all.extend(own.map(|(i, (point, weight))| Corner {
                 name: format!("{name}_{point}"),
                 face: number,
@@ -115,12 +122,12 @@ fn point_names(points: &[ContactPoint]) -> Vec<(String, Option<f64>)> {
 
 impl ContactTable {
     /// Returns an empty table.
-    fn new(system: &System, wedges: Range<usize>, areas: &[[f64; 2]]) -> Self {
-        let first = wedges.start;
+    fn new(system: &System, wedges: &[usize], areas: &[[f64; 2]]) -> Self {
         let corners = corners(system, wedges);
         let area = |corner: &Corner| {
             let mounted = &system.faces()[corner.face];
-            let [column, slope] = areas.get(mounted.body - first)?;
+            let place = wedges.iter().position(|wedge| *wedge == mounted.body)?;
+            let [column, slope] = areas.get(place)?;
             let face = if mounted.element.name.ends_with("column") {
                 column
             } else {
@@ -205,7 +212,7 @@ where
     pub fn with_contacts(case: &C) -> Result<Self, RunError> {
         let mut run = Self::new(case)?;
         let (wedges, areas) = (run.recorder.wedges(), run.recorder.face_areas());
-        let mut table = ContactTable::new(&run.system, wedges, &areas);
+        let mut table = ContactTable::new(&run.system, &wedges, &areas);
         let observation = run.system.observe(run.integrator.time(), run.integrator.x());
         table.take(&observation, run.integrator.discrete_states());
         *run.recorder.corners() = Some(table);

@@ -17,10 +17,14 @@ pub const WHEELSETS: usize = 0;
 pub const BOLSTER: usize = 2;
 /// Number of the left side frame; the right one follows.
 pub const SIDE_FRAMES: usize = 3;
-/// Number of the first wedge.
+/// Number of the first wedge; of a split wedge it is its outboard half.
 pub const WEDGES: usize = 5;
 /// Number of the car body, if there is one.
 pub const CAR_BODY: usize = 9;
+/// Number of the inboard half of the first wedge; those of wedges that are not split are no bodies.
+pub const INBOARD_HALVES: usize = 10;
+/// How many numbers there are.
+pub(crate) const NUMBERS: usize = 14;
 
 /// A truck, ready to be integrated.
 #[derive(Clone, Debug)]
@@ -89,26 +93,28 @@ impl Truck {
     /// Returns how deep column and slope of each wedge are inside at the start, m.
     fn depths(&mut self) -> [[f64; 2]; 4] {
         let observation = self.system.observe(0.0, &self.system.initial_state());
-        let depth = |face: usize| {
+        let depth = |face: usize| -> f64 {
             let points = observation.faces[face].points.iter();
             points.fold(0.0, |depth: f64, point| depth.max(-point.gap))
         };
         self.mounted.added.wedges.map(|place| match place {
             WedgePlace::Body { column } => [column, column + 1].map(depth),
+            WedgePlace::Split { column } => [column, column + 1].map(|face| depth(face).max(depth(face + 2))),
             WedgePlace::Massless { .. } => [0.0; 2],
         })
     }
 
     /// Returns the truck with column and slope of each wedge moved away by so much (m) along their normals.
     fn with_gaps(parameters: &Parameters, gaps: [[f64; 2]; 4]) -> Result<Self, ModelError> {
-        let bodies = bodies(parameters, Mount::ALONE.center);
+        let mount = Mount::alone(parameters);
+        let bodies = bodies(parameters, mount.center);
         let mut model = Model::new(bodies, [0.0, 0.0, -parameters.gravity]);
-        let added = add(&mut model, parameters, &Mount::ALONE, gaps);
+        let added = add(&mut model, parameters, &mount, gaps);
         let system = System::new(model)?;
         Ok(Self {
             initial_state: system.initial_state(),
             system,
-            mounted: MountedTruck::alone(parameters, added),
+            mounted: MountedTruck::alone(parameters, mount, added),
         })
     }
 }
@@ -148,6 +154,7 @@ fn without_friction(parameters: &Parameters) -> Parameters {
     for wedge in &mut parameters.wedges {
         wedge.column_friction = none;
         wedge.slope_friction = none;
+        wedge.split.friction = none;
         for pad in [&mut wedge.column_face.pad, &mut wedge.slope_face.pad]
             .into_iter()
             .flatten()

@@ -4,8 +4,10 @@ use mechanics::body::Body;
 use mechanics::frame::Frame;
 use wedge::parameters::NeighbourMotion;
 
+use crate::assemble::{CAR_BODY, INBOARD_HALVES};
 use crate::elements::HEIGHT;
 use crate::parameters::{Parameters, RigidBody, WedgeKind};
+use crate::split::{HALVES, WAYS};
 use crate::wedge_mount::wedge_body;
 use crate::{PLACES, WEDGE_NAMES};
 
@@ -38,7 +40,21 @@ fn prescribed(name: &str, motion: &NeighbourMotion, place: [f64; 3]) -> Body {
     }
 }
 
-/// Returns the bodies of a truck whose center is at `center` (m), in the order of their numbers.
+/// Returns the numbers of the bodies of a truck, in the order of [`bodies`]: they rise, but there is no car
+/// body where none stands on the truck, and an inboard half only of a wedge that is split.
+#[must_use]
+pub fn numbers(parameters: &Parameters) -> Vec<usize> {
+    let mut numbers: Vec<usize> = (0..CAR_BODY).collect();
+    if parameters.car_body.is_some() {
+        numbers.push(CAR_BODY);
+    }
+    let split = (INBOARD_HALVES..).zip(&parameters.wedges);
+    let split = split.filter(|(_, wedge)| wedge.kind == WedgeKind::Split);
+    numbers.extend(split.map(|(number, _)| number));
+    numbers
+}
+
+/// Returns the bodies of a truck whose center is at `center` (m), in the order of [`numbers`].
 #[must_use]
 pub fn bodies(parameters: &Parameters, center: [f64; 3]) -> Vec<Body> {
     let [side, place, axle] = parameters.distances;
@@ -79,8 +95,21 @@ pub fn bodies(parameters: &Parameters, center: [f64; 3]) -> Vec<Body> {
         let place = [0.0, side * way, 0.0];
         bodies.push(rigid(name, &frame.body, place, frame.free, Some(&frame.motion)));
     }
+    let mut inboard = Vec::new();
     for ((name, wedge), [end, way]) in WEDGE_NAMES.into_iter().zip(&parameters.wedges).zip(PLACES) {
         let at = [place * end, side * way, HEIGHT];
+        if wedge.kind == WedgeKind::Split {
+            let halves = wedge.halves();
+            let half = |number: usize| {
+                let mut at = at;
+                at[1] += WAYS[number] * way * wedge.half_shift();
+                let name = format!("{name}_{}_wedge", HALVES[number]);
+                moved(wedge_body(&name, &halves[number], at, end))
+            };
+            bodies.push(half(0));
+            inboard.push(half(1));
+            continue;
+        }
         let mut body = wedge_body(&format!("{name}_wedge"), wedge, at, end);
         // A wedge without mass is no body: a placeholder stands still.
         if wedge.kind == WedgeKind::Massless {
@@ -91,6 +120,7 @@ pub fn bodies(parameters: &Parameters, center: [f64; 3]) -> Vec<Body> {
     if let Some(car) = &parameters.car_body {
         bodies.push(moved(rigid("car_body", &car.body, [0.0; 3], car.free, None)));
     }
+    bodies.append(&mut inboard);
     for body in &mut bodies {
         for (origin, shift) in body.frame.origin.iter_mut().zip(center) {
             *origin += shift;

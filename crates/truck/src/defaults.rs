@@ -8,7 +8,7 @@ use wedge::parameters::{Contact, Damping, FaceFriction, NeighbourMotion, STANDAR
 
 use crate::parameters::{
     Adapter, AdapterPad, Bolster, CarBody, CenterPlate, Clearance, ControlCoil, FrictionAdapter, Lading,
-    NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Spring, Wedge, WedgeKind,
+    NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Split, Spring, Wedge, WedgeKind,
     Wheelsets, unloaded,
 };
 use crate::units::{INCH, POUND, POUND_FORCE, POUND_INCH, POUND_PER_INCH, inches};
@@ -182,6 +182,7 @@ impl Parameters {
         let wedge = Wedge {
             kind: WedgeKind::Body,
             angle,
+            slope_across: 0.0,
             height: 6.125 * INCH,
             width: 10.5 * INCH,
             mass: prism.mass,
@@ -196,6 +197,13 @@ impl Parameters {
             wear: Wear::default(),
             control_coil: ControlCoil::Shear(control),
             pocket_sides: clearance([0.25, 1e6, 100.0]),
+            split: Split {
+                angle: 0.0,
+                gap: 0.0,
+                friction: bristle(0.4, 1e6, 1e3),
+                outboard_share: 0.5,
+                coil_distance: 0.25 * 10.5 * INCH,
+            },
         };
         let quarter = |x: f64, y: f64| NestCoil {
             place: inches([3.75 * x, 3.75 * y]),

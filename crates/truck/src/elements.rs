@@ -10,12 +10,14 @@ use mechanics::orientation::fixed;
 use mechanics::system::{AppliedLoad, Model};
 use wedge::parameters::{Contact, FaceFriction};
 
-use crate::assemble::{BOLSTER, CAR_BODY, SIDE_FRAMES, WEDGES, WHEELSETS};
+use crate::assemble::{BOLSTER, CAR_BODY, INBOARD_HALVES, NUMBERS, SIDE_FRAMES, WEDGES, WHEELSETS};
+use crate::bodies::numbers;
 use crate::massless::{Joint, massless_wedge, warp_spring};
 use crate::mounted::MountedTruck;
 use crate::parameters::{
     Adapter, AdapterPad, CarBody, Clearance, FrictionAdapter, Parameters, SideBearing, Spring, WedgeKind,
 };
+use crate::split::{self, SplitMount};
 use crate::units::INCH;
 use crate::wedge_mount::{WedgeMount, attach, marker_on, plane, point};
 use crate::{PLACES, WEDGE_NAMES};
@@ -77,7 +79,7 @@ pub(crate) struct Suspended {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Added {
     pub suspension: Vec<Suspended>,
-    /// Of each wedge: its first face (the column; the slope follows), or its connection if it has no mass.
+    /// Of each wedge: its first face, or its connection if it has no mass.
     pub wedges: [WedgePlace; 4],
     /// The coils of the thesis.
     pub coils: Range<usize>,
@@ -89,8 +91,16 @@ pub(crate) struct Added {
 /// Where a wedge stands in a model.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum WedgePlace {
-    Body { column: usize },
-    Massless { connection: usize },
+    Body {
+        column: usize,
+    },
+    /// Column and slope of the outboard half, of the inboard half, and the plane between.
+    Split {
+        column: usize,
+    },
+    Massless {
+        connection: usize,
+    },
 }
 
 impl Default for WedgePlace {
@@ -102,10 +112,11 @@ impl Default for WedgePlace {
 /// Where a truck stands in a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mount {
-    /// The numbers of its bodies there, in the order of [`WHEELSETS`] to [`CAR_BODY`]. Two may be one: the
+    /// The numbers of its bodies there, in the order of [`WHEELSETS`] to [`CAR_BODY`] and the inboard halves of
+    /// split wedges ([`numbers`](crate::numbers)). Two may be one: the
     /// bolster and a car that is rigid with it. Of wheelsets that spin it is their carriers
     /// (`Model::add_carrier`).
-    pub bodies: [usize; 10],
+    pub bodies: [usize; NUMBERS],
     /// Its center, m.
     pub center: [f64; 3],
     /// What the names of its elements begin with.
@@ -113,12 +124,23 @@ pub struct Mount {
 }
 
 impl Mount {
-    /// A truck alone, its center at the origin.
+    /// A truck alone, its center at the origin, without split wedges.
     pub const ALONE: Self = Self {
-        bodies: [0, 1, 2, 3, 4, 5, 6, 7, 8, 9],
+        bodies: [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0, 0, 0, 0],
         center: [0.0; 3],
         prefix: "",
     };
+
+    /// Returns a truck alone, its center at the origin, whose bodies are in the order of
+    /// [`bodies`](crate::bodies).
+    #[must_use]
+    pub fn alone(parameters: &Parameters) -> Self {
+        let mut alone = Self::ALONE;
+        for (place, number) in numbers(parameters).into_iter().enumerate() {
+            alone.bodies[number] = place;
+        }
+        alone
+    }
 }
 
 /// Adds the elements of a truck to a model whose bodies are there, at rest in their nominal places. (Those
@@ -214,6 +236,9 @@ impl Builder<'_> {
         for number in 0..4 {
             self.added.wedges[number] = match self.parameters.wedges[number].kind {
                 WedgeKind::Body => WedgePlace::Body {
+                    column: self.model.faces.len(),
+                },
+                WedgeKind::Split => WedgePlace::Split {
                     column: self.model.faces.len(),
                 },
                 WedgeKind::Massless => WedgePlace::Massless {
@@ -346,7 +371,17 @@ impl Builder<'_> {
             from: self.mount.center,
             gaps: self.gaps[number],
         };
-        let own = attach(self.model, wedge, &at);
+        let own = match wedge.kind {
+            WedgeKind::Split => {
+                let halves = [WEDGES, INBOARD_HALVES].map(|first| bodies[first + number]);
+                let at = SplitMount {
+                    whole: at,
+                    bodies: halves,
+                };
+                split::attach(self.model, wedge, &at)
+            }
+            WedgeKind::Body | WedgeKind::Massless => attach(self.model, wedge, &at),
+        };
         self.added.suspension.extend(own);
     }
 

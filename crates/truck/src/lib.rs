@@ -26,20 +26,24 @@ mod massless;
 mod mounted;
 pub mod nest;
 mod parameters;
+mod split;
 mod units;
 mod wedge_mount;
 
-pub use assemble::{BOLSTER, BuildError, CAR_BODY, SIDE_FRAMES, Truck, WEDGES, WHEELSETS, held};
-pub use bodies::bodies;
+pub use assemble::{
+    BOLSTER, BuildError, CAR_BODY, INBOARD_HALVES, SIDE_FRAMES, Truck, WEDGES, WHEELSETS, held,
+};
+pub use bodies::{bodies, numbers};
 pub use elements::{Mount, add_elements, mounted};
-pub use loads::{CenterPlateLoads, Loads, WarpMoment, WedgeLoads};
+pub use loads::{CenterPlateLoads, HalfLoads, Loads, WarpMoment, WedgeLoads};
 pub use massless::empirical_warp;
 pub use mounted::{MountedTruck, TruckFrame};
 pub use parameters::{
     Adapter, AdapterPad, Applied, Bolster, CarBody, CenterPlate, Clearance, ControlCoil, FrictionAdapter,
-    Lading, NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Spring, Wedge, WedgeKind,
-    Wheelsets, unloaded,
+    Lading, NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Split, Spring, Wedge,
+    WedgeKind, Wheelsets, unloaded,
 };
+pub use split::{HALVES, WedgePart};
 pub use wedge_mount::{WedgeElements, WedgeMount, add_wedge, wedge_body};
 
 /// The names of the wedges in the order of all arrays of four: end (leading, trailing), then side.

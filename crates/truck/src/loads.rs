@@ -12,9 +12,11 @@ use mechanics::link::{Marker, RelativeMotion};
 use mechanics::system::{BodyState, FaceState, Observation};
 use mechanics::vector::{Matrix, Vector};
 
-use crate::assemble::{BOLSTER, SIDE_FRAMES, Truck, WEDGES};
+use crate::PLACES;
+use crate::assemble::{BOLSTER, INBOARD_HALVES, SIDE_FRAMES, Truck, WEDGES};
 use crate::elements::{Law, Role, Suspended, WedgePlace};
 use crate::mounted::{MountedTruck, TruckFrame, View};
+use crate::split::WAYS;
 
 /// The moment about z that elements exert on the bolster, by kind of element, N·m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -45,7 +47,20 @@ impl WarpMoment {
     }
 }
 
-/// A wedge.
+/// A half of a split wedge.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HalfLoads {
+    /// Normal force of its half of the column, N.
+    pub column_normal: f64,
+    /// Normal force of its half of the slope, N.
+    pub slope_normal: f64,
+    /// Displacement of its center of gravity from its nominal place, m.
+    pub displacement: [f64; 3],
+    /// Roll, pitch, yaw, rad.
+    pub angles: [f64; 3],
+}
+
+/// A wedge; of a split one forces are those of both halves, displacements and angles their means.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WedgeLoads {
     /// Normal force of the column, N.
@@ -59,6 +74,10 @@ pub struct WedgeLoads {
     pub displacement: [f64; 3],
     /// Roll, pitch, yaw, rad; zero for a wedge without mass.
     pub angles: [f64; 3],
+    /// The halves of a split wedge, outboard and inboard; zero for others.
+    pub halves: [HalfLoads; 2],
+    /// Normal force between the halves, N.
+    pub split_normal: f64,
 }
 
 /// The center plate.
@@ -132,8 +151,9 @@ impl MountedTruck {
         let bolster = view.place(view.body(BOLSTER).center_of_gravity);
         let total = |forces: &[Vector<f64>]| view.vector(total(forces));
         for (number, wedge) in loads.wedges.iter_mut().enumerate() {
-            let first = match self.added.wedges[number] {
-                WedgePlace::Body { column } => column,
+            let (first, split) = match self.added.wedges[number] {
+                WedgePlace::Body { column } => (column, false),
+                WedgePlace::Split { column } => (column, true),
                 WedgePlace::Massless { connection } => {
                     let state = &view.seen.connections[connection];
                     let place = self.wedge_places[number];
@@ -147,23 +167,21 @@ impl MountedTruck {
                     continue;
                 }
             };
-            let [column, slope] = [first, first + 1].map(|face| &view.seen.faces[face]);
-            let body = view.body(WEDGES + number);
-            *wedge = WedgeLoads {
-                column_normal: normal(column),
-                column_friction_z: -total(&column.friction_forces).0[2],
-                slope_normal: normal(slope),
-                displacement: (view.place(body.center_of_gravity) - self.wedge_places[number]).0,
-                angles: view.angles(WEDGES + number),
+            *wedge = match split {
+                false => self.one_piece(WEDGES + number, first, self.wedge_places[number], view),
+                true => self.split(number, first, view),
             };
             let side = number % 2;
-            let on_wedge = total(&column.friction_forces) + total(&column.normal_forces);
-            loads.nest_vertical[side] += on_wedge.0[2];
-            for (i, place) in slope.point_positions.iter().enumerate() {
-                let force = view.vector(slope.normal_forces[i] + slope.friction_forces[i]);
-                let place = view.place(*place);
-                loads.warp_moment.slopes -= about_z(place, force);
-                loads.roll_moment -= about_x(place - bolster, force);
+            for first in (first..).step_by(2).take(1 + usize::from(split)) {
+                let [column, slope] = [first, first + 1].map(|face| &view.seen.faces[face]);
+                let on_wedge = total(&column.friction_forces) + total(&column.normal_forces);
+                loads.nest_vertical[side] += on_wedge.0[2];
+                for (i, place) in slope.point_positions.iter().enumerate() {
+                    let force = view.vector(slope.normal_forces[i] + slope.friction_forces[i]);
+                    let place = view.place(*place);
+                    loads.warp_moment.slopes -= about_z(place, force);
+                    loads.roll_moment -= about_x(place - bolster, force);
+                }
             }
         }
         for (number, element) in self.added.suspension.iter().enumerate() {
@@ -210,6 +228,47 @@ impl MountedTruck {
         loads
     }
 
+    /// What a wedge in one piece, or a half, does: a body of the truck, its first face, its nominal place.
+    fn one_piece(&self, body: usize, first: usize, place: Vector<f64>, view: &View<'_>) -> WedgeLoads {
+        let [column, slope] = [first, first + 1].map(|face| &view.seen.faces[face]);
+        let center = view.body(body).center_of_gravity;
+        WedgeLoads {
+            column_normal: normal(column),
+            column_friction_z: -view.vector(total(&column.friction_forces)).0[2],
+            slope_normal: normal(slope),
+            displacement: (view.place(center) - place).0,
+            angles: view.angles(body),
+            ..WedgeLoads::default()
+        }
+    }
+
+    /// What both halves of a split wedge do.
+    fn split(&self, number: usize, first: usize, view: &View<'_>) -> WedgeLoads {
+        let [_, way] = PLACES[number];
+        let halves = [0, 1].map(|half| {
+            let shift = WAYS[half] * way * self.half_shifts[number];
+            let place = self.wedge_places[number] + Vector([0.0, shift, 0.0]);
+            let body = [WEDGES, INBOARD_HALVES][half] + number;
+            self.one_piece(body, first + 2 * half, place, view)
+        });
+        let [outboard, inboard] = &halves;
+        let mean = |a: &[f64; 3], b: &[f64; 3]| std::array::from_fn(|k| 0.5 * (a[k] + b[k]));
+        WedgeLoads {
+            column_normal: outboard.column_normal + inboard.column_normal,
+            column_friction_z: outboard.column_friction_z + inboard.column_friction_z,
+            slope_normal: outboard.slope_normal + inboard.slope_normal,
+            displacement: mean(&outboard.displacement, &inboard.displacement),
+            angles: mean(&outboard.angles, &inboard.angles),
+            halves: halves.map(|own| HalfLoads {
+                column_normal: own.column_normal,
+                slope_normal: own.slope_normal,
+                displacement: own.displacement,
+                angles: own.angles,
+            }),
+            split_normal: normal(&view.seen.faces[first + 4]),
+        }
+    }
+
     /// What a wedge without mass does, and where it is.
     fn massless_wedge(&self, number: usize, state: &ConnectionState, view: &View<'_>) -> WedgeLoads {
         let Some(inside) = state.wedge else {
@@ -223,7 +282,7 @@ impl MountedTruck {
             column_friction_z: -inside.column_friction * libm::cos(self.toes[number]),
             slope_normal: inside.slope_normal,
             displacement: [side_frame.0[0], bolster.0[1], bolster.0[2] + inside.rise],
-            angles: [0.0; 3],
+            ..WedgeLoads::default()
         }
     }
 
@@ -257,8 +316,14 @@ impl MountedTruck {
             }
         };
         let all = self.added.suspension.iter().enumerate();
-        all.map(|(number, element)| (self.suspension_name(number), depth(element)))
-            .filter(|(_, depth)| *depth >= 0.0)
+        // A pocket may fit its wedge without play.
+        let most = |element: &Suspended| match element.role {
+            Role::PocketSide => f64::MIN_POSITIVE,
+            _ => 0.0,
+        };
+        all.map(|(number, element)| (self.suspension_name(number), depth(element), most(element)))
+            .filter(|(_, depth, most)| depth >= most)
+            .map(|(name, depth, _)| (name, depth))
             .collect()
     }
 

@@ -6,8 +6,9 @@ use mechanics::system::{BodyState, Observation};
 use mechanics::vector::{Matrix, Vector};
 
 use crate::PLACES;
+use crate::assemble::NUMBERS;
 use crate::elements::{Added, HEIGHT, Mount};
-use crate::parameters::Parameters;
+use crate::parameters::{Parameters, Wedge};
 
 /// A truck in a model: which elements there are its own.
 #[derive(Clone, Debug)]
@@ -15,7 +16,7 @@ pub struct MountedTruck {
     pub(crate) mount: Mount,
     pub(crate) added: Added,
     /// From the axes of the truck to those of each body in its nominal place.
-    pub(crate) axes: [Matrix<f64>; 10],
+    pub(crate) axes: [Matrix<f64>; NUMBERS],
     /// Height of the center plate, m.
     pub(crate) plate_height: f64,
     /// The moment of each nest's empirical warp spring, N·m by rad.
@@ -23,6 +24,8 @@ pub struct MountedTruck {
     pub(crate) axle: f64,
     /// Nominal places of the wedges' centers of gravity from the truck's center, m.
     pub(crate) wedge_places: [Vector<f64>; 4],
+    /// How far the centers of gravity of their halves lie outboard and inboard of them, m.
+    pub(crate) half_shifts: [f64; 4],
     /// Toe of their columns, rad.
     pub(crate) toes: [f64; 4],
 }
@@ -38,7 +41,12 @@ pub struct TruckFrame {
 }
 
 impl MountedTruck {
-    pub(crate) fn new(parameters: &Parameters, mount: Mount, added: Added, axes: [Matrix<f64>; 10]) -> Self {
+    pub(crate) fn new(
+        parameters: &Parameters,
+        mount: Mount,
+        added: Added,
+        axes: [Matrix<f64>; NUMBERS],
+    ) -> Self {
         let car = parameters.car_body.as_ref();
         Self {
             mount,
@@ -48,6 +56,7 @@ impl MountedTruck {
             warp_spring: parameters.warp_spring.clone(),
             axle: parameters.distances[2],
             toes: [0, 1, 2, 3].map(|number| parameters.wedges[number].toe),
+            half_shifts: parameters.wedges.each_ref().map(Wedge::half_shift),
             wedge_places: PLACES.map(|[end, way]| {
                 let [side, place, _] = parameters.distances;
                 Vector([place * end, side * way, HEIGHT])
@@ -56,8 +65,8 @@ impl MountedTruck {
     }
 
     /// A truck that stands alone, at the origin.
-    pub(crate) fn alone(parameters: &Parameters, added: Added) -> Self {
-        Self::new(parameters, Mount::ALONE, added, [fixed([0.0; 3]); 10])
+    pub(crate) fn alone(parameters: &Parameters, mount: Mount, added: Added) -> Self {
+        Self::new(parameters, mount, added, [fixed([0.0; 3]); NUMBERS])
     }
 }
 

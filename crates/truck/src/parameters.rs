@@ -156,6 +156,28 @@ pub enum WedgeKind {
     /// quasi-static balance on both faces, no moments, no sides of the pocket; its coil has neither shear
     /// stiffness nor damping. Its weight is the bolster's.
     Massless,
+    /// Two rigid bodies beside each other: [`Split`].
+    Split,
+}
+
+/// What a split wedge has beside a one-piece wedge, of which each half has half the width, and its share
+/// of everything that a whole wedge has: stiffness and bristles of faces, control coil. Each half leans on
+/// the slope, the column and the side of the pocket on its side; `slope_across` pushes the halves apart where
+/// it is positive, and together where it is negative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Split {
+    /// Angle of the plane between the halves with the vertical plane along the track, rad; positive: the
+    /// outboard half leans over the inboard one.
+    pub angle: f64,
+    /// Gap between the halves in the nominal layout, m.
+    pub gap: f64,
+    /// Friction between the halves.
+    pub friction: FaceFriction,
+    /// The outboard half's share of the mass.
+    pub outboard_share: f64,
+    /// How far from the wedge's middle each half is pressed by its half of the control coil, m: a quarter of
+    /// the width for a coil under each half, 2/π of its mean radius for one coil under both.
+    pub coil_distance: f64,
 }
 
 /// A wedge and what it touches.
@@ -163,8 +185,11 @@ pub enum WedgeKind {
 pub struct Wedge {
     /// What it is in the model.
     pub kind: WedgeKind,
-    /// Wedge angle θ between the vertical and the slope, rad.
+    /// Wedge angle θ between the vertical and the slope in the plane along the track, rad.
     pub angle: f64,
+    /// Angle across, rad: that of the slope's normal with the plane along the track. Positive: the slope
+    /// pushes the wedge outboard, away from the truck's center line; left and right wedges mirror.
+    pub slope_across: f64,
     /// Height of the vertical face, m.
     pub height: f64,
     /// Lateral width, m.
@@ -193,6 +218,8 @@ pub struct Wedge {
     pub control_coil: ControlCoil,
     /// The sides of its pocket.
     pub pocket_sides: Clearance,
+    /// What halves have between them, of a wedge that is [`WedgeKind::Split`].
+    pub split: Split,
 }
 
 /// A control coil.
@@ -424,7 +451,19 @@ impl Wedge {
     #[must_use]
     pub fn face_areas(&self) -> [f64; 2] {
         let column = self.height * self.width;
-        [column, column / libm::cos(self.angle)]
+        let tilt = libm::cos(self.angle) * libm::cos(self.slope_across);
+        [column, column / tilt]
+    }
+
+    /// Returns the angle across (rad) at which the wedge runs out to an edge at one of its sides: there the
+    /// slope's lines on the vertical face and on the bottom have left both.
+    #[must_use]
+    pub fn greatest_slope_across(&self) -> f64 {
+        let width = match self.kind {
+            WedgeKind::Split => 0.5 * self.width,
+            WedgeKind::Body | WedgeKind::Massless => self.width,
+        };
+        libm::atan(2.0 * self.height * libm::sin(self.angle) / width)
     }
 
     /// Returns where the center of gravity is from the body's origin, in the axes of the truck, m; `end` is

@@ -81,8 +81,44 @@ pub fn add_wedge(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> Wedge
     }
 }
 
+/// How a wedge, or a half of one, lies in its pocket.
+pub(crate) struct Lies {
+    /// Where a positive angle across pushes it: +1 to +y, -1 to -y.
+    pub pushed: f64,
+    /// Clearances of its pocket's sides towards -y and +y, m.
+    pub sides: [f64; 2],
+    /// How far towards +y from its center of gravity the control coil acts, m.
+    pub coil: f64,
+}
+
+impl Lies {
+    /// A wedge that has its pocket for itself.
+    fn alone(wedge: &Wedge, at: &WedgeMount<'_>) -> Self {
+        Self {
+            pushed: outboard(at.center[1]),
+            sides: [wedge.pocket_sides.clearance; 2],
+            coil: 0.0,
+        }
+    }
+}
+
+/// Returns which way is outboard at a lateral place: +1 at the left, -1 at the right.
+pub(crate) fn outboard(y: f64) -> f64 {
+    if y < 0.0 { -1.0 } else { 1.0 }
+}
+
 /// Adds the faces of a wedge, and its coil if it is that of the thesis; returns the other elements.
 pub(crate) fn attach(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> Vec<Suspended> {
+    attach_lying(model, wedge, at, &Lies::alone(wedge, at))
+}
+
+/// The same of a wedge that lies in its pocket as said.
+pub(crate) fn attach_lying(
+    model: &mut Model,
+    wedge: &Wedge,
+    at: &WedgeMount<'_>,
+    lies: &Lies,
+) -> Vec<Suspended> {
     let ([x, y, z], end, name) = (at.center, at.end, at.name);
     let length = wedge.height * libm::tan(wedge.angle);
     let middle = z + wedge.height / 6.0;
@@ -109,18 +145,27 @@ pub(crate) fn attach(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> V
         ),
     ];
     for (on, face, x, pitch, gap, (friction, properties)) in faces {
-        let lower = if face == "column" { -1.0 } else { 2.0 };
+        let (lower, across) = match face {
+            "column" => (-1.0, 0.0),
+            _ => (2.0, wedge.slope_across * lies.pushed),
+        };
         let edges = [lower * length / 3.0, -length / 3.0];
         let mut points = contact_points(wedge, properties, end, edges, face == "column");
+        incline(&mut points, wedge, end, across);
         for point in &mut points {
             point.position = Vector(in_axes_of(&model.bodies[at.body], point.position.0));
         }
         let friction = properties.friction(friction);
         // The normal is the marker's x axis.
         let (sine, cosine) = libm::sincos(pitch);
-        let surface = [x - gap * cosine, y, middle + gap * sine];
+        let (tilt, level) = libm::sincos(across);
+        let surface = [
+            x - gap * (cosine * level),
+            y - gap * tilt,
+            middle + gap * (sine * level),
+        ];
         let place = std::array::from_fn(|k| surface[k] + at.from[k]);
-        let marker = marker_on(&model.bodies[on], place, [0.0, pitch, 0.0]);
+        let marker = marker_on(&model.bodies[on], place, [0.0, pitch, across]);
         // The marker's z axis points down where it is pitched beyond a right angle; a wedge that is turned by
         // half a turn has its left on the right.
         let reversed = [cosine < 0.0, end > 0.0];
@@ -135,7 +180,7 @@ pub(crate) fn attach(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> V
         Damping::Constant => at.bolster,
         Damping::Variable => at.side_frame,
     };
-    let bottom = [x, y, z - wedge.height / 3.0];
+    let bottom = [x, y + lies.coil, z - wedge.height / 3.0];
     let coil_name = format!("{name}_control_coil");
     let law = match &wedge.control_coil {
         ControlCoil::Shear(spring) => Some(Law::Spring(spring.law(coil_name))),
@@ -153,7 +198,7 @@ pub(crate) fn attach(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> V
     });
     let sides = Stop {
         name: format!("{name}_pocket_sides"),
-        clearances: [wedge.pocket_sides.clearance; 2],
+        clearances: lies.sides,
         stiffness: wedge.pocket_sides.stiffness,
         damping: wedge.pocket_sides.damping,
     };
@@ -171,7 +216,7 @@ pub(crate) fn attach(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> V
 
 impl WedgeMount<'_> {
     /// Returns the marker of a body at a place (m), turned about z (rad).
-    fn marker(&self, model: &Model, body: usize, at: [f64; 3], yaw: f64) -> (usize, Marker) {
+    pub(crate) fn marker(&self, model: &Model, body: usize, at: [f64; 3], yaw: f64) -> (usize, Marker) {
         let place = std::array::from_fn(|k| at[k] + self.from[k]);
         (body, marker_on(&model.bodies[body], place, [0.0, 0.0, yaw]))
     }
@@ -245,6 +290,25 @@ fn contact_points(
         point.position = Vector(std::array::from_fn(|k| own[k] + to_center[k]));
     }
     points
+}
+
+/// Moves the points of a slope that is inclined across by `across` (rad, positive towards +y) from the plane
+/// without that angle onto it: those of the lower edge stay on the bottom, those of the upper edge on the
+/// vertical face, those between go both ways.
+fn incline(points: &mut [ContactPoint], wedge: &Wedge, end: f64, across: f64) {
+    if across == 0.0 {
+        return;
+    }
+    let tangent = libm::tan(across);
+    let (sine, cosine) = libm::sincos(wedge.angle);
+    let [_, y, z] = wedge.origin_to_center(end);
+    for point in points {
+        let Vector(place) = &mut point.position;
+        let aside = tangent * (place[1] - y);
+        let up = (place[2] - z) / wedge.height + 1.0 / 3.0;
+        place[0] -= (1.0 - up) * end * aside / cosine;
+        place[2] += up * aside / sine;
+    }
 }
 
 pub(crate) fn point(place: [f64; 3], contact: &Contact, share: f64) -> ContactPoint {

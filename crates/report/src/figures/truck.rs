@@ -7,6 +7,7 @@ use ::study::truck::loop_curve::LoopCurve;
 use ::study::truck::run::TruckResult;
 use ::study::truck::warp::WarpCurve;
 use quantity::Kind;
+use truck::HALVES;
 
 use super::{Exhibit, axis, curve};
 use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
@@ -126,12 +127,14 @@ fn contact_states(run: &TruckRun, contacts: &ContactTable) -> Figure {
     let mut panels = Vec::new();
     for face in ["column", "slope"] {
         for wedge in WEDGE_NAMES {
-            let stem = format!("{wedge}_{face}_");
+            let mut stems = vec![format!("{wedge}_{face}_")];
+            stems.extend(HALVES.map(|half| format!("{wedge}_{half}_{face}_")));
+            let is_own = |name: &str| stems.iter().any(|stem| name.starts_with(stem));
             let strips: Vec<&[f64]> = contacts
                 .columns
                 .iter()
                 .zip(&contacts.values)
-                .filter(|(column, _)| column.name.starts_with(&stem) && column.name.ends_with("_state"))
+                .filter(|(column, _)| is_own(&column.name) && column.name.ends_with("_state"))
                 .map(|(_, values)| values.as_slice())
                 .collect();
             if strips.is_empty() {

@@ -41,7 +41,7 @@ pub fn render(run: &TruckRun, viewer: Option<Viewer>) -> Result<String, serde_js
 
 /// The energy (output units) that the friction of a wedge's face takes in a cycle.
 pub(super) fn loss(summary: &TruckSummary, wedge: &str, face: &str) -> Option<f64> {
-    summary.cycles.loss_at(wedge, face).map(|loss| loss.value)
+    summary.cycles.loss_at(wedge, face)
 }
 
 /// The table of a run's wedges.

@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use mechanics::system::System;
+use mechanics::vector::Vector;
 use study::contacts::Corner;
 
 use super::scene::{
@@ -55,6 +56,10 @@ pub(super) struct DrawnWedge {
     pub ahead: f64,
     /// Wedge angle from the vertical, rad.
     pub angle: f64,
+    /// Angle of the slope's normal with the plane along the track, positive towards +y, rad.
+    pub across: f64,
+    /// How far its right and its left side lean towards +y, by the height.
+    pub leans: [f64; 2],
     /// The column's inclination against the vertical: a turn about y, rad.
     pub toe: f64,
     /// How far the column has worn away along its normal, m.
@@ -79,6 +84,35 @@ impl DrawnWedge {
         format!("column_{}", self.key)
     }
 
+    /// The prism, its slope inclined across and its sides leaning.
+    fn solid(&self) -> Solid {
+        let [height, width] = self.size;
+        let (ahead, half, length) = (self.ahead, 0.5 * height, self.length());
+        let id = &self.body.id;
+        let mut outline = [[0.0, -half], [-ahead * length, -half], [0.0, half]];
+        if ahead > 0.0 {
+            outline.swap(0, 1);
+        }
+        let mut solid = extruded((id, &self.name, Role::Wedge, id), &outline, width);
+        let (sine, cosine) = libm::sincos(self.angle);
+        for [x, y, z] in &mut solid.vertices {
+            let aside = libm::tan(self.across) * *y;
+            *y += self.leans[usize::from(*y > 0.0)] * *z;
+            if *z > 0.0 {
+                *z += aside / sine;
+            } else if *x != 0.0 {
+                *x -= ahead * aside / cosine;
+            }
+        }
+        Solid {
+            mount: SolidPose {
+                position: self.offset,
+                angles: [0.0; 3],
+            },
+            ..solid
+        }
+    }
+
     /// Length of its bottom, m.
     fn length(&self) -> f64 {
         let (sine, cosine) = libm::sincos(self.angle);
@@ -88,7 +122,8 @@ impl DrawnWedge {
     /// The slope's normal towards the wedge, axes of the bolster.
     pub fn slope_normal(&self) -> [f64; 3] {
         let (sine, cosine) = libm::sincos(self.angle);
-        [self.ahead * cosine, 0.0, -sine]
+        let (tilt, level) = libm::sincos(self.across);
+        [self.ahead * cosine * level, tilt, -sine * level]
     }
 
     /// The middle of the slope, from the middle of the vertical face, m.
@@ -219,8 +254,13 @@ impl Carriage {
                 mounted.element.points[corner.point].position.0,
                 body.center_of_gravity,
             );
-            let (on, normal) = if mounted.element.name.ends_with("column") {
+            let name = &mounted.element.name;
+            let (on, normal) = if name.ends_with("column") {
                 (wedge.column(), [-wedge.ahead, 0.0, 0.0])
+            } else if name.ends_with("split") {
+                // A plane of the other half.
+                let Vector(normal) = mounted.marker.rotation.apply(Vector([1.0, 0.0, 0.0]));
+                (wedge_of(mounted.on)?.body.id.clone(), normal)
             } else {
                 (self.bolsters[wedge.bolster].id.clone(), wedge.slope_normal())
             };
@@ -242,22 +282,12 @@ impl Carriage {
 
     /// The wedge in its pocket and its coil.
     fn add_wedge(&self, scene: &mut Scene, wedge: &DrawnWedge, seat: f64) {
-        let [height, width] = wedge.size;
+        let [height, _] = wedge.size;
         let (bolster, side_frame) = (&self.bolsters[wedge.bolster], &self.side_frames[wedge.side_frame]);
         let (ahead, half, length) = (wedge.ahead, 0.5 * height, wedge.length());
         let id = &wedge.body.id;
         scene.bodies.push(wedge.body.clone());
-        let mut outline = [[0.0, -half], [-ahead * length, -half], [0.0, half]];
-        if ahead > 0.0 {
-            outline.swap(0, 1);
-        }
-        scene.solids.push(Solid {
-            mount: SolidPose {
-                position: wedge.offset,
-                angles: [0.0; 3],
-            },
-            ..extruded((id, &wedge.name, Role::Wedge, id), &outline, width)
-        });
+        scene.solids.push(wedge.solid());
 
         if !wedge.has_coil {
             return;

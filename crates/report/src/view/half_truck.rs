@@ -262,6 +262,8 @@ pub fn scene(case: &HalfTruckCase) -> Option<Scene> {
             point: std::array::from_fn(|k| wedge.place[k] + wedge.offset[k]),
             ahead: wedge.ahead,
             angle: wedge.angle,
+            across: 0.0,
+            leans: [0.0; 2],
             toe: wedge.toe,
             wear: wedge.wear,
             size: wedge.size,
@@ -290,7 +292,8 @@ pub fn scene(case: &HalfTruckCase) -> Option<Scene> {
     let corners_start = contacts.len();
     if !case.wedge_bodies.is_empty() {
         let system = System::new(model.clone()).ok()?;
-        let own = corners(&system, truck.bodies.len()..model.bodies.len());
+        let wedges: Vec<usize> = (truck.bodies.len()..model.bodies.len()).collect();
+        let own = corners(&system, &wedges);
         let wedge_of = |body: usize| {
             let number = case
                 .wedge_bodies

@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use ::truck::{BOLSTER, CAR_BODY, ControlCoil, SIDE_FRAMES, Truck, WEDGE_NAMES, WEDGES, WHEELSETS};
+use ::truck::{BOLSTER, CAR_BODY, ControlCoil, Mount, SIDE_FRAMES, Truck, WEDGE_NAMES, WHEELSETS};
 use mechanics::body::Body;
 use study::contacts::corners;
 use study::truck::TruckCase;
@@ -66,17 +66,18 @@ pub fn scene(case: &TruckCase) -> Option<Scene> {
     let still = [None, None, None];
     let names = ["left_side_frame", "right_side_frame"];
     let [side, place, axle] = parameters.distances;
-    let wedges = WEDGE_NAMES.iter().enumerate().map(|(number, name)| {
-        let own = &parameters.wedges[number];
+    let parts = parameters.wedge_parts();
+    let wedges = parts.iter().map(|part| {
+        let (number, name, own) = (part.wedge, &part.name, &part.own);
         let (ahead, way) = (
             if number < 2 { 1.0 } else { -1.0 },
             if number.is_multiple_of(2) { 1.0 } else { -1.0 },
         );
         let third = own.height * libm::tan(own.angle) / 3.0;
-        let at = [ahead * place, way * side, 18.0 * INCH];
+        let at = [ahead * place, way * side + part.shift, 18.0 * INCH];
         let offset = [ahead * third, 0.0, own.height / 6.0];
         DrawnWedge {
-            key: (*name).to_owned(),
+            key: name.clone(),
             name: format!("{} wedge", words(name)),
             body: SceneBody {
                 id: format!("{name}_wedge"),
@@ -91,6 +92,8 @@ pub fn scene(case: &TruckCase) -> Option<Scene> {
             point: std::array::from_fn(|k| at[k] + offset[k]),
             ahead,
             angle: own.angle,
+            across: part.pushed() * own.slope_across,
+            leans: part.leans(),
             toe: -ahead * own.toe,
             wear: own.wear.column,
             size: [own.height, own.width],
@@ -127,8 +130,10 @@ pub fn scene(case: &TruckCase) -> Option<Scene> {
         axles: axles.collect(),
         limit: LIMIT,
     };
-    let own = corners(system, WEDGES..WEDGES + WEDGE_NAMES.len());
-    let wedge_of = |body: usize| carriage.wedges.get(body.checked_sub(WEDGES)?);
+    let numbers = Mount::alone(parameters).bodies;
+    let bodies: Vec<usize> = parts.iter().map(|part| numbers[part.number]).collect();
+    let own = corners(system, &bodies);
+    let wedge_of = |body: usize| carriage.wedges.get(bodies.iter().position(|own| *own == body)?);
     let contacts = carriage.corners(system, own, wedge_of);
     let mut scene = carriage.scene(contacts)?;
     scene.factor = FACTOR;

@@ -1,10 +1,11 @@
 //! What a car's numbers rest on, in words.
 
 use car::{Drive, StartKind, Wheels};
-use truck::WedgeKind;
+use truck::{Wedge, WedgeKind};
 use wheelrail::contact::CreepLaw;
 
 use super::CarCase;
+use crate::truck::assumptions::of_kinds;
 
 /// Returns the assumptions behind a run.
 pub(super) fn of(case: &CarCase) -> Vec<String> {
@@ -49,6 +50,8 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
         Some(_) => "Each wheel has a piece of rail of its own on springs; its values are guesses.".to_owned(),
         None => "Rails do not give way.".to_owned(),
     });
+    let wedges: Vec<Wedge> = p.trucks.iter().flat_map(|own| own.wedges.clone()).collect();
+    list.extend(of_kinds(&wedges));
     let massless = p.trucks.iter().flat_map(|own| &own.wedges);
     let massless = massless.filter(|own| own.kind == WedgeKind::Massless).count();
     if massless > 0 {

@@ -4,7 +4,7 @@ use car::{Car, Loads};
 use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
 use quantity::Kind;
-use truck::WEDGE_NAMES;
+use truck::{HALVES, WEDGE_NAMES};
 
 use super::statistics::{SIDES, ratio};
 
@@ -249,7 +249,7 @@ impl Columns {
             for wedge in WEDGE_NAMES {
                 let places = losses_of_wedge(system, truck, wedge);
                 let name = format!("truck_{truck}_{wedge}_friction_loss");
-                let text = "energy lost in its friction at column and slope since the start";
+                let text = "energy lost in its friction at column, slope and between halves since the start";
                 self.sum(&name, text, places);
             }
         }
@@ -344,7 +344,9 @@ impl Columns {
 /// The places among the energy terms of what a wedge of a truck (1 front, 2 rear) loses in friction.
 pub(super) fn losses_of_wedge(system: &System, truck: usize, wedge: &str) -> Vec<usize> {
     let stem = format!("truck_{truck}_{wedge}");
-    let faces = [format!("{stem}_column"), format!("{stem}_slope")];
+    let whole = ["column", "slope", "split"].map(|face| format!("{stem}_{face}"));
+    let halves = HALVES.map(|half| ["column", "slope"].map(|face| format!("{stem}_{half}_{face}")));
+    let faces: Vec<String> = whole.into_iter().chain(halves.into_iter().flatten()).collect();
     let terms = system.energy_terms().iter().enumerate();
     terms
         .filter(|(_, term)| match term.kind {

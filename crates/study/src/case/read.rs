@@ -104,6 +104,20 @@ pub(crate) const COEFFICIENT: Range = Range::UpTo(bounds::FRICTION, "between 0 a
 /// Numbers have sixteen digits; a narrower tolerance is never met.
 pub(crate) const TOLERANCE: Range = Range::Between(1e-15, 1.0, "between 1e-15 and 1, both excluded");
 
+/// Keys that only trucks and cars have, of the tables that a single wedge has too, and why.
+const OF_TRUCKS: [(&str, &str, &str); 2] = [
+    (
+        "wedge",
+        "kind",
+        "a single wedge is always one rigid body; `wedgelab quasi-static` tells of a massless one",
+    ),
+    (
+        "wedge",
+        "slope_across",
+        "a slope across pushes the wedge against a side of its pocket, and a single wedge has none",
+    ),
+];
+
 /// Completes the tree and reads it; notes what is wrong.
 pub(super) fn document(
     tree: &mut Table,
@@ -118,10 +132,16 @@ pub(super) fn document(
         place: None,
     };
     let sections: Vec<&str> = KEYS.iter().map(|(section, _)| *section).collect();
-    let known: Vec<&str> = ["name", "title", "model"]
+    let mut known: Vec<&str> = ["name", "title", "model"]
         .into_iter()
         .chain(sections.iter().copied())
         .collect();
+    if let Some(entry) = tree.entry("split") {
+        let problem = Problem::new("`split` is a table of trucks and cars: a single wedge is one rigid body");
+        let help = "leave it out, or write model = \"truck\" in the first line";
+        problems.push(problem.at(&entry.key_place).label("of another model").help(help));
+        known.push("split");
+    }
     top.allow(&known, KEYS, problems);
     for (section, keys) in KEYS {
         if let Some(section) = tree.table(section).map(|table| Section {
@@ -129,7 +149,17 @@ pub(super) fn document(
             table,
             place: None,
         }) {
-            section.allow(keys, KEYS, problems);
+            let others = OF_TRUCKS.iter().filter(|(table, ..)| *table == section.path);
+            let mut keys = keys.to_vec();
+            for (table, key, why) in others {
+                keys.push(key);
+                if let Some(entry) = section.table.entry(key) {
+                    let problem = Problem::new(format!("`{table}.{key}` is a key of trucks and cars: {why}"));
+                    let help = "leave it out, or write model = \"truck\" in the first line";
+                    problems.push(problem.at(&entry.key_place).label("of another model").help(help));
+                }
+            }
+            section.allow(&keys, KEYS, problems);
         }
     }
     let name = name::read(&top, default_name, problems);

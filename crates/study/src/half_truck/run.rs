@@ -211,8 +211,8 @@ impl Recorder for HalfTruckRecorder {
 }
 
 impl TakesCorners for HalfTruckRecorder {
-    fn wedges(&self) -> std::ops::Range<usize> {
-        self.wedges.clone()
+    fn wedges(&self) -> Vec<usize> {
+        self.wedges.clone().collect()
     }
 
     fn corners(&mut self) -> &mut Option<ContactTable> {

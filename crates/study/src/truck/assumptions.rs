@@ -1,6 +1,6 @@
 //! What a truck's numbers rest on, in words.
 
-use truck::{Adapter, WEDGE_NAMES, WedgeKind};
+use truck::{Adapter, WEDGE_NAMES, Wedge, WedgeKind};
 use wedge::parameters::{Damping, Start};
 
 use super::TruckCase;
@@ -8,6 +8,27 @@ use crate::assumptions::of_face;
 
 const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
+
+/// Assumptions of spatial and split wedges.
+pub(crate) fn of_kinds(wedges: &[Wedge]) -> Vec<String> {
+    let mut list = Vec::new();
+    if wedges.iter().any(|wedge| wedge.slope_across != 0.0) {
+        list.push(
+            "Slopes across (slope_across): the sides of the pockets have no friction, and the wedge keeps \
+             the center of gravity and the inertia of a prism; no source gives the angle."
+                .to_owned(),
+        );
+    }
+    if wedges.iter().any(|wedge| wedge.kind == WedgeKind::Split) {
+        list.push(
+            "Split wedges: each half has half of the stiffness, bristles and control coil of a whole wedge; a \
+             coil under both is two half coils at split.coil_distance from the middle. The friction and the \
+             gap between the halves, and their angle, are guesses."
+                .to_owned(),
+        );
+    }
+    list
+}
 
 /// Returns the assumptions behind a run.
 pub(super) fn of(case: &TruckCase) -> Vec<String> {
@@ -37,6 +58,7 @@ pub(super) fn of(case: &TruckCase) -> Vec<String> {
             ));
         }
     }
+    list.extend(of_kinds(&p.wedges));
     let massless = WEDGE_NAMES.iter().zip(&p.wedges);
     let massless: Vec<String> = massless
         .filter(|(_, wedge)| wedge.kind == WedgeKind::Massless)

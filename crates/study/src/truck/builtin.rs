@@ -168,6 +168,46 @@ fn rigs(damping: &'static str) -> Vec<Rig> {
     ]
 }
 
+/// Up and down, and warp, with wedges of other kinds; variable damping. Angles across are guesses.
+fn kinds() -> Vec<BuiltIn> {
+    let across = "wedge.slope_across = \"10 deg\"\nwedge.side_clearance = \"0 in\"\n";
+    let spatial = ("spatial", "spatial wedges, pressed outboard", across.to_owned());
+    let split = format!("wedge.kind = \"split\"\n{across}");
+    let split = ("split", "split wedges, pressed apart", split);
+    [spatial, split]
+        .into_iter()
+        .flat_map(|(kind, title, keys)| {
+            let rig = |name: &str, what: &str, body: String, vertical: Vec<String>, duration: f64| Rig {
+                name: format!("truck_{name}_{kind}"),
+                title: format!("{title}: {what}"),
+                damping: "variable",
+                body,
+                lift: None,
+                vertical,
+                duration,
+            };
+            let warp = format!("{keys}{}", warp_by_nests("0.02 rad"));
+            [
+                rig(
+                    "vertical",
+                    "bolster up and down",
+                    keys,
+                    vec![sine("0.5 in", "2 rad/s")],
+                    10.0,
+                ),
+                rig(
+                    "warp_nest",
+                    "side frames yaw after the bolster has risen",
+                    warp,
+                    approach(true),
+                    22.0,
+                ),
+            ]
+        })
+        .map(|rig| rig.case(None))
+        .collect()
+}
+
 /// Rigs of one damping that reach what the others do not.
 fn limits(damping: &'static str) -> Vec<Rig> {
     let rig = |name: &str, title: &str, body: String, vertical: Vec<String>, duration: f64| Rig {
@@ -261,6 +301,14 @@ static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
                       force at 0.5 in (gibs), nest force at 1.3 to 1.4 in (solid coils). The energy ledger \
                       must close there too.",
             cases: all(limits, false),
+        },
+        Group {
+            name: "truck_kinds",
+            title: "Spatial wedges, whose slopes are inclined across, and split wedges of two halves",
+            look_at: "Each wedge bears on slope, column and a side of its pocket. Vertical: the column's \
+                      friction beside that of truck_vertical_variable. Warp: the part of the pocket's sides \
+                      beside that of the slopes, and how far the halves of a split wedge turn.",
+            cases: kinds(),
         },
     ]
 });

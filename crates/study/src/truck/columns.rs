@@ -5,7 +5,8 @@ use mechanics::system::{EnergyTermKind, Observation, System};
 use mechanics::vector::{Matrix, Vector};
 use quantity::Kind;
 use truck::{
-    BOLSTER, BuildError, CAR_BODY, Loads, Parameters, SIDE_FRAMES, Truck, WEDGE_NAMES, WHEELSETS, WarpMoment,
+    BOLSTER, BuildError, CAR_BODY, HALVES, Loads, Parameters, SIDE_FRAMES, Truck, WEDGE_NAMES, WHEELSETS,
+    WarpMoment, WedgeKind,
 };
 
 use super::TruckCase;
@@ -141,6 +142,11 @@ impl Columns {
             own.wedge(number, name);
         }
         own.fixed = own.columns.len();
+        for (number, name) in WEDGE_NAMES.into_iter().enumerate() {
+            if parameters.wedges[number].kind == WedgeKind::Split {
+                own.halves(number, name);
+            }
+        }
         own.parts_of_warp_moment();
         own.body(truck, BOLSTER, "bolster", &[0, 1, 3, 4, 5]);
         let text =
@@ -242,6 +248,38 @@ impl Columns {
         }
     }
 
+    /// The halves of a split wedge.
+    fn halves(&mut self, number: usize, name: &str) {
+        for (half, half_name) in HALVES.into_iter().enumerate() {
+            let stem = format!("{name}_{half_name}");
+            let text = "normal force of the half's part of the column";
+            self.add(format!("{stem}_column_normal"), Kind::Force, text, move |seen| {
+                seen.loads.wedges[number].halves[half].column_normal
+            });
+            let text = "normal force of the half's part of the slope";
+            self.add(format!("{stem}_slope_normal"), Kind::Force, text, move |seen| {
+                seen.loads.wedges[number].halves[half].slope_normal
+            });
+            for (k, coordinate) in COORDINATES.into_iter().enumerate() {
+                let name = format!("{stem}_{coordinate}");
+                if k < 3 {
+                    let text = "displacement of the half's center of gravity from its nominal place";
+                    self.add(name, Kind::Length, text, move |seen| {
+                        seen.loads.wedges[number].halves[half].displacement[k]
+                    });
+                } else {
+                    self.add(name, Kind::Angle, "the half's angle in truck axes", move |seen| {
+                        seen.loads.wedges[number].halves[half].angles[k - 3]
+                    });
+                }
+            }
+        }
+        let text = "normal force between the halves";
+        self.add(format!("{name}_split_normal"), Kind::Force, text, move |seen| {
+            seen.loads.wedges[number].split_normal
+        });
+    }
+
     fn parts_of_warp_moment(&mut self) {
         for (name, text, part) in PARTS {
             let text = format!("part of the warp moment: that of the {text}");
@@ -271,21 +309,31 @@ impl Columns {
     fn losses_of_wedges(&mut self, system: &System) {
         for name in WEDGE_NAMES {
             for (face, massless) in [
-                ("column", EnergyTermKind::ColumnFriction),
-                ("slope", EnergyTermKind::SlopeFriction),
+                ("column", Some(EnergyTermKind::ColumnFriction)),
+                ("slope", Some(EnergyTermKind::SlopeFriction)),
+                ("split", None),
             ] {
                 let element = format!("{name}_{face}");
-                let place = system.energy_terms().iter().position(|term| match term.kind {
-                    EnergyTermKind::FrictionLoss => term.element == element,
-                    kind => kind == massless && term.element == name,
+                let [outboard, inboard] = HALVES.map(|half| format!("{name}_{half}_{face}"));
+                let faces = [&element, &outboard, &inboard];
+                let terms = system.energy_terms().iter().enumerate();
+                let own = terms.filter(|(_, term)| match term.kind {
+                    EnergyTermKind::FrictionLoss => faces.contains(&&term.element),
+                    kind => Some(kind) == massless && term.element == name,
                 });
-                if let Some(place) = place {
+                let places: Vec<usize> = own.map(|(place, _)| place).collect();
+                if !places.is_empty() {
                     let text = "energy lost in its friction since the start";
                     self.add(
                         format!("{element}_friction_loss"),
                         Kind::Energy,
                         text,
-                        move |seen| seen.observation.quadratures[place],
+                        move |seen| {
+                            places
+                                .iter()
+                                .map(|place| seen.observation.quadratures[*place])
+                                .sum()
+                        },
                     );
                 }
             }

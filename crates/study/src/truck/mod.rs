@@ -2,7 +2,7 @@
 //!
 //! [`TruckCase`] is what a user writes, completed and in SI; [`builtin`] has the rigs; [`run`] records a run.
 
-mod assumptions;
+pub(crate) mod assumptions;
 pub mod builtin;
 pub mod columns;
 pub mod loop_curve;
@@ -10,6 +10,7 @@ pub mod run;
 pub(crate) mod sections;
 pub mod summary;
 pub mod warp;
+mod wedge_kinds;
 pub(crate) mod wedges;
 
 use std::path::Path;

@@ -10,7 +10,7 @@ use mechanics::plausibility::Finding;
 use mechanics::system::{ContactState, EnergyTermKind, System};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
-use truck::{ControlCoil, Parameters, Truck, WEDGE_NAMES, WEDGES, Wedge, held};
+use truck::{ControlCoil, Mount, Parameters, Truck, WEDGE_NAMES, held};
 use wedge::parameters::Start;
 
 use super::TruckCase;
@@ -44,8 +44,8 @@ pub struct TruckRecorder {
     row: Vec<f64>,
     /// The corners of the wedges, where they are asked for.
     contacts: Option<ContactTable>,
-    /// The areas of column and slope of each wedge, m².
-    face_areas: [[f64; 2]; 4],
+    /// The bodies of the wedges, and of their halves, with the areas of column and slope, m².
+    wedges: Vec<(usize, [f64; 2])>,
 }
 
 /// What is counted along a truck's run.
@@ -140,7 +140,7 @@ impl RunCase for TruckCase {
                 window: window(self),
                 counts: TruckCounts::default(),
                 contacts: None,
-                face_areas: self.parameters.wedges.each_ref().map(Wedge::face_areas),
+                wedges: wedges(&self.parameters),
                 table,
             },
         })
@@ -149,6 +149,15 @@ impl RunCase for TruckCase {
     fn output(run: Run<Self>, stopped: Option<Stopped>) -> TruckResult {
         output(run, stopped)
     }
+}
+
+/// Returns the bodies of the wedges, and of their halves, with the areas of column and slope, m².
+fn wedges(parameters: &Parameters) -> Vec<(usize, [f64; 2])> {
+    let bodies = Mount::alone(parameters).bodies;
+    let parts = parameters.wedge_parts().into_iter();
+    parts
+        .map(|part| (bodies[part.number], part.own.face_areas()))
+        .collect()
 }
 
 impl TruckCase {
@@ -270,12 +279,12 @@ impl Recorder for TruckRecorder {
 }
 
 impl TakesCorners for TruckRecorder {
-    fn wedges(&self) -> std::ops::Range<usize> {
-        WEDGES..WEDGES + WEDGE_NAMES.len()
+    fn wedges(&self) -> Vec<usize> {
+        self.wedges.iter().map(|(body, _)| *body).collect()
     }
 
     fn face_areas(&self) -> Vec<[f64; 2]> {
-        self.face_areas.to_vec()
+        self.wedges.iter().map(|(_, areas)| *areas).collect()
     }
 
     fn corners(&mut self) -> &mut Option<ContactTable> {

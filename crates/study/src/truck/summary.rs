@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use integrate::Statistics;
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
+use truck::HALVES;
 
 use crate::metrics::Extremes;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
@@ -69,12 +70,18 @@ pub struct Cycles {
 }
 
 impl Cycles {
-    /// Returns what friction takes at a wedge's face (`column` or `slope`) in a cycle, whether the wedge is a
-    /// body or has no mass.
+    /// Returns what friction takes at a wedge's face (`column` or `slope`) in a cycle, output units, whether the
+    /// wedge is a body, two halves, or has no mass.
     #[must_use]
-    pub fn loss_at(&self, wedge: &str, face: &str) -> Option<&SummaryValue> {
-        let of_body = self.losses.get(&format!("{wedge}_{face}_friction_loss"));
-        of_body.or_else(|| self.losses.get(&format!("{wedge}_wedge_{face}_loss")))
+    pub fn loss_at(&self, wedge: &str, face: &str) -> Option<f64> {
+        let [outboard, inboard] = HALVES.map(|half| format!("{wedge}_{half}_{face}_friction_loss"));
+        let whole = [
+            format!("{wedge}_{face}_friction_loss"),
+            format!("{wedge}_wedge_{face}_loss"),
+        ];
+        let found = whole.iter().find_map(|name| self.losses.get(name));
+        let found = found.map(|loss| loss.value);
+        found.or_else(|| Some(self.losses.get(&outboard)?.value + self.losses.get(&inboard)?.value))
     }
 
     /// Returns what friction takes at both faces of these wedges in a cycle, output units; `None` without
@@ -85,7 +92,7 @@ impl Cycles {
             .iter()
             .flat_map(|wedge| ["column", "slope"].map(|face| (wedge, face)));
         let losses = faces.filter_map(|(wedge, face)| self.loss_at(wedge, face));
-        (self.count > 0).then(|| losses.map(|loss| loss.value).sum())
+        (self.count > 0).then(|| losses.sum())
     }
 }
 

@@ -8,6 +8,7 @@ use wedge::face::Rectangle;
 use wedge::parameters::{ControlCoil as ThesisCoil, Damping};
 
 use super::sections::{contact, spring_stiffnesses};
+use super::wedge_kinds::ACROSS;
 use crate::case::document::{FrictionLaw as Law, Toe, ToeDirection};
 use crate::case::face::{self, FaceSection};
 use crate::case::field::{Reach, Written};
@@ -20,11 +21,11 @@ use crate::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
 /// A wedge while its sections are read: laws of friction keep their numbers while another one is chosen.
 #[derive(Clone)]
 pub(crate) struct Draft {
-    wedge: Wedge,
+    pub(super) wedge: Wedge,
     laws: [Law; 2],
     reference_speed: f64,
     bristle: [f64; 2],
-    kind: CoilKind,
+    pub(super) kind: CoilKind,
     spring: Spring,
     thesis: ThesisCoil,
     to_center: [f64; 3],
@@ -33,7 +34,7 @@ pub(crate) struct Draft {
 
 /// Kinds of control coils.
 #[derive(Clone, Copy, PartialEq)]
-enum CoilKind {
+pub(super) enum CoilKind {
     Shear,
     Thesis,
     Nothing,
@@ -90,6 +91,7 @@ impl Draft {
         let mut wedge = wedge.clone();
         wedge.column_friction.coefficient = friction;
         wedge.slope_friction.coefficient = friction;
+        wedge.split.friction.coefficient = friction;
         let (thesis, to_center) = thesis_coil(parameters.damping);
         let spring = match wedge.control_coil {
             ControlCoil::Shear(spring) => spring,
@@ -125,6 +127,7 @@ impl Draft {
         let mut wedge = self.wedge;
         wedge.column_friction.law = law(self.laws[0]);
         wedge.slope_friction.law = law(self.laws[1]);
+        wedge.split.friction.law = law(self.laws[1]);
         // What cannot be resolved was noted where it was read.
         let [column, slope] = self
             .faces
@@ -143,11 +146,15 @@ impl Draft {
     fn check_faces(&self, r: &mut Reader<'_>, path: &str) {
         let wedge = &self.wedge;
         let bottom = wedge.height * libm::tan(wedge.angle);
+        let width = match wedge.kind {
+            WedgeKind::Split => 0.5 * wedge.width,
+            WedgeKind::Body | WedgeKind::Massless => wedge.width,
+        };
         for (number, (face, name)) in self.faces.iter().zip(face::SECTIONS).enumerate() {
             let rectangle = Rectangle {
                 lower: [if number == 0 { 0.0 } else { bottom }, 0.0],
                 upper: [0.0, wedge.height],
-                width: wedge.width,
+                width,
                 faces_backward: number == 0,
             };
             let wrong = match face.resolve() {
@@ -191,9 +198,13 @@ impl Draft {
 
     fn body(&mut self, r: &mut Reader<'_>) {
         let wedge = &mut self.wedge;
-        const KINDS: Names<WedgeKind> = &[("body", WedgeKind::Body), ("massless", WedgeKind::Massless)];
-        let comment =
-            "\"body\": a rigid body with faces in contact; \"massless\": the industry's quasi-static element";
+        const KINDS: Names<WedgeKind> = &[
+            ("body", WedgeKind::Body),
+            ("massless", WedgeKind::Massless),
+            ("split", WedgeKind::Split),
+        ];
+        let comment = "\"body\": a rigid body with faces in contact; \"massless\": the industry's quasi-static \
+                       element; \"split\": two halves beside each other";
         r.choice("kind", KINDS, &mut wedge.kind, comment);
         let angle = (Kind::Angle, ANGLE, ANGLES);
         r.quantity(
@@ -202,6 +213,10 @@ impl Draft {
             &mut wedge.angle,
             "between the slope and the vertical",
         );
+        let across = (Kind::Angle, ACROSS, Reach::Signed(0.2));
+        let comment =
+            "of the slope's normal with the plane along the track; positive: it pushes the wedge outboard";
+        r.quantity("slope_across", across, &mut wedge.slope_across, comment);
         r.quantity("height", LENGTH, &mut wedge.height, "of the vertical face");
         r.quantity("width", LENGTH, &mut wedge.width, "across the track");
         r.weight(
@@ -363,7 +378,7 @@ pub(crate) fn all(r: &mut Reader<'_>, parameters: &Parameters, friction: f64) ->
         "All four wedges: right triangular prisms. [wedge.leading_left], leading_right, trailing_left, \
          trailing_right\n\
          # set one: with these keys and toe, and tables friction, contact, control_coil, column_face, \
-         slope_face.",
+         slope_face, split.",
     );
     draft.body(r);
     let about = match parameters.damping {
@@ -392,7 +407,19 @@ pub(crate) fn all(r: &mut Reader<'_>, parameters: &Parameters, friction: f64) ->
         r.section(name, about);
         r.face(&mut draft.faces[number]);
     }
+    if draft.wedge.kind == WedgeKind::Split {
+        draft.wedge.split.coil_distance = draft.wedge.half_shift();
+        r.section(
+            "split",
+            "Between the halves of split wedges, and how the control coil presses them.",
+        );
+        draft.split(r, "split");
+    } else if r.has("split") {
+        draft.split(r, "split");
+    }
     draft.check_faces(r, "");
+    draft.check_across(r, "wedge.");
+    draft.check_split(r, "wedge.");
     draft
 }
 
@@ -407,10 +434,20 @@ pub(crate) fn single(r: &mut Reader<'_>, parameters: &mut Parameters, base: &Dra
         let mut draft = base.clone();
         let path = format!("wedge.{name}");
         let [column_face, slope_face] = face::SECTIONS;
-        let parts = ["friction", "contact", "control_coil", column_face, slope_face];
+        let parts = [
+            "friction",
+            "contact",
+            "control_coil",
+            column_face,
+            slope_face,
+            "split",
+        ];
         if r.overlay(&path, "One wedge: what is not given is as for all four.") {
             draft.body(r);
             draft.toe(r);
+            if draft.wedge.width != base.wedge.width || draft.wedge.kind != base.wedge.kind {
+                draft.wedge.split.coil_distance = draft.wedge.half_shift();
+            }
         }
         for part in parts {
             let path = format!("{path}.{part}");
@@ -418,6 +455,7 @@ pub(crate) fn single(r: &mut Reader<'_>, parameters: &mut Parameters, base: &Dra
                 match part {
                     "friction" => draft.friction(r),
                     "contact" => contact(r, &mut draft.wedge.contact, "per corner"),
+                    "split" => draft.split(r, &path),
                     own if own == column_face => r.face(&mut draft.faces[0]),
                     own if own == slope_face => r.face(&mut draft.faces[1]),
                     _ => draft.coil(r, &path),
@@ -426,6 +464,21 @@ pub(crate) fn single(r: &mut Reader<'_>, parameters: &mut Parameters, base: &Dra
         }
         if draft.faces != base.faces {
             draft.check_faces(r, &format!("wedge.{name}."));
+        }
+        let shape = |own: &Draft| {
+            let wedge = &own.wedge;
+            let sizes = [wedge.slope_across, wedge.angle, wedge.height, wedge.width];
+            (
+                sizes,
+                wedge.kind,
+                wedge.split,
+                [wedge.mass, wedge.inertia[0], wedge.inertia[2]],
+                own.kind,
+            )
+        };
+        if shape(&draft) != shape(base) {
+            draft.check_across(r, &format!("{path}."));
+            draft.check_split(r, &format!("{path}."));
         }
         *wedge = draft.finished();
     }

@@ -31,6 +31,7 @@ const MODELS: [(&str, &str, Cases); 3] = [
             ("truck_vertical_variable", &["load.kind=car_body"]),
             ("truck_warp_axles_variable_rising", &["adapter.kind=pad"]),
             ("truck_vertical_variable", &["wedge.kind=massless"]),
+            ("truck_vertical_split", &[]),
         ],
     ),
     (

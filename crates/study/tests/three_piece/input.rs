@@ -103,6 +103,101 @@ fn input_messages_say_what_is_wrong_and_what_to_write() {
             &["nothing can move", "no wedge has mass", "drive the wheelsets"],
         ),
         (
+            "[wedge]\nslope_across = \"40 deg\"",
+            &[
+                "`wedge.slope_across` is 40.0000 deg",
+                "runs out to an edge at 31.7 deg",
+                "narrower",
+            ],
+        ),
+        (
+            "[wedge.trailing_left]\nwidth = \"20 in\"\nslope_across = \"-20 deg\"",
+            &[
+                "`wedge.trailing_left.slope_across` is -20.0000 deg",
+                "an edge at 18.0 deg",
+            ],
+        ),
+        ("[wedge]\nslope_across = \"8\"", &["`wedge.slope_across`", "unit"]),
+        (
+            "[wedge]\nslope_across = \"8 lbf\"",
+            &["this is a force", "an angle is expected"],
+        ),
+        (
+            "[wedge]\nslope_acros = \"8 deg\"",
+            &["no key `slope_acros` in `wedge`", "did you mean `slope_across`?"],
+        ),
+        (
+            "[wedge]\nkind = \"massless\"\nslope_across = \"8 deg\"",
+            &["`wedge.slope_across` is of no effect", "massless wedge", "body"],
+        ),
+        (
+            "[wedge]\nkind = \"splitt\"",
+            &["`wedge.kind` cannot be \"splitt\"", "split"],
+        ),
+        (
+            "[split]\nangle = \"5 deg\"",
+            &[
+                "`split` is of no effect: this wedge has no halves",
+                "wedge.kind = \"split\"",
+            ],
+        ),
+        (
+            "[wedge.leading_left.split]\ngap = \"0.1 in\"",
+            &[
+                "`wedge.leading_left.split` is of no effect",
+                "wedge.leading_left.kind = \"split\"",
+            ],
+        ),
+        (
+            "[wedge]\nkind = \"split\"\n[split]\nangel = \"5 deg\"",
+            &["no key `angel` in `split`", "did you mean `angle`?"],
+        ),
+        (
+            "[wedge]\nkind = \"split\"\n[split]\nangle = \"60 deg\"",
+            &["`split.angle` is 60.0000 deg", "an edge at 59.7 deg"],
+        ),
+        (
+            "[wedge]\nkind = \"split\"\nslope_across = \"-40 deg\"\n[split]\nangle = \"45 deg\"",
+            &["presses together", "climb on such a plane"],
+        ),
+        (
+            "[wedge]\nkind = \"split\"\n[split]\ngap = \"-0.1 in\"",
+            &["`split.gap` is -0.1 in", "zero or greater"],
+        ),
+        (
+            "[wedge]\nkind = \"split\"\n[split]\nfriction = 20",
+            &["`split.friction` is 20", "between 0 and 10"],
+        ),
+        (
+            "[wedge]\nkind = \"split\"\n[split]\noutboard_share = 1.0",
+            &["`split.outboard_share` is 1", "between 0 and 1, both excluded"],
+        ),
+        (
+            "[wedge]\nkind = \"split\"\n[split]\ncoil_distance = \"6 in\"",
+            &["`split.coil_distance` is more than half of the wedge's width"],
+        ),
+        (
+            "[wedge]\nkind = \"split\"\n[split]\ncoil_distance = \"6 lbf\"",
+            &["this is a force", "a length is expected"],
+        ),
+        (
+            "[wedge]\nkind = \"split\"\ninertia = \"0.259 lbf in s^2\"",
+            &["`wedge.inertia`"],
+        ),
+        (
+            "[wedge]\nkind = \"split\"\ninertia = [\"0.259 lbf in s^2\", \"0.259 lbf in s^2\", \
+             \"0.259 lbf in s^2\"]",
+            &["`wedge.inertia` is too small for two halves", "squared over 16"],
+        ),
+        (
+            "[wedge]\nkind = \"split\"\n[control_coil]\nkind = \"thesis\"",
+            &["a split wedge cannot stand on the thesis's coil", "shear"],
+        ),
+        (
+            "[wedge.leading_left]\nkind = \"split\"\n[wedge.leading_left.control_coil]\nkind = \"thesis\"",
+            &["a split wedge cannot stand on the thesis's coil"],
+        ),
+        (
             "[bolster.load]\nvertical = \"10 lbf\"",
             &[
                 "`bolster.load.vertical` loads a coordinate that is not free",
@@ -153,6 +248,38 @@ fn input_each_model_says_so_when_the_other_is_meant() {
     assert!(matches!(any, AnyCase::Truck(_)));
     let any = AnyCase::parse("t.toml", "model = \"wedge\"", Tables::nowhere(), &[]).unwrap();
     assert!(matches!(any, AnyCase::Wedge(_)));
+}
+
+/// Keys that a single wedge has no use for are told apart from mistyped ones.
+#[test]
+fn input_a_single_wedge_is_not_of_the_kinds_of_trucks() {
+    for (line, parts) in [
+        (
+            "kind = \"split\"",
+            ["`wedge.kind` is a key of trucks and cars", "one rigid body"],
+        ),
+        (
+            "kind = \"massless\"",
+            ["`wedge.kind` is a key of trucks and cars", "quasi-static"],
+        ),
+        (
+            "slope_across = \"8 deg\"",
+            [
+                "`wedge.slope_across` is a key of trucks and cars",
+                "side of its pocket",
+            ],
+        ),
+    ] {
+        let text = match line.strip_prefix("split") {
+            Some(_) => line.to_owned(),
+            None => format!("[wedge]\n{line}"),
+        };
+        let error = Case::parse("w.toml", &text, Tables::nowhere(), &[]).unwrap_err();
+        assert_eq!(error.problems().len(), 1);
+        for part in parts {
+            assert!(error.to_string().contains(part), "{error}");
+        }
+    }
 }
 
 /// A case is read with its condition, and what it says itself wins over it.

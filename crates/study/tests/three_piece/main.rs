@@ -2,6 +2,7 @@
 
 mod common;
 mod input;
+mod kinds;
 mod massless;
 mod reproducible;
 mod rigs;

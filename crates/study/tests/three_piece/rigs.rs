@@ -11,7 +11,7 @@ use super::common::{INCH, KIP_INCH, POUND_FORCE, at, case, column, run};
 /// anything to warn of but contacts that are pressed in where a nest locks.
 #[test]
 fn energy_of_every_rig_is_accounted_for() {
-    assert_eq!(builtin::names().count(), 42);
+    assert_eq!(builtin::names().count(), 46);
     for name in builtin::names() {
         let duration = if name.contains("warp") || name.contains("lands") {
             4.6
