@@ -16,8 +16,8 @@ use clap::{Parser, Subcommand};
 use numerics::processor::{OldProcessor, check};
 
 use commands::{
-    case, compare, curves, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, stability, study,
-    track, warp, wheelrail,
+    case, compare, curves, energy, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, stability,
+    study, track, warp, wheelrail,
 };
 use failure::Failure;
 
@@ -37,6 +37,7 @@ Begin with:
   wedgelab case                      the built-in cases
   wedgelab case NAME > my.toml       a complete case file to change ...
   wedgelab run my.toml               ... and to run
+  wedgelab energy NAME               where the energy of a cycle goes
   wedgelab warp                      warp of a whole truck with four wedges
   wedgelab stability CAR             vibrations of a whole car over speed
   wedgelab explore my.toml           a page to change it and see its loop move
@@ -66,6 +67,7 @@ enum Command {
     QuasiStatic(quasi_static::Arguments),
     Warp(warp::Arguments),
     Curves(curves::Arguments),
+    Energy(energy::Arguments),
     Stability(stability::Arguments),
     Wheelrail(wheelrail::Arguments),
     Track(track::Arguments),
@@ -87,6 +89,7 @@ impl Cli {
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
             Command::Warp(arguments) => warp::execute(&arguments),
             Command::Curves(arguments) => curves::execute(&arguments),
+            Command::Energy(arguments) => energy::execute(&arguments),
             Command::Stability(arguments) => stability::execute(&arguments),
             Command::Wheelrail(arguments) => wheelrail::execute(&arguments),
             Command::Track(arguments) => track::execute(&arguments),

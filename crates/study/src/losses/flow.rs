@@ -121,9 +121,15 @@ fn gather(flows: &mut Vec<Flow>, whole: f64) {
     });
 }
 
-/// Returns the name of an entry in words.
-fn words(name: &str) -> String {
+/// Returns the name of an entry of the ledger in words.
+#[must_use]
+pub fn words(name: &str) -> String {
     let name = name.strip_suffix("_loss").unwrap_or(name);
+    // The kind of a coil's term begins as the coil is called.
+    let name = name
+        .strip_prefix("coil_")
+        .filter(|rest| rest.starts_with("coil_"))
+        .unwrap_or(name);
     match name {
         "motion_work" => "work of motions and loads".to_owned(),
         _ => name.replace('_', " "),

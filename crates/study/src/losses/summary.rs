@@ -111,6 +111,17 @@ impl EnergySummary {
         self.cycles > 0
     }
 
+    /// Returns the losses with their totals (in their unit), the largest first.
+    #[must_use]
+    pub fn by_size(&self) -> Vec<(&str, &LossSplit, f64)> {
+        let losses = self.losses.iter();
+        let mut losses: Vec<_> = losses
+            .filter_map(|(name, own)| Some((name.as_str(), own, own.total.as_ref()?.value)))
+            .collect();
+        losses.sort_by(|a, b| b.2.total_cmp(&a.2));
+        losses
+    }
+
     /// Returns what enters less what is stored and lost, from the entries alone, in their unit. If an entry
     /// is left out it is as large as that.
     #[must_use]

@@ -3,6 +3,7 @@
 pub mod case;
 pub mod compare;
 pub mod curves;
+pub mod energy;
 pub mod explore;
 pub mod fit;
 pub mod fmu;

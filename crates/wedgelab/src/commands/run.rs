@@ -18,6 +18,7 @@ use study::case::{Case, builtin};
 use study::truck::run::TruckResult;
 use study::truck::{self, TruckCase, WEDGE_NAMES};
 
+use super::energy;
 use crate::execute::{Done, TABLE_NOTE, compute, compute_with_contacts, table, unsound, write, write_page};
 use crate::failure::{Failure, Message};
 use crate::folders;
@@ -63,7 +64,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     match read_any(&arguments.case, &arguments.set)? {
         AnyCase::Wedge(case) => run(&*case, arguments, |done| {
-            (table([(&done.result.summary, done.wall)]), TABLE_NOTE)
+            let summary = &done.result.summary;
+            let energy = energy::in_short(&summary.energy);
+            (table([(summary, done.wall)]), note(TABLE_NOTE, energy))
         }),
         AnyCase::Truck(case) => run_truck(&case, arguments),
         AnyCase::Car(case) => run_car(&case, arguments),
@@ -80,7 +83,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 fn run<C: RunFiles>(
     case: &C,
     arguments: &Arguments,
-    shown: impl FnOnce(&Done<C::Output>) -> (Table, &'static str),
+    shown: impl FnOnce(&Done<C::Output>) -> (Table, String),
 ) -> Result<ExitCode, Failure> {
     let path = arguments
         .out
@@ -108,6 +111,11 @@ fn run<C: RunFiles>(
     }
 }
 
+/// Returns a note with what is told of the energy of a cycle.
+fn note(about: &str, energy: Option<String>) -> String {
+    energy.map_or(about.to_owned(), |energy| format!("{about}\n\n{energy}"))
+}
+
 /// Runs a truck, and writes its page besides.
 fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
     let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&case.name));
@@ -129,7 +137,8 @@ fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failur
     truck_table(&run.result).write(&mut out)?;
     writeln!(
         out,
-        "\n{TRUCK_NOTE}\n\nWritten into {}: {} (open it in a browser).",
+        "\n{}\n\nWritten into {}: {} (open it in a browser).",
+        note(TRUCK_NOTE, energy::in_short(&run.result.summary.energy)),
         folder.path().display(),
         names.join(", ")
     )?;
