@@ -310,3 +310,33 @@ fn styles_of_toe_are_the_same_everywhere() {
     );
     assert!(out.1 != none.1 && none.1 != inward.1 && out.2 != none.2 && none.2 != inward.2);
 }
+
+/// What flows into a node is what flows through it and, but for what is too thin to be drawn and the ledger's
+/// residual, what flows out; the numbers are those of the summary.
+#[test]
+fn energy_bands_of_the_power_flow_balance() {
+    let figure = exhibit("vdrun_toe_0.2_psi_0.012_power_flow").figure;
+    let chart = figure.flow.unwrap();
+    let sum = |own: fn(&report::drawing::flow::Band) -> usize, number: usize| -> f64 {
+        let bands = chart.bands.iter().filter(|band| own(band) == number);
+        bands.map(|band| band.value).sum()
+    };
+    let through = chart.nodes.iter().find(|node| node.column == 1).unwrap().value;
+    for (number, node) in chart.nodes.iter().enumerate() {
+        let (into, out) = (sum(|band| band.to, number), sum(|band| band.from, number));
+        match node.column {
+            0 => assert!((out - node.value).abs() < 1e-12 * through),
+            1 => assert!((into - out).abs() < 2e-3 * through && (into - through).abs() < 1e-3 * through),
+            2 => assert!((into - node.value).abs() < 1e-12 * through && out <= into * (1.0 + 1e-12)),
+            _ => assert!((into - node.value).abs() < 1e-12 * through && out == 0.0),
+        }
+    }
+    let energy = &outcomes()[1].1.summary.energy;
+    let column = energy.losses["column_friction_loss"].total.as_ref().unwrap();
+    let drawn = chart
+        .nodes
+        .iter()
+        .find(|node| node.label.starts_with("column friction\n"));
+    assert!((drawn.unwrap().value - column.value).abs() < 1e-12 * through);
+    assert!(figure.caption.contains(&column.unit) && figure.title.contains(&column.unit));
+}

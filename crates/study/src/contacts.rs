@@ -23,7 +23,7 @@ pub struct Corner {
     /// The number of its point there.
     pub point: usize,
     /// The place of the point among all contact points.
-    place: usize,
+    pub(crate) place: usize,
     /// Its share of the face, if the face has more points than its corners.
     weight: Option<f64>,
 }

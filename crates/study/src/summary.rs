@@ -12,6 +12,7 @@ use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
 use crate::finite::{find, is_finite};
+use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::result::ContactEvent;
 use crate::run::{Run, RunCase};
@@ -125,6 +126,9 @@ pub struct Summary {
     pub friction: BTreeMap<String, FrictionSummary>,
     /// The energy ledger at the end.
     pub ledger: LedgerSummary,
+    /// Where the energy of a cycle comes from and goes.
+    #[serde(default)]
+    pub energy: EnergySummary,
     /// What the integrator did.
     pub solver: Solver,
     /// What the numbers rest on.

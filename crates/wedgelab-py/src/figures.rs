@@ -72,6 +72,7 @@ fn figure<'py>(py: Python<'py>, name: &str, thesis: &str, figure: &Figure) -> Py
 fn exhibits<'py>(py: Python<'py>, exhibits: &[Exhibit]) -> PyResult<Bound<'py, PyList>> {
     let dicts = exhibits
         .iter()
+        .filter(|one| one.figure.flow.is_none())
         .map(|one| figure(py, &one.name, &one.thesis, &one.figure));
     PyList::new(py, dicts.collect::<PyResult<Vec<_>>>()?)
 }

@@ -18,8 +18,8 @@ use clap::{CommandFactory, Parser, Subcommand};
 use numerics::processor::{OldProcessor, check};
 
 use commands::{
-    case, compare, completions, curves, explore, fit, fmu, man, nucars, plot, quasi_static, reproduce, run,
-    stability, study, track, warp, wheelrail,
+    case, compare, completions, curves, energy, explore, fit, fmu, man, nucars, plot, quasi_static,
+    reproduce, run, stability, study, track, warp, wheelrail,
 };
 use failure::Failure;
 
@@ -39,6 +39,7 @@ Begin with:
   wedgelab case                      the built-in cases
   wedgelab case NAME > my.toml       a complete case file to change ...
   wedgelab run my.toml               ... and to run
+  wedgelab energy NAME               where the energy of a cycle goes
   wedgelab warp                      warp of a whole truck with four wedges
   wedgelab stability CAR             vibrations of a whole car over speed
   wedgelab explore my.toml           a page to change it and see its loop move
@@ -68,6 +69,7 @@ enum Command {
     QuasiStatic(quasi_static::Arguments),
     Warp(warp::Arguments),
     Curves(curves::Arguments),
+    Energy(energy::Arguments),
     Stability(stability::Arguments),
     Wheelrail(wheelrail::Arguments),
     Track(track::Arguments),
@@ -91,6 +93,7 @@ impl Cli {
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
             Command::Warp(arguments) => warp::execute(&arguments),
             Command::Curves(arguments) => curves::execute(&arguments),
+            Command::Energy(arguments) => energy::execute(&arguments),
             Command::Stability(arguments) => stability::execute(&arguments),
             Command::Wheelrail(arguments) => wheelrail::execute(&arguments),
             Command::Track(arguments) => track::execute(&arguments),

@@ -91,3 +91,97 @@ fn energy_rows_of_a_study_are_marked_and_keep_their_values() {
     let page = fs::read_to_string(folder.path().join("some/index.html")).unwrap();
     assert!(page.contains("1 failed.") && page.contains("the energy ledger of 1 runs does not close"));
 }
+
+/// `wedgelab energy` tells the balance and every division, and writes what it has told; without a cycle it says
+/// why.
+#[test]
+fn energy_of_a_cycle_is_told_and_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = "bolster.vertical={ shape = \"sine\", amplitude = \"0.5 in\", frequency = \"2 Hz\" }";
+    let short = "simulation.duration=1.3 s";
+    let case = ["energy", "vdrun_toe_0.2_psi_0.012", "--quiet", "--set", short];
+    let done = wedgelab(
+        folder.path(),
+        &[&case[..], &["--set", set, "--out", "told"]].concat(),
+    );
+    assert_eq!(done.code, Some(0), "{}", done.err);
+    for part in [
+        "mean of 2 whole cycles, 0.250 s to 1.250 s",
+        "work of motions and loads",
+        "column friction",
+        "column lower left",
+        "Equivalent damping of all that is lost",
+        "energy.json, power_flow.svg, power_flow.png",
+    ] {
+        assert!(done.out.contains(part), "{} without {part}", done.out);
+    }
+    let told = folder.path().join("told");
+    let energy: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(told.join("energy.json")).unwrap()).unwrap();
+    let value = |of: &serde_json::Value| of["value"].as_f64().unwrap();
+    let column = &energy["losses"]["column_friction_loss"];
+    let points: f64 = column["by_point"].as_object().unwrap().values().map(value).sum();
+    let total = value(&column["total"]);
+    assert!(total > 0.0 && (points - total).abs() < 1e-12 * total);
+    let svg = fs::read_to_string(told.join("power_flow.svg")).unwrap();
+    assert!(
+        svg.contains(">column friction<") && svg.contains("lbf·in, 100.0 %"),
+        "{svg}"
+    );
+    assert!(
+        fs::read(told.join("power_flow.png"))
+            .unwrap()
+            .starts_with(b"\x89PNG")
+    );
+    // The same of a run's folder, whose summary has the same numbers, and in short on the terminal.
+    let run = [
+        "run",
+        "vdrun_toe_0.2_psi_0.012",
+        "--quiet",
+        "--set",
+        short,
+        "--set",
+        set,
+        "--out",
+        "ran",
+    ];
+    let ran = wedgelab(folder.path(), &run);
+    assert!(ran.out.contains("Energy of a cycle (mean of 2)"), "{}", ran.out);
+    assert_eq!(summary(&folder.path().join("ran"))["energy"], energy);
+    let again = wedgelab(folder.path(), &["energy", "ran", "--quiet"]);
+    assert!(done.out.starts_with(&again.out), "{}", again.out);
+    for (arguments, what) in [
+        (
+            &[
+                "energy",
+                "vdrun_toe_0_psi_0",
+                "--quiet",
+                "--set",
+                "bolster.vertical=0 in",
+            ][..],
+            "nothing cycles",
+        ),
+        (
+            &[
+                "energy",
+                "vdrun_toe_0_psi_0",
+                "--quiet",
+                "--set",
+                "simulation.duration=1 s",
+            ],
+            "no whole cycle",
+        ),
+        (
+            &["energy", "car_hunting_empty", "--quiet"],
+            "neither a wedge nor a truck",
+        ),
+    ] {
+        let done = wedgelab(folder.path(), arguments);
+        assert_eq!(done.code, Some(2), "{}", done.err);
+        assert!(
+            done.err.contains(what) && done.err.contains("help"),
+            "{}",
+            done.err
+        );
+    }
+}

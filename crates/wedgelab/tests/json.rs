@@ -111,7 +111,14 @@ fn the_massless_wedge_answers_with_its_branches() {
     assert!((force - 3000.0 / margin.tan()).abs() < 1e-6 * force);
     let jams = json(
         folder.path(),
-        &["quasi-static", "--mu-column", "0.9", "--mu-slope", "0.9", "--json"],
+        &[
+            "quasi-static",
+            "--mu-column",
+            "0.9",
+            "--mu-slope",
+            "0.9",
+            "--json",
+        ],
     );
     assert!(jams["branches"][1]["column_normal"].is_null());
 }
@@ -156,7 +163,10 @@ fn completions_and_manual_pages_know_all_commands() {
     let folder = tempfile::tempdir().unwrap();
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let text = done(folder.path(), &["completions", shell]);
-        assert!(text.contains("wheelrail") && text.contains("quasi-static"), "{shell}");
+        assert!(
+            text.contains("wheelrail") && text.contains("quasi-static"),
+            "{shell}"
+        );
     }
     done(folder.path(), &["man", "--out", "man1"]);
     let page = |name: &str| fs::read_to_string(folder.path().join("man1").join(name)).unwrap();

@@ -7,6 +7,7 @@
 mod applied_load;
 mod assembler;
 mod chain;
+mod contact_losses;
 mod contact_states;
 mod contacts;
 mod eigenvalues;

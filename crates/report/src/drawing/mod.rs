@@ -3,6 +3,7 @@
 //! Figures are described without reference to a drawing library: panels, axes, curves. Only `paint` knows the
 //! library that draws them, so that it can be changed, and other formats added, in one place.
 
+pub mod flow;
 mod paint;
 mod scale;
 
@@ -136,6 +137,8 @@ pub struct Figure {
     pub columns: usize,
     /// Whether all panels have the same ranges of axes.
     pub common_axes: bool,
+    /// A flow chart in place of panels.
+    pub flow: Option<flow::FlowChart>,
 }
 
 impl Figure {

@@ -15,13 +15,13 @@ use super::{Curve, Figure, Line, Panel};
 use crate::thin::{thin, window};
 
 /// Width of a figure of one row, and of a single panel, pixels.
-const SHEET_WIDTH: f64 = 960.0;
+pub(super) const SHEET_WIDTH: f64 = 960.0;
 const PANEL_WIDTH: f64 = 720.0;
 const PANEL_HEIGHT: f64 = 380.0;
 /// Height of a row with names as ordinates.
 const NAME_HEIGHT: f64 = 24.0;
-const TITLE_SIZE: u32 = 17;
-const TEXT_SIZE: u32 = 13;
+pub(super) const TITLE_SIZE: u32 = 17;
+pub(super) const TEXT_SIZE: u32 = 13;
 const STROKE: f64 = 1.4;
 const BAR: f64 = 9.0;
 const LEGEND_HEIGHT: f64 = 24.0;
@@ -31,7 +31,7 @@ const LEGEND_LINE: f64 = 40.0;
 const PICTURE_SCALE: f32 = 1.5;
 /// How the names of clip paths begin.
 pub(super) const CLIP: &str = "clip-";
-const FONT: &str = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
+pub(super) const FONT: &str = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 
 impl Line {
     /// Lengths of dashes and gaps by turns, as SVG writes them; none for a solid line.
@@ -166,6 +166,9 @@ fn dashed(points: &[(f64, f64)], pattern: &[f64]) -> Vec<Vec<(f64, f64)>> {
 
 /// The whole drawing.
 pub(super) fn scene(figure: &Figure) -> Scene {
+    if let Some(flow) = &figure.flow {
+        return flow.scene(&figure.title);
+    }
     let (places, rows, columns) = figure.grid();
     let cell_width = if columns == 1 {
         PANEL_WIDTH
@@ -213,7 +216,7 @@ pub(super) fn scene(figure: &Figure) -> Scene {
 }
 
 /// The size at which a title fits into a width, pixels.
-fn title_size(title: &str, width: f64) -> u32 {
+pub(super) fn title_size(title: &str, width: f64) -> u32 {
     let letters = title.chars().count().max(1) as f64;
     ((width / (0.56 * letters)) as u32).clamp(11, TITLE_SIZE)
 }

@@ -4,6 +4,7 @@
 //! - [`comparison`]: the stand-alone wedge against types 6.8 and 6.9 of the comparison program.
 //! - [`model`]: the bolster's motion, the friction law, the coil.
 //! - [`run`]: what the thesis lacks, run by run; `pressure`: over faces with grids of points.
+//! - [`power_flow`]: where the energy of a cycle goes, of any run.
 //! - [`truck`]: a run of a three-piece truck; [`car`]: of a car on track, over the distance.
 //! - [`sensitivity`]: statements that hold over the contact stiffness.
 //! - [`study`]: main effects and contours of studies; [`jam`]: their jam map.
@@ -12,6 +13,7 @@ pub mod car;
 pub mod comparison;
 pub mod jam;
 pub mod model;
+pub mod power_flow;
 mod pressure;
 pub mod run;
 pub mod sensitivity;
@@ -108,6 +110,14 @@ pub fn axis(name: &str, kind: Kind, units: Units) -> String {
         "" => name.to_owned(),
         unit => format!("{name} ({unit})"),
     }
+}
+
+/// A title behind a name.
+pub(crate) fn lowered(title: &str) -> String {
+    let mut letters = title.chars();
+    letters.next().map_or(String::new(), |first| {
+        first.to_lowercase().chain(letters).collect()
+    })
 }
 
 /// A word with its first letter made large.

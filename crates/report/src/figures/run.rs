@@ -6,7 +6,7 @@ use study::metrics::Cycle;
 use study::result::RunResult;
 use wedge::outputs::{CORNERS, FACES};
 
-use super::{Exhibit, Outcome, axis, column, curve, digits, points};
+use super::{Exhibit, Outcome, axis, column, curve, digits, lowered, points, power_flow};
 use crate::csv::converted;
 use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
 
@@ -20,6 +20,10 @@ pub fn exhibits(outcome: &Outcome) -> Vec<Exhibit> {
         contact_states(name, result),
         corner_forces(name, result),
     ];
+    if let Some(figure) = power_flow::figure(&result.summary.energy) {
+        let title = format!("{name}: {}", lowered(&figure.title));
+        exhibits.push(exhibit(name, "power_flow", Figure { title, ..figure }));
+    }
     exhibits.extend(super::pressure::exhibit(outcome));
     if let Some(cycle) = Cycle::of(&case.parameters) {
         let shares = shares(result, &cycle);

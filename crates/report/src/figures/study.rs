@@ -31,7 +31,7 @@ const CONTOURS: [&str; MOST_CONTOURS] = [
 /// Measures that are drawn.
 const MOST_EFFECTS: usize = 9;
 /// Measures of other models that are drawn: the sum over all wedges, and those of the first one.
-const MOST_OTHERS: usize = 6;
+const MOST_OTHERS: usize = 9;
 /// Panels of contours.
 const MOST_CONTOURS: usize = 4;
 /// Pairs of parameters that are drawn.

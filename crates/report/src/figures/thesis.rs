@@ -459,6 +459,7 @@ impl Group<'_> {
                 caption,
                 panels,
                 common_axes: false,
+                flow: None,
                 ..Figure::default()
             },
         })

@@ -9,7 +9,7 @@ use ::study::truck::warp::WarpCurve;
 use quantity::Kind;
 use truck::HALVES;
 
-use super::{Exhibit, axis, curve};
+use super::{Exhibit, axis, curve, lowered, power_flow};
 use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
 use crate::warp_files::Tested;
 use crate::{curves_files, warp_files};
@@ -74,15 +74,10 @@ pub fn exhibits(run: &TruckRun) -> Vec<Exhibit> {
         exhibits.push(exhibit("contact_states", contact_states(run, contacts)));
     }
     exhibits.push(exhibit("energy_ledger", ledger(run)));
+    if let Some(figure) = power_flow::figure(&run.result.summary.energy) {
+        exhibits.push(exhibit("power_flow", figure));
+    }
     exhibits
-}
-
-/// A title behind a name.
-fn lowered(title: &str) -> String {
-    let mut letters = title.chars();
-    letters.next().map_or(String::new(), |first| {
-        first.to_lowercase().chain(letters).collect()
-    })
 }
 
 /// Forces of the wedges over time.

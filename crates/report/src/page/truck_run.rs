@@ -2,6 +2,10 @@
 
 use maud::{Markup, html};
 use quantity::Kind;
+use study::losses::EnergySummary;
+use study::losses::flow::words;
+use study::losses::stroke::PARTS;
+use study::summary::SummaryValue;
 use study::truck::WEDGE_NAMES;
 use study::truck::summary::TruckSummary;
 
@@ -23,6 +27,9 @@ pub fn render(run: &TruckRun, viewer: Option<Viewer>) -> Result<String, serde_js
         (doubts(summary))
         @if data.is_some() { (moving(&summary.name)) }
         section { h2 { "Wedges" } (wedges(summary)) }
+        @if let Some(loss) = &summary.energy.loss {
+            section { h2 { "Energy of a cycle" } (losses(&summary.energy, loss)) }
+        }
         section {
             h2 { "Figures" }
             @for exhibit in &exhibits { (shown_in(exhibit, &exhibit.figure.to_svg(), None)) }
@@ -37,6 +44,61 @@ pub fn render(run: &TruckRun, viewer: Option<Viewer>) -> Result<String, serde_js
         &main,
         data,
     ))
+}
+
+/// The table of what is lost in a cycle, without what is less than a thousandth of it.
+fn losses(energy: &EnergySummary, loss: &SummaryValue) -> Markup {
+    let share = |own: Option<&SummaryValue>, of: f64| {
+        own.map_or("–".to_owned(), |own| format!("{:.1}", 100.0 * own.value / of))
+    };
+    let large = |value: f64| value >= 1e-3 * loss.value;
+    html! {
+        p {
+            "Mean of " (energy.cycles) " whole cycles: lost by face and element, of each the share of contact \
+             states and of the four parts of the stroke of what moves (rising or falling, in its upper or \
+             lower half)."
+            @if let Some(own) = &energy.equivalent {
+                " Equivalent damping of all that is lost: " (format!("{:.4} ", own.damping.value))
+                (own.damping.unit)
+                @if let Some(ratio) = own.damping_ratio { (format!(", damping ratio {ratio:.3}")) }
+                "."
+            }
+        }
+        div.wide {
+            table {
+                thead {
+                    tr {
+                        th scope="col" { "lost in" }
+                        th.number scope="col" { "energy" br; span.unit { (loss.unit) } }
+                        @for state in ["sticking", "slipping"] {
+                            th.number scope="col" { (state) br; span.unit { "%" } }
+                        }
+                        @for part in PARTS {
+                            th.number scope="col" { (part.replace('_', ", ")) br; span.unit { "%" } }
+                        }
+                    }
+                }
+                tbody {
+                    @for (name, own, total) in energy.by_size().into_iter().filter(|own| large(own.2)) {
+                        tr {
+                            th scope="row" { (words(name)) }
+                            td.number { (format!("{total:.1}")) }
+                            @for state in ["stick", "slip"] {
+                                td.number { (share(own.by_state.get(state), total)) }
+                            }
+                            @for part in PARTS { td.number { (share(own.by_stroke.get(part), total)) } }
+                        }
+                    }
+                    tr {
+                        th scope="row" { "all" }
+                        td.number { (format!("{:.1}", loss.value)) }
+                        td.number {} td.number {}
+                        @for part in PARTS { td.number { (share(energy.by_stroke.get(part), loss.value)) } }
+                    }
+                }
+            }
+        }
+    }
 }
 
 /// The energy (output units) that the friction of a wedge's face takes in a cycle.

@@ -72,8 +72,11 @@ impl View {
             .into_iter()
             .map(|recording| recording.into_view(&mut data))
             .collect();
-        let figures = exhibits
+        // Flow charts have no curves: they stay as they are drawn.
+        let curves = exhibits
             .into_iter()
+            .filter(|exhibit| exhibit.figure.flow.is_none());
+        let figures = curves
             .map(|exhibit| {
                 let chart = chart::Chart::new(&exhibit.figure, units, &mut data);
                 (exhibit.name.clone(), chart)

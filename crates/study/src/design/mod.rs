@@ -26,7 +26,7 @@ use crate::case::CaseError;
 use crate::measures::Definitions;
 
 /// Version of what a study computes: it grows when the same document gives another table.
-pub const STUDY_VERSION: u32 = 3;
+pub const STUDY_VERSION: u32 = 4;
 
 /// Studies of more runs than this are begun only if the user says so.
 pub const MANY: u64 = 1_000_000;

@@ -137,6 +137,9 @@ pub struct WedgeSummary {
     /// Friction energy at the column per cycle of the vertical input, over whole cycles after the first half
     /// period.
     pub energy_per_cycle: Option<SummaryValue>,
+    /// Equivalent viscous damping of that energy, W/(π ω A²) with ω and A of the vertical input.
+    #[serde(default)]
+    pub equivalent_damping: Option<SummaryValue>,
     /// Mean of the column's friction on the side frame (positive up) while the bolster goes up.
     pub up: Option<SummaryValue>,
     /// The same while it goes down.

@@ -270,6 +270,7 @@ fn first_not_finite(summary: &HalfTruckSummary) -> Option<String> {
     let wedge = |wedge: &WedgeSummary| {
         let measures = [
             &wedge.energy_per_cycle,
+            &wedge.equivalent_damping,
             &wedge.up,
             &wedge.down,
             &wedge.largest_normal_force,
@@ -480,10 +481,10 @@ fn wedge(case: &HalfTruckCase, result: &HalfTruckResult, works: &Works, place: u
         return summary;
     };
     let friction = column("column_friction");
-    summary.energy_per_cycle = works
-        .per_cycle(place)
-        .filter(|_| result.summary.complete)
-        .map(|energy| SummaryValue::new(energy, Kind::Energy, units));
+    let energy = works.per_cycle(place).filter(|_| result.summary.complete);
+    summary.energy_per_cycle = energy.map(|energy| SummaryValue::new(energy, Kind::Energy, units));
+    let equivalent = energy.map(|energy| cycle.equivalent_damping(energy));
+    summary.equivalent_damping = equivalent.map(|value| SummaryValue::new(value, Kind::Damping, units));
     let (input, rate) = (
         result.column("input_vertical").unwrap_or_default(),
         result.column("input_vertical_rate").unwrap_or_default(),

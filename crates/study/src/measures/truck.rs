@@ -18,7 +18,7 @@ use crate::truck::run::{TruckResult, window};
 use crate::truck::summary::{WARP_ANGLES, warp_stiffness};
 
 /// Measures of all runs.
-const OF_ALL: [(&str, Kind, &str, bool); 9] = [
+const OF_ALL: [(&str, Kind, &str, bool); 12] = [
     (
         "work_per_cycle",
         Kind::Energy,
@@ -29,6 +29,24 @@ const OF_ALL: [(&str, Kind, &str, bool); 9] = [
         "friction_loss_per_cycle",
         Kind::Energy,
         "lost in the friction of all wedges each cycle",
+        false,
+    ),
+    (
+        "loss_per_cycle",
+        Kind::Energy,
+        "lost in all faces and elements each cycle",
+        false,
+    ),
+    (
+        "equivalent_damping",
+        Kind::Damping,
+        "of all that is lost in bounce: loss per cycle over pi omega A^2",
+        false,
+    ),
+    (
+        "damping_ratio",
+        Kind::Dimensionless,
+        "of bounce: loss per cycle over 4 pi times the largest energy in a spring of the equivalent stiffness",
         false,
     ),
     (
@@ -140,11 +158,15 @@ fn measures(case: &TruckCase, result: &TruckResult) -> Measures {
     let (least, most) = both.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| {
         (least.min(*value), most.max(*value))
     });
-    let cycles = &result.summary.cycles;
+    let (cycles, energy) = (&result.summary.cycles, &result.summary.energy);
+    let equivalent = energy.equivalent.as_ref();
     let loss_of = |wedges: &[&str]| cycles.loss_of_wedges(wedges).unwrap_or(f64::NAN);
     let mut values = vec![
         cycles.work.as_ref().map_or(f64::NAN, |work| work.value),
         loss_of(&WEDGE_NAMES),
+        energy.loss.as_ref().map_or(f64::NAN, |loss| loss.value),
+        equivalent.map_or(f64::NAN, |own| own.damping.value),
+        equivalent.and_then(|own| own.damping_ratio).unwrap_or(f64::NAN),
         largest(column("warp_angle")),
         largest(column("warp_moment")),
         least,

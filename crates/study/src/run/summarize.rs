@@ -12,7 +12,8 @@ use super::{EVENT_CAP, Run};
 use crate::assumptions;
 use crate::case::Case;
 use crate::energy;
-use crate::metrics::{Cycle, Extremes, first_harmonic, mean};
+use crate::losses::{EnergySummary, Equivalent};
+use crate::metrics::{Cycle, Extremes, FirstHarmonic, first_harmonic, mean};
 use crate::plausibility;
 use crate::summary::{
     Averages, Events, FrictionSummary, LedgerSummary, SCHEMA, Solver, Stopped, Summary, SummaryValue,
@@ -47,6 +48,7 @@ pub(super) fn summary(run: &mut Run<Case>, stopped: Option<Stopped>) -> Summary 
         }
     }
     let ledger = ledger(run);
+    let on_bolster = on_bolster(run);
     let damped = run.case.simulation.method.tableau().family == Family::DiagonallyImplicit;
     Summary {
         warnings: warnings(run, damped),
@@ -59,11 +61,12 @@ pub(super) fn summary(run: &mut Run<Case>, stopped: Option<Stopped>) -> Summary 
         stopped,
         failed: energy::failure(&run.energy_balance, what_to_do(damped)),
         rows: time.len(),
-        averages: averages(run),
+        averages: averages(run, on_bolster),
         extremes,
         events: events(run),
         friction: friction(run),
         ledger,
+        energy: energies(run, on_bolster),
         solver: solver(run),
         assumptions: assumptions::of(&run.recorder.wedge),
     }
@@ -100,7 +103,7 @@ fn what_to_do(damped: bool) -> &'static str {
     }
 }
 
-fn averages(run: &Run<Case>) -> Averages {
+fn averages(run: &Run<Case>, on_bolster: Option<FirstHarmonic>) -> Averages {
     let units = run.case.simulation.output_units;
     let duration = run.case.simulation.duration;
     let missing = |why: &str| Averages {
@@ -128,24 +131,7 @@ fn averages(run: &Run<Case>) -> Averages {
         }
         _ => averages.missing = "no whole cycle after the first half period".to_owned(),
     }
-    let column = |name: &str| {
-        let index = run
-            .recorder
-            .outputs
-            .columns()
-            .iter()
-            .position(|column| column.name == name);
-        index.map_or(&[][..], |index| run.recorder.values[index].as_slice())
-    };
-    let on_bolster = cycle.window(duration).and_then(|(start, end, _)| {
-        first_harmonic(
-            &run.recorder.values[0],
-            column("bolster_vertical"),
-            column("net_force_on_bolster_z"),
-            cycle.angular_frequency,
-            (start, end),
-        )
-    });
+    let column = |name: &str| column(run, name);
     if let Some(on_bolster) = on_bolster {
         averages.equivalent_stiffness = Some(SummaryValue::new(on_bolster.stiffness, Kind::Stiffness, units));
         averages.equivalent_damping_on_bolster =
@@ -175,6 +161,56 @@ fn averages(run: &Run<Case>) -> Averages {
         }
     }
     averages
+}
+
+/// Returns the values of a column; none if there is no such column.
+fn column<'r>(run: &'r Run<Case>, name: &str) -> &'r [f64] {
+    let columns = run.recorder.outputs.columns();
+    let index = columns.iter().position(|column| column.name == name);
+    index.map_or(&[][..], |index| run.recorder.values[index].as_slice())
+}
+
+/// Returns stiffness and damping of the first harmonic of the vertical force on the bolster.
+fn on_bolster(run: &Run<Case>) -> Option<FirstHarmonic> {
+    let cycle = Cycle::of(&run.case.parameters)?;
+    let (start, end, _) = cycle.window(run.case.simulation.duration)?;
+    first_harmonic(
+        &run.recorder.values[0],
+        column(run, "bolster_vertical"),
+        column(run, "net_force_on_bolster_z"),
+        cycle.angular_frequency,
+        (start, end),
+    )
+}
+
+/// Returns where the energy of a cycle goes.
+fn energies(run: &Run<Case>, on_bolster: Option<FirstHarmonic>) -> EnergySummary {
+    let units = run.case.simulation.output_units;
+    let Some(cycle) = Cycle::of(&run.case.parameters) else {
+        let held = run.case.parameters.bolster.coordinates[2].is_constant();
+        return EnergySummary::none(if held {
+            "the bolster does not move up and down: nothing cycles"
+        } else {
+            "the bolster's vertical motion is not one sine or triangle"
+        });
+    };
+    let points = &run.recorder.points;
+    let names: Vec<String> = (0..run.system.point_count())
+        .map(|point| {
+            let (face, name) = points.face_and_name(point);
+            format!("{}_{name}", FACES[face])
+        })
+        .collect();
+    match run.recorder.losses.summary(&run.system, &names, units) {
+        Some((summary, lost)) => EnergySummary {
+            equivalent: Some(Equivalent::new(lost, &cycle, on_bolster, units)),
+            ..summary
+        },
+        None if cycle.window(run.case.simulation.duration).is_some() => {
+            EnergySummary::none("the run stopped before its last whole cycle ended")
+        }
+        None => EnergySummary::none("no whole cycle after the first half period"),
+    }
 }
 
 fn events(run: &Run<Case>) -> Events {

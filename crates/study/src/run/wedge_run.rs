@@ -15,6 +15,8 @@ use wedge::outputs::{FACES, Outputs, PointNames};
 
 use super::{Beginning, Recorder, Row, Run, RunCase, RunError, append, summarize};
 use crate::case::Case;
+use crate::losses::stroke::Stroke;
+use crate::losses::{LossCounts, LossRecorder, Window};
 use crate::metrics::Cycle;
 use crate::plausibility;
 use crate::progress;
@@ -39,6 +41,8 @@ pub struct Counts {
     pub listed: Vec<ContactEvent>,
     /// Friction losses at the probes passed so far, J: for each probe (side frame, bolster).
     pub probes: Vec<[f64; 2]>,
+    /// Losses by point, contact state and part of the stroke.
+    pub losses: LossCounts,
 }
 
 /// Records a wedge's run.
@@ -52,6 +56,7 @@ pub struct WedgeRecorder {
     probe_times: Vec<f64>,
     row: Vec<f64>,
     speeds: Vec<f64>,
+    pub(super) losses: LossRecorder,
 }
 
 impl RunCase for Case {
@@ -95,6 +100,7 @@ impl RunCase for Case {
                     ..Counts::default()
                 },
                 probe_times: probe_times(self),
+                losses: LossRecorder::new(&wedge.system, loss_window(self)),
                 row: Vec::with_capacity(outputs.columns().len()),
                 speeds: vec![0.0; points],
                 outputs,
@@ -131,12 +137,16 @@ impl Recorder for WedgeRecorder {
     type Counts = Counts;
 
     fn counts(&self) -> Counts {
-        self.counts.clone()
+        Counts {
+            losses: self.losses.counts(),
+            ..self.counts.clone()
+        }
     }
 
     fn restore(&mut self, counts: Counts, time: f64) -> Result<(), RunError> {
         let probes = self.probe_times.iter().filter(|probe| **probe <= time).count();
         counts.check(&self.points, probes)?;
+        self.losses.restore(counts.losses.clone(), time)?;
         self.counts = counts;
         Ok(())
     }
@@ -145,6 +155,7 @@ impl Recorder for WedgeRecorder {
         self.count_events(integrator);
         self.count_creep(integrator, system);
         self.probe(integrator, system, x);
+        self.losses.step(integrator, system, x);
     }
 
     fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
@@ -232,6 +243,17 @@ impl WedgeRecorder {
 fn probe_times(case: &Case) -> Vec<f64> {
     let window = Cycle::of(&case.parameters).and_then(|cycle| cycle.window(case.simulation.duration));
     window.map_or(Vec::new(), |(start, end, _)| vec![start, end])
+}
+
+/// Returns the whole cycles over which losses are taken: those of the averages.
+fn loss_window(case: &Case) -> Option<Window> {
+    let cycle = Cycle::of(&case.parameters)?;
+    let (start, end, cycles) = cycle.window(case.simulation.duration)?;
+    Some(Window {
+        ends: [start, end],
+        cycles,
+        stroke: Stroke::of(&case.parameters.bolster.coordinates[2])?,
+    })
 }
 
 /// Returns the energy lost in friction so far, J, by face.

@@ -5,6 +5,7 @@
 pub(crate) mod assumptions;
 pub mod builtin;
 pub mod columns;
+mod energies;
 pub mod loop_curve;
 pub mod run;
 pub(crate) mod sections;

@@ -19,6 +19,8 @@ use super::summary::{Cycles, SCHEMA, TruckSummary, warp_stiffnesses};
 use crate::contacts::{ContactTable, TakesCorners};
 use crate::energy;
 use crate::finite::{find, is_finite};
+use crate::losses::stroke::Stroke;
+use crate::losses::{LossCounts, LossRecorder};
 use crate::metrics::Extremes;
 use crate::plausibility;
 use crate::progress;
@@ -46,6 +48,7 @@ pub struct TruckRecorder {
     contacts: Option<ContactTable>,
     /// The bodies of the wedges, and of their halves, with the areas of column and slope, m².
     wedges: Vec<(usize, [f64; 2])>,
+    pub(super) losses: LossRecorder,
 }
 
 /// What is counted along a truck's run.
@@ -53,46 +56,20 @@ pub struct TruckRecorder {
 pub struct TruckCounts {
     /// The quadratures at the ends of the whole cycles that were passed, J.
     pub quadratures: Vec<Vec<f64>>,
+    /// Losses by point, contact state and part of the stroke.
+    pub losses: LossCounts,
 }
 
 /// Returns period (s) and beginning (s) of a motion, if it is periodic or a part of it is.
 #[must_use]
 pub fn period_of(motion: &Motion) -> Option<[f64; 2]> {
-    match motion {
-        Motion::Sine {
-            angular_frequency, ..
-        }
-        | Motion::Triangle {
-            angular_frequency, ..
-        } => Some([2.0 * std::f64::consts::PI / angular_frequency, 0.0]),
-        Motion::Sum(parts) => parts.iter().find_map(period_of),
-        Motion::Sequence(pieces) => pieces
-            .iter()
-            .find_map(|piece| period_of(&piece.motion).map(|[period, start]| [period, start + piece.start])),
-        _ => None,
-    }
+    Stroke::of(motion).map(|stroke| [stroke.period, stroke.begin])
 }
 
 /// Returns period (s) and beginning (s) of the first periodic motion or load of a truck.
 #[must_use]
 pub fn period(parameters: &Parameters) -> Option<[f64; 2]> {
-    let bolster = [&parameters.bolster.motion].into_iter();
-    let side_frames = parameters.side_frames.iter().map(|side_frame| &side_frame.motion);
-    let wheelsets = parameters
-        .wheelsets
-        .iter()
-        .flat_map(|wheelsets| &wheelsets.motions);
-    let motions = bolster.chain(side_frames).chain(wheelsets);
-    let mut loads = vec![&parameters.bolster.applied];
-    loads.extend(
-        parameters
-            .side_frames
-            .iter()
-            .map(|side_frame| &side_frame.applied),
-    );
-    loads.extend(parameters.car_body.iter().map(|car| &car.applied));
-    let motions = motions.flat_map(|motion| &motion.coordinates);
-    motions.chain(loads.into_iter().flatten()).find_map(period_of)
+    super::energies::drive(parameters).map(|drive| [drive.stroke.period, drive.stroke.begin])
 }
 
 /// Returns the ends (s) and the number of the whole cycles after the first.
@@ -141,6 +118,7 @@ impl RunCase for TruckCase {
                 counts: TruckCounts::default(),
                 contacts: None,
                 wedges: wedges(&self.parameters),
+                losses: LossRecorder::new(table.system(), super::energies::window(self)),
                 table,
             },
         })
@@ -195,7 +173,10 @@ impl Recorder for TruckRecorder {
     type Counts = TruckCounts;
 
     fn counts(&self) -> TruckCounts {
-        self.counts.clone()
+        TruckCounts {
+            losses: self.losses.counts(),
+            ..self.counts.clone()
+        }
     }
 
     fn restore(&mut self, counts: TruckCounts, time: f64) -> Result<(), RunError> {
@@ -209,11 +190,13 @@ impl Recorder for TruckRecorder {
                 .iter()
                 .try_for_each(|value| check_finite("counts.quadratures", *value))?;
         }
+        self.losses.restore(counts.losses.clone(), time)?;
         self.counts = counts;
         Ok(())
     }
 
     fn step(&mut self, integrator: &Integrator<System>, system: &mut System, x: &mut [f64]) {
+        self.losses.step(integrator, system, x);
         let Some((ends, _)) = self.window else { return };
         while let Some(end) = ends.get(self.counts.quadratures.len()) {
             if *end > integrator.time() {
@@ -331,6 +314,7 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
         cycles: cycles(&run),
         warp_stiffness: warp_stiffnesses(column("warp_angle"), column("warp_moment"), units),
         extremes,
+        energy: super::energies::of(&run, &column),
         ledger: LedgerSummary::of_run(&mut run, units),
         method: run.case.simulation.method.to_string(),
         relative_tolerance: run.case.simulation.relative_tolerance,

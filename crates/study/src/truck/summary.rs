@@ -7,6 +7,7 @@ use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 use truck::HALVES;
 
+use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
 
@@ -44,6 +45,9 @@ pub struct TruckSummary {
     pub extremes: BTreeMap<String, Extremes>,
     /// The energy ledger at the end; losses by element.
     pub ledger: LedgerSummary,
+    /// Where the energy of a cycle comes from and goes.
+    #[serde(default)]
+    pub energy: EnergySummary,
     /// The integration method.
     pub method: String,
     /// Its relative tolerance.

@@ -1,5 +1,9 @@
 //! What is wrong with a study is said where it was written.
 
+use std::path::Path;
+
+use study::design::Study;
+
 use super::common::{HEAD, SHORT, parse};
 
 /// The study has one mistake: in its message, marked, in its help.
@@ -216,4 +220,29 @@ fn input_more_runs_than_can_be_counted() {
     let many = "{ from = 0.1, to = 0.2, count = 1000000000 }";
     let text = vary(&format!("friction.column = {many}\nfriction.slope = {many}"));
     refused(&text, "more runs than can be counted", "", "sobol");
+}
+
+/// The study files of the documentation are read, and have the runs that they promise.
+#[test]
+fn input_studies_of_the_documentation_are_read() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/studies");
+    let mut runs: Vec<(String, u64)> = std::fs::read_dir(&folder)
+        .unwrap()
+        .map(|entry| {
+            let path = entry.unwrap().path();
+            let study = Study::read(&path).unwrap_or_else(|error| panic!("{:#?}", error.problems()));
+            (
+                path.file_stem().unwrap().to_str().unwrap().to_owned(),
+                study.count(),
+            )
+        })
+        .collect();
+    runs.sort();
+    let runs: Vec<(&str, u64)> = runs.iter().map(|(name, runs)| (name.as_str(), *runs)).collect();
+    let expected = [
+        ("bounce_of_a_truck", 36),
+        ("loss_over_amplitude_and_frequency", 32),
+        ("loss_over_load_and_toe", 35),
+    ];
+    assert_eq!(runs, expected);
 }

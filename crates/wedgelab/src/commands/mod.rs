@@ -4,6 +4,7 @@ pub mod case;
 pub mod compare;
 pub mod completions;
 pub mod curves;
+pub mod energy;
 pub mod explore;
 pub mod fit;
 pub mod fmu;

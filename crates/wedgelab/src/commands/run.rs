@@ -21,6 +21,7 @@ use study::case::{Case, builtin};
 use study::truck::run::TruckResult;
 use study::truck::{self, TruckCase, WEDGE_NAMES};
 
+use super::energy;
 use crate::execute::{Done, TABLE_NOTE, compute, compute_with_contacts, table, unsound, write, write_page};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
@@ -70,7 +71,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     match read_any(&arguments.case, &arguments.set)? {
         AnyCase::Wedge(case) => run(&*case, arguments, |done| {
-            (table([(&done.result.summary, done.wall)]), TABLE_NOTE)
+            let summary = &done.result.summary;
+            let energy = energy::in_short(&summary.energy);
+            (table([(summary, done.wall)]), note(TABLE_NOTE, energy))
         }),
         AnyCase::Truck(case) => run_truck(&case, arguments),
         AnyCase::Car(case) => run_car(&case, arguments),
@@ -87,7 +90,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 fn run<C: RunFiles>(
     case: &C,
     arguments: &Arguments,
-    shown: impl FnOnce(&Done<C::Output>) -> (Table, &'static str),
+    shown: impl FnOnce(&Done<C::Output>) -> (Table, String),
 ) -> Result<ExitCode, Failure> {
     let path = arguments
         .out
@@ -109,6 +112,11 @@ fn run<C: RunFiles>(
     }
 }
 
+/// Returns a note with what is told of the energy of a cycle.
+fn note(about: &str, energy: Option<String>) -> String {
+    energy.map_or(about.to_owned(), |energy| format!("{about}\n\n{energy}"))
+}
+
 /// Runs a truck, and writes its page besides.
 fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
     let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&case.name));
@@ -127,7 +135,8 @@ fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failur
     };
     write_page(&folder, |viewer| page::truck_run::render(&run, viewer))?;
     tell(arguments, &folder, &names, &run.result.summary, || {
-        (truck_table(&run.result), TRUCK_NOTE)
+        let energy = energy::in_short(&run.result.summary.energy);
+        (truck_table(&run.result), note(TRUCK_NOTE, energy))
     })?;
     if Viewer::embedded().is_none() {
         say(page::MISSING);
@@ -156,9 +165,9 @@ fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
     let summary = &run.result.summary;
     tell(arguments, &folder, &names, summary, || {
         if summary.limits.is_empty() {
-            (Table::new(1, &[]), NO_STATISTICS)
+            (Table::new(1, &[]), NO_STATISTICS.to_owned())
         } else {
-            (car_table(summary), CAR_NOTE)
+            (car_table(summary), CAR_NOTE.to_owned())
         }
     })?;
     match unsound::<CarCase>(summary, folder.path()) {
@@ -173,7 +182,7 @@ fn tell(
     folder: &Folder,
     names: &[&str],
     summary: &impl Serialize,
-    words: impl FnOnce() -> (Table, &'static str),
+    words: impl FnOnce() -> (Table, String),
 ) -> Result<(), Failure> {
     let path = folder.path();
     if arguments.json {

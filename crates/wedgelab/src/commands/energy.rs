@@ -1,0 +1,292 @@
+//! `wedgelab energy`: where the energy of a cycle goes.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use report::figures::power_flow;
+use report::run_files::{CASE_FILE_NAME, RunFiles};
+use report::summary::write_json;
+use study::any_case::AnyCase;
+use study::losses::flow::{PowerFlow, words};
+use study::losses::stroke::PARTS;
+use study::losses::{EnergySummary, LossSplit};
+use study::summary::{RunSummary, SummaryValue};
+
+use super::run::read_any;
+use super::warp::draw;
+use crate::execute::compute;
+use crate::failure::{Failure, Message, say};
+use crate::folders;
+use crate::interrupt;
+use crate::progress::Progress;
+use crate::table::Table;
+
+/// The files that are written on request.
+const NAMES: [&str; 3] = ["energy.json", "power_flow.svg", "power_flow.png"];
+/// Losses below this share of all that is lost have no rows of their own.
+const SMALL: f64 = 1e-3;
+
+/// Where the energy of a cycle comes from and goes
+///
+/// Runs a case of a wedge or a truck in which something moves as a sine or a triangle, and tells the energy
+/// of a cycle (the mean of its whole cycles): what is put in, what is lost by face and element, by corner or
+/// point, by contact state, by part of the stroke, and the equivalent viscous damping. With --out the numbers
+/// are written as energy.json, the flow of energy as power_flow.svg and power_flow.png.
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Examples:
+  wedgelab energy vdrun_toe_0.2_psi_0.012
+  wedgelab energy truck_vertical_variable --out bounce
+  wedgelab energy my_run --set friction.column=0.3")]
+pub struct Arguments {
+    /// Case file, folder of a run (whose case is run again), or the name of a built-in case
+    case: PathBuf,
+    /// Set one value over those of the case
+    #[arg(long, value_name = "PATH.KEY=VALUE")]
+    set: Vec<String>,
+    /// Folder to write numbers and figure into
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Overwrite existing results
+    #[arg(long)]
+    force: bool,
+    /// No progress
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// Does it.
+pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    interrupt::listen();
+    let of_run = arguments.case.join(CASE_FILE_NAME);
+    let path = if of_run.is_file() {
+        &of_run
+    } else {
+        &arguments.case
+    };
+    let case = read_any(path, &arguments.set)?;
+    let folder = match &arguments.out {
+        Some(path) => Some(folders::check(path, &NAMES, arguments.force)?),
+        None => None,
+    };
+    let energy = match &case {
+        AnyCase::Wedge(case) => energy_of(&**case, arguments.quiet, |summary| summary.energy.clone())?,
+        AnyCase::Truck(case) => energy_of(&**case, arguments.quiet, |summary| summary.energy.clone())?,
+        AnyCase::Car(_) | AnyCase::HalfTruck(_) => {
+            let message = format!("{} is neither a wedge nor a truck", case.name());
+            let advice = "energies of a cycle are told of wedges and trucks whose motion or load is periodic";
+            return Err(Message::new(message, advice).into());
+        }
+    };
+    let Some(figure) = power_flow::figure(&energy) else {
+        let why = if energy.missing.is_empty() {
+            "nothing is put in and nothing is lost"
+        } else {
+            &energy.missing
+        };
+        let message = format!("{} has no energies of a cycle: {why}", case.name());
+        let advice = "give a motion or load the shape \"sine\" or \"triangle\", and simulation.duration \
+                      room for two of its periods";
+        return Err(Message::new(message, advice).into());
+    };
+    let mut out = io::stdout().lock();
+    write(&energy, &mut out)?;
+    if let Some(folder) = folder {
+        let png = draw(&figure)?;
+        folder.write(|files| {
+            files.add(NAMES[0], |out| write_json(&energy, out))?;
+            files.add(NAMES[1], |out| out.write_all(figure.to_svg().as_bytes()))?;
+            files.add(NAMES[2], |out| out.write_all(&png))
+        })?;
+        writeln!(
+            out,
+            "\nWritten into {}: {}.",
+            folder.path().display(),
+            NAMES.join(", ")
+        )?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Runs a case, and returns the energies of its summary.
+fn energy_of<C: RunFiles>(
+    case: &C,
+    quiet: bool,
+    energy: impl FnOnce(&C::Summary) -> EnergySummary,
+) -> Result<EnergySummary, Failure> {
+    let progress = Progress::new(1, quiet);
+    interrupt::stops_run();
+    let done = compute(case, &progress);
+    progress.finish();
+    let summary = &done?.result.summary;
+    if let Some(stopped) = summary.stopped() {
+        let message = format!("the run {} stopped: {}", summary.name(), stopped.reason);
+        return Err(Failure::Failed(Message::new(message, C::WHAT_TO_TRY).into()));
+    }
+    if let Some(reason) = summary.failed() {
+        let message = format!("the run {} has failed: {reason}", summary.name());
+        return Err(Failure::Failed(Message::new(message, "").into()));
+    }
+    for warning in summary.warnings() {
+        say(&format!("warning: {}: {warning}", case.name()));
+    }
+    Ok(energy(summary))
+}
+
+/// Returns what `run` tells of the energy of a cycle, in a few lines; `None` if there is none.
+pub fn in_short(energy: &EnergySummary) -> Option<String> {
+    const MOST: usize = 4;
+    let flow = PowerFlow::of(energy)?;
+    let loss = energy.loss.as_ref()?;
+    let of_all = |value: f64| format!("{:.1} %", 100.0 * value / loss.value);
+    let losses = energy.by_size().into_iter().take(MOST);
+    let losses: Vec<String> = losses
+        .filter(|(_, _, value)| *value > SMALL * loss.value)
+        .map(|(name, _, value)| format!("{} {}", words(name), of_all(value)))
+        .collect();
+    let states = [1, 2].map(|state| flow.outflows.iter().map(|own| own.by_state[state]).sum::<f64>());
+    let stroke: Vec<String> = PARTS
+        .iter()
+        .filter_map(|part| {
+            Some(format!(
+                "{} {}",
+                part.replace('_', " "),
+                of_all(energy.by_stroke.get(*part)?.value)
+            ))
+        })
+        .collect();
+    let mut text = format!(
+        "Energy of a cycle (mean of {}): {:.1} {} lost: {}.\nFriction of sticking contacts {}, of slipping \
+         ones {}.\nBy part of the stroke: {}.",
+        energy.cycles,
+        loss.value,
+        loss.unit,
+        losses.join(", "),
+        of_all(states[0]),
+        of_all(states[1]),
+        stroke.join(", ")
+    );
+    if let Some(line) = equivalent(energy) {
+        text = format!("{text}\n{line}");
+    }
+    Some(text)
+}
+
+/// Returns the line about equivalent damping.
+fn equivalent(energy: &EnergySummary) -> Option<String> {
+    let own = energy.equivalent.as_ref()?;
+    let ratio = own.damping_ratio.map_or(String::new(), |ratio| {
+        format!(", a damping ratio of {ratio:.3} with the equivalent stiffness")
+    });
+    Some(format!(
+        "Equivalent damping of all that is lost: {:.1} {} at {:.3} {} and {:.3} Hz{ratio}.",
+        own.damping.value, own.damping.unit, own.amplitude.value, own.amplitude.unit, own.frequency
+    ))
+}
+
+/// Writes all tables.
+fn write(energy: &EnergySummary, out: &mut impl Write) -> io::Result<()> {
+    let Some(loss) = &energy.loss else {
+        return Ok(());
+    };
+    writeln!(
+        out,
+        "Energy of a cycle: mean of {} whole cycles, {:.3} s to {:.3} s.\n",
+        energy.cycles, energy.window[0], energy.window[1]
+    )?;
+    let percent = |value: f64, of: f64| format!("{:.1}", 100.0 * value / of);
+    balance(energy, loss).write(out)?;
+    let mut table = Table::new(
+        1,
+        &[
+            ("lost in", ""),
+            ("energy", &loss.unit),
+            ("share", "%"),
+            ("sticking", "%"),
+            ("slipping", "%"),
+            ("rising, upper half", "%"),
+            ("falling, upper", "%"),
+            ("falling, lower", "%"),
+            ("rising, lower", "%"),
+        ],
+    );
+    let mut small = (0, 0.0);
+    for (name, own, total) in energy.by_size() {
+        if total.abs() < SMALL * loss.value {
+            small = (small.0 + 1, small.1 + total);
+            continue;
+        }
+        let share = |own: Option<&SummaryValue>| own.map_or("-".to_owned(), |own| percent(own.value, total));
+        let states = ["stick", "slip"].map(|state| share(own.by_state.get(state)));
+        let parts = PARTS.map(|part| share(own.by_stroke.get(part)));
+        let first = [words(name), format!("{total:.2}"), percent(total, loss.value)];
+        table.row(first.into_iter().chain(states).chain(parts));
+    }
+    if small.0 > 0 {
+        let name = format!("{} others below {} %", small.0, 100.0 * SMALL);
+        table.row([name, format!("{:.2}", small.1), percent(small.1, loss.value)]);
+    }
+    let parts = PARTS.map(|part| {
+        let own = energy.by_stroke.get(part);
+        own.map_or("-".to_owned(), |own| percent(own.value, loss.value))
+    });
+    let first = ["all".to_owned(), format!("{:.2}", loss.value), "100.0".to_owned()];
+    let empty = [String::new(), String::new()];
+    table.row(first.into_iter().chain(empty).chain(parts));
+    writeln!(out)?;
+    table.write(out)?;
+    let rows: Vec<(&str, &LossSplit, f64)> = energy
+        .by_size()
+        .into_iter()
+        .filter(|(_, own, total)| !own.by_point.is_empty() && *total >= SMALL * loss.value)
+        .collect();
+    if !rows.is_empty() {
+        let mut table = Table::new(
+            2,
+            &[
+                ("point", ""),
+                ("lost in", ""),
+                ("energy", &loss.unit),
+                ("share", "%"),
+            ],
+        );
+        for (_, own, total) in rows {
+            for (point, value) in &own.by_point {
+                table.row([
+                    point.replace('_', " "),
+                    words(&own.kind),
+                    format!("{:.2}", value.value),
+                    percent(value.value, total),
+                ]);
+            }
+        }
+        writeln!(out)?;
+        table.write(out)?;
+    }
+    if let Some(line) = equivalent(energy) {
+        writeln!(out, "\n{line}")?;
+    }
+    writeln!(
+        out,
+        "\nShares of states, parts of the stroke and points are of the loss in their row. The powers of the points, integrated \
+         step by\nstep, differ from the ledger by at most {:.1e} of all that is lost.",
+        energy.largest_correction
+    )
+}
+
+/// Returns the table of what goes in and out.
+fn balance(energy: &EnergySummary, loss: &SummaryValue) -> Table {
+    let mut table = Table::new(1, &[("balance", ""), ("energy", &loss.unit)]);
+    for (name, work) in &energy.supplied {
+        table.row([words(name), format!("{:.3}", work.value)]);
+    }
+    let stored: f64 = energy.stored_change.values().map(|own| own.value).sum();
+    table.row(["stored".to_owned(), format!("{:.3}", -stored)]);
+    table.row(["lost".to_owned(), format!("{:.3}", -loss.value)]);
+    if let Some(residual) = &energy.residual {
+        table.row(["residual".to_owned(), format!("{:.1e}", residual.value)]);
+    }
+    table
+}
