@@ -3,6 +3,7 @@
 //! A face of the wedge is where its points lie; a profile moves them into the wedge. What the counterface,
 //! friction and a pad are beyond a plain face is the [`Interface`] of the contact.
 
+mod depth_map;
 mod grid;
 
 use mechanics::contact::{ContactPoint, Interface, Sliding};
@@ -11,6 +12,7 @@ use mechanics::surface::{Direction, Profile, Shape};
 use mechanics::vector::Vector;
 use serde::{Deserialize, Serialize};
 
+pub use self::depth_map::{DepthMap, DepthMapError};
 pub use self::grid::{Grid, GridPoint, LARGEST_GRID};
 use crate::parameters::{Contact, FaceFriction, ParameterError, check, not_negative, positive};
 
@@ -22,6 +24,8 @@ pub struct FaceProperties {
     pub grid: Grid,
     /// How the wedge's face recedes from a flat one.
     pub wedge_surface: FaceProfile,
+    /// How the wedge's face recedes further, as by wear: a map over the face.
+    pub wedge_wear: Option<DepthMap>,
     /// How the surface recedes that it touches: of the column, or of the slope of the pocket.
     pub counterface: FaceProfile,
     /// Coefficient of sliding; without one it is that of rest.
@@ -46,6 +50,7 @@ impl Default for FaceProperties {
         Self {
             grid: Grid::default(),
             wedge_surface: FaceProfile::default(),
+            wedge_wear: None,
             counterface: FaceProfile::default(),
             sliding_friction: None,
             stribeck_speed: STRIBECK_SPEED,
@@ -115,6 +120,12 @@ impl Rectangle {
         libm::hypot(self.upper[0] - self.lower[0], self.upper[1] - self.lower[1])
     }
 
+    /// Returns how far a point lies from the middle, up and to the left, m.
+    #[must_use]
+    pub fn distances(&self, point: &GridPoint) -> (f64, f64) {
+        (self.length() * (point.up - 0.5), 0.5 * self.width * point.across)
+    }
+
     /// Returns the unit vector (x, z) into the wedge.
     fn inward(&self) -> [f64; 2] {
         let sign = if self.faces_backward { 1.0 } else { -1.0 };
@@ -160,14 +171,18 @@ impl FaceProperties {
     /// Returns the place of a point of the wedge's surface.
     fn place(&self, face: &Rectangle, point: &GridPoint) -> [f64; 3] {
         let flat = face.place(point);
-        if self.wedge_surface.profile.is_flat() {
+        if self.wedge_surface.profile.is_flat() && self.wedge_wear.is_none() {
             return flat;
         }
+        let (up, across) = face.distances(point);
         let distance = match self.wedge_surface.direction {
-            FaceDirection::Up => face.length() * (point.up - 0.5),
-            FaceDirection::Across => 0.5 * face.width * point.across,
+            FaceDirection::Up => up,
+            FaceDirection::Across => across,
         };
-        let [depth, ..] = self.wedge_surface.profile.depth(distance);
+        let [mut depth, ..] = self.wedge_surface.profile.depth(distance);
+        if let Some(map) = &self.wedge_wear {
+            depth += map.depth(up, across);
+        }
         let inward = face.inward();
         [flat[0] + depth * inward[0], flat[1], flat[2] + depth * inward[1]]
     }
@@ -297,6 +312,13 @@ impl FaceProperties {
                 }
             }
         }
+        if let Some(map) = &self.wedge_wear {
+            let [up, across] = map.places();
+            let holds = map.covers(face.length(), face.width);
+            let reach = (up[up.len() - 1] - up[0]).min(across[across.len() - 1] - across[0]);
+            let expected = "a map from edge to edge of the face, up and across, its places from the middle";
+            check(paths.wedge_wear, reach, holds, expected)?;
+        }
         if let Some(sliding) = self.sliding_friction {
             check(
                 paths.sliding_friction,
@@ -339,6 +361,7 @@ impl FaceProperties {
 struct FacePaths {
     grid: &'static str,
     wedge_surface: &'static str,
+    wedge_wear: &'static str,
     counterface: &'static str,
     sliding_friction: &'static str,
     stribeck_speed: &'static str,
@@ -353,6 +376,7 @@ macro_rules! paths {
         FacePaths {
             grid: concat!($section, ".grid"),
             wedge_surface: concat!($section, ".wedge_surface"),
+            wedge_wear: concat!($section, ".wedge_wear"),
             counterface: concat!($section, ".counterface"),
             sliding_friction: concat!($section, ".sliding_friction"),
             stribeck_speed: concat!($section, ".stribeck_speed"),

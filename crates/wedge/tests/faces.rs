@@ -7,7 +7,7 @@ use common::{INCH, LBF, LBF_PER_IN};
 use integrate::Problem;
 use mechanics::spline::Spline;
 use mechanics::surface::Profile;
-use wedge::face::{FaceDirection, FaceProfile, FaceProperties, Grid, Pad};
+use wedge::face::{DepthMap, FaceDirection, FaceProfile, FaceProperties, Grid, Pad};
 use wedge::parameters::Damping;
 use wedge::{Parameters, Start, Wedge, thesis};
 
@@ -108,6 +108,97 @@ fn analytic_points_of_a_crown_lie_on_its_arc() {
             assert!((libm::hypot(along, radius - depth) - radius).abs() < 1e-13);
         }
         assert!(most > 0.05 * INCH);
+    }
+}
+
+/// A map over the whole face of a thesis wedge, of depths by the shares up and across (both from 0 to 1).
+fn map(parameters: &Parameters, number: usize, depth: impl Fn(f64, f64) -> f64) -> DepthMap {
+    let rectangle = parameters.rectangles()[number];
+    let shares = [0.0, 0.3, 0.5, 1.0];
+    let points: Vec<[f64; 3]> = shares
+        .iter()
+        .flat_map(|u| shares.map(|a| (*u, a)))
+        .map(|(u, a)| {
+            let place = [rectangle.length() * (u - 0.5), rectangle.width * (a - 0.5)];
+            [place[0], place[1], depth(u, a)]
+        })
+        .collect();
+    DepthMap::new(&points).unwrap()
+}
+
+#[test]
+fn limits_a_map_of_no_depth_changes_no_bit() {
+    let run = |worn: bool| {
+        let mut parameters = thesis::parameters(Damping::Variable, 0.003, 0.012);
+        for number in [0, 1] {
+            let own = worn.then(|| map(&parameters, number, |_, _| 0.0));
+            let face = match number {
+                0 => &mut parameters.column_face,
+                _ => &mut parameters.slope_face,
+            };
+            (face.grid, face.wedge_wear) = (Grid { up: 5, across: 3 }, own);
+        }
+        let mut wedge = Wedge::new(parameters).unwrap();
+        let x = wedge.initial_state.clone();
+        let mut dx = vec![0.0; x.len()];
+        wedge.system.derivative(0.0, &x, &mut dx);
+        (x, dx)
+    };
+    assert_eq!(run(true), run(false));
+}
+
+/// A wedge worn evenly by a map stands where one stands whose counterfaces are worn as deep.
+#[test]
+fn analytic_even_maps_raise_the_wedge_as_even_wear_does() {
+    let [column, slope] = [0.05 * INCH, 0.08 * INCH];
+    let height = |parameters: Parameters| {
+        let mut wedge = Wedge::new(parameters).unwrap();
+        let observation = wedge.system.observe(0.0, &wedge.initial_state);
+        observation.bodies[wedge::WEDGE].coordinates[2]
+    };
+    let start = base(Start::Equilibrium);
+    let [mut even, mut worn] = [start.clone(), start.clone()];
+    (even.wear.column, even.wear.slope) = (column, slope);
+    worn.column_face.wedge_wear = Some(map(&worn, 0, |_, _| column));
+    worn.slope_face.wedge_wear = Some(map(&worn, 1, |_, _| slope));
+    let rise = even.wedge_rise();
+    let unworn = height(start);
+    let [even, worn] = [even, worn].map(|parameters| height(parameters) - unworn);
+    assert!((worn - even).abs() < 2e-3 * rise, "{worn} {even}");
+    assert!((worn - rise).abs() < 0.05 * rise, "{worn} {rise}");
+}
+
+#[test]
+fn analytic_a_map_of_a_crown_is_the_crown() {
+    let parameters = base(Start::Rest);
+    let radius = 60.0 * INCH;
+    for (number, rectangle) in parameters.rectangles().into_iter().enumerate() {
+        let mut face = FaceProperties {
+            grid: Grid { up: 5, across: 5 },
+            wedge_surface: arc(radius, FaceDirection::Up),
+            ..FaceProperties::default()
+        };
+        let crowned = face.points(&rectangle, &parameters.contact);
+        let crown = std::mem::take(&mut face.wedge_surface);
+        let depths: Vec<[f64; 3]> = face
+            .grid
+            .points()
+            .iter()
+            .map(|point| {
+                let (up, across) = rectangle.distances(point);
+                [up, across, crown.profile.depth(up)[0]]
+            })
+            .collect();
+        face.wedge_wear = Some(DepthMap::new(&depths).unwrap());
+        let mapped = face.points(&rectangle, &parameters.contact);
+        for (one, other) in crowned.iter().zip(&mapped) {
+            for k in 0..3 {
+                assert!(
+                    (one.position.0[k] - other.position.0[k]).abs() < 1e-16,
+                    "face {number}: {one:?} {other:?}"
+                );
+            }
+        }
     }
 }
 
@@ -264,7 +355,7 @@ fn energy_closes_with_crowns_maps_and_pads() {
 #[test]
 fn input_faces_out_of_range_are_refused() {
     type Change = fn(&mut Parameters);
-    let changes: [(&str, Change); 6] = [
+    let changes: [(&str, Change); 7] = [
         ("column_face.grid", |p| p.column_face.grid.up = 1),
         ("slope_face.wedge_surface", |p| {
             p.slope_face.wedge_surface = arc(3.0 * INCH, FaceDirection::Across);
@@ -272,6 +363,10 @@ fn input_faces_out_of_range_are_refused() {
         ("column_face.counterface", |p| {
             p.column_face.counterface = table(FaceDirection::Up);
             p.wedge.height = 13.0 * INCH;
+        }),
+        ("slope_face.wedge_wear", |p| {
+            p.slope_face.wedge_wear = Some(map(p, 1, |_, _| 0.0));
+            p.wedge.width *= 1.001;
         }),
         ("slope_face.friction_map", |p| {
             p.slope_face.friction_map = vec![vec![1.0], vec![1.0, 2.0]]

@@ -6,11 +6,11 @@ use super::field::{Reach, Written};
 use super::problem::Problems;
 use super::read::COEFFICIENT;
 use super::section::{self, Range, Section};
+use super::table::{self, Form};
 use super::tables::Tables;
 use super::write::FRICTION;
-use mechanics::spline::SplineError;
 use quantity::{Kind, Quantity};
-use wedge::face::{FaceProperties, FrictionMap, Grid, STRIBECK_SPEED};
+use wedge::face::{DepthMap, FaceProperties, FrictionMap, Grid, STRIBECK_SPEED};
 
 /// The names of the sections, in the order of [`wedge::outputs::FACES`].
 pub(crate) const SECTIONS: [&str; 2] = ["column_face", "slope_face"];
@@ -32,6 +32,8 @@ pub struct FaceSection {
     pub grid: Grid,
     /// The wedge's surface.
     pub wedge_surface: Surface,
+    /// A map of its wear.
+    pub wedge_wear: Option<super::QuantityTable<3>>,
     /// The surface that it touches.
     pub counterface: Surface,
     /// Coefficient of sliding; left out, that of rest.
@@ -61,6 +63,7 @@ impl FaceSection {
     pub(crate) const KEYS: &[&str] = &[
         "grid",
         "wedge_surface",
+        "wedge_wear",
         "counterface",
         "sliding_friction",
         "stribeck_speed",
@@ -87,6 +90,10 @@ impl FaceSection {
         };
         let wedge_surface = surface("wedge_surface", &self.wedge_surface);
         let counterface = surface("counterface", &self.counterface);
+        let wedge_wear = match node("wedge_wear") {
+            Some((node, path)) => table::read(node, &path, &Form::map(), tables, problems).map(Some),
+            None => Some(self.wedge_wear.clone()),
+        };
         let sliding_friction = match node("sliding_friction") {
             Some(_) => s
                 .number("sliding_friction", COEFFICIENT, "0.3", problems)
@@ -110,6 +117,7 @@ impl FaceSection {
         Some(Self {
             grid: grid?,
             wedge_surface: wedge_surface?,
+            wedge_wear: wedge_wear?,
             counterface: counterface?,
             sliding_friction: sliding_friction?,
             stribeck_speed: stribeck_speed?,
@@ -131,6 +139,10 @@ impl FaceSection {
                 "",
             ),
             (Some(self.wedge_surface.written()), ""),
+            (
+                self.wedge_wear.as_ref().map(values::depths_written),
+                "\"column_wear.csv\"",
+            ),
             (Some(self.counterface.written()), ""),
             (
                 self.sliding_friction
@@ -145,11 +157,13 @@ impl FaceSection {
             ),
             (self.pad.as_ref().map(PadSection::written), PadSection::EXAMPLE),
         ];
-        const COMMENTS: [&str; 8] = [
+        const COMMENTS: [&str; 9] = [
             "points up the face and across it, edges included; [2, 2]: the corners. More points spread the \
              pressure",
             "the wedge's surface: \"flat\", or { shape = \"crown\", radius = \"60 in\", direction = \"up\" \
              }, ...",
+            "wear of the wedge's surface beyond that: a CSV file of up [in], across [in], depth [in], places \
+             from the middle; or the same as a list of points; left out, none",
             "the surface that it touches, in the same words",
             "coefficient of sliding; left out, that of rest, which is friction.column or friction.slope",
             "slip speed at which half of the way from rest to sliding is gone; left out, 0.1 in/s",
@@ -172,18 +186,22 @@ impl FaceSection {
     }
 
     /// Returns the face, SI, or the key and the reason why there is none.
-    pub(crate) fn resolve(&self) -> Result<FaceProperties, (&'static str, SplineError)> {
+    pub(crate) fn resolve(&self) -> Result<FaceProperties, (&'static str, String)> {
         let si = |quantity: &Option<Quantity>| quantity.as_ref().map(Quantity::to_si);
         Ok(FaceProperties {
             grid: self.grid,
             wedge_surface: self
                 .wedge_surface
                 .resolve()
-                .map_err(|error| ("wedge_surface", error))?,
+                .map_err(|error| ("wedge_surface", error.to_string()))?,
+            wedge_wear: match &self.wedge_wear {
+                Some(table) => Some(depths(table).map_err(|error| ("wedge_wear", error))?),
+                None => None,
+            },
             counterface: self
                 .counterface
                 .resolve()
-                .map_err(|error| ("counterface", error))?,
+                .map_err(|error| ("counterface", error.to_string()))?,
             sliding_friction: self.sliding_friction,
             stribeck_speed: si(&self.stribeck_speed).unwrap_or(STRIBECK_SPEED),
             friction_half_load: si(&self.friction_half_load),
@@ -192,10 +210,18 @@ impl FaceSection {
         })
     }
 
-    /// The tables of its surfaces.
-    pub(crate) fn tables_mut(&mut self) -> impl Iterator<Item = &mut super::QuantityTable> {
-        [&mut self.wedge_surface, &mut self.counterface]
-            .into_iter()
-            .filter_map(Surface::table_mut)
+    /// The files of its tables.
+    pub(crate) fn files_mut(&mut self) -> impl Iterator<Item = &mut Option<String>> {
+        let surfaces = [&mut self.wedge_surface, &mut self.counterface];
+        let tables = surfaces.into_iter().filter_map(Surface::table_mut);
+        let maps = self.wedge_wear.iter_mut().map(|map| &mut map.file);
+        tables.map(|table| &mut table.file).chain(maps)
     }
+}
+
+/// Returns a map of depths, SI.
+fn depths(table: &super::QuantityTable<3>) -> Result<DepthMap, String> {
+    let rows = table.rows.iter();
+    let points: Vec<[f64; 3]> = rows.map(|row| row.each_ref().map(Quantity::to_si)).collect();
+    DepthMap::new(&points).map_err(|error| error.to_string())
 }
