@@ -29,4 +29,5 @@ pub mod stepping;
 pub mod summary;
 pub mod track;
 pub mod truck;
+pub mod wear;
 pub mod wheelset;

@@ -17,7 +17,7 @@ use numerics::processor::{OldProcessor, check};
 
 use commands::{
     case, compare, curves, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, stability, study,
-    track, warp, wheelrail,
+    track, warp, wear, wheelrail,
 };
 use failure::Failure;
 
@@ -66,6 +66,7 @@ enum Command {
     QuasiStatic(quasi_static::Arguments),
     Warp(warp::Arguments),
     Curves(curves::Arguments),
+    Wear(wear::Arguments),
     Stability(stability::Arguments),
     Wheelrail(wheelrail::Arguments),
     Track(track::Arguments),
@@ -87,6 +88,7 @@ impl Cli {
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
             Command::Warp(arguments) => warp::execute(&arguments),
             Command::Curves(arguments) => curves::execute(&arguments),
+            Command::Wear(arguments) => wear::execute(&arguments),
             Command::Stability(arguments) => stability::execute(&arguments),
             Command::Wheelrail(arguments) => wheelrail::execute(&arguments),
             Command::Track(arguments) => track::execute(&arguments),
