@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use mechanics::system::System;
 use study::contacts::Corner;
 
+use super::pressure::of_contacts;
 use super::scene::{
     End, FACTOR, Look, Role, Scene, SceneBody, SceneCoil, SceneContact, Solid, SolidPose, extruded,
 };
@@ -152,6 +153,7 @@ impl Carriage {
             looks: self.looks(height),
             bodies: self.bolsters.iter().chain(&self.side_frames).map(body).collect(),
             solids: Vec::new(),
+            pressures: of_contacts(&contacts),
             contacts,
             ..Scene::default()
         };
