@@ -134,13 +134,17 @@ pub(crate) fn of_face(name: &str, face: &FaceProperties) -> Option<String> {
             Profile::Table(_) => parts.push(format!("{whose} surface by a table of depths {way} the face")),
         }
     }
-    if let Some(map) = &face.wedge_wear {
+    for (map, whose) in [
+        (&face.wedge_wear, "the wedge's"),
+        (&face.counterface_wear, "the opposite"),
+    ] {
+        let Some(map) = map else { continue };
         let deepest = map
             .points()
             .map(|[.., depth]| depth)
             .fold(f64::NEG_INFINITY, f64::max);
         parts.push(format!(
-            "the wedge's surface worn by a map of depths, {:.4e} in at most",
+            "{whose} surface worn by a map of depths, {:.4e} in at most",
             deepest / INCH
         ));
     }

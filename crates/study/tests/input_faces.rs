@@ -138,6 +138,12 @@ fn input_mistakes_in_faces_are_told() {
              \"-9 in\", \"0 in\"], [\"9 in\", \"9 in\", \"0 in\"]]",
             "a map from edge to edge of the face",
         ),
+        (
+            "[slope_face]\n\
+             counterface_wear = [[\"-9 in\", \"-9 in\", \"0 in\"], [\"-9 in\", \"9 in\", \"0 in\"], [\"9 in\", \
+             \"-9 in\", \"0 in\"], [\"9 in\", \"9 in\", \"0 in\"]]",
+            "four places up and four across",
+        ),
         ("[column_face]\nsliding_friction = 11", "between 0 and 10"),
         ("[column_face]\nstribeck_speed = \"3 in\"", "speed"),
         (
@@ -233,4 +239,30 @@ fn analytic_a_run_with_refined_faces_has_their_pressures() {
             .iter()
             .any(|line| line.contains("9 x 2 points"))
     );
+}
+
+/// Curved faces with too few points where they are pressed are told, with a grid that has enough.
+#[test]
+fn limits_too_few_points_on_a_curved_face_are_told() {
+    let warned = |grid: &str, surface: &str| -> Vec<String> {
+        let text = format!(
+            "[slope_face]\ngrid = {grid}\nwedge_surface = {surface}\n[simulation]\nduration = \"0.3 s\"\nstart = \
+             \"equilibrium\"\n"
+        );
+        let whole = Run::new(&read(&text).unwrap()).unwrap().finish(|_| ());
+        let warnings = whole.summary.warnings.into_iter();
+        warnings
+            .filter(|line| line.contains("face is") || line.contains("curved"))
+            .collect()
+    };
+    let crown = "{ shape = \"crown\", radius = \"300 in\", direction = \"up\" }";
+    let few = warned("[9, 2]", crown);
+    assert_eq!(few.len(), 1, "{few:?}");
+    assert!(few[0].contains("the curved slope face is pressed at"), "{few:?}");
+    // With the grid that it names the warning is gone.
+    let grid = few[0].rsplit_once("slope_face.grid = ").unwrap().1;
+    assert_eq!(warned(grid, crown), Vec::<String>::new());
+    let corners = warned("[2, 2]", crown);
+    assert!(corners[0].contains("has 2 points there"), "{corners:?}");
+    assert_eq!(warned("[9, 2]", "\"flat\""), Vec::<String>::new());
 }

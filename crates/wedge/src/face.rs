@@ -28,6 +28,8 @@ pub struct FaceProperties {
     pub wedge_wear: Option<DepthMap>,
     /// How the surface recedes that it touches: of the column, or of the slope of the pocket.
     pub counterface: FaceProfile,
+    /// How it recedes further, as by wear: a map over the face in its nominal place.
+    pub counterface_wear: Option<DepthMap>,
     /// Coefficient of sliding; without one it is that of rest.
     pub sliding_friction: Option<f64>,
     /// Slip speed at which half of the way from rest to sliding is gone, m/s.
@@ -52,6 +54,7 @@ impl Default for FaceProperties {
             wedge_surface: FaceProfile::default(),
             wedge_wear: None,
             counterface: FaceProfile::default(),
+            counterface_wear: None,
             sliding_friction: None,
             stribeck_speed: STRIBECK_SPEED,
             friction_half_load: None,
@@ -187,6 +190,12 @@ impl FaceProperties {
         [flat[0] + depth * inward[0], flat[1], flat[2] + depth * inward[1]]
     }
 
+    /// Returns whether the counterface is a plane.
+    #[must_use]
+    pub fn touches_a_plane(&self) -> bool {
+        self.counterface.profile.is_flat() && self.counterface_wear.is_none()
+    }
+
     /// Returns what part of the face (m²) each of its points stands for.
     #[must_use]
     pub fn areas(&self, face: &Rectangle) -> Vec<f64> {
@@ -217,6 +226,9 @@ impl FaceProperties {
     /// marker's axes z and y point down and to the right.
     #[must_use]
     pub fn interface(&self, friction: &FaceFriction, reversed: [bool; 2]) -> Interface {
+        // That there is one, `validate` has checked.
+        let worn = self.counterface_wear.as_ref();
+        let worn = worn.and_then(|map| map.surface(reversed).ok());
         let (direction, reversed) = match self.counterface.direction {
             FaceDirection::Up => (Direction::Z, reversed[0]),
             FaceDirection::Across => (Direction::Y, reversed[1]),
@@ -240,6 +252,7 @@ impl FaceProperties {
                     profile.clone()
                 },
                 direction,
+                worn,
             },
             sliding: Sliding {
                 ratio: sliding.map_or(1.0, |sliding| sliding / friction.coefficient),
@@ -312,12 +325,27 @@ impl FaceProperties {
                 }
             }
         }
-        if let Some(map) = &self.wedge_wear {
+        for (path, map) in [
+            (paths.wedge_wear, &self.wedge_wear),
+            (paths.counterface_wear, &self.counterface_wear),
+        ] {
+            let Some(map) = map else { continue };
             let [up, across] = map.places();
             let holds = map.covers(face.length(), face.width);
             let reach = (up[up.len() - 1] - up[0]).min(across[across.len() - 1] - across[0]);
             let expected = "a map from edge to edge of the face, up and across, its places from the middle";
-            check(paths.wedge_wear, reach, holds, expected)?;
+            check(path, reach, holds, expected)?;
+        }
+        if let Some(map) = &self.counterface_wear {
+            let [up, across] = map.places();
+            let holds = map.surface([false; 2]).is_ok();
+            let expected = "a map of at least four places up and four across, to have a smooth surface";
+            check(
+                paths.counterface_wear,
+                up.len().min(across.len()) as f64,
+                holds,
+                expected,
+            )?;
         }
         if let Some(sliding) = self.sliding_friction {
             check(
@@ -363,6 +391,7 @@ struct FacePaths {
     wedge_surface: &'static str,
     wedge_wear: &'static str,
     counterface: &'static str,
+    counterface_wear: &'static str,
     sliding_friction: &'static str,
     stribeck_speed: &'static str,
     friction_half_load: &'static str,
@@ -378,6 +407,7 @@ macro_rules! paths {
             wedge_surface: concat!($section, ".wedge_surface"),
             wedge_wear: concat!($section, ".wedge_wear"),
             counterface: concat!($section, ".counterface"),
+            counterface_wear: concat!($section, ".counterface_wear"),
             sliding_friction: concat!($section, ".sliding_friction"),
             stribeck_speed: concat!($section, ".stribeck_speed"),
             friction_half_load: concat!($section, ".friction_half_load"),

@@ -168,6 +168,93 @@ fn analytic_even_maps_raise_the_wedge_as_even_wear_does() {
     assert!((worn - rise).abs() < 0.05 * rise, "{worn} {rise}");
 }
 
+/// A counterface worn by a cubic map along either coordinate is the counterface with that cubic as its table, at
+/// both faces: places and senses are right.
+#[test]
+fn analytic_a_cubic_map_of_a_counterface_is_its_table() {
+    let cubic = |s: f64| 2.0 * s * s - 20.0 * s * s * s + 0.01 * s;
+    let rates = |parameters: Parameters| {
+        let mut wedge = Wedge::new(parameters).unwrap();
+        let x = wedge.initial_state.clone();
+        let mut dx = vec![0.0; x.len()];
+        wedge.system.derivative(0.0, &x, &mut dx);
+        let observation = wedge.system.observe(0.0, &x);
+        let points = observation.faces.iter().flat_map(|face| &face.points);
+        let gaps: Vec<f64> = points.map(|point| point.gap).collect();
+        (gaps, dx)
+    };
+    for number in [0, 1] {
+        for direction in [FaceDirection::Up, FaceDirection::Across] {
+            let built = |by_map: bool| {
+                let mut parameters = thesis::parameters(Damping::Variable, 0.003, 0.012);
+                let places = [-6.0, -2.0, 2.5, 6.0].map(|place| place * INCH);
+                let along = |up: f64, across: f64| match direction {
+                    FaceDirection::Up => up,
+                    FaceDirection::Across => across,
+                };
+                let points: Vec<[f64; 3]> = places
+                    .iter()
+                    .flat_map(|up| places.map(|across| [*up, across, cubic(along(*up, across))]))
+                    .collect();
+                let face = match number {
+                    0 => &mut parameters.column_face,
+                    _ => &mut parameters.slope_face,
+                };
+                face.grid = Grid { up: 4, across: 3 };
+                if by_map {
+                    face.counterface_wear = Some(DepthMap::new(&points).unwrap());
+                } else {
+                    let depths = places.map(cubic).to_vec();
+                    face.counterface = FaceProfile {
+                        profile: Profile::Table(Spline::new(places.to_vec(), depths).unwrap()),
+                        direction,
+                    };
+                }
+                rates(parameters)
+            };
+            let ((gaps, mapped), (wanted, table)) = (built(true), built(false));
+            for (gap, wanted) in gaps.iter().zip(&wanted) {
+                assert!(
+                    (gap - wanted).abs() < 1e-13,
+                    "{number} {direction:?}: {gap} {wanted}"
+                );
+            }
+            let size = table.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
+            for (own, table) in mapped.iter().zip(&table) {
+                assert!(
+                    (own - table).abs() < 1e-7 * size,
+                    "{number} {direction:?}: {own} {table}"
+                );
+            }
+        }
+    }
+}
+
+/// The energy ledger closes on a counterface that is worn unevenly over both coordinates.
+#[test]
+fn energy_closes_on_worn_counterfaces() {
+    let mut parameters = thesis::parameters(Damping::Constant, 0.003, 0.012);
+    parameters.start = Start::Equilibrium;
+    let hollow = |u: f64, a: f64| 0.02 * INCH * (1.0 - (2.0 * u - 1.0).powi(2)) * (0.3 + a);
+    for number in [0, 1] {
+        let worn = map(&parameters, number, hollow);
+        let face = match number {
+            0 => &mut parameters.column_face,
+            _ => &mut parameters.slope_face,
+        };
+        (face.grid, face.counterface_wear) = (Grid { up: 5, across: 3 }, Some(worn));
+    }
+    let wedge = Wedge::new(parameters).unwrap();
+    let ledger = common::run(&wedge, 1e-6, (2.0, 0.1), |_, _| {}).ledger;
+    let losses = ledger.side_frame_friction_loss + ledger.bolster_friction_loss;
+    assert!(losses > 10.0, "{losses}");
+    assert!(
+        ledger.residual.abs() < 1e-5 * ledger.motion_work.abs().max(losses),
+        "{ledger:?}"
+    );
+    assert!((ledger.residual + ledger.side_frame_friction_loss).abs() > 1e-4 * losses);
+}
+
 #[test]
 fn analytic_a_map_of_a_crown_is_the_crown() {
     let parameters = base(Start::Rest);
@@ -355,7 +442,7 @@ fn energy_closes_with_crowns_maps_and_pads() {
 #[test]
 fn input_faces_out_of_range_are_refused() {
     type Change = fn(&mut Parameters);
-    let changes: [(&str, Change); 7] = [
+    let changes: [(&str, Change); 8] = [
         ("column_face.grid", |p| p.column_face.grid.up = 1),
         ("slope_face.wedge_surface", |p| {
             p.slope_face.wedge_surface = arc(3.0 * INCH, FaceDirection::Across);
@@ -367,6 +454,11 @@ fn input_faces_out_of_range_are_refused() {
         ("slope_face.wedge_wear", |p| {
             p.slope_face.wedge_wear = Some(map(p, 1, |_, _| 0.0));
             p.wedge.width *= 1.001;
+        }),
+        ("column_face.counterface_wear", |p| {
+            let corners = [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]];
+            let points = corners.map(|[up, across]| [up, across, 0.0]);
+            p.column_face.counterface_wear = Some(DepthMap::new(&points).unwrap());
         }),
         ("slope_face.friction_map", |p| {
             p.slope_face.friction_map = vec![vec![1.0], vec![1.0, 2.0]]

@@ -36,6 +36,8 @@ pub struct FaceSection {
     pub wedge_wear: Option<super::QuantityTable<3>>,
     /// The surface that it touches.
     pub counterface: Surface,
+    /// A map of its wear.
+    pub counterface_wear: Option<super::QuantityTable<3>>,
     /// Coefficient of sliding; left out, that of rest.
     pub sliding_friction: Option<f64>,
     /// Slip speed of half of the way from rest to sliding.
@@ -65,6 +67,7 @@ impl FaceSection {
         "wedge_surface",
         "wedge_wear",
         "counterface",
+        "counterface_wear",
         "sliding_friction",
         "stribeck_speed",
         "friction_half_load",
@@ -90,10 +93,12 @@ impl FaceSection {
         };
         let wedge_surface = surface("wedge_surface", &self.wedge_surface);
         let counterface = surface("counterface", &self.counterface);
-        let wedge_wear = match node("wedge_wear") {
+        let mut worn = |key: &str, own: &Option<super::QuantityTable<3>>| match node(key) {
             Some((node, path)) => table::read(node, &path, &Form::map(), tables, problems).map(Some),
-            None => Some(self.wedge_wear.clone()),
+            None => Some(own.clone()),
         };
+        let wedge_wear = worn("wedge_wear", &self.wedge_wear);
+        let counterface_wear = worn("counterface_wear", &self.counterface_wear);
         let sliding_friction = match node("sliding_friction") {
             Some(_) => s
                 .number("sliding_friction", COEFFICIENT, "0.3", problems)
@@ -119,6 +124,7 @@ impl FaceSection {
             wedge_surface: wedge_surface?,
             wedge_wear: wedge_wear?,
             counterface: counterface?,
+            counterface_wear: counterface_wear?,
             sliding_friction: sliding_friction?,
             stribeck_speed: stribeck_speed?,
             friction_half_load: friction_half_load?,
@@ -145,6 +151,10 @@ impl FaceSection {
             ),
             (Some(self.counterface.written()), ""),
             (
+                self.counterface_wear.as_ref().map(values::depths_written),
+                "\"column_wear.csv\"",
+            ),
+            (
                 self.sliding_friction
                     .map(|value| Written::number(value, FRICTION)),
                 "0.3",
@@ -157,7 +167,7 @@ impl FaceSection {
             ),
             (self.pad.as_ref().map(PadSection::written), PadSection::EXAMPLE),
         ];
-        const COMMENTS: [&str; 9] = [
+        const COMMENTS: [&str; 10] = [
             "points up the face and across it, edges included; [2, 2]: the corners. More points spread the \
              pressure",
             "the wedge's surface: \"flat\", or { shape = \"crown\", radius = \"60 in\", direction = \"up\" \
@@ -165,6 +175,7 @@ impl FaceSection {
             "wear of the wedge's surface beyond that: a CSV file of up [in], across [in], depth [in], places \
              from the middle; or the same as a list of points; left out, none",
             "the surface that it touches, in the same words",
+            "wear of that surface, as wedge_wear; at least four places up and four across; left out, none",
             "coefficient of sliding; left out, that of rest, which is friction.column or friction.slope",
             "slip speed at which half of the way from rest to sliding is gone; left out, 0.1 in/s",
             "load of the face at which its coefficients are half of those without load; left out, no \
@@ -194,10 +205,8 @@ impl FaceSection {
                 .wedge_surface
                 .resolve()
                 .map_err(|error| ("wedge_surface", error.to_string()))?,
-            wedge_wear: match &self.wedge_wear {
-                Some(table) => Some(depths(table).map_err(|error| ("wedge_wear", error))?),
-                None => None,
-            },
+            wedge_wear: depths(&self.wedge_wear).map_err(|error| ("wedge_wear", error))?,
+            counterface_wear: depths(&self.counterface_wear).map_err(|error| ("counterface_wear", error))?,
             counterface: self
                 .counterface
                 .resolve()
@@ -214,14 +223,18 @@ impl FaceSection {
     pub(crate) fn files_mut(&mut self) -> impl Iterator<Item = &mut Option<String>> {
         let surfaces = [&mut self.wedge_surface, &mut self.counterface];
         let tables = surfaces.into_iter().filter_map(Surface::table_mut);
-        let maps = self.wedge_wear.iter_mut().map(|map| &mut map.file);
+        let maps = self.wedge_wear.iter_mut().chain(&mut self.counterface_wear);
+        let maps = maps.map(|map| &mut map.file);
         tables.map(|table| &mut table.file).chain(maps)
     }
 }
 
 /// Returns a map of depths, SI.
-fn depths(table: &super::QuantityTable<3>) -> Result<DepthMap, String> {
+fn depths(table: &Option<super::QuantityTable<3>>) -> Result<Option<DepthMap>, String> {
+    let Some(table) = table else { return Ok(None) };
     let rows = table.rows.iter();
     let points: Vec<[f64; 3]> = rows.map(|row| row.each_ref().map(Quantity::to_si)).collect();
-    DepthMap::new(&points).map_err(|error| error.to_string())
+    DepthMap::new(&points)
+        .map(Some)
+        .map_err(|error| error.to_string())
 }

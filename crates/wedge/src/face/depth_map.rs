@@ -4,8 +4,11 @@
 //! them: exact at the nodes, no deeper and no shallower between them than at the nodes around, and its volume
 //! is that of the trapezoidal rule. Beyond its edges it goes on as at the edge. Units: m.
 //!
-//! It moves the contact points of a face, so it needs no slope: a surface that points slide over would.
+//! On the wedge it moves the contact points of a face and needs no slope. A counterface, over which points slide,
+//! needs continuous curvature: it is the spline surface through the nodes ([`DepthMap::surface`]).
 
+use mechanics::depth_surface::DepthSurface;
+use mechanics::spline::SplineError;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -133,6 +136,32 @@ impl DepthMap {
         };
         let (below, above) = (along(row), along(row + 1));
         below + (above - below) * u
+    }
+
+    /// Returns the smooth surface through the nodes, as a counterface needs it; `reversed` says whether the axes
+    /// z and y of its marker point down and to the right.
+    ///
+    /// # Errors
+    /// Fewer than four places up or across, or places so close to each other that curvatures overflow.
+    pub fn surface(&self, reversed: [bool; 2]) -> Result<DepthSurface, SplineError> {
+        let places = |places: &[f64], reversed: bool| -> Vec<f64> {
+            match reversed {
+                true => places.iter().rev().map(|place| -place).collect(),
+                false => places.to_vec(),
+            }
+        };
+        let (rows, width) = (self.up.len(), self.across.len());
+        let turned = |place: usize, count: usize, reversed: bool| match reversed {
+            true => count - 1 - place,
+            false => place,
+        };
+        let mut depths = Vec::with_capacity(self.depths.len());
+        for row in 0..rows {
+            let own = &self.depths[turned(row, rows, reversed[0]) * width..][..width];
+            depths.extend((0..width).map(|column| own[turned(column, width, reversed[1])]));
+        }
+        let (z, y) = (places(&self.up, reversed[0]), places(&self.across, reversed[1]));
+        DepthSurface::new(y, z, &depths)
     }
 
     /// Returns whether the map reaches from edge to edge of a face of this length and width, to rounding.

@@ -292,6 +292,8 @@ class FaceSection(Section):
     """Wear of the wedge's surface: a CSV file, or points of place up, place across and depth."""
     counterface: str | Mapping[str, Any] | None = None
     """The surface that it touches, in the same words."""
+    counterface_wear: str | Sequence[Sequence[QuantityLike]] | None = None
+    """Wear of that surface, as ``wedge_wear``."""
     sliding_friction: float | None = None
     """Coefficient of sliding; left out, that of rest."""
     stribeck_speed: QuantityLike | None = None
@@ -309,6 +311,7 @@ class FaceSection(Section):
             "wedge_surface",
             "wedge_wear",
             "counterface",
+            "counterface_wear",
             "sliding_friction",
             "friction_map",
             "pad",
