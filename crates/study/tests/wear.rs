@@ -219,6 +219,13 @@ fn convergence_of_steps() {
         assert_eq!(last.cycles, 4000.0);
         last.faces[1].depths[0]
     };
+    // Rounding makes no step of its own.
+    assert_eq!(
+        worn(&case, &plan(1.0, 10, WearLaw::Archard(ARCHARD)))
+            .states
+            .len(),
+        11
+    );
     let [one, two, four] = [1, 2, 4].map(rise);
     assert!(
         (two - four).abs() < 0.7 * (one - four).abs(),

@@ -113,7 +113,7 @@ fn input_mistakes_with_wear_are_told() {
     refused(
         case,
         &["--cycles", "10", "--coefficient", "-1"],
-        "unexpected argument",
+        "above 0 up to 1",
     );
     refused(case, &["--cycles", "10", "--coefficient", "2"], "above 0 up to 1");
     refused(case, &["--cycles", "10", "--hardness", "250"], "unit");

@@ -189,13 +189,18 @@ pub fn advance(
         history.states.push(seen);
         history.case.clone_from(&next);
         let left = plan.cycles - cycles;
-        if left <= 1e-9 * plan.cycles {
+        if left <= 0.0 {
             return Ok(history);
         }
         let part = largest_part(&history.case, &work, plan, &areas);
-        let step = (plan.cycles / f64::from(plan.steps.max(1)))
-            .min(if part > 0.0 { LIMIT / part } else { f64::INFINITY })
-            .min(left);
+        let step = (plan.cycles / f64::from(plan.steps.max(1))).min(if part > 0.0 {
+            LIMIT / part
+        } else {
+            f64::INFINITY
+        });
+        // Rounding makes no step of its own at the end.
+        let last = step > left * (1.0 - 1e-9);
+        let step = if last { left } else { step };
         let steps = (history.states.len() - 1) as f64 + left / step;
         if steps > f64::from(plan.most_steps) * (1.0 + 1e-9) {
             let error = WearError::TooManySteps {
@@ -216,7 +221,7 @@ pub fn advance(
                 volumes[face] += volume;
             }
         }
-        cycles += step;
+        cycles = if last { plan.cycles } else { cycles + step };
         next = match worn(case, &wear) {
             Ok(next) => next,
             Err(error) => {

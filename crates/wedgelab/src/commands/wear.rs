@@ -37,7 +37,7 @@ pub struct Arguments {
     /// Case file of a single wedge, or the name of a built-in case
     case: PathBuf,
     /// Cycles of the bolster
-    #[arg(long, value_name = "N", value_parser = cycles)]
+    #[arg(long, value_name = "N", value_parser = cycles, allow_hyphen_values = true)]
     cycles: f64,
     /// Steps at least; steps that would wear a point by more than half of its penetration are divided
     #[arg(long, value_name = "M", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=10_000))]
@@ -50,7 +50,7 @@ pub struct Arguments {
     law: Law,
     /// Of Archard's law K, without unit [default: 1e-4, a guess]; by energy the volume per energy, m³/J
     /// [default: 1e-13, a guess]
-    #[arg(long, value_name = "NUMBER", value_parser = coefficient)]
+    #[arg(long, value_name = "NUMBER", value_parser = coefficient, allow_hyphen_values = true)]
     coefficient: Option<f64>,
     /// Hardness of the softer partner, of Archard's law [default: 2450 MPa, a guess]
     #[arg(long, value_name = "PRESSURE", value_parser = hardness)]
