@@ -121,6 +121,15 @@ export interface Contact {
   gap: string | null;
 }
 
+/** A face with the pressures of its points, place by place across, each from the lower edge up. */
+export interface Pressure {
+  name: string;
+  body: string;
+  across: number;
+  points: Triple[];
+  pressures: string[];
+}
+
 /** A contact patch of a wheel, seen while it presses. */
 export interface Patch {
   id: string;
@@ -154,6 +163,7 @@ export interface SceneData {
   solids: Solid[];
   coils: Coil[];
   contacts: Contact[];
+  pressures?: Pressure[];
   patches?: Patch[];
   track?: TrackData;
   /** The body that the view goes along with, in the axes of the track where it is. */

@@ -10,6 +10,7 @@ import { RunPlot, type Shown } from "./plots/run-plot.js";
 import type { Range } from "./plots/curves.js";
 import { FRICTION, NORMAL, STATES } from "./scene/arrows.js";
 import { ELLIPSE } from "./scene/patch.js";
+import { RAMP_STYLE } from "./scene/pressure.js";
 import { LONGEST, SceneView, type Eye } from "./scene/view.js";
 import { Store } from "./store.js";
 import { digits, type Units } from "./units.js";
@@ -48,6 +49,7 @@ export class RunView {
   private readonly key = element("div", { class: "wl-key" });
   private readonly bar = element("span", { class: "wl-bar" });
   private readonly barText = element("span");
+  private readonly pressureText = element("span");
   private readonly triad = element("div", { class: "wl-triad", "aria-hidden": "true" });
   private readonly playButton: HTMLButtonElement;
   private readonly scrubber: HTMLInputElement;
@@ -290,6 +292,12 @@ export class RunView {
         ? [colour("friction", FRICTION, "wl-stroke"), ...STATES.map(([name, style]) => colour(name, style, "wl-dot"))]
         : [colour("creep force", FRICTION, "wl-stroke"), colour("contact patch", ELLIPSE, "wl-dot")]),
     );
+    if (scene.scalePressure !== undefined) {
+      const colours = element("i", { class: "wl-ramp" });
+      colours.style.background = RAMP_STYLE;
+      this.key.append(element("span", {}, "pressure: 0 ", colours, this.pressureText));
+      this.pressureText.title = "Greater pressures have the same colour.";
+    }
     this.bar.style.background = "#1b1b1b";
     this.barText.title = `Arrows longer than ${LONGEST} times this bar are cut.`;
     this.stage.append(scene.canvas, this.triad);
@@ -359,6 +367,7 @@ export class RunView {
     state.factor = String(scene.factor);
     state.visibleArrows = scene.pressed.join(" ");
     state.states = scene.states(at).join(" ");
+    state.pressures = JSON.stringify(Object.fromEntries(scene.greatestPressures(at)));
     const places = [...scene.places()];
     const told = (digits: number, of: (place: Vector3) => number[]): string =>
       JSON.stringify(Object.fromEntries(places.map(([id, place]) => [id, of(place).map((x) => Number(x.toFixed(digits)))])));
@@ -384,6 +393,9 @@ export class RunView {
     this.bar.style.width = `${Math.min(200, metres * scene.pixels).toFixed(0)}px`;
     this.bar.hidden = scene.arrowFactor === 0;
     this.barText.textContent = scene.arrowFactor === 0 ? "" : ` ${digits(shown)} ${units.label("force")}`;
+    if (scene.scalePressure !== undefined) {
+      this.pressureText.textContent = ` ${units.text(scene.scalePressure, "pressure")} and more`;
+    }
     this.triad.replaceChildren(triad(scene.axes()));
   }
 

@@ -12,6 +12,7 @@ pub mod coil;
 pub mod connection;
 pub mod contact;
 pub mod curve;
+pub mod depth_surface;
 pub mod element;
 pub mod elements;
 pub mod energy_balance;

@@ -12,16 +12,28 @@
 //!     n = (1, h') / w,   g = n·(x + h, s - σ),   κ' = κ / (1 + κ g),   κ = h'' / w³
 //! ```
 //!
+//! A worn surface recedes further by depths over both tangents ([`DepthSurface`]). With h(y, z) the depth of
+//! profile and wear together, r = (x + h, y - η, z - ζ) from the nearest place, and T its two tangents:
+//!
+//! ```text
+//! the nearest place (η, ζ) solves  (η - y, ζ - z) + (x + h) ∇h = 0,  n = (1, ∇h) / w,  g = n·r
+//! K = Tᵀ ∇∇h T / w,   K' = K (1 + g K)⁻¹
+//! ```
+//!
+//! T turns with n by the shortest way from the axes of the marker: with δn = T k, k = K' Tᵀdr, the tangents turn
+//! about n by `(k₁ n_z - k₂ n_y) / (1 + n_x)`.
+//!
 //! For κ = 0 the arc is the plane, to the last bit of g and n. Moving by dr changes g by n·dr and turns the
 //! normal by κ' t·dr, t = (-n_s, n_x). So forces along n have a potential, and energy closes.
 //!
-//! Limits: points may not lie beyond the center of an arc, nor beyond that of a hollow table. Outside its
+//! Limits: points may not lie beyond the center of an arc, nor beyond that of a hollow table or map. Outside its
 //! first and last depth a table goes on straight; its curvature jumps there unless it is zero.
 
-use numerics::lanes::Lanes;
+use numerics::lanes::{LANES, Lanes};
 use numerics::scalar::{Number, Real};
 use serde::{Deserialize, Serialize};
 
+use crate::depth_surface::{Depth, DepthSurface};
 use crate::spline::Spline;
 use crate::vector::Vector;
 
@@ -64,6 +76,8 @@ pub struct Shape {
     pub profile: Profile,
     /// Along which tangent the profile runs.
     pub direction: Direction,
+    /// How it recedes further, as by wear.
+    pub worn: Option<DepthSurface>,
 }
 
 /// What a surface is like next to a point (or to four in lanes): see the head of the module.
@@ -71,30 +85,40 @@ pub struct Shape {
 pub(crate) struct Bend<P> {
     /// Signed distance, m: positive outside.
     pub gap: P,
-    /// Components of the normal along x and along the profile.
-    pub normal: [P; 2],
-    /// Curvature at that distance, 1/m.
-    pub curvature: P,
+    /// Normal and two tangents, in the axes of the marker.
+    pub axes: [[P; 3]; 3],
+    /// Curvatures at that distance, 1/m: of the first tangent, of both, of the second.
+    pub curvature: [P; 3],
+    /// By how much the tangents turn about the normal where it tilts along the first one and along the second.
+    pub twist: [P; 2],
+}
+
+/// The same of a profile, in its plane.
+struct ProfileBend<P> {
+    gap: P,
+    /// Components along x and along the profile.
+    normal: [P; 2],
+    curvature: P,
 }
 
 /// Numbers without derivatives: one, or four in lanes.
 pub(crate) trait Plain: Number<Plain = Self> {
-    /// Applies a function of two real numbers lane by lane.
-    fn each(a: Self, b: Self, f: impl Fn(f64, f64) -> [f64; 4]) -> [Self; 4];
+    /// Applies a function of real numbers lane by lane.
+    fn each<const N: usize, const M: usize>(of: [Self; N], f: impl Fn([f64; N]) -> [f64; M]) -> [Self; M];
 }
 
 impl Plain for f64 {
     #[inline(always)]
-    fn each(a: Self, b: Self, f: impl Fn(f64, f64) -> [f64; 4]) -> [Self; 4] {
-        f(a, b)
+    fn each<const N: usize, const M: usize>(of: [Self; N], f: impl Fn([f64; N]) -> [f64; M]) -> [Self; M] {
+        f(of)
     }
 }
 
 impl Plain for Lanes {
     #[inline(always)]
-    fn each(a: Self, b: Self, f: impl Fn(f64, f64) -> [f64; 4]) -> [Self; 4] {
-        let (a, b) = (a.to_array(), b.to_array());
-        let found: [[f64; 4]; 4] = std::array::from_fn(|lane| f(a[lane], b[lane]));
+    fn each<const N: usize, const M: usize>(of: [Self; N], f: impl Fn([f64; N]) -> [f64; M]) -> [Self; M] {
+        let of = of.map(Self::to_array);
+        let found: [[f64; M]; LANES] = std::array::from_fn(|lane| f(of.map(|own| own[lane])));
         std::array::from_fn(|part| Self::new(std::array::from_fn(|lane| found[lane][part])))
     }
 }
@@ -151,9 +175,9 @@ impl Profile {
     }
 
     #[inline(always)]
-    pub(crate) fn bend<P: Plain>(&self, x: P, s: P) -> Bend<P> {
+    fn bend<P: Plain>(&self, x: P, s: P) -> ProfileBend<P> {
         match self {
-            Self::Flat => Bend {
+            Self::Flat => ProfileBend {
                 gap: x,
                 normal: [P::from(1.0), P::zero()],
                 curvature: P::zero(),
@@ -161,15 +185,15 @@ impl Profile {
             Self::Arc { curvature } => {
                 let (a, b) = (x * *curvature + 1.0, s * *curvature);
                 let q = (a * a + b * b).sqrt();
-                Bend {
+                ProfileBend {
                     gap: (x * 2.0 + (x * x + s * s) * *curvature) / (q + 1.0),
                     normal: [a / q, b / q],
                     curvature: P::from(*curvature) / q,
                 }
             }
             Self::Table(_) => {
-                let [gap, along_x, along_s, curvature] = P::each(x, s, |x, s| self.nearest(x, s));
-                Bend {
+                let [gap, along_x, along_s, curvature] = P::each([x, s], |[x, s]| self.nearest(x, s));
+                ProfileBend {
                     gap,
                     normal: [along_x, along_s],
                     curvature,
@@ -202,30 +226,144 @@ impl Profile {
 }
 
 impl Shape {
-    /// Returns the coordinate along the profile.
+    /// Returns whether it is a plane.
+    #[must_use]
+    pub fn is_flat(&self) -> bool {
+        self.profile.is_flat() && self.worn.is_none()
+    }
+
+    /// Returns what the surface is like next to a point.
     #[inline(always)]
-    pub(crate) fn along<S: Number>(&self, position: Vector<S>) -> S {
-        match self.direction {
-            Direction::Y => position.0[1],
-            Direction::Z => position.0[2],
+    pub(crate) fn bend<P: Plain>(&self, position: Vector<P>) -> Bend<P> {
+        let ([x, y, z], zero, one) = (position.0, P::zero(), P::from(1.0));
+        let Some(worn) = &self.worn else {
+            let s = match self.direction {
+                Direction::Y => y,
+                Direction::Z => z,
+            };
+            let ProfileBend {
+                gap,
+                normal: [c, k],
+                curvature,
+            } = self.profile.bend(x, s);
+            let (axes, curvature) = match self.direction {
+                Direction::Y => (
+                    [[c, k, zero], [-k, c, zero], [zero, zero, one]],
+                    [curvature, zero, zero],
+                ),
+                Direction::Z => (
+                    [[c, zero, k], [zero, one, zero], [-k, zero, c]],
+                    [zero, zero, curvature],
+                ),
+            };
+            return Bend {
+                gap,
+                axes,
+                curvature,
+                twist: [zero, zero],
+            };
+        };
+        let [gap, c, a, b, first, both, second] = P::each(position.0, |place| self.nearest(worn, place));
+        let own = one / (c + 1.0);
+        Bend {
+            gap,
+            axes: [
+                [c, a, b],
+                [-a, one - a * a * own, -a * b * own],
+                [-b, -a * b * own, one - b * b * own],
+            ],
+            curvature: [first, both, second],
+            twist: [b * own, -a * own],
         }
     }
 
-    /// Returns distance and normal next to a point, with the derivatives of the point.
+    /// Returns distance, normal and the three curvatures of a worn surface at a point.
+    fn nearest(&self, worn: &DepthSurface, [x, y, z]: [f64; 3]) -> [f64; 7] {
+        let depth = |place: [f64; 2]| {
+            let mut depth = worn.evaluate(place[0], place[1]);
+            let (along, twice) = match self.direction {
+                Direction::Y => (0, 0),
+                Direction::Z => (1, 2),
+            };
+            let [value, slope, second] = self.profile.depth(place[along]);
+            depth.value += value;
+            depth.slope[along] += slope;
+            depth.second[twice] += second;
+            depth
+        };
+        let mut place = [y, z];
+        for _ in 0..STEPS {
+            let Depth { value, slope, second } = depth(place);
+            let [a, b] = slope;
+            let far = x + value;
+            let residual = [place[0] - y + far * a, place[1] - z + far * b];
+            let flat = [1.0 + a * a, a * b, 1.0 + b * b];
+            let mut matrix: [f64; 3] = std::array::from_fn(|k| flat[k] + far * second[k]);
+            // Beyond the center of a hollow the nearest place is not unique.
+            let bounds = matrix[0] > 0.5 * flat[0] && matrix[2] > 0.5 * flat[2];
+            if !bounds || matrix[0] * matrix[2] - matrix[1] * matrix[1] < 0.25 {
+                matrix = flat;
+            }
+            let [p, q, r] = matrix;
+            let determinant = p * r - q * q;
+            let step = [
+                (r * residual[0] - q * residual[1]) / determinant,
+                (p * residual[1] - q * residual[0]) / determinant,
+            ];
+            place = [place[0] - step[0], place[1] - step[1]];
+            if step.iter().all(|step| step.abs() <= NEAR) {
+                break;
+            }
+        }
+        let Depth { value, slope, second } = depth(place);
+        let w = (1.0 + slope[0] * slope[0] + slope[1] * slope[1]).sqrt();
+        let (c, a, b) = (1.0 / w, slope[0] / w, slope[1] / w);
+        let gap = c * (x + value) + a * (y - place[0]) + b * (z - place[1]);
+        // The parts of the tangents along y and z.
+        let own = 1.0 / (1.0 + c);
+        let (t, e) = (
+            [1.0 - a * a * own, -a * b * own],
+            [-a * b * own, 1.0 - b * b * own],
+        );
+        let bent = |u: [f64; 2], v: [f64; 2]| {
+            let [yy, yz, zz] = second;
+            (u[0] * (yy * v[0] + yz * v[1]) + u[1] * (yz * v[0] + zz * v[1])) / w
+        };
+        let (first, both, other) = (bent(t, t), bent(t, e), bent(e, e));
+        let determinant = (1.0 + gap * first) * (1.0 + gap * other) - gap * gap * both * both;
+        let rest = gap * (first * other - both * both);
+        [
+            gap,
+            c,
+            a,
+            b,
+            (first + rest) / determinant,
+            both / determinant,
+            (other + rest) / determinant,
+        ]
+    }
+
+    /// Returns distance and axes next to a point, with the derivatives of the point.
     #[inline(always)]
-    fn local<S: Real>(&self, position: Vector<S>) -> (S, [S; 2]) {
-        let (x, s) = (position.0[0], self.along(position));
-        let bend = self.profile.bend::<f64>(x.value(), s.value());
-        let [c, k] = bend.normal;
-        let (dx, ds) = (x - x.value(), s - s.value());
-        let turn = (ds * c - dx * k) * bend.curvature;
-        (dx * c + ds * k + bend.gap, [turn * -k + c, turn * c + k])
+    fn local<S: Real>(&self, position: Vector<S>) -> (S, [[S; 3]; 3]) {
+        let bend = self.bend::<f64>(Vector(position.0.map(|part| part.value())));
+        let moved = Vector(position.0.map(|part| part - part.value()));
+        let axes = bend.axes.map(|axis| axis.map(S::from));
+        let [n, t, e] = axes.map(Vector);
+        let [along, first, second] = resolve(&axes, moved);
+        let (k, l, turn) = bend.tilt(first, second);
+        let axes = [
+            n + t.scale::<S, S>(k) + e.scale::<S, S>(l),
+            t - n.scale::<S, S>(k) + e.scale::<S, S>(turn),
+            e - n.scale::<S, S>(l) - t.scale::<S, S>(turn),
+        ];
+        (along + bend.gap, axes.map(|axis| axis.0))
     }
 
     /// Returns the signed distance of a point from the surface, m: positive outside, negative inside.
     #[inline(always)]
     pub fn gap<S: Real>(&self, point: Vector<S>) -> S {
-        if self.profile.is_flat() {
+        if self.is_flat() {
             return point.0[0];
         }
         self.local(point).0
@@ -235,38 +373,47 @@ impl Shape {
     /// to `point`.
     #[inline(always)]
     pub fn resolve<S: Real>(&self, point: Vector<S>, vector: Vector<S>) -> [S; 3] {
-        if self.profile.is_flat() {
+        if self.is_flat() {
             return vector.0;
         }
-        resolve(self.direction, self.local(point).1, vector)
+        resolve(&self.local(point).1, vector)
     }
 
     /// Returns the vector with the given components along the normal and the two tangents.
     #[inline(always)]
     pub fn compose<S: Real>(&self, point: Vector<S>, components: [S; 3]) -> Vector<S> {
-        if self.profile.is_flat() {
+        if self.is_flat() {
             return Vector(components);
         }
-        compose(self.direction, self.local(point).1, components)
+        compose(&self.local(point).1, components)
     }
 }
 
-/// Components along the normal, with its components along x and along the profile, and two tangents of a
-/// vector in marker axes.
-#[inline(always)]
-pub(crate) fn resolve<S: Number>(direction: Direction, [c, k]: [S; 2], vector: Vector<S>) -> [S; 3] {
-    let [x, y, z] = vector.0;
-    match direction {
-        Direction::Y => [x * c + y * k, y * c - x * k, z],
-        Direction::Z => [x * c + z * k, y, z * c - x * k],
+impl<P: Plain> Bend<P> {
+    /// Returns by how much the normal tilts along the first and along the second tangent, and the tangents turn
+    /// about it, where the point moves by these components along the tangents.
+    #[inline(always)]
+    pub fn tilt<S: Number>(&self, first: S, second: S) -> (S, S, S)
+    where
+        P: Into<S>,
+    {
+        let [a, b, c] = self.curvature.map(Into::into);
+        let (k, l) = (first * a + second * b, first * b + second * c);
+        let [p, q] = self.twist.map(Into::into);
+        (k, l, k * p + l * q)
     }
+}
+
+/// Components along the normal and two tangents of a vector in marker axes.
+#[inline(always)]
+pub(crate) fn resolve<S: Number>(axes: &[[S; 3]; 3], vector: Vector<S>) -> [S; 3] {
+    let [x, y, z] = vector.0;
+    axes.map(|[a, b, c]| x * a + y * b + z * c)
 }
 
 /// The vector in marker axes with these components.
 #[inline(always)]
-pub(crate) fn compose<S: Number>(direction: Direction, [c, k]: [S; 2], [n, a, b]: [S; 3]) -> Vector<S> {
-    match direction {
-        Direction::Y => Vector([n * c - a * k, n * k + a * c, b]),
-        Direction::Z => Vector([n * c - b * k, a, n * k + b * c]),
-    }
+pub(crate) fn compose<S: Number>(axes: &[[S; 3]; 3], [n, a, b]: [S; 3]) -> Vector<S> {
+    let [own, t, e] = axes;
+    Vector([0, 1, 2].map(|k| n * own[k] + a * t[k] + b * e[k]))
 }

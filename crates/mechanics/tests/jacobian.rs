@@ -10,6 +10,7 @@ use mechanics::body::Body;
 use mechanics::characteristic::Characteristic;
 use mechanics::coil::CoilLaw;
 use mechanics::contact::{Interface, Sliding};
+use mechanics::depth_surface::DepthSurface;
 use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
 use mechanics::link::Marker;
@@ -557,17 +558,36 @@ fn a_fast_turning_body_without_elements() {
     compare(&model, 32, 10, [0.6, 6.0, 0.0]);
 }
 
-/// A crown and a hollow, along either tangent, and a table of one cubic.
-fn curved() -> [Shape; 4] {
+/// A crown and a hollow, along either tangent, a table of one cubic, and surfaces worn over both tangents.
+fn curved() -> [Shape; 6] {
     let table = Spline::new(vec![-3.0, -1.0, 1.0, 3.0], vec![0.5, 0.1, 0.05, 0.6]).unwrap();
     let arc = |curvature: f64| Profile::Arc { curvature };
-    [
+    let mut shapes = [
         (arc(0.7), Direction::Z),
         (arc(-0.4), Direction::Y),
         (Profile::Table(table.clone()), Direction::Y),
         (Profile::Table(table), Direction::Z),
+        (Profile::Flat, Direction::Z),
+        (arc(0.3), Direction::Y),
     ]
-    .map(|(profile, direction)| Shape { profile, direction })
+    .map(|(profile, direction)| Shape {
+        profile,
+        direction,
+        worn: None,
+    });
+    // A bicubic, twisted: the spline surface is that.
+    let places = vec![-3.0, -1.0, 1.0, 3.0];
+    let depth = |y: f64, z: f64| {
+        0.05 + 0.1 * y - 0.06 * z + 0.04 * y * y - 0.07 * y * z + 0.03 * z * z + 0.008 * y * y * z
+    };
+    let depths: Vec<f64> = places
+        .iter()
+        .flat_map(|z| places.iter().map(|y| depth(*y, *z)))
+        .collect();
+    let worn = DepthSurface::new(places.clone(), places, &depths).unwrap();
+    shapes[4].worn = Some(worn.clone());
+    shapes[5].worn = Some(worn);
+    shapes
 }
 
 #[test]

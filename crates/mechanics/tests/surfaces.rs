@@ -9,6 +9,7 @@ use common::{
 use integrate::Method;
 use mechanics::body::Body;
 use mechanics::contact::{Interface, Sliding};
+use mechanics::depth_surface::DepthSurface;
 use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
 use mechanics::link::Marker;
@@ -37,7 +38,11 @@ fn arc(radius: f64, direction: Direction) -> Interface {
 
 fn shaped(profile: Profile, direction: Direction) -> Interface {
     Interface {
-        shape: Shape { profile, direction },
+        shape: Shape {
+            profile,
+            direction,
+            worn: None,
+        },
         ..Interface::default()
     }
 }
@@ -347,6 +352,12 @@ fn energy_closes_on_crowns_with_refined_friction() {
             refined(shaped(Profile::Table(table), Direction::Y).shape),
             BRISTLE,
         ),
+        (
+            worn(mapped(0.6, 7, |y, z| {
+                0.3 * y * y + 0.2 * z * z + 0.25 * y * z + 0.002 * libm::sin(9.0 * z)
+            })),
+            BRISTLE,
+        ),
     ] {
         let model = rocking(interface, law);
         let mut system = System::new(model).unwrap();
@@ -544,4 +555,89 @@ fn input_an_interface_that_does_not_fit_its_face_is_refused() {
     built.interfaces[0] = (3, Interface::default());
     let error = System::new(built).unwrap_err().to_string();
     assert!(error.contains("face 3 of 1"), "{error}");
+}
+
+/// Places and depths of a map over ±`half` with `count` places each way.
+fn mapped(half: f64, count: usize, depth: impl Fn(f64, f64) -> f64) -> DepthSurface {
+    let places: Vec<f64> = (0..count)
+        .map(|i| half * (2.0 * i as f64 / (count - 1) as f64 - 1.0))
+        .collect();
+    let depths: Vec<f64> = places
+        .iter()
+        .flat_map(|z| places.iter().map(|y| depth(*y, *z)))
+        .collect();
+    DepthSurface::new(places.clone(), places, &depths).unwrap()
+}
+
+fn worn(worn: DepthSurface) -> Interface {
+    let mut interface = shaped(Profile::Flat, Direction::Z);
+    interface.shape.worn = Some(worn);
+    interface
+}
+
+/// A map of a sphere's depths has the sphere's distances and normals, as far as a spline is the sphere.
+#[test]
+fn convergence_a_map_of_a_sphere_is_the_sphere() {
+    let radius = 2.0;
+    let sphere = |y: f64, z: f64| radius - (radius * radius - y * y - z * z).sqrt();
+    let errors: Vec<f64> = [9, 17, 33]
+        .into_iter()
+        .map(|count| {
+            let shape = worn(mapped(1.0, count, sphere)).shape;
+            let mut random = Random(3);
+            let mut most: f64 = 0.0;
+            for _ in 0..200 {
+                let (y, z) = (random.between(-0.6, 0.6), random.between(-0.6, 0.6));
+                let gap = random.between(-0.1, 0.3);
+                let x = (radius * radius - y * y - z * z).sqrt();
+                let out = [x, y, z].map(|part| part * (radius + gap) / radius);
+                let point = Vector([out[0] - radius, out[1], out[2]]);
+                most = most.max((shape.gap(point) - gap).abs());
+                let normal = shape.compose(point, [1.0, 0.0, 0.0]);
+                for k in 0..3 {
+                    most = most.max((normal.0[k] - [x, y, z][k] / radius).abs());
+                }
+                // Three axes at right angles.
+                let own = shape.resolve(point, Vector([0.3, -0.5, 0.8]));
+                assert!((norm(&own) - norm(&[0.3, -0.5, 0.8])).abs() < 1e-14);
+            }
+            most
+        })
+        .collect();
+    assert!(errors[2] < 1e-5, "{errors:?}");
+    assert!(
+        errors[1] < 0.25 * errors[0] && errors[2] < 0.25 * errors[1],
+        "{errors:?}"
+    );
+}
+
+/// A map of no depth is the plane, and one of a parabola along one tangent is the table of it.
+#[test]
+fn limits_maps_are_planes_and_tables() {
+    let table = |direction| {
+        let places = vec![-1.0, -0.5, 0.5, 1.0];
+        let depths = places.iter().map(|s| 0.2 * s * s).collect();
+        shaped(Profile::Table(Spline::new(places, depths).unwrap()), direction).shape
+    };
+    let flat = worn(mapped(1.0, 5, |_, _| 0.0)).shape;
+    let along_y = worn(mapped(1.0, 5, |y, _| 0.2 * y * y)).shape;
+    let along_z = worn(mapped(1.0, 5, |_, z| 0.2 * z * z)).shape;
+    let mut random = Random(4);
+    for _ in 0..100 {
+        let point = Vector([
+            random.between(-0.1, 0.1),
+            random.between(-0.8, 0.8),
+            random.between(-0.8, 0.8),
+        ]);
+        assert_eq!(flat.gap(point), point.0[0]);
+        let vector = Vector([0.4, 0.7, -0.2]);
+        assert_eq!(flat.resolve(point, vector), vector.0);
+        for (map, table) in [(&along_y, table(Direction::Y)), (&along_z, table(Direction::Z))] {
+            assert!((map.gap(point) - table.gap(point)).abs() < 1e-14);
+            let (one, other) = (map.resolve(point, vector), table.resolve(point, vector));
+            for k in 0..3 {
+                assert!((one[k] - other[k]).abs() < 1e-13, "{one:?} {other:?}");
+            }
+        }
+    }
 }

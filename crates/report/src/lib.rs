@@ -14,7 +14,7 @@
 //! - [`view`]: the data of the page's interactive part.
 //! - [`run_files`]: the files of a run.
 //! - [`half_truck_files`]: the files of a half-truck's run.
-//! - [`warp_files`], [`curves_files`]: the files of `wedgelab warp` and `wedgelab curves`;
+//! - [`warp_files`], [`curves_files`], [`wear_files`]: the files of `wedgelab warp`, `curves` and `wear`;
 //!   [`stability_files`]: those of `wedgelab stability`; [`wheelrail_files`]: those of `wedgelab wheelrail
 //!   plot`; [`track_files`]: those of `wedgelab track show`.
 //! - [`table`]: tables of results, read back.
@@ -55,4 +55,5 @@ pub mod three_piece;
 pub mod track_files;
 pub mod view;
 pub mod warp_files;
+pub mod wear_files;
 pub mod wheelrail_files;

@@ -134,6 +134,20 @@ pub(crate) fn of_face(name: &str, face: &FaceProperties) -> Option<String> {
             Profile::Table(_) => parts.push(format!("{whose} surface by a table of depths {way} the face")),
         }
     }
+    for (map, whose) in [
+        (&face.wedge_wear, "the wedge's"),
+        (&face.counterface_wear, "the opposite"),
+    ] {
+        let Some(map) = map else { continue };
+        let deepest = map
+            .points()
+            .map(|[.., depth]| depth)
+            .fold(f64::NEG_INFINITY, f64::max);
+        parts.push(format!(
+            "{whose} surface worn by a map of depths, {:.4e} in at most",
+            deepest / INCH
+        ));
+    }
     if let Some(sliding) = face.sliding_friction {
         parts.push(format!(
             "a coefficient of sliding of {sliding}, half way there at {:.3e} in/s",

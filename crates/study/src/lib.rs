@@ -30,4 +30,5 @@ pub mod stepping;
 pub mod summary;
 pub mod track;
 pub mod truck;
+pub mod wear;
 pub mod wheelset;

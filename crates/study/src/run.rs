@@ -25,6 +25,7 @@ use crate::rows::Rows;
 use crate::summary::Stopped;
 
 mod check;
+mod pressed;
 mod state;
 mod summarize;
 pub(crate) mod wedge_run;

@@ -13,6 +13,7 @@ grid = [5, 3]
 counterface = { shape = "table", direction = "up", points = [["-4 in", "0.03 in"], ["-1 in", "0.001 in"], ["1 in", "0 in"], ["4 in", "0.02 in"]] }
 sliding_friction = 0.3
 stribeck_speed = "0.05 in/s"
+wedge_wear = [["-9 in", "-9 in", "0 in"], ["-9 in", "9 in", "0.01 in"], ["9 in", "-9 in", "0.02 in"], ["9 in", "9 in", "0.04 in"]]
 
 [slope_face]
 grid = [9, 2]
@@ -40,6 +41,8 @@ fn input_faces_are_read_and_written_back() {
     assert_eq!(p.column_face.grid, Grid { up: 5, across: 3 });
     assert!(matches!(p.column_face.counterface.profile, Profile::Table(_)));
     assert_eq!(p.column_face.sliding_friction, Some(0.3));
+    let map = p.column_face.wedge_wear.as_ref().unwrap();
+    assert!((map.depth(0.0, 0.0) - 0.0175 * 0.0254).abs() < 1e-16);
     assert!((p.column_face.stribeck_speed - 0.05 * 0.0254).abs() < 1e-18);
     let arc = |profile: &Profile| match profile {
         Profile::Arc { curvature } => *curvature,
@@ -105,6 +108,42 @@ fn input_mistakes_in_faces_are_told() {
              in\", \"0 in\"], [\"2 in\", \"0 in\"], [\"3 in\", \"0 in\"]] }",
             "from edge to edge of the face",
         ),
+        (
+            "[column_face]\nwedge_wear = 3",
+            "`column_face.wedge_wear` is a number; a table is expected",
+        ),
+        (
+            "[column_face]\nwedge_waer = \"map.csv\"",
+            "there is no key `wedge_waer` in `column_face`",
+        ),
+        (
+            "[column_face]\nwedge_wear = [[\"1 in\", \"1 in\"]]",
+            "is not a triple of up, across and depth",
+        ),
+        (
+            "[column_face]\n\
+             wedge_wear = [[\"-9 in\", \"-9 in\", \"0 s\"], [\"-9 in\", \"9 in\", \"0 in\"], [\"9 in\", \
+             \"-9 in\", \"0 in\"], [\"9 in\", \"9 in\", \"0 in\"]]",
+            "this is a time (s); a length is expected",
+        ),
+        (
+            "[column_face]\n\
+             wedge_wear = [[\"-9 in\", \"-9 in\", \"0 in\"], [\"-9 in\", \"9 in\", \"0 in\"], [\"9 in\", \
+             \"-9 in\", \"0 in\"], [\"9 in\", \"8 in\", \"0 in\"]]",
+            "make no rectangle of 2 places up the face by 3 across it",
+        ),
+        (
+            "[slope_face]\n\
+             wedge_wear = [[\"0 in\", \"-9 in\", \"0 in\"], [\"0 in\", \"9 in\", \"0 in\"], [\"9 in\", \
+             \"-9 in\", \"0 in\"], [\"9 in\", \"9 in\", \"0 in\"]]",
+            "a map from edge to edge of the face",
+        ),
+        (
+            "[slope_face]\n\
+             counterface_wear = [[\"-9 in\", \"-9 in\", \"0 in\"], [\"-9 in\", \"9 in\", \"0 in\"], [\"9 in\", \
+             \"-9 in\", \"0 in\"], [\"9 in\", \"9 in\", \"0 in\"]]",
+            "four places up and four across",
+        ),
         ("[column_face]\nsliding_friction = 11", "between 0 and 10"),
         ("[column_face]\nstribeck_speed = \"3 in\"", "speed"),
         (
@@ -132,6 +171,39 @@ fn input_mistakes_in_faces_are_told() {
     let massless = "[wedge]\nkind = \"massless\"\n[slope_face]\ngrid = [3, 3]";
     let error = read_truck(massless).unwrap_err().to_string();
     assert!(error.contains("a massless wedge has no faces"), "{error}");
+}
+
+/// Maps of wear from files: read, named again, embedded; mistakes in them have their place.
+#[test]
+fn input_maps_of_wear_come_from_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let read = |csv: &str| {
+        std::fs::write(folder.path().join("map.csv"), csv).unwrap();
+        let text = "name = \"worn\"\n[slope_face]\nwedge_wear = \"map.csv\"\n";
+        Case::parse("case.toml", text, folder.path(), &[])
+    };
+    let good = "up [in], across [in], depth [mm]\n-9, -9, 0\n-9, 9, 1\n9, -9, 2\n9, 9, 3\n";
+    let case = read(good).unwrap();
+    let map = case.parameters.slope_face.wedge_wear.clone().unwrap();
+    assert!((map.depth(0.0, 0.0) - 0.0015).abs() < 1e-16);
+    assert!(case.document.to_toml().contains("wedge_wear = \"map.csv\""));
+    let embedded = case.document.clone().with_tables_embedded().to_toml();
+    let again = Case::parse("again.toml", &embedded, Tables::nowhere(), &[]).unwrap();
+    assert_eq!(again.parameters, case.parameters);
+    for (csv, told) in [
+        (good.replace("2\n", "nan\n"), "not a finite number"),
+        (good.replace("[mm]", "[s]"), "[s]"),
+        (good.replace(", depth [mm]", ""), "three columns are expected"),
+        (
+            good.replace("9, 9, 3\n", "9, 9\n"),
+            "2 values in this line; three are expected",
+        ),
+        (good.replace("9, 9, 3\n", ""), "has 3 rows; at least 4"),
+        (good.replace("9, 9, 3\n", "8, 9, 3\n"), "make no rectangle"),
+    ] {
+        let error = read(&csv).unwrap_err().to_string();
+        assert!(error.contains(told), "{csv}: {error}");
+    }
 }
 
 #[test]
@@ -167,4 +239,30 @@ fn analytic_a_run_with_refined_faces_has_their_pressures() {
             .iter()
             .any(|line| line.contains("9 x 2 points"))
     );
+}
+
+/// Curved faces with too few points where they are pressed are told, with a grid that has enough.
+#[test]
+fn limits_too_few_points_on_a_curved_face_are_told() {
+    let warned = |grid: &str, surface: &str| -> Vec<String> {
+        let text = format!(
+            "[slope_face]\ngrid = {grid}\nwedge_surface = {surface}\n[simulation]\nduration = \"0.3 s\"\nstart = \
+             \"equilibrium\"\n"
+        );
+        let whole = Run::new(&read(&text).unwrap()).unwrap().finish(|_| ());
+        let warnings = whole.summary.warnings.into_iter();
+        warnings
+            .filter(|line| line.contains("face is") || line.contains("curved"))
+            .collect()
+    };
+    let crown = "{ shape = \"crown\", radius = \"300 in\", direction = \"up\" }";
+    let few = warned("[9, 2]", crown);
+    assert_eq!(few.len(), 1, "{few:?}");
+    assert!(few[0].contains("the curved slope face is pressed at"), "{few:?}");
+    // With the grid that it names the warning is gone.
+    let grid = few[0].rsplit_once("slope_face.grid = ").unwrap().1;
+    assert_eq!(warned(grid, crown), Vec::<String>::new());
+    let corners = warned("[2, 2]", crown);
+    assert!(corners[0].contains("has 2 points there"), "{corners:?}");
+    assert_eq!(warned("[9, 2]", "\"flat\""), Vec::<String>::new());
 }

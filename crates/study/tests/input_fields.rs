@@ -60,6 +60,8 @@ fn every_key_of_the_case_file_is_a_field() {
         "stribeck_speed",
         "friction_half_load",
         "friction_map",
+        "wedge_wear",
+        "counterface_wear",
         "pad",
     ];
     let listed: Vec<String> = fields(&case)

@@ -66,7 +66,7 @@ impl Truck {
                     .flat_map(|own| [&own.column_face, &own.slope_face]);
                 // Over a plane a shift opens all gaps by as much; over a curved counterface the next one
                 // corrects it.
-                let passes = match faces.any(|face| !face.counterface.profile.is_flat()) {
+                let passes = match faces.any(|face| !face.touches_a_plane()) {
                     false => 1,
                     true => 5,
                 };

@@ -99,7 +99,7 @@ fn touching_shifts(parameters: &Parameters) -> Result<[f64; 2], ModelError> {
     let faces = [&parameters.column_face, &parameters.slope_face];
     let mut shifts = more_shifts(parameters, [0.0; 2])?;
     // Over a plane a shift opens all gaps by as much; over a curved counterface the next one corrects it.
-    if faces.iter().any(|face| !face.counterface.profile.is_flat()) {
+    if faces.iter().any(|face| !face.touches_a_plane()) {
         for _ in 0..CORRECTIONS {
             let more = more_shifts(parameters, shifts)?;
             shifts = [shifts[0] + more[0], shifts[1] + more[1]];

@@ -3,6 +3,7 @@
 //! A face of the wedge is where its points lie; a profile moves them into the wedge. What the counterface,
 //! friction and a pad are beyond a plain face is the [`Interface`] of the contact.
 
+mod depth_map;
 mod grid;
 
 use mechanics::contact::{ContactPoint, Interface, Sliding};
@@ -11,6 +12,7 @@ use mechanics::surface::{Direction, Profile, Shape};
 use mechanics::vector::Vector;
 use serde::{Deserialize, Serialize};
 
+pub use self::depth_map::{DepthMap, DepthMapError};
 pub use self::grid::{Grid, GridPoint, LARGEST_GRID};
 use crate::parameters::{Contact, FaceFriction, ParameterError, check, not_negative, positive};
 
@@ -22,8 +24,12 @@ pub struct FaceProperties {
     pub grid: Grid,
     /// How the wedge's face recedes from a flat one.
     pub wedge_surface: FaceProfile,
+    /// How the wedge's face recedes further, as by wear: a map over the face.
+    pub wedge_wear: Option<DepthMap>,
     /// How the surface recedes that it touches: of the column, or of the slope of the pocket.
     pub counterface: FaceProfile,
+    /// How it recedes further, as by wear: a map over the face in its nominal place.
+    pub counterface_wear: Option<DepthMap>,
     /// Coefficient of sliding; without one it is that of rest.
     pub sliding_friction: Option<f64>,
     /// Slip speed at which half of the way from rest to sliding is gone, m/s.
@@ -46,7 +52,9 @@ impl Default for FaceProperties {
         Self {
             grid: Grid::default(),
             wedge_surface: FaceProfile::default(),
+            wedge_wear: None,
             counterface: FaceProfile::default(),
+            counterface_wear: None,
             sliding_friction: None,
             stribeck_speed: STRIBECK_SPEED,
             friction_half_load: None,
@@ -115,6 +123,12 @@ impl Rectangle {
         libm::hypot(self.upper[0] - self.lower[0], self.upper[1] - self.lower[1])
     }
 
+    /// Returns how far a point lies from the middle, up and to the left, m.
+    #[must_use]
+    pub fn distances(&self, point: &GridPoint) -> (f64, f64) {
+        (self.length() * (point.up - 0.5), 0.5 * self.width * point.across)
+    }
+
     /// Returns the unit vector (x, z) into the wedge.
     fn inward(&self) -> [f64; 2] {
         let sign = if self.faces_backward { 1.0 } else { -1.0 };
@@ -160,16 +174,26 @@ impl FaceProperties {
     /// Returns the place of a point of the wedge's surface.
     fn place(&self, face: &Rectangle, point: &GridPoint) -> [f64; 3] {
         let flat = face.place(point);
-        if self.wedge_surface.profile.is_flat() {
+        if self.wedge_surface.profile.is_flat() && self.wedge_wear.is_none() {
             return flat;
         }
+        let (up, across) = face.distances(point);
         let distance = match self.wedge_surface.direction {
-            FaceDirection::Up => face.length() * (point.up - 0.5),
-            FaceDirection::Across => 0.5 * face.width * point.across,
+            FaceDirection::Up => up,
+            FaceDirection::Across => across,
         };
-        let [depth, ..] = self.wedge_surface.profile.depth(distance);
+        let [mut depth, ..] = self.wedge_surface.profile.depth(distance);
+        if let Some(map) = &self.wedge_wear {
+            depth += map.depth(up, across);
+        }
         let inward = face.inward();
         [flat[0] + depth * inward[0], flat[1], flat[2] + depth * inward[1]]
+    }
+
+    /// Returns whether the counterface is a plane.
+    #[must_use]
+    pub fn touches_a_plane(&self) -> bool {
+        self.counterface.profile.is_flat() && self.counterface_wear.is_none()
     }
 
     /// Returns what part of the face (m²) each of its points stands for.
@@ -202,6 +226,9 @@ impl FaceProperties {
     /// marker's axes z and y point down and to the right.
     #[must_use]
     pub fn interface(&self, friction: &FaceFriction, reversed: [bool; 2]) -> Interface {
+        // That there is one, `validate` has checked.
+        let worn = self.counterface_wear.as_ref();
+        let worn = worn.and_then(|map| map.surface(reversed).ok());
         let (direction, reversed) = match self.counterface.direction {
             FaceDirection::Up => (Direction::Z, reversed[0]),
             FaceDirection::Across => (Direction::Y, reversed[1]),
@@ -225,6 +252,7 @@ impl FaceProperties {
                     profile.clone()
                 },
                 direction,
+                worn,
             },
             sliding: Sliding {
                 ratio: sliding.map_or(1.0, |sliding| sliding / friction.coefficient),
@@ -297,6 +325,28 @@ impl FaceProperties {
                 }
             }
         }
+        for (path, map) in [
+            (paths.wedge_wear, &self.wedge_wear),
+            (paths.counterface_wear, &self.counterface_wear),
+        ] {
+            let Some(map) = map else { continue };
+            let [up, across] = map.places();
+            let holds = map.covers(face.length(), face.width);
+            let reach = (up[up.len() - 1] - up[0]).min(across[across.len() - 1] - across[0]);
+            let expected = "a map from edge to edge of the face, up and across, its places from the middle";
+            check(path, reach, holds, expected)?;
+        }
+        if let Some(map) = &self.counterface_wear {
+            let [up, across] = map.places();
+            let holds = map.surface([false; 2]).is_ok();
+            let expected = "a map of at least four places up and four across, to have a smooth surface";
+            check(
+                paths.counterface_wear,
+                up.len().min(across.len()) as f64,
+                holds,
+                expected,
+            )?;
+        }
         if let Some(sliding) = self.sliding_friction {
             check(
                 paths.sliding_friction,
@@ -339,7 +389,9 @@ impl FaceProperties {
 struct FacePaths {
     grid: &'static str,
     wedge_surface: &'static str,
+    wedge_wear: &'static str,
     counterface: &'static str,
+    counterface_wear: &'static str,
     sliding_friction: &'static str,
     stribeck_speed: &'static str,
     friction_half_load: &'static str,
@@ -353,7 +405,9 @@ macro_rules! paths {
         FacePaths {
             grid: concat!($section, ".grid"),
             wedge_surface: concat!($section, ".wedge_surface"),
+            wedge_wear: concat!($section, ".wedge_wear"),
             counterface: concat!($section, ".counterface"),
+            counterface_wear: concat!($section, ".counterface_wear"),
             sliding_friction: concat!($section, ".sliding_friction"),
             stribeck_speed: concat!($section, ".stribeck_speed"),
             friction_half_load: concat!($section, ".friction_half_load"),

@@ -7,7 +7,7 @@ use common::{INCH, LBF, LBF_PER_IN};
 use integrate::Problem;
 use mechanics::spline::Spline;
 use mechanics::surface::Profile;
-use wedge::face::{FaceDirection, FaceProfile, FaceProperties, Grid, Pad};
+use wedge::face::{DepthMap, FaceDirection, FaceProfile, FaceProperties, Grid, Pad};
 use wedge::parameters::Damping;
 use wedge::{Parameters, Start, Wedge, thesis};
 
@@ -108,6 +108,184 @@ fn analytic_points_of_a_crown_lie_on_its_arc() {
             assert!((libm::hypot(along, radius - depth) - radius).abs() < 1e-13);
         }
         assert!(most > 0.05 * INCH);
+    }
+}
+
+/// A map over the whole face of a thesis wedge, of depths by the shares up and across (both from 0 to 1).
+fn map(parameters: &Parameters, number: usize, depth: impl Fn(f64, f64) -> f64) -> DepthMap {
+    let rectangle = parameters.rectangles()[number];
+    let shares = [0.0, 0.3, 0.5, 1.0];
+    let points: Vec<[f64; 3]> = shares
+        .iter()
+        .flat_map(|u| shares.map(|a| (*u, a)))
+        .map(|(u, a)| {
+            let place = [rectangle.length() * (u - 0.5), rectangle.width * (a - 0.5)];
+            [place[0], place[1], depth(u, a)]
+        })
+        .collect();
+    DepthMap::new(&points).unwrap()
+}
+
+#[test]
+fn limits_a_map_of_no_depth_changes_no_bit() {
+    let run = |worn: bool| {
+        let mut parameters = thesis::parameters(Damping::Variable, 0.003, 0.012);
+        for number in [0, 1] {
+            let own = worn.then(|| map(&parameters, number, |_, _| 0.0));
+            let face = match number {
+                0 => &mut parameters.column_face,
+                _ => &mut parameters.slope_face,
+            };
+            (face.grid, face.wedge_wear) = (Grid { up: 5, across: 3 }, own);
+        }
+        let mut wedge = Wedge::new(parameters).unwrap();
+        let x = wedge.initial_state.clone();
+        let mut dx = vec![0.0; x.len()];
+        wedge.system.derivative(0.0, &x, &mut dx);
+        (x, dx)
+    };
+    assert_eq!(run(true), run(false));
+}
+
+/// A wedge worn evenly by a map stands where one stands whose counterfaces are worn as deep.
+#[test]
+fn analytic_even_maps_raise_the_wedge_as_even_wear_does() {
+    let [column, slope] = [0.05 * INCH, 0.08 * INCH];
+    let height = |parameters: Parameters| {
+        let mut wedge = Wedge::new(parameters).unwrap();
+        let observation = wedge.system.observe(0.0, &wedge.initial_state);
+        observation.bodies[wedge::WEDGE].coordinates[2]
+    };
+    let start = base(Start::Equilibrium);
+    let [mut even, mut worn] = [start.clone(), start.clone()];
+    (even.wear.column, even.wear.slope) = (column, slope);
+    worn.column_face.wedge_wear = Some(map(&worn, 0, |_, _| column));
+    worn.slope_face.wedge_wear = Some(map(&worn, 1, |_, _| slope));
+    let rise = even.wedge_rise();
+    let unworn = height(start);
+    let [even, worn] = [even, worn].map(|parameters| height(parameters) - unworn);
+    assert!((worn - even).abs() < 2e-3 * rise, "{worn} {even}");
+    assert!((worn - rise).abs() < 0.05 * rise, "{worn} {rise}");
+}
+
+/// A counterface worn by a cubic map along either coordinate is the counterface with that cubic as its table, at
+/// both faces: places and senses are right.
+#[test]
+fn analytic_a_cubic_map_of_a_counterface_is_its_table() {
+    let cubic = |s: f64| 2.0 * s * s - 20.0 * s * s * s + 0.01 * s;
+    let rates = |parameters: Parameters| {
+        let mut wedge = Wedge::new(parameters).unwrap();
+        let x = wedge.initial_state.clone();
+        let mut dx = vec![0.0; x.len()];
+        wedge.system.derivative(0.0, &x, &mut dx);
+        let observation = wedge.system.observe(0.0, &x);
+        let points = observation.faces.iter().flat_map(|face| &face.points);
+        let gaps: Vec<f64> = points.map(|point| point.gap).collect();
+        (gaps, dx)
+    };
+    for number in [0, 1] {
+        for direction in [FaceDirection::Up, FaceDirection::Across] {
+            let built = |by_map: bool| {
+                let mut parameters = thesis::parameters(Damping::Variable, 0.003, 0.012);
+                let places = [-6.0, -2.0, 2.5, 6.0].map(|place| place * INCH);
+                let along = |up: f64, across: f64| match direction {
+                    FaceDirection::Up => up,
+                    FaceDirection::Across => across,
+                };
+                let points: Vec<[f64; 3]> = places
+                    .iter()
+                    .flat_map(|up| places.map(|across| [*up, across, cubic(along(*up, across))]))
+                    .collect();
+                let face = match number {
+                    0 => &mut parameters.column_face,
+                    _ => &mut parameters.slope_face,
+                };
+                face.grid = Grid { up: 4, across: 3 };
+                if by_map {
+                    face.counterface_wear = Some(DepthMap::new(&points).unwrap());
+                } else {
+                    let depths = places.map(cubic).to_vec();
+                    face.counterface = FaceProfile {
+                        profile: Profile::Table(Spline::new(places.to_vec(), depths).unwrap()),
+                        direction,
+                    };
+                }
+                rates(parameters)
+            };
+            let ((gaps, mapped), (wanted, table)) = (built(true), built(false));
+            for (gap, wanted) in gaps.iter().zip(&wanted) {
+                assert!(
+                    (gap - wanted).abs() < 1e-13,
+                    "{number} {direction:?}: {gap} {wanted}"
+                );
+            }
+            let size = table.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
+            for (own, table) in mapped.iter().zip(&table) {
+                assert!(
+                    (own - table).abs() < 1e-7 * size,
+                    "{number} {direction:?}: {own} {table}"
+                );
+            }
+        }
+    }
+}
+
+/// The energy ledger closes on a counterface that is worn unevenly over both coordinates.
+#[test]
+fn energy_closes_on_worn_counterfaces() {
+    let mut parameters = thesis::parameters(Damping::Constant, 0.003, 0.012);
+    parameters.start = Start::Equilibrium;
+    let hollow = |u: f64, a: f64| 0.02 * INCH * (1.0 - (2.0 * u - 1.0).powi(2)) * (0.3 + a);
+    for number in [0, 1] {
+        let worn = map(&parameters, number, hollow);
+        let face = match number {
+            0 => &mut parameters.column_face,
+            _ => &mut parameters.slope_face,
+        };
+        (face.grid, face.counterface_wear) = (Grid { up: 5, across: 3 }, Some(worn));
+    }
+    let wedge = Wedge::new(parameters).unwrap();
+    let ledger = common::run(&wedge, 1e-6, (2.0, 0.1), |_, _| {}).ledger;
+    let losses = ledger.side_frame_friction_loss + ledger.bolster_friction_loss;
+    assert!(losses > 10.0, "{losses}");
+    assert!(
+        ledger.residual.abs() < 1e-5 * ledger.motion_work.abs().max(losses),
+        "{ledger:?}"
+    );
+    assert!((ledger.residual + ledger.side_frame_friction_loss).abs() > 1e-4 * losses);
+}
+
+#[test]
+fn analytic_a_map_of_a_crown_is_the_crown() {
+    let parameters = base(Start::Rest);
+    let radius = 60.0 * INCH;
+    for (number, rectangle) in parameters.rectangles().into_iter().enumerate() {
+        let mut face = FaceProperties {
+            grid: Grid { up: 5, across: 5 },
+            wedge_surface: arc(radius, FaceDirection::Up),
+            ..FaceProperties::default()
+        };
+        let crowned = face.points(&rectangle, &parameters.contact);
+        let crown = std::mem::take(&mut face.wedge_surface);
+        let depths: Vec<[f64; 3]> = face
+            .grid
+            .points()
+            .iter()
+            .map(|point| {
+                let (up, across) = rectangle.distances(point);
+                [up, across, crown.profile.depth(up)[0]]
+            })
+            .collect();
+        face.wedge_wear = Some(DepthMap::new(&depths).unwrap());
+        let mapped = face.points(&rectangle, &parameters.contact);
+        for (one, other) in crowned.iter().zip(&mapped) {
+            for k in 0..3 {
+                assert!(
+                    (one.position.0[k] - other.position.0[k]).abs() < 1e-16,
+                    "face {number}: {one:?} {other:?}"
+                );
+            }
+        }
     }
 }
 
@@ -264,7 +442,7 @@ fn energy_closes_with_crowns_maps_and_pads() {
 #[test]
 fn input_faces_out_of_range_are_refused() {
     type Change = fn(&mut Parameters);
-    let changes: [(&str, Change); 6] = [
+    let changes: [(&str, Change); 8] = [
         ("column_face.grid", |p| p.column_face.grid.up = 1),
         ("slope_face.wedge_surface", |p| {
             p.slope_face.wedge_surface = arc(3.0 * INCH, FaceDirection::Across);
@@ -272,6 +450,15 @@ fn input_faces_out_of_range_are_refused() {
         ("column_face.counterface", |p| {
             p.column_face.counterface = table(FaceDirection::Up);
             p.wedge.height = 13.0 * INCH;
+        }),
+        ("slope_face.wedge_wear", |p| {
+            p.slope_face.wedge_wear = Some(map(p, 1, |_, _| 0.0));
+            p.wedge.width *= 1.001;
+        }),
+        ("column_face.counterface_wear", |p| {
+            let corners = [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]];
+            let points = corners.map(|[up, across]| [up, across, 0.0]);
+            p.column_face.counterface_wear = Some(DepthMap::new(&points).unwrap());
         }),
         ("slope_face.friction_map", |p| {
             p.slope_face.friction_map = vec![vec![1.0], vec![1.0, 2.0]]

@@ -19,7 +19,7 @@ use numerics::processor::{OldProcessor, check};
 
 use commands::{
     case, compare, completions, curves, energy, explore, fit, fmu, man, nucars, plot, quasi_static,
-    reproduce, run, stability, study, track, warp, wheelrail,
+    reproduce, run, stability, study, track, warp, wear, wheelrail,
 };
 use failure::Failure;
 
@@ -70,6 +70,7 @@ enum Command {
     Warp(warp::Arguments),
     Curves(curves::Arguments),
     Energy(energy::Arguments),
+    Wear(wear::Arguments),
     Stability(stability::Arguments),
     Wheelrail(wheelrail::Arguments),
     Track(track::Arguments),
@@ -94,6 +95,7 @@ impl Cli {
             Command::Warp(arguments) => warp::execute(&arguments),
             Command::Curves(arguments) => curves::execute(&arguments),
             Command::Energy(arguments) => energy::execute(&arguments),
+            Command::Wear(arguments) => wear::execute(&arguments),
             Command::Stability(arguments) => stability::execute(&arguments),
             Command::Wheelrail(arguments) => wheelrail::execute(&arguments),
             Command::Track(arguments) => track::execute(&arguments),

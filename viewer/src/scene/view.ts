@@ -20,6 +20,7 @@ import type { Coil, Contact, SceneData } from "../contract.js";
 import type { Instant, RunData } from "../data.js";
 import { Arrow, Dot, FRICTION, NORMAL } from "./arrows.js";
 import { PatchMark } from "./patch.js";
+import { PressureMark, typicalPressure } from "./pressure.js";
 import { poser, type Poser } from "./pose.js";
 import { coilMesh, solidMesh, turn } from "./solids.js";
 import { Track } from "./track.js";
@@ -104,6 +105,8 @@ export class SceneView {
   readonly camera = new PerspectiveCamera(FIELD, 1, 0.01, 20);
   /** The force whose arrow has the length `arrow`. */
   readonly scaleForce: number;
+  /** The pressure of the strongest colour; none without faces that have pressures. */
+  readonly scalePressure: number | undefined;
   arrow: number;
   factor: number;
   arrowFactor = 1;
@@ -114,6 +117,7 @@ export class SceneView {
   private readonly touches: Touch[] = [];
   private readonly sprung: Sprung[] = [];
   private readonly patches: PatchMark[] = [];
+  private readonly pressures: PressureMark[] = [];
   private readonly along: Along[] = [];
   private readonly track: Track | undefined;
   /** All that is in the fixed axes, moved so that what is followed stays. */
@@ -177,6 +181,13 @@ export class SceneView {
     }
     this.arrow = data.arrow;
     this.scaleForce = typicalForce(data, run);
+    const faces = data.pressures ?? [];
+    this.scalePressure = faces.length > 0 ? typicalPressure(faces, run) : undefined;
+    for (const face of faces) {
+      const mark = new PressureMark(face, run, this.scalePressure ?? 1);
+      (bodies.get(face.body) ?? none).add(mark.mesh);
+      this.pressures.push(mark);
+    }
     for (const patch of data.patches ?? []) {
       const mark = new PatchMark(patch, bodies.get(patch.body) ?? none, run);
       this.scene.add(mark.normal.group, mark.creep.group, mark.ellipse);
@@ -349,6 +360,9 @@ export class SceneView {
     for (const patch of this.patches) {
       patch.show(at, length, thickness);
     }
+    for (const mark of this.pressures) {
+      mark.show(at);
+    }
     this.stale = true;
   }
 
@@ -389,6 +403,11 @@ export class SceneView {
   /** The contacts' states, 0 open, 1 stick, 2 slip. */
   states(at: Instant): number[] {
     return this.touches.map(({ readState }) => readState(at));
+  }
+
+  /** The greatest pressure over each face that has pressures, Pa, by their names. */
+  greatestPressures(at: Instant): [string, number][] {
+    return this.pressures.map((mark) => [mark.face.name, Math.max(...mark.pressures(at))]);
   }
 
   /** Where the bodies' origins are drawn, m, by their names. */

@@ -278,6 +278,40 @@ test("no more than eight loops, the latest on top", { skip }, async () => {
   await page.close();
 });
 
+test("a face with more points than its corners is coloured by its pressure", { skip }, async () => {
+  const page = await open();
+  await page.locator(".wl-run[data-ready]").waitFor({ timeout: 20_000 });
+  const shown = () => page.evaluate(() => JSON.parse(document.querySelector(".wl-run").dataset.pressures));
+  assert.deepEqual(await shown(), {});
+  assert.equal(await page.locator(".wl-ramp").count(), 0);
+  await after_run(page, async () => {
+    const area = field(page, "column_face.grid").locator("textarea");
+    await area.evaluate((own) => {
+      own.closest("details").open = true;
+    });
+    await area.fill("[5, 4]");
+    await area.blur();
+  });
+  await page.locator(".wl-run[data-ready] .wl-ramp").waitFor({ timeout: 20_000 });
+  // The bolster is deepest then, and the wedge pressed most.
+  await page.locator(".wl-run input[type=range]").first().evaluate((own) => {
+    own.value = "2.36";
+    own.dispatchEvent(new Event("input"));
+  });
+  const { column, ...others } = await shown();
+  assert.deepEqual(others, {});
+  const lines = readFileSync(join(ran("column_face.grid=[5, 4]"), "result.csv"), "utf8").trim().split("\n");
+  const pressures = lines[0].split(",").flatMap((name, at) => (/^column_point_\d_\d_pressure_psi$/.test(name) ? [at] : []));
+  assert.equal(pressures.length, 20);
+  const { time } = await page.evaluate(() => document.querySelector(".wl-run").dataset);
+  const values = lines.map((line) => line.split(",").map(Number)).find(([own]) => Math.abs(own - Number(time)) < 1e-9);
+  const greatest = Math.max(...pressures.map((at) => values[at])) * 6894.757293168362;
+  assert.ok(greatest > 0 && Math.abs(column - greatest) < 1e-4 * greatest, `${column} is not ${greatest}`);
+  assert.match(await page.locator(".wl-run").textContent(), /pressure: 0\s+[\d,.]+ psi and more/);
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
 test("a bad value is explained where it was typed, and put right there", { skip }, async () => {
   const page = await open();
   const before = await state(page);

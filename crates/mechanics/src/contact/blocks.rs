@@ -21,7 +21,7 @@ use super::motion::{FaceMotion, PlaneMotion};
 use super::{ContactFace, ContactPoint, Interface, PointKinematics, PointProperties};
 use crate::body::Kinematics;
 use crate::link::{BodyWrench, RelativeFrame};
-use crate::surface::{Bend, Direction, compose};
+use crate::surface::{Bend, compose};
 use crate::vector::Vector;
 
 /// Four points; missing ones are open.
@@ -61,8 +61,8 @@ pub(crate) struct Points {
     pub(super) kinematics: Vec<PointKinematics<Lanes>>,
     /// What a curved surface is like at the points; none for a plane.
     pub(super) bends: Vec<Bend<Lanes>>,
-    /// The tangent along which the surface is curved, if it is.
-    curved: Option<Direction>,
+    /// Whether the surface is curved.
+    curved: bool,
     /// Whether the laws of force are refined.
     refined: bool,
     /// Whether all were open at the last evaluation of the forces; never with internal states.
@@ -80,11 +80,12 @@ impl Points {
             block.properties.factor = Lanes::new(std::array::from_fn(lane));
         }
         let shape = &face.surface.shape;
-        let curved = (!shape.profile.is_flat()).then_some(shape.direction);
+        let curved = !shape.is_flat();
         let flat = Bend {
             gap: Lanes::ZERO,
-            normal: [Lanes::from(1.0), Lanes::ZERO],
-            curvature: Lanes::ZERO,
+            axes: [[Lanes::ZERO; 3]; 3],
+            curvature: [Lanes::ZERO; 3],
+            twist: [Lanes::ZERO; 2],
         };
         let nowhere = PointKinematics {
             gap: Lanes::ZERO,
@@ -93,7 +94,7 @@ impl Points {
         };
         Self {
             kinematics: vec![nowhere; blocks.len()],
-            bends: vec![flat; if curved.is_some() { blocks.len() } else { 0 }],
+            bends: vec![flat; if curved { blocks.len() } else { 0 }],
             curved,
             refined: face.surface.is_refined(),
             open: false,
@@ -130,9 +131,9 @@ impl Points {
         }
     }
 
-    /// Returns the tangent along which the surface is curved, if it is.
+    /// Returns whether the surface is curved.
     #[inline(always)]
-    pub fn curved(&self) -> Option<Direction> {
+    pub fn is_curved(&self) -> bool {
         self.curved
     }
 
@@ -394,9 +395,9 @@ impl Points {
         for (number, (block, derivatives)) in self.blocks.iter().zip(&self.derivatives).enumerate() {
             let by = derivatives.by_deflection.map(|row| row.map(Lanes::to_array));
             let position = block.position.0.map(Lanes::to_array);
-            let along = |components: [Lanes; 3]| match (self.curved, self.bends.get(number)) {
-                (Some(direction), Some(bend)) => compose(direction, bend.normal, components).0,
-                _ => components,
+            let along = |components: [Lanes; 3]| match self.bends.get(number) {
+                Some(bend) => compose(&bend.axes, components).0,
+                None => components,
             };
             let forces = derivatives
                 .by_deflection

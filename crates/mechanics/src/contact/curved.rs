@@ -1,12 +1,13 @@
 //! Points on a curved surface, four at a time: contact kinematics, and the tangent.
 //!
-//! As for the plane ([`super::tangent`]), but the normal turns with the point: with κ' the curvature at its
-//! distance, t the tangent along the profile and e that along the cylinder, the point moving by δr,
+//! As for the plane ([`super::tangent`]), but the normal turns with the point: with K' the curvatures at its
+//! distance, t and e the tangents, τ how these turn about the normal (see [`crate::surface`]), the point moving
+//! by δr,
 //!
 //! ```text
-//! a = κ' t·δr,   δn = a t,   δt = -a n
-//! δg = n·δr,   δg' = n·δv + a t·v,   δv_t = t·δv - a n·v,   δv_e = e·δv
-//! δF = δN n + δT_t t + δT_e e + a (N t - T_t n)
+//! (k, l) = K' (t·δr, e·δr),   ω = τ·(k, l),   δn = k t + l e,   δt = -k n + ω e,   δe = -l n - ω t
+//! δg = n·δr,   δg' = n·δv + k v_t + l v_e,   δv_t = t·δv - k g' + ω v_e,   δv_e = e·δv - l g' - ω v_t
+//! δF = δN n + δT_t t + δT_e e + N δn + T_t δt + T_e δe
 //! ```
 
 use numerics::lanes::Lanes;
@@ -15,7 +16,7 @@ use super::blocks::{OUTPUTS, PointBlock, PointDerivatives, Points};
 use super::motion::FaceMotion;
 use super::{PointForce, PointKinematics};
 use crate::link::RelativeMotion;
-use crate::surface::{Bend, Direction, Shape, compose, resolve};
+use crate::surface::{Bend, Shape, compose, resolve};
 use crate::tangent::{Tangent, TangentColumn, TangentColumns, sum};
 use crate::vector::Vector;
 
@@ -36,8 +37,8 @@ impl FaceMotion for CurvedMotion<'_> {
         let position = Vector(std::array::from_fn(|k| arm.0[k] + relative.position.0[k]));
         let spin: Vector<Lanes> = relative.angular_velocity.cross(arm);
         let velocity = Vector(std::array::from_fn(|k| spin.0[k] + relative.velocity.0[k]));
-        let own = self.shape.profile.bend(position.0[0], self.shape.along(position));
-        let [gap_rate, first, second] = resolve(self.shape.direction, own.normal, velocity);
+        let own = self.shape.bend(position);
+        let [gap_rate, first, second] = resolve(&own.axes, velocity);
         if let Some(bend) = bend {
             *bend = own;
         }
@@ -52,9 +53,7 @@ impl FaceMotion for CurvedMotion<'_> {
     fn push(&self, block: &PointBlock, bend: Option<&Bend<Lanes>>, forces: &PointForce<Lanes>) -> [Lanes; 8] {
         let [t1, t2] = forces.friction.force;
         let components = [forces.normal, t1, t2];
-        let force = bend.map_or(Vector(components), |bend| {
-            compose(self.shape.direction, bend.normal, components)
-        });
+        let force = bend.map_or(Vector(components), |bend| compose(&bend.axes, components));
         let own: Vector<Lanes> = self.relative.rotation.transpose().apply(force);
         let moment: Vector<Lanes> = block.position.cross(own);
         let ([f1, f2, f3], [m1, m2, m3]) = (force.0, moment.0);
@@ -67,40 +66,35 @@ struct Local<'p> {
     derivatives: &'p PointDerivatives,
     bend: &'p Bend<Lanes>,
     at: &'p PointKinematics<Lanes>,
-    direction: Direction,
     arm: Vector<Lanes>,
 }
 
 impl Local<'_> {
-    /// Returns which component is along the profile.
-    fn along(&self) -> usize {
-        match self.direction {
-            Direction::Y => 1,
-            Direction::Z => 2,
-        }
-    }
-
     /// Returns the change of the force (marker axes) and of the law's other outputs along a displacement and
     /// a change of the velocity of the points (marker axes).
     #[inline(always)]
     fn change(&self, moved: Vector<Lanes>, velocity: Vector<Lanes>) -> (Vector<Lanes>, [Lanes; OUTPUTS]) {
         let by = self.derivatives;
-        let place = resolve(self.direction, self.bend.normal, moved);
-        let mut speed = resolve(self.direction, self.bend.normal, velocity);
-        let s = self.along();
-        let turn = place[s] * self.bend.curvature;
-        speed[0] += turn * self.at.slip[s - 1];
-        speed[s] -= turn * self.at.gap_rate;
+        let place = resolve(&self.bend.axes, moved);
+        let mut speed = resolve(&self.bend.axes, velocity);
+        let (k, l, turn) = self.bend.tilt(place[1], place[2]);
+        let ([first, second], rate) = (self.at.slip, self.at.gap_rate);
+        speed[0] += k * first + l * second;
+        speed[1] += turn * second - k * rate;
+        speed[2] -= turn * first + l * rate;
         let out: [Lanes; OUTPUTS] = std::array::from_fn(|o| {
             by.by_gap[o] * place[0]
                 + by.by_rate[o] * speed[0]
                 + by.by_slip[0][o] * speed[1]
                 + by.by_slip[1][o] * speed[2]
         });
-        let mut force = [out[0], out[1], out[2]];
-        force[s] += turn * by.force[0];
-        force[0] -= turn * by.force[s];
-        (compose(self.direction, self.bend.normal, force), out)
+        let [normal, t, e] = by.force;
+        let force = [
+            out[0] - (k * t + l * e),
+            out[1] + (k * normal - turn * e),
+            out[2] + (l * normal + turn * t),
+        ];
+        (compose(&self.bend.axes, force), out)
     }
 
     /// Adds a column: the change of force, moment and losses, where the moment of the forces that there are
@@ -126,12 +120,7 @@ impl Local<'_> {
 
 impl Points {
     /// Returns the tangent of a face with a curved surface; see [`Points::tangent`].
-    pub fn curved_tangent(
-        &self,
-        direction: Direction,
-        relative: &RelativeMotion<f64>,
-        rates: &mut [TangentColumns],
-    ) -> Tangent {
+    pub fn curved_tangent(&self, relative: &RelativeMotion<f64>, rates: &mut [TangentColumns]) -> Tangent {
         let mut tangent = Tangent::NONE;
         let (zero, none) = (Lanes::ZERO, Vector([Lanes::ZERO; 3]));
         let mut sums = [zero; 8];
@@ -150,10 +139,9 @@ impl Points {
                 derivatives,
                 bend,
                 at,
-                direction,
                 arm,
             };
-            let own = compose(direction, bend.normal, derivatives.force);
+            let own = compose(&bend.axes, derivatives.force);
             let ([f0, f1, f2], [m0, m1, m2]) = (own.0, arm.cross::<Lanes, Lanes>(own).0);
             for (sum, term) in sums.iter_mut().zip([f0, f1, f2, m0, m1, m2]) {
                 *sum += term;

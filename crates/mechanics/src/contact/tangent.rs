@@ -42,8 +42,8 @@ impl Points {
     /// second; it is empty where there are none.
     #[inline(always)]
     pub fn tangent(&self, relative: &RelativeMotion<f64>, rates: &mut [TangentColumns]) -> Tangent {
-        if let Some(direction) = self.curved() {
-            return self.curved_tangent(direction, relative, rates);
+        if self.is_curved() {
+            return self.curved_tangent(relative, rates);
         }
         let mut tangent = Tangent::NONE;
         let spin = relative.angular_velocity;

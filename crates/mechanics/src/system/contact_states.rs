@@ -160,7 +160,7 @@ impl System {
     fn update_face_points(&mut self, number: usize) {
         let face = &mut self.faces[number];
         let kinematics = &self.kinematics[face.body];
-        if face.points.curved().is_some() {
+        if face.points.is_curved() {
             let (shape, relative) = (
                 &face.element.surface.shape,
                 face.relative_frame.relative(kinematics),

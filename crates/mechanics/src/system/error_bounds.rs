@@ -20,7 +20,7 @@ pub(super) fn presses<'f>(
     let may = move |coordinate: usize, face: &Mounted<ContactFace<Interface>>| {
         let ends = [face.body, face.on];
         let straight = !face.on_free && ends.iter().all(|&end| frames[end].keeps_orientation);
-        let curved = face.points.curved().is_some();
+        let curved = face.points.is_curved();
         turns || !straight || curved || face.relative_frame.rotation.0[0][coordinate].abs() > ALONG
     };
     let own = free.faces.iter().map(|&face| &faces[face]);

@@ -74,7 +74,7 @@ impl Mountable for ContactFace<Interface> {
         internal: &[f64],
         rates: &mut [f64],
     ) -> BodyWrench {
-        if points.curved().is_some() {
+        if points.is_curved() {
             let shape = &self.surface.shape;
             return self.wrench_on_body(points, &CurvedMotion { shape, relative }, internal, rates);
         }
@@ -89,7 +89,7 @@ impl Mountable for ContactFace<Interface> {
         internal: &[f64],
         rates: &mut [f64],
     ) -> Option<BodyWrench> {
-        if points.curved().is_some() {
+        if points.is_curved() {
             return Some(self.body_wrench(points, &relative_frame.relative(body), internal, rates));
         }
         if points.update_if_open(relative_frame, body) {

@@ -113,12 +113,11 @@ impl System {
             };
             let (mounted, kinematics) = (&self.faces[number], &self.kinematics[self.faces[number].body]);
             let [normal, first, second] = wrench.force.0;
-            let (normal, friction) = match mounted.points.curved() {
-                None => (Vector([normal, 0.0, 0.0]), Vector([0.0, first, second])),
-                Some(_) => {
-                    let normal = normal_force(mounted, kinematics, internal);
-                    (normal, wrench.force - normal)
-                }
+            let (normal, friction) = if mounted.points.is_curved() {
+                let normal = normal_force(mounted, kinematics, internal);
+                (normal, wrench.force - normal)
+            } else {
+                (Vector([normal, 0.0, 0.0]), Vector([0.0, first, second]))
             };
             let normal = self.along_fixed_axes(mounted, normal);
             let friction = self.along_fixed_axes(mounted, friction);

@@ -27,6 +27,7 @@ use ::study::result::RunResult;
 use ::study::summary::RunSummary;
 use mechanics::motion::Motion;
 pub use pressure::figure as pressure_figure;
+pub(crate) use pressure::over_face;
 use quantity::{Kind, System as Units};
 
 use crate::csv::converted;

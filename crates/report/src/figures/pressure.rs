@@ -1,6 +1,6 @@
 //! The pressure over the faces of a wedge whose contact points are a grid.
 
-use quantity::Kind;
+use quantity::{Kind, System as Units};
 use study::case::Case;
 use study::result::RunResult;
 use wedge::face::{FaceProperties, Rectangle};
@@ -10,7 +10,7 @@ use super::study::contour_curves;
 use super::{Exhibit, Outcome, capital, digits};
 use crate::contour::{Grid, round_levels};
 use crate::csv::converted;
-use crate::drawing::{Colour, Figure, Line, Panel};
+use crate::drawing::{Colour, Curve, Figure, Line, Panel};
 
 /// Lines of equal pressure in a map.
 const LEVELS: usize = 6;
@@ -71,41 +71,12 @@ fn map(result: &RunResult, face: &FaceProperties, rectangle: &Rectangle, name: &
         .iter()
         .map(|column| column[first..].iter().sum::<f64>() / rows)
         .collect();
-    let length = |value: f64| converted(value, Kind::Length, units);
-    let part = |place: usize, count: usize| place as f64 / (count - 1) as f64;
-    let x: Vec<f64> = (0..face.grid.across)
-        .map(|place| length(rectangle.width * (part(place, face.grid.across) - 0.5)))
-        .collect();
-    let y: Vec<f64> = (0..face.grid.up)
-        .map(|place| length(rectangle.length() * part(place, face.grid.up)))
-        .collect();
-    let unit = Kind::Length.label(units);
     let panel = |title: String, pressures: Vec<f64>| {
         let heights: Vec<f64> = pressures
             .iter()
             .map(|value| converted(*value, Kind::Pressure, units))
             .collect();
-        let grid = Grid {
-            x: &x,
-            y: &y,
-            heights: &heights,
-        };
-        let (mut curves, mut marks) = (Vec::new(), Vec::new());
-        for (mut curve, mark) in contour_curves(&grid, &round_levels(&heights, LEVELS)) {
-            (curve.colour, curve.line) = (Colour::Black, Line::Solid);
-            curve.label = String::new();
-            curves.push(curve);
-            marks.push(mark);
-        }
-        Panel {
-            title,
-            x_label: format!("across, left is positive ({unit})"),
-            y_label: format!("up the face ({unit})"),
-            x_window: Some((x[0], x[x.len() - 1])),
-            curves,
-            marks,
-            ..Panel::default()
-        }
+        over_face(title, face, rectangle, &heights, units)
     };
     let greatest = format!(
         "{} at {} s, greatest {} {}",
@@ -121,4 +92,57 @@ fn map(result: &RunResult, face: &FaceProperties, rectangle: &Rectangle, name: &
             mean,
         ),
     ])
+}
+
+/// Lines of equal height over a face: heights at the points of its grid in shown units, from right to left and
+/// in each place from the lower edge up.
+pub(crate) fn over_face(
+    title: String,
+    face: &FaceProperties,
+    rectangle: &Rectangle,
+    heights: &[f64],
+    units: Units,
+) -> Panel {
+    let length = |value: f64| converted(value, Kind::Length, units);
+    let part = |place: usize, count: usize| place as f64 / (count - 1) as f64;
+    let x: Vec<f64> = (0..face.grid.across)
+        .map(|place| length(rectangle.width * (part(place, face.grid.across) - 0.5)))
+        .collect();
+    let y: Vec<f64> = (0..face.grid.up)
+        .map(|place| length(rectangle.length() * part(place, face.grid.up)))
+        .collect();
+    let unit = Kind::Length.label(units);
+    let grid = Grid {
+        x: &x,
+        y: &y,
+        heights,
+    };
+    let (right, left, top) = (x[0], x[x.len() - 1], y[y.len() - 1]);
+    let edge = Curve {
+        colour: Colour::Grey,
+        points: vec![
+            (right, y[0]),
+            (left, y[0]),
+            (left, top),
+            (right, top),
+            (right, y[0]),
+        ],
+        ..Curve::default()
+    };
+    let (mut curves, mut marks) = (vec![edge], Vec::new());
+    for (mut curve, mark) in contour_curves(&grid, &round_levels(heights, LEVELS)) {
+        (curve.colour, curve.line) = (Colour::Black, Line::Solid);
+        curve.label = String::new();
+        curves.push(curve);
+        marks.push(mark);
+    }
+    Panel {
+        title,
+        x_label: format!("across, left is positive ({unit})"),
+        y_label: format!("up the face ({unit})"),
+        x_window: Some((x[0], x[x.len() - 1])),
+        curves,
+        marks,
+        ..Panel::default()
+    }
 }

@@ -9,6 +9,7 @@ use mechanics::system::System;
 use mechanics::vector::Vector;
 use study::contacts::Corner;
 
+use super::pressure::of_contacts;
 use super::scene::{
     End, FACTOR, Look, Role, Scene, SceneBody, SceneCoil, SceneContact, Solid, SolidPose, extruded,
 };
@@ -187,6 +188,7 @@ impl Carriage {
             looks: self.looks(height),
             bodies: self.bolsters.iter().chain(&self.side_frames).map(body).collect(),
             solids: Vec::new(),
+            pressures: of_contacts(&contacts),
             contacts,
             ..Scene::default()
         };

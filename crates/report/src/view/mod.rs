@@ -13,6 +13,7 @@ mod carriage;
 pub mod chart;
 pub mod data;
 pub mod half_truck;
+mod pressure;
 pub mod rolling;
 pub mod run;
 pub mod scene;

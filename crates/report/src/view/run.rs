@@ -103,7 +103,7 @@ impl Recording {
         let mut scene = truck::scene(case);
         match (contacts, &mut scene) {
             (Some(contacts), _) => all.extend(table(&contacts.columns, &contacts.values)),
-            (None, Some(scene)) => scene.contacts.clear(),
+            (None, Some(scene)) => scene.clear_contacts(),
             (None, None) => {}
         }
         let plots = truck::plots(result);
@@ -134,7 +134,7 @@ impl Recording {
         match (contacts, &mut scene) {
             (Some(contacts), _) => all.extend(table(&contacts.columns, &contacts.values)),
             // Corners have no columns then.
-            (None, Some(scene)) if !case.wedge_bodies.is_empty() => scene.contacts.clear(),
+            (None, Some(scene)) if !case.wedge_bodies.is_empty() => scene.clear_contacts(),
             (None, _) => {}
         }
         let plots = half_truck::plots(case, result);

@@ -16,6 +16,8 @@ use wedge::outputs::{CORNERS, FACES};
 use wedge::parameters::{Damping, Parameters};
 use wedge::{BOLSTER, COLUMN, SIDE_FRAME, SLOPE, WEDGE, Wedge};
 
+pub use super::pressure::ScenePressure;
+
 /// How much displacements are exaggerated at first.
 pub(super) const FACTOR: f64 = 10.0;
 
@@ -38,6 +40,9 @@ pub struct Scene {
     pub coils: Vec<SceneCoil>,
     /// Corners of solids at surfaces of others.
     pub contacts: Vec<SceneContact>,
+    /// Pressures over faces with grids of points.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pressures: Vec<ScenePressure>,
     /// Contact patches of wheels.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub patches: Vec<ScenePatch>,
@@ -275,8 +280,16 @@ impl Scene {
                 .chain(&patch.creep)
                 .chain(&patch.axes)
         });
+        let pressures = self.pressures.iter().flat_map(|face| &face.pressures);
         let exact = self.exact_columns();
-        bodies.chain(coils).chain(contacts).chain(patches).chain(exact)
+        let of_contacts = contacts.chain(patches).chain(pressures);
+        bodies.chain(coils).chain(of_contacts).chain(exact)
+    }
+
+    /// Leaves out contacts, where a run has no columns of them.
+    pub(super) fn clear_contacts(&mut self) {
+        self.contacts.clear();
+        self.pressures.clear();
     }
 
     /// Those that grow without bound, and are not rounded.
@@ -478,7 +491,19 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
             });
         }
     }
+    let pressures = [&parameters.column_face, &parameters.slope_face]
+        .into_iter()
+        .enumerate()
+        .filter_map(|(face, own)| {
+            let points = system.faces()[face].element.points.iter();
+            let named = points.zip(own.grid.points()).map(|(point, place)| {
+                let column = format!("{}_{}_pressure", FACES[face], place.number());
+                (point.position.0, column)
+            });
+            ScenePressure::new(FACES[face], "wedge", named.collect())
+        });
     Some(Scene {
+        pressures: pressures.collect(),
         factor: FACTOR,
         limit: 0.15 * height,
         arrow: 0.65 * height,

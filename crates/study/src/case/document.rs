@@ -69,7 +69,12 @@ impl CaseDocument {
             .faces
             .iter()
             .flat_map(|face| [&face.wedge_surface, &face.counterface]);
+        let maps = self
+            .faces
+            .iter()
+            .flat_map(|face| face.wedge_wear.iter().chain(&face.counterface_wear));
         coil + surfaces.map(Surface::rows).sum::<usize>()
+            + maps.map(|map| map.rows.len()).sum::<usize>()
             + tables.map(|table| table.rows.len()).sum::<usize>()
     }
 }

@@ -6,11 +6,11 @@ use super::field::{Reach, Written};
 use super::problem::Problems;
 use super::read::COEFFICIENT;
 use super::section::{self, Range, Section};
+use super::table::{self, Form};
 use super::tables::Tables;
 use super::write::FRICTION;
-use mechanics::spline::SplineError;
 use quantity::{Kind, Quantity};
-use wedge::face::{FaceProperties, FrictionMap, Grid, STRIBECK_SPEED};
+use wedge::face::{DepthMap, FaceProperties, FrictionMap, Grid, STRIBECK_SPEED};
 
 /// The names of the sections, in the order of [`wedge::outputs::FACES`].
 pub(crate) const SECTIONS: [&str; 2] = ["column_face", "slope_face"];
@@ -32,8 +32,12 @@ pub struct FaceSection {
     pub grid: Grid,
     /// The wedge's surface.
     pub wedge_surface: Surface,
+    /// A map of its wear.
+    pub wedge_wear: Option<super::QuantityTable<3>>,
     /// The surface that it touches.
     pub counterface: Surface,
+    /// A map of its wear.
+    pub counterface_wear: Option<super::QuantityTable<3>>,
     /// Coefficient of sliding; left out, that of rest.
     pub sliding_friction: Option<f64>,
     /// Slip speed of half of the way from rest to sliding.
@@ -61,7 +65,9 @@ impl FaceSection {
     pub(crate) const KEYS: &[&str] = &[
         "grid",
         "wedge_surface",
+        "wedge_wear",
         "counterface",
+        "counterface_wear",
         "sliding_friction",
         "stribeck_speed",
         "friction_half_load",
@@ -87,6 +93,12 @@ impl FaceSection {
         };
         let wedge_surface = surface("wedge_surface", &self.wedge_surface);
         let counterface = surface("counterface", &self.counterface);
+        let mut worn = |key: &str, own: &Option<super::QuantityTable<3>>| match node(key) {
+            Some((node, path)) => table::read(node, &path, &Form::map(), tables, problems).map(Some),
+            None => Some(own.clone()),
+        };
+        let wedge_wear = worn("wedge_wear", &self.wedge_wear);
+        let counterface_wear = worn("counterface_wear", &self.counterface_wear);
         let sliding_friction = match node("sliding_friction") {
             Some(_) => s
                 .number("sliding_friction", COEFFICIENT, "0.3", problems)
@@ -110,7 +122,9 @@ impl FaceSection {
         Some(Self {
             grid: grid?,
             wedge_surface: wedge_surface?,
+            wedge_wear: wedge_wear?,
             counterface: counterface?,
+            counterface_wear: counterface_wear?,
             sliding_friction: sliding_friction?,
             stribeck_speed: stribeck_speed?,
             friction_half_load: friction_half_load?,
@@ -131,7 +145,15 @@ impl FaceSection {
                 "",
             ),
             (Some(self.wedge_surface.written()), ""),
+            (
+                self.wedge_wear.as_ref().map(values::depths_written),
+                "\"column_wear.csv\"",
+            ),
             (Some(self.counterface.written()), ""),
+            (
+                self.counterface_wear.as_ref().map(values::depths_written),
+                "\"column_wear.csv\"",
+            ),
             (
                 self.sliding_friction
                     .map(|value| Written::number(value, FRICTION)),
@@ -145,12 +167,15 @@ impl FaceSection {
             ),
             (self.pad.as_ref().map(PadSection::written), PadSection::EXAMPLE),
         ];
-        const COMMENTS: [&str; 8] = [
+        const COMMENTS: [&str; 10] = [
             "points up the face and across it, edges included; [2, 2]: the corners. More points spread the \
              pressure",
             "the wedge's surface: \"flat\", or { shape = \"crown\", radius = \"60 in\", direction = \"up\" \
              }, ...",
+            "wear of the wedge's surface beyond that: a CSV file of up [in], across [in], depth [in], places \
+             from the middle; or the same as a list of points; left out, none",
             "the surface that it touches, in the same words",
+            "wear of that surface, as wedge_wear; at least four places up and four across; left out, none",
             "coefficient of sliding; left out, that of rest, which is friction.column or friction.slope",
             "slip speed at which half of the way from rest to sliding is gone; left out, 0.1 in/s",
             "load of the face at which its coefficients are half of those without load; left out, no \
@@ -172,18 +197,20 @@ impl FaceSection {
     }
 
     /// Returns the face, SI, or the key and the reason why there is none.
-    pub(crate) fn resolve(&self) -> Result<FaceProperties, (&'static str, SplineError)> {
+    pub(crate) fn resolve(&self) -> Result<FaceProperties, (&'static str, String)> {
         let si = |quantity: &Option<Quantity>| quantity.as_ref().map(Quantity::to_si);
         Ok(FaceProperties {
             grid: self.grid,
             wedge_surface: self
                 .wedge_surface
                 .resolve()
-                .map_err(|error| ("wedge_surface", error))?,
+                .map_err(|error| ("wedge_surface", error.to_string()))?,
+            wedge_wear: depths(&self.wedge_wear).map_err(|error| ("wedge_wear", error))?,
+            counterface_wear: depths(&self.counterface_wear).map_err(|error| ("counterface_wear", error))?,
             counterface: self
                 .counterface
                 .resolve()
-                .map_err(|error| ("counterface", error))?,
+                .map_err(|error| ("counterface", error.to_string()))?,
             sliding_friction: self.sliding_friction,
             stribeck_speed: si(&self.stribeck_speed).unwrap_or(STRIBECK_SPEED),
             friction_half_load: si(&self.friction_half_load),
@@ -192,10 +219,22 @@ impl FaceSection {
         })
     }
 
-    /// The tables of its surfaces.
-    pub(crate) fn tables_mut(&mut self) -> impl Iterator<Item = &mut super::QuantityTable> {
-        [&mut self.wedge_surface, &mut self.counterface]
-            .into_iter()
-            .filter_map(Surface::table_mut)
+    /// The files of its tables.
+    pub(crate) fn files_mut(&mut self) -> impl Iterator<Item = &mut Option<String>> {
+        let surfaces = [&mut self.wedge_surface, &mut self.counterface];
+        let tables = surfaces.into_iter().filter_map(Surface::table_mut);
+        let maps = self.wedge_wear.iter_mut().chain(&mut self.counterface_wear);
+        let maps = maps.map(|map| &mut map.file);
+        tables.map(|table| &mut table.file).chain(maps)
     }
+}
+
+/// Returns a map of depths, SI.
+fn depths(table: &Option<super::QuantityTable<3>>) -> Result<Option<DepthMap>, String> {
+    let Some(table) = table else { return Ok(None) };
+    let rows = table.rows.iter();
+    let points: Vec<[f64; 3]> = rows.map(|row| row.each_ref().map(Quantity::to_si)).collect();
+    DepthMap::new(&points)
+        .map(Some)
+        .map_err(|error| error.to_string())
 }

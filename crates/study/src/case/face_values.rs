@@ -372,3 +372,13 @@ pub(super) fn map_written(map: &FrictionMap) -> Option<Written> {
     let rows: Vec<String> = map.iter().map(row).collect();
     (!map.is_empty()).then(|| Written::toml(format!("[{}]", rows.join(", "))))
 }
+
+/// A map of depths as it is written.
+pub(super) fn depths_written(table: &QuantityTable<3>) -> Written {
+    let table = table.clone();
+    Written::toml_in_units(|system| match (&table.file, system) {
+        (Some(file), _) => super::field::quoted(file),
+        (None, None) => table.points_to_toml(),
+        (None, Some(system)) => table.in_system([Kind::Length; 3], system).points_to_toml(),
+    })
+}

@@ -1,4 +1,4 @@
-//! Tables of two columns: in the case file, or in a CSV file beside it.
+//! Tables of two columns, and of three for maps: in the case file, or in a CSV file beside it.
 //!
 //! A CSV file has a line of names with units, `time [s], value [in]`, then one line of numbers a
 //! point. Empty lines and lines that begin with `#` do not count.
@@ -14,13 +14,13 @@ use input::{FileType, limits, shortened, structure};
 use quantity::{Kind, Quantity, System};
 use std::sync::Arc;
 
-/// Two columns of quantities, the first one increasing.
+/// Columns of quantities: of two, the first one increases; three are a map.
 #[derive(Clone, Debug, PartialEq)]
-pub struct QuantityTable {
+pub struct QuantityTable<const N: usize = 2> {
     /// The CSV file it comes from, as written in the case; `None` if its points stand there.
     pub file: Option<String>,
     /// The points.
-    pub rows: Vec<[Quantity; 2]>,
+    pub rows: Vec<[Quantity; N]>,
 }
 
 impl QuantityTable {
@@ -58,11 +58,13 @@ impl QuantityTable {
             _ => Err(CaseError::new(problems)),
         }
     }
+}
 
+impl<const N: usize> QuantityTable<N> {
     /// The same points in the units of a system; `kinds` are those of the columns.
     #[must_use]
-    pub(super) fn in_system(&self, kinds: [Kind; 2], system: System) -> Self {
-        let row = |[a, b]: &[Quantity; 2]| [in_system(a, kinds[0], system), in_system(b, kinds[1], system)];
+    pub(super) fn in_system(&self, kinds: [Kind; N], system: System) -> Self {
+        let row = |row: &[Quantity; N]| std::array::from_fn(|i| in_system(&row[i], kinds[i], system));
         Self {
             file: self.file.clone(),
             rows: self.rows.iter().map(row).collect(),
@@ -75,17 +77,19 @@ impl QuantityTable {
         let rows: Vec<String> = self
             .rows
             .iter()
-            .map(|[a, b]| format!("[{}, {}]", text(a), text(b)))
+            .map(|row| format!("[{}]", row.each_ref().map(text).join(", ")))
             .collect();
         format!("[\n    {},\n]", rows.join(",\n    "))
     }
 }
 
 /// What a table must look like.
-pub(super) struct Form {
-    names: [&'static str; 2],
-    kinds: [Kind; 2],
+pub(super) struct Form<const N: usize = 2> {
+    names: [&'static str; N],
+    kinds: [Kind; N],
     least: usize,
+    /// Whether the first column must increase.
+    ordered: bool,
     /// Whether the second column may fall.
     may_fall: bool,
 }
@@ -97,6 +101,7 @@ impl Form {
             names: ["time", "value"],
             kinds: [Kind::Time, kind],
             least: 4,
+            ordered: true,
             may_fall: true,
         }
     }
@@ -107,6 +112,7 @@ impl Form {
             names: ["place", "depth"],
             kinds: [Kind::Length; 2],
             least: 4,
+            ordered: true,
             may_fall: true,
         }
     }
@@ -118,39 +124,65 @@ impl Form {
             names,
             kinds: [Kind::Length, Kind::Force],
             least: 2,
+            ordered: true,
             may_fall: false,
         }
     }
+}
 
-    fn units(&self) -> [&'static str; 2] {
+impl Form<3> {
+    /// Depths over two places.
+    pub fn map() -> Self {
+        Form {
+            names: ["up", "across", "depth"],
+            kinds: [Kind::Length; 3],
+            least: 4,
+            ordered: false,
+            may_fall: true,
+        }
+    }
+}
+
+impl<const N: usize> Form<N> {
+    fn units(&self) -> [&'static str; N] {
         self.kinds.map(|kind| kind.unit(System::Us))
     }
 
     fn example_rows(&self) -> String {
-        let [a, b] = self.units();
-        format!("[[\"0 {a}\", \"0 {b}\"], [\"1 {a}\", \"2 {b}\"], ...]")
+        let row = |row: usize| {
+            let value = |(i, unit): (usize, &str)| format!("\"{} {unit}\"", row * (i + 1));
+            let values: Vec<String> = self.units().into_iter().enumerate().map(value).collect();
+            format!("[{}]", values.join(", "))
+        };
+        format!("[{}, {}, ...]", row(0), row(1))
     }
 
     fn example_header(&self) -> String {
-        let ([a, b], [u, v]) = (self.names, self.units());
-        format!("{a} [{u}], {b} [{v}]")
+        let columns = self.names.iter().zip(self.units());
+        let columns: Vec<String> = columns.map(|(name, unit)| format!("{name} [{unit}]")).collect();
+        columns.join(", ")
     }
 }
 
-struct Row {
-    values: [Quantity; 2],
+/// How many values a row has, in words.
+fn count_in_words(count: usize) -> &'static str {
+    if count == 2 { "two" } else { "three" }
+}
+
+struct Row<const N: usize> {
+    values: [Quantity; N],
     place: TomlLocation,
 }
 
 /// Reads the table under one of two keys: the name of a file, or the points.
-pub(super) fn read_either(
+pub(super) fn read_either<const N: usize>(
     section: &Section<'_>,
     file: &str,
     points: &str,
-    form: &Form,
+    form: &Form<N>,
     tables: Tables<'_>,
     problems: &mut Problems,
-) -> Option<QuantityTable> {
+) -> Option<QuantityTable<N>> {
     match (section.table.get(file), section.table.entry(points)) {
         (Some(_), Some(second)) => {
             let message = format!("`{}` has both `{file}` and `{points}`", section.path);
@@ -175,13 +207,13 @@ pub(super) fn read_either(
 
 /// Reads a table from the name of a file or from points. Of a file that must not be quoted, messages tell the
 /// place and the kind of a mistake.
-pub(super) fn read(
+pub(super) fn read<const N: usize>(
     node: &Node,
     path: &str,
-    form: &Form,
+    form: &Form<N>,
     tables: Tables<'_>,
     problems: &mut Problems,
-) -> Option<QuantityTable> {
+) -> Option<QuantityTable<N>> {
     match &node.value {
         Value::Text(file) if !tables.may_quote() => {
             let mut found = Problems::new();
@@ -193,13 +225,13 @@ pub(super) fn read(
     }
 }
 
-fn read_quoting(
+fn read_quoting<const N: usize>(
     node: &Node,
     path: &str,
-    form: &Form,
+    form: &Form<N>,
     tables: Tables<'_>,
     problems: &mut Problems,
-) -> Option<QuantityTable> {
+) -> Option<QuantityTable<N>> {
     let (file, rows) = match &node.value {
         Value::Text(file) => (
             Some(file.clone()),
@@ -225,32 +257,38 @@ fn read_quoting(
     })
 }
 
-fn read_points(items: &[Node], path: &str, form: &Form, problems: &mut Problems) -> Option<Vec<Row>> {
+fn read_points<const N: usize>(
+    items: &[Node],
+    path: &str,
+    form: &Form<N>,
+    problems: &mut Problems,
+) -> Option<Vec<Row<N>>> {
     let mut rows = Vec::with_capacity(items.len());
     let before = problems.count();
     for (at, item) in items.iter().enumerate() {
         let path = format!("{path}[{at}]");
         match &item.value {
-            Value::List(pair) if pair.len() == 2 => {
-                let mut read =
-                    |i: usize| section::quantity(&pair[i], &path, form.kinds[i], Range::Any, problems);
-                if let (Some(a), Some(b)) = (read(0), read(1)) {
+            Value::List(cells) if cells.len() == N => {
+                let cells = cells.iter().zip(form.kinds);
+                let values: Vec<Quantity> = cells
+                    .filter_map(|(cell, kind)| section::quantity(cell, &path, kind, Range::Any, problems))
+                    .collect();
+                if let Ok(values) = values.try_into() {
                     rows.push(Row {
-                        values: [a, b],
+                        values,
                         place: item.place.clone(),
                     });
                 }
             }
             _ => {
-                let message = format!(
-                    "`{path}` is not a pair of {} and {}",
-                    form.names[0], form.names[1]
-                );
+                let (last, others) = (form.names[N - 1], form.names[..N - 1].join(", "));
+                let sort = if N == 2 { "pair" } else { "triple" };
+                let message = format!("`{path}` is not a {sort} of {others} and {last}");
                 let help = format!("write the points as {}", form.example_rows());
                 problems.push(
                     Problem::new(message)
                         .at(&item.place)
-                        .label("two quantities")
+                        .label(format!("{} quantities", count_in_words(N)))
                         .help(help),
                 );
             }
@@ -259,14 +297,14 @@ fn read_points(items: &[Node], path: &str, form: &Form, problems: &mut Problems)
     (problems.count() == before).then_some(rows)
 }
 
-fn read_file(
+fn read_file<const N: usize>(
     node: &Node,
     file: &str,
     path: &str,
-    form: &Form,
+    form: &Form<N>,
     tables: Tables<'_>,
     problems: &mut Problems,
-) -> Option<Vec<Row>> {
+) -> Option<Vec<Row<N>>> {
     let shown = tables.shown(file);
     let full = match tables.locate(file) {
         Ok(full) => full,
@@ -309,7 +347,11 @@ const TABLE_FILE: Expected = Expected {
     most: limits::TEXT_FILE,
 };
 
-fn read_csv(source: &Arc<TomlSource>, form: &Form, problems: &mut Problems) -> Option<Vec<Row>> {
+fn read_csv<const N: usize>(
+    source: &Arc<TomlSource>,
+    form: &Form<N>,
+    problems: &mut Problems,
+) -> Option<Vec<Row<N>>> {
     if let Err(excess) = structure::lines(source.text()) {
         let place = TomlLocation {
             source: Arc::clone(source),
@@ -372,20 +414,34 @@ fn read_csv(source: &Arc<TomlSource>, form: &Form, problems: &mut Problems) -> O
         }
         units.push(unit);
     }
-    let &[first, second] = units.as_slice() else {
-        let problem = Problem::new("two columns are expected").at(&place(at, header));
-        problems.push(problem.label("one column only").help(help));
+    let found = units.len();
+    let Ok(units): Result<[&str; N], _> = units.try_into() else {
+        let message = format!("{} columns are expected", count_in_words(N));
+        let label = if found == 1 {
+            "one column only"
+        } else {
+            "two columns only"
+        };
+        problems.push(
+            Problem::new(message)
+                .at(&place(at, header))
+                .label(label)
+                .help(help),
+        );
         return None;
     };
     let mut rows = Vec::new();
     for (at, line) in lines {
         let cells: Vec<(usize, &str)> = cells(line, at).collect();
-        let &[a, b] = cells.as_slice() else {
-            let message = format!("{} values in this line; two are expected", cells.len());
-            let problem = Problem::new(message).at(&place(at, line)).label("two numbers");
+        if cells.len() != N {
+            let wanted = count_in_words(N);
+            let message = format!("{} values in this line; {wanted} are expected", cells.len());
+            let problem = Problem::new(message)
+                .at(&place(at, line))
+                .label(format!("{wanted} numbers"));
             problems.push(problem.help("separate the numbers with a comma, write decimals with a point"));
             return None;
-        };
+        }
         let mut read = |(at, cell): (usize, &str), unit: &str, kind: Kind| {
             let number = cell.trim();
             let quantity = match number.parse::<f64>() {
@@ -404,7 +460,11 @@ fn read_csv(source: &Arc<TomlSource>, form: &Form, problems: &mut Problems) -> O
             problems.push(problem.help("write a finite number; the units stand in the first line"));
             None
         };
-        let values = [read(a, first, form.kinds[0])?, read(b, second, form.kinds[1])?];
+        let mut values = Vec::with_capacity(N);
+        for (i, cell) in cells.into_iter().enumerate() {
+            values.push(read(cell, units[i], form.kinds[i])?);
+        }
+        let values = values.try_into().ok()?;
         rows.push(Row {
             values,
             place: place(at, line),
@@ -424,8 +484,14 @@ fn cells(line: &str, at: usize) -> impl Iterator<Item = (usize, &str)> {
 }
 
 /// Checks that there are enough rows and that they are in order.
-fn check(rows: &[Row], place: &TomlLocation, path: &str, form: &Form, problems: &mut Problems) -> Option<()> {
-    let [first, second] = form.names;
+fn check<const N: usize>(
+    rows: &[Row<N>],
+    place: &TomlLocation,
+    path: &str,
+    form: &Form<N>,
+    problems: &mut Problems,
+) -> Option<()> {
+    let (first, second) = (form.names[0], form.names[1]);
     if let Some(row) = rows.get(limits::TABLE_ROWS) {
         let message = format!(
             "`{path}` has {} rows; at most {} are read",
@@ -433,7 +499,7 @@ fn check(rows: &[Row], place: &TomlLocation, path: &str, form: &Form, problems: 
             limits::TABLE_ROWS
         );
         let problem = Problem::new(message).at(&row.place).label("one row too many");
-        problems.push(problem.help("leave out rows: motions are smooth between them"));
+        problems.push(problem.help("leave out rows: values between them are interpolated"));
         return None;
     }
     if rows.len() < form.least {
@@ -451,7 +517,10 @@ fn check(rows: &[Row], place: &TomlLocation, path: &str, form: &Form, problems: 
         );
         return None;
     }
-    let text = |row: &Row, column: usize| row.values[column].to_string();
+    if !form.ordered {
+        return Some(());
+    }
+    let text = |row: &Row<N>, column: usize| row.values[column].to_string();
     for pair in rows.windows(2) {
         let [a, b] = pair else { continue };
         if b.values[0].to_si() <= a.values[0].to_si() {

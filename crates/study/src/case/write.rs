@@ -60,8 +60,8 @@ impl CaseDocument {
         for table in motions.flat_map(|motion| motion.tables_mut()) {
             table.file = None;
         }
-        for table in self.faces.iter_mut().flat_map(FaceSection::tables_mut) {
-            table.file = None;
+        for file in self.faces.iter_mut().flat_map(FaceSection::files_mut) {
+            *file = None;
         }
         if let CoilForce::Table(table) = &mut self.control_coil.force {
             table.file = None;

@@ -215,7 +215,7 @@ impl Reader<'_> {
             *face = read;
         }
         let mut embedded = face.clone();
-        embedded.tables_mut().for_each(|table| table.file = None);
+        embedded.files_mut().for_each(|file| *file = None);
         let overlay = self.overlay;
         for (page, face) in self.pages.iter_mut().zip([&*face, &embedded]) {
             for (line, given) in face.lines().into_iter().zip(&given) {

@@ -8,7 +8,7 @@ use mechanics::system::scales;
 use quantity::Kind;
 use wedge::outputs::{FACES, Outputs};
 
-use super::{EVENT_CAP, Run};
+use super::{EVENT_CAP, Run, pressed};
 use crate::assumptions;
 use crate::case::Case;
 use crate::energy;
@@ -82,6 +82,11 @@ fn warnings(run: &Run<Case>, damped: bool) -> Vec<String> {
     }
     warnings.extend(energy::warning(&run.energy_balance, what_to_do(damped)));
     warnings.extend(plausibility::warnings(run));
+    let parameters = &run.case.parameters;
+    let faces = [&parameters.column_face, &parameters.slope_face];
+    let (columns, values) = (run.recorder.outputs.columns(), &run.recorder.values);
+    let few = faces.into_iter().enumerate();
+    warnings.extend(few.filter_map(|(face, own)| pressed::warning(face, own, columns, values)));
     if run.case.nothing_given {
         warnings.push(plausibility::NOTHING_GIVEN.to_owned());
     }

@@ -288,8 +288,12 @@ class FaceSection(Section):
     wedge_surface: str | Mapping[str, Any] | None = None
     """The wedge's surface: ``"flat"``, or a mapping as in a case file, such as
     ``{"shape": "crown", "radius": "60 in", "direction": "up"}``."""
+    wedge_wear: str | Sequence[Sequence[QuantityLike]] | None = None
+    """Wear of the wedge's surface: a CSV file, or points of place up, place across and depth."""
     counterface: str | Mapping[str, Any] | None = None
     """The surface that it touches, in the same words."""
+    counterface_wear: str | Sequence[Sequence[QuantityLike]] | None = None
+    """Wear of that surface, as ``wedge_wear``."""
     sliding_friction: float | None = None
     """Coefficient of sliding; left out, that of rest."""
     stribeck_speed: QuantityLike | None = None
@@ -302,7 +306,16 @@ class FaceSection(Section):
     """A resilient pad, as in a case file: stiffness, damping, hardening, friction, shear_stiffness, shear_damping."""
 
     _words = frozenset(
-        {"grid", "wedge_surface", "counterface", "sliding_friction", "friction_map", "pad"}
+        {
+            "grid",
+            "wedge_surface",
+            "wedge_wear",
+            "counterface",
+            "counterface_wear",
+            "sliding_friction",
+            "friction_map",
+            "pad",
+        }
     )
 
 

@@ -18,6 +18,7 @@ pub mod stability;
 pub mod study;
 pub mod track;
 pub mod warp;
+pub mod wear;
 pub mod wheelrail;
 mod wheelrail_contact;
 mod wheelrail_run;

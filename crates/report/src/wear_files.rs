@@ -1,0 +1,336 @@
+//! The files of `wedgelab wear`: the course of wear as a table, depths and pressures over the faces, the worn
+//! case, figures, and what it comes to in words.
+
+use std::io::{self, Write};
+
+use quantity::{Kind, System as Units};
+use study::wear::{LIMIT, Plan, WearHistory, WearLaw, WearState, maps};
+use wedge::face::FaceProperties;
+use wedge::outputs::FACES;
+
+use crate::csv::converted;
+use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+use crate::figures::{axis, capital, digits, over_face};
+
+/// The course of wear over the cycles.
+pub const COURSE: &str = "wear.csv";
+/// Depths and mean pressures of all points at every step.
+pub const POINTS: &str = "wear_points.csv";
+/// The depths of both faces at the end, as `wedge_wear` takes them.
+pub const DEPTHS: [&str; 2] = ["column_wear.csv", "slope_wear.csv"];
+/// The case with the depths of the end.
+pub const CASE: &str = "worn.toml";
+/// The figure.
+pub const FIGURE: &str = "wear.svg";
+/// The same as a picture.
+pub const PICTURE: &str = "wear.png";
+/// What it comes to, in words.
+pub const WORDS: &str = "wear.txt";
+/// All of them.
+pub const NAMES: [&str; 8] = [COURSE, POINTS, DEPTHS[0], DEPTHS[1], CASE, FIGURE, PICTURE, WORDS];
+
+/// Which numbers of the law were given by the user, not guessed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Given {
+    /// The coefficient.
+    pub coefficient: bool,
+    /// The hardness.
+    pub hardness: bool,
+}
+
+/// A volume in shown units, and their name.
+#[must_use]
+pub fn volume(si: f64, units: Units) -> (f64, &'static str) {
+    let length = Kind::Length.from_si(units);
+    let name = match units {
+        Units::Us => "in3",
+        Units::Si => "m3",
+    };
+    (si * length * length * length, name)
+}
+
+/// A number of a state by its name and kind; volumes have none.
+type Number = (String, Option<Kind>, Box<dyn Fn(&WearState) -> f64>);
+
+fn numbers() -> Vec<Number> {
+    let mut all: Vec<Number> = Vec::new();
+    let mut add = |name: String, kind: Option<Kind>, of: Box<dyn Fn(&WearState) -> f64>| {
+        all.push((name, kind, of));
+    };
+    for (face, name) in FACES.into_iter().enumerate() {
+        add(
+            format!("{name}_volume"),
+            None,
+            Box::new(move |s| s.faces[face].volume),
+        );
+        let rate = Box::new(move |s: &WearState| s.faces[face].volume_per_cycle);
+        add(format!("{name}_volume_per_cycle"), None, rate);
+        let deepest = move |s: &WearState| {
+            s.faces[face]
+                .depths
+                .iter()
+                .copied()
+                .fold(f64::NEG_INFINITY, f64::max)
+        };
+        add(format!("{name}_deepest"), Some(Kind::Length), Box::new(deepest));
+        let greatest = move |s: &WearState| s.faces[face].pressures.iter().copied().fold(0.0, f64::max);
+        add(
+            format!("{name}_greatest_mean_pressure"),
+            Some(Kind::Pressure),
+            Box::new(greatest),
+        );
+        let force = Box::new(move |s: &WearState| s.faces[face].mean_force);
+        add(format!("{name}_mean_normal_force"), Some(Kind::Force), force);
+        let loss = Box::new(move |s: &WearState| s.faces[face].loss);
+        add(format!("{name}_loss_per_cycle"), Some(Kind::Energy), loss);
+    }
+    add("wedge_rise".to_owned(), Some(Kind::Length), Box::new(|s| s.rise));
+    add(
+        "equivalent_damping".to_owned(),
+        Some(Kind::Damping),
+        Box::new(|s| s.damping),
+    );
+    all
+}
+
+/// Writes the course of wear: a row a state.
+///
+/// # Errors
+/// The writer's.
+pub fn write_course(history: &WearHistory, out: &mut dyn Write) -> io::Result<()> {
+    let units = history.case.simulation.output_units;
+    let numbers = numbers();
+    write!(out, "cycles")?;
+    for (name, kind, _) in &numbers {
+        let unit = kind.map_or(volume(0.0, units).1, |kind| kind.suffix(units));
+        write!(out, ",{name}_{unit}")?;
+    }
+    writeln!(out)?;
+    for state in &history.states {
+        write!(out, "{}", state.cycles)?;
+        for (_, kind, of) in &numbers {
+            let value = match kind {
+                Some(kind) => converted(of(state), *kind, units),
+                None => volume(of(state), units).0,
+            };
+            write!(out, ",{value}")?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+fn faces(history: &WearHistory) -> [&FaceProperties; 2] {
+    let parameters = &history.case.parameters;
+    [&parameters.column_face, &parameters.slope_face]
+}
+
+/// Writes depth and mean pressure of each point at every step.
+///
+/// # Errors
+/// The writer's.
+pub fn write_points(history: &WearHistory, out: &mut dyn Write) -> io::Result<()> {
+    let units = history.case.simulation.output_units;
+    let (length, pressure) = (Kind::Length.suffix(units), Kind::Pressure.suffix(units));
+    writeln!(
+        out,
+        "cycles,face,point,up_{length},across_{length},depth_{length},mean_pressure_{pressure}"
+    )?;
+    let rectangles = history.case.parameters.rectangles();
+    for state in &history.states {
+        for (number, face) in faces(history).into_iter().enumerate() {
+            let (own, name) = (&state.faces[number], FACES[number]);
+            let mut points: Vec<_> = face.grid.points().into_iter().enumerate().collect();
+            points.sort_by_key(|(_, point)| (point.row, point.column));
+            for (i, point) in points {
+                let (up, across) = rectangles[number].distances(&point);
+                let [up, across, depth] =
+                    [up, across, own.depths[i]].map(|value| converted(value, Kind::Length, units));
+                let pressure = converted(own.pressures[i], Kind::Pressure, units);
+                writeln!(
+                    out,
+                    "{},{name},{},{up},{across},{depth},{pressure}",
+                    state.cycles,
+                    point.number()
+                )?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Writes the depths of a face at the end, as `wedge_wear` takes them.
+///
+/// # Errors
+/// The writer's.
+pub fn write_depths(history: &WearHistory, face: usize, out: &mut dyn Write) -> io::Result<()> {
+    let units = history.case.simulation.output_units;
+    let unit = Kind::Length.label(units);
+    writeln!(out, "up [{unit}], across [{unit}], depth [{unit}]")?;
+    let Some(last) = history.states.last() else {
+        return Ok(());
+    };
+    let depths = [0, 1].map(|face: usize| last.faces[face].depths.clone());
+    let maps = maps(&history.case, &depths);
+    for point in maps[face].iter().flat_map(|map| map.points()) {
+        let [up, across, depth] = point.map(|value| converted(value, Kind::Length, units));
+        writeln!(out, "{up},{across},{depth}")?;
+    }
+    Ok(())
+}
+
+/// Returns the figure: depths over both faces at the end, volumes and damping over the cycles.
+#[must_use]
+pub fn figure(history: &WearHistory) -> Figure {
+    let units = history.case.simulation.output_units;
+    let Some(last) = history.states.last() else {
+        return Figure::default();
+    };
+    let rectangles = history.case.parameters.rectangles();
+    let mut panels = Vec::new();
+    for (number, face) in faces(history).into_iter().enumerate() {
+        let mut points: Vec<_> = face.grid.points().into_iter().enumerate().collect();
+        points.sort_by_key(|(_, point)| (point.column, point.row));
+        let depths = points.iter().map(|(i, _)| last.faces[number].depths[*i]);
+        // Thousandths: depths of wear are small lengths.
+        let heights: Vec<f64> = depths
+            .map(|depth| 1e3 * converted(depth, Kind::Length, units))
+            .collect();
+        let deepest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let unit = match units {
+            Units::Us => "0.001 in",
+            Units::Si => "mm",
+        };
+        let title = format!(
+            "{}: depth in {unit}, deepest {}",
+            capital(FACES[number]),
+            digits(deepest)
+        );
+        panels.push(over_face(title, face, &rectangles[number], &heights, units));
+    }
+    let course = |label: &str, colour: Colour, line: Line, of: &dyn Fn(&WearState) -> f64| Curve {
+        label: label.to_owned(),
+        colour,
+        line,
+        points: history
+            .states
+            .iter()
+            .map(|state| (state.cycles, of(state)))
+            .collect(),
+    };
+    let (_, cubed) = volume(0.0, units);
+    let volumes = [0, 1].map(|face: usize| {
+        let (colour, line) = [(Colour::Blue, Line::Solid), (Colour::Vermillion, Line::DashDot)][face];
+        course(FACES[face], colour, line, &|state| {
+            volume(state.faces[face].volume, units).0
+        })
+    });
+    panels.push(Panel {
+        x_label: "cycles".to_owned(),
+        y_label: format!("volume worn ({cubed})"),
+        curves: volumes.to_vec(),
+        ..Panel::default()
+    });
+    let damping = course("", Colour::Black, Line::Solid, &|state| {
+        converted(state.damping, Kind::Damping, units)
+    });
+    panels.push(Panel {
+        x_label: "cycles".to_owned(),
+        y_label: axis("equivalent damping", Kind::Damping, units),
+        curves: vec![damping],
+        ..Panel::default()
+    });
+    Figure {
+        title: format!("{}: wear after {} cycles", history.case.name, digits(last.cycles)),
+        caption:
+            "Above: lines of equal depth over the wedge's faces, seen from the counterface; left (+y) is \
+                  the wedge's left side. Below: the volume worn, and the viscous damping that would take as \
+                  much energy as the column's friction."
+                .to_owned(),
+        panels,
+        columns: 2,
+        ..Figure::default()
+    }
+}
+
+/// Returns what wear comes to, in words.
+#[must_use]
+pub fn words(history: &WearHistory, plan: &Plan, given: Given) -> String {
+    let units = history.case.simulation.output_units;
+    let (Some(first), Some(last)) = (history.states.first(), history.states.last()) else {
+        return String::new();
+    };
+    let guess = |given: bool| if given { "given" } else { "a guess" };
+    let law = match plan.law {
+        WearLaw::Archard(law) => format!(
+            "Law: Archard, V = K * integral of N |v| dt / H, with K = {:e} ({}) and H = {:e} Pa ({}).",
+            law.coefficient,
+            guess(given.coefficient),
+            law.hardness,
+            guess(given.hardness)
+        ),
+        WearLaw::Energy(law) => format!(
+            "Law: energy, V = a * energy lost in friction, with a = {:e} m3/J ({}).",
+            law.coefficient,
+            guess(given.coefficient)
+        ),
+    };
+    let mut text = format!(
+        "Wear of {} after {} of {} cycles, in {} steps.\n{law}\n",
+        history.case.name,
+        last.cycles,
+        plan.cycles,
+        history.states.len() - 1
+    );
+    let guessed = !given.coefficient || (!given.hardness && matches!(plan.law, WearLaw::Archard(_)));
+    if guessed {
+        text.push_str(
+            "Guessed numbers are known to an order of magnitude at best: volumes and numbers of cycles are as \
+             uncertain.\nMeasure the wear of your pair, and give --coefficient and --hardness.\n",
+        );
+    }
+    let shown = |value: f64, kind: Kind| {
+        let number = converted(value, kind, units);
+        format!("{} {}", digits(number), kind.label(units))
+    };
+    for (face, name) in FACES.into_iter().enumerate() {
+        let own = &last.faces[face];
+        let (worn, unit) = volume(own.volume, units);
+        let deepest = own.depths.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let shallowest = own.depths.iter().copied().fold(f64::INFINITY, f64::min);
+        text.push_str(&format!(
+            "{}: {} {unit} worn, depth from {} to {}; {} {unit} a cycle at first, {} at the end.\n",
+            capital(name),
+            digits(worn),
+            shown(shallowest, Kind::Length),
+            shown(deepest, Kind::Length),
+            digits(volume(first.faces[face].volume_per_cycle, units).0),
+            digits(volume(own.volume_per_cycle, units).0),
+        ));
+        text.push_str(&format!(
+            "  Mean normal force from {} to {}, friction takes {} a cycle, then {}.\n",
+            shown(first.faces[face].mean_force, Kind::Force),
+            shown(own.mean_force, Kind::Force),
+            shown(first.faces[face].loss, Kind::Energy),
+            shown(own.loss, Kind::Energy),
+        ));
+    }
+    text.push_str(&format!(
+        "The wedge stands {} higher than at the start. Equivalent damping from {} to {}.\n",
+        shown(last.rise, Kind::Length),
+        shown(first.damping, Kind::Damping),
+        shown(last.damping, Kind::Damping),
+    ));
+    let mismatch = history
+        .states
+        .iter()
+        .map(|state| state.mismatch)
+        .fold(0.0, f64::max);
+    text.push_str(&format!(
+        "No step wears a point by more than {LIMIT} of its penetration. Energies of all points are within \
+         {mismatch:.1e} of the ledger's losses.\n\
+         The wedge's faces are worn, column and pocket are not: where both wear, give their sum while travel \
+         is short against the face.\n"
+    ));
+    text
+}

@@ -1,0 +1,139 @@
+//! What the last whole cycle of a wedge's run does at each contact point: the integrals that wear it.
+//!
+//! Integrals are taken over the steps of the integrator, by Gauss's rule with two points on its dense output;
+//! so they do not depend on the times of the output table. The energies of the points are checked against the
+//! energy ledger, whose losses the integrator itself integrates ([`CycleWork::mismatch`]).
+
+use std::ops::ControlFlow;
+
+use mechanics::system::Observation;
+use wedge::WEDGE;
+use wedge::outputs::FACES;
+
+use super::{WearError, WearStop};
+use crate::case::Case;
+use crate::metrics::Cycle;
+use crate::run::Run;
+use crate::run::wedge_run::friction_losses;
+use crate::summary::RunSummary;
+
+/// What one cycle does at a contact point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PointWork {
+    /// ∫ N |v| dt, J.
+    pub load_times_path: f64,
+    /// ∫ |v| dt while it is closed, m.
+    pub path: f64,
+    /// ∫ N dt, N·s.
+    pub impulse: f64,
+    /// Energy lost in friction, J.
+    pub energy: f64,
+}
+
+/// What one cycle does to a wedge.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CycleWork {
+    /// The points of each face, in the order of its grid.
+    pub points: [Vec<PointWork>; FACES.len()],
+    /// Energy lost in friction at each face by the ledger, J.
+    pub losses: [f64; FACES.len()],
+    /// Mean height of the wedge above its nominal position, m.
+    pub height: f64,
+    /// Length of the cycle, s.
+    pub period: f64,
+}
+
+impl CycleWork {
+    /// Returns the mean normal force of a face, N.
+    #[must_use]
+    pub fn mean_force(&self, face: usize) -> f64 {
+        self.points[face].iter().map(|point| point.impulse).sum::<f64>() / self.period
+    }
+
+    /// Returns by how much the energies of the points miss the losses of the ledger, relative to these.
+    #[must_use]
+    pub fn mismatch(&self) -> f64 {
+        let points = self
+            .points
+            .iter()
+            .flatten()
+            .map(|point| point.energy)
+            .sum::<f64>();
+        let ledger: f64 = self.losses.iter().sum();
+        if ledger > 0.0 {
+            (points - ledger).abs() / ledger
+        } else {
+            0.0
+        }
+    }
+
+    /// Runs a case and returns what its last whole cycle does. `go_on` is asked after each step, with the time
+    /// reached.
+    ///
+    /// # Errors
+    /// The bolster has no whole cycle, or the run cannot begin, stops or fails.
+    pub fn of(case: &Case, go_on: &mut dyn FnMut(f64) -> ControlFlow<String>) -> Result<Self, WearStop> {
+        let cycle = Cycle::of(&case.parameters).ok_or(WearError::NoCycle)?;
+        let window = cycle.window(case.simulation.duration);
+        let (_, end, _) = window.ok_or(WearError::NoCycle)?;
+        let start = end - cycle.period();
+        let mut run = Run::new(case).map_err(WearError::Run)?;
+        let count = |face: usize| run.system.faces()[face].element.points.len();
+        let mut work = Self {
+            points: [0, 1].map(|face| vec![PointWork::default(); count(face)]),
+            losses: [0.0; 2],
+            height: 0.0,
+            period: end - start,
+        };
+        let mut x = vec![0.0; run.integrator.x().len()];
+        while !run.is_finished() {
+            run.advance().map_err(WearError::Run)?;
+            let (before, after) = (run.integrator.previous_time(), run.integrator.time());
+            for (time, sign) in [(start, -1.0), (end, 1.0)] {
+                if before < time && time <= after {
+                    run.integrator.interpolate(time, &mut x);
+                    let losses = friction_losses(&run.system, &x);
+                    for (sum, loss) in work.losses.iter_mut().zip(losses) {
+                        *sum += sign * loss;
+                    }
+                }
+            }
+            let (from, to) = (before.max(start), after.min(end));
+            if from < to {
+                for place in GAUSS {
+                    let time = from + place * (to - from);
+                    run.integrator.interpolate(time, &mut x);
+                    work.add(&run.system.observe(time, &x), 0.5 * (to - from));
+                }
+            }
+            if let ControlFlow::Break(reason) = go_on(after) {
+                return Err(WearStop::Interrupted(reason));
+            }
+        }
+        let summary = run.result(None).summary;
+        if let Some(reason) = summary.failed() {
+            return Err(WearError::Failed(reason.to_owned()).into());
+        }
+        Ok(work)
+    }
+
+    /// Adds what happens at an instant over a time (s).
+    fn add(&mut self, seen: &Observation, duration: f64) {
+        self.height += seen.bodies[WEDGE].coordinates[2] * duration / self.period;
+        for (points, face) in self.points.iter_mut().zip(&seen.faces) {
+            for (work, point) in points.iter_mut().zip(&face.points) {
+                let [a, b] = point.slip;
+                let speed = (a * a + b * b).sqrt();
+                work.load_times_path += point.normal * speed * duration;
+                work.impulse += point.normal * duration;
+                work.energy += point.friction.loss * duration;
+                if point.normal > 0.0 {
+                    work.path += speed * duration;
+                }
+            }
+        }
+    }
+}
+
+/// The places of Gauss's rule with two points in an interval of length 1.
+const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
