@@ -15,6 +15,7 @@ pub mod energy;
 mod finite;
 pub mod fit;
 pub mod half_truck;
+pub mod jam;
 pub mod measures;
 pub mod metrics;
 pub mod plausibility;

@@ -11,7 +11,9 @@ use wedge::outputs::{FACES, Outputs};
 use super::{EVENT_CAP, Run};
 use crate::assumptions;
 use crate::case::Case;
+use crate::closed_form;
 use crate::energy;
+use crate::jam::{self, JamMargins};
 use crate::metrics::{Cycle, Extremes, first_harmonic, mean};
 use crate::plausibility;
 use crate::summary::{
@@ -48,6 +50,8 @@ pub(super) fn summary(run: &mut Run<Case>, stopped: Option<Stopped>) -> Summary 
     }
     let ledger = ledger(run);
     let damped = run.case.simulation.method.tableau().family == Family::DiagonallyImplicit;
+    let parameters = &run.case.parameters;
+    let (massless, yaw) = (closed_form::wedge(parameters), closed_form::yaw(parameters));
     Summary {
         warnings: warnings(run, damped),
         schema: SCHEMA.to_owned(),
@@ -63,6 +67,7 @@ pub(super) fn summary(run: &mut Run<Case>, stopped: Option<Stopped>) -> Summary 
         extremes,
         events: events(run),
         friction: friction(run),
+        jam: Some(JamMargins::new(&massless, yaw, units)),
         ledger,
         solver: solver(run),
         assumptions: assumptions::of(&run.recorder.wedge),
@@ -79,6 +84,11 @@ fn warnings(run: &Run<Case>, damped: bool) -> Vec<String> {
     }
     warnings.extend(energy::warning(&run.energy_balance, what_to_do(damped)));
     warnings.extend(plausibility::warnings(run));
+    let parameters = &run.case.parameters;
+    warnings.extend(jam::expelled(
+        &closed_form::wedge(parameters),
+        closed_form::yaw(parameters),
+    ));
     if run.case.nothing_given {
         warnings.push(plausibility::NOTHING_GIVEN.to_owned());
     }
