@@ -16,6 +16,7 @@ mod finite;
 pub mod fit;
 pub mod half_truck;
 pub mod jam;
+pub mod lock_up;
 pub mod measures;
 pub mod metrics;
 pub mod plausibility;

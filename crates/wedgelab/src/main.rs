@@ -16,8 +16,8 @@ use clap::{Parser, Subcommand};
 use numerics::processor::{OldProcessor, check};
 
 use commands::{
-    case, compare, curves, explore, fit, fmu, nucars, plot, quasi_static, reproduce, run, stability, study,
-    track, warp, wheelrail,
+    case, compare, curves, explore, fit, fmu, lock_up, nucars, plot, quasi_static, reproduce, run, stability,
+    study, track, warp, wheelrail,
 };
 use failure::Failure;
 
@@ -38,6 +38,7 @@ Begin with:
   wedgelab case NAME > my.toml       a complete case file to change ...
   wedgelab run my.toml               ... and to run
   wedgelab warp                      warp of a whole truck with four wedges
+  wedgelab lock-up                   where a wedge locks up, over two of its parameters
   wedgelab stability CAR             vibrations of a whole car over speed
   wedgelab explore my.toml           a page to change it and see its loop move
   wedgelab study STUDY.toml          many variants of a case, into one table
@@ -65,6 +66,7 @@ enum Command {
     Explore(explore::Arguments),
     QuasiStatic(quasi_static::Arguments),
     Warp(warp::Arguments),
+    LockUp(lock_up::Arguments),
     Curves(curves::Arguments),
     Stability(stability::Arguments),
     Wheelrail(wheelrail::Arguments),
@@ -86,6 +88,7 @@ impl Cli {
             Command::Explore(arguments) => explore::execute(&arguments),
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
             Command::Warp(arguments) => warp::execute(&arguments),
+            Command::LockUp(arguments) => lock_up::execute(&arguments),
             Command::Curves(arguments) => curves::execute(&arguments),
             Command::Stability(arguments) => stability::execute(&arguments),
             Command::Wheelrail(arguments) => wheelrail::execute(&arguments),

@@ -6,6 +6,7 @@ pub mod curves;
 pub mod explore;
 pub mod fit;
 pub mod fmu;
+pub mod lock_up;
 pub mod nucars;
 pub mod plot;
 pub mod quasi_static;
