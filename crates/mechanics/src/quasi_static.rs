@@ -14,6 +14,13 @@
 //! exists only while the angle in the denominator, the jam margin, is positive (and the numerators are).
 //! Units: N, rad.
 //!
+//! The least of these margins (a = b = +1: the faces close on the wedge, both frictions hold it) is the
+//! *lock-up margin* `α - ψ_c - ψ_s`, with α the angle at which the two faces close. A wedge between two faces
+//! and nothing else is a body of two forces: they are opposite, on one line. The line lies in both friction
+//! cones, of half-angles ψ_c and ψ_s about normals that are α apart, exactly if α ≤ ψ_c + ψ_s: then the wedge
+//! can be held without any coil. With the pocket yawed by ψ,
+//! `sin²(α/2) = sin²((θ+φ)/2) + cos φ cos θ sin²(ψ/2)`; without yaw α = θ + φ.
+//!
 //! Limits: no mass, no moments, the faces flat on each other. Rigid kinematics choose b: toe out b = -a, toe
 //! in b = +a; with no toe the slope does not slip, and the industry's elements take the toe-out branch.
 
@@ -100,6 +107,26 @@ impl QuasiStaticWedge {
         self.angle + self.toe
             - slope.sign() * libm::atan(self.slope_friction)
             - direction.sign() * libm::atan(self.column_friction)
+    }
+
+    /// Returns the angle α at which column and slope close on the wedge (rad), with the pocket yawed against
+    /// the column by `yaw` (rad). Zero or less: they do not close upwards, and nothing holds the wedge down.
+    #[must_use]
+    pub fn closing_angle(&self, yaw: f64) -> f64 {
+        if yaw == 0.0 {
+            return self.angle + self.toe;
+        }
+        let half = libm::sin(0.5 * (self.angle + self.toe));
+        let turned = libm::sin(0.5 * yaw);
+        let square = half * half + libm::cos(self.toe) * libm::cos(self.angle) * turned * turned;
+        2.0 * libm::asin(square.sqrt().min(1.0)).copysign(half)
+    }
+
+    /// Returns the lock-up margin `α - ψ_c - ψ_s`, rad: where it is not positive, the friction cones of the two
+    /// faces hold a line in common, and a wedge on which the faces close locks.
+    #[must_use]
+    pub fn lock_up_margin(&self, yaw: f64) -> f64 {
+        self.closing_angle(yaw) - libm::atan(self.column_friction) - libm::atan(self.slope_friction)
     }
 
     /// Returns the steady sliding under a coil force (N), or `None` if the wedge jams.

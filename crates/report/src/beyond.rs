@@ -3,7 +3,7 @@
 //! Reference lines are those of the quasi-static wedge ([`study::closed_form`]), dashed or dotted, and are
 //! not drawn where it has none.
 
-use mechanics::quasi_static::Direction;
+use mechanics::quasi_static::{Direction, SlopeFriction};
 use quantity::{Kind, System as Units};
 use study::case::{Case, builtin};
 use study::closed_form;
@@ -29,7 +29,7 @@ const STYLES: [(Colour, Line); 4] = [
 const DAMPINGS: [Damping; 2] = [Damping::Constant, Damping::Variable];
 
 /// The names of the groups that have a figure.
-pub const GROUPS: [&str; 7] = [
+pub const GROUPS: [&str; 9] = [
     "warp",
     "rig",
     "sweep",
@@ -37,12 +37,19 @@ pub const GROUPS: [&str; 7] = [
     "yaw_and_sway",
     "load",
     "wear",
+    "lock_up",
+    "overturned_toe",
 ];
 
 /// Whether a figure of a group may need this column: the others need not be kept.
 #[must_use]
 pub fn needs(column: &str) -> bool {
-    const ALSO: [&str; 3] = ["time", "vertical_wedge_force", "longitudinal_wedge_force"];
+    const ALSO: [&str; 4] = [
+        "time",
+        "vertical_wedge_force",
+        "longitudinal_wedge_force",
+        "coil_force",
+    ];
     let begins = ["net_", "bolster_", "wedge_"]
         .iter()
         .any(|start| column.starts_with(start));
@@ -76,6 +83,15 @@ pub fn figure(group: &str, runs: &[Ran]) -> Option<Figure> {
         ),
         "load" => load(runs, units),
         "wear" => wear(runs, units),
+        "lock_up" => lock_up(runs, units),
+        "overturned_toe" => histories(
+            runs,
+            units,
+            [
+                ("wedge_z", "height of the wedge"),
+                ("coil_force", "force of the coil"),
+            ],
+        ),
         _ => return None,
     };
     let about = builtin::group(group)?;
@@ -301,6 +317,68 @@ fn wear(runs: &[Ran], units: Units) -> Vec<Panel> {
             ("energy lost per cycle", Kind::Energy),
             units,
             energies,
+        ),
+    ]
+}
+
+/// Force of the column and vertical force on the bolster over time, with the quasi-static wedge that the faces
+/// close on, and with what the friction of the column can hold.
+fn lock_up(runs: &[Ran], units: Units) -> Vec<Panel> {
+    let (mut normals, mut verticals) = (Vec::new(), Vec::new());
+    for ((case, result), style) in runs.iter().zip(STYLES) {
+        let (Some(times), Some(normal), Some(vertical), Some(coil)) = (
+            result.column("time"),
+            result.column("longitudinal_wedge_force"),
+            result.column("net_force_on_bolster_z"),
+            result.column("coil_force"),
+        ) else {
+            continue;
+        };
+        let over_time = |values: &mut dyn Iterator<Item = f64>| -> Vec<(f64, f64)> {
+            let converted = values.map(|value| converted(value, Kind::Force, units));
+            times.iter().copied().zip(converted).collect()
+        };
+        let friction = case.parameters.column_friction.coefficient;
+        let name = format!("friction {friction}");
+        normals.push(curve(&name, style, over_time(&mut normal.iter().copied())));
+        let weight = case.parameters.wedge.mass * case.parameters.gravity;
+        let wedge = closed_form::wedge(&case.parameters);
+        let sliding = |coil: &f64| {
+            let slide = wedge.slide(Direction::Down, SlopeFriction::UpSlope, coil - weight);
+            slide.map_or(f64::NAN, |slide| slide.column_normal)
+        };
+        if wedge.lock_up_margin(0.0) > 0.0 {
+            let reference = (style.0, Line::Dotted);
+            let points = over_time(&mut coil.iter().map(sliding));
+            normals.push(curve(
+                &format!("{name}, quasi-static, pressed"),
+                reference,
+                points,
+            ));
+        }
+        verticals.push(curve(&name, style, over_time(&mut vertical.iter().copied())));
+        let holds = over_time(&mut normal.iter().map(|normal| friction * normal - weight));
+        verticals.push(curve(
+            "μ N_c less the weight",
+            (Colour::Black, Line::Dotted),
+            holds,
+        ));
+    }
+    let time = ("time", Kind::Time);
+    vec![
+        panel(
+            "pressed",
+            time,
+            ("column normal force", Kind::Force),
+            units,
+            normals,
+        ),
+        panel(
+            "forced down and up",
+            time,
+            ("vertical force on the bolster", Kind::Force),
+            units,
+            verticals,
         ),
     ]
 }

@@ -35,6 +35,7 @@ pub mod figures;
 pub mod files;
 pub mod fit_files;
 pub mod half_truck_files;
+pub mod lock_up_files;
 pub mod mat;
 pub mod mat5;
 mod overlay;

@@ -19,9 +19,23 @@ pub fn wedge(parameters: &Parameters) -> QuasiStaticWedge {
     QuasiStaticWedge {
         angle: parameters.wedge.angle,
         toe: parameters.toe,
-        column_friction: parameters.column_friction.coefficient,
-        slope_friction: parameters.slope_friction.coefficient,
+        column_friction: parameters
+            .column_face
+            .friction(&parameters.column_friction)
+            .coefficient,
+        slope_friction: parameters
+            .slope_face
+            .friction(&parameters.slope_friction)
+            .coefficient,
     }
+}
+
+/// The bolster's yaw against the side frame at time zero, rad.
+#[must_use]
+pub fn yaw(parameters: &Parameters) -> f64 {
+    let [bolster, side_frame] = [&parameters.bolster, &parameters.side_frame]
+        .map(|neighbor| neighbor.coordinates[5].evaluate(0.0, 0.0)[0]);
+    bolster - side_frame
 }
 
 /// The coil's force less the wedge's weight, N, with the bolster at this height (m from nominal): the wedge

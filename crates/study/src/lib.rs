@@ -15,6 +15,8 @@ pub mod energy;
 mod finite;
 pub mod fit;
 pub mod half_truck;
+pub mod jam;
+pub mod lock_up;
 pub mod losses;
 pub mod measures;
 pub mod metrics;

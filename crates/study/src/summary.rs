@@ -12,6 +12,7 @@ use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
 use crate::finite::{find, is_finite};
+use crate::jam::JamMargins;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::result::ContactEvent;
@@ -124,6 +125,9 @@ pub struct Summary {
     pub events: Events,
     /// The active friction laws, by face, and how far they crept.
     pub friction: BTreeMap<String, FrictionSummary>,
+    /// How far the wedge is from locking up.
+    #[serde(default)]
+    pub jam: Option<JamMargins>,
     /// The energy ledger at the end.
     pub ledger: LedgerSummary,
     /// Where the energy of a cycle comes from and goes.

@@ -128,7 +128,9 @@ fn the_groups_of_built_in_cases() {
             "twist_and_roll",
             "yaw_and_sway",
             "load",
-            "wear"
+            "wear",
+            "lock_up",
+            "overturned_toe"
         ]
     );
     assert_eq!(builtin::group("sweep").unwrap().cases.len(), 2 * 3 * 3);

@@ -24,7 +24,13 @@ fn all_cases_beyond_the_thesis_close_their_ledgers() {
     for (case, result) in cases.iter().zip(&runs::run_all(&cases, 2)) {
         let (summary, name) = (&result.summary, &case.name);
         assert!(summary.complete, "{name}: {:?}", summary.stopped);
-        assert!(summary.warnings.is_empty(), "{name}: {:?}", summary.warnings);
+        // A wedge that is pushed out is warned of.
+        let warned = name == "overturned_toe";
+        assert!(
+            summary.warnings.is_empty() != warned,
+            "{name}: {:?}",
+            summary.warnings
+        );
         let residual = summary.ledger.largest_relative_residual;
         assert!(residual < 5e-6, "{name}: {residual:e}");
         // None is a matter of more than a moment.

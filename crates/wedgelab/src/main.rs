@@ -18,7 +18,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use numerics::processor::{OldProcessor, check};
 
 use commands::{
-    case, compare, completions, curves, energy, explore, fit, fmu, man, nucars, plot, quasi_static,
+    case, compare, completions, curves, energy, explore, fit, fmu, lock_up, man, nucars, plot, quasi_static,
     reproduce, run, stability, study, track, warp, wear, wheelrail,
 };
 use failure::Failure;
@@ -41,6 +41,7 @@ Begin with:
   wedgelab run my.toml               ... and to run
   wedgelab energy NAME               where the energy of a cycle goes
   wedgelab warp                      warp of a whole truck with four wedges
+  wedgelab lock-up                   where a wedge locks up, over two of its parameters
   wedgelab stability CAR             vibrations of a whole car over speed
   wedgelab explore my.toml           a page to change it and see its loop move
   wedgelab study STUDY.toml          many variants of a case, into one table
@@ -68,6 +69,7 @@ enum Command {
     Explore(explore::Arguments),
     QuasiStatic(quasi_static::Arguments),
     Warp(warp::Arguments),
+    LockUp(lock_up::Arguments),
     Curves(curves::Arguments),
     Energy(energy::Arguments),
     Wear(wear::Arguments),
@@ -93,6 +95,7 @@ impl Cli {
             Command::Explore(arguments) => explore::execute(&arguments),
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
             Command::Warp(arguments) => warp::execute(&arguments),
+            Command::LockUp(arguments) => lock_up::execute(&arguments),
             Command::Curves(arguments) => curves::execute(&arguments),
             Command::Energy(arguments) => energy::execute(&arguments),
             Command::Wear(arguments) => wear::execute(&arguments),

@@ -184,3 +184,61 @@ fn partly_mobilized_friction_ends_in_steady_sliding() {
     };
     assert!(jams.normal_forces(1.0, 1.0).is_none());
 }
+
+/// The lock-up margin has the sign of a search over all directions in space: is there a line along which the
+/// reaction of the column and that of the slope, each within its friction cone, are opposite?
+#[test]
+fn lock_up_margin_is_where_the_friction_cones_hold_a_line_in_common() {
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let mut random = Random(63);
+    let mut found = [0, 0];
+    while found[0] < 20 || found[1] < 20 {
+        let one = QuasiStaticWedge {
+            angle: random.between(0.2, 1.2),
+            toe: random.between(-0.15, 0.3),
+            column_friction: random.between(0.0, 0.8),
+            slope_friction: random.between(0.0, 0.8),
+        };
+        let yaw = random.between(-0.6, 0.6);
+        let ((st, ct), (sp, cp), (sy, cy)) = (one.angle.sin_cos(), one.toe.sin_cos(), yaw.sin_cos());
+        let column = [cp, 0.0, -sp];
+        let slope = [-ct * cy, -ct * sy, -st];
+        close(one.closing_angle(yaw).cos(), -dot(column, slope), 1e-12);
+        let margin = one.lock_up_margin(yaw);
+        if margin.abs() < 0.03 {
+            continue;
+        }
+        let [cone_c, cone_s] = [one.column_friction, one.slope_friction].map(|mu| mu.atan().cos());
+        let steps = 240;
+        let mut held = false;
+        for i in 0..steps {
+            for j in 0..steps {
+                let [up, across] = [i, j].map(|k| PI * (f64::from(k) / f64::from(steps) - 0.5));
+                let line = [up.cos() * across.cos(), up.cos() * across.sin(), up.sin()];
+                held |= dot(line, column) >= cone_c && -dot(line, slope) >= cone_s;
+            }
+        }
+        assert_eq!(held, margin < 0.0, "{one:?} yaw {yaw}: {margin}");
+        found[usize::from(held)] += 1;
+    }
+}
+
+/// Without yaw it is the margin of steady sliding with both frictions against the wedge.
+#[test]
+fn lock_up_margin_tells_where_steady_sliding_ends() {
+    use Direction::Down;
+    use SlopeFriction::UpSlope;
+    for angle in [20.0, 32.0, 37.5, 50.0] {
+        for toe in [-5.0, 0.0, 0.2, 5.0] {
+            for friction in [0.05, 0.2, 0.3, 0.4, 0.6] {
+                let one = wedge(angle, toe, friction, 0.8 * friction);
+                let margin = one.lock_up_margin(0.0);
+                close(margin, one.jam_margin(Down, UpSlope), 1e-15);
+                assert_eq!(one.slide(Down, UpSlope, 1.0).is_none(), margin <= 0.0, "{one:?}");
+            }
+        }
+    }
+    let turned_over = wedge(18.0, -20.0, 0.4, 0.4);
+    close(turned_over.closing_angle(0.0).to_degrees(), -2.0, 1e-12);
+    assert!(turned_over.closing_angle(0.01) < 0.0 && turned_over.lock_up_margin(0.0) < 0.0);
+}

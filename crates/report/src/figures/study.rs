@@ -174,7 +174,7 @@ fn heights(pair: &Pair, place: usize, factor: f64) -> Vec<f64> {
 }
 
 /// Contour lines as curves with their heights as marks, in the order of the levels.
-pub(super) fn contour_curves(grid: &Grid<'_>, levels: &[f64]) -> Vec<(Curve, Mark)> {
+pub(crate) fn contour_curves(grid: &Grid<'_>, levels: &[f64]) -> Vec<(Curve, Mark)> {
     let ends = |values: &[f64]| (values[0], values[values.len() - 1]);
     let (x, y) = (ends(grid.x), ends(grid.y));
     // How far a point lies from the frame, of the frame's size.

@@ -11,7 +11,9 @@ use wedge::outputs::{FACES, Outputs};
 use super::{EVENT_CAP, Run, pressed};
 use crate::assumptions;
 use crate::case::Case;
+use crate::closed_form;
 use crate::energy;
+use crate::jam::{self, JamMargins};
 use crate::losses::{EnergySummary, Equivalent};
 use crate::metrics::{Cycle, Extremes, FirstHarmonic, first_harmonic, mean};
 use crate::plausibility;
@@ -50,6 +52,8 @@ pub(super) fn summary(run: &mut Run<Case>, stopped: Option<Stopped>) -> Summary 
     let ledger = ledger(run);
     let on_bolster = on_bolster(run);
     let damped = run.case.simulation.method.tableau().family == Family::DiagonallyImplicit;
+    let parameters = &run.case.parameters;
+    let (massless, yaw) = (closed_form::wedge(parameters), closed_form::yaw(parameters));
     Summary {
         warnings: warnings(run, damped),
         schema: SCHEMA.to_owned(),
@@ -65,6 +69,7 @@ pub(super) fn summary(run: &mut Run<Case>, stopped: Option<Stopped>) -> Summary 
         extremes,
         events: events(run),
         friction: friction(run),
+        jam: Some(JamMargins::new(&massless, yaw, units)),
         ledger,
         energy: energies(run, on_bolster),
         solver: solver(run),
@@ -87,6 +92,10 @@ fn warnings(run: &Run<Case>, damped: bool) -> Vec<String> {
     let (columns, values) = (run.recorder.outputs.columns(), &run.recorder.values);
     let few = faces.into_iter().enumerate();
     warnings.extend(few.filter_map(|(face, own)| pressed::warning(face, own, columns, values)));
+    warnings.extend(jam::expelled(
+        &closed_form::wedge(parameters),
+        closed_form::yaw(parameters),
+    ));
     if run.case.nothing_given {
         warnings.push(plausibility::NOTHING_GIVEN.to_owned());
     }

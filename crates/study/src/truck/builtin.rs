@@ -269,6 +269,66 @@ fn limits(damping: &'static str) -> Vec<Rig> {
     ]
 }
 
+/// Loads and motions beyond what a truck is made for, of one damping.
+fn extremes(damping: &'static str) -> Vec<Rig> {
+    let rig = |name: &str, title: &str, body: String, vertical: Vec<String>, duration: f64| Rig {
+        name: format!("truck_{name}_{damping}"),
+        title: format!("{damping} damping, {title}"),
+        damping,
+        body,
+        lift: None,
+        vertical,
+        duration,
+    };
+    let ramp = |amplitude: &str, start: &str, duration: &str| {
+        format!(
+            "{{ shape = \"ramp\", amplitude = \"{amplitude}\", start = \"{start} s\", duration = \"{duration} s\", \
+             profile = \"half_cosine\" }}"
+        )
+    };
+    let bottomed = vec![ramp("-1.8 in", "0.2", "1"), ramp("1.8 in", "1.7", "1")];
+    let locked = format!(
+        "{HALF_CAR}side_frame.free_coordinates = []\nside_frame.yaw = {}\nadapter.kind = \"nothing\"\n\
+         bolster.load.vertical = {}\n",
+        ramp("0.015 rad", "0.5", "1"),
+        ramp("-50000 lbf", "2", "2"),
+    );
+    vec![
+        rig(
+            "bottomed",
+            "bolster pressed down by 1.8 in: nests bottom and come back",
+            String::new(),
+            bottomed,
+            3.0,
+        ),
+        rig(
+            "lock_up",
+            "nests locked by 15 mrad of warp, half a car forced down by a load that grows to 50 kip",
+            locked,
+            Vec::new(),
+            5.0,
+        ),
+        rig(
+            "impact",
+            "half a car lifted by 4 in, off its coils, and let go; side frames held",
+            format!(
+                "{HALF_CAR}side_frame.free_coordinates = []\nadapter.kind = \"nothing\"\n\
+                 simulation.relative_tolerance = 1e-8\n"
+            ),
+            Vec::new(),
+            3.0,
+        )
+        .lifted(4.0),
+        rig(
+            "ten_times",
+            "ten times the weight of half a car released in the nominal layout",
+            format!("{HALF_CAR}bolster.weight = \"1230300 lbf\"\n"),
+            Vec::new(),
+            3.0,
+        ),
+    ]
+}
+
 static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
     let all = |rigs: fn(&'static str) -> Vec<Rig>, empty: bool| -> Vec<BuiltIn> {
         let dampings = DAMPINGS.iter();
@@ -309,6 +369,15 @@ static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
                       friction beside that of truck_vertical_variable. Warp: the part of the pocket's sides \
                       beside that of the slopes, and how far the halves of a split wedge turn.",
             cases: kinds(),
+        },
+        Group {
+            name: "truck_extreme",
+            title: "Loads and motions beyond what a truck is made for",
+            look_at: "Bottomed nests carry 1,000 kip more for each inch, warp locks the nests until the load \
+                      exceeds their friction, a lifted car strikes its coils at √(2gh), ten times the load sinks \
+                      to where solid coils carry it. Each run ends with a closed ledger; what is implausible is \
+                      said in its warnings.",
+            cases: all(extremes, false),
         },
     ]
 });

@@ -7,6 +7,7 @@ use mechanics::energy_balance::Entries;
 use mechanics::motion::Motion;
 use mechanics::output::Column;
 use mechanics::plausibility::Finding;
+use mechanics::quasi_static::QuasiStaticWedge;
 use mechanics::system::{ContactState, EnergyTermKind, System};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
@@ -19,6 +20,7 @@ use super::summary::{Cycles, SCHEMA, TruckSummary, warp_stiffnesses};
 use crate::contacts::{ContactTable, TakesCorners};
 use crate::energy;
 use crate::finite::{find, is_finite};
+use crate::jam::{self, JamMargins};
 use crate::losses::stroke::Stroke;
 use crate::losses::{LossCounts, LossRecorder};
 use crate::metrics::Extremes;
@@ -287,6 +289,7 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
     warnings.extend(surplus(&run.case, units));
     warnings.extend(without_coil(&run.case));
     warnings.extend(closed(run.recorder.table.truck(), units));
+    warnings.extend(expelled(&run.case.parameters));
     let column = |name: &str| {
         let place = columns.iter().position(|column| column.name == name);
         place.map_or(&[][..], |place| values[place].as_slice())
@@ -313,6 +316,9 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
         rows: time.len(),
         cycles: cycles(&run),
         warp_stiffness: warp_stiffnesses(column("warp_angle"), column("warp_moment"), units),
+        jam: quasi_static(&run.case.parameters)
+            .map(|(name, own)| (name.to_owned(), JamMargins::new(&own, 0.0, units)))
+            .collect(),
         extremes,
         energy: super::energies::of(&run, &column),
         ledger: LedgerSummary::of_run(&mut run, units),
@@ -335,6 +341,28 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
         values,
         summary,
     }
+}
+
+/// Returns the quasi-static wedges, with their names.
+fn quasi_static(parameters: &Parameters) -> impl Iterator<Item = (&'static str, QuasiStaticWedge)> {
+    WEDGE_NAMES
+        .into_iter()
+        .zip(&parameters.wedges)
+        .map(|(name, wedge)| {
+            let own = QuasiStaticWedge {
+                angle: wedge.angle,
+                toe: wedge.toe,
+                column_friction: wedge.column_face.friction(&wedge.column_friction).coefficient,
+                slope_friction: wedge.slope_face.friction(&wedge.slope_friction).coefficient,
+            };
+            (name, own)
+        })
+}
+
+/// The warnings about wedges between faces that do not close upwards.
+fn expelled(parameters: &Parameters) -> impl Iterator<Item = String> {
+    quasi_static(parameters)
+        .filter_map(|(name, own)| Some(format!("wedge {name}: {}", jam::expelled(&own, 0.0)?)))
 }
 
 /// A truck that rises or sinks by less is not spoken of, m: the truck's own data close to a ten-thousandth of

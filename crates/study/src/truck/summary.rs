@@ -7,6 +7,7 @@ use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 use truck::HALVES;
 
+use crate::jam::JamMargins;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
@@ -41,6 +42,9 @@ pub struct TruckSummary {
     pub cycles: Cycles,
     /// Warp stiffnesses: warp moment over warp angle where the angle is reached first, by the angle in mrad.
     pub warp_stiffness: BTreeMap<String, SummaryValue>,
+    /// How far each wedge is from locking up, by its name.
+    #[serde(default)]
+    pub jam: BTreeMap<String, JamMargins>,
     /// Least and greatest values of all columns, by their names with units.
     pub extremes: BTreeMap<String, Extremes>,
     /// The energy ledger at the end; losses by element.

@@ -1,5 +1,5 @@
 //! Runs of built-in trucks.
-#![allow(clippy::unwrap_used)]
+#![allow(dead_code, clippy::unwrap_used)]
 
 use study::run::Run;
 use study::truck::run::TruckResult;

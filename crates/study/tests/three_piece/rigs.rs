@@ -7,11 +7,17 @@ use study::truck::{WEDGE_NAMES, builtin};
 
 use super::common::{INCH, KIP_INCH, POUND_FORCE, at, case, column, run};
 
-/// The energy ledger of every built-in truck over its first seconds closes below 1e-5, and no run has
-/// anything to warn of but contacts that are pressed in where a nest locks.
+/// The energy ledger of every built-in truck over its first seconds closes below 1e-5, and no run but those at
+/// extreme loads has anything to warn of but contacts that are pressed in where a nest locks.
 #[test]
 fn energy_of_every_rig_is_accounted_for() {
-    assert_eq!(builtin::names().count(), 46);
+    assert_eq!(builtin::names().count(), 54);
+    let extreme = |name: &str| {
+        let mut groups = builtin::groups()
+            .iter()
+            .filter(|group| group.name == "truck_extreme");
+        groups.any(|group| group.cases.iter().any(|case| case.name == name))
+    };
     for name in builtin::names() {
         let duration = if name.contains("warp") || name.contains("lands") {
             4.6
@@ -23,7 +29,7 @@ fn energy_of_every_rig_is_accounted_for() {
         assert!(residual < 1e-5, "{name}: residual {residual}");
         for warning in &result.summary.warnings {
             assert!(
-                warning.contains("penetrates its surface too deep"),
+                extreme(name) || warning.contains("penetrates its surface too deep"),
                 "{name}: {warning}"
             );
         }

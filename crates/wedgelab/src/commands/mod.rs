@@ -8,6 +8,7 @@ pub mod energy;
 pub mod explore;
 pub mod fit;
 pub mod fmu;
+pub mod lock_up;
 pub mod man;
 pub mod nucars;
 pub mod plot;

@@ -34,6 +34,8 @@ pub(super) fn groups() -> Vec<Group> {
         yaw_and_sway(),
         load(),
         wear(),
+        lock_up(),
+        overturned_toe(),
     ]
 }
 
@@ -260,6 +262,82 @@ fn wear() -> Group {
                   the depth where both faces wear alike: its height tells the wear. The coil lengthens by \
                   as much, and the energy lost in a cycle falls about as its force does.",
         cases,
+    }
+}
+
+/// The bolster presses the wedge against the column, pushes it down while it is pressed, and rises.
+fn lock_up() -> Group {
+    let ramp = |amplitude: &str, start: &str| {
+        format!(
+            "{{ shape = \"ramp\", amplitude = \"{amplitude} in\", start = \"{start} s\", duration = \"1 s\", \
+             profile = \"half_cosine\" }}"
+        )
+    };
+    let (pressed, pushed, raised) = (ramp("-0.03", "0.2"), ramp("-0.2", "1.5"), ramp("0.3", "3"));
+    let case = |friction: &str| {
+        BuiltIn::new(
+            format!("lock_up_friction_{friction}"),
+            format!(
+                "constant damping, bolster pressed in by 0.03 in, then forced down, then up; friction {friction}"
+            ),
+            &format!(
+                r#"
+[wedge]
+damping = "constant"
+{COMMON}column = {friction}
+slope = {friction}
+[bolster]
+longitudinal = {pressed}
+vertical = [{pushed}, {raised}]
+[simulation]
+duration = "4.5 s"
+start = "equilibrium"
+"#
+            ),
+        )
+    };
+    Group {
+        name: "lock_up",
+        title: "Lock-up and release: the bolster presses, is forced down, and rises",
+        look_at: "With friction 0.2 the pressed wedge slides down until its force is that of the quasi-static \
+                  wedge; with 0.4 it locks, and its force grows against the stiffness of the contacts. The locked \
+                  bolster moves down under a vertical force of μ N_c only, and 0.05 in upwards free it.",
+        cases: ["0.2", "0.4"].map(case).into(),
+    }
+}
+
+/// A column that leans in by more than the wedge's angle: the faces open upwards.
+fn overturned_toe() -> Group {
+    let case = BuiltIn::new(
+        "overturned_toe".to_owned(),
+        "constant damping, wedge of 18 deg and a column with 20 deg of toe in: the faces open upwards"
+            .to_owned(),
+        &format!(
+            r#"
+[wedge]
+damping = "constant"
+angle = "18 deg"
+[control_coil]
+damping = "0 lbf s/in"
+pulls = false
+{COMMON}[side_frame]
+toe = "20 deg in"
+[bolster]
+vertical = "0 in"
+[simulation]
+duration = "0.1 s"
+output_interval = "0.001 s"
+relative_tolerance = 1e-7
+start = "touching"
+"#
+        ),
+    );
+    Group {
+        name: "overturned_toe",
+        title: "Overturned toe: the column leans in by more than the wedge's angle",
+        look_at: "Nothing holds the wedge: the coil throws it out, and what the coil had stored is found in its \
+                  height and speed. The run says so in its warnings, and its ledger closes.",
+        cases: vec![case],
     }
 }
 

@@ -1,0 +1,162 @@
+//! `wedgelab lock-up`: where a wedge locks up, over two of its parameters.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use report::lock_up_files::{self, NAMES};
+use study::lock_up::{LockUpMap, MapError, Span, map};
+
+use super::run::read;
+use super::warp::draw;
+use crate::failure::{Failure, Message};
+use crate::folders;
+use crate::interrupt;
+use crate::progress::Progress;
+
+/// Where a wedge locks up, over two of its parameters: jam margins and what runs find
+///
+/// At each point of a map over two of angle, friction, toe, crown and yaw, takes the lock-up margin of the
+/// massless wedge (the angle at which the faces close on the wedge, less the friction angles of both), and runs
+/// a rig: the bolster presses the wedge against the column. Where the margin is not positive the wedge locks
+/// and its normal forces grow against the stiffness of the contacts; else it slides out of the way. Writes
+/// lock_up.csv, lock_up.svg and lock_up.png.
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Examples:
+  wedgelab lock-up
+  wedgelab lock-up my_wedge.toml --over \"toe=5 deg in..5 deg out\" friction=0.1..0.6
+  wedgelab lock-up --over \"yaw=0 mrad..40 mrad\" \"angle=25 deg..50 deg\" --set friction.column=0.3
+  wedgelab lock-up --over \"crown=20 in..500 in\" friction=0.1..0.6 --points 25
+
+Axes: angle (of the wedge), friction (of both faces), toe (with its direction), crown (radius, up the
+wedge's vertical face), yaw (of the pocket). Motions of the case are left out.")]
+pub struct Arguments {
+    /// Case file of a single wedge, or the name of a built-in case
+    #[arg(default_value = "lock_up_friction_0.4")]
+    case: PathBuf,
+    /// The two axes, each with its ends
+    #[arg(long, value_name = "AXIS=FROM..TO", num_args = 1..,
+          default_values = ["angle=20 deg..50 deg", "friction=0.1..0.6"], value_parser = Span::parse)]
+    over: Vec<Span>,
+    /// Number of points along each axis, 2 to 200
+    #[arg(long, value_name = "N", default_value = "15", value_parser = points)]
+    points: usize,
+    /// Set one value over those of the case
+    #[arg(long, value_name = "PATH.KEY=VALUE")]
+    set: Vec<String>,
+    /// How many runs at a time [default: as many as there are processors]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Folder to write into [default: NAME_lock_up]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Overwrite existing results
+    #[arg(long)]
+    force: bool,
+    /// No progress
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+fn points(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(points) if (2..=200).contains(&points) => Ok(points),
+        Ok(0 | 1) => Err("one point along an axis is no map; give 2 to 200".to_owned()),
+        _ => Err("give a whole number from 2 to 200".to_owned()),
+    }
+}
+
+/// What is wrong with a map.
+fn refused(error: MapError) -> Failure {
+    let message = error.to_string();
+    match error {
+        MapError::Case(error) => error.into(),
+        MapError::SameAxis(_) => Message::new(
+            message,
+            "give two different ones of angle, friction, toe, crown, yaw",
+        )
+        .into(),
+        MapError::OnePoint(_) => Message::new(message, "give at least 2 points").into(),
+        MapError::Interrupted(_) => {
+            Failure::Interrupted(Message::new(message, "nothing was written; give fewer --points").into())
+        }
+    }
+}
+
+/// Does it.
+pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    interrupt::listen();
+    let [first, second] = *arguments.over.as_slice() else {
+        let message = format!("a map has two axes, and --over has {}", arguments.over.len());
+        let advice = "write for example --over \"angle=20 deg..50 deg\" friction=0.1..0.6";
+        return Err(Message::new(message, advice).into());
+    };
+    let case = read(&arguments.case, &arguments.set)?;
+    let path = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(format!("{}_lock_up", case.name)));
+    let folder = folders::check(path, &NAMES, arguments.force)?;
+    let jobs = arguments.jobs.map_or_else(
+        || std::thread::available_parallelism().map_or(1, usize::from),
+        usize::from,
+    );
+    let progress = Progress::new(1, arguments.quiet);
+    interrupt::stops(
+        "stopping: nothing is written (once more: ends at once)",
+        "nothing was written",
+    );
+    let found = map(&case, [first, second], arguments.points, jobs, |_| {
+        interrupt::go_on()
+    });
+    progress.finish();
+    let found = found.map_err(refused)?;
+    let units = case.simulation.output_units;
+    let figure = lock_up_files::figure(&case, &found, units);
+    let png = draw(&figure)?;
+    folder.write(|files| {
+        files.add(lock_up_files::TABLE, |out| {
+            lock_up_files::write_table(&found, units, out)
+        })?;
+        files.add(lock_up_files::FIGURE, |out| {
+            out.write_all(figure.to_svg().as_bytes())
+        })?;
+        files.add(lock_up_files::PICTURE, |out| out.write_all(&png))
+    })?;
+    let mut out = io::stdout().lock();
+    tell(&found, &mut out)?;
+    writeln!(
+        out,
+        "\nWritten into {}: {}.",
+        folder.path().display(),
+        NAMES.join(", ")
+    )?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Says what was found.
+fn tell(found: &LockUpMap, out: &mut dyn Write) -> io::Result<()> {
+    let [locks, slides, wrong] = found.counts();
+    let margins = found.cells.iter().map(|cell| cell.margin.to_degrees());
+    let (least, most) = margins.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), margin| {
+        (least.min(margin), most.max(margin))
+    });
+    let others = found.cells.len() - locks - slides;
+    writeln!(
+        out,
+        "{} points: {locks} rigs lock up, {slides} slide, {others} tell nothing. The lock-up margin goes from \
+         {least:.2} to {most:.2} deg.",
+        found.cells.len()
+    )?;
+    if wrong == 0 {
+        writeln!(out, "Every rig agrees with the sign of its margin.")
+    } else {
+        writeln!(
+            out,
+            "{wrong} rigs contradict the sign of their margin; the largest such margin is {:.2} deg.",
+            found.disagreement().to_degrees()
+        )
+    }
+}
