@@ -10,6 +10,7 @@ use rolling::track::RailSupport;
 use rolling::wheelset::WheelsetBody;
 use truck::RigidBody;
 use wheelrail::contact::{ContactLaw, LinearWheelset};
+use wheelrail::profile::Profile;
 use wheelrail::track::Track;
 use wheelrail::wheelset::RigidWheelset;
 
@@ -50,6 +51,8 @@ pub enum Wheels {
 pub struct ProfiledWheels {
     /// Profiles of both wheels and both rails, gauge and distance of the tape circles.
     pub geometry: Arc<RigidWheelset>,
+    /// The profile of a wheel and that of a rail.
+    pub profiles: Arc<[Profile; 2]>,
     /// Distance of the tape circles, m.
     pub tape_distance: f64,
     /// Whether patches come from tables: faster, for motion on treads only.
@@ -133,6 +136,9 @@ pub struct Parameters {
     pub track: Track,
     /// Springs under each rail; none: rails do not give way.
     pub support: Option<RailSupport>,
+    /// Whether what each rail lies on can be moved (`mechanics::system::System::set_motions`): a bridge, a
+    /// rig. Rails under linear wheels cannot.
+    pub movable_rails: bool,
     /// What keeps it moving.
     pub drive: Drive,
     /// The start.
@@ -280,7 +286,7 @@ impl Parameters {
                 }
             }
         }
-        if self.trucks.iter().any(has_connections) {
+        if self.has_connections() {
             let line = &self.track.center_line;
             let count = line.length().ceil() as usize;
             let bent = (0..=count)
@@ -305,6 +311,30 @@ impl Parameters {
             ));
         }
         Ok(())
+    }
+
+    /// Returns whether a truck has wedges without mass or empirical warp springs, which act on displacements.
+    #[must_use]
+    pub fn has_connections(&self) -> bool {
+        self.trucks.iter().any(has_connections)
+    }
+
+    /// Returns how far the rails' origins are from the middle of the track, left and right, m.
+    #[must_use]
+    pub fn rail_offsets(&self) -> [f64; 2] {
+        match &self.wheels {
+            Wheels::OnRails(wheels) => wheels.geometry.rail_origins(),
+            Wheels::Linear { wheelset, .. } => [wheelset.geometry.half_distance; 2],
+        }
+    }
+
+    /// Returns the nominal radius of the wheels, m.
+    #[must_use]
+    pub fn wheel_radius(&self) -> f64 {
+        match &self.wheels {
+            Wheels::OnRails(wheels) => wheels.geometry.pairs()[0].nominal_radius(),
+            Wheels::Linear { wheelset, .. } => wheelset.geometry.radius,
+        }
     }
 
     /// Returns how far the outermost axles are from the middle of the car, m.

@@ -17,6 +17,7 @@ pub mod fit;
 pub mod half_truck;
 pub mod measures;
 pub mod metrics;
+pub mod patches;
 pub mod plausibility;
 pub mod progress;
 mod reader;

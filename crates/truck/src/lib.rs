@@ -23,6 +23,7 @@ mod defaults;
 mod elements;
 mod loads;
 mod massless;
+mod motions;
 mod mounted;
 pub mod nest;
 mod parameters;
@@ -34,6 +35,7 @@ pub use bodies::bodies;
 pub use elements::{Mount, add_elements, mounted};
 pub use loads::{CenterPlateLoads, Loads, WarpMoment, WedgeLoads};
 pub use massless::empirical_warp;
+pub use motions::{FaceForce, Motions};
 pub use mounted::{MountedTruck, TruckFrame};
 pub use parameters::{
     Adapter, AdapterPad, Applied, Bolster, CarBody, CenterPlate, Clearance, ControlCoil, FrictionAdapter,
