@@ -34,9 +34,9 @@ def table(tmp_path_factory):
     return {name: values[:, number] for number, name in enumerate(rows[0])}
 
 
-@pytest.mark.parametrize("version", ["2", "3"])
-def test_input_fmpy_finds_no_problem(files, version):
-    assert validate_fmu(files[version]) == []
+def test_input_fmpy_finds_no_problem(files):
+    # FMPy takes ten seconds of CPU time for 1,800 variables; that of version 2 is read by the other test.
+    assert validate_fmu(files["3"]) == []
 
 
 def test_cross_code_the_car_gives_the_columns_of_its_run(files, table):
