@@ -77,7 +77,7 @@ export interface Body {
   steady: (string | null)[];
 }
 
-export type Role = "wedge" | "column" | "pocket" | "seat" | "wheelset" | "wheel" | "body";
+export type Role = "wedge" | "column" | "pocket" | "seat" | "wheelset" | "wheel" | "body" | "glass" | "lading";
 
 export interface Solid {
   id: string;

@@ -392,7 +392,10 @@ export class RunView {
     const metres = (scene.arrow * scene.arrowFactor * shown) / (scene.scaleForce * units.factor("force"));
     this.bar.style.width = `${Math.min(200, metres * scene.pixels).toFixed(0)}px`;
     this.bar.hidden = scene.arrowFactor === 0;
-    this.barText.textContent = scene.arrowFactor === 0 ? "" : ` ${digits(shown)} ${units.label("force")}`;
+    const label = units.label("force");
+    const wheels = ((scene.patchForce ?? 0) * shown) / scene.scaleForce;
+    const text = scene.patchForce === undefined ? ` ${digits(shown)} ${label}` : ` ${digits(shown)} ${label} at wedges, ${digits(wheels)} ${label} at wheels`;
+    this.barText.textContent = scene.arrowFactor === 0 ? "" : text;
     if (scene.scalePressure !== undefined) {
       this.pressureText.textContent = ` ${units.text(scene.scalePressure, "pressure")} and more`;
     }

@@ -13,6 +13,7 @@ use mechanics::body::Body;
 use mechanics::connection::{Options, SlopeDirection};
 use mechanics::frame::Frame;
 use mechanics::link::Marker;
+use mechanics::motion::Motion;
 use mechanics::orientation::fixed;
 use mechanics::system::{Model, System};
 use mechanics::vector::{Matrix, Vector, rotation_z};
@@ -61,6 +62,17 @@ pub struct Numbers {
     pub carriers: [usize; 4],
     /// The sprung rails under each wheelset, left and right.
     pub rails: Option<[[usize; 2]; 4]>,
+    /// What the rails under each wheelset lie on, if that can be moved, left and right: displacements along
+    /// the track's own axes.
+    pub beds: Option<[[usize; 2]; 4]>,
+}
+
+impl Numbers {
+    /// Returns the body that a wheel (of a wheelset from the front; left 0, right 1) rolls on.
+    pub(crate) fn under(&self, wheelset: usize, side: usize) -> usize {
+        let under = self.rails.or(self.beds);
+        under.map_or(self.ground, |bodies| bodies[wheelset][side])
+    }
 }
 
 /// A car on a track, ready to be integrated.
@@ -114,10 +126,7 @@ impl Car {
     pub fn new(parameters: &Parameters) -> Result<Self, BuildError> {
         parameters.check()?;
         let carried = Carried::new(parameters);
-        let offsets = match &parameters.wheels {
-            Wheels::OnRails(wheels) => wheels.geometry.rail_origins(),
-            Wheels::Linear { wheelset, .. } => [wheelset.geometry.half_distance; 2],
-        };
+        let offsets = parameters.rail_offsets();
         let searches = searches(&parameters.wheels)?;
         let lines = Arc::new(RailLines::new(parameters.track.clone(), offsets));
         let heading = parameters.start.heading;
@@ -236,6 +245,8 @@ impl Nominal {
         let mut model = Model::new(bodies, [0.0, 0.0, -parameters.gravity]);
         model.options = massless_options();
         let track = Marker::new([0.0; 3], [0.0, 0.0, heading]);
+        let movable = parameters.movable_rails && matches!(parameters.wheels, Wheels::OnRails(_));
+        let beds = movable.then(|| beds(&mut model));
         let mut rails = None;
         if let Some(support) = &parameters.support {
             let mut numbers = [[0; 2]; 4];
@@ -249,7 +260,8 @@ impl Nominal {
                         name: format!("{}_{}_{}", support.name, w + 1, ["left", "right"][i]),
                         ..support.clone()
                     };
-                    model.add(own, (*number, track), (0, track));
+                    let on = beds.map_or(0, |beds| beds[w][i]);
+                    model.add(own, (*number, track), (on, track));
                 }
             }
             rails = Some(numbers);
@@ -262,7 +274,8 @@ impl Nominal {
         // The plates carry half of the body each, whatever its place.
         let trucks =
             [0, 1].map(|t| truck::mounted(&mut model, &with_half_body(&parts[t], carried), &mounts[t]));
-        let wheels = wheels(&mut model, parameters, searches, lines, (wheelsets, rails, track));
+        let on = (wheelsets, rails.or(beds), track);
+        let wheels = wheels(&mut model, parameters, searches, lines, on);
         let control = match &parameters.drive {
             Drive::Coasting => None,
             Drive::Held { gain } => Some((*gain, vec![[0.0, parameters.start.speed]])),
@@ -289,6 +302,7 @@ impl Nominal {
             wheelsets,
             carriers,
             rails,
+            beds,
         };
         Self {
             model,
@@ -373,6 +387,20 @@ pub(crate) fn body_marker(carried: &Carried, place: [f64; 3]) -> Marker {
         origin: axes.apply_transposed(Vector(place) - Vector(own.frame.origin)),
         rotation: axes.transpose(),
     }
+}
+
+/// Adds what rails lie on where it can be moved.
+fn beds(model: &mut Model) -> [[usize; 2]; 4] {
+    [0, 1, 2, 3].map(|w| {
+        ["left", "right"].map(|side| {
+            let mut frame = Frame::fixed([0.0; 3], [0.0; 3]);
+            frame.motions = std::array::from_fn(|_| Motion::line(0.0, [0.0; 2]));
+            model
+                .bodies
+                .push(Body::prescribed(&format!("rail_bed_{}_{side}", w + 1), frame));
+            model.bodies.len() - 1
+        })
+    })
 }
 
 /// Adds wheels.

@@ -74,6 +74,7 @@ impl ProfiledWheels {
         let geometry = RigidWheelset::new([&wheel; 2], [18.0 * INCH; 2], [&rail; 2], layout, steel)?;
         Ok(Self {
             geometry: Arc::new(geometry),
+            profiles: Arc::new([wheel, rail]),
             tape_distance: layout.tape_distance,
             tables: false,
             law: ContactLaw {
@@ -140,6 +141,7 @@ impl Parameters {
             wheels: Wheels::OnRails(ProfiledWheels::usual(true)?),
             track,
             support: Some(RailSupport::default_support("rail", STANDARD_GRAVITY)),
+            movable_rails: false,
             drive: Drive::Held { gain: 1e5 },
             start: Start::at(0.0, speed),
         };

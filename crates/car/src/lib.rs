@@ -23,6 +23,7 @@ mod drive;
 mod error;
 mod linearize;
 mod loads;
+mod motions;
 mod parameters;
 mod start;
 
@@ -30,4 +31,5 @@ pub use assemble::{Car, Numbers};
 pub use error::{BuildError, InvalidParameter};
 pub use linearize::{CriticalSpeed, FrictionState, LinearizeError, Mode};
 pub use loads::{AxleLoads, EndMotion, Loads, WheelLoads};
+pub use motions::{BodyMotion, Motions, TruckMotion, WheelsetAxes};
 pub use parameters::{Drive, Mass, Parameters, ProfiledWheels, Start, StartKind, Wheels};

@@ -174,11 +174,11 @@ impl Car {
     }
 
     /// A vector in the track's own axes.
-    fn own(&self, vector: Vector<f64>) -> Vector<f64> {
+    pub(crate) fn own(&self, vector: Vector<f64>) -> Vector<f64> {
         self.axes.apply_transposed(vector)
     }
 
-    fn section(&self, place: Vector<f64>) -> Section<f64> {
+    pub(crate) fn section(&self, place: Vector<f64>) -> Section<f64> {
         self.lines.section(Line::Center, self.own(place).0)
     }
 
@@ -187,10 +187,7 @@ impl Car {
     }
 
     fn wheel_motion(&self, seen: &Observation, w: usize, i: usize, half: f64) -> RelativeMotion<f64> {
-        let on = self
-            .numbers
-            .rails
-            .map_or(self.numbers.ground, |rails| rails[w][i]);
+        let on = self.numbers.under(w, i);
         let wheelset = &seen.bodies[self.numbers.wheelsets[w]];
         motion_of(wheelset, [half, -half][i], &seen.bodies[on], self.axes)
     }

@@ -8,8 +8,9 @@ use std::sync::Arc;
 
 use rolling::track::RailSupport;
 use rolling::wheelset::WheelsetBody;
-use truck::RigidBody;
+use truck::{RigidBody, WedgeKind};
 use wheelrail::contact::{ContactLaw, LinearWheelset};
+use wheelrail::profile::Profile;
 use wheelrail::track::Track;
 use wheelrail::wheelset::RigidWheelset;
 
@@ -49,6 +50,8 @@ pub enum Wheels {
 pub struct ProfiledWheels {
     /// Profiles of both wheels and both rails, gauge and distance of the tape circles.
     pub geometry: Arc<RigidWheelset>,
+    /// The profile of a wheel and that of a rail.
+    pub profiles: Arc<[Profile; 2]>,
     /// Distance of the tape circles, m.
     pub tape_distance: f64,
     /// Whether patches come from tables: faster, for motion on treads only.
@@ -132,6 +135,9 @@ pub struct Parameters {
     pub track: Track,
     /// Springs under each rail; none: rails do not give way.
     pub support: Option<RailSupport>,
+    /// Whether what each rail lies on can be moved (`mechanics::system::System::set_motions`): a bridge, a
+    /// rig. Rails under linear wheels cannot.
+    pub movable_rails: bool,
     /// What keeps it moving.
     pub drive: Drive,
     /// The start.
@@ -285,6 +291,32 @@ impl Parameters {
             ));
         }
         Ok(())
+    }
+
+    /// Returns whether a truck has wedges without mass or an empirical warp spring.
+    #[must_use]
+    pub fn has_connections(&self) -> bool {
+        let massless = |wedge: &truck::Wedge| wedge.kind == WedgeKind::Massless;
+        let has = |own: &truck::Parameters| own.warp_spring.is_some() || own.wedges.iter().any(massless);
+        self.trucks.iter().any(has)
+    }
+
+    /// Returns how far the rails' origins are from the middle of the track, left and right, m.
+    #[must_use]
+    pub fn rail_offsets(&self) -> [f64; 2] {
+        match &self.wheels {
+            Wheels::OnRails(wheels) => wheels.geometry.rail_origins(),
+            Wheels::Linear { wheelset, .. } => [wheelset.geometry.half_distance; 2],
+        }
+    }
+
+    /// Returns the nominal radius of the wheels, m.
+    #[must_use]
+    pub fn wheel_radius(&self) -> f64 {
+        match &self.wheels {
+            Wheels::OnRails(wheels) => wheels.geometry.pairs()[0].nominal_radius(),
+            Wheels::Linear { wheelset, .. } => wheelset.geometry.radius,
+        }
     }
 
     /// Returns how far the outermost axles are from the middle of the car, m.

@@ -13,7 +13,7 @@ use wheelrail::track::{CenterLine, Line, RailLines, Segment, Track};
 use crate::assemble::Nominal;
 use crate::body::{Carried, Pose, angles};
 use crate::error::BuildError;
-use crate::parameters::{Drive, Parameters, Wheels};
+use crate::parameters::{Drive, Parameters};
 
 /// Returns the poses of all bodies in the equilibrium at rest on straight track, without friction, from the
 /// middle between the trucks.
@@ -150,10 +150,7 @@ impl Placement {
         poses: &[Pose],
         parameters: &Parameters,
     ) -> Vec<(usize, [f64; 6])> {
-        let radius = match &parameters.wheels {
-            Wheels::OnRails(own) => own.geometry.pairs()[0].nominal_radius(),
-            Wheels::Linear { wheelset, .. } => wheelset.geometry.radius,
-        };
+        let radius = parameters.wheel_radius();
         let half = 0.5 * parameters.truck_distance;
         let mut speeds = Vec::new();
         for &(number, group) in &nominal.groups {

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use study::car::CarCase;
 use study::case::{Case, CaseError};
 use study::truck::TruckCase;
 
@@ -45,6 +46,10 @@ pub fn read(folder: &Path) -> Result<Source, Error> {
     if model == FmuModel::ThreePieceTruck {
         let case = TruckCase::parse(CASE, &text, folder, &[]).map_err(damaged)?;
         return Ok(Source::ThreePieceTruck(Box::new(case)));
+    }
+    if model == FmuModel::Car {
+        let case = CarCase::parse(CASE, &text, folder, &[]).map_err(damaged)?;
+        return Ok(Source::Car(Box::new(case)));
     }
     let case = Case::parse(CASE, &text, folder, &[]).map_err(damaged)?;
     Source::of_case(model, case).ok_or_else(unknown)

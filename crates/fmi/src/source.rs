@@ -1,5 +1,6 @@
 //! What an FMU is made of, and the file in its resources that says so.
 
+use study::car::CarCase;
 use study::case::Case;
 use study::truck::TruckCase;
 
@@ -9,7 +10,7 @@ use crate::element::{Element, Entries, Setting};
 use crate::half_truck::{self, HalfTruck};
 use crate::quasi_static::QuasiStaticElement;
 use crate::wedge::WedgeElement;
-use crate::{quasi_static, resources, three_piece, truck, wedge};
+use crate::{car, quasi_static, resources, three_piece, truck, wedge};
 
 /// What an FMU is made of.
 #[derive(Clone, Debug)]
@@ -24,6 +25,8 @@ pub enum Source {
     HalfTruck(Box<HalfTruck>),
     /// A three-piece truck.
     ThreePieceTruck(Box<TruckCase>),
+    /// A freight car on its track.
+    Car(Box<CarCase>),
 }
 
 impl Source {
@@ -35,7 +38,7 @@ impl Source {
             FmuModel::Wedge => Some(Self::Wedge(case)),
             FmuModel::QuasiStatic => Some(Self::QuasiStatic(case)),
             FmuModel::Truck => Some(Self::Truck(case)),
-            FmuModel::HalfTruck | FmuModel::ThreePieceTruck => None,
+            FmuModel::HalfTruck | FmuModel::ThreePieceTruck | FmuModel::Car => None,
         }
     }
 
@@ -48,6 +51,7 @@ impl Source {
             Self::Truck(_) => FmuModel::Truck,
             Self::HalfTruck(_) => FmuModel::HalfTruck,
             Self::ThreePieceTruck(_) => FmuModel::ThreePieceTruck,
+            Self::Car(_) => FmuModel::Car,
         }
     }
 
@@ -58,6 +62,7 @@ impl Source {
             Self::Wedge(case) | Self::QuasiStatic(case) | Self::Truck(case) => [&case.name, &case.title],
             Self::HalfTruck(own) => [&own.case().name, &own.case().title],
             Self::ThreePieceTruck(case) => [&case.name, &case.title],
+            Self::Car(case) => [&case.name, &case.title],
         }
     }
 
@@ -70,6 +75,7 @@ impl Source {
             }
             Self::HalfTruck(own) => [own.case().duration, own.case().relative_tolerance],
             Self::ThreePieceTruck(case) => [case.simulation.duration, case.simulation.relative_tolerance],
+            Self::Car(case) => [case.simulation.duration, case.simulation.relative_tolerance],
         }
     }
 
@@ -83,6 +89,7 @@ impl Source {
             }
             Self::HalfTruck(own) => (half_truck::RESOURCE, own.text().to_owned()),
             Self::ThreePieceTruck(case) => (resources::CASE, case.to_toml_embedded().to_owned()),
+            Self::Car(case) => (resources::CASE, case.to_toml_embedded().to_owned()),
         }
     }
 
@@ -97,6 +104,7 @@ impl Source {
             Self::Truck(case) => Ok(truck::plant(case)?.entries),
             Self::HalfTruck(own) => Ok(own.plant()?.entries),
             Self::ThreePieceTruck(case) => Ok(three_piece::plant(case, true)?.entries),
+            Self::Car(case) => Ok(car::plant(case)?.entries),
         }
     }
 
@@ -111,6 +119,7 @@ impl Source {
             Self::Truck(case) => Box::new(truck::element(case, setting)?),
             Self::HalfTruck(own) => Box::new(own.element(setting)?),
             Self::ThreePieceTruck(case) => Box::new(three_piece::element(case, setting)?),
+            Self::Car(case) => Box::new(car::element(case, setting)?),
         })
     }
 }

@@ -4,9 +4,10 @@
 //! that are free are loaded by inputs. Outputs are the fixed columns of its results: warp angle and moment,
 //! loads of nests, forces and places of wedges.
 
+use integrate::Options;
 use mechanics::body::COORDINATES;
 use mechanics::motion::Motion;
-use mechanics::system::{EnergyTermKind, System};
+use mechanics::system::System;
 use study::truck::TruckCase;
 use study::truck::columns::TruckTable;
 use wedge::parameters::Start as CaseStart;
@@ -14,8 +15,8 @@ use wedge::parameters::Start as CaseStart;
 use crate::Error;
 use crate::element::{Entries, Entry, Setting};
 use crate::system::{
-    MOTION, Plant, Ports, START, Start, SystemElement, accumulated, add_loads, add_motion, add_table,
-    contact, deflection, ledger, motions, options,
+    MOTION, Plant, Ports, START, Start, SystemElement, accumulators, add_loads, add_motion, add_table,
+    contacts, internals, ledger, motions, options,
 };
 
 /// Returns the truck of a case; its prescribed bodies move as the case says, or are `driven`.
@@ -41,12 +42,17 @@ pub fn plant(case: &TruckCase, driven: bool) -> Result<Plant, Error> {
     Ok(Plant {
         entries,
         ports,
-        table: Some(Box::new(move |seen, row| {
+        table: Some(Box::new(move |seen, _, row| {
             table.read(seen, start, row);
         })),
         numbers: [Vec::new(), Vec::new()],
         residual_of_stored: false,
-        relative_tolerance: case.simulation.relative_tolerance,
+        options: Options {
+            relative_tolerance: case.simulation.relative_tolerance,
+            ..Options::default()
+        },
+        initial: None,
+        table_takes_rates: false,
         system,
     })
 }
@@ -117,10 +123,7 @@ fn all(case: &TruckCase, system: &System, table: &TruckTable) -> (Entries, Ports
         }
     }
     let equilibrium = case.parameters.start == CaseStart::Equilibrium;
-    let points = points(system).into_iter();
-    let (modes, indicators) = points
-        .map(|(face, number)| contact(&point(system, face, number)))
-        .unzip();
+    let (modes, indicators) = contacts(system);
     let mut entries = Entries {
         options: options(
             "who moves prescribed bodies: 0 the inputs bolster_*, left_side_frame_*, ..., 1 the case, whose \
@@ -147,56 +150,12 @@ fn all(case: &TruckCase, system: &System, table: &TruckTable) -> (Entries, Ports
     (entries, ports)
 }
 
-/// Returns the name of a point of a face.
-fn point(system: &System, face: usize, point: usize) -> String {
-    format!("{}_point_{}", system.faces()[face].element.name, point + 1)
-}
-
-/// Returns face and number of all contact points, in the order of the contact states.
-fn points(system: &System) -> Vec<(usize, usize)> {
-    let faces = system.faces().iter().enumerate();
-    faces
-        .flat_map(|(face, own)| (0..own.element.points.len()).map(move |point| (face, point)))
-        .collect()
-}
-
 fn states(system: &System) -> Vec<Entry> {
     let mut states = motions(system, |body| system.bodies()[body].name.clone());
     for state in &mut states {
         state.output = true;
     }
-    let layout = system.layout();
-    let mut names = vec![String::new(); layout.internals];
-    for (face, own) in system.faces().iter().enumerate() {
-        for internal in 0..own.internal_count {
-            let name = format!(
-                "{}_deflection_{}",
-                point(system, face, internal / 2),
-                internal % 2 + 1
-            );
-            if let Some(slot) = names.get_mut(own.first_internal + internal) {
-                *slot = name;
-            }
-        }
-    }
-    for (number, name) in names.into_iter().enumerate() {
-        let name = if name.is_empty() {
-            format!("internal_{}", number + 1)
-        } else {
-            name
-        };
-        states.push(deflection(name, "deflection of the bristle of a contact point"));
-    }
-    for term in system.energy_terms() {
-        let text = match term.kind {
-            EnergyTermKind::MotionWork => "work of the prescribed bodies since the start",
-            _ => "loss since the start",
-        };
-        states.push(accumulated(&term.name(), text));
-    }
-    states.push(accumulated(
-        "load_work",
-        "work of all loads from outside since the start",
-    ));
+    states.extend(internals(system));
+    states.extend(accumulators(system));
     states
 }

@@ -20,6 +20,7 @@ pub mod lock_up;
 pub mod losses;
 pub mod measures;
 pub mod metrics;
+pub mod patches;
 pub mod plausibility;
 pub mod progress;
 mod reader;

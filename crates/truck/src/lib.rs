@@ -23,6 +23,7 @@ mod defaults;
 mod elements;
 mod loads;
 mod massless;
+mod motions;
 mod mounted;
 pub mod nest;
 mod parameters;
@@ -37,6 +38,7 @@ pub use bodies::{bodies, numbers};
 pub use elements::{Mount, add_elements, mounted};
 pub use loads::{CenterPlateLoads, HalfLoads, Loads, WarpMoment, WedgeLoads};
 pub use massless::empirical_warp;
+pub use motions::{FaceForce, Motions};
 pub use mounted::{MountedTruck, TruckFrame};
 pub use parameters::{
     Adapter, AdapterPad, Applied, Bolster, CarBody, CenterPlate, Clearance, ControlCoil, FrictionAdapter,

@@ -26,8 +26,12 @@ pub struct MountedTruck {
     pub(crate) wedge_places: [Vector<f64>; 4],
     /// How far the centers of gravity of their halves lie outboard and inboard of them, m.
     pub(crate) half_shifts: [f64; 4],
-    /// Toe of their columns, rad.
+    /// Those of the bolster, the left and the right side frame.
+    pub(crate) part_places: [Vector<f64>; 3],
+    /// Toe of the wedges' columns, rad.
     pub(crate) toes: [f64; 4],
+    /// Angles of the wedges, rad.
+    pub(crate) angles: [f64; 4],
 }
 
 /// Where the axes are in which the loads of a truck are told: origin (m) at the truck's center at the top
@@ -55,8 +59,15 @@ impl MountedTruck {
             plate_height: car.map_or(0.0, |car| car.center_plate.height),
             warp_spring: parameters.warp_spring.clone(),
             axle: parameters.distances[2],
-            toes: [0, 1, 2, 3].map(|number| parameters.wedges[number].toe),
             half_shifts: parameters.wedges.each_ref().map(Wedge::half_shift),
+            toes: parameters.wedges.each_ref().map(|wedge| wedge.toe),
+            angles: parameters.wedges.each_ref().map(|wedge| wedge.angle),
+            part_places: {
+                let [side, ..] = parameters.distances;
+                let [left, right] = parameters.side_frames.each_ref().map(|own| own.body.height);
+                let bolster = parameters.bolster.body.height;
+                [[0.0, 0.0, bolster], [0.0, side, left], [0.0, -side, right]].map(Vector)
+            },
             wedge_places: PLACES.map(|[end, way]| {
                 let [side, place, _] = parameters.distances;
                 Vector([place * end, side * way, HEIGHT])

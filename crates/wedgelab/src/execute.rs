@@ -7,6 +7,9 @@ use quantity::Number;
 use report::files::Folder;
 use report::page::{self, Viewer};
 use report::run_files::RunFiles;
+use study::car::CarCase;
+use study::car::motions::MotionTable;
+use study::car::run::CarResult;
 use study::contacts::{ContactTable, TakesCorners};
 use study::result::RunResult;
 use study::run::{Run, RunCase, RunError};
@@ -61,6 +64,23 @@ where
     });
     let wall = start.elapsed();
     Ok((Done { result, wall }, contacts))
+}
+
+/// As [`compute`], of a car, with the motions of its bodies.
+pub fn compute_with_motions(
+    case: &CarCase,
+    progress: &Progress,
+) -> Result<(Done<CarResult>, Option<MotionTable>), Failure> {
+    let start = Instant::now();
+    let run = begun(case, Run::with_motions(case))?;
+    let [duration, _] = case.duration_and_interval();
+    let mut reached = progress.of_run(duration);
+    let (result, motions) = run.finish_with_motions(|time| {
+        reached(time);
+        interrupt::go_on()
+    });
+    let wall = start.elapsed();
+    Ok((Done { result, wall }, motions))
 }
 
 /// A run that has begun; where nothing can be computed at all, the input is at fault.

@@ -87,7 +87,6 @@ fn input_commands_say_what_they_take() {
             &["warp", "car_tangent_empty"],
             &["is the case of a car", "a truck's is expected"],
         ),
-        (&["explore", "car_tangent_empty"], &["is a car", "wedgelab study"]),
         (
             &["run", "car_tangent_emty"],
             &["did you mean the built-in case car_tangent_empty"],

@@ -82,7 +82,9 @@ export interface Shown {
   x: LoopAxis;
   y: LoopAxis;
   energy_of: string;
-  /** J a cycle. */
+  /** Of what it is the energy: of a cycle, or of the run. */
+  energy_per: string;
+  /** J. */
   energy: number | null;
   /** Why there is none; empty where there is one. */
   missing: string;

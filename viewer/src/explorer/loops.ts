@@ -165,7 +165,8 @@ export class Loops {
 
   private table(): void {
     const units = this.units.value;
-    this.head.textContent = `energy per cycle (${units.label("energy")})`;
+    const per = this.loops[0]?.shown.energy_per ?? "cycle";
+    this.head.textContent = `energy per ${per} (${units.label("energy")})`;
     this.rows.replaceChildren(
       ...this.loops.map(({ number, label, shown: { energy }, seconds }, k) => {
         const mark = element("i", { class: "wl-stroke" });

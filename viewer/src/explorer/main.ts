@@ -244,7 +244,7 @@ class Explorer {
       notes.unshift({ path: "", message: `The run stopped at ${summary.stopped.time.toPrecision(4)} s: ${summary.stopped.reason}`, help: "Values far from the thesis's are the first suspects." });
     }
     if (loop.missing) {
-      notes.push({ path: "", message: `No energy per cycle: ${loop.missing}`, help: "" });
+      notes.push({ path: "", message: `No energy per ${loop.energy_per}: ${loop.missing}`, help: "" });
     }
     this.show(notes);
     const found = new Data(view).run(summary.name);

@@ -33,6 +33,8 @@ const LOOKS: Record<Role, { colour: number; opacity: number; edge: number }> = {
   wheelset: { colour: 0xa8b0b7, opacity: 0.16, edge: 0x9aa2a9 },
   wheel: { colour: 0x7da3bf, opacity: 0.55, edge: 0x4d7591 },
   body: { colour: 0xa8b0b7, opacity: 0.5, edge: 0x5a6167 },
+  glass: { colour: 0xa8b0b7, opacity: 0.14, edge: 0x5a6167 },
+  lading: { colour: 0xb08d57, opacity: 0.32, edge: 0x6f5630 },
 };
 
 const SUN = new Vector3(0.45, -0.75, 0.5).normalize();

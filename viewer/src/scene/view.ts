@@ -7,6 +7,7 @@ import {
   Mesh,
   type Object3D,
   PerspectiveCamera,
+  Quaternion,
   Scene,
   Sphere,
   Vector3,
@@ -55,6 +56,8 @@ interface Touch {
   contact: Contact;
   body: Group;
   on: Group;
+  /** The axes of its friction force; the fixed ones if there are none. */
+  axes: Group | undefined;
   normal: Arrow;
   friction: Arrow;
   dot: Dot;
@@ -103,10 +106,12 @@ export class SceneView {
   readonly canvas: HTMLCanvasElement;
   readonly controls: OrbitControls;
   readonly camera = new PerspectiveCamera(FIELD, 1, 0.01, 20);
-  /** The force whose arrow has the length `arrow`. */
+  /** The force whose arrow has the length `arrow`: of contacts, or of patches where there are no contacts. */
   readonly scaleForce: number;
   /** The pressure of the strongest colour; none without faces that have pressures. */
   readonly scalePressure: number | undefined;
+  /** That of patches beside contacts, where it is another one. */
+  readonly patchForce: number | undefined;
   arrow: number;
   factor: number;
   arrowFactor = 1;
@@ -180,7 +185,10 @@ export class SceneView {
       this.world.add(this.track.group);
     }
     this.arrow = data.arrow;
-    this.scaleForce = typicalForce(data, run);
+    const patches = data.patches ?? [];
+    const both = data.contacts.length > 0 && patches.length > 0;
+    this.scaleForce = typicalForce(data.contacts.length > 0 ? data.contacts : patches, run);
+    this.patchForce = both ? typicalForce(patches, run) : undefined;
     const faces = data.pressures ?? [];
     this.scalePressure = faces.length > 0 ? typicalPressure(faces, run) : undefined;
     for (const face of faces) {
@@ -188,16 +196,23 @@ export class SceneView {
       (bodies.get(face.body) ?? none).add(mark.mesh);
       this.pressures.push(mark);
     }
-    for (const patch of data.patches ?? []) {
+    for (const patch of patches) {
       const mark = new PatchMark(patch, bodies.get(patch.body) ?? none, run);
       this.scene.add(mark.normal.group, mark.creep.group, mark.ellipse);
       this.patches.push(mark);
     }
+    // Those of the track where a body runs along, itself or the one that it is on.
+    const trackAxes = (id: string | undefined): Group | undefined => {
+      const own = this.along.find((along) => along.id === id);
+      const on = data.bodies.find((body) => body.id === id)?.on;
+      return own?.group ?? (on === undefined ? undefined : trackAxes(on));
+    };
     for (const contact of data.contacts) {
       const touch: Touch = {
         contact,
         body: bodies.get(contact.body) ?? none,
         on: solids.get(contact.on) ?? none,
+        axes: trackAxes(contact.body),
         normal: new Arrow(NORMAL),
         friction: new Arrow(FRICTION),
         dot: new Dot(0.048 * this.arrow),
@@ -342,8 +357,8 @@ export class SceneView {
       mesh.scale.set(1, 1, length);
     }
     const thickness = 0.0214 * this.arrow;
-    const scale = (this.arrow * this.arrowFactor) / this.scaleForce;
-    const length = (force: number): number => Math.min(force * scale, LONGEST * this.arrow * this.arrowFactor);
+    const longest = this.arrow * this.arrowFactor;
+    const length = (force: number, typical = this.scaleForce): number => longest * Math.min(force / typical, LONGEST);
     for (const touch of this.touches) {
       const corner = touch.body.localToWorld(new Vector3(...touch.contact.point));
       const normal = new Vector3(...touch.contact.normal).transformDirection(touch.on.matrixWorld);
@@ -353,12 +368,15 @@ export class SceneView {
       // It pushes: its tip is at the corner.
       touch.normal.show(corner.clone().addScaledVector(normal, -size), normal, size, thickness);
       const friction = new Vector3(...(touch.readFriction.map((read) => read(at)) as [number, number, number]));
+      if (touch.axes) {
+        friction.applyQuaternion(touch.axes.getWorldQuaternion(new Quaternion()));
+      }
       const rubbed = pressed > 0 ? friction.length() : 0;
       touch.friction.show(corner, friction.normalize(), length(rubbed), thickness);
       touch.dot.show(corner.addScaledVector(normal, -0.048 * this.arrow), state);
     }
     for (const patch of this.patches) {
-      patch.show(at, length, thickness);
+      patch.show(at, (force) => length(force, this.patchForce), thickness);
     }
     for (const mark of this.pressures) {
       mark.show(at);
@@ -436,10 +454,10 @@ export class SceneView {
   }
 }
 
-/** A force that few corners exceed, so that most arrows are readable. */
-function typicalForce(data: SceneData, run: RunData): number {
-  const forces = [...data.contacts, ...(data.patches ?? [])]
-    .flatMap((contact) => [...run.values(contact.normal_force)])
+/** A force that few of these exceed, so that most arrows are readable. */
+function typicalForce(pressing: { normal_force: string }[], run: RunData): number {
+  const forces = pressing
+    .flatMap(({ normal_force }) => [...run.values(normal_force)])
     .filter((force) => force > 0)
     .sort((a, b) => a - b);
   return forces[Math.floor(0.9 * forces.length)] ?? 1;

@@ -46,6 +46,7 @@ pub fn check(workspace: &Workspace) -> Outcome {
             "--test",
             "--test-concurrency=1",
             "test/browser/page.test.mjs",
+            "test/browser/car.test.mjs",
             "test/browser/explorer.test.mjs",
         ],
     );

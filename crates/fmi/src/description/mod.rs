@@ -34,6 +34,8 @@ pub enum FmuModel {
     HalfTruck,
     /// A three-piece truck with wedge bodies.
     ThreePieceTruck,
+    /// A freight car on its track.
+    Car,
 }
 
 impl FmuModel {
@@ -46,6 +48,7 @@ impl FmuModel {
             Self::Truck => "FrictionTruck",
             Self::HalfTruck => "HalfTruck",
             Self::ThreePieceTruck => "ThreePieceTruck",
+            Self::Car => "FreightCar",
         }
     }
 
@@ -74,6 +77,10 @@ impl FmuModel {
                 "Three-piece truck with four friction wedges that have mass: bolster, side frames, coils, \
                  stops, adapters"
             }
+            Self::Car => {
+                "Freight car on its track: body and lading on two three-piece trucks with friction wedges, \
+                 whose wheelsets roll on rails"
+            }
             Self::HalfTruck => {
                 "Loaded half of a three-piece truck from files of NUCARS: half a car on a bolster, friction \
                  wedges, side frames, springs"
@@ -100,6 +107,11 @@ impl FmuModel {
                  displacements of centers of gravity from the nominal (loaded) layout. Angles turn by R = \
                  Ry(pitch) Rz(yaw) Rx(roll). The warp moment acts on the bolster."
             }
+            Self::Car => {
+                "Fixed axes: x forward and y left where the track starts, z up. Vertical wheel forces act on \
+                 the rail, positive down; lateral ones are positive where they spread the gauge. Places of \
+                 axles are those against the track's center line, positive to the left."
+            }
             Self::HalfTruck => {
                 "Axes: x forward, y left, z up; displacements of centers of gravity from the drawn \
                  position, small angles. Bodies, wedges and connections have the numbers of the files; \
@@ -117,6 +129,7 @@ impl FmuModel {
             Self::Truck,
             Self::HalfTruck,
             Self::ThreePieceTruck,
+            Self::Car,
         ];
         all.into_iter().find(|model| model.name() == name)
     }

@@ -8,6 +8,7 @@ mod entries;
 
 use std::path::Path;
 
+use integrate::Options;
 use mechanics::system::System;
 use nucars::Severity;
 use nucars::file_sets::{RunFiles, Texts};
@@ -154,10 +155,15 @@ impl HalfTruck {
         Ok(Plant {
             entries,
             ports,
-            table: Some(Box::new(move |seen, row| columns.read(seen, row))),
+            table: Some(Box::new(move |seen, _, row| columns.read(seen, row))),
             numbers: [case.truck.bodies.clone(), case.truck.connections.clone()],
             residual_of_stored: false,
-            relative_tolerance: case.relative_tolerance,
+            options: Options {
+                relative_tolerance: case.relative_tolerance,
+                ..Options::default()
+            },
+            initial: None,
+            table_takes_rates: false,
             system,
         })
     }

@@ -1,10 +1,12 @@
 //! Quantities that systems have in common.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use mechanics::body::{Body, COORDINATES};
+use mechanics::orientation::fixed;
 use mechanics::output::Column;
-use mechanics::system::{System, scales};
+use mechanics::system::{EnergyTermKind, System, scales};
+use mechanics::vector::Vector;
 use quantity::Kind;
 
 use super::ports::{Direction, LoadPort, MotionPort, Ports, Reading, coordinates};
@@ -154,12 +156,51 @@ pub(crate) fn contact(name: &str) -> (Entry, Entry) {
     (state, indicator)
 }
 
+/// Returns contact states and event indicators of all points of faces, in the order of the contact states.
+pub(crate) fn contacts(system: &System) -> (Vec<Entry>, Vec<Entry>) {
+    let faces = 0..system.faces().len();
+    let points = |face: usize| 0..system.faces()[face].element.points.len();
+    let all = faces.flat_map(|face| points(face).map(move |number| (face, number)));
+    all.map(|(face, number)| contact(&point(system, face, number)))
+        .unzip()
+}
+
+/// Returns the name of a point of a face.
+fn point(system: &System, face: usize, point: usize) -> String {
+    format!("{}_point_{}", system.faces()[face].element.name, point + 1)
+}
+
 /// Returns the positions of all free bodies, then their rates, each with the name of its body and coordinate.
 pub(crate) fn motions(system: &System, name: impl Fn(usize) -> String) -> Vec<Entry> {
+    let text =
+        "displacement of the center of gravity, or angle, from the drawn position, in the truck's axes";
+    states(system, text, |body, k| {
+        format!("{}_{}", name(body), COORDINATES[k])
+    })
+}
+
+/// As [`motions`], of bodies whose reference frames stand in any way along the fixed axes: a coordinate has
+/// the name of the fixed axis along or about which it goes in the nominal layout, and `minus` if it goes the
+/// other way.
+pub(crate) fn motions_along_axes(system: &System) -> Vec<Entry> {
+    let text = "displacement of the origin along a fixed axis, or angle about it, from the nominal layout; \
+                angles of a body follow each other";
+    states(system, text, |body, k| {
+        let own = &system.bodies()[body];
+        let Vector(axis) = fixed(own.frame.orientation).column(k % 3);
+        let longest = (0..3).max_by(|a, b| axis[*a].abs().total_cmp(&axis[*b].abs()));
+        let number = longest.unwrap_or(k % 3);
+        let sign = if axis[number] < 0.0 { "minus_" } else { "" };
+        format!("{}_{sign}{}", own.name, COORDINATES[number + k / 3 * 3])
+    })
+}
+
+/// Returns positions, then rates; `name` gives the name of a coordinate of a body.
+fn states(system: &System, text: &str, name: impl Fn(usize, usize) -> String) -> Vec<Entry> {
     let mut states = Vec::new();
     for rate in [false, true] {
         for (body, k) in coordinates(system) {
-            let name = format!("{}_{}", name(body), COORDINATES[k]);
+            let name = name(body, k);
             let (kind, nominal, name) = match (rate, k < 3) {
                 (false, true) => (kinds(k).0, scales::DISPLACEMENT, name),
                 (false, false) => (kinds(k).0, scales::ANGLE, name),
@@ -167,16 +208,63 @@ pub(crate) fn motions(system: &System, name: impl Fn(usize) -> String) -> Vec<En
                 (true, false) => (kinds(k).1, scales::ANGULAR_VELOCITY, format!("{name}_rate")),
             };
             let text = if rate {
-                "rate of the position of the same name".to_owned()
+                "rate of the position of the same name"
             } else {
-                "displacement of the center of gravity, or angle, from the drawn position, in the truck's \
-                 axes"
-                    .to_owned()
+                text
             };
             states.push(with_nominal(Entry::real(name, unit(kind), None, text), nominal));
         }
     }
     states
+}
+
+/// Returns the internal states of a system: bristles by the points of their faces, others by their numbers.
+pub(crate) fn internals(system: &System) -> Vec<Entry> {
+    let mut names = vec![String::new(); system.layout().internals];
+    for (face, own) in system.faces().iter().enumerate() {
+        for internal in 0..own.internal_count {
+            let name = format!(
+                "{}_deflection_{}",
+                point(system, face, internal / 2),
+                internal % 2 + 1
+            );
+            if let Some(slot) = names.get_mut(own.first_internal + internal) {
+                *slot = name;
+            }
+        }
+    }
+    let named = names.into_iter().enumerate().map(|(number, name)| {
+        if name.is_empty() {
+            format!("internal_{}", number + 1)
+        } else {
+            name
+        }
+    });
+    named
+        .map(|name| deflection(name, "deflection of the bristle of a contact point"))
+        .collect()
+}
+
+/// Returns what a system accumulates, then the work of the loads. Of elements of one name the further ones get
+/// a number.
+pub(crate) fn accumulators(system: &System) -> Vec<Entry> {
+    let mut known: BTreeMap<String, usize> = BTreeMap::new();
+    let own = system.energy_terms().iter().map(move |term| {
+        let text = match term.kind {
+            EnergyTermKind::MotionWork => "work of the prescribed bodies since the start",
+            kind if kind.is_work() => "work since the start",
+            _ => "loss since the start",
+        };
+        let name = term.name();
+        let count = known.entry(name.clone()).or_default();
+        *count += 1;
+        match *count {
+            1 => accumulated(&name, text),
+            again => accumulated(&format!("{name}_{again}"), text),
+        }
+    });
+    let loads = accumulated("load_work", "work of all loads from outside since the start");
+    own.chain([loads]).collect()
 }
 
 /// Returns the deflection of a bristle.

@@ -18,8 +18,8 @@ use study::progress::{self, Pace};
 use crate::Error;
 use crate::element::{Element, ElementState, Interface, Setting, Slopes};
 pub(crate) use entries::{
-    accumulated, add_loads, add_motion, add_table, contact, deflection, kinds, ledger, load, motions,
-    options, unit,
+    accumulated, accumulators, add_loads, add_motion, add_table, contact, contacts, deflection, internals,
+    kinds, ledger, load, motions, motions_along_axes, options, unit,
 };
 use inputs::{Loads, lead, place};
 pub use ports::{Direction, LoadPort, MotionPort, Plant, Ports, Reading, Six, StartPort, Table};
@@ -66,6 +66,8 @@ pub struct SystemElement {
     piece_start: f64,
     /// The values of the table.
     row: Vec<f64>,
+    /// Rates of the states, for the table.
+    table_rates: Vec<f64>,
 }
 
 impl SystemElement {
@@ -86,7 +88,8 @@ impl SystemElement {
             place(&mut plant.system, &plant.ports, &setting.inputs, time)?;
         }
         plant.system.next_time_discontinuity(time);
-        let mut states = plant.system.initial_state();
+        let initial = plant.initial.clone();
+        let mut states = initial.unwrap_or_else(|| plant.system.initial_state());
         if start == Start::Equilibrium {
             let drawn = states.clone();
             let found = plant.system.equilibrium(time, &drawn, StaticFriction::Without);
@@ -104,10 +107,11 @@ impl SystemElement {
         let integrator = match setting.interface {
             Interface::ModelExchange => None,
             Interface::CoSimulation => {
-                let tolerance = setting.tolerance.unwrap_or(plant.relative_tolerance);
+                let own = plant.options.clone();
+                let tolerance = setting.tolerance.unwrap_or(own.relative_tolerance);
                 let options = Options {
                     relative_tolerance: tolerance.clamp(TOLERANCES[0], TOLERANCES[1]),
-                    ..Options::default()
+                    ..own
                 };
                 let made = Integrator::new(plant.system.clone(), options, time, &states);
                 Some(made.map_err(|error| failed(&error))?)
@@ -128,6 +132,7 @@ impl SystemElement {
             start_energy,
             piece_start: time,
             row: Vec::new(),
+            table_rates: Vec::new(),
         })
     }
 
@@ -154,8 +159,16 @@ impl SystemElement {
     /// Evaluates the table.
     fn read_table(&mut self, seen: &Observation) {
         self.row.clear();
+        let dimension = self.dimension();
         if let Some(table) = &mut self.plant.table {
-            table(seen, &mut self.row);
+            let rates = &mut self.table_rates;
+            if self.plant.table_takes_rates {
+                rates.resize(dimension, 0.0);
+                self.plant
+                    .system
+                    .derivative(self.time, &self.states[..dimension], rates);
+            }
+            table(seen, rates, &mut self.row);
         }
     }
 

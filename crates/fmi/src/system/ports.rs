@@ -1,5 +1,6 @@
 //! Ports of a system: what its inputs do, and what its outputs read.
 
+use integrate::Options;
 use mechanics::system::{Observation, System};
 
 use crate::element::Entries;
@@ -106,8 +107,9 @@ pub enum Reading {
     Table(usize),
 }
 
-/// Appends the values of a table's columns (SI) at an instant.
-pub type Table = Box<dyn FnMut(&Observation, &mut Vec<f64>) + Send>;
+/// Appends the values of a table's columns (SI) at an instant; the rates of its state are given if
+/// [`Plant::table_takes_rates`].
+pub type Table = Box<dyn FnMut(&Observation, &[f64], &mut Vec<f64>) + Send>;
 
 /// The ports of a system, by the numbers of its inputs, outputs, parameters and columns among its
 /// [`Entries`].
@@ -136,18 +138,23 @@ pub struct Plant {
     pub ports: Ports,
     /// What the table says of an instant; none if no port reads it.
     pub table: Option<Table>,
+    /// Whether the table reads the rates of the state, which cost an evaluation more.
+    pub table_takes_rates: bool,
     /// Numbers of bodies and of connections in files, for messages; may be empty.
     pub numbers: [Vec<u32>; 2],
     /// Whether the residual of the ledger is what is stored and lost less the work; else it is its negative.
     pub residual_of_stored: bool,
-    /// Relative tolerance of the integrator, if the importer gives none.
-    pub relative_tolerance: f64,
+    /// How it is integrated; its relative tolerance holds if the importer gives none.
+    pub options: Options,
+    /// The state at the start; none: that of the system.
+    pub initial: Option<Vec<f64>>,
 }
 
 /// Returns the body and the coordinate of each position of a system.
 pub(crate) fn coordinates(system: &System) -> Vec<(usize, usize)> {
     let mut coordinates = vec![(0, 0); system.layout().speeds];
-    for body in 0..system.bodies().len() {
+    // Carriers, which have the coordinates of a body before them, are not named.
+    for body in (0..system.bodies().len()).rev() {
         for coordinate in 0..6 {
             if let Some(place) = system.position_of(body, coordinate) {
                 coordinates[place] = (body, coordinate);

@@ -13,6 +13,7 @@
 
 mod entries;
 
+use integrate::Options;
 use mechanics::connection::Law;
 use mechanics::system::System;
 use nucars::read::read_system;
@@ -49,7 +50,12 @@ pub fn plant(case: &Case) -> Result<Plant, Error> {
         table: None,
         numbers: [Vec::new(), Vec::new()],
         residual_of_stored: true,
-        relative_tolerance: case.simulation.relative_tolerance,
+        options: Options {
+            relative_tolerance: case.simulation.relative_tolerance,
+            ..Options::default()
+        },
+        initial: None,
+        table_takes_rates: false,
         system,
     })
 }

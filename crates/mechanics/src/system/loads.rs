@@ -5,7 +5,7 @@
 
 use super::forces::Mountable;
 use super::observe::{BodyState, CoilState, FaceState};
-use super::{Mounted, System};
+use super::{ContactState, Mounted, STICK_LOAD, System};
 use crate::body::Kinematics;
 use crate::contact::{ContactFace, Interface};
 use crate::link::{BodyWrench, RelativeMotion};
@@ -67,6 +67,19 @@ impl FaceState {
             load.moment += arm.cross(force);
         }
         load
+    }
+
+    /// Returns the state of the whole face: it slips where one of its points does, else sticks where one does.
+    #[must_use]
+    pub fn contact_state(&self) -> ContactState {
+        let mut pressed = self.points.iter().filter(|point| point.gap < 0.0).peekable();
+        if pressed.peek().is_none() {
+            ContactState::Open
+        } else if pressed.any(|point| point.friction.load >= STICK_LOAD[1]) {
+            ContactState::Slip
+        } else {
+            ContactState::Stick
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Figures of one run of a car, over the distance along the track.
 
 use ::study::car::CarCase;
+use ::study::car::motions::MotionTable;
 use ::study::car::run::CarResult;
 use ::study::car::statistics::SIDES;
 use ::study::truck::WEDGE_NAMES;
@@ -17,6 +18,8 @@ pub struct CarRun {
     pub case: CarCase,
     /// What came out.
     pub result: CarResult,
+    /// The motions of its bodies, if the run took them along.
+    pub motions: Option<MotionTable>,
 }
 
 impl CarRun {

@@ -1,20 +1,26 @@
-//! The page of one run of a car: its limits and statistics, figures over the distance, assumptions.
+//! The page of one run of a car: what it looks like, its limits and statistics, figures over the distance, assumptions.
 
 use maud::{Markup, html};
 use study::car::summary::CarSummary;
 use study::summary::SummaryValue;
 
-use super::{run_page, shown_in};
+use super::{Viewer, interactive, moving, run_page, shown_in};
 use crate::figures::car::{CarRun, exhibits};
 use crate::figures::digits;
+use crate::view::run::{Detail, Recording};
 
 /// The page as HTML; it needs nothing else to be shown.
-#[must_use]
-pub fn render(run: &CarRun) -> String {
+///
+/// # Errors
+/// What the writer of JSON says.
+pub fn render(run: &CarRun, viewer: Option<Viewer>) -> Result<String, serde_json::Error> {
     let summary = &run.result.summary;
     let exhibits = exhibits(run);
+    let recording = || Recording::of_car(&run.case, &run.result, run.motions.as_ref(), Detail::Thinned);
+    let data = interactive(viewer, summary.units, recording, &exhibits)?;
     let main = html! {
         (doubts(summary))
+        @if data.is_some() { (moving(&summary.name)) }
         section { h2 { "Limits" } (limits(summary)) }
         section { h2 { "Statistics" } (statistics(summary)) }
         section {
@@ -25,7 +31,7 @@ pub fn render(run: &CarRun) -> String {
         section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
     };
     let told = (summary.title.as_str(), summary.program.as_str());
-    run_page(summary, told, "a freight car on track", &main, None)
+    Ok(run_page(summary, told, "a freight car on track", &main, data))
 }
 
 fn doubts(summary: &CarSummary) -> Markup {

@@ -282,6 +282,38 @@ impl Carriage {
         corners.into_iter().filter_map(contact).collect()
     }
 
+    /// Column and slope of a wedge, each with one contact in its middle. `columns` gives the names of normal
+    /// force, friction and state of a face.
+    pub fn faces(
+        &self,
+        wedge: &DrawnWedge,
+        columns: impl Fn(&str) -> (String, [String; 3], String),
+    ) -> [SceneContact; 2] {
+        let id = &wedge.body.id;
+        let contact = |face: &str, point, on: String, normal| {
+            let (normal_force, friction, state) = columns(face);
+            SceneContact {
+                id: format!("{id}_{face}"),
+                name: format!("{}, {face}", wedge.name),
+                body: id.clone(),
+                point,
+                on,
+                normal,
+                normal_force,
+                friction,
+                state,
+                gap: None,
+            }
+        };
+        let bolster = self.bolsters[wedge.bolster].id.clone();
+        let (middle, slope) = (wedge.offset, wedge.middle_of_slope());
+        let slope = std::array::from_fn(|k| middle[k] + slope[k]);
+        [
+            contact("column", middle, wedge.column(), [-wedge.ahead, 0.0, 0.0]),
+            contact("slope", slope, bolster, wedge.slope_normal()),
+        ]
+    }
+
     /// The wedge in its pocket and its coil.
     fn add_wedge(&self, scene: &mut Scene, wedge: &DrawnWedge, seat: f64) {
         let [height, _] = wedge.size;

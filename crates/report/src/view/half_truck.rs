@@ -287,7 +287,7 @@ pub fn scene(case: &HalfTruckCase) -> Option<Scene> {
         .zip(&carriage.wedges)
         .filter(|(own, _)| !own.is_body);
     let mut contacts: Vec<SceneContact> = massless
-        .flat_map(|(_, wedge)| of_massless(&carriage, wedge))
+        .flat_map(|(_, wedge)| carriage.faces(wedge, |face| columns_of_massless(&wedge.body.id, face)))
         .collect();
     let corners_start = contacts.len();
     if !case.wedge_bodies.is_empty() {
@@ -313,36 +313,23 @@ pub fn scene(case: &HalfTruckCase) -> Option<Scene> {
     Some(scene)
 }
 
-/// Column and slope of a massless wedge, each with one contact.
-fn of_massless(carriage: &Carriage, wedge: &DrawnWedge) -> [SceneContact; 2] {
-    let id = &wedge.body.id;
-    let contact = |face: &str, point, on: String, normal| SceneContact {
-        id: format!("{id}_{face}"),
-        name: format!("{}, {face}", wedge.name),
-        body: id.clone(),
-        point,
-        on,
-        normal,
-        normal_force: format!("{id}_{face}_normal_force"),
-        friction: match face {
-            "column" => ["x", "y", "z"].map(|axis| format!("{id}_column_friction_{axis}")),
-            _ => [
+/// Names of normal force, friction and state of a face of a massless wedge.
+fn columns_of_massless(id: &str, face: &str) -> (String, [String; 3], String) {
+    let (friction, state) = match face {
+        "column" => (
+            ["x", "y", "z"].map(|axis| format!("{id}_column_friction_{axis}")),
+            format!("{id}_state"),
+        ),
+        _ => (
+            [
                 format!("{id}_slope_friction_x"),
                 format!("{id}_column_friction_x"),
                 format!("{id}_slope_friction_z"),
             ],
-        },
-        state: match face {
-            "column" => format!("{id}_state"),
-            _ => format!("{id}_slope_state"),
-        },
-        gap: None,
+            format!("{id}_slope_state"),
+        ),
     };
-    let bolster = carriage.bolsters[wedge.bolster].id.clone();
-    [
-        contact("column", [0.0; 3], wedge.column(), [-wedge.ahead, 0.0, 0.0]),
-        contact("slope", wedge.middle_of_slope(), bolster, wedge.slope_normal()),
-    ]
+    (format!("{id}_{face}_normal_force"), friction, state)
 }
 
 fn distinct(all: impl Iterator<Item = usize>) -> Vec<usize> {

@@ -5,10 +5,11 @@
 //! - [`run`]: a run's columns, and which belong in one plot.
 //! - [`scene`]: what a run looks like: bodies, solids, coils, contacts; [`truck`] and [`half_truck`]: that of
 //!   a truck and of a half-truck, by what both have in common; [`rolling`]: track, wheels and contact patches
-//!   of all that rolls, [`wheelset`]: one wheelset.
+//!   of all that rolls, [`wheelset`]: one wheelset, [`car`]: a car of two trucks.
 //!
 //! All numbers are in SI units; how they are shown in either system stands with them.
 
+pub mod car;
 mod carriage;
 pub mod chart;
 pub mod data;

@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use study::wheelset::columns::PATCHES;
+use study::patches::PATCHES;
 use wheelrail::contact::Side;
 use wheelrail::profile::Profile;
 use wheelrail::track::{Line, RailLines};

@@ -4,6 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use mechanics::output::Column;
 use serde::Serialize;
+use study::car::CarCase;
+use study::car::motions::MotionTable;
+use study::car::run::CarResult;
 use study::contacts::ContactTable;
 use study::half_truck::{HalfTruckCase, HalfTruckResult};
 use study::truck::TruckCase;
@@ -14,7 +17,7 @@ use wedge::outputs::{CORNERS, FACES};
 
 use super::data::{Data, Precision};
 use super::scene::{self, Scene};
-use super::{half_truck, kind_name, truck, wheelset};
+use super::{car, half_truck, kind_name, truck, wheelset};
 use crate::figures::Outcome;
 
 /// The most rows of a thinned run.
@@ -108,6 +111,16 @@ impl Recording {
         }
         let plots = truck::plots(result);
         Self::new((&case.name, &case.title), &all, plots, scene, detail)
+    }
+
+    /// Of a car on track, with the motions of its bodies if the run took them along; without them it has no
+    /// scene.
+    #[must_use]
+    pub fn of_car(case: &CarCase, result: &CarResult, motions: Option<&MotionTable>, detail: Detail) -> Self {
+        let mut all = table(&result.columns, &result.values);
+        all.extend(motions.iter().flat_map(|own| table(&own.columns, &own.values)));
+        let scene = motions.and_then(|_| car::scene(case, result));
+        Self::new((&case.name, &case.title), &all, car::plots(result), scene, detail)
     }
 
     /// Of a wheelset on a track.

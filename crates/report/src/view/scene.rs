@@ -132,6 +132,10 @@ pub enum Role {
     Wheel,
     /// Any other body.
     Body,
+    /// Walls that others are seen through.
+    Glass,
+    /// What a car carries.
+    Lading,
 }
 
 /// A solid of flat faces.
@@ -248,7 +252,8 @@ pub struct SceneContact {
     pub normal: [f64; 3],
     /// The column of the normal force on the body of the point.
     pub normal_force: String,
-    /// The columns of the friction force on it, fixed axes.
+    /// The columns of the friction force on it: axes of the track where its body runs along, else fixed
+    /// axes.
     pub friction: [String; 3],
     /// The column of the state: 0 open, 1 stick, 2 slip.
     pub state: String,

@@ -5,7 +5,9 @@
 
 use std::f64::consts::PI;
 
-use ::truck::{BOLSTER, CAR_BODY, ControlCoil, Mount, SIDE_FRAMES, Truck, WEDGE_NAMES, WHEELSETS};
+use ::truck::{
+    BOLSTER, CAR_BODY, ControlCoil, Mount, Parameters, SIDE_FRAMES, Truck, WEDGE_NAMES, WHEELSETS,
+};
 use mechanics::body::Body;
 use study::contacts::corners;
 use study::truck::TruckCase;
@@ -47,21 +49,19 @@ fn words(name: &str) -> String {
     name.replace('_', " ")
 }
 
-/// The scene; none if the case makes no truck.
-#[must_use]
-pub fn scene(case: &TruckCase) -> Option<Scene> {
-    let parameters = &case.parameters;
-    let truck = Truck::new(parameters).ok()?;
-    let system = &truck.system;
-    let center = |body: usize| nominal(&system.bodies()[body]);
-    // Bolster and wedges travel together, to scale.
-    let travel = [None, Some("bolster_y".to_owned()), Some("bolster_z".to_owned())];
-    let part = |id: &str, body: usize, steady: &[Option<String>; 3]| Part {
-        id: id.to_owned(),
-        name: words(id),
-        center: center(body),
-        coordinates: columns_of(id),
-        steady: steady.clone(),
+/// What is drawn of a truck but its wheels and what it carries. Names of bodies and columns begin with
+/// `prefix`; bolster and wedges have these columns of travel.
+pub(super) fn carriage(parameters: &Parameters, prefix: &str, travel: &[Option<String>; 3]) -> Carriage {
+    let bodies = ::truck::bodies(parameters, [0.0; 3]);
+    let part = |name: &str, body: usize, steady: &[Option<String>; 3]| {
+        let id = format!("{prefix}{name}");
+        Part {
+            name: words(&id),
+            center: nominal(&bodies[body]),
+            coordinates: columns_of(&id),
+            steady: steady.clone(),
+            id,
+        }
     };
     let still = [None, None, None];
     let names = ["left_side_frame", "right_side_frame"];
@@ -76,18 +76,19 @@ pub fn scene(case: &TruckCase) -> Option<Scene> {
         let third = own.height * libm::tan(own.angle) / 3.0;
         let at = [ahead * place, way * side + part.shift, 18.0 * INCH];
         let offset = [ahead * third, 0.0, own.height / 6.0];
+        let key = format!("{prefix}{name}");
         DrawnWedge {
-            key: name.clone(),
-            name: format!("{} wedge", words(name)),
+            name: format!("{} wedge", words(&key)),
             body: SceneBody {
-                id: format!("{name}_wedge"),
+                id: format!("{key}_wedge"),
                 on: None,
                 along: None,
                 spin: None,
                 position: at,
-                coordinates: columns_of(name),
+                coordinates: columns_of(&key),
                 steady: travel.clone(),
             },
+            key,
             offset,
             point: std::array::from_fn(|k| at[k] + offset[k]),
             ahead,
@@ -111,7 +112,7 @@ pub fn scene(case: &TruckCase) -> Option<Scene> {
             // Outer and inner coils stand in each other.
             if !springs.iter().any(|spring| spring.at == at) {
                 springs.push(DrawnSpring {
-                    name: format!("load coil {}", springs.len() + 1),
+                    name: format!("{}load coil {}", words(prefix), springs.len() + 1),
                     at,
                     bolster: 0,
                     side_frame,
@@ -122,16 +123,29 @@ pub fn scene(case: &TruckCase) -> Option<Scene> {
     let axles = [axle, -axle]
         .into_iter()
         .flat_map(|x| [(0, [x, side, 22.5 * INCH]), (1, [x, -side, 22.5 * INCH])]);
-    let carriage = Carriage {
-        bolsters: vec![part("bolster", BOLSTER, &travel)],
+    Carriage {
+        bolsters: vec![part("bolster", BOLSTER, travel)],
         side_frames: [0, 1].map(|k| part(names[k], SIDE_FRAMES + k, &still)).to_vec(),
         wedges: wedges.collect(),
         springs,
         axles: axles.collect(),
         limit: LIMIT,
-    };
+    }
+}
+
+/// The scene; none if the case makes no truck.
+#[must_use]
+pub fn scene(case: &TruckCase) -> Option<Scene> {
+    let parameters = &case.parameters;
+    let truck = Truck::new(parameters).ok()?;
+    let system = &truck.system;
+    let center = |body: usize| nominal(&system.bodies()[body]);
+    // Bolster and wedges travel together, to scale.
+    let travel = [None, Some("bolster_y".to_owned()), Some("bolster_z".to_owned())];
+    let carriage = carriage(parameters, "", &travel);
     let numbers = Mount::alone(parameters).bodies;
-    let bodies: Vec<usize> = parts.iter().map(|part| numbers[part.number]).collect();
+    let parts = parameters.wedge_parts().into_iter();
+    let bodies: Vec<usize> = parts.map(|part| numbers[part.number]).collect();
     let own = corners(system, &bodies);
     let wedge_of = |body: usize| carriage.wedges.get(bodies.iter().position(|own| *own == body)?);
     let contacts = carriage.corners(system, own, wedge_of);
@@ -147,7 +161,7 @@ pub fn scene(case: &TruckCase) -> Option<Scene> {
             spin: None,
             position: center(body),
             coordinates: columns_of(id),
-            steady: still.clone(),
+            steady: [None, None, None],
         });
     };
     if parameters.wheelsets.is_some() {

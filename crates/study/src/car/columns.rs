@@ -1,25 +1,95 @@
 //! The columns of a car's results.
 
-use car::{Car, Loads};
+use car::{BuildError, Car, Loads, Parameters};
 use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
 use quantity::Kind;
 use truck::{HALVES, WEDGE_NAMES};
 
+use super::derailment;
 use super::statistics::{SIDES, ratio};
 
+/// The table of a car's results, for any observation of its system.
+pub struct CarTable {
+    car: Car,
+    columns: Columns,
+    static_loads: [[f64; 2]; 4],
+}
+
+impl CarTable {
+    /// Returns the table of a car with these parameters.
+    ///
+    /// # Errors
+    /// They make no car, or there is no equilibrium to start from.
+    pub fn new(parameters: &Parameters) -> Result<Self, BuildError> {
+        let car = Car::new(parameters)?;
+        let static_loads = derailment::static_loads(parameters);
+        let columns = Columns::new(&car, static_loads);
+        Ok(Self {
+            car,
+            columns,
+            static_loads,
+        })
+    }
+
+    /// Returns the car.
+    #[must_use]
+    pub fn car(&self) -> &Car {
+        &self.car
+    }
+
+    /// Returns the columns.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.columns.columns
+    }
+
+    /// Returns how many columns at the beginning have fixed names: all up to the wedges.
+    #[must_use]
+    pub fn fixed(&self) -> usize {
+        self.columns.fixed
+    }
+
+    /// Returns the static loads of the wheels by axle, left and right, N.
+    #[must_use]
+    pub fn static_loads(&self) -> [[f64; 2]; 4] {
+        self.static_loads
+    }
+
+    /// Appends the values of all columns (SI) at an observation, of whose state these are the rates;
+    /// `start_energy` (J) is the stored energy at the start. Returns the loads.
+    pub fn read(
+        &self,
+        observation: &Observation,
+        rates: &[f64],
+        start_energy: f64,
+        out: &mut Vec<f64>,
+    ) -> Loads {
+        let loads = self.car.loads(observation, rates);
+        let seen = Seen {
+            observation,
+            loads: &loads,
+            start_energy,
+        };
+        out.extend(self.columns.values.iter().map(|value| value(&seen)));
+        loads
+    }
+}
+
 /// What values are taken from: an observation, its loads, and the stored energy at the start, J.
-pub(super) struct Seen<'s> {
-    pub observation: &'s Observation,
-    pub loads: &'s Loads,
-    pub start_energy: f64,
+struct Seen<'s> {
+    observation: &'s Observation,
+    loads: &'s Loads,
+    start_energy: f64,
 }
 
 type Value = Box<dyn Fn(&Seen<'_>) -> f64 + Send + Sync>;
 
 /// The table: what its columns are, and how their values are taken.
-pub(super) struct Columns {
-    pub columns: Vec<Column>,
+struct Columns {
+    columns: Vec<Column>,
+    /// How many at the beginning have fixed names.
+    fixed: usize,
     values: Vec<Value>,
 }
 
@@ -30,9 +100,10 @@ const TRUCK: &str = "of the truck: x forward, y left, z up";
 
 impl Columns {
     /// Returns the columns of a car; static loads of the wheels are by axle, left and right, N.
-    pub fn new(car: &Car, static_loads: [[f64; 2]; 4]) -> Self {
+    fn new(car: &Car, static_loads: [[f64; 2]; 4]) -> Self {
         let mut own = Self {
             columns: Vec::new(),
+            fixed: 0,
             values: Vec::new(),
         };
         own.add("time", Kind::Time, "", "time", |seen| seen.observation.time);
@@ -79,6 +150,7 @@ impl Columns {
         for truck in 0..2 {
             own.truck(truck);
         }
+        own.fixed = own.columns.len();
         for truck in 0..2 {
             own.more_of_truck(truck);
         }
@@ -86,11 +158,6 @@ impl Columns {
         own.losses_of_wedges(&car.system);
         own.energies(&car.system);
         own
-    }
-
-    /// Appends the values of all columns, SI.
-    pub fn read(&self, seen: &Seen<'_>, out: &mut Vec<f64>) {
-        out.extend(self.values.iter().map(|value| value(seen)));
     }
 
     fn add(

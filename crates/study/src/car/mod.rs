@@ -2,15 +2,16 @@
 //!
 //! [`CarCase`] is what a user writes, completed and in SI; [`builtin`] has cases after the regimes of the
 //! field; [`statistics`] says what rules for the assessment of cars ask, [`limits`] beside what they allow;
-//! [`run`] records a run; [`stability`] linearizes.
+//! [`run`] records a run, [`motions`] what a picture of it needs; [`stability`] linearizes.
 
 mod assumptions;
 pub mod builtin;
 mod checks;
-mod columns;
+pub mod columns;
 mod derailment;
 mod lading;
 pub mod limits;
+pub mod motions;
 pub mod run;
 mod sections;
 pub mod stability;

@@ -1,8 +1,8 @@
 //! Running a car.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
-use car::Car;
 use integrate::{Integrator, Options, Problem};
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
@@ -15,7 +15,8 @@ use wheelrail::track::Track;
 
 use super::CarCase;
 use super::checks::POUND_FORCE;
-use super::columns::{Columns, Seen, losses_of_wedge};
+use super::columns::{CarTable, losses_of_wedge};
+use super::motions::MotionTable;
 use super::statistics::{self, Histories, SIDES, Statistics};
 use super::summary::{CarSummary, Derailed, SCHEMA};
 use super::{derailment, limits};
@@ -36,10 +37,8 @@ const MOST_FORCE: f64 = 5e6 * POUND_FORCE;
 
 /// Records a car's run: its table, and where it derails.
 pub struct CarRecorder {
-    car: Car,
-    columns: Columns,
+    table: CarTable,
     values: Vec<Vec<f64>>,
-    static_loads: [[f64; 2]; 4],
     derailed: Option<Derailed>,
     units: Units,
     /// Where rows begin, if the run goes on from a saved state, s.
@@ -50,6 +49,8 @@ pub struct CarRecorder {
     track: Track,
     /// Heights of the axles at the first row, m.
     heights: Option<[f64; 4]>,
+    /// Where its bodies are and what their faces exert, where it is asked for.
+    motions: Option<MotionTable>,
 }
 
 /// What is counted along a car's run: nothing, since all is in its rows.
@@ -81,24 +82,22 @@ impl RunCase for CarCase {
     }
 
     fn begin(&self) -> Result<Beginning<CarRecorder>, RunError> {
-        let car = Car::new(&self.parameters)?;
-        let static_loads = derailment::static_loads(&self.parameters);
-        let columns = Columns::new(&car, static_loads);
+        let table = CarTable::new(&self.parameters)?;
+        let (car, columns) = (table.car(), table.columns().len());
         Ok(Beginning {
             system: car.system.clone(),
             x: car.initial_state.clone(),
             recorder: CarRecorder {
-                values: vec![Vec::new(); columns.columns.len()],
-                row: Vec::with_capacity(columns.columns.len()),
+                values: vec![Vec::new(); columns],
+                row: Vec::with_capacity(columns),
                 rates: vec![0.0; car.initial_state.len()],
                 heights: None,
+                motions: None,
                 track: self.parameters.track.clone(),
-                static_loads,
                 derailed: None,
                 units: self.simulation.output_units,
                 continued: None,
-                columns,
-                car,
+                table,
             },
         })
     }
@@ -109,10 +108,34 @@ impl RunCase for CarCase {
 }
 
 impl Run<CarCase> {
+    /// Returns a run at its start that takes the motions of all bodies along.
+    ///
+    /// # Errors
+    /// As [`Run::new`].
+    pub fn with_motions(case: &CarCase) -> Result<Self, RunError> {
+        let mut run = Self::new(case)?;
+        let mut table = MotionTable::new(case.parameters.wheel_radius());
+        let seen = run.system.observe(run.integrator.time(), run.integrator.x());
+        table.take(run.recorder.table.car(), &seen);
+        run.recorder.motions = Some(table);
+        Ok(run)
+    }
+
+    /// As [`Run::finish_while`], with the motions if the run takes them along.
+    #[must_use]
+    pub fn finish_with_motions(
+        mut self,
+        progress: impl FnMut(f64) -> ControlFlow<String>,
+    ) -> (CarResult, Option<MotionTable>) {
+        let stopped = self.go_on_while(progress);
+        let motions = self.recorder.motions.take();
+        (self.result(stopped), motions)
+    }
+
     /// Returns the columns of the rows, without those that are filtered when the run has ended.
     #[must_use]
     pub fn columns(&self) -> &[Column] {
-        &self.recorder.columns.columns
+        self.recorder.table.columns()
     }
 }
 
@@ -144,16 +167,15 @@ impl Recorder for CarRecorder {
             }
         }
         system.derivative(row.time, row.x, &mut self.rates);
-        let loads = self.car.loads(&observation, &self.rates);
-        let heights = *self.heights.get_or_insert(loads.axles.map(|axle| axle.height));
-        let seen = Seen {
-            observation: &observation,
-            loads: &loads,
-            start_energy: row.start_energy,
-        };
         self.row.clear();
-        self.columns.read(&seen, &mut self.row);
-        append(&mut self.values, &self.columns.columns, &self.row, row.time)?;
+        let loads = self
+            .table
+            .read(&observation, &self.rates, row.start_energy, &mut self.row);
+        let heights = *self.heights.get_or_insert(loads.axles.map(|axle| axle.height));
+        append(&mut self.values, self.table.columns(), &self.row, row.time)?;
+        if let Some(motions) = &mut self.motions {
+            motions.take(self.table.car(), &observation);
+        }
         if let Some(own) = derailment::of(&loads, &self.track, heights) {
             let distance = SummaryValue::new(own.distance, Kind::Distance, self.units);
             let what = format!(
@@ -185,7 +207,7 @@ impl Recorder for CarRecorder {
         let mut states = contact_states
             .iter()
             .map(|state| ContactState::from_number(*state));
-        let faces = self.car.system.faces().iter();
+        let faces = self.table.car().system.faces().iter();
         faces
             .map(|mounted| {
                 let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
@@ -204,7 +226,7 @@ impl Recorder for CarRecorder {
 
 fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     let units = run.case.simulation.output_units;
-    let mut columns = run.recorder.columns.columns.clone();
+    let mut columns = run.recorder.table.columns().to_vec();
     let mut values = std::mem::take(&mut run.recorder.values);
     let balance = run.energy_balance;
     let derailed = run.recorder.derailed.take();
@@ -242,7 +264,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     };
     let (distance, speed) = (ends("distance", Kind::Distance), ends("speed", Kind::TravelSpeed));
     let mut static_loads = BTreeMap::new();
-    for (axle, loads) in (1..).zip(run.recorder.static_loads) {
+    for (axle, loads) in (1..).zip(run.recorder.table.static_loads()) {
         for (side, load) in SIDES.into_iter().zip(loads) {
             static_loads.insert(
                 format!("axle_{axle}_{side}"),
@@ -311,7 +333,7 @@ fn statistics_of(run: &Run<CarCase>, columns: &[Column], values: &[Vec<f64>]) ->
         column: &|name| found(columns, values, name),
         interval: run.case.simulation.output_interval,
         begin: run.case.parameters.start.settle,
-        static_loads: run.recorder.static_loads,
+        static_loads: run.recorder.table.static_loads(),
         in_curve: &in_curve,
     };
     let mut told = Statistics::of(&histories, &run.case.rules, run.case.simulation.output_units);
@@ -347,7 +369,7 @@ fn filtered(run: &Run<CarCase>, told: &Statistics, columns: &mut Vec<Column>, va
         values.resize(rows, last);
         Some(values)
     };
-    for (axle, loads) in (1..).zip(run.recorder.static_loads) {
+    for (axle, loads) in (1..).zip(run.recorder.table.static_loads()) {
         for (side, load) in SIDES.into_iter().zip(loads) {
             let stem = format!("axle_{axle}_{side}");
             let names = ["vertical", "lateral"].map(|what| format!("{stem}_{what}"));

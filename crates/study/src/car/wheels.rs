@@ -151,6 +151,7 @@ pub(super) fn wheels(r: &mut Reader<'_>, parameters: &mut Parameters, rails: Rai
         Ok(geometry) => {
             parameters.wheels = Wheels::OnRails(ProfiledWheels {
                 geometry: Arc::new(geometry),
+                profiles: Arc::new([wheel, rail]),
                 tape_distance,
                 tables,
                 law,

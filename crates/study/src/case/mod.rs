@@ -88,7 +88,7 @@ pub struct Simulation {
 impl Simulation {
     /// Returns the integrator's options. Methods that damp end their steps at every row at least, so that rows are
     /// resolved.
-    pub(crate) fn options(&self) -> Options {
+    pub fn options(&self) -> Options {
         Options {
             relative_tolerance: self.relative_tolerance,
             maximum_step: match self.method.tableau().family {

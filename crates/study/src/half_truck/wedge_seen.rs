@@ -1,6 +1,6 @@
 //! What is seen of a wedge, whether it is massless or a body.
 
-use mechanics::system::{ContactState, FaceState, Observation, STICK_LOAD, System};
+use mechanics::system::{ContactState, FaceState, Observation, System};
 use mechanics::vector::Vector;
 use wedge::parameters::Damping;
 
@@ -123,19 +123,7 @@ fn body(seen: &Observation, wedge: &MountedWedge) -> SeenWedge {
         friction_power: column.friction_power,
         rise: (seen.bodies[wedge.body].center_of_gravity - pocket).0[2],
         jammed: false,
-        state: Some(state(column)),
-    }
-}
-
-/// Returns the state of a face: slips where a corner does, else sticks where one does.
-fn state(face: &FaceState) -> ContactState {
-    let mut pressed = face.points.iter().filter(|point| point.gap < 0.0).peekable();
-    if pressed.peek().is_none() {
-        ContactState::Open
-    } else if pressed.any(|point| point.friction.load >= STICK_LOAD[1]) {
-        ContactState::Slip
-    } else {
-        ContactState::Stick
+        state: Some(column.contact_state()),
     }
 }
 

@@ -5,21 +5,16 @@ use std::borrow::Cow;
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
 use mechanics::system::Observation;
-use mechanics::vector::Vector;
 use quantity::Kind;
-use rolling::rig::{Rig, Setup, WHEELSET};
-use rolling::wheel::PatchState;
+use rolling::rig::{RAILS, Rig, Setup, WHEELSET};
 use rolling::wheelset::coordinate;
 use wheelrail::contact::Side;
-use wheelrail::track::{Line, Section};
+use wheelrail::track::Line;
+
+use crate::patches::{self, Patches, unspun};
 
 /// Names of the sides in columns.
 pub const SIDES: [&str; 2] = ["left", "right"];
-/// Patches of a wheel that have columns, from the field side to the gauge side.
-pub const PATCHES: usize = 3;
-/// A patch with a smaller share is shown as a part of its neighbor.
-const HALF: f64 = 0.5;
-
 /// Columns of the wheelset: name, kind, what it is.
 const WHOLE: [(&str, Kind, &str); 8] = [
     ("time", Kind::Time, "time"),
@@ -86,30 +81,6 @@ const WHEEL: [(&str, Kind, &str); 8] = [
         "vertical irregularity of the rail under the wheel, up",
     ),
 ];
-/// Columns of a patch, behind its side and number.
-const PATCH: [(&str, Kind, &str); 9] = [
-    ("x", Kind::Length, "place from the wheelset's center, forward"),
-    (
-        "y",
-        Kind::Length,
-        "place from the wheelset's center, along the axle to the left",
-    ),
-    ("z", Kind::Length, "place from the wheelset's center, up"),
-    (
-        "angle",
-        Kind::Angle,
-        "contact angle, positive where the plane of contact rises to the field side",
-    ),
-    ("normal_force", Kind::Force, "normal force"),
-    ("creep_x", Kind::Force, "creep force on the wheel, forward"),
-    (
-        "creep_y",
-        Kind::Force,
-        "creep force on the wheel in the plane of contact, to the left",
-    ),
-    ("a", Kind::Length, "semi-axis of the ellipse along the rail"),
-    ("b", Kind::Length, "semi-axis of the ellipse across the rail"),
-];
 /// Columns of the ledger.
 const LEDGER: [(&str, Kind, &str); 4] = [
     (
@@ -158,36 +129,13 @@ pub fn columns() -> Vec<Column> {
         }
     }
     for side in SIDES {
-        for number in 1..=PATCHES {
-            for (name, kind, text) in PATCH {
-                let text = format!("{side} wheel, patch {number} from the field side: {text}");
-                all.push(column(format!("{side}_patch_{number}_{name}"), kind, &text));
-            }
-        }
+        patches::columns(side, |name, kind, text| all.push(column(name, kind, &text)));
     }
     let ledger = LEDGER
         .iter()
         .map(|(name, kind, text)| column((*name).to_owned(), *kind, text));
     all.extend(ledger);
     all
-}
-
-/// A patch as rows have it: place, angle, forces with their shares, semi-axes.
-#[derive(Clone, Copy, Debug, Default)]
-struct Shown {
-    share: f64,
-    place: [f64; 3],
-    angle: f64,
-    normal: f64,
-    creep: [f64; 2],
-    axes: [f64; 2],
-}
-
-/// What a wheel's patches sum up to.
-#[derive(Clone, Debug, Default)]
-struct Wheel {
-    patches: Vec<Shown>,
-    wear: f64,
 }
 
 /// Reads the rows of a rig.
@@ -238,14 +186,18 @@ impl Reader {
             yaw,
             spin,
         ]);
-        let axes = axes(body.rotation.column(0), &section);
-        let mut wheels = [Wheel::default(), Wheel::default()];
+        let axes = unspun(body.rotation.column(0), &section);
+        let mut wheels = [Patches::default(), Patches::default()];
         self.rig.patches(seen, |side, patch| {
-            let (index, sign) = match side {
-                Side::Left => (0, 1.0),
-                Side::Right => (1, -1.0),
-            };
-            wheels[index].take(&patch, sign, axes, body.origin);
+            let index = usize::from(side == Side::Right);
+            // Places are counted from the rail, which gives way.
+            let rail = self
+                .setup
+                .support
+                .is_some()
+                .then(|| seen.bodies[RAILS[index]].origin);
+            let center = rail.map_or(body.origin, |rail| body.origin - rail);
+            wheels[index].take(&patch, side, axes, center);
         });
         for (index, wheel) in wheels.iter_mut().enumerate() {
             let sign = [1.0, -1.0][index];
@@ -261,17 +213,13 @@ impl Reader {
                 longitudinal,
                 ratio,
                 wheel.wear,
-                wheel.patches.len() as f64,
+                wheel.count() as f64,
                 rail[0],
                 rail[1],
             ]);
         }
         for wheel in &wheels {
-            for number in 0..PATCHES {
-                let own = wheel.patches.get(number).copied().unwrap_or_default();
-                let ([x, y, z], [creep_x, creep_y], [a, b]) = (own.place, own.creep, own.axes);
-                row.extend([x, y, z, own.angle, own.normal, creep_x, creep_y, a, b]);
-            }
+            row.extend(wheel.values());
         }
         row.extend([
             entries.work,
@@ -279,63 +227,5 @@ impl Reader {
             entries.stored_change,
             entries.residual,
         ]);
-    }
-}
-
-/// Axes of the wheelset that do not spin: forward, along the axle to the left, up.
-fn axes(axle: Vector<f64>, section: &Section<f64>) -> [Vector<f64>; 3] {
-    let up = Vector(section.axes[2]);
-    let share: f64 = up.dot::<f64, f64>(axle);
-    let up = up - axle.scale(share);
-    let length: f64 = up.dot::<f64, f64>(up);
-    let up: Vector<f64> = up.scale(1.0 / length.sqrt());
-    [axle.cross::<f64, f64>(up), axle, up]
-}
-
-impl Wheel {
-    fn take(&mut self, seen: &PatchState, sign: f64, axes: [Vector<f64>; 3], center: Vector<f64>) {
-        let (patch, forces) = (&seen.patch, &seen.forces);
-        let normal = patch.share * forces.normal;
-        if normal <= 0.0 {
-            return;
-        }
-        let (creep, creepage) = (&forces.creep, &forces.creepage);
-        let power =
-            creep.x * creepage.longitudinal + creep.y * creepage.lateral + creep.spin_moment * creepage.spin;
-        self.wear -= patch.share * power;
-        let arm = seen.place - center;
-        self.patches.push(Shown {
-            share: patch.share,
-            place: axes.map(|axis| axis.dot::<f64, f64>(arm)),
-            angle: patch.angle(),
-            normal,
-            creep: [patch.share * creep.x, sign * patch.share * creep.y],
-            axes: forces.axes,
-        });
-    }
-
-    /// Makes one patch of those of one area: where two areas grow together they come as one with a share and
-    /// as two with the rest. Then keeps the largest ones, from the field side to the gauge side.
-    fn merge(&mut self) {
-        let (mut kept, parts): (Vec<Shown>, Vec<Shown>) =
-            self.patches.iter().partition(|patch| patch.share >= HALF);
-        for part in parts {
-            let away = |own: &Shown| (own.place[1] - part.place[1]).abs();
-            let near = kept
-                .iter_mut()
-                .min_by(|one, other| away(one).total_cmp(&away(other)));
-            match near {
-                Some(near) => {
-                    near.normal += part.normal;
-                    near.creep[0] += part.creep[0];
-                    near.creep[1] += part.creep[1];
-                }
-                None => kept.push(part),
-            }
-        }
-        kept.sort_by(|one, other| other.normal.total_cmp(&one.normal));
-        kept.truncate(PATCHES);
-        kept.sort_by(|one, other| other.place[1].abs().total_cmp(&one.place[1].abs()));
-        self.patches = kept;
     }
 }

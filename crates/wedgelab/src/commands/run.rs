@@ -22,7 +22,9 @@ use study::truck::run::TruckResult;
 use study::truck::{self, TruckCase, WEDGE_NAMES};
 
 use super::energy;
-use crate::execute::{Done, TABLE_NOTE, compute, compute_with_contacts, table, unsound, write, write_page};
+use crate::execute::{
+    Done, TABLE_NOTE, compute, compute_with_contacts, compute_with_motions, table, unsound, write, write_page,
+};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
@@ -36,7 +38,7 @@ use crate::table::Table;
 /// result.mat (the same, of a wedge under the thesis's names), case.toml (the case, completed) and
 /// summary.json (averages, extremes, events, energy ledger, solver statistics, assumptions) into a folder
 /// named as the case; of a truck also index.html, where it is seen moving in 3D with its loops and wedges, of
-/// a car with limits, statistics and figures over the distance.
+/// a car on its track with limits, statistics and figures over the distance.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -154,14 +156,16 @@ fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
     let folder = folders::check(path, &names, arguments.force)?;
     let progress = Progress::new(1, arguments.quiet);
     interrupt::stops_run();
-    let done =
-        compute(case, &progress).and_then(|done| write(&done, case, &folder, &progress).map(|()| done));
+    let done = compute_with_motions(case, &progress)
+        .and_then(|(done, motions)| write(&done, case, &folder, &progress).map(|()| (done, motions)));
     progress.finish();
+    let (done, motions) = done?;
     let run = CarRun {
         case: case.clone(),
-        result: done?.result,
+        result: done.result,
+        motions,
     };
-    write_page(&folder, |_| Ok(page::car_run::render(&run)))?;
+    write_page(&folder, |viewer| page::car_run::render(&run, viewer))?;
     let summary = &run.result.summary;
     tell(arguments, &folder, &names, summary, || {
         if summary.limits.is_empty() {
@@ -170,6 +174,9 @@ fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
             (car_table(summary), CAR_NOTE.to_owned())
         }
     })?;
+    if Viewer::embedded().is_none() {
+        say(page::MISSING);
+    }
     match unsound::<CarCase>(summary, folder.path()) {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),

@@ -117,6 +117,62 @@ fn a_case_file_is_explored_and_kept() {
     assert_eq!(preset.json()["summary"]["name"], "vdrun_toe_0_psi_0");
 }
 
+/// A car is explored as a wedge is: its curve over the distance, the energy of its wedges and its files are
+/// those of the command line; a run that is too long is refused at the field that makes it so.
+#[test]
+fn a_car_is_explored_and_kept() {
+    let folder = temporary();
+    let name = "car_pitch_and_bounce_loaded";
+    let server = Server::start(folder.path(), &[name]);
+    assert_eq!(server.get("/api/case").json()["preset"], name);
+    let set = [
+        ("simulation.duration", "0.1 s"),
+        ("speed.value", "40 mph"),
+        ("start.settle", "0 s"),
+    ];
+    let wanted: serde_json::Map<String, Value> = set
+        .iter()
+        .map(|(path, text)| ((*path).to_owned(), json!(text)))
+        .collect();
+    let answer = server.post("/api/run", &json!({ "set": wanted.clone() })).json();
+    let shown = &answer["loop"];
+    assert_eq!(
+        (&shown["x"]["column"], &shown["y"]["column"], &shown["energy_per"]),
+        (&json!("distance"), &json!("axle_1_left_vertical"), &json!("run"))
+    );
+    let run_view = &answer["view"]["runs"][0];
+    assert!(
+        run_view["scene"]["follow"] == "car_body" && run_view["columns"]["axle_1_left_vertical"].is_object()
+    );
+    let told = run(folder.path(), name, &set);
+    let losses = summary(&told)["wedge_losses"].as_object().unwrap().clone();
+    let sum: f64 = losses.values().map(|loss| loss["value"].as_f64().unwrap()).sum();
+    // lbf·in, in J.
+    let energy = shown["energy"].as_f64().unwrap() / 0.112_984_829_027_616_7;
+    assert!(
+        losses.len() == 8 && (energy - sum).abs() <= 1e-12 * sum.abs(),
+        "{energy} {sum}"
+    );
+    for file in ["case.toml", "result.csv", "summary.json"] {
+        let kept = server.post(&format!("/api/export/{file}"), &json!({ "set": wanted.clone() }));
+        assert_eq!(kept.status, 200, "{file}");
+        assert_eq!(kept.body, fs::read(told.join(file)).unwrap(), "{file}");
+    }
+    for (path, text, word) in [
+        ("simulation.duration", "61 s", "the most here"),
+        ("wheels.friction", "-0.1", "wheels.friction"),
+        ("truck.wedge.angle", "95 deg", "between 0 deg and 90 deg"),
+    ] {
+        // So slow that it does not reach the end of its track.
+        let set = json!({ path: text, "speed.value": "5 mph" });
+        let answer = server.post("/api/run", &json!({ "set": set }));
+        assert_eq!(answer.status, 422, "{path}");
+        let errors = answer.json()["errors"].clone();
+        assert_eq!(errors[0]["path"], path, "{errors}");
+        assert!(errors[0]["message"].as_str().unwrap().contains(word), "{errors}");
+    }
+}
+
 /// A truck is explored as a wedge is: its loop, its energy and its files are those of the command line; from
 /// a wedge a truck is a click away, and back.
 #[test]

@@ -72,6 +72,25 @@ fn limits_killed_ten_times_it_has_the_table_of_an_undisturbed_study() {
     assert_eq!(names(&path.join("killed")), WHOLE, "nothing is left over");
 }
 
+/// The same of cars, whose runs take longer.
+#[test]
+fn limits_a_killed_study_of_cars_has_the_table_of_an_undisturbed_one() {
+    let folder = tempdir().unwrap();
+    let path = folder.path();
+    let car = "model = \"car\"\nstart.settle = \"0 s\"\nsimulation.duration = \"0.1 s\"\n\
+               [[track.segments]]\ntangent = \"500 ft\"\n";
+    fs::write(path.join("car.toml"), car).unwrap();
+    let text = "case = \"car.toml\"\nsampling = \"full_factorial\"\n[vary]\n\
+                truck.friction.column = { from = 0.2, to = 0.5, count = 8 }\n";
+    fs::write(path.join("cars.toml"), text).unwrap();
+    done(path, &["study", "cars.toml", "--out", "undisturbed", "--quiet"]);
+    let killed = kill_often(path, "cars.toml", "killed", 4, 20, 400);
+    assert!(killed > 0, "every run was over before it could be killed");
+    done(path, &["study", "cars.toml", "--out", "killed", "--quiet"]);
+    assert!(table(&path.join("undisturbed")) == table(&path.join("killed")));
+    assert!(recorded(path, "cars.toml", "killed").into_iter().eq(0..8));
+}
+
 /// Killed while Parquet is written, seen by the file that grows: twenty thousand rows, made up, so that it
 /// takes a while.
 #[test]

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use study::any_case::AnyCase;
 use study::case::builtin::Group;
 use study::case::{CaseError, FieldSection, builtin};
-use study::truck;
+use study::{car, truck};
 
 use super::base::Base;
 use super::limits;
@@ -231,7 +231,10 @@ impl Explorer {
                 })
                 .collect(),
         };
-        let groups = builtin::groups().iter().chain(truck::builtin::groups());
+        let groups = builtin::groups().iter();
+        let groups = groups
+            .chain(truck::builtin::groups())
+            .chain(car::builtin::groups());
         Ok(Opening {
             schema: SCHEMA,
             preset: self.base.preset().map(str::to_owned),
@@ -301,10 +304,10 @@ impl Explorer {
             let known = base.with(&[]).map_or(Vec::new(), |case| case.fields());
             Refused::Mistakes(mistakes(&error, &wanted.set, &known))
         })?;
-        limits::rows(limits::simulation(&case)).map_err(|refused| {
-            let typed = ["simulation.output_interval", "simulation.duration"];
+        limits::check(&case).map_err(|refused| {
+            let typed = [refused.path, "simulation.duration"];
             let path = typed.iter().find(|path| wanted.set.contains_key(**path));
-            Refused::mistake(path.unwrap_or(&typed[0]), refused.message, &refused.help)
+            Refused::mistake(path.unwrap_or(&refused.path), refused.message, &refused.help)
         })?;
         Ok(case)
     }

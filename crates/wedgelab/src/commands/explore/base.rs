@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use study::any_case::AnyCase;
 use study::case::{CaseError, Tables, builtin, text_of};
-use study::truck;
+use study::{car, truck};
 
 use super::super::run;
 use super::limits;
@@ -32,14 +32,7 @@ pub enum Base {
 impl Base {
     /// The case of `wedgelab run PATH`, checked.
     pub fn open(path: &Path) -> Result<Self, Failure> {
-        if let AnyCase::Car(case) = run::read_any(path, &[])? {
-            let message = format!("{} is a car, and the explorer takes wedges and trucks", case.name);
-            return Err(Message::new(
-                message,
-                "`wedgelab run` runs cars, and `wedgelab study` varies them",
-            )
-            .into());
-        }
+        run::read_any(path, &[])?;
         let base = if run::is_built_in(path) {
             Self::BuiltIn(path.display().to_string())
         } else {
@@ -50,8 +43,7 @@ impl Base {
             }
         };
         let case = base.with(&[])?;
-        limits::rows(limits::simulation(&case))
-            .map_err(|refused| Message::new(refused.message, refused.help))?;
+        limits::check(&case).map_err(|refused| Message::new(refused.message, refused.help))?;
         Ok(base)
     }
 
@@ -62,9 +54,10 @@ impl Base {
     pub fn with(&self, overrides: &[String]) -> Result<AnyCase, CaseError> {
         match self {
             Self::BuiltIn(name) => {
-                let is_truck = truck::builtin::names().any(|own| own == name);
-                let text = if is_truck {
+                let text = if truck::builtin::names().any(|own| own == name) {
                     truck::builtin::text(name)?
+                } else if car::builtin::names().any(|own| own == name) {
+                    car::builtin::text(name)?
                 } else {
                     builtin::text(name)?
                 };

@@ -49,17 +49,38 @@ impl Default for Patience {
     }
 }
 
-/// Too many rows, and what to do about it.
+/// Longest run of a car, s: a page is waited for.
+pub const CAR_SECONDS: f64 = 60.0;
+
+/// A run that is too long, and what to do about it.
 #[derive(Debug, PartialEq, Eq)]
-pub struct TooManyRows {
+pub struct TooLong {
+    /// The key that makes it so.
+    pub path: &'static str,
     /// What is wrong.
     pub message: String,
-    /// Which interval to type.
+    /// What to type.
     pub help: String,
 }
 
+/// Refuses a run of more rows than [`ROWS`], and of a car of more time than [`CAR_SECONDS`].
+///
+/// # Errors
+/// The run is longer.
+pub fn check(case: &AnyCase) -> Result<(), TooLong> {
+    let [duration, interval] = simulation(case);
+    if matches!(case, AnyCase::Car(_)) && duration > CAR_SECONDS {
+        return Err(TooLong {
+            path: "simulation.duration",
+            message: format!("{duration} s of a car are more than {CAR_SECONDS} s, which is the most here"),
+            help: "write a shorter simulation.duration, or run the case with `wedgelab run`".to_owned(),
+        });
+    }
+    rows([duration, interval])
+}
+
 /// Duration and output interval of a case, s.
-pub fn simulation(case: &AnyCase) -> [f64; 2] {
+fn simulation(case: &AnyCase) -> [f64; 2] {
     match case {
         AnyCase::Wedge(case) => [case.simulation.duration, case.simulation.output_interval],
         AnyCase::Car(case) => [case.simulation.duration, case.simulation.output_interval],
@@ -72,13 +93,14 @@ pub fn simulation(case: &AnyCase) -> [f64; 2] {
 ///
 /// # Errors
 /// The run has more.
-pub fn rows([duration, interval]: [f64; 2]) -> Result<(), TooManyRows> {
+fn rows([duration, interval]: [f64; 2]) -> Result<(), TooLong> {
     let most = (ROWS - 1) as f64;
     // As much is forgiven as in the count of rows: 200 s in steps of 0.01 s are 20,001 rows.
     if duration / interval <= most * (1.0 + 1e-12) {
         return Ok(());
     }
-    Err(TooManyRows {
+    Err(TooLong {
+        path: "simulation.output_interval",
         message: format!(
             "{duration} s in steps of {interval} s are more than {ROWS} rows of output, which is the most \
              here"

@@ -2,7 +2,7 @@
 //!
 //! - [`guard`], [`token`]: which requests are answered.
 //! - [`base`]: the case that changes are laid over.
-//! - [`outcome`]: a run of a wedge or of a truck, what the page shows of it, its files.
+//! - [`outcome`]: a run of a wedge, of a truck or of a car, what the page shows of it, its files.
 //! - [`api`]: requests and answers, `wedgelab.explore/1`, described in `docs/explore.md`.
 //! - [`limits`]: what a request, a connection, and all of them may take.
 //! - [`routes`]: reading requests, work on other threads, answering.
@@ -41,9 +41,10 @@ Examples:
   wedgelab explore
   wedgelab explore my.toml
   wedgelab explore truck_warp_nest_constant_rising
+  wedgelab explore car_pitch_and_bounce_loaded
   wedgelab explore cdrun_toe_0_psi_0.012 --port 8080")]
 pub struct Arguments {
-    /// Case file of a wedge or of a truck, or, if there is no such file, the name of a built-in case
+    /// Case file of a wedge, of a truck or of a car, or, if there is no such file, the name of a built-in case
     /// [default: vdrun_toe_0_psi_0]
     case: Option<PathBuf>,
     /// Port to listen at; 0: any that is free

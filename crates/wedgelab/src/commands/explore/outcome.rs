@@ -1,4 +1,4 @@
-//! A run of the explorer, of a wedge or of a truck: what the page shows of it, and its files.
+//! A run of the explorer, of a wedge, of a truck or of a car: what the page shows of it, and its files.
 
 use std::io;
 use std::ops::ControlFlow;
@@ -9,6 +9,10 @@ use report::view::run::{Detail, Recording};
 use report::{csv, mat, summary};
 use serde::Serialize;
 use study::any_case::AnyCase;
+use study::car::CarCase;
+use study::car::motions::MotionTable;
+use study::car::run::CarResult;
+use study::car::summary::CarSummary;
 use study::case::{Case, FieldSection};
 use study::contacts::ContactTable;
 use study::result::RunResult;
@@ -27,9 +31,11 @@ pub enum Outcome {
     Wedge(Box<(Case, RunResult)>),
     /// A truck, with the corners of its wedges.
     Truck(Box<(TruckCase, TruckResult, Option<ContactTable>)>),
+    /// A car, with the motions of its bodies.
+    Car(Box<(CarCase, CarResult, Option<MotionTable>)>),
 }
 
-/// The summary of either.
+/// The summary of any.
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
 pub enum AnySummary {
@@ -37,6 +43,8 @@ pub enum AnySummary {
     Wedge(Box<Summary>),
     /// `wedgelab.three_piece_truck/1`.
     Truck(Box<TruckSummary>),
+    /// `wedgelab.car/1`.
+    Car(Box<CarSummary>),
 }
 
 /// An axis of the loop: a column of the run, and in words.
@@ -54,7 +62,9 @@ pub struct Loop {
     y: LoopAxis,
     /// What the energy below is.
     energy_of: &'static str,
-    /// Energy a cycle, J; none where there are no cycles.
+    /// Of what it is the energy: of a cycle, or of the whole run.
+    energy_per: &'static str,
+    /// Energy, J; none where there are no cycles.
     energy: Option<f64>,
     /// Why there is none; empty where there is one.
     missing: String,
@@ -84,7 +94,11 @@ pub fn compute(case: AnyCase, wanted: impl Fn() -> bool) -> Result<Outcome, Refu
             Outcome::Truck(Box::new((*case, result, contacts)))
         }
         AnyCase::HalfTruck(_) => return Err(Refused::mistake("", NO_HALF_TRUCK.to_owned(), "")),
-        AnyCase::Car(_) => return Err(Refused::mistake("", NO_CAR.to_owned(), "")),
+        AnyCase::Car(case) => {
+            let run = begun(Run::with_motions(&case))?;
+            let (result, motions) = run.finish_with_motions(&mut goes_on);
+            Outcome::Car(Box::new((*case, result, motions)))
+        }
     };
     if replaced {
         return Err(Refused::Replaced);
@@ -94,10 +108,8 @@ pub fn compute(case: AnyCase, wanted: impl Fn() -> bool) -> Result<Outcome, Refu
 }
 
 /// Why half-trucks are refused.
-pub const NO_HALF_TRUCK: &str = "the explorer takes wedges and trucks, not the half-trucks of NUCARS's files";
-
-/// Why cars are refused.
-pub const NO_CAR: &str = "the explorer takes wedges and trucks, not cars: `wedgelab run` runs them";
+pub const NO_HALF_TRUCK: &str =
+    "the explorer takes wedges, trucks and cars, not the half-trucks of NUCARS's files";
 
 fn begun<C: RunCase>(run: Result<Run<C>, study::run::RunError>) -> Result<Run<C>, Refused> {
     run.map_err(|error| Refused::mistake("", format!("the run cannot begin: {error}"), OUT_OF_PROPORTION))
@@ -111,6 +123,7 @@ impl Outcome {
         match (self, case) {
             (Self::Wedge(own), AnyCase::Wedge(case)) => own.0 == **case,
             (Self::Truck(own), AnyCase::Truck(case)) => own.0 == **case,
+            (Self::Car(own), AnyCase::Car(case)) => own.0 == **case,
             _ => false,
         }
     }
@@ -120,6 +133,7 @@ impl Outcome {
         match self {
             Self::Wedge(own) => &own.0.name,
             Self::Truck(own) => &own.0.name,
+            Self::Car(own) => &own.0.name,
         }
     }
 
@@ -128,6 +142,7 @@ impl Outcome {
         match self {
             Self::Wedge(own) => own.0.document.fields(),
             Self::Truck(own) => own.0.fields().to_vec(),
+            Self::Car(own) => own.0.fields().to_vec(),
         }
     }
 
@@ -135,8 +150,8 @@ impl Outcome {
     pub fn finite(&self) -> Result<(), Refused> {
         let found = match self {
             Self::Wedge(own) => own.1.summary.not_finite(),
-            // A truck's run stops where a number is none.
-            Self::Truck(_) => None,
+            // Runs of trucks and cars stop where a number is none.
+            Self::Truck(_) | Self::Car(_) => None,
         };
         match found {
             Some(what) => Err(Refused::mistake(
@@ -161,6 +176,11 @@ impl Outcome {
                     Recording::of_three_piece_truck(case, result, contacts.as_ref(), Detail::Thinned);
                 View::new(result.summary.units(), [recording], [])
             }
+            Self::Car(own) => {
+                let (case, result, motions) = &**own;
+                let recording = Recording::of_car(case, result, motions.as_ref(), Detail::Thinned);
+                View::new(result.summary.units(), [recording], [])
+            }
         }
     }
 
@@ -173,6 +193,7 @@ impl Outcome {
                 AnySummary::Wedge(Box::new(summary))
             }
             Self::Truck(own) => AnySummary::Truck(Box::new(own.1.summary.clone())),
+            Self::Car(own) => AnySummary::Car(Box::new(own.1.summary.clone())),
         }
     }
 
@@ -181,6 +202,7 @@ impl Outcome {
         match self {
             Self::Wedge(own) => loop_of_wedge(&own.1),
             Self::Truck(own) => loop_of_truck(&own.1),
+            Self::Car(own) => loop_of_car(&own.0, &own.1),
         }
     }
 
@@ -190,12 +212,12 @@ impl Outcome {
             (Self::Wedge(own), csv::FILE_NAME) => csv::write(&own.1, out)?,
             (Self::Wedge(own), mat::FILE_NAME) => mat::write(&own.0, &own.1, out)?,
             (Self::Wedge(own), _) => summary::write(&own.1.summary, out)?,
-            (Self::Truck(own), csv::FILE_NAME) => {
-                let result = &own.1;
-                csv::write_columns(&result.columns, &result.values, result.summary.units(), out)?;
-            }
+            (Self::Truck(own), csv::FILE_NAME) => write_csv(&own.1, out)?,
             (Self::Truck(own), mat::FILE_NAME) => mat::write_truck(&own.1, out)?,
             (Self::Truck(own), _) => summary::write_json(&own.1.summary, out)?,
+            (Self::Car(own), csv::FILE_NAME) => write_csv(&own.1, out)?,
+            (Self::Car(own), mat::FILE_NAME) => mat::write_car(&own.1, out)?,
+            (Self::Car(own), _) => summary::write_json(&own.1.summary, out)?,
         }
         Ok(match file {
             csv::FILE_NAME => "text/csv",
@@ -205,9 +227,16 @@ impl Outcome {
     }
 }
 
+fn write_csv<S: RunSummary>(result: &RunResult<S>, out: &mut Vec<u8>) -> io::Result<()> {
+    csv::write_columns(&result.columns, &result.values, result.summary.units(), out)
+}
+
 fn joules(value: f64, units: quantity::System) -> f64 {
     value / Kind::Energy.from_si(units)
 }
+
+/// What energies of periodic motions are told of.
+const CYCLE: &str = "cycle";
 
 fn loop_of_wedge(result: &RunResult) -> Loop {
     let averages = &result.summary.averages;
@@ -223,6 +252,7 @@ fn loop_of_wedge(result: &RunResult) -> Loop {
             name: "vertical force on the side frame",
         },
         energy_of: "Energy lost in friction at the side frame",
+        energy_per: CYCLE,
         energy: energy.map(|energy| joules(energy.value, result.summary.units)),
         missing: averages.missing.clone(),
     }
@@ -230,13 +260,7 @@ fn loop_of_wedge(result: &RunResult) -> Loop {
 
 /// The loop of warp where the truck warps, of roll where the bolster rolls, else of the vertical motion.
 fn loop_of_truck(result: &TruckResult) -> Loop {
-    let range = |name: &str| {
-        let values = result.column(name).unwrap_or_default().iter();
-        let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| {
-            (least.min(*value), most.max(*value))
-        });
-        most - least
-    };
+    let range = |name: &str| range(result.column(name));
     let (title, x, y) = if range("warp_angle") > 1e-3 {
         (
             "Warp moment over the warp angle",
@@ -273,7 +297,64 @@ fn loop_of_truck(result: &TruckResult) -> Loop {
             name: y.1,
         },
         energy_of: "Energy lost at the four wedges",
+        energy_per: CYCLE,
         energy: (cycles.count > 0).then(|| joules(sum, result.summary.units())),
         missing: cycles.missing.clone(),
+    }
+}
+
+/// The greatest value of a column less its least.
+fn range(column: Option<&[f64]>) -> f64 {
+    let values = column.unwrap_or_default().iter();
+    let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| {
+        (least.min(*value), most.max(*value))
+    });
+    most - least
+}
+
+/// Over the distance: the roll of the body where it rolls by more than 0.5 deg, the lateral force of the
+/// leading axle's wheel that pushes more where the track curves, else the vertical force of the leading left
+/// wheel.
+fn loop_of_car(case: &CarCase, result: &CarResult) -> Loop {
+    let most = |name: &str| {
+        let values = result.column(name).unwrap_or_default().iter();
+        values.fold(0.0, |most: f64, value| most.max(value.abs()))
+    };
+    let distances = result.column("distance").unwrap_or_default();
+    let line = &case.parameters.track.center_line;
+    let curves = distances.iter().any(|at| line.at(*at).curvature[0] != 0.0);
+    let [left, right] = ["axle_1_left_lateral", "axle_1_right_lateral"];
+    let (title, column, name) = if range(result.column("body_roll")) > 0.5_f64.to_radians() {
+        (
+            "Roll of the body over the distance",
+            "body_roll",
+            "roll of the body, left side up",
+        )
+    } else if curves {
+        let outer = if most(left) > most(right) { left } else { right };
+        (
+            "Lateral force of a wheel of the leading axle over the distance",
+            outer,
+            "lateral force, positive where it spreads the gauge",
+        )
+    } else {
+        (
+            "Vertical force of the leading left wheel over the distance",
+            "axle_1_left_vertical",
+            "vertical force",
+        )
+    };
+    let losses: f64 = result.summary.wedge_losses.values().map(|loss| loss.value).sum();
+    Loop {
+        title,
+        x: LoopAxis {
+            column: "distance",
+            name: "distance along the track",
+        },
+        y: LoopAxis { column, name },
+        energy_of: "Energy lost in friction at the eight wedges",
+        energy_per: "run",
+        energy: Some(joules(losses, result.summary.units)),
+        missing: String::new(),
     }
 }

@@ -1,4 +1,4 @@
-//! `wedgelab fmu export`: the wedge of a case, or the half-truck of a run, as an FMU.
+//! `wedgelab fmu export`: the wedge, truck or car of a case, or the half-truck of a run, as an FMU.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ use super::write;
 use crate::commands::run;
 use crate::failure::{Failure, Message};
 
-/// Write the wedge or the truck of a case, or the half-truck of a run, as an FMU
+/// Write the wedge, the truck or the car of a case, or the half-truck of a run, as an FMU
 ///
 /// The file holds the model for model exchange and for co-simulation, the case or the files of the run, a
 /// page that documents all variables, and the library for the platform that this program runs on. It needs
@@ -27,6 +27,7 @@ Examples:
   wedgelab fmu export cdrun_toe_0_psi_0 -o wedge.fmu --fmi 3
   wedgelab fmu export my.toml -o simple.fmu --quasi-static
   wedgelab fmu export truck_warp_nest_variable_rising -o truck.fmu
+  wedgelab fmu export car_pitch_and_bounce_loaded -o car.fmu
   wedgelab fmu export half_truck.run -o half.fmu
   wedgelab fmu export nucars_69_constant_toe_out -o half.fmu")]
 pub struct Arguments {
@@ -113,17 +114,22 @@ impl Arguments {
             return Err(Message::new(message, "leave it out, or name the case of a wedge").into());
         }
         let any = run::read_any(&self.case, &self.set)?;
-        if let AnyCase::Truck(case) = any {
+        let whole = match &any {
+            AnyCase::Truck(case) => Some((Source::ThreePieceTruck(case.clone()), "truck")),
+            AnyCase::Car(case) => Some((Source::Car(case.clone()), "car")),
+            _ => None,
+        };
+        if let Some((source, what)) = whole {
             let option = match (self.quasi_static, self.truck) {
                 (true, _) => Some("--quasi-static".to_owned()),
                 (_, true) => Some("--truck".to_owned()),
                 _ => self.choice.given(),
             };
             return match option {
-                None => Ok(Source::ThreePieceTruck(case)),
+                None => Ok(source),
                 Some(option) => {
                     let message = format!(
-                        "{} is a truck, and {option} is not for trucks",
+                        "{} is a {what}, and {option} is not for {what}s",
                         self.case.display()
                     );
                     Err(Message::new(message, "leave it out").into())

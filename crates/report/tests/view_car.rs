@@ -1,0 +1,156 @@
+//! A car's run as the page shows it: bodies where the mechanics has them, patches that carry the wheels'
+//! forces, wedges in balance.
+#![allow(clippy::unwrap_used)]
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::sync::LazyLock;
+
+use report::figures::car::CarRun;
+use report::page::{Viewer, car_run};
+use report::view::car::scene;
+use study::car::CarCase;
+use study::case::Tables;
+use study::run::Run;
+
+/// In a curve to the left of 7.5 deg with 4 in of superelevation.
+const CURVE: &str = "model = \"car\"\nstart.settle = \"0 s\"\nspeed.value = \"28 mph\"\n\
+                     simulation.duration = \"4.5 s\"\nsimulation.output_interval = \"0.02 s\"\n\
+                     [[track.segments]]\ntangent = \"60 ft\"\n\
+                     [[track.segments]]\nspiral = \"80 ft\"\n\
+                     [[track.segments]]\ncurve = \"500 ft\"\ndegree = \"7.5 deg\"\ndirection = \"left\"\n\
+                     superelevation = \"4 in\"\n";
+
+/// The run, made once.
+fn ran() -> &'static CarRun {
+    static RUN: LazyLock<CarRun> = LazyLock::new(|| {
+        let case = CarCase::parse("curve.toml", CURVE, Tables::nowhere(), &[]).unwrap();
+        let run = Run::with_motions(&case).unwrap();
+        let (result, motions) = run.finish_with_motions(|_| ControlFlow::Continue(()));
+        assert!(result.summary.complete, "{:?}", result.summary.stopped);
+        CarRun {
+            case,
+            result,
+            motions,
+        }
+    });
+    &RUN
+}
+
+/// All columns, of the table and of the motions.
+fn columns(run: &CarRun) -> BTreeMap<&str, &[f64]> {
+    let motions = run.motions.as_ref().unwrap();
+    let own = run.result.columns.iter().zip(&run.result.values);
+    let all = own.chain(motions.columns.iter().zip(&motions.values));
+    all.map(|(column, values)| (column.name.as_str(), values.as_slice()))
+        .collect()
+}
+
+/// The scene names no column that there is not, all have a value for every row, and no two columns of table
+/// and motions have one name.
+#[test]
+fn input_the_scene_names_columns_that_there_are() {
+    let run = ran();
+    let columns = columns(run);
+    let motions = run.motions.as_ref().unwrap();
+    assert_eq!(columns.len(), run.result.columns.len() + motions.columns.len());
+    let rows = run.result.rows();
+    let scene = scene(&run.case, &run.result).unwrap();
+    for name in scene.columns() {
+        assert_eq!(columns[name.as_str()].len(), rows, "{name}");
+    }
+    // Body, two trucks of seven bodies in axes of their own, four wheelsets that spin in theirs.
+    assert_eq!(scene.bodies.len(), 1 + 2 * 8 + 4 * 2);
+    assert_eq!((scene.contacts.len(), scene.patches.len()), (16, 24));
+    let track = scene.track.unwrap();
+    assert!(track.lists["x"].len() > 100 && track.lists.contains_key("roll"));
+}
+
+/// Patches carry what the wheels carry, and are where wheels and rails touch.
+#[test]
+fn analytic_patches_sum_up_to_the_forces_of_the_wheels() {
+    let run = ran();
+    let columns = columns(run);
+    for row in [0, run.result.rows() / 2, run.result.rows() - 1] {
+        for axle in 1..=4 {
+            for (side, sign) in [("left", 1.0), ("right", -1.0)] {
+                let at = |name: String| columns[name.as_str()][row];
+                let stem = format!("axle_{axle}_{side}");
+                let mut vertical = 0.0;
+                for patch in 1..=3 {
+                    let own = |what: &str| at(format!("{stem}_patch_{patch}_{what}"));
+                    let (normal, angle) = (own("normal_force"), own("angle"));
+                    // Up on the wheel, square to the axle.
+                    vertical += normal * angle.cos() + sign * own("creep_y") * angle.sin();
+                    if normal > 0.0 {
+                        let [y, z] = ["y", "z"].map(own);
+                        assert!((sign * y - 0.75).abs() < 0.06, "{stem}: {y} m");
+                        assert!((-0.49..-0.44).contains(&z), "{stem}: {z} m");
+                    }
+                }
+                let wanted = at(format!("{stem}_vertical"));
+                assert!(
+                    (vertical / wanted - 1.0).abs() < 0.01,
+                    "{stem}: {vertical} N of {wanted} N"
+                );
+            }
+        }
+    }
+}
+
+/// In a curve the body lies inside of the arc of its trucks by the chord, `c²/(8 R)`, the wheelsets turn by
+/// the distance over the radius of the wheels, and what is drawn of a wedge is in balance along the truck.
+#[test]
+fn analytic_body_wheels_and_wedges_are_where_they_must_be() {
+    let run = ran();
+    let columns = columns(run);
+    let last = run.result.rows() - 1;
+    let own = &run.case.parameters;
+    let radius = 50.0 * 0.3048 / (3.75_f64).to_radians().sin();
+    // Rails are 59 in apart where 4 in of superelevation tilt the plane in which it lies.
+    let chord = own.truck_distance.powi(2) / (8.0 * radius) * (4.0_f64 / 59.0).asin().cos();
+    let found = columns["chord_lateral"][last];
+    assert!((found / chord - 1.0).abs() < 1e-3, "{found} m, {chord} m");
+    let body = columns["body_lateral"][last];
+    assert!((body - chord).abs() < 0.04, "{body} m");
+    for axle in 1..=4 {
+        let at = |what: &str, row: usize| columns[format!("axle_{axle}_{what}").as_str()][row];
+        let way = at("distance", last) - at("distance", 0);
+        let turned = at("spin", last) - at("spin", 0);
+        assert!(
+            (turned * own.wheel_radius() / way - 1.0).abs() < 5e-3,
+            "{way} m, {turned} rad"
+        );
+    }
+    let scene = scene(&run.case, &run.result).unwrap();
+    for pair in scene.contacts.chunks(2) {
+        let mut sum = 0.0;
+        let mut most: f64 = 0.0;
+        for contact in pair {
+            let solid = scene.solids.iter().find(|own| own.id == contact.on).unwrap();
+            let (sine, cosine) = solid.mount.angles[1].sin_cos();
+            let [x, _, z] = contact.normal;
+            let normal = columns[contact.normal_force.as_str()][last];
+            sum += normal * (x * cosine + z * sine) + columns[contact.friction[0].as_str()][last];
+            most = most.max(normal);
+        }
+        assert!(
+            most > 1e3 && sum.abs() < 0.02 * most,
+            "{}: {sum} N of {most} N",
+            pair[0].id
+        );
+    }
+}
+
+/// The page holds the run, and is not too large.
+#[test]
+fn input_the_page_moves() {
+    let run = ran();
+    let viewer = Viewer {
+        style: "",
+        script: "",
+    };
+    let page = car_run::render(run, Some(viewer)).unwrap();
+    assert!(page.contains("data-run=\"curve\"") && page.contains("wedgelab-view"));
+    assert!(!car_run::render(run, None).unwrap().contains("data-run"));
+}

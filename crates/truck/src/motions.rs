@@ -1,0 +1,108 @@
+//! Where the parts of a truck are, and what its wedges' faces exert: what a picture of it needs beyond
+//! [`crate::Loads`].
+
+use mechanics::system::{ContactState, FaceState, Observation};
+use mechanics::vector::Vector;
+
+use crate::assemble::{BOLSTER, SIDE_FRAMES};
+use crate::elements::WedgePlace;
+use crate::mounted::{MountedTruck, TruckFrame, View};
+
+/// What a face exerts on its wedge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FaceForce {
+    /// Sum of the normal forces, N.
+    pub normal: f64,
+    /// Sum of the friction forces, axes of the truck, N.
+    pub friction: [f64; 3],
+    /// It slips where one of its points does, else sticks where one does.
+    pub state: ContactState,
+}
+
+impl FaceForce {
+    /// Returns what this face and another exert together.
+    fn and(&self, other: &Self) -> Self {
+        let states = [self.state, other.state];
+        let mut strongest = [ContactState::Slip, ContactState::Stick].into_iter();
+        Self {
+            normal: self.normal + other.normal,
+            friction: std::array::from_fn(|k| self.friction[k] + other.friction[k]),
+            state: strongest
+                .find(|state| states.contains(state))
+                .unwrap_or(ContactState::Open),
+        }
+    }
+}
+
+/// Parts of a truck, SI: displacements of centers of gravity from their nominal places and roll, pitch, yaw,
+/// in the axes of the truck.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motions {
+    /// The bolster.
+    pub bolster: [f64; 6],
+    /// The side frames, left and right.
+    pub side_frames: [[f64; 6]; 2],
+    /// Column and slope of each wedge (of both halves of a split one), in the order of [`WEDGE_NAMES`](crate::WEDGE_NAMES).
+    pub faces: [[FaceForce; 2]; 4],
+}
+
+impl MountedTruck {
+    /// Returns where the parts are at an observation of the system in which the truck is, in the axes of a
+    /// frame.
+    #[must_use]
+    pub fn motions(&self, seen: &Observation, frame: &TruckFrame) -> Motions {
+        let view = View::new(self, seen, Some(*frame));
+        let part = |number: usize| {
+            let moved = view.place(view.body(number).center_of_gravity) - self.part_places[number - BOLSTER];
+            let ([x, y, z], [roll, pitch, yaw]) = (moved.0, view.angles(number));
+            [x, y, z, roll, pitch, yaw]
+        };
+        Motions {
+            bolster: part(BOLSTER),
+            side_frames: [part(SIDE_FRAMES), part(SIDE_FRAMES + 1)],
+            faces: [0, 1, 2, 3].map(|number| self.faces(number, &view)),
+        }
+    }
+
+    fn faces(&self, number: usize, view: &View<'_>) -> [FaceForce; 2] {
+        let of = |face: usize| of_face(&view.seen.faces[face], view);
+        let connection = match self.added.wedges[number] {
+            WedgePlace::Body { column } => return [of(column), of(column + 1)],
+            // Column and slope of the outboard half, then those of the inboard one.
+            WedgePlace::Split { column } => {
+                return [column, column + 1].map(|face| of(face).and(&of(face + 2)));
+            }
+            WedgePlace::Massless { connection } => &view.seen.connections[connection],
+        };
+        let inside = connection.wedge.unwrap_or_default();
+        let state = connection.contact_state.unwrap_or(ContactState::Open);
+        let state_of = |normal: f64| if normal > 0.0 { state } else { ContactState::Open };
+        let ahead = if number < 2 { 1.0 } else { -1.0 };
+        // The column's friction lies along the column, the slope's along the slope.
+        let (toe_sine, toe_cosine) = libm::sincos(ahead * self.toes[number]);
+        let (sine, cosine) = libm::sincos(self.angles[number]);
+        let (up, along) = (inside.column_friction, inside.slope_friction);
+        [
+            FaceForce {
+                normal: inside.column_normal,
+                friction: [-up * toe_sine, -inside.lateral_friction, up * toe_cosine],
+                state: state_of(inside.column_normal),
+            },
+            FaceForce {
+                normal: inside.slope_normal,
+                friction: [ahead * along * sine, 0.0, along * cosine],
+                state: state_of(inside.slope_normal),
+            },
+        ]
+    }
+}
+
+fn of_face(face: &FaceState, view: &View<'_>) -> FaceForce {
+    let sum = |sum: Vector<f64>, force: &Vector<f64>| sum + *force;
+    let friction = face.friction_forces.iter().fold(Vector::zero(), sum);
+    FaceForce {
+        normal: face.points.iter().map(|point| point.normal).sum(),
+        friction: view.vector(friction).0,
+        state: face.contact_state(),
+    }
+}
