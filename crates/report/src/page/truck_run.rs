@@ -58,7 +58,7 @@ fn losses(energy: &EnergySummary, loss: &SummaryValue) -> Markup {
              states and of the four parts of the stroke of what moves (rising or falling, in its upper or \
              lower half)."
             @if let Some(own) = &energy.equivalent {
-                " Equivalent damping of all that is lost: " (format!("{:.4} ", own.damping.value))
+                " Equivalent damping of all that is lost: " (format!("{:.1} ", own.damping.value))
                 (own.damping.unit)
                 @if let Some(ratio) = own.damping_ratio { (format!(", damping ratio {ratio:.3}")) }
                 "."
