@@ -2,13 +2,14 @@
 //!
 //! [`CarCase`] is what a user writes, completed and in SI; [`builtin`] has cases after the regimes of the
 //! field; [`statistics`] says what rules for the assessment of cars ask, [`limits`] beside what they allow;
-//! [`run`] records a run; [`stability`] linearizes.
+//! [`run`] records a run; [`stability`] linearizes; [`hunting`] ramps the speed.
 
 mod assumptions;
 pub mod builtin;
 mod checks;
 mod columns;
 mod derailment;
+pub mod hunting;
 mod lading;
 pub mod limits;
 pub mod run;
