@@ -160,7 +160,7 @@ fn input_messages_say_what_is_wrong_and_what_to_write() {
         ),
         (
             "wheels.profile = \"aar_1b_1:5\"",
-            &["the run of the tread is 5", "at least 7"],
+            &["the run of the tread is 5", "at least 10"],
         ),
         ("wheels.profile = \"cone_x\"", &["which is no cone", "cone_1:20"]),
         ("wheels.profile = \"worn.prw\"", &["`wheels.profile`", "worn.prw"]),

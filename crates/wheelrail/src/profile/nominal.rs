@@ -96,13 +96,13 @@ pub fn aar_1b() -> Result<Profile, ProfileError> {
 /// conicity 1/`run` on its treads, with the flange of the AAR-1B.
 ///
 /// # Errors
-/// The run is below 7: a steeper tread leaves the flange no straight face.
+/// The run is below 10: a steeper tread leaves the flange no straight face.
 pub fn aar_1b_with_tread(run: f64) -> Result<Profile, ProfileError> {
-    if !(run >= 7.0 && run.is_finite()) {
+    if !(run >= 10.0 && run.is_finite()) {
         return Err(ProfileError::Number {
             what: "the run of the tread",
             value: run,
-            must: "at least 7",
+            must: "at least 10",
         });
     }
     let back = -(3.0 + 1.0 / 16.0) * INCH;
