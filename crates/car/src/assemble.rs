@@ -26,7 +26,7 @@ use wheelrail::contact::{ContactTable, Side};
 use wheelrail::track::RailLines;
 
 use crate::body::{Carried, Pose, angles};
-use crate::drive::SpeedControl;
+use crate::drive::{Between, SpeedControl, over_distance};
 use crate::error::BuildError;
 use crate::parameters::{Drive, Parameters, StartKind, Wheels};
 use crate::start::{Placement, at_rest};
@@ -278,14 +278,19 @@ impl Nominal {
         let wheels = wheels(&mut model, parameters, searches, lines, on);
         let control = match &parameters.drive {
             Drive::Coasting => None,
-            Drive::Held { gain } => Some((*gain, vec![[0.0, parameters.start.speed]])),
-            Drive::Over { gain, speeds } => Some((*gain, speeds.clone())),
+            Drive::Held { gain } => Some((*gain, vec![[0.0, parameters.start.speed]], Between::Speed)),
+            Drive::Over { gain, speeds } => Some((*gain, speeds.clone(), Between::Speed)),
+            Drive::History { gain, speeds } => {
+                let speeds = over_distance(speeds, parameters.start.distance);
+                Some((*gain, speeds, Between::Square))
+            }
         };
-        if let Some((gain, speeds)) = control {
+        if let Some((gain, speeds, between)) = control {
             let control = SpeedControl {
                 lines: lines.clone(),
                 gain,
                 speeds,
+                between,
             };
             let at = body_marker(carried, [0.0, 0.0, COUPLERS]);
             model.add(control, (body, at), (0, track));

@@ -76,6 +76,15 @@ pub enum Drive {
         /// Distances (m) and speeds (m/s).
         speeds: Vec<[f64; 2]>,
     },
+    /// As `Held`, to the speed of a history: pairs of time (s, from zero on, rising) and speed (m/s,
+    /// positive), linear between them, constant before and after. What is wanted at a place is the speed of the history at the
+    /// time when a car that follows it comes there: a car that lags meets it later.
+    History {
+        /// Force by speed, N·s/m.
+        gain: f64,
+        /// Times (s) and speeds (m/s).
+        speeds: Vec<[f64; 2]>,
+    },
     /// Nothing.
     Coasting,
 }
@@ -109,6 +118,28 @@ pub enum StartKind {
     Equilibrium,
     /// In the nominal layout, each body at its place along the track.
     Nominal,
+}
+
+/// Checks pairs of a distance or time and a speed (m/s).
+fn check_speeds(over: &str, unit: &str, speeds: &[[f64; 2]]) -> Result<(), InvalidParameter> {
+    if speeds.is_empty() {
+        let message = format!("the speeds over {over} are an empty list");
+        return Err(InvalidParameter::missing(&message));
+    }
+    let what = format!("a {over} of the speeds over {over} ({unit})");
+    for (number, [at, speed]) in speeds.iter().enumerate() {
+        if !at.is_finite() {
+            return Err(InvalidParameter::new(&what, *at, "a number"));
+        }
+        if number > 0 && *at <= speeds[number - 1][0] {
+            return Err(InvalidParameter::new(&what, *at, "more than the one before it"));
+        }
+        if !(*speed >= 0.0 && speed.is_finite()) {
+            let what = format!("a speed over {over} (m/s)");
+            return Err(InvalidParameter::new(&what, *speed, "zero or positive"));
+        }
+    }
+    Ok(())
 }
 
 /// A car on a track.
@@ -263,24 +294,16 @@ impl Parameters {
             Drive::Held { gain } => positive("the gain of the drive (N·s/m)", *gain)?,
             Drive::Over { gain, speeds } => {
                 positive("the gain of the drive (N·s/m)", *gain)?;
-                if speeds.is_empty() {
-                    return Err(InvalidParameter::missing(
-                        "the speeds over distance are an empty list",
-                    ));
-                }
-                if let Some(pair) = speeds.windows(2).find(|pair| pair[1][0] <= pair[0][0]) {
-                    let what = "a distance of the speeds over distance (m)";
-                    return Err(InvalidParameter::new(
-                        what,
-                        pair[1][0],
-                        "more than the one before it",
-                    ));
-                }
-                for [distance, speed] in speeds {
-                    finite("a distance of the speeds over distance (m)", *distance)?;
-                    if !(*speed >= 0.0 && speed.is_finite()) {
-                        let what = "a speed over distance (m/s)";
-                        return Err(InvalidParameter::new(what, *speed, "zero or positive"));
+                check_speeds("distance", "m", speeds)?;
+            }
+            Drive::History { gain, speeds } => {
+                positive("the gain of the drive (N·s/m)", *gain)?;
+                check_speeds("time", "s", speeds)?;
+                for [time, speed] in speeds {
+                    positive("a speed over time (m/s)", *speed)?;
+                    if *time < 0.0 {
+                        let what = "a time of the speeds over time (s)";
+                        return Err(InvalidParameter::new(what, *time, "zero or positive"));
                     }
                 }
             }

@@ -15,7 +15,7 @@
 //! - [`run_files`]: the files of a run.
 //! - [`half_truck_files`]: the files of a half-truck's run.
 //! - [`warp_files`], [`curves_files`], [`wear_files`]: the files of `wedgelab warp`, `curves` and `wear`;
-//!   [`stability_files`]: those of `wedgelab stability`; [`wheelrail_files`]: those of `wedgelab wheelrail
+//!   [`stability_files`], [`hunting_files`]: those of `wedgelab stability`; [`wheelrail_files`]: those of `wedgelab wheelrail
 //!   plot`; [`track_files`]: those of `wedgelab track show`.
 //! - [`table`]: tables of results, read back.
 //! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table,
@@ -35,6 +35,7 @@ pub mod figures;
 pub mod files;
 pub mod fit_files;
 pub mod half_truck_files;
+pub mod hunting_files;
 pub mod lock_up_files;
 pub mod mat;
 pub mod mat5;

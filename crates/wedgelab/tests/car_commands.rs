@@ -84,6 +84,42 @@ fn input_commands_say_what_they_take() {
             &["must be the higher one"],
         ),
         (
+            &[
+                "stability",
+                "car_hunting_empty",
+                "--nonlinear",
+                "--set",
+                "wheels.geometry=linear",
+                "--set",
+                "track.support.kind=rigid",
+            ],
+            &["neither flanges nor saturation", "leave out --nonlinear"],
+        ),
+        (
+            &["stability", "car_hunting_empty", "--ramp-time", "60 s"],
+            &["--nonlinear"],
+        ),
+        (
+            &[
+                "stability",
+                "car_hunting_empty",
+                "--nonlinear",
+                "--ramp-time",
+                "1 s",
+            ],
+            &["the ramp must take 5 s to 10000 s"],
+        ),
+        (
+            &[
+                "stability",
+                "car_hunting_empty",
+                "--nonlinear",
+                "--threshold",
+                "2 s",
+            ],
+            &["a length is expected"],
+        ),
+        (
             &["warp", "car_tangent_empty"],
             &["is the case of a car", "a truck's is expected"],
         ),
@@ -106,4 +142,38 @@ fn input_commands_say_what_they_take() {
             );
         }
     }
+}
+
+/// The empty car on rollers hunts at 70 mph once its axles start 0.4 in off the middle: files and words say so.
+#[test]
+fn limits_a_car_on_rollers_hunts_once_disturbed() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let arguments = "stability car_hunting_roller_empty -q --nonlinear --steps 2 --ramp-time 5s --out h";
+    let mut arguments: Vec<&str> = arguments.split(' ').collect();
+    arguments.extend(["--speeds", "70 mph..75 mph"]);
+    let done = wedgelab(at, &arguments);
+    assert_eq!(done.code, Some(0), "{}", done.err);
+    assert!(
+        done.out
+            .contains("Speed falls: it hunts down to the lowest speed.")
+            && done.out.contains("Speed rises: "),
+        "{}",
+        done.out
+    );
+    for file in ["stability.csv", "hunting.csv", "hunting.svg", "hunting.png"] {
+        assert!(at.join("h").join(file).is_file(), "{file}");
+    }
+    let numbers: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(at.join("h/hunting.json")).unwrap()).unwrap();
+    assert_eq!(numbers["schema"], "wedgelab.car_hunting/1");
+    assert_eq!(numbers["complete"], true);
+    assert_eq!(numbers["falling"]["hunting"], "everywhere");
+    assert!(
+        numbers["falling"]["largest_amplitude"].as_f64().unwrap() > 0.2,
+        "{numbers}"
+    );
+    let table = fs::read_to_string(at.join("h/hunting.csv")).unwrap();
+    assert!(table.starts_with("ramp,time_s,speed_mph,axle_1_lateral_amplitude_in,"));
+    assert!(table.contains("\nfalling,") && table.contains("\nrising,"));
 }

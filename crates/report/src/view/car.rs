@@ -225,7 +225,11 @@ fn edges(mass: &Mass) -> [f64; 3] {
 fn add_truck(scene: &mut Scene, parameters: &truck::Parameters, prefix: &str) {
     let frame = prefix.trim_end_matches('_').to_owned();
     let mut parameters = parameters.clone();
-    for wedge in parameters.wedges.iter_mut().filter(|wedge| wedge.kind == WedgeKind::Split) {
+    for wedge in parameters
+        .wedges
+        .iter_mut()
+        .filter(|wedge| wedge.kind == WedgeKind::Split)
+    {
         wedge.kind = WedgeKind::Body;
     }
     let carriage = three_piece::carriage(&parameters, prefix, &[None, None, None]);

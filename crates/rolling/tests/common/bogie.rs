@@ -4,53 +4,17 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use mechanics::body::Body;
-use mechanics::element::{Element, Wrench};
 use mechanics::frame::Frame;
-use mechanics::link::{Marker, RelativeMotion};
+use mechanics::link::Marker;
 use mechanics::system::{Model, System};
-use mechanics::vector::Vector;
-use numerics::scalar::Real;
 use rolling::linear::LinearOnTrack;
 use rolling::wheelset::{WheelsetBody, WheelsetPlace, coordinate, marker};
 use wheelrail::conicity::LinearGeometry;
 use wheelrail::contact::{CreepCoefficients, LinearWheelset};
 use wheelrail::track::{RailLines, Segment};
 
+use super::bushing::Bushing;
 use super::{bisection, track};
-
-/// Springs and dampers along and about the axes of marker B, for small rotations.
-#[derive(Clone, Debug)]
-struct Bushing {
-    along: [f64; 3],
-    about: [f64; 3],
-    damping: [f64; 3],
-    turning: [f64; 3],
-}
-
-impl Element for Bushing {
-    fn name(&self) -> &str {
-        "bushing"
-    }
-    fn evaluate<S: Real>(&self, motion: &RelativeMotion<S>) -> Wrench<S> {
-        let (d, v, r, w) = (
-            motion.position.0,
-            motion.velocity.0,
-            motion.small_rotations().0,
-            motion.angular_velocity.0,
-        );
-        let part = |k: [f64; 3], c: [f64; 3], d: [S; 3], v: [S; 3]| {
-            Vector([0, 1, 2].map(|i| -(d[i] * k[i]) - v[i] * c[i]))
-        };
-        Wrench {
-            force: part(self.along, self.damping, d, v),
-            moment: part(self.about, self.turning, r, w),
-            powers: [S::zero(); 2],
-        }
-    }
-    fn energy(&self, _: &RelativeMotion<f64>) -> f64 {
-        0.0
-    }
-}
 
 /// Radius, half the gauge, half the wheelbase, lateral places of springs, heights below and above the frame's
 /// center, m.

@@ -2,7 +2,10 @@
 #![allow(dead_code, unused_imports, clippy::unwrap_used, clippy::expect_used)]
 
 pub mod bogie;
+pub mod bushing;
 pub mod impact;
+pub mod manchester;
+pub mod nonlinear;
 pub mod suspended;
 
 use std::sync::Arc;

@@ -15,7 +15,9 @@ mod common;
 
 use common::impact::{LOAD, closed_forms, joint, meeting};
 use common::suspended::{SUSPENDED, critical_speed, growth_by_steps, hunting};
-use common::{POLACH, after, bogie, coned_wheelset, freight, linear, on_rails, track};
+use common::{
+    POLACH, after, bogie, coned_wheelset, freight, linear, manchester, nonlinear as limits, on_rails, track,
+};
 
 const HEAD: &str = "\
 # Validation: wheelsets on track
@@ -29,7 +31,16 @@ rail](validation-wheelrail.md).
 /// The page.
 pub fn page() -> String {
     let mut out = HEAD.to_owned();
-    for part in [suspended, cooperrider, klingel, bump, circle, impact] {
+    for part in [
+        suspended,
+        cooperrider,
+        manchester,
+        nonlinear,
+        klingel,
+        bump,
+        circle,
+        impact,
+    ] {
         out.push('\n');
         part(&mut out);
     }
@@ -84,6 +95,78 @@ fn cooperrider(out: &mut String) {
         percent(found, 68.644),
         percent(frequency, 3.998)
     );
+}
+
+/// Says whether two numbers agree within a share, below which their difference is that of rounding.
+fn within(found: f64, source: f64, share: f64) -> String {
+    match (found / source - 1.0).abs() < share {
+        true => format!("below {} %", 100.0 * share),
+        false => "MORE".to_owned(),
+    }
+}
+
+fn manchester(out: &mut String) {
+    *out += "## Manchester vehicle 1\n\n\
+             Vehicle 1 of the Manchester benchmarks (Iwnicki 1998) as data on the same core: body, two bogies, \
+             four wheelsets, linear springs and\ndampers, no wedges. Masses, springs and dampers are \
+             published; heights of the centers of gravity (body 1.8 m, bogies 0.6 m), lateral\nplaces of the \
+             springs (1 m) and the height of the secondary ones (0.83 m) are guesses. Each spring acts at one \
+             height, without\npreload; bump stops and rods are left out. Beside it mass, damping and stiffness \
+             matrices by themselves, from the extensions of\nthe springs.\n\n\
+             Natural frequencies on wheelsets that are held, to lie within 0.001 %:\n\n\
+             | what moves most | here, Hz | by itself |  |\n|---|---|---|---|\n";
+    for own in manchester::natural() {
+        let _ = writeln!(
+            out,
+            "| {} | {:.4} | {:.4} | {} |",
+            own.name,
+            own.found,
+            own.expected,
+            within(own.found, own.expected, 1e-5)
+        );
+    }
+    let _ = write!(
+        out,
+        "\nThe closed form of two masses has the body's bounce at {:.4} Hz. Critical speeds on linear wheels \
+         (f11 = 10 MN, f22 = 9 MN a wheel,\nguesses), to lie within 0.01 %:\n\n\
+         | conicity | here, m/s | by itself |  | here, Hz | by itself |\n|---|---|---|---|---|---|\n",
+        manchester::bounce()
+    );
+    for conicity in [0.2, 0.3, 0.4] {
+        let [[found, hertz], [expected, other]] = manchester::critical(conicity);
+        let _ = writeln!(
+            out,
+            "| {conicity} | {found:.2} | {expected:.2} | {} | {hertz:.3} | {other:.3} |",
+            within(found, expected, 1e-4)
+        );
+    }
+}
+
+fn nonlinear(out: &mut String) {
+    let critical = limits::critical();
+    let [speed, turning] = critical;
+    let stepped = limits::by_steps(critical);
+    let _ = write!(
+        out,
+        "## Hunting between flanges\n\n\
+         A wheelset with 58 kN on lateral and yaw springs (150 kN/m, 800 kN m/rad), nominal AAR-1B on 136RE, \
+         Polach's creep: linear critical\nspeed {speed:.2} m/s ({:.3} Hz). Runs from 0.1 mm neither grow nor \
+         die at {stepped:.1} m/s ({:+.1} %, to lie within 1 %). What is left after 8 s:\n\n\
+         | speed / critical speed | start, mm | amplitude, mm |\n|---|---|---|\n",
+        turning / TAU,
+        100.0 * (stepped / speed - 1.0)
+    );
+    for (factor, start) in [(0.9, 0.5), (0.9, 12.0), (1.1, 0.5)] {
+        let found = 1e3 * limits::amplitude(factor * speed, 1e-3 * start, 8.0);
+        let told = if found < 0.5 {
+            "below 0.5".to_owned()
+        } else {
+            format!("{found:.1}")
+        };
+        let _ = writeln!(out, "| {factor} | {start} | {told} |");
+    }
+    *out += "\nThe flanges have a clearance of 13.9 mm: above the critical speed the motion grows up to them; \
+             at nine tenths of it dies even\nfrom there.\n";
 }
 
 fn klingel(out: &mut String) {

@@ -71,6 +71,11 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
              brakes."
                 .to_owned()
         }
+        Drive::History { .. } => {
+            "A force on the car body along the track holds the speed of the history at the place where a \
+             car that follows it is; it stands for all that pulls and brakes."
+                .to_owned()
+        }
         Drive::Coasting => "No force holds the speed.".to_owned(),
     });
     list.push(match p.start.kind {

@@ -104,6 +104,10 @@ static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
     let slowing = "speed.kind = \"over_distance\"
 speed.over_distance = [[\"200 ft\", \"75 mph\"], [\"4200 ft\", \"30 mph\"]]
 start.axle_shift = \"0.2 in\"";
+    let rollers = "truck.side_bearing.kind = \"roller\"
+speed.kind = \"over_time\"
+speed.over_time = [[\"10 s\", \"75 mph\"], [\"70 s\", \"30 mph\"]]
+start.axle_shift = \"0.4 in\"";
     vec![
         Group {
             name: "car",
@@ -152,6 +156,14 @@ start.axle_shift = \"0.2 in\"";
                     slowing,
                     50.0,
                     &tangent(5000.0),
+                ),
+                case(
+                    "hunting_roller",
+                    "tangent on roller side bearings, slowing down from 75 to 30 mph",
+                    "empty",
+                    rollers,
+                    70.0,
+                    &tangent(6500.0),
                 ),
                 case(
                     "twist_and_roll",

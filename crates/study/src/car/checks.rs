@@ -223,16 +223,22 @@ fn straight_until(line: &CenterLine) -> f64 {
 
 /// How far the car comes in a time (s) at the speeds that its drive asks for, m.
 fn way_of(parameters: &Parameters, duration: f64) -> f64 {
-    let Drive::Over { speeds, .. } = &parameters.drive else {
-        return parameters.start.speed * duration;
-    };
     const STEPS: usize = 2000;
     let (start, step) = (parameters.start.distance, duration / STEPS as f64);
-    let end = (0..STEPS).fold(start, |distance, _| distance + step * speed_at(speeds, distance));
-    end - start
+    match &parameters.drive {
+        Drive::Held { .. } | Drive::Coasting => parameters.start.speed * duration,
+        Drive::Over { speeds, .. } => {
+            let end = (0..STEPS).fold(start, |distance, _| distance + step * speed_at(speeds, distance));
+            end - start
+        }
+        Drive::History { speeds, .. } => {
+            let middles = (0..STEPS).map(|k| (k as f64 + 0.5) * step);
+            middles.map(|time| step * speed_at(speeds, time)).sum()
+        }
+    }
 }
 
-/// A speed (m/s) at a distance (m), straight between pairs.
+/// A speed (m/s) at a distance (m) or time (s), straight between pairs.
 pub(super) fn speed_at(speeds: &[[f64; 2]], distance: f64) -> f64 {
     let Some(after) = speeds.iter().position(|[own, _]| *own > distance) else {
         return speeds.last().map_or(0.0, |[_, speed]| *speed);

@@ -2,13 +2,15 @@
 //!
 //! [`CarCase`] is what a user writes, completed and in SI; [`builtin`] has cases after the regimes of the
 //! field; [`statistics`] says what rules for the assessment of cars ask, [`limits`] beside what they allow;
-//! [`run`] records a run, [`motions`] what a picture of it needs; [`stability`] linearizes.
+//! [`run`] records a run, [`motions`] what a picture of it needs; [`stability`] linearizes; [`hunting`] ramps the
+//! speed.
 
 mod assumptions;
 pub mod builtin;
 mod checks;
 pub mod columns;
 mod derailment;
+pub mod hunting;
 mod lading;
 pub mod limits;
 pub mod motions;

@@ -30,12 +30,14 @@ pub(super) struct Drawn {
 enum DriveKind {
     Held,
     OverDistance,
+    OverTime,
     Coasting,
 }
 
 const DRIVES: Names<DriveKind> = &[
     ("held", DriveKind::Held),
     ("over_distance", DriveKind::OverDistance),
+    ("over_time", DriveKind::OverTime),
     ("coasting", DriveKind::Coasting),
 ];
 const STARTS: Names<StartKind> = &[
@@ -68,8 +70,8 @@ pub(super) fn everything(r: &mut Reader<'_>) -> Option<Drawn> {
     }
     let rails = wheels::rails(r);
     wheels::wheels(r, &mut parameters, rails, sprung);
-    let speeds = speed(r, &mut parameters);
-    start(r, &mut parameters, speeds.as_deref());
+    speed(r, &mut parameters);
+    start(r, &mut parameters);
     let mut rules = Rules::default();
     output(r, &mut rules);
     let simulation = simulation(r);
@@ -92,12 +94,12 @@ fn rail_support(support: &Support, gravity: f64) -> Option<RailSupport> {
     })
 }
 
-/// Reads `[speed]`. Returns the speeds over distance, if they are given: pairs of m and m/s.
-fn speed(r: &mut Reader<'_>, parameters: &mut Parameters) -> Option<Vec<[f64; 2]>> {
+/// Reads `[speed]`.
+fn speed(r: &mut Reader<'_>, parameters: &mut Parameters) {
     r.section("speed", "How fast it goes.");
     let mut kind = DriveKind::Held;
-    let comment = "\"held\": a force on the body along the track holds the value; \"over_distance\": the \
-                   same with the values below; \"coasting\": no force";
+    let comment = "\"held\": a force on the body along the track holds the value; \"over_distance\", \
+                   \"over_time\": the same with the values below; \"coasting\": no force";
     r.choice("kind", DRIVES, &mut kind, comment);
     let mut gain = 1e5;
     if kind != DriveKind::Coasting {
@@ -105,33 +107,19 @@ fn speed(r: &mut Reader<'_>, parameters: &mut Parameters) -> Option<Vec<[f64; 2]
     } else {
         r.expect("speed", &["gain"]);
     }
-    if kind == DriveKind::OverDistance {
-        let comment = "distances along the track and speeds, straight between them";
-        let typed = r.other(
-            "over_distance",
-            comment,
-            None,
-            |s, p| speeds(s, p).map(Some),
-            write_speeds,
-        );
-        let Some(typed) = typed.filter(|typed| !typed.is_empty()) else {
-            if !r.has("speed.over_distance") {
-                let problem =
-                    Problem::new("`speed.kind` is \"over_distance\", but `speed.over_distance` is missing");
-                let help = "write over_distance = [[\"0 ft\", \"60 mph\"], [\"3000 ft\", \"30 mph\"]]";
-                r.problem("speed.kind", problem.label("which speeds?").help(help));
-            }
-            return None;
-        };
-        let speeds: Vec<[f64; 2]> = typed
-            .iter()
-            .map(|pair| pair.each_ref().map(Quantity::to_si))
-            .collect();
-        parameters.drive = Drive::Over {
-            gain,
-            speeds: speeds.clone(),
-        };
-        return Some(speeds);
+    let over = match kind {
+        DriveKind::OverDistance => Some(&DISTANCES),
+        DriveKind::OverTime => Some(&TIMES),
+        DriveKind::Held | DriveKind::Coasting => None,
+    };
+    if let Some(over) = over {
+        if let Some(speeds) = speeds_over(r, over) {
+            parameters.drive = match kind {
+                DriveKind::OverTime => Drive::History { gain, speeds },
+                _ => Drive::Over { gain, speeds },
+            };
+        }
+        return;
     }
     let range = match kind {
         DriveKind::Coasting => Range::NotNegative,
@@ -145,7 +133,7 @@ fn speed(r: &mut Reader<'_>, parameters: &mut Parameters) -> Option<Vec<[f64; 2]
         let problem = Problem::new("`speed.value` is zero, but a car that is held at a speed rolls");
         let help = "write speed.kind = \"coasting\" for a car that stands, or a speed";
         r.problem("speed.value", problem.label("does not roll").help(help));
-        return None;
+        return;
     }
     let value = &mut parameters.start.speed;
     r.quantity(
@@ -158,17 +146,65 @@ fn speed(r: &mut Reader<'_>, parameters: &mut Parameters) -> Option<Vec<[f64; 2]
         DriveKind::Coasting => Drive::Coasting,
         _ => Drive::Held { gain },
     };
-    None
 }
+
+/// Speeds over something: its key, what it is, its kind and range, the range of the speeds, an example.
+struct Over {
+    key: &'static str,
+    comment: &'static str,
+    kind: Kind,
+    range: Range,
+    speeds: Range,
+    example: &'static str,
+}
+
+const DISTANCES: Over = Over {
+    key: "over_distance",
+    comment: "distances along the track and speeds, straight between them",
+    kind: Kind::Distance,
+    range: Range::Any,
+    speeds: Range::NotNegative,
+    example: "over_distance = [[\"0 ft\", \"60 mph\"], [\"3000 ft\", \"30 mph\"]]",
+};
+const TIMES: Over = Over {
+    key: "over_time",
+    comment: "times and speeds, straight between them; held where a car that follows them is",
+    kind: Kind::Time,
+    range: Range::NotNegative,
+    speeds: Range::Positive,
+    example: "over_time = [[\"0 s\", \"60 mph\"], [\"40 s\", \"30 mph\"]]",
+};
 
 type Pairs = Vec<[Quantity; 2]>;
 
-fn speeds(section: &Section<'_>, problems: &mut Problems) -> Option<Pairs> {
-    let node = section.table.get("over_distance")?;
+/// Reads speeds over something, SI; `None` notes what is wrong.
+fn speeds_over(r: &mut Reader<'_>, over: &'static Over) -> Option<Vec<[f64; 2]>> {
+    let key = over.key;
+    let read = |section: &Section<'_>, problems: &mut Problems| pairs(section, over, problems).map(Some);
+    let typed = r.other(key, over.comment, None, read, write_speeds);
+    let Some(typed) = typed.filter(|typed| !typed.is_empty()) else {
+        if !r.has(&format!("speed.{key}")) {
+            let problem = Problem::new(format!("`speed.kind` is \"{key}\", but `speed.{key}` is missing"));
+            let help = format!("write {}", over.example);
+            r.problem("speed.kind", problem.label("which speeds?").help(help));
+        }
+        return None;
+    };
+    let si = typed.iter().map(|pair| pair.each_ref().map(Quantity::to_si));
+    Some(si.collect())
+}
+
+fn pairs(section: &Section<'_>, over: &Over, problems: &mut Problems) -> Option<Pairs> {
+    let Over { key, kind, range, .. } = over;
+    let node = section.table.get(key)?;
+    let what_it_is = match kind {
+        Kind::Time => "time",
+        _ => "distance",
+    };
     let wrong = |what: &str| {
-        Problem::new(format!("`speed.over_distance` {what}"))
-            .label("pairs of distance and speed")
-            .help("write over_distance = [[\"0 ft\", \"60 mph\"], [\"3000 ft\", \"30 mph\"]]")
+        Problem::new(format!("`speed.{key}` {what}"))
+            .label(format!("pairs of {what_it_is} and speed"))
+            .help(format!("write {}", over.example))
     };
     let Value::List(items) = &node.value else {
         problems.push(wrong("is no list").at(&node.place));
@@ -180,19 +216,19 @@ fn speeds(section: &Section<'_>, problems: &mut Problems) -> Option<Pairs> {
             problems.push(wrong("holds what is no pair").at(&item.place));
             return None;
         };
-        let [distance, speed] = pair.as_slice() else {
+        let [at, speed] = pair.as_slice() else {
             problems.push(wrong("holds what is no pair").at(&item.place));
             return None;
         };
-        let path = format!("speed.over_distance[{number}]");
-        let distance = quantity(distance, &path, Kind::Distance, Range::Any, problems);
-        let speed = quantity(speed, &path, Kind::TravelSpeed, Range::NotNegative, problems);
-        let pair = [distance?, speed?];
+        let path = format!("speed.{key}[{number}]");
+        let at = quantity(at, &path, *kind, range.clone(), problems);
+        let speed = quantity(speed, &path, Kind::TravelSpeed, over.speeds.clone(), problems);
+        let pair = [at?, speed?];
         if pairs
             .last()
             .is_some_and(|before| before[0].to_si() >= pair[0].to_si())
         {
-            problems.push(wrong("must have growing distances").at(&item.place));
+            problems.push(wrong(&format!("must have growing {what_it_is}s")).at(&item.place));
             return None;
         }
         pairs.push(pair);
@@ -204,11 +240,11 @@ fn write_speeds(pairs: &Option<Pairs>) -> Written {
     let texts = pairs
         .iter()
         .flatten()
-        .map(|[distance, speed]| format!("[{}, {}]", quoted(distance.text()), quoted(speed.text())));
+        .map(|[at, speed]| format!("[{}, {}]", quoted(at.text()), quoted(speed.text())));
     Written::toml(format!("[{}]", texts.collect::<Vec<_>>().join(", ")))
 }
 
-fn start(r: &mut Reader<'_>, parameters: &mut Parameters, speeds: Option<&[[f64; 2]]>) {
+fn start(r: &mut Reader<'_>, parameters: &mut Parameters) {
     r.section("start", "Where the run starts.");
     let speed = parameters.start.speed;
     parameters.start = Start::at(parameters.reach() + 1.0, speed);
@@ -255,8 +291,10 @@ fn start(r: &mut Reader<'_>, parameters: &mut Parameters, speeds: Option<&[[f64;
         &mut own.heading,
         "of the track in the fixed frame: changes nothing",
     );
-    if let Some(speeds) = speeds {
-        own.speed = checks::speed_at(speeds, own.distance);
+    match &parameters.drive {
+        Drive::Over { speeds, .. } => own.speed = checks::speed_at(speeds, own.distance),
+        Drive::History { speeds, .. } => own.speed = checks::speed_at(speeds, 0.0),
+        Drive::Held { .. } | Drive::Coasting => {}
     }
 }
 

@@ -99,7 +99,7 @@ fn straight(parameters: &Parameters, fastest: f64) -> Option<Parameters> {
     let reach = own.reach();
     own.track = tangent(2.0 * reach + 3.0 * fastest + 10.0)?;
     own.drive = match own.drive {
-        Drive::Held { gain } | Drive::Over { gain, .. } => Drive::Held { gain },
+        Drive::Held { gain } | Drive::Over { gain, .. } | Drive::History { gain, .. } => Drive::Held { gain },
         Drive::Coasting => Drive::Coasting,
     };
     own.start = Start {

@@ -125,8 +125,8 @@ pub(super) fn wheels(r: &mut Reader<'_>, parameters: &mut Parameters, rails: Rai
         parameters.wheels = linear_wheels(r, radius, static_load);
         return;
     }
-    let comment = "\"aar_1b\" (nominal, from memory), \"cone_1:20\" of any slope, or a file: CSV with \
-                   units, Simpack's .prw";
+    let comment = "\"aar_1b\" (nominal, from memory), \"aar_1b_1:10\" (its flange, another tread), \
+                   \"cone_1:20\" of any slope, or a file: CSV with units, Simpack's .prw";
     let name = text(r, "profile", "aar_1b", comment);
     let mut tape_distance = 59.21875 * INCH;
     r.quantity("tape_distance", LENGTH, &mut tape_distance, "of the tape circles");
@@ -313,6 +313,10 @@ fn profile(r: &mut Reader<'_>, path: &str, name: &str, kind: Kind, deviation: f6
     let nominal = match (kind, name) {
         (Kind::Wheel, "aar_1b") => Some(nominal::aar_1b()),
         (Kind::Rail, "136re") => Some(nominal::rail_136re()),
+        (Kind::Wheel, name) if name.starts_with("aar_1b_1:") => {
+            let run = name.trim_start_matches("aar_1b_1:").trim().parse::<f64>();
+            Some(nominal::aar_1b_with_tread(run.unwrap_or(f64::NAN)))
+        }
         (Kind::Wheel, name) => match name.strip_prefix("cone_") {
             Some(text) => {
                 let Some(slope) = slope(text) else {
@@ -341,7 +345,7 @@ fn profile(r: &mut Reader<'_>, path: &str, name: &str, kind: Kind, deviation: f6
                     let shown = tables.shown(name);
                     let problem = Problem::new(format!("`{path}`: there is no file {shown}"));
                     let names = match kind {
-                        Kind::Wheel => "\"aar_1b\", \"cone_1:20\"",
+                        Kind::Wheel => "\"aar_1b\", \"aar_1b_1:10\", \"cone_1:20\"",
                         Kind::Rail => "\"136re\"",
                     };
                     let help = format!("name a file of points from the folder of the case file, or {names}");

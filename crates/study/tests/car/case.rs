@@ -26,6 +26,7 @@ fn input_built_in_cars_read_back_to_the_same_case() {
         "car_constant_curve_empty",
         "car_spiral_loaded",
         "car_hunting_empty",
+        "car_hunting_roller_empty",
         "car_twist_and_roll_loaded",
         "car_pitch_and_bounce_loaded",
     ];
@@ -148,6 +149,24 @@ fn analytic_start_speed_of_speeds_over_distance() {
     );
     assert!((case.speed() - 50.0 * 0.447_04).abs() < 1e-9);
     assert!(matches!(&case.parameters.drive, Drive::Over { speeds, .. } if speeds.len() == 2));
+}
+
+/// A speed over time: the car starts with the speed at time zero, and the case reads back.
+#[test]
+fn analytic_start_speed_of_speeds_over_time() {
+    let case = parse(
+        "speed.kind = \"over_time\"\n\
+         speed.over_time = [[\"5 s\", \"50 mph\"], [\"15 s\", \"40 mph\"]]\n",
+    );
+    assert!((case.speed() - 50.0 * 0.447_04).abs() < 1e-9);
+    let expected = [[5.0, 50.0 * 0.447_04], [15.0, 40.0 * 0.447_04]];
+    let Drive::History { speeds, .. } = &case.parameters.drive else {
+        panic!("{:?}", case.parameters.drive)
+    };
+    for (found, expected) in speeds.iter().flatten().zip(expected.iter().flatten()) {
+        assert!((found - expected).abs() < 1e-9, "{speeds:?}");
+    }
+    assert_eq!(parse(case.to_toml()).parameters.drive, case.parameters.drive);
 }
 
 /// A track in a file: read from the case's folder, kept by name in the case, and with its contents in the

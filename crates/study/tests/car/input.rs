@@ -58,6 +58,42 @@ fn input_messages_say_what_is_wrong_and_what_to_write() {
             &["`speed.over_distance` is missing", "3000 ft"],
         ),
         (
+            "speed.kind = \"over_time\"",
+            &["`speed.over_time` is missing", "[\"40 s\", \"30 mph\"]"],
+        ),
+        (
+            "speed.kind = \"over_time\"\nspeed.over_time = [[\"0 ft\", \"30 mph\"]]",
+            &["this is a length", "a time is expected"],
+        ),
+        (
+            "speed.kind = \"over_time\"\nspeed.over_time = [[\"0 s\", \"30 lbf\"]]",
+            &["this is a force", "a speed is expected"],
+        ),
+        (
+            "speed.kind = \"over_time\"\nspeed.over_time = [[\"3 s\", \"30 mph\"], [\"2 s\", \"20 mph\"]]",
+            &["`speed.over_time` must have growing times", "write over_time ="],
+        ),
+        (
+            "speed.kind = \"over_time\"\nspeed.over_time = [[\"-1 s\", \"30 mph\"]]",
+            &["speed.over_time[0]", "zero or greater"],
+        ),
+        (
+            "speed.kind = \"over_time\"\nspeed.over_time = [[\"0 s\", \"0 mph\"]]",
+            &["speed.over_time[0]", "greater than zero"],
+        ),
+        (
+            "speed.kind = \"over_time\"\nspeed.over_time = \"30 mph\"",
+            &["`speed.over_time` is no list"],
+        ),
+        (
+            "speed.kind = \"over_time\"\nspeed.over_times = [[\"0 s\", \"30 mph\"]]",
+            &["there is no key `over_times`", "did you mean `over_time`?"],
+        ),
+        (
+            "speed.over_time = [[\"0 s\", \"30 mph\"]]",
+            &["there is no key `over_time` in `speed`"],
+        ),
+        (
             "[[track.segments]]\ntangent = \"200 ft\"",
             &[
                 "the track is 200 ft long",
@@ -122,6 +158,10 @@ fn input_messages_say_what_is_wrong_and_what_to_write() {
                 "track.support.kind = \"rigid\"",
             ],
         ),
+        (
+            "wheels.profile = \"aar_1b_1:5\"",
+            &["the run of the tread is 5", "at least 10"],
+        ),
         ("wheels.profile = \"cone_x\"", &["which is no cone", "cone_1:20"]),
         ("wheels.profile = \"worn.prw\"", &["`wheels.profile`", "worn.prw"]),
         ("rails.gauge = \"50 in\"", &["gauge"]),
@@ -167,6 +207,22 @@ fn input_coils_that_would_go_solid_are_told() {
     );
     let usual = CarCase::parse("c.toml", "model = \"car\"", Tables::nowhere(), &[]).unwrap();
     assert!(usual.doubts.is_empty(), "{:?}", usual.doubts);
+}
+
+/// A track must be as long as the way of a speed history: 20 s from 60 to 20 mph are 1,173 ft, the front axle
+/// starts at 49.6 ft.
+#[test]
+fn input_length_of_a_track_counts_the_speeds_over_time() {
+    let slowing = |length: f64| {
+        let text = format!(
+            "model = \"car\"\nspeed.kind = \"over_time\"\n\
+             speed.over_time = [[\"0 s\", \"60 mph\"], [\"20 s\", \"20 mph\"]]\n\
+             simulation.duration = \"20 s\"\n[[track.segments]]\ntangent = \"{length} ft\""
+        );
+        CarCase::parse("c.toml", &text, Tables::nowhere(), &[])
+    };
+    assert!(slowing(1221.0).is_err());
+    assert!(slowing(1225.0).is_ok());
 }
 
 /// A car that slows down comes less far than at its first speed.

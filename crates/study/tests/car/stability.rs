@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use study::car::builtin;
+use study::car::hunting::{HuntingError, Settings, hunting};
 use study::car::stability::stability;
 
 /// The empty car on linear wheels: with stuck friction it does not hunt at 30 mph; vibrations are sorted and
@@ -33,4 +34,52 @@ fn limits_modes_of_the_empty_car_on_profiles() {
     let found = stability(&case, &[30.0 * 0.447_04], |_| ControlFlow::Continue(())).unwrap();
     let worst = found.branches[0].modes[0][0];
     assert!(worst.growth < 0.0 && worst.growth > -2.0, "{worst:?}");
+}
+
+/// Ramps that are none, and linear wheels, are refused before anything runs.
+#[test]
+fn input_ramps_that_are_none_are_refused() {
+    let go_on = |_| ControlFlow::Break("must not run".to_owned());
+    let usual = Settings {
+        speeds: [10.0, 20.0],
+        ramp: 10.0,
+        threshold: 1e-3,
+    };
+    let case = builtin::case_with("car_hunting_empty", &[]).unwrap();
+    for settings in [
+        Settings {
+            speeds: [20.0, 10.0],
+            ..usual
+        },
+        Settings {
+            speeds: [0.0, 10.0],
+            ..usual
+        },
+        Settings { ramp: 0.0, ..usual },
+        Settings {
+            threshold: f64::NAN,
+            ..usual
+        },
+    ] {
+        let refused = hunting(&case, settings, go_on).unwrap_err();
+        assert!(refused.to_string().contains("make no ramp"), "{refused}");
+    }
+    let linear = ["wheels.geometry=linear", "track.support.kind=rigid"].map(str::to_owned);
+    let case = builtin::case_with("car_hunting_empty", &linear).unwrap();
+    let refused = hunting(&case, usual, go_on).unwrap_err();
+    assert!(matches!(refused, HuntingError::LinearWheels), "{refused}");
+}
+
+/// A user who stops it gets what was computed, marked as incomplete.
+#[test]
+fn limits_a_stopped_ramp_is_incomplete() {
+    let case = builtin::case_with("car_hunting_roller_empty", &[]).unwrap();
+    let settings = Settings {
+        speeds: [20.0, 30.0],
+        ramp: 10.0,
+        threshold: 1e-3,
+    };
+    let found = hunting(&case, settings, |_| ControlFlow::Break("stopped".to_owned())).unwrap();
+    assert!(!found.complete && found.rising.is_none());
+    assert!(found.falling.points.is_empty());
 }

@@ -43,6 +43,7 @@ const MODELS: [(&str, &str, Cases); 3] = [
             ("car_tangent_empty", &[]),
             ("car_constant_curve_loaded", &[]),
             ("car_hunting_empty", &[]),
+            ("car_hunting_roller_empty", &[]),
             ("car_twist_and_roll_loaded", &[]),
         ],
     ),

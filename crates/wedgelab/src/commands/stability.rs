@@ -1,4 +1,4 @@
-//! `wedgelab stability`: linear stability of a car over speed.
+//! `wedgelab stability`: stability of a car over speed, linear and by ramps of its speed.
 
 use std::io::{self, Write};
 use std::ops::ControlFlow;
@@ -7,8 +7,11 @@ use std::process::ExitCode;
 
 use clap::Args;
 use quantity::{Kind, Quantity, System as Units};
-use report::stability_files::{self, NAMES};
+use report::stability_files::NAMES;
+use report::{hunting_files, stability_files};
 use study::any_case::AnyCase;
+use study::car::CarCase;
+use study::car::hunting::{Boundary, Hunting, HuntingError, Settings, hunting};
 use study::car::stability::{FRICTION, Stability, stability};
 
 use super::run::read_any;
@@ -19,17 +22,22 @@ use crate::interrupt;
 use crate::progress::Progress;
 use crate::table::Table;
 
-/// Linear stability of a car over speed: growth and frequency of its vibrations, critical speeds
+/// Stability of a car over speed: growth and frequency of its vibrations, critical speeds, hunting
 ///
 /// Linearizes the car about steady running on straight track without irregularities, at each speed, twice:
 /// with all friction of wedges, center plates, adapters and side bearings stuck (bristles are springs), and
 /// without it. Writes stability.csv (all vibrations of 0.05 to 30 Hz), stability.json (critical speeds),
 /// stability.svg and stability.png.
+///
+/// With --nonlinear it also runs the car at falling and at rising speed: where hunting dies after a lateral
+/// start at the highest speed, and where small dips of the rails begin to grow into hunting. Writes hunting.csv
+/// (amplitudes over speed), hunting.json, hunting.svg and hunting.png.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
   wedgelab stability car_hunting_empty
   wedgelab stability my_car.toml --speeds \"30 mph\"..\"80 mph\" --steps 6
+  wedgelab stability car_hunting_roller_empty --nonlinear --ramp-time \"180 s\"
   wedgelab stability my_car.toml --set wheels.geometry=linear --set track.support.kind=rigid")]
 pub struct Arguments {
     /// Case file, or the name of a built-in case
@@ -40,6 +48,16 @@ pub struct Arguments {
     /// Number of speeds, at least 2
     #[arg(long, value_name = "N", default_value_t = 11, value_parser = clap::value_parser!(u32).range(2..=1000))]
     steps: u32,
+    /// Run the car at falling and at rising speed too, to see where it hunts
+    #[arg(long)]
+    nonlinear: bool,
+    /// How long the speed falls, and rises; slower is more exact
+    #[arg(long, value_name = "TIME", default_value = "90 s", value_parser = ramp_time, requires = "nonlinear")]
+    ramp_time: f64,
+    /// Lateral amplitude of a wheelset from which on it hunts
+    #[arg(long, value_name = "LENGTH", default_value = "0.05 in", value_parser = threshold,
+          requires = "nonlinear")]
+    threshold: f64,
     /// Set one value over those of the case
     #[arg(long, value_name = "PATH.KEY=VALUE")]
     set: Vec<String>,
@@ -73,6 +91,22 @@ fn range(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
+fn ramp_time(text: &str) -> Result<f64, String> {
+    let quantity = Quantity::parse_as(text.trim(), Kind::Time).map_err(|error| error.to_string())?;
+    match quantity.to_si() {
+        own if (5.0..=1e4).contains(&own) => Ok(own),
+        _ => Err("the ramp must take 5 s to 10000 s".to_owned()),
+    }
+}
+
+fn threshold(text: &str) -> Result<f64, String> {
+    let quantity = Quantity::parse_as(text.trim(), Kind::Length).map_err(|error| error.to_string())?;
+    match quantity.to_si() {
+        own if own > 0.0 && own < 0.1 => Ok(own),
+        _ => Err("the threshold must be positive, below 0.1 m".to_owned()),
+    }
+}
+
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
@@ -88,7 +122,23 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .out
         .clone()
         .unwrap_or_else(|| PathBuf::from(format!("{}_stability", case.name)));
-    let folder = folders::check(path, &NAMES, arguments.force)?;
+    let settings = Settings {
+        speeds: arguments.speeds,
+        ramp: arguments.ramp_time,
+        threshold: arguments.threshold,
+    };
+    if arguments.nonlinear {
+        settings
+            .check(&case)
+            .map_err(|error| cannot_hunt(&case, &error))?;
+    }
+    let more = if arguments.nonlinear {
+        &hunting_files::NAMES[..]
+    } else {
+        &[]
+    };
+    let names: Vec<&str> = NAMES.iter().chain(more).copied().collect();
+    let folder = folders::check(path, &names, arguments.force)?;
     let [from, to] = arguments.speeds;
     let last = arguments.steps - 1;
     let speeds: Vec<f64> = (0..=last)
@@ -97,22 +147,39 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let progress = Progress::new(1, arguments.quiet);
     interrupt::stops_run();
     let mut reached = progress.of_run(1.0);
+    let part = if arguments.nonlinear { 0.3 } else { 1.0 };
     let found = stability(&case, &speeds, |share| {
-        reached(share);
+        reached(part * share);
         match interrupt::wanted() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
     });
+    let runs = match &found {
+        Ok(found) if found.complete && arguments.nonlinear => Some(hunting(&case, settings, |share| {
+            reached(part + (1.0 - part) * share);
+            interrupt::go_on()
+        })),
+        _ => None,
+    };
     progress.finish();
     let found = found.map_err(|error| {
         let message = format!("{} cannot be linearized: {error}", case.name);
         let advice = "look at its speeds, lading and side bearings; `wedgelab run` shows how it runs";
         Message::new(message, advice)
     })?;
+    let runs = runs.transpose().map_err(|error| cannot_hunt(&case, &error))?;
     let units = case.simulation.output_units;
     let figure = stability_files::figure(&case.name, &found, units);
     let png = draw(&figure)?;
+    let hunting = match &runs {
+        None => None,
+        Some(runs) => {
+            let figure = hunting_files::figure(&case.name, runs, &found, units);
+            let png = draw(&figure)?;
+            Some((runs, figure, png))
+        }
+    };
     folder.write(|files| {
         files.add(stability_files::TABLE, |out| {
             stability_files::write_table(&found, units, out)
@@ -123,7 +190,20 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         files.add(stability_files::FIGURE, |out| {
             out.write_all(figure.to_svg().as_bytes())
         })?;
-        files.add(stability_files::PICTURE, |out| out.write_all(&png))
+        files.add(stability_files::PICTURE, |out| out.write_all(&png))?;
+        let Some((runs, figure, png)) = &hunting else {
+            return Ok(());
+        };
+        files.add(hunting_files::TABLE, |out| {
+            hunting_files::write_table(runs, units, out)
+        })?;
+        files.add(hunting_files::NUMBERS, |out| {
+            hunting_files::write_numbers(&case.name, (runs, &found), units, out)
+        })?;
+        files.add(hunting_files::FIGURE, |out| {
+            out.write_all(figure.to_svg().as_bytes())
+        })?;
+        files.add(hunting_files::PICTURE, |out| out.write_all(png))
     })?;
     let mut out = io::stdout().lock();
     table(&found, units).write(&mut out)?;
@@ -141,20 +221,69 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             None => writeln!(out, "Friction {name}: no vibration grows at these speeds.")?,
         }
     }
+    for line in runs.iter().flat_map(|runs| told(runs, units)) {
+        writeln!(out, "{line}")?;
+    }
+    let written: Vec<&str> = match &runs {
+        Some(_) => names,
+        None => NAMES.to_vec(),
+    };
     writeln!(
         out,
         "\nGrowth and frequency of the vibration that grows most, of 0.05 to 30 Hz; positive growth is \
-         hunting. Limits: small motions;\na car may hunt below these speeds once it has been disturbed.\n\
+         hunting. Limits: small motions;\na car may hunt below these speeds once it has been disturbed{}\n\
          \nWritten into {}: {}.",
+        if runs.is_some() { "." } else { ": see --nonlinear." },
         folder.path().display(),
-        NAMES.join(", ")
+        written.join(", ")
     )?;
-    if found.complete {
+    if found.complete && runs.as_ref().is_none_or(|runs| runs.complete) {
         Ok(ExitCode::SUCCESS)
     } else {
         let message = "interrupted: the speeds that were computed are written".to_owned();
         Err(Failure::Interrupted(Message::new(message, "").into()))
     }
+}
+
+fn cannot_hunt(case: &CarCase, error: &HuntingError) -> Message {
+    let advice = match error {
+        HuntingError::LinearWheels => "take wheels.geometry = \"profiles\", or leave out --nonlinear",
+        _ => "look at its speeds, lading and side bearings; `wedgelab run` shows how it runs",
+    };
+    Message::new(
+        format!("{} cannot be run over speeds: {error}", case.name),
+        advice,
+    )
+}
+
+/// Where hunting ends and begins, in words.
+fn told(runs: &Hunting, units: Units) -> Vec<String> {
+    let speed = |si: f64| {
+        let unit = Kind::TravelSpeed.label(units);
+        format!("{:.1} {unit}", si * Kind::TravelSpeed.from_si(units))
+    };
+    let falling = match runs.falling.boundary {
+        Boundary::At(own) => format!("hunting dies at {}.", speed(own)),
+        Boundary::Everywhere => "it hunts down to the lowest speed.".to_owned(),
+        Boundary::Nowhere => "the start dies away at the highest speed.".to_owned(),
+        Boundary::Derails(own) => format!("a wheel leaves its rail at {}.", speed(own)),
+    };
+    let mut lines = vec![format!("Speed falls: {falling}")];
+    if let Some(rising) = &runs.rising {
+        let rising = match rising.boundary {
+            Boundary::At(own) => format!("hunting begins at {}.", speed(own)),
+            Boundary::Everywhere => "it hunts from the lowest speed on.".to_owned(),
+            Boundary::Nowhere => "nothing grows up to the highest speed.".to_owned(),
+            Boundary::Derails(own) => format!("a wheel leaves its rail at {}.", speed(own)),
+        };
+        lines.push(format!("Speed rises: {rising}"));
+    }
+    let ramps = [("falling", Some(&runs.falling)), ("rising", runs.rising.as_ref())];
+    for (name, ramp) in ramps {
+        let warnings = ramp.iter().flat_map(|ramp| &ramp.warnings);
+        lines.extend(warnings.map(|warning| format!("warning: {name} speed: {warning}")));
+    }
+    lines
 }
 
 /// The vibration that grows most at each speed.

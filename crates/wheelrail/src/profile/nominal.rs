@@ -89,9 +89,25 @@ pub fn cylinder(radius: f64, half_width: f64) -> Result<Profile, ProfileError> {
 /// # Errors
 /// None that a user can cause.
 pub fn aar_1b() -> Result<Profile, ProfileError> {
+    aar_1b_with_tread(20.0)
+}
+
+/// Returns the same wheel with a tread of 1:`run` in place of 1:20, so that a wheelset on round crowns has the
+/// conicity 1/`run` on its treads, with the flange of the AAR-1B.
+///
+/// # Errors
+/// The run is below 10: a steeper tread leaves the flange no straight face.
+pub fn aar_1b_with_tread(run: f64) -> Result<Profile, ProfileError> {
+    if !(run >= 10.0 && run.is_finite()) {
+        return Err(ProfileError::Number {
+            what: "the run of the tread",
+            value: run,
+            must: "at least 10",
+        });
+    }
     let back = -(3.0 + 1.0 / 16.0) * INCH;
     let rim = (5.0 + 23.0 / 32.0) * INCH + back;
-    let tread_angle = libm::atan(1.0 / 20.0);
+    let tread_angle = libm::atan(1.0 / run);
     let tread = Element::Line {
         point: [0.0, 0.0],
         angle: tread_angle,
@@ -148,7 +164,7 @@ pub fn aar_1b() -> Result<Profile, ProfileError> {
         "AAR-1B (nominal)",
         [back, bottom + back_radius],
         &elements,
-        [rim, rim / 20.0],
+        [rim, rim / run],
     )?;
     Ok(Profile {
         note: REMEMBERED,
