@@ -274,6 +274,18 @@ pub struct Cell {
     pub ratio: f64,
 }
 
+impl Cell {
+    /// Returns whether what the rig found contradicts the sign of the margin.
+    #[must_use]
+    pub fn contradicts(&self) -> bool {
+        match self.found {
+            Found::Locks => self.margin > 0.0,
+            Found::Slides => self.margin <= 0.0,
+            _ => false,
+        }
+    }
+}
+
 /// A lock-up map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LockUpMap {
@@ -293,7 +305,7 @@ fn rig(text: &str, values: [(Axis, f64); 2]) -> Result<Case, CaseError> {
 }
 
 /// Returns the map of a case: `points` along each axis, on so many threads. `go_on` is asked before each rig,
-/// with how many were done, and may end the map with a reason.
+/// with its number, and may end the map with a reason.
 ///
 /// # Errors
 /// The same axis twice, fewer than two points, or a value that the case refuses.
@@ -390,22 +402,14 @@ impl LockUpMap {
         [
             count(&|cell| cell.found == Found::Locks),
             count(&|cell| cell.found == Found::Slides),
-            count(&|cell| match cell.found {
-                Found::Locks => cell.margin > 0.0,
-                Found::Slides => cell.margin <= 0.0,
-                _ => false,
-            }),
+            count(&Cell::contradicts),
         ]
     }
 
     /// Returns the largest lock-up margin, either sign, at which a rig contradicts it, rad; 0 if none does.
     #[must_use]
     pub fn disagreement(&self) -> f64 {
-        let wrong = self.cells.iter().filter(|cell| match cell.found {
-            Found::Locks => cell.margin > 0.0,
-            Found::Slides => cell.margin <= 0.0,
-            _ => false,
-        });
+        let wrong = self.cells.iter().filter(|cell| cell.contradicts());
         wrong.fold(0.0, |most, cell| most.max(cell.margin.abs()))
     }
 }

@@ -13,7 +13,7 @@ use super::warp::draw;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
-use crate::progress::Progress;
+use crate::progress::Steady;
 
 /// Where a wedge locks up, over two of its parameters: jam margins and what runs find
 ///
@@ -103,7 +103,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         || std::thread::available_parallelism().map_or(1, usize::from),
         usize::from,
     );
-    let progress = Progress::new(1, arguments.quiet);
+    let all = arguments.points * arguments.points;
+    let progress = Steady::new("rigs", all as u64, 0, arguments.quiet);
     interrupt::stops(
         "stopping: nothing is written (once more: ends at once)",
         "nothing was written",
