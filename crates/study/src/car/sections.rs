@@ -221,8 +221,8 @@ fn pairs(section: &Section<'_>, over: &Over, problems: &mut Problems) -> Option<
             return None;
         };
         let path = format!("speed.{key}[{number}]");
-        let at = quantity(at, &path, *kind, range.clone(), problems);
-        let speed = quantity(speed, &path, Kind::TravelSpeed, over.speeds.clone(), problems);
+        let at = quantity(at, &path, *kind, *range, problems);
+        let speed = quantity(speed, &path, Kind::TravelSpeed, over.speeds, problems);
         let pair = [at?, speed?];
         if pairs
             .last()

@@ -334,8 +334,8 @@ impl CaseDocument {
     }
 }
 
-/// Angles of wedges that are built, 20 to 55 deg, rad.
-pub(crate) const ANGLES: Reach = Reach::Between(0.349_065_850_398_865_9, 0.959_931_088_596_881_3);
+/// Angles of wedges that are thought of first, 15 to 55 deg, rad.
+pub(crate) const ANGLES: Reach = Reach::Between(0.261_799_387_799_149_4, 0.959_931_088_596_881_3);
 /// A depth of wear that is thought of first, m.
 pub(crate) const WEAR: f64 = 0.25 * 0.0254;
 /// A toe or turn that is thought of first, rad.

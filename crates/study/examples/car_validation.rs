@@ -1,0 +1,368 @@
+//! Writes docs/validation-car.md: numbers of whole cars beside those of the field and of closed forms.
+//!
+//! `cargo run --release -p study --example car_validation`: some minutes on two cores.
+
+use std::fmt::Write;
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+use std::thread;
+
+use study::car::builtin;
+use study::car::hunting::{Boundary, Point, Settings, hunting};
+use study::car::run::CarResult;
+use study::run::Run;
+
+type Failure = Box<dyn std::error::Error + Send + Sync>;
+
+const MPH: f64 = 0.447_04;
+const INCH: f64 = 0.0254;
+const POUND_FORCE: f64 = 4.448_221_615_260_5;
+/// How long the speed falls, and rises, s.
+const RAMP: f64 = 50.0;
+/// Amplitude from which on a wheelset hunts, m.
+const THRESHOLD: f64 = 0.05 * INCH;
+
+const HEAD: &str = "\
+# Validation: cars on track
+
+Numbers of whole cars with three-piece trucks, beside those of the field and of closed forms. **Nothing is tuned to them**: all
+parameters are the defaults of [the car](car.md) unless a table says otherwise. This page is written by `cargo run --release -p
+study --example car_validation`, in some minutes; the tests of the crates `car` and `study` hold what is exact. Wheelsets and
+linear vehicles: [validation of wheelsets](validation-rolling.md).
+";
+
+/// A section: its text.
+type Section = fn() -> Result<String, Failure>;
+
+fn main() -> Result<(), Failure> {
+    let sections: [Section; 6] = [
+        hunting_over_speed,
+        flange_contact,
+        turning_moment,
+        rock_and_roll,
+        stillness,
+        headings,
+    ];
+    let chosen = std::env::args()
+        .nth(1)
+        .and_then(|word| word.parse::<usize>().ok());
+    if let Some(number) = chosen {
+        // One section, to look at.
+        let section = sections.get(number).ok_or("there are sections 0 to 5")?;
+        println!("{}", section()?);
+        return Ok(());
+    }
+    let texts = thread::scope(|scope| {
+        let threads: Vec<_> = sections.iter().map(|section| scope.spawn(section)).collect();
+        let join = |own: thread::ScopedJoinHandle<'_, _>| own.join().map_err(|_| "a thread panicked")?;
+        threads
+            .into_iter()
+            .map(join)
+            .collect::<Result<Vec<String>, Failure>>()
+    })?;
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/validation-car.md");
+    std::fs::write(path, format!("{HEAD}\n{}", texts.join("\n")))?;
+    Ok(())
+}
+
+/// Runs a built-in case with overrides.
+fn run(name: &str, overrides: &[String]) -> Result<CarResult, Failure> {
+    let case = builtin::case_with(name, overrides)?;
+    let result = Run::new(&case)?.finish(|_| ());
+    match &result.summary.stopped {
+        Some(stopped) => Err(format!("{name} {overrides:?} stopped: {}", stopped.reason).into()),
+        None => Ok(result),
+    }
+}
+
+fn set(values: &[&str]) -> Vec<String> {
+    values.iter().map(|own| (*own).to_owned()).collect()
+}
+
+/// Computes a value for each item, four at a time, in the order of the items.
+fn each<T: Sync, O: Send>(
+    items: &[T],
+    of: impl Fn(&T) -> Result<O, Failure> + Sync,
+) -> Result<Vec<O>, Failure> {
+    let next = Mutex::new(0..items.len());
+    let done = Mutex::new(Vec::new());
+    thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                while let Some(number) = next.lock().ok().and_then(|mut own| own.next()) {
+                    let found = of(&items[number]);
+                    if let Ok(mut done) = done.lock() {
+                        done.push((number, found));
+                    }
+                }
+            });
+        }
+    });
+    let mut done = done.into_inner().map_err(|_| "a thread panicked")?;
+    done.sort_by_key(|(number, _)| *number);
+    done.into_iter().map(|(_, found)| found).collect()
+}
+
+fn column<'r>(result: &'r CarResult, name: &str) -> Result<&'r [f64], Failure> {
+    result
+        .column(name)
+        .ok_or_else(|| format!("there is no column {name}").into())
+}
+
+fn words(boundary: Boundary) -> String {
+    match boundary {
+        Boundary::At(speed) => format!("{:.0}", speed / MPH),
+        Boundary::Everywhere => "all speeds".to_owned(),
+        Boundary::Nowhere => "no speed".to_owned(),
+        Boundary::Derails(speed) => format!("derails at {:.0}", speed / MPH),
+    }
+}
+
+fn hunting_over_speed() -> Result<String, Failure> {
+    let mut out = "## Hunting\n\n\
+         The speed falls by a slow ramp (50 s) after a lateral start of all axles by 0.4 in at the highest \
+         speed, and rises from the lowest over\nlateral dips of 0.02 in; an axle with an amplitude of 0.05 in hunts, one with 0.5 in\n\
+         runs from flange to flange. \
+         Profiles: AAR-1B with its tread of 1:20, and the same flange with a\ntread of 1:10 (conicity \
+         0.1; one of 0.2 leaves this flange no face). In the field empty cars hunt from 50 to\n\
+         55 mph on, loaded ones from 90 to 100 mph.\n\n\
+         | car | side bearings | tread | speeds, mph | falling: flange to flange down to, mph | falling: dies at, mph | rising: begins at, mph | largest \
+         amplitude, in |\n|---|---|---|---|---|---|---|---|\n"
+        .to_owned();
+    let rows: [(&str, &str, &str, [f64; 2]); 5] = [
+        ("empty", "roller", "aar_1b", [30.0, 80.0]),
+        ("empty", "roller", "aar_1b_1:10", [30.0, 80.0]),
+        ("empty", "constant_contact", "aar_1b", [30.0, 80.0]),
+        ("empty", "constant_contact", "aar_1b_1:10", [30.0, 80.0]),
+        ("loaded", "roller", "aar_1b", [60.0, 120.0]),
+    ];
+    let lines = each(&rows, |(lading, bearing, tread, range)| {
+        let overrides = [
+            format!("truck.side_bearing.kind={bearing}"),
+            format!("wheels.profile={tread}"),
+            format!("lading.kind={lading}"),
+            "start.axle_shift=0.4 in".to_owned(),
+        ];
+        let case = builtin::case_with("car_hunting_empty", &overrides)?;
+        let settings = Settings {
+            speeds: range.map(|own| own * MPH),
+            ramp: RAMP,
+            threshold: THRESHOLD,
+        };
+        let found = hunting(&case, settings, |_| ControlFlow::Continue(()))?;
+        let points = found.falling.points.iter();
+        let largest = points.map(Point::amplitude).fold(0.0, f64::max);
+        let flanges = found
+            .falling
+            .points
+            .iter()
+            .rfind(|own| own.amplitude() >= 0.5 * INCH);
+        let flanges = flanges.map_or("-".to_owned(), |own| format!("{:.0}", own.speed / MPH));
+        let rising = found
+            .rising
+            .as_ref()
+            .map_or("-".to_owned(), |own| words(own.boundary));
+        let [low, high] = range;
+        let name = match *tread {
+            "aar_1b" => "1:20",
+            other => other.trim_start_matches("aar_1b_"),
+        };
+        Ok(format!(
+            "| {lading} | {} | {name} | {low:.0} to {high:.0} | {flanges} | {} | {rising} | {:.2} |\n",
+            bearing.replace('_', " "),
+            words(found.falling.boundary),
+            largest / INCH
+        ))
+    })?;
+    out.extend(lines);
+    out += "\nThe amplitude is that of the falling ramp. Conicities of real wheels depend on wear: 1:10 \
+            stands for a worn tread.\n";
+    Ok(out)
+}
+
+/// The mean of the last second.
+fn late(values: &[f64]) -> f64 {
+    let own = &values[values.len().saturating_sub(200)..];
+    own.iter().sum::<f64>() / own.len() as f64
+}
+
+fn flange_contact() -> Result<String, Failure> {
+    let mut out = "## Flange contact in curves\n\n\
+         The loaded car at 25 mph in curves without superelevation, after 20 s. Free rolling on cones of 1:20 \
+         needs a shift of r a/(λR); the\nflange of the AAR-1B (narrow) touches at 0.55 in. The field tells \
+         flange contact above about 2°.\n\n\
+         | curve, deg | leading axle to the outside, in | free rolling, in | its angle of attack, mrad | L/V \
+         of its outer wheel |\n|---|---|---|---|---|\n"
+        .to_owned();
+    let degrees: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 6.0];
+    let lines = each(&degrees, |degree| {
+        let overrides = [
+            "track.segments=[{tangent='100 ft'}, {spiral='200 ft'}, {curve='1000 ft', degree='D deg', \
+             direction='left'}]"
+                .replace('D', &degree.to_string())
+                .replace('\'', "\""),
+            "speed.value=25 mph".to_owned(),
+            "simulation.duration=28 s".to_owned(),
+        ];
+        let result = run("car_constant_curve_loaded", &overrides)?;
+        let shift = -late(column(&result, "axle_1_lateral")?) / INCH;
+        let attack = -late(column(&result, "axle_1_yaw")?) * 1e3;
+        let ratio = late(column(&result, "axle_1_right_l_over_v")?);
+        let radius = 50.0 / (0.5 * degree.to_radians()).sin() * 12.0;
+        let rolling = 18.0 * 29.75 / (0.05 * radius);
+        Ok(format!(
+            "| {degree} | {shift:.3} | {rolling:.2} | {attack:.2} | {ratio:.3} |\n"
+        ))
+    })?;
+    out.extend(lines);
+    Ok(out)
+}
+
+fn turning_moment() -> Result<String, Failure> {
+    let result = run("car_spiral_loaded", &set(&["truck.side_bearing.kind=roller"]))?;
+    let mut out = "## Center plates in a spiral\n\n\
+         The loaded car with roller side bearings runs into a curve of 7.5° by a spiral of 150 ft. A flat plate \
+         of radius R that slides all\nover turns with 2/3 μ W R: 114 kip·in at 14 in, μ = 0.2 and half of the \
+         body's weight.\n\n| truck | turning moment, largest, kip·in | plate load there, kip | 2/3 μ W R, kip·in \
+         |  |\n|---|---|---|---|---|\n"
+        .to_owned();
+    for truck in 1..=2 {
+        let moments = column(&result, &format!("truck_{truck}_center_plate_turning_moment"))?;
+        let loads = column(&result, &format!("truck_{truck}_center_plate_load"))?;
+        let pairs = moments.iter().zip(loads);
+        let (moment, load) = pairs.fold((0.0_f64, 0.0), |most, (moment, load)| {
+            if moment.abs() > most.0 {
+                (moment.abs(), *load)
+            } else {
+                most
+            }
+        });
+        let closed = 2.0 / 3.0 * 0.2 * load.abs() * 7.0 / (1e3 * POUND_FORCE);
+        let found = moment / (1e3 * POUND_FORCE * INCH);
+        let _ = writeln!(
+            out,
+            "| {} | {found:.1} | {:.1} | {closed:.1} | {:+.1} % |",
+            ["front", "rear"][truck - 1],
+            load.abs() / (1e3 * POUND_FORCE),
+            100.0 * (found / closed - 1.0)
+        );
+    }
+    Ok(out)
+}
+
+fn rock_and_roll() -> Result<String, Failure> {
+    let mut out = "## Rock and roll\n\n\
+         Ten staggered low joints of 0.75 in every 39 ft, the loaded car: roll of the body, greatest less least, \
+         degrees. The field tells the\nlargest roll at 12 to 24 mph; less friction of the wedges rolls more.\n\n\
+         | speed, mph | wedge friction 0.4 | wedge friction 0.1 |\n|---|---|---|\n"
+        .to_owned();
+    let speeds = [12.0, 14.0, 16.0, 18.0, 22.0];
+    let both: Vec<(f64, f64)> = speeds
+        .iter()
+        .flat_map(|speed| [(*speed, 0.4), (*speed, 0.1)])
+        .collect();
+    let found = each(&both, |(speed, friction)| {
+        let overrides = [
+            format!("speed.value={speed} mph"),
+            format!("truck.friction.column={friction}"),
+            format!("truck.friction.slope={friction}"),
+            format!("simulation.duration={:.0} s", 620.0 / (speed * 1.4667)),
+        ];
+        let result = run("car_twist_and_roll_loaded", &overrides)?;
+        let roll = result.summary.statistics.get("body_roll_peak_to_peak");
+        let roll = roll.and_then(|own| own.raw.as_ref()).ok_or("no roll")?;
+        let derailed = if result.summary.derailed.is_some() {
+            " (derails)"
+        } else {
+            ""
+        };
+        Ok((roll.value.to_degrees(), derailed))
+    })?;
+    for (speed, pair) in speeds.iter().zip(found.chunks(2)) {
+        if let [(usual, a), (little, b)] = pair {
+            let _ = writeln!(out, "| {speed:.0} | {usual:.2}{a} | {little:.2}{b} |");
+        }
+    }
+    Ok(out)
+}
+
+fn stillness() -> Result<String, Failure> {
+    let mut out = "## Stillness on perfect track\n\n\
+         60 s on straight track without irregularities, standing and below half of the speeds at which a car \
+         hunts: largest lateral motions\nof axles, and roll of the body, to stay below 1e-6 m and rad.\n\n\
+         | car | speed, mph | lateral, m | roll, rad |\n|---|---|---|---|\n"
+        .to_owned();
+    let runs = [("loaded", 0.0), ("empty", 0.0), ("loaded", 25.0), ("empty", 25.0)];
+    let lines = each(&runs, |(lading, speed)| {
+        let kind = if *speed == 0.0 { "coasting" } else { "held" };
+        let overrides = [
+            format!("lading.kind={lading}"),
+            format!("speed.kind={kind}"),
+            format!("speed.value={speed} mph"),
+            "track.segments=[{tangent=\"2400 ft\"}]".to_owned(),
+            "track.irregularities=[]".to_owned(),
+            "simulation.duration=60 s".to_owned(),
+            "simulation.output_interval=0.02 s".to_owned(),
+        ];
+        let result = run(&format!("car_tangent_{lading}"), &overrides)?;
+        let most = |name: &str| -> Result<f64, Failure> {
+            Ok(column(&result, name)?
+                .iter()
+                .fold(0.0, |most: f64, own| most.max(own.abs())))
+        };
+        let mut lateral = 0.0_f64;
+        for axle in 1..=4 {
+            lateral = lateral.max(most(&format!("axle_{axle}_lateral"))?);
+        }
+        let told = |own: f64| {
+            if own < 1e-6 {
+                "below 1e-6".to_owned()
+            } else {
+                format!("**{own:.1e}**")
+            }
+        };
+        Ok(format!(
+            "| {lading} | {speed:.0} | {} | {} |\n",
+            told(lateral),
+            told(most("body_roll")?)
+        ))
+    })?;
+    out.extend(lines);
+    Ok(out)
+}
+
+fn headings() -> Result<String, Failure> {
+    let mut out = "## A circle of curve\n\n\
+         The loaded car through nearly a full circle of 10° at 15 mph without superelevation: forces of all \
+         wheels around the circle,\nbeside those a quarter of a circle after its beginning.\n\n\
+         | part of the circle | largest difference of wheel forces | in parts of the static load |\n|---|---|---|\n"
+        .to_owned();
+    // 3,604 ft a lap at 22 ft/s: 163.8 s.
+    let overrides = [
+        "track.segments=[{tangent='100 ft'}, {spiral='200 ft'}, {curve='3500 ft', degree='10 deg', \
+         direction='left'}]"
+            .replace('\'', "\""),
+        "speed.value=15 mph".to_owned(),
+        "simulation.duration=170.2 s".to_owned(),
+        "simulation.output_interval=0.05 s".to_owned(),
+    ];
+    let result = run("car_constant_curve_loaded", &overrides)?;
+    let times = column(&result, "time")?;
+    let at = |time: f64| times.partition_point(|own| *own < time).min(times.len() - 1);
+    let lap = 163.8;
+    let first = at(14.0 + 0.25 * lap);
+    for share in [0.5, 0.75, 0.95] {
+        let row = at(14.0 + share * lap);
+        let mut largest = 0.0_f64;
+        for axle in 1..=4 {
+            for side in ["left", "right"] {
+                for force in ["vertical", "lateral"] {
+                    let own = column(&result, &format!("axle_{axle}_{side}_{force}"))?;
+                    largest = largest.max((own[row] - own[first]).abs());
+                }
+            }
+        }
+        let _ = writeln!(out, "| {share} | {largest:.3} N | {:.1e} |", largest / 146.2e3);
+    }
+    Ok(out)
+}
