@@ -343,7 +343,7 @@ fn headings() -> Result<String, Failure> {
          direction='left'}]"
             .replace('\'', "\""),
         "speed.value=15 mph".to_owned(),
-        "simulation.duration=170.2 s".to_owned(),
+        "simulation.duration=163 s".to_owned(),
         "simulation.output_interval=0.05 s".to_owned(),
     ];
     let result = run("car_constant_curve_loaded", &overrides)?;
@@ -351,7 +351,7 @@ fn headings() -> Result<String, Failure> {
     let at = |time: f64| times.partition_point(|own| *own < time).min(times.len() - 1);
     let lap = 163.8;
     let first = at(14.0 + 0.25 * lap);
-    for share in [0.5, 0.75, 0.95] {
+    for share in [0.5, 0.75, 0.9] {
         let row = at(14.0 + share * lap);
         let mut largest = 0.0_f64;
         for axle in 1..=4 {
