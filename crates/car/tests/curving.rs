@@ -4,9 +4,10 @@
 mod common;
 
 use car::{Car, Loads, Parameters};
-use common::{INCH, POUND_FORCE, Ran, at_start, curve, loaded, massless, run, run_by};
+use common::{INCH, POUND_FORCE, Ran, at_start, curve, loaded, massless, run, run_by, track};
 use integrate::Method;
 use truck::{WedgeKind, empirical_warp};
+use wheelrail::track::{CurveElements, Segment};
 
 /// The force of all wheels on the rails along the track's plane, positive to the left, N.
 fn lateral(loads: &Loads) -> f64 {
@@ -199,6 +200,43 @@ fn analytic_wheel_forces_at_any_heading_are_the_same() {
         for (a, b) in here.trucks.iter().zip(&there.trucks) {
             assert!((a.nest_vertical[0] - b.nest_vertical[0]).abs() < 0.1, "{heading}");
             assert!((a.warp_angle - b.warp_angle).abs() < 1e-9, "{heading}");
+        }
+    }
+}
+
+/// Tangent, spiral and curve, each laid in two parts, are the same track.
+#[test]
+fn limits_joined_tracks_are_one_track() {
+    let own = CurveElements::of_degree(7.5_f64.to_radians(), 4.0 * INCH);
+    let half = CurveElements {
+        curvature: 0.5 * own.curvature,
+        superelevation: 0.5 * own.superelevation,
+    };
+    let joined = track(&[
+        Segment::Tangent(12.0),
+        Segment::Tangent(18.0),
+        Segment::Spiral(30.0),
+        Segment::Curve(1e-3, half),
+        Segment::Spiral(30.0),
+        Segment::Curve(40.0, own),
+        Segment::Curve(60.0, own),
+    ]);
+    let whole = curve(7.5, 1.0, 4.0 * INCH, 100.0);
+    for distance in [45.0, 75.0, 110.0, 135.0] {
+        let [a, b] = [&joined, &whole].map(|track| {
+            let mut parameters = loaded(track.clone(), 11.0);
+            parameters.start.distance = distance;
+            at_start(&Car::new(&parameters).unwrap())
+        });
+        for (a, b) in a.wheels.iter().flatten().zip(b.wheels.iter().flatten()) {
+            assert!(
+                (a.vertical - b.vertical).abs() < 1e-4 * 146e3,
+                "{distance}: {a:?} {b:?}"
+            );
+            assert!(
+                (a.lateral - b.lateral).abs() < 1e-4 * 146e3,
+                "{distance}: {a:?} {b:?}"
+            );
         }
     }
 }
