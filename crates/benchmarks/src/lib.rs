@@ -7,6 +7,7 @@ pub mod circle;
 pub mod wedges;
 
 use std::hint::black_box;
+use std::process::ExitCode;
 
 use integrate::Problem;
 use mechanics::energy_balance::Entries;
@@ -17,6 +18,17 @@ use rustix::time::{ClockId, clock_gettime};
 use study::half_truck::catalog;
 use wedge::parameters::Damping;
 use wedge::{BuildError, Wedge, thesis};
+
+/// Returns how a benchmark ends, after its error, if it has one, is told.
+pub fn exit(done: Result<(), String>) -> ExitCode {
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::from(2)
+        }
+    }
+}
 
 /// A wedge in the middle of a branch, pressed into both faces and sliding, toe out and yawed, and its state.
 ///

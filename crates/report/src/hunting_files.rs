@@ -10,6 +10,7 @@ use study::car::stability::{FRICTION, Stability};
 
 use crate::drawing::{Colour, Curve, Figure, Line, Panel};
 use crate::figures::axis;
+use crate::summary::write_json;
 
 /// The table.
 pub const TABLE: &str = "hunting.csv";
@@ -147,8 +148,7 @@ pub fn write_numbers(
                 the speed from which on small lateral dips of the rails grow into hunting. Amplitudes are \
                 half of greatest less least lateral displacement of a wheelset within 1.5 s.",
     };
-    serde_json::to_writer_pretty(&mut *out, &document)?;
-    writeln!(out)
+    write_json(&document, out)
 }
 
 /// The figure: the largest lateral amplitude of the wheelsets, and the body's lateral acceleration, over speed.

@@ -8,6 +8,7 @@ use study::car::stability::{Branch, FRICTION, Mode, Stability};
 
 use crate::drawing::{Curve, Figure, Panel, distinct};
 use crate::figures::axis;
+use crate::summary::write_json;
 
 /// The table.
 pub const TABLE: &str = "stability.csv";
@@ -106,8 +107,7 @@ pub fn write_numbers(case: &str, found: &Stability, units: Units, out: &mut dyn 
         about: "Vibrations of 0.05 to 30 Hz about steady running on straight track. Friction stuck: \
                 bristles are springs; absent: no friction in wedges, plates, adapters, side bearings.",
     };
-    serde_json::to_writer_pretty(&mut *out, &document)?;
-    writeln!(out)
+    write_json(&document, out)
 }
 
 fn first(branch: &Branch, of: impl Fn(&Mode) -> f64) -> Vec<Option<f64>> {

@@ -1,5 +1,6 @@
 //! Running one case, writing its files, and its row in the table.
 
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -31,18 +32,8 @@ pub struct Done<R = RunResult> {
 
 /// Runs a case of any model until it ends or is interrupted.
 pub fn compute<C: RunCase>(case: &C, progress: &Progress) -> Result<Done<C::Output>, Failure> {
-    let start = Instant::now();
-    let run = begun(case, Run::new(case))?;
-    let [duration, _] = case.duration_and_interval();
-    let mut reached = progress.of_run(duration);
-    let result = run.finish_while(|time| {
-        reached(time);
-        interrupt::go_on()
-    });
-    Ok(Done {
-        result,
-        wall: start.elapsed(),
-    })
+    let finish = |run: Run<C>, go_on: &mut GoOn<'_>| (run.finish_while(go_on), ());
+    compute_by(case, Run::new, finish, progress).map(|(done, ())| done)
 }
 
 /// As [`compute`], with the corners of wedges that are bodies.
@@ -54,16 +45,8 @@ where
     C: RunCase,
     C::Recorder: TakesCorners,
 {
-    let start = Instant::now();
-    let run = begun(case, Run::with_contacts(case))?;
-    let [duration, _] = case.duration_and_interval();
-    let mut reached = progress.of_run(duration);
-    let (result, contacts) = run.finish_with_contacts(|time| {
-        reached(time);
-        interrupt::go_on()
-    });
-    let wall = start.elapsed();
-    Ok((Done { result, wall }, contacts))
+    let finish = |run: Run<C>, go_on: &mut GoOn<'_>| run.finish_with_contacts(go_on);
+    compute_by(case, Run::with_contacts, finish, progress)
 }
 
 /// As [`compute`], of a car, with the motions of its bodies.
@@ -71,16 +54,30 @@ pub fn compute_with_motions(
     case: &CarCase,
     progress: &Progress,
 ) -> Result<(Done<CarResult>, Option<MotionTable>), Failure> {
+    let finish = |run: Run<CarCase>, go_on: &mut GoOn<'_>| run.finish_with_motions(go_on);
+    compute_by(case, Run::with_motions, finish, progress)
+}
+
+/// Asked at each output time (s) whether a run is to go on.
+type GoOn<'a> = dyn FnMut(f64) -> ControlFlow<String> + 'a;
+
+/// Runs a case, from what begins it and what finishes it with what it takes along.
+fn compute_by<C: RunCase, T>(
+    case: &C,
+    begin: impl FnOnce(&C) -> Result<Run<C>, RunError>,
+    finish: impl FnOnce(Run<C>, &mut GoOn<'_>) -> (C::Output, T),
+    progress: &Progress,
+) -> Result<(Done<C::Output>, T), Failure> {
     let start = Instant::now();
-    let run = begun(case, Run::with_motions(case))?;
+    let run = begun(case, begin(case))?;
     let [duration, _] = case.duration_and_interval();
     let mut reached = progress.of_run(duration);
-    let (result, motions) = run.finish_with_motions(|time| {
+    let (result, taken) = finish(run, &mut |time| {
         reached(time);
         interrupt::go_on()
     });
     let wall = start.elapsed();
-    Ok((Done { result, wall }, motions))
+    Ok((Done { result, wall }, taken))
 }
 
 /// A run that has begun; where nothing can be computed at all, the input is at fault.

@@ -2,6 +2,7 @@
 
 mod adjust;
 mod commands;
+mod drawn;
 mod execute;
 mod failure;
 mod folders;

@@ -8,7 +8,7 @@
 
 use std::process::ExitCode;
 
-use benchmarks::{costs, cpu_seconds};
+use benchmarks::{costs, cpu_seconds, exit};
 use car::Car;
 use integrate::{Integrator, Method, Options};
 use mechanics::energy_balance::EnergyBalance;
@@ -20,35 +20,24 @@ use study::case::Tables;
 const INTERVAL: f64 = 0.05;
 
 /// Tangent with all four irregularities of class 6, and its speed.
-const CLASS_6: &str = "
-speed.value = \"60 km/h\"
-[[track.segments]]
-tangent = \"600 m\"
-[[track.irregularities]]
-spectrum = \"fra_lateral\"
-class = 6
-rails = \"both\"
-direction = \"lateral\"
-seed = 1
-[[track.irregularities]]
-spectrum = \"fra_cross_level\"
-class = 6
-rails = \"against\"
-direction = \"lateral\"
-seed = 2
-[[track.irregularities]]
-spectrum = \"fra_vertical\"
-class = 6
-rails = \"both\"
-direction = \"vertical\"
-seed = 3
-[[track.irregularities]]
-spectrum = \"fra_cross_level\"
-class = 6
-rails = \"against\"
-direction = \"vertical\"
-seed = 4
-";
+fn class_6() -> String {
+    let spectra = [
+        ("fra_lateral", "both", "lateral"),
+        ("fra_cross_level", "against", "lateral"),
+        ("fra_vertical", "both", "vertical"),
+        ("fra_cross_level", "against", "vertical"),
+    ];
+    let irregularities = (1..).zip(spectra).map(|(seed, (spectrum, rails, direction))| {
+        format!(
+            "[[track.irregularities]]\nspectrum = \"{spectrum}\"\nclass = 6\nrails = \"{rails}\"\n\
+             direction = \"{direction}\"\nseed = {seed}\n"
+        )
+    });
+    let tangent = "speed.value = \"60 km/h\"\n[[track.segments]]\ntangent = \"600 m\"\n";
+    std::iter::once(tangent.to_owned())
+        .chain(irregularities)
+        .collect()
+}
 
 /// Into a curve, smooth.
 const CURVE: &str = "
@@ -65,33 +54,18 @@ superelevation = \"4 in\"
 ";
 
 /// Dynamic curving: low joints every 39 ft of a curve, staggered.
-const JOINTS: &str = "
-[[track.irregularities]]
-shape = \"joints\"
-rails = \"left\"
-direction = \"vertical\"
-depth = \"0.5 in\"
-spacing = \"39 ft\"
-joints = 10
-start = \"400 ft\"
-[[track.irregularities]]
-shape = \"joints\"
-rails = \"right\"
-direction = \"vertical\"
-depth = \"0.5 in\"
-spacing = \"39 ft\"
-joints = 10
-start = \"419.5 ft\"
-";
+fn joints() -> String {
+    let of = |(rails, start)| {
+        format!(
+            "[[track.irregularities]]\nshape = \"joints\"\nrails = \"{rails}\"\ndirection = \"vertical\"\n\
+             depth = \"0.5 in\"\nspacing = \"39 ft\"\njoints = 10\nstart = \"{start} ft\"\n"
+        )
+    };
+    [("left", 400.0), ("right", 419.5)].map(of).concat()
+}
 
 fn main() -> ExitCode {
-    match measure_all() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::from(2)
-        }
-    }
+    exit(measure_all())
 }
 
 fn measure_all() -> Result<(), String> {
@@ -102,12 +76,13 @@ fn measure_all() -> Result<(), String> {
         .map_err(|_| format!("`{seconds}` is no number of seconds"))?;
     let curve = |degree: &str| CURVE.replace("DEGREE", degree);
     let (fast, exact) = ((Method::TrBdf2, 1e-4), (Method::Esdirk3, 2e-6));
-    let joints = format!("{}{JOINTS}", curve("10"));
+    let class_6 = class_6();
+    let joints = format!("{}{}", curve("10"), joints());
     let runs = [
-        ("tangent, class 6, wedge bodies", CLASS_6, "body", fast),
-        ("tangent, class 6, massless wedges", CLASS_6, "massless", fast),
-        ("tangent, class 6, wedge bodies", CLASS_6, "body", exact),
-        ("tangent, class 6, massless wedges", CLASS_6, "massless", exact),
+        ("tangent, class 6, wedge bodies", &class_6, "body", fast),
+        ("tangent, class 6, massless wedges", &class_6, "massless", fast),
+        ("tangent, class 6, wedge bodies", &class_6, "body", exact),
+        ("tangent, class 6, massless wedges", &class_6, "massless", exact),
         ("curve of 7.5 deg, wedge bodies", &curve("7.5"), "body", fast),
         (
             "curve of 7.5 deg, massless wedges",

@@ -9,20 +9,14 @@
 use std::process::ExitCode;
 use std::time::Instant;
 
-use benchmarks::{costs, sliding_truck};
+use benchmarks::{costs, exit, sliding_truck};
 use integrate::Problem;
 use nucars::truck::Choices;
 use study::half_truck::catalog::{DURATION, entries};
 use study::half_truck::run::run;
 
 fn main() -> ExitCode {
-    match measure_all() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::from(2)
-        }
-    }
+    exit(measure_all())
 }
 
 fn measure_all() -> Result<(), String> {

@@ -8,7 +8,7 @@
 
 use std::process::ExitCode;
 
-use benchmarks::{costs, cpu_seconds, ledger};
+use benchmarks::{costs, cpu_seconds, exit, ledger};
 use integrate::{Integrator, Method, Options};
 use mechanics::energy_balance::EnergyBalance;
 use mechanics::system::System;
@@ -23,13 +23,7 @@ const INTERVAL: f64 = 0.05;
 const MOST_STEPS: u64 = 2_000_000;
 
 fn main() -> ExitCode {
-    match measure_all() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::from(2)
-        }
-    }
+    exit(measure_all())
 }
 
 fn measure_all() -> Result<(), String> {

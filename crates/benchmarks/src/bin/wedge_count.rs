@@ -10,7 +10,7 @@
 use std::process::ExitCode;
 
 use benchmarks::wedges::{Arrangement, wedges};
-use benchmarks::{costs, cpu_seconds};
+use benchmarks::{costs, cpu_seconds, exit};
 use integrate::{Integrator, Options, Problem};
 use mechanics::system::System;
 
@@ -28,20 +28,13 @@ const USAGE: &str =
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    let done = match words.as_slice() {
+    exit(match words.as_slice() {
         [] => table(usize::MAX),
         [most] => most.parse().map_err(|_| USAGE.to_owned()).and_then(table),
         [arrangement, count, number] => one(arrangement, count, number, false),
         [arrangement, count, number, "recorded"] => one(arrangement, count, number, true),
         _ => Err(USAGE.to_owned()),
-    };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::from(2)
-        }
-    }
+    })
 }
 
 /// Steps of one system alone.

@@ -48,6 +48,8 @@ use serde::Serialize;
 use study::half_truck::catalog::{Entry, ToeCase, YawCase};
 use study::summary::SummaryValue;
 
+use crate::summary::write_json;
+
 /// Version of the structure of [`Row`], for files.
 pub const SCHEMA: &str = "wedgelab.claims/1";
 
@@ -186,8 +188,7 @@ pub const FILE_NAME: &str = "claims.json";
 /// # Errors
 /// The writer's.
 pub fn write(claims: &Claims, out: &mut dyn Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, claims)?;
-    out.write_all(b"\n")
+    write_json(claims, out)
 }
 
 /// The statements that a wedge like the thesis's must show: orders by toe that the text states and that

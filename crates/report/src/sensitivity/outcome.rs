@@ -11,6 +11,7 @@ use super::space::{FRICTIONS, OpenParameter, OtherFriction, Place, Space};
 use super::split::{Split, deciding};
 use super::stiffness::{OfStiffness, of_stiffness};
 use crate::claims::{Group, Verdict, claims};
+use crate::summary::write_json;
 
 /// The file of the outcome.
 pub const FILE_NAME: &str = "sensitivity.json";
@@ -315,7 +316,6 @@ impl Sensitivity {
     /// # Errors
     /// The writer's.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        serde_json::to_writer_pretty(&mut *out, self)?;
-        writeln!(out)
+        write_json(self, out)
     }
 }

@@ -13,6 +13,8 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
+use crate::summary::write_json;
+
 pub use checks::{Basis, Check, checks};
 pub use rigs::{Rigs, Variant, shown, variants};
 pub use sensitivity::{Sensitivity, sensitivities};
@@ -49,7 +51,6 @@ impl Findings {
     /// # Errors
     /// The writer's.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        serde_json::to_writer_pretty(&mut *out, self)?;
-        writeln!(out)
+        write_json(self, out)
     }
 }

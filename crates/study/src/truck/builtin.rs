@@ -24,6 +24,25 @@ struct Rig {
 }
 
 impl Rig {
+    /// A rig with its name (behind `truck_`) and title.
+    fn new(
+        damping: &'static str,
+        (name, title): (&str, String),
+        body: String,
+        vertical: Vec<String>,
+        duration: f64,
+    ) -> Self {
+        Self {
+            name: format!("truck_{name}"),
+            title,
+            damping,
+            body,
+            lift: None,
+            vertical,
+            duration,
+        }
+    }
+
     fn lifted(self, lift: f64) -> Self {
         Self {
             lift: Some(lift),
@@ -92,14 +111,9 @@ const HALF_CAR: &str = "load.kind = \"half_car\"\n";
 
 /// The rigs of one damping that have an empty version too.
 fn rigs(damping: &'static str) -> Vec<Rig> {
-    let rig = |name: String, title: &str, body: String, vertical: Vec<String>, duration: f64| Rig {
-        name: format!("truck_{name}"),
-        title: format!("{damping} damping, {title}"),
-        damping,
-        body,
-        lift: None,
-        vertical,
-        duration,
+    let rig = |name: String, title: &str, body, vertical, duration| {
+        let title = format!("{damping} damping, {title}");
+        Rig::new(damping, (&name, title), body, vertical, duration)
     };
     let up_and_down = vec![sine("0.5 in", "2 rad/s")];
     let axles = "leading_wheelset.lateral = { shape = \"triangle\", amplitude = \"0.7 in\", frequency \
@@ -177,14 +191,9 @@ fn kinds() -> Vec<BuiltIn> {
     [spatial, split]
         .into_iter()
         .flat_map(|(kind, title, keys)| {
-            let rig = |name: &str, what: &str, body: String, vertical: Vec<String>, duration: f64| Rig {
-                name: format!("truck_{name}_{kind}"),
-                title: format!("{title}: {what}"),
-                damping: "variable",
-                body,
-                lift: None,
-                vertical,
-                duration,
+            let rig = |name: &str, what: &str, body, vertical, duration| {
+                let named = (&*format!("{name}_{kind}"), format!("{title}: {what}"));
+                Rig::new("variable", named, body, vertical, duration)
             };
             let warp = format!("{keys}{}", warp_by_nests("0.02 rad"));
             [
@@ -210,14 +219,15 @@ fn kinds() -> Vec<BuiltIn> {
 
 /// Rigs of one damping that reach what the others do not.
 fn limits(damping: &'static str) -> Vec<Rig> {
-    let rig = |name: &str, title: &str, body: String, vertical: Vec<String>, duration: f64| Rig {
-        name: format!("truck_{name}_{damping}"),
-        title: format!("{damping} damping, {title}"),
-        damping,
-        body,
-        lift: None,
-        vertical,
-        duration,
+    let rig = |name: &str, title: &str, body, vertical, duration| {
+        let title = format!("{damping} damping, {title}");
+        Rig::new(
+            damping,
+            (&format!("{name}_{damping}"), title),
+            body,
+            vertical,
+            duration,
+        )
     };
     let pocket = format!(
         "{}friction.column = 0.5\nfriction.slope = 0.05\n",
@@ -271,14 +281,15 @@ fn limits(damping: &'static str) -> Vec<Rig> {
 
 /// Loads and motions beyond what a truck is made for, of one damping.
 fn extremes(damping: &'static str) -> Vec<Rig> {
-    let rig = |name: &str, title: &str, body: String, vertical: Vec<String>, duration: f64| Rig {
-        name: format!("truck_{name}_{damping}"),
-        title: format!("{damping} damping, {title}"),
-        damping,
-        body,
-        lift: None,
-        vertical,
-        duration,
+    let rig = |name: &str, title: &str, body, vertical, duration| {
+        let title = format!("{damping} damping, {title}");
+        Rig::new(
+            damping,
+            (&format!("{name}_{damping}"), title),
+            body,
+            vertical,
+            duration,
+        )
     };
     let ramp = |amplitude: &str, start: &str, duration: &str| {
         format!(

@@ -10,7 +10,8 @@ use report::csv::converted;
 use report::curves_files::{self, NAMES, Named};
 use study::truck::loop_curve::{LoopCurve, LoopKind};
 
-use super::warp::{Varied, draw, run};
+use super::warp::{Varied, run};
+use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -76,14 +77,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         loops.push((label.clone(), curve));
     }
     progress.finish();
-    let figure = curves_files::figure(&loops);
-    let png = draw(&figure)?;
+    let figure = Drawn::of(&curves_files::figure(&loops))?;
     folder.write(|files| {
         files.add(curves_files::LOOPS, |out| curves_files::write(&loops, out))?;
-        files.add(curves_files::FIGURE, |out| {
-            out.write_all(figure.to_svg().as_bytes())
-        })?;
-        files.add(curves_files::PICTURE, |out| out.write_all(&png))
+        figure.add(files, curves_files::FIGURE, curves_files::PICTURE)
     })?;
     let mut out = io::stdout().lock();
     table(&name, &loops).write(&mut out)?;

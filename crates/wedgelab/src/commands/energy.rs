@@ -15,7 +15,7 @@ use study::losses::{EnergySummary, LossSplit};
 use study::summary::{RunSummary, SummaryValue};
 
 use super::run::read_any;
-use super::warp::draw;
+use crate::drawn::Drawn;
 use crate::execute::compute;
 use crate::failure::{Failure, Message, say};
 use crate::folders;
@@ -94,11 +94,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut out = io::stdout().lock();
     write(&energy, &mut out)?;
     if let Some(folder) = folder {
-        let png = draw(&figure)?;
+        let figure = Drawn::of(&figure)?;
         folder.write(|files| {
             files.add(NAMES[0], |out| write_json(&energy, out))?;
-            files.add(NAMES[1], |out| out.write_all(figure.to_svg().as_bytes()))?;
-            files.add(NAMES[2], |out| out.write_all(&png))
+            figure.add(files, NAMES[1], NAMES[2])
         })?;
         writeln!(
             out,

@@ -16,8 +16,8 @@ use study::fit::{Fit, FitError, Free, FreeError, Measured, fit};
 use study::metrics::Cycle;
 
 use super::run::{is_built_in, read_any};
-use super::warp::draw;
 use crate::adjust::{self, Names};
+use crate::drawn::Drawn;
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
@@ -229,15 +229,13 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         units: table.units,
         confidence: arguments.confidence,
     };
-    let figure = fit_files::figure(&found, &shown);
-    let png = draw(&figure)?;
+    let figure = Drawn::of(&fit_files::figure(&found, &shown))?;
     folder.write(|files| {
         files.add(fit_files::FILE_NAME, |out| fit_files::write(&found, &shown, out))?;
         if let Some(fitted) = &fitted {
             files.add(run_files::CASE_FILE_NAME, |out| out.write_all(fitted.as_bytes()))?;
         }
-        files.add(fit_files::FIGURE, |out| out.write_all(figure.to_svg().as_bytes()))?;
-        files.add(fit_files::PICTURE, |out| out.write_all(&png))
+        figure.add(files, fit_files::FIGURE, fit_files::PICTURE)
     })?;
     tell(&found, &shown, &arguments.out, &names)?;
     for warning in &found.warnings {

@@ -9,7 +9,7 @@ use report::lock_up_files::{self, NAMES};
 use study::lock_up::{LockUpMap, MapError, Span, map};
 
 use super::run::read;
-use super::warp::draw;
+use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -115,16 +115,12 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     progress.finish();
     let found = found.map_err(refused)?;
     let units = case.simulation.output_units;
-    let figure = lock_up_files::figure(&case, &found, units);
-    let png = draw(&figure)?;
+    let figure = Drawn::of(&lock_up_files::figure(&case, &found, units))?;
     folder.write(|files| {
         files.add(lock_up_files::TABLE, |out| {
             lock_up_files::write_table(&found, units, out)
         })?;
-        files.add(lock_up_files::FIGURE, |out| {
-            out.write_all(figure.to_svg().as_bytes())
-        })?;
-        files.add(lock_up_files::PICTURE, |out| out.write_all(&png))
+        figure.add(files, lock_up_files::FIGURE, lock_up_files::PICTURE)
     })?;
     let mut out = io::stdout().lock();
     tell(&found, &mut out)?;

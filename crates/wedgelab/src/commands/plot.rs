@@ -9,8 +9,8 @@ use report::plot;
 use report::table::Table;
 
 use super::compare::label;
-use super::warp::draw;
 use crate::adjust::Span;
+use crate::drawn::png;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -80,7 +80,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     let folder = folders::check(folder, &[name], arguments.force)?;
     let bytes = if picture {
-        draw(&figure)?
+        png(&figure)?
     } else {
         figure.to_svg().into_bytes()
     };

@@ -15,7 +15,7 @@ use study::car::hunting::{Boundary, Hunting, HuntingError, Settings, hunting};
 use study::car::stability::{FRICTION, Stability, stability};
 
 use super::run::read_any;
-use super::warp::draw;
+use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -170,14 +170,12 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     })?;
     let runs = runs.transpose().map_err(|error| cannot_hunt(&case, &error))?;
     let units = case.simulation.output_units;
-    let figure = stability_files::figure(&case.name, &found, units);
-    let png = draw(&figure)?;
+    let figure = Drawn::of(&stability_files::figure(&case.name, &found, units))?;
     let hunting = match &runs {
         None => None,
         Some(runs) => {
-            let figure = hunting_files::figure(&case.name, runs, &found, units);
-            let png = draw(&figure)?;
-            Some((runs, figure, png))
+            let figure = Drawn::of(&hunting_files::figure(&case.name, runs, &found, units))?;
+            Some((runs, figure))
         }
     };
     folder.write(|files| {
@@ -187,11 +185,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         files.add(stability_files::NUMBERS, |out| {
             stability_files::write_numbers(&case.name, &found, units, out)
         })?;
-        files.add(stability_files::FIGURE, |out| {
-            out.write_all(figure.to_svg().as_bytes())
-        })?;
-        files.add(stability_files::PICTURE, |out| out.write_all(&png))?;
-        let Some((runs, figure, png)) = &hunting else {
+        figure.add(files, stability_files::FIGURE, stability_files::PICTURE)?;
+        let Some((runs, figure)) = &hunting else {
             return Ok(());
         };
         files.add(hunting_files::TABLE, |out| {
@@ -200,10 +195,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         files.add(hunting_files::NUMBERS, |out| {
             hunting_files::write_numbers(&case.name, (runs, &found), units, out)
         })?;
-        files.add(hunting_files::FIGURE, |out| {
-            out.write_all(figure.to_svg().as_bytes())
-        })?;
-        files.add(hunting_files::PICTURE, |out| out.write_all(png))
+        figure.add(files, hunting_files::FIGURE, hunting_files::PICTURE)
     })?;
     let mut out = io::stdout().lock();
     table(&found, units).write(&mut out)?;

@@ -9,7 +9,7 @@ use quantity::{Kind, Quantity};
 use report::track_files::{self, NAMES, Survey, degree};
 use study::track::TrackFile;
 
-use super::warp::draw;
+use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::table::Table;
@@ -80,14 +80,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         *force,
     )?;
     let survey = Survey::new(&track, interval);
-    let figure = survey.figure(&name);
-    let png = draw(&figure)?;
+    let figure = Drawn::of(&survey.figure(&name))?;
     folder.write(|files| {
         files.add(track_files::TABLE, |out| survey.write(out))?;
-        files.add(track_files::FIGURE, |out| {
-            out.write_all(figure.to_svg().as_bytes())
-        })?;
-        files.add(track_files::PICTURE, |out| out.write_all(&png))
+        figure.add(files, track_files::FIGURE, track_files::PICTURE)
     })?;
     let sharpest = survey.sharpest();
     let mut out = io::stdout().lock();

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use report::drawing::Figure;
 use report::warp_files::{self, KIP_INCH, NAMES, Tested};
 use study::any_case::AnyCase;
 use study::truck::TruckCase;
@@ -13,6 +12,7 @@ use study::truck::run::TruckResult;
 use study::truck::warp::{NUCARS_STIFFNESS, WarpCurve};
 
 use super::run::read_any;
+use crate::drawn::Drawn;
 use crate::execute::{Done, compute, unsound};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
@@ -99,18 +99,14 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         });
     }
     progress.finish();
-    let figure = warp_files::figure(&tests);
-    let png = draw(&figure)?;
+    let figure = Drawn::of(&warp_files::figure(&tests))?;
     folder.write(|files| {
         files.add(warp_files::STIFFNESS, |out| {
             warp_files::write_stiffness(&tests, out)
         })?;
         files.add(warp_files::LOOPS, |out| warp_files::write_loops(&tests, out))?;
         files.add(warp_files::PWL, |out| warp_files::write_pwl(&tests, out))?;
-        files.add(warp_files::FIGURE, |out| {
-            out.write_all(figure.to_svg().as_bytes())
-        })?;
-        files.add(warp_files::PICTURE, |out| out.write_all(&png))
+        figure.add(files, warp_files::FIGURE, warp_files::PICTURE)
     })?;
     let mut out = io::stdout().lock();
     table(&tests).write(&mut out)?;
@@ -197,12 +193,6 @@ pub fn run(
         ));
     }
     Ok(result)
-}
-
-/// Draws a figure as a picture.
-pub fn draw(figure: &Figure) -> Result<Vec<u8>, Failure> {
-    let png = figure.to_png();
-    png.map_err(|reason| Failure::Failed(Message::new(format!("cannot draw: {reason}"), "").into()))
 }
 
 /// The table of stiffnesses.

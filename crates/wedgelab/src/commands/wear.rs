@@ -12,7 +12,7 @@ use study::wear::energy::WearByEnergy;
 use study::wear::{Plan, WearError, WearHistory, WearLaw, WearStop, advance};
 
 use super::run::read;
-use super::warp::draw;
+use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -109,8 +109,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     progress.finish();
     let history = history.map_err(|stop| nothing(&case.name, stop))?;
     let words = files::words(&history, &plan, given);
-    let figure = files::figure(&history);
-    let png = draw(&figure)?;
+    let figure = Drawn::of(&files::figure(&history))?;
     folder.write(|all| {
         all.add(files::COURSE, |out| files::write_course(&history, out))?;
         all.add(files::POINTS, |out| files::write_points(&history, out))?;
@@ -121,8 +120,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             let document = history.case.document.clone().with_tables_embedded();
             out.write_all(document.to_toml().as_bytes())
         })?;
-        all.add(files::FIGURE, |out| out.write_all(figure.to_svg().as_bytes()))?;
-        all.add(files::PICTURE, |out| out.write_all(&png))?;
+        figure.add(all, files::FIGURE, files::PICTURE)?;
         all.add(files::WORDS, |out| out.write_all(words.as_bytes()))
     })?;
     let mut out = io::stdout().lock();

@@ -12,8 +12,8 @@ use wheelrail::hertz::Material;
 use wheelrail::profile::{Kind, Profile, ProfileError, nominal};
 use wheelrail::wheelset::{Layout, RigidPosition, RigidWheelset};
 
-use super::warp::draw;
 use super::{wheelrail_contact, wheelrail_run};
+use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::table::Table;
@@ -203,16 +203,12 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
          not covered."
     )?;
     if let Some(folder) = folder {
-        let figure = wheelrail_files::figure(&wheel, &rail, &positions, &conicity);
-        let png = draw(&figure)?;
+        let figure = Drawn::of(&wheelrail_files::figure(&wheel, &rail, &positions, &conicity))?;
         folder.write(|files| {
             files.add(wheelrail_files::TABLE, |out| {
                 wheelrail_files::write(&positions, out)
             })?;
-            files.add(wheelrail_files::FIGURE, |out| {
-                out.write_all(figure.to_svg().as_bytes())
-            })?;
-            files.add(wheelrail_files::PICTURE, |out| out.write_all(&png))
+            figure.add(files, wheelrail_files::FIGURE, wheelrail_files::PICTURE)
         })?;
         writeln!(
             out,
