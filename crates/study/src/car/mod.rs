@@ -1,9 +1,9 @@
 //! Freight cars on track: cases, runs, statistics, results.
 //!
-//! [`CarCase`] is what a user writes, completed and in SI; [`builtin`] has cases after the regimes of the
-//! field; [`statistics`] says what rules for the assessment of cars ask, [`limits`] beside what they allow;
-//! [`run`] records a run, [`motions`] what a picture of it needs; [`stability`] linearizes; [`hunting`] ramps the
-//! speed.
+//! [`CarCase`] is what a user writes, completed and in SI; [`regime`] has the tracks and speeds of the field,
+//! [`builtin`] cases on them; [`statistics`] says what rules for the assessment of cars ask, [`limits`] beside
+//! what they allow; [`run`] records a run, [`motions`] what a picture of it needs; [`stability`] linearizes;
+//! [`hunting`] ramps the speed.
 
 mod assumptions;
 pub mod builtin;
@@ -14,6 +14,7 @@ pub mod hunting;
 mod lading;
 pub mod limits;
 pub mod motions;
+pub mod regime;
 pub mod run;
 mod sections;
 pub mod stability;
