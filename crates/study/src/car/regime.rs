@@ -60,16 +60,30 @@ const DURATION_STEP: f64 = 0.05;
 /// Parts of a range by which a speed may lie outside: digits of units.
 const SLACK: f64 = 1e-9;
 
+/// The files of the regimes of these names.
+macro_rules! files {
+    ($($name:literal),* $(,)?) => {
+        [$(($name, include_str!(concat!("../../regimes/", $name, ".toml")))),*]
+    };
+}
+
 /// The built-in regimes, in order.
-const BUILT_IN: [(&str, &str); 2] = [
-    (
-        "twist_and_roll",
-        include_str!("../../regimes/twist_and_roll.toml"),
-    ),
-    (
-        "pitch_and_bounce",
-        include_str!("../../regimes/pitch_and_bounce.toml"),
-    ),
+const BUILT_IN: [(&str, &str); 15] = files![
+    "hunting",
+    "twist_and_roll",
+    "pitch_and_bounce",
+    "yaw_and_sway",
+    "dynamic_curving",
+    "constant_curve",
+    "spiral",
+    "bunched_spiral",
+    "constant_curve_10",
+    "constant_curve_12",
+    "fra_class_1",
+    "fra_class_2",
+    "fra_class_3",
+    "fra_class_4",
+    "fra_class_5",
 ];
 
 static ALL: LazyLock<Vec<Regime>> = LazyLock::new(|| {
