@@ -66,7 +66,10 @@ fn input_built_in_regimes_are_whole() {
                 let way = own.speed() * own.simulation.duration;
                 let wanted = regime.distance.to_si();
                 assert!((own.speed() / speed.to_si() - 1.0).abs() < 1e-12);
-                assert!(way >= wanted && way < wanted + 0.051 * own.speed(), "{name} {speed}");
+                assert!(
+                    way >= wanted && way < wanted + 0.051 * own.speed(),
+                    "{name} {speed}"
+                );
             }
         }
     }
@@ -87,7 +90,11 @@ fn input_settings_reach_the_case() {
     assert!((own.parameters.track.center_line.length() - 500.0 * 0.3048).abs() < 1e-9);
     assert!((own.speed() - 30.0 * 0.447_04).abs() < 1e-12);
     // 300 ft at 44 ft/s are 6.818 s, 60 ft 1.364 s.
-    assert!((own.simulation.duration - 6.85).abs() < 1e-12, "{}", own.simulation.duration);
+    assert!(
+        (own.simulation.duration - 6.85).abs() < 1e-12,
+        "{}",
+        own.simulation.duration
+    );
     assert!((own.parameters.start.settle - 1.364).abs() < 1e-12);
     assert_eq!(own.parameters.trucks, read(&[]).parameters.trucks);
     assert!(own.to_toml().contains("friction = 0.3"));
@@ -99,9 +106,16 @@ fn input_speeds_outside_of_the_range_are_explained() {
     let regime = Regime::named("fra_class_3").unwrap();
     let error = regime.settings(&Quantity::parse("45 mph").unwrap()).unwrap_err();
     let told = messages(&error);
-    assert!(told.contains("fra_class_3 is for 5 mph to 40 mph, not for 45 mph"), "{told}");
+    assert!(
+        told.contains("fra_class_3 is for 5 mph to 40 mph, not for 45 mph"),
+        "{told}"
+    );
     assert!(told.contains("49 CFR 213.9"), "{told}");
-    assert!(regime.settings(&Quantity::parse("64.37376 km/h").unwrap()).is_ok());
+    assert!(
+        regime
+            .settings(&Quantity::parse("64.37376 km/h").unwrap())
+            .is_ok()
+    );
     assert!(regime.settings(&Quantity::parse("4.9 mph").unwrap()).is_err());
 }
 
@@ -109,21 +123,81 @@ fn input_speeds_outside_of_the_range_are_explained() {
 #[test]
 fn input_mistakes_are_shown_where_they_are() {
     for (from, to, line, parts) in [
-        ("distance", "distanze", 6, &["no key `distanze` in a regime", "did you mean `distance`?"][..]),
-        ("source = \"measured\"\n", "", 0, &["`source` is missing", "write source"]),
-        ("\"30 mph\", \"40 mph\"", "\"40 mph\", \"30 mph\"", 3, &["`speeds` has 30 mph after 40 mph"]),
+        (
+            "distance",
+            "distanze",
+            6,
+            &["no key `distanze` in a regime", "did you mean `distance`?"][..],
+        ),
+        (
+            "source = \"measured\"\n",
+            "",
+            0,
+            &["`source` is missing", "write source"],
+        ),
+        (
+            "\"30 mph\", \"40 mph\"",
+            "\"40 mph\", \"30 mph\"",
+            3,
+            &["`speeds` has 30 mph after 40 mph"],
+        ),
         ("\"30 mph\", \"40 mph\"", "", 3, &["`speeds` has 0 entries"]),
-        ("\"30 mph\", \"40 mph\"", "\"30 lbf\"", 3, &["this is a force", "a speed is expected"]),
-        ("\"40 mph\"]", "\"70 mph\"]", 3, &["70 mph, outside of the range, 20 mph to 60 mph", "widen"]),
-        ("[\"20 mph\", \"60 mph\"]", "[\"60 mph\"]", 4, &["`range` has 1 speeds; two are expected"]),
-        ("[\"20 mph\", \"60 mph\"]", "\"60 mph\"", 4, &["`range` is text; a list is expected"]),
-        ("\"60 ft\"", "\"400 ft\"", 7, &["`settle` is 400 ft, but the car runs 300 ft"]),
+        (
+            "\"30 mph\", \"40 mph\"",
+            "\"30 lbf\"",
+            3,
+            &["this is a force", "a speed is expected"],
+        ),
+        (
+            "\"40 mph\"]",
+            "\"70 mph\"]",
+            3,
+            &["70 mph, outside of the range, 20 mph to 60 mph", "widen"],
+        ),
+        (
+            "[\"20 mph\", \"60 mph\"]",
+            "[\"60 mph\"]",
+            4,
+            &["`range` has 1 speeds; two are expected"],
+        ),
+        (
+            "[\"20 mph\", \"60 mph\"]",
+            "\"60 mph\"",
+            4,
+            &["`range` is text; a list is expected"],
+        ),
+        (
+            "\"60 ft\"",
+            "\"400 ft\"",
+            7,
+            &["`settle` is 400 ft, but the car runs 300 ft"],
+        ),
         ("\"60 ft\"", "\"60 s\"", 7, &["this is a time"]),
-        ("wheels.friction = 0.3", "speed.value = \"3 mph\"", 9, &["`set.speed` cannot be set", "speeds ="]),
-        ("wheels.friction = 0.3", "simulation.duration = \"3 s\"", 9, &["set.simulation.duration", "distance ="]),
+        (
+            "wheels.friction = 0.3",
+            "speed.value = \"3 mph\"",
+            9,
+            &["`set.speed` cannot be set", "speeds ="],
+        ),
+        (
+            "wheels.friction = 0.3",
+            "simulation.duration = \"3 s\"",
+            9,
+            &["set.simulation.duration", "distance ="],
+        ),
         ("tangent", "tangens", 11, &["one of tangent, spiral, curve"]),
-        ("[track]\nsegments = [{ tangent = \"500 ft\" }]\n", "", 0, &["`track` is missing", "write [track]"]),
-        ("source = ", "lading = \"full\"\nsource = ", 2, &["`lading` cannot be \"full\"", "\"loaded\""]),
+        (
+            "[track]\nsegments = [{ tangent = \"500 ft\" }]\n",
+            "",
+            0,
+            &["`track` is missing", "write [track]"],
+        ),
+        (
+            "source = ",
+            "lading = \"full\"\nsource = ",
+            2,
+            &["`lading` cannot be \"full\"", "\"loaded\""],
+        ),
     ] {
         let text = WHOLE.replacen(from, to, 1);
         assert_ne!(text, WHOLE);
@@ -149,18 +223,36 @@ fn input_files_are_tried_on_a_car() {
     assert_eq!(Regime::read(&path).unwrap().name, "mine");
     for (from, to, line, part) in [
         ("500 ft", "300 ft", 10, "the track is 300 ft long"),
-        ("wheels.friction = 0.3", "wheels.frictoin = 0.3", 9, "there is no key `frictoin`"),
-        ("wheels.friction = 0.3", "wheels.friction = \"0.3\"", 9, "a number without quotes"),
+        (
+            "wheels.friction = 0.3",
+            "wheels.frictoin = 0.3",
+            9,
+            "there is no key `frictoin`",
+        ),
+        (
+            "wheels.friction = 0.3",
+            "wheels.friction = \"0.3\"",
+            9,
+            "a number without quotes",
+        ),
     ] {
         fs::write(&path, WHOLE.replacen(from, to, 1)).unwrap();
         let error = Regime::read(&path).unwrap_err();
         let told = messages(&error);
         assert!(told.contains(part), "{told}");
         let own = &error.problems()[0];
-        assert_eq!(own.source_name(), Some(path.display().to_string().as_str()), "{told}");
+        assert_eq!(
+            own.source_name(),
+            Some(path.display().to_string().as_str()),
+            "{told}"
+        );
         assert_eq!(own.line_and_column().map(|(line, _)| line), Some(line), "{told}");
     }
-    fs::write(folder.path().join("my_track.toml"), "[[segments]]\ntangent = \"500 ft\"\n").unwrap();
+    fs::write(
+        folder.path().join("my_track.toml"),
+        "[[segments]]\ntangent = \"500 ft\"\n",
+    )
+    .unwrap();
     let track = "[track]\nsegments = [{ tangent = \"500 ft\" }]";
     fs::write(&path, WHOLE.replace(track, "[track]\nfile = \"my_track.toml\"")).unwrap();
     let regime = Regime::read(&path).unwrap();

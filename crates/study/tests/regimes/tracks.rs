@@ -11,7 +11,12 @@ const INCH: f64 = 0.0254;
 
 /// The irregularities of a regime's track foot by foot, in: of the left and the right rail, to the left and up.
 fn foot_by_foot(regime: &str) -> Vec<[[f64; 2]; 2]> {
-    let own = case(regime, "loaded", Regime::named(regime).unwrap().speeds[0].text(), &[]);
+    let own = case(
+        regime,
+        "loaded",
+        Regime::named(regime).unwrap().speeds[0].text(),
+        &[],
+    );
     let track = own.parameters.track;
     let feet = (track.center_line.length() / FOOT) as usize;
     let rails = RailLines::new(track, [0.75, 0.75]);
@@ -43,11 +48,21 @@ fn analytic_amplitudes_are_those_remembered() {
     near(cross_level().fold(0.0, f64::max), 0.75 * rounded);
     near(peak_to_peak(cross_level()), 1.5 * rounded);
     let bounce = foot_by_foot("pitch_and_bounce");
-    near(peak_to_peak(bounce.iter().map(|[left, _]| left[1])), 0.75 * rounded);
-    assert!(bounce.iter().all(|[left, right]| (left[1] - right[1]).abs() < 1e-12));
+    near(
+        peak_to_peak(bounce.iter().map(|[left, _]| left[1])),
+        0.75 * rounded,
+    );
+    assert!(
+        bounce
+            .iter()
+            .all(|[left, right]| (left[1] - right[1]).abs() < 1e-12)
+    );
     let sway = foot_by_foot("yaw_and_sway");
     near(peak_to_peak(sway.iter().map(|[left, _]| left[0])), 1.25);
-    assert!(sway.iter().all(|[left, right]| (left[0] - right[0]).abs() < 1e-12 && left[1] == 0.0));
+    assert!(
+        sway.iter()
+            .all(|[left, right]| (left[0] - right[0]).abs() < 1e-12 && left[1] == 0.0)
+    );
     let waves = sway.windows(2).filter(|two| {
         let middle = -0.625;
         two[0][0][0] > middle && two[1][0][0] <= middle
@@ -56,8 +71,20 @@ fn analytic_amplitudes_are_those_remembered() {
     let wide = case("yaw_and_sway", "loaded", "50 mph", &[]);
     assert!(wide.to_toml().contains("gauge = \"57.5 in\""));
     let curving = foot_by_foot("dynamic_curving");
-    near(curving.iter().map(|[left, right]| (left[1] - right[1]).abs()).fold(0.0, f64::max), 0.5 * rounded);
-    near(curving.iter().map(|[left, right]| left[0] - right[0]).fold(0.0, f64::max), rounded);
+    near(
+        curving
+            .iter()
+            .map(|[left, right]| (left[1] - right[1]).abs())
+            .fold(0.0, f64::max),
+        0.5 * rounded,
+    );
+    near(
+        curving
+            .iter()
+            .map(|[left, right]| left[0] - right[0])
+            .fold(0.0, f64::max),
+        rounded,
+    );
     for [left, right] in &curving {
         assert!(left[0] == 0.0 && right[0] <= 1e-5, "{left:?} {right:?}");
         // Where the outer rail stands outward, it is low too.
@@ -80,16 +107,28 @@ fn analytic_curves_are_run_to_three_inches_of_cant() {
         let regime = Regime::named(name).unwrap();
         let [least, greatest] = regime.range.each_ref().map(|own| own.to_si() / 0.447_04);
         let deficiency = |speed: f64| 0.0007 * degree * speed * speed - cant;
-        assert!(deficiency(greatest) < 3.05 && deficiency(greatest) > 2.8, "{name}");
-        assert!(deficiency(least) >= -excess - 0.05, "{name}: {}", deficiency(least));
+        assert!(
+            deficiency(greatest) < 3.05 && deficiency(greatest) > 2.8,
+            "{name}"
+        );
+        assert!(
+            deficiency(least) >= -excess - 0.05,
+            "{name}: {}",
+            deficiency(least)
+        );
         // The default speeds reach both sides of balance, and within half an inch of the range's upper end.
         let [first, last] = [0, 5].map(|at| regime.speeds[at].to_si() / 0.447_04);
         assert!(deficiency(first) < -2.0 && deficiency(last) > 2.5, "{name}");
-        let line = &case(name, "loaded", regime.speeds[0].text(), &[]).parameters.track.center_line;
+        let line = &case(name, "loaded", regime.speeds[0].text(), &[])
+            .parameters
+            .track
+            .center_line;
         let feet = 0..(line.length() / FOOT) as usize;
-        let tightest = feet.map(|foot| line.at(foot as f64 * FOOT)).fold([0.0_f64; 2], |most, own| {
-            [most[0].max(own.curvature[0]), most[1].max(own.superelevation[0])]
-        });
+        let tightest = feet
+            .map(|foot| line.at(foot as f64 * FOOT))
+            .fold([0.0_f64; 2], |most, own| {
+                [most[0].max(own.curvature[0]), most[1].max(own.superelevation[0])]
+            });
         // The degree is the angle of a chord of 100 ft.
         let chord = 2.0 / tightest[0] * (0.5 * f64::to_radians(degree)).sin();
         assert!((chord / (100.0 * FOOT) - 1.0).abs() < 1e-6, "{name}: {chord}");
@@ -100,7 +139,10 @@ fn analytic_curves_are_run_to_three_inches_of_cant() {
 /// The bunched spiral: the curvature rises evenly over 200 ft, the superelevation within its middle 100 ft.
 #[test]
 fn analytic_the_bunched_spiral_is_bunched() {
-    let line = case("bunched_spiral", "loaded", "20 mph", &[]).parameters.track.center_line;
+    let line = case("bunched_spiral", "loaded", "20 mph", &[])
+        .parameters
+        .track
+        .center_line;
     let curvature = |foot: f64| line.at(foot * FOOT).curvature[0];
     let height = |foot: f64| line.at(foot * FOOT).superelevation[0] / INCH;
     let full = curvature(600.0);
@@ -108,7 +150,13 @@ fn analytic_the_bunched_spiral_is_bunched() {
         let own = curvature(300.0 + 200.2 * share) / full;
         assert!((own - share).abs() < 0.002, "{share}: {own}");
     }
-    for (foot, wanted) in [(345.0, 0.0), (375.1, 1.125), (400.1, 2.25), (425.1, 3.375), (455.0, 4.5)] {
+    for (foot, wanted) in [
+        (345.0, 0.0),
+        (375.1, 1.125),
+        (400.1, 2.25),
+        (425.1, 3.375),
+        (455.0, 4.5),
+    ] {
         assert!((height(foot) - wanted).abs() < 0.01, "{foot}: {}", height(foot));
     }
 }
@@ -117,15 +165,23 @@ fn analytic_the_bunched_spiral_is_bunched() {
 /// it, at every speed: zones end with the last shape.
 #[test]
 fn analytic_test_zones_are_passed_whole() {
-    for name in ["twist_and_roll", "pitch_and_bounce", "yaw_and_sway", "dynamic_curving"] {
+    for name in [
+        "twist_and_roll",
+        "pitch_and_bounce",
+        "yaw_and_sway",
+        "dynamic_curving",
+    ] {
         for speed in &Regime::named(name).unwrap().range {
             let own = case(name, "loaded", speed.text(), &[]);
             let (mut begin, mut end) = (f64::INFINITY, 0.0_f64);
             for placed in &own.parameters.track.irregularities {
                 let [from, to] = match &placed.irregularity {
-                    Irregularity::Shape(Shape::Joints { spacing, joints, start, .. }) => {
-                        [start - 0.5 * spacing, start + (*joints as f64 - 0.5) * spacing]
-                    }
+                    Irregularity::Shape(Shape::Joints {
+                        spacing,
+                        joints,
+                        start,
+                        ..
+                    }) => [start - 0.5 * spacing, start + (*joints as f64 - 0.5) * spacing],
                     Irregularity::Shape(Shape::Dip { start, length, .. }) => [*start, start + length],
                     other => panic!("{other:?}"),
                 };
@@ -134,7 +190,10 @@ fn analytic_test_zones_are_passed_whole() {
             let (start, reach) = (own.parameters.start.distance, own.parameters.reach());
             let front = start + reach + own.speed() * own.parameters.start.settle;
             let rear = start - reach + own.speed() * own.simulation.duration;
-            assert!(front <= begin && front > begin - 20.0 * FOOT, "{name} {front} {begin}");
+            assert!(
+                front <= begin && front > begin - 20.0 * FOOT,
+                "{name} {front} {begin}"
+            );
             assert!(rear > end + 25.0 * FOOT, "{name} {rear} {end}");
         }
     }
