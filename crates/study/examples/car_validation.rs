@@ -15,6 +15,7 @@ use study::car::run::CarResult;
 use study::car::{CarCase, builtin};
 use study::case::Tables;
 use study::run::Run;
+use truck::ControlCoil;
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 
@@ -279,7 +280,14 @@ fn sides_in_curves() -> Result<String, Failure> {
 fn bounce() -> Result<String, Failure> {
     let car = in_regime("pitch_and_bounce", "loaded", 50.0, &[])?.parameters;
     let trucks = car.trucks.iter();
-    let stiffness: f64 = trucks.clone().map(truck::Parameters::load_stiffness).sum();
+    let control = |own: &truck::Wedge| match &own.control_coil {
+        ControlCoil::Shear(spring) => spring.stiffness,
+        _ => 0.0,
+    };
+    let stiffness: f64 = trucks
+        .clone()
+        .map(|own| own.load_stiffness() + own.wedges.iter().map(control).sum::<f64>())
+        .sum();
     let bolsters: f64 = trucks.map(|own| own.bolster.body.mass + own.wedge_mass()).sum();
     let coils = (stiffness / (car.carried_mass() + bolsters)).sqrt() / std::f64::consts::TAU;
     let modes = car.modes(20.0, FrictionState::Absent)?;
@@ -292,7 +300,7 @@ fn bounce() -> Result<String, Failure> {
         "## Bounce\n\n\
          The regime `pitch_and_bounce`, ten low joints of 0.75 in every 39 ft on both rails alike, the loaded \
          car: standard deviation of the body's\nvertical acceleration over the front truck, and least wheel \
-         load. On its load coils the car bounces with {coils:.3} Hz, on coils, contacts and sprung rails\nwith \
+         load. On its coils the car bounces with {coils:.3} Hz, on coils, contacts and sprung rails\nwith \
          {found:.3} Hz by linearization without friction: joints come with it at {:.1} mph.\n\n\
          | speed, mph | deviation, g, wedge friction 0.4 | wedge friction 0.1 | least wheel load, %, 0.4 | 0.1 \
          |\n|---|---|---|---|---|\n",

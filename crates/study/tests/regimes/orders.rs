@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use car::FrictionState;
 use study::car::run::CarResult;
 use study::run::Run;
+use truck::ControlCoil;
 
 use super::case;
 
@@ -66,17 +67,14 @@ fn limits_the_largest_roll_is_at_the_speeds_of_the_field() {
     );
 }
 
-/// With wedge friction 0.1 instead of 0.4 the car rolls more, and most at a lower speed: wedges that slide
-/// leave the soft springs alone.
+/// With wedge friction 0.1 instead of 0.4 the car rolls more at 16 mph, and more there than at 18 mph, where
+/// that of 0.4 rolls most: wedges that slide leave the soft springs alone.
 #[test]
 fn limits_less_friction_of_the_wedges_rolls_more() {
-    let [usual, slippery] = [&[][..], &SLIPPERY].map(|own| [16.0, 18.0].map(|speed| roll(speed, own)));
-    assert!(slippery[0] > 4.0 * usual[0], "{slippery:?} {usual:?}");
-    assert!(slippery[1] > 1.5 * usual[1], "{slippery:?} {usual:?}");
-    assert!(
-        slippery[0] > slippery[1] && usual[0] < usual[1],
-        "{slippery:?} {usual:?}"
-    );
+    let usual = roll(16.0, &[]);
+    let slippery = [16.0, 18.0].map(|speed| roll(speed, &SLIPPERY));
+    assert!(slippery[0] > 4.0 * usual, "{slippery:?} {usual}");
+    assert!(slippery[0] > slippery[1], "{slippery:?}");
 }
 
 /// Bounce of the loaded car: the frequency that linearization finds without friction is that of the car on
@@ -85,7 +83,15 @@ fn limits_less_friction_of_the_wedges_rolls_more() {
 fn analytic_bounce_is_largest_where_joints_meet_its_frequency() {
     let own = case("pitch_and_bounce", "loaded", "50 mph", &[]);
     let trucks = &own.parameters.trucks;
-    let stiffness: f64 = trucks.iter().map(truck::Parameters::load_stiffness).sum();
+    let control = |own: &truck::Wedge| match &own.control_coil {
+        ControlCoil::Shear(spring) => spring.stiffness,
+        other => panic!("{other:?}"),
+    };
+    // Wedges rise and sink with the bolster, on their own coils.
+    let stiffness: f64 = trucks
+        .iter()
+        .map(|own| own.load_stiffness() + own.wedges.iter().map(control).sum::<f64>())
+        .sum();
     let carried: f64 = trucks
         .iter()
         .map(|own| own.bolster.body.mass + own.wedge_mass())
@@ -120,19 +126,19 @@ fn analytic_bounce_is_largest_where_joints_meet_its_frequency() {
 /// it comes to rest at 80 mph.
 #[test]
 fn limits_the_empty_car_on_rollers_hunts_at_speeds_of_the_field() {
-    const ROLLERS: &[&str] = &["truck.side_bearing.kind=roller"];
-    let swing = |speed: f64, overrides: &[&str]| {
-        let result = run("hunting", "empty", speed, overrides);
+    let swing = |speed: f64, bearing: &str, duration: &str| {
+        let bearing = format!("truck.side_bearing.kind={bearing}");
+        let duration = format!("simulation.duration={duration}");
+        let result = run("hunting", "empty", speed, &[&bearing, &duration]);
         let column = result.column("axle_1_lateral").unwrap();
         let own = &column[column.len() - 400..];
         own.iter().fold(0.0_f64, |most, own| most.max(own.abs())) / INCH
     };
-    let slow = swing(40.0, ROLLERS);
-    assert!(slow < 0.01, "{slow}");
-    let fast = swing(70.0, ROLLERS);
+    let slow = swing(40.0, "roller", "14 s");
+    let fast = swing(70.0, "roller", "8 s");
+    let pressed = swing(80.0, "constant_contact", "8 s");
+    assert!(slow < 0.02 && pressed < 0.02, "{slow} {pressed}");
     assert!(fast > 0.45 && fast < 0.7, "{fast}");
-    let pressed = swing(80.0, &[]);
-    assert!(pressed < 0.01, "{pressed}");
 }
 
 /// In 7.5 deg the leading outer wheel runs on its flange at 3 in of cant excess as at 3 in of deficiency, and
