@@ -250,8 +250,9 @@ fn sides_in_curves() -> Result<String, Failure> {
     let mut out = "## Sides in curves\n\n\
          The regime `constant_curve`, the loaded car in 7.5° to the left with 4 in of superelevation, from 3 in \
          of cant excess to 3 in of deficiency:\nmeans of the last two seconds, and L/V of the front truck's \
-         sides. The leading outer wheel runs on its flange (0.55 in) at all speeds; which side\npresses more \
-         changes near balance, at 28 mph.\n\n| speed, mph | cant deficiency, in | leading axle to the outside, \
+         sides. The leading outer wheel runs on its flange (0.55 in) at all speeds and has the\nlargest L/V, less \
+         at deficiency, where it bears more. The truck's outer side has the larger L/V from 18 mph on, far below \
+         balance at 28 mph.\n\n| speed, mph | cant deficiency, in | leading axle to the outside, \
          in | L/V leading outer | L/V leading inner | truck side outer | truck side inner \
          |\n|---|---|---|---|---|---|---|\n"
         .to_owned();
@@ -328,6 +329,9 @@ fn bounce() -> Result<String, Failure> {
             );
         }
     }
+    out += "\nWith friction of 0.1 the coils go solid from 50 mph on. That stiffens the car: it bounces most above the \
+            speed of its\nfrequency, and falls out of step beyond. Friction of 0.4 holds the wedges for most of the \
+            time, and there is no resonance.\n";
     Ok(out)
 }
 

@@ -142,8 +142,8 @@ fn limits_the_empty_car_on_rollers_hunts_at_speeds_of_the_field() {
 }
 
 /// In 7.5 deg the leading outer wheel runs on its flange at 3 in of cant excess as at 3 in of deficiency, and
-/// has the largest lateral force of all wheels; the side of the truck that presses its rail more is the inner
-/// one at excess and the outer one at deficiency, and so are the loads of the wheels.
+/// has the largest lateral force of all wheels; the more loaded rail, and the side to which the car presses
+/// the track, are the inner one at excess and the outer one at deficiency.
 #[test]
 fn limits_the_leading_outer_wheel_runs_on_its_flange() {
     for (speed, inner_is_more) in [(14.0, true), (36.0, false)] {
@@ -158,9 +158,6 @@ fn limits_the_leading_outer_wheel_runs_on_its_flange() {
                 assert!(leading >= lateral(axle, side), "{speed} mph: {axle} {side}");
             }
         }
-        let sides =
-            ["left", "right"].map(|side| statistic(&result, &format!("truck_1_{side}_side_l_over_v")));
-        assert_eq!(sides[0] > sides[1], inner_is_more, "{speed} mph: {sides:?}");
         let loads = ["left", "right"].map(|side| {
             let loads = (1..=4).map(|axle| late(&result, &format!("axle_{axle}_{side}_vertical")));
             loads.sum::<f64>()
