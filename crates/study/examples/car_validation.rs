@@ -102,7 +102,7 @@ fn run_in(name: &str, lading: &str, speed: f64, overrides: &[&str]) -> Result<Ca
     }
 }
 
-/// A statistic, filtered if it is, SI or percent.
+/// A statistic, filtered if it is: an acceleration in g, a load in percent.
 fn statistic(result: &CarResult, name: &str) -> Result<f64, Failure> {
     let own = result.summary.statistics.get(name);
     let own = own.and_then(|own| own.filtered.as_ref().or(own.raw.as_ref()));
@@ -238,8 +238,8 @@ fn hunting_held() -> Result<String, Failure> {
         Ok(format!(
             "| {speed:.0} | {:.3} | {:.3} | {:.3} |\n",
             swing / INCH,
-            front? / 9.806_65,
-            rear? / 9.806_65
+            front?,
+            rear?
         ))
     })?;
     out.extend(lines);
@@ -318,7 +318,7 @@ fn bounce() -> Result<String, Failure> {
         for axle in 1..=4 {
             least = least.min(statistic(&result, &format!("axle_{axle}_left_least_load_time"))?);
         }
-        Ok([deviation / 9.806_65, least])
+        Ok([deviation, least])
     })?;
     for (speed, pair) in speeds.iter().zip(found.chunks(2)) {
         if let [usual, little] = pair {
