@@ -330,8 +330,7 @@ fn bounce() -> Result<String, Failure> {
         }
     }
     out += "\nWith friction of 0.1 the coils go solid from 50 mph on. That stiffens the car: it bounces most above the \
-            speed of its\nfrequency, and falls out of step beyond. Friction of 0.4 holds the wedges for most of the \
-            time, and there is no resonance.\n";
+            speed of its\nfrequency, and falls out of step beyond. With friction of 0.4 there is no such resonance.\n";
     Ok(out)
 }
 
