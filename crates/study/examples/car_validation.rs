@@ -217,10 +217,10 @@ fn hunting_over_speed() -> Result<String, Failure> {
 fn hunting_held() -> Result<String, Failure> {
     let mut out = "## Hunting at held speeds\n\n\
          The regime `hunting`: the empty car with roller side bearings, all axles 0.4 in to the left at the \
-         start, held at a speed over 2,620 ft. Swing\nis the largest lateral motion of the first axle \
-         within the last two seconds, deviation that of the body's lateral acceleration over 2,000 ft. The\n\
-         field tells hunting of empty cars from 50 to 55 mph on, and allows a deviation of 0.13 g \
-         (remembered).\n\n| speed, mph | swing, in | deviation, front, g | deviation, rear, g \
+         start, held at a speed over 2,620 ft:\nhow far the first axle is from the middle within the last two \
+         seconds (friction may hold it there), and the standard deviation of the body's lateral\nacceleration \
+         over 2,000 ft. The field tells hunting of empty cars from 50 to 55 mph on, and allows a deviation of 0.13 g \
+         (remembered).\n\n| speed, mph | farthest from the middle, in | deviation, front, g | deviation, rear, g \
          |\n|---|---|---|---|\n"
         .to_owned();
     let speeds = [30.0, 40.0, 50.0, 60.0, 70.0, 80.0];
