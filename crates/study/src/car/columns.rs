@@ -4,10 +4,11 @@ use car::{BuildError, Car, Loads, Parameters};
 use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
 use quantity::Kind;
-use truck::{HALVES, WEDGE_NAMES};
+use truck::{HALVES, WEDGE_NAMES, WedgeKind};
 
 use super::derailment;
 use super::statistics::{SIDES, ratio};
+use crate::truck::columns::of_halves;
 
 /// The table of a car's results, for any observation of its system.
 pub struct CarTable {
@@ -24,7 +25,7 @@ impl CarTable {
     pub fn new(parameters: &Parameters) -> Result<Self, BuildError> {
         let car = Car::new(parameters)?;
         let static_loads = derailment::static_loads(parameters);
-        let columns = Columns::new(&car, static_loads);
+        let columns = Columns::new(&car, &parameters.trucks, static_loads);
         Ok(Self {
             car,
             columns,
@@ -99,8 +100,8 @@ const BODY: &str = "of the car body: left, up";
 const TRUCK: &str = "of the truck: x forward, y left, z up";
 
 impl Columns {
-    /// Returns the columns of a car; static loads of the wheels are by axle, left and right, N.
-    fn new(car: &Car, static_loads: [[f64; 2]; 4]) -> Self {
+    /// Returns the columns of a car on these trucks; static loads of the wheels are by axle, left and right, N.
+    fn new(car: &Car, trucks: &[truck::Parameters; 2], static_loads: [[f64; 2]; 4]) -> Self {
         let mut own = Self {
             columns: Vec::new(),
             fixed: 0,
@@ -151,8 +152,13 @@ impl Columns {
             own.truck(truck);
         }
         own.fixed = own.columns.len();
-        for truck in 0..2 {
+        for (truck, parameters) in trucks.iter().enumerate() {
             own.more_of_truck(truck);
+            for (number, name) in WEDGE_NAMES.into_iter().enumerate() {
+                if parameters.wedges[number].kind == WedgeKind::Split {
+                    own.halves(truck, number, name);
+                }
+            }
         }
         own.wear();
         own.losses_of_wedges(&car.system);
@@ -295,6 +301,16 @@ impl Columns {
             let name = format!("{stem}_center_plate_{name}_moment");
             self.add(name, Kind::Moment, TRUCK, text, move |seen| {
                 seen.loads.trucks[truck].center_plate.moment[k]
+            });
+        }
+    }
+
+    /// The halves of a split wedge.
+    fn halves(&mut self, truck: usize, number: usize, name: &str) {
+        for own in of_halves() {
+            let name = format!("truck_{}_{name}_{}", truck + 1, own.name);
+            self.add(name, own.kind, TRUCK, own.text, move |seen| {
+                (own.value)(&seen.loads.trucks[truck].wedges[number])
             });
         }
     }

@@ -114,7 +114,7 @@ impl Run<CarCase> {
     /// As [`Run::new`].
     pub fn with_motions(case: &CarCase) -> Result<Self, RunError> {
         let mut run = Self::new(case)?;
-        let mut table = MotionTable::new(case.parameters.wheel_radius());
+        let mut table = MotionTable::new(&case.parameters);
         let seen = run.system.observe(run.integrator.time(), run.integrator.x());
         table.take(run.recorder.table.car(), &seen);
         run.recorder.motions = Some(table);
