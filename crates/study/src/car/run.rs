@@ -22,6 +22,7 @@ use super::summary::{CarSummary, Derailed, SCHEMA};
 use super::{derailment, limits};
 use crate::energy;
 use crate::finite::{find, is_finite};
+use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::plausibility;
 use crate::progress;
@@ -275,6 +276,8 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     let rows = time.len();
     let ledger = LedgerSummary::of_run(&mut run, units);
     let wedge_losses = losses(&mut run);
+    let reached = column("distance").last().copied();
+    let energy = whole_run(&mut run, reached);
     let mut summary = CarSummary {
         schema: SCHEMA.to_owned(),
         program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
@@ -293,6 +296,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         limits: limits::of(&told.values),
         statistics: told.values,
         wedge_losses,
+        energy,
         extremes,
         ledger,
         method: run.case.simulation.method.to_string(),
@@ -392,6 +396,21 @@ fn filtered(run: &Run<CarCase>, told: &Statistics, columns: &mut Vec<Column>, va
             }
         }
     }
+}
+
+/// Where the energy of the run went until it reached a distance along the track (m).
+fn whole_run(run: &mut Run<CarCase>, reached: Option<f64>) -> EnergySummary {
+    let units = run.case.simulation.output_units;
+    let car = run.recorder.table.car();
+    let start = car.initial_state.clone();
+    // Where it started, which a run that goes on from a saved state has no row of.
+    let seen = car.system.clone().observe(0.0, &start);
+    let from = car.loads(&seen, &vec![0.0; start.len()]).distance;
+    let ends = [
+        (0.0, start.as_slice()),
+        (run.integrator.time(), run.integrator.x()),
+    ];
+    EnergySummary::of_whole_run(&mut run.system, ends, reached.unwrap_or(from) - from, units)
 }
 
 /// What the friction of each wedge took by the end.

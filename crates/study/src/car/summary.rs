@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::limits::Limit;
 use super::statistics::Statistic;
+use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
 
@@ -51,6 +52,9 @@ pub struct CarSummary {
     pub limits: Vec<Limit>,
     /// Energy that the friction of each wedge took, by its name: `truck_1_leading_left`.
     pub wedge_losses: BTreeMap<String, SummaryValue>,
+    /// Where the energy of the run came from and where it went.
+    #[serde(default)]
+    pub energy: EnergySummary,
     /// Least and greatest values of all columns, by their names with units.
     pub extremes: BTreeMap<String, Extremes>,
     /// The energy ledger at the end; losses by element.
