@@ -81,7 +81,7 @@ fn compute_by<C: RunCase, T>(
 }
 
 /// A run that has begun; where nothing can be computed at all, the input is at fault.
-fn begun<C: RunCase>(case: &C, run: Result<Run<C>, RunError>) -> Result<Run<C>, Message> {
+pub fn begun<C: RunCase>(case: &C, run: Result<Run<C>, RunError>) -> Result<Run<C>, Message> {
     run.map_err(|error| {
         let message = format!("the run {} cannot begin: {error}", case.name());
         Message::new(message, C::WHERE_TO_LOOK)

@@ -9,6 +9,7 @@ mod folders;
 mod interrupt;
 mod json;
 mod progress;
+mod saved;
 mod select;
 mod table;
 
