@@ -100,7 +100,8 @@ const BODY: &str = "of the car body: left, up";
 const TRUCK: &str = "of the truck: x forward, y left, z up";
 
 impl Columns {
-    /// Returns the columns of a car on these trucks; static loads of the wheels are by axle, left and right, N.
+    /// Returns the columns of a car on these trucks; static loads of the wheels are by axle, left and right,
+    /// N.
     fn new(car: &Car, trucks: &[truck::Parameters; 2], static_loads: [[f64; 2]; 4]) -> Self {
         let mut own = Self {
             columns: Vec::new(),

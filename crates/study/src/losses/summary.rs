@@ -15,7 +15,7 @@ use crate::summary::SummaryValue;
 /// The contact states, by number.
 pub const STATES: [&str; 3] = ["open", "stick", "slip"];
 
-/// Where the energy of a cycle comes from and where it goes, as means over whole cycles; or of a run as a whole,
+/// Where the energy of a cycle comes from and where it goes, as means over whole cycles; or that of a whole run
 /// along a distance.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergySummary {
@@ -147,8 +147,8 @@ impl EnergySummary {
         format!("the whole run, {start:.3} s to {end:.3} s, {value:.1} {unit}")
     }
 
-    /// Returns an energy of a whole run (in the unit of the summary) by the distance gone: a mean force against
-    /// the motion, such as the resistance that a loss makes. `None` where nothing went a distance.
+    /// Returns an energy of a whole run (in the unit of the summary) by the distance gone: a mean force
+    /// against the motion, such as the resistance that a loss makes. `None` where nothing went a distance.
     #[must_use]
     pub fn by_distance(&self, energy: f64, units: Units) -> Option<SummaryValue> {
         let si = |value: f64, kind: Kind| value / kind.from_si(units);

@@ -11,7 +11,7 @@ use mechanics::system::{EnergyTerm, EnergyTermKind, System};
 use quantity::{Kind, System as Units};
 
 use super::summary::EnergySummary;
-use super::{STORED, stored};
+use super::{LossSplit, STORED, stored};
 use crate::summary::SummaryValue;
 
 /// Words of elements' names that tell where one is, as numbers do.
@@ -55,7 +55,7 @@ impl EnergySummary {
             ..Self::default()
         };
         let mut works: BTreeMap<String, f64> = BTreeMap::new();
-        let mut losses: BTreeMap<String, (&str, Vec<(String, f64)>)> = BTreeMap::new();
+        let mut losses: BTreeMap<String, LossSplit> = BTreeMap::new();
         let (mut lost, mut residual) = (0.0, 0.0);
         for (place, term) in system.energy_terms().iter().enumerate() {
             let value = quadratures[1][place] - quadratures[0][place];
@@ -66,29 +66,26 @@ impl EnergySummary {
             } else if value != 0.0 {
                 residual -= value;
                 lost += value;
-                let (_, elements) = losses.entry(group).or_insert((term.kind.name(), Vec::new()));
-                elements.push((term.element.clone(), value));
+                let split = losses.entry(group).or_default();
+                term.kind.name().clone_into(&mut split.kind);
+                let own = split.by_point.entry(term.element.clone());
+                own.or_insert_with(|| energy(0.0)).value += energy(value).value;
             }
         }
         summary.supplied = works
             .into_iter()
             .map(|(name, work)| (name, energy(work)))
             .collect();
-        for (name, (kind, elements)) in losses {
-            let split = super::LossSplit {
-                kind: kind.to_owned(),
-                total: Some(energy(elements.iter().map(|(_, value)| value).sum())),
-                by_point: match elements.as_slice() {
-                    [_] => BTreeMap::new(),
-                    _ => elements
-                        .into_iter()
-                        .map(|(name, value)| (name, energy(value)))
-                        .collect(),
-                },
-                ..super::LossSplit::default()
-            };
-            summary.losses.insert(name, split);
+        for split in losses.values_mut() {
+            let values = split.by_point.values().map(|own| own.value);
+            let unit = Kind::Energy.label(units).to_owned();
+            let value = values.sum();
+            split.total = Some(SummaryValue { value, unit });
+            if split.by_point.len() == 1 {
+                split.by_point.clear();
+            }
         }
+        summary.losses = losses;
         for (name, (before, after)) in STORED.iter().zip(before.iter().zip(after)) {
             let change = after - before;
             residual -= change;

@@ -212,8 +212,8 @@ fn near_itself(tree: &Table, distances: [f64; 2]) -> Problem {
         None => problem,
     };
     problem.help(
-        "wheels find their rail by place, in plan, and would be taken to the first passage: end the track before \
-         it comes back, or lead it past; a lap cannot be closed",
+        "wheels find their rail by place, in plan, and would be taken to the first passage: end the track \
+         before it comes back, or lead it past; a lap cannot be closed",
     )
 }
 

@@ -1,10 +1,9 @@
 //! What wears off a counterface: the work of all points, laid down where each of them is at the time.
 //!
-//! A point of the wedge stands for the part of the face that is nearest to it (a cell between lines of the grid's
-//! middles, cut at the face's edges). What it does in an instant is spread evenly over this cell where it is on
-//! the counterface then, and collected at the nodes of an even lattice by hat functions, which sum to one
-//! everywhere: nothing is lost, and the center of what is laid down stays. The lattice is at least twice as fine
-//! as the grid.
+//! A point of the wedge stands for the part of the face that is nearest to it (a cell, cut at the face's
+//! edges). What it does in an instant is spread evenly over this cell where it is on the counterface then, and
+//! collected at the nodes of an even lattice by hat functions, which sum to one everywhere: nothing is lost,
+//! and the center of what is laid down stays. The lattice is at least twice as fine as the grid.
 //!
 //! At last the nodes become a map over what has been touched, from edge to edge, where end nodes have half a
 //! cell as those of the trapezoidal rule: its volume is the volume that was laid down, and a counterface over
@@ -104,8 +103,8 @@ impl Lattice {
             .collect()
     }
 
-    /// Returns the map of depths (m) of volumes (m³) that have been laid down, over those of a map before; none
-    /// if there are neither.
+    /// Returns the map of depths (m) of volumes (m³) that have been laid down, over those of a map before;
+    /// none if there are neither.
     fn map(&self, volumes: &Laid<f64>, before: Option<&DepthMap>) -> Option<DepthMap> {
         if volumes.nodes.is_empty() {
             return before.cloned();
@@ -135,8 +134,8 @@ impl Lattice {
         DepthMap::new(&points).ok()
     }
 
-    /// Returns the places of the map along an axis: both ends, and the nodes between that are half a spacing away
-    /// from them.
+    /// Returns the places of the map along an axis: both ends, and the nodes between that are half a spacing
+    /// away from them.
     fn places(&self, axis: usize, [low, high]: [f64; 2]) -> Vec<f64> {
         let (spacing, half) = (self.spacing[axis], self.half[axis]);
         let (first, last) = (
@@ -163,7 +162,7 @@ impl Laid<f64> {
 
     /// Returns the sum of all volumes, m³.
     fn total(&self) -> f64 {
-        self.nodes.values().sum()
+        self.nodes.values().fold(0.0, |sum, volume| sum + volume)
     }
 }
 

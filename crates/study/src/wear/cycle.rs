@@ -83,8 +83,8 @@ impl CycleWork {
         }
     }
 
-    /// Runs a case and returns what its last whole cycle does, with lattices to the counterfaces too. `go_on` is
-    /// asked after each step, with the time reached.
+    /// Runs a case and returns what its last whole cycle does, with lattices to the counterfaces too. `go_on`
+    /// is asked after each step, with the time reached.
     ///
     /// # Errors
     /// The bolster has no whole cycle, or the run cannot begin, stops or fails.

@@ -66,8 +66,8 @@ pub struct Plan {
     pub most_steps: u32,
     /// The law.
     pub law: WearLaw,
-    /// What the counterfaces lose, by what the wedge's faces lose: the ratio of their coefficients of wear; zero
-    /// or positive.
+    /// What the counterfaces lose, by what the wedge's faces lose: the ratio of their coefficients of wear;
+    /// zero or positive.
     pub counterface: f64,
 }
 

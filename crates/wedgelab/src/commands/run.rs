@@ -146,10 +146,10 @@ fn execute_in_parts(case: &AnyCase, arguments: &Arguments) -> Result<ExitCode, F
                 (table([(&done.result.summary, done.wall)]), TABLE_NOTE.to_owned())
             })
         }
-        AnyCase::Truck(case) => run_in_parts(&**case, &case.to_toml_embedded(), arguments, |done| {
+        AnyCase::Truck(case) => run_in_parts(&**case, case.to_toml_embedded(), arguments, |done| {
             (truck_table(&done.result), TRUCK_NOTE.to_owned())
         }),
-        AnyCase::Car(case) => run_in_parts(&**case, &case.to_toml_embedded(), arguments, |done| {
+        AnyCase::Car(case) => run_in_parts(&**case, case.to_toml_embedded(), arguments, |done| {
             told_of_car(&done.result.summary)
         }),
         AnyCase::HalfTruck(case) => Err(not_here(&case.name)),

@@ -13,7 +13,8 @@
 //!
 //! The **foot** of a point is where the section holds it: `(p - r(s)) · r'(s) = 0`. It is found from the
 //! point alone: places every 2 m, each skipping as far as the point is away, then Newton's method. Where a
-//! track passes a point more than once, the first passage counts; [`CenterLine::near_itself`] tells of such tracks.
+//! track passes a point more than once, the first passage counts; [`CenterLine::near_itself`] tells of such
+//! tracks.
 //!
 //! Irregularities and roll are kept at points 1/8 m apart with their derivatives, and are quintics between
 //! them (relative error 5e-7 at a wavelength of 1.5 m). Corners of the superelevation are rounded: it is
