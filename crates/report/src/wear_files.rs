@@ -308,7 +308,7 @@ pub fn words(history: &WearHistory, plan: &Plan, given: Given) -> String {
             digits(volume(own.volume_per_cycle, units).0),
         ));
         text.push_str(&format!(
-            "  Mean normal force from {} to {}, friction takes {} a cycle, then {}.\n",
+            "  Mean normal force over the cycle from {} to {}, friction takes {} a cycle, then {}.\n",
             shown(first.faces[face].mean_force, Kind::Force),
             shown(own.mean_force, Kind::Force),
             shown(first.faces[face].loss, Kind::Energy),

@@ -6,6 +6,10 @@ use std::f64::consts::{PI, SQRT_2};
 
 use thiserror::Error;
 
+pub use spectrum::{FEWEST_ROWS, Spectrum, SpectrumError};
+
+mod spectrum;
+
 /// A low-pass filter of fourth order without phase: Butterworth's filter of second order, forward and then
 /// backward.
 ///

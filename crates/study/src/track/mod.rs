@@ -36,7 +36,7 @@ use wheelrail::track::{CenterLine, CurveElements, Placed, Segment, Track, TrackE
 use crate::case::problem::{Problem, Problems, TomlSource};
 use crate::case::section::{Names, Range, Section};
 use crate::case::tree::{self, Node, Table, Value};
-use crate::case::{CaseError, Tables, name, text_of};
+use crate::case::{CaseDocument, CaseError, STUDY_KEYS, Tables, name, text_of};
 
 use irregularity::irregularity;
 pub use support::Support;
@@ -86,6 +86,16 @@ impl TrackFile {
     pub fn parse(source: &str, text: &str) -> Result<Self, CaseError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let tree = tree::parse(&TomlSource::new(source, text)).map_err(CaseError::new)?;
+        let sections = CaseDocument::SECTIONS.iter();
+        let mut foreign = sections
+            .chain(STUDY_KEYS.iter())
+            .filter_map(|key| tree.entry(key));
+        if let (None, Some(found)) = (tree.entry("segments"), foreign.next()) {
+            let problem = Problem::new(format!("{source} is no track file, but a case or a study"));
+            let problem = problem.at(&found.key_place).label("no track has this");
+            let help = "a track file begins with [[segments]]; docs/wheelrail.md has one to begin with";
+            return Err(problem.help(help).into());
+        }
         let mut problems = Problems::new();
         let file = read(&tree, source, &mut problems);
         file.filter(|_| problems.is_empty())

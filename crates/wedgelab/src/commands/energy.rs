@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
+use quantity::SixDigits;
 use report::figures::power_flow;
 use report::run_files::{CASE_FILE_NAME, RunFiles};
 use report::summary::write_json;
@@ -16,7 +17,7 @@ use study::summary::{RunSummary, SummaryValue};
 
 use super::run::read_any;
 use crate::drawn::Drawn;
-use crate::execute::compute;
+use crate::execute::{compute, unsound_unwritten};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
@@ -116,17 +117,25 @@ fn energy_of<C: RunFiles>(
     energy: impl FnOnce(&C::Summary) -> EnergySummary,
 ) -> Result<EnergySummary, Failure> {
     let progress = Progress::new(1, quiet);
-    interrupt::stops_run();
+    interrupt::stops(
+        "stopping: energies of a cycle are told of whole runs (once more: ends at once)",
+        "nothing was written",
+    );
     let done = compute(case, &progress);
     progress.finish();
     let summary = &done?.result.summary;
-    if let Some(stopped) = summary.stopped() {
-        let message = format!("the run {} stopped: {}", summary.name(), stopped.reason);
-        return Err(Failure::Failed(Message::new(message, C::WHAT_TO_TRY).into()));
+    if let Some(stopped) = summary
+        .stopped()
+        .filter(|stopped| interrupt::is_reason(Some(stopped)))
+    {
+        let time = SixDigits(stopped.time);
+        let message = format!("the run {} was interrupted at {time} s", summary.name());
+        let advice = "nothing is written, for energies of a cycle are told of whole runs; a simulation.duration of \
+                      two periods is enough";
+        return Err(Failure::Interrupted(Message::new(message, advice).into()));
     }
-    if let Some(reason) = summary.failed() {
-        let message = format!("the run {} has failed: {reason}", summary.name());
-        return Err(Failure::Failed(Message::new(message, "").into()));
+    if let Some(failure) = unsound_unwritten::<C>(summary) {
+        return Err(failure);
     }
     for warning in summary.warnings() {
         say(&format!("warning: {}: {warning}", case.name()));

@@ -30,6 +30,7 @@ use crate::folders;
 use crate::interrupt;
 use crate::json;
 use crate::progress::Progress;
+use crate::select::built_in_elsewhere;
 use crate::table::Table;
 
 /// Run one case
@@ -299,6 +300,9 @@ pub fn read_any(path: &Path, set: &[String]) -> Result<AnyCase, Failure> {
     if path.is_dir() {
         let advice = format!("name a case file, perhaps {}", path.join("case.toml").display());
         return Err(Message::new(format!("`{name}` is a folder, not a case file"), advice).into());
+    }
+    if let Some(message) = built_in_elsewhere(path).filter(|_| !path.exists()) {
+        return Err(message.into());
     }
     if !path.exists() && !name.ends_with(".toml") && path.components().count() == 1 {
         let advice = match nearest(name, built_in_names()) {

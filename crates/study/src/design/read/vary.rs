@@ -225,14 +225,18 @@ fn range(
         let help = "write another end, or put the value below [set]";
         return wrong(&to.place, message, "the same as `from`", help);
     }
-    if *first > last {
-        let message = format!("`{path}` goes from {} down to {}", low.shown(), high.shown());
-        return wrong(&to.place, message, "less than `from`", "exchange from and to");
-    }
-    if logarithmic && *first <= 0.0 {
-        let message = format!("`{path}` begins at {}: shares of it lead nowhere", low.shown());
-        let help = "a logarithmic scale begins above zero; take scale = \"linear\"";
-        return wrong(&from.place, message, "greater than zero is expected", help);
+    let (least, at) = match *first < last {
+        true => (*first, (from, &low)),
+        false => (last, (to, &high)),
+    };
+    if logarithmic && least <= 0.0 {
+        let (end, shown) = at;
+        let message = format!(
+            "`{path}` has an end at {}: shares of it lead nowhere",
+            shown.shown()
+        );
+        let help = "both ends of a logarithmic scale are above zero; take scale = \"linear\"";
+        return wrong(&end.place, message, "greater than zero is expected", help);
     }
     let count = match (kind, table.entry("count")) {
         (Kind::Factorial, Some(entry)) => match entry.node.value {
