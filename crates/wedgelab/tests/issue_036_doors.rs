@@ -115,6 +115,10 @@ fn issue_036_the_wrong_command_names_the_right_one() {
             ["`wedgelab compare`", "table of results"],
         ),
         (&["run", "study/table.parquet"], ["Parquet", "case file"]),
+        (
+            &["plot", "study/table.csv", "--x", "a", "--y", "b"],
+            ["the table of a study", "index.html"],
+        ),
         (&["run", "vdrun_toe"], ["did you mean", "vdrun_toe_0_psi_0"]),
         (
             &["nucars", "run", "nucars_69"],
@@ -207,6 +211,10 @@ fn input_issue_036_spectra_refuse_what_is_none() {
             ["0.5 Hz", "length"],
         ),
         (
+            psd("sine.csv", &["lift", "--resolution", "-1 Hz"]),
+            ["-1 Hz is not possible", "0.5 Hz"],
+        ),
+        (
             psd("sine.csv", &["lift", "--resolution", "0 Hz"]),
             ["not possible", "at most 12.5 Hz"],
         ),
@@ -225,6 +233,14 @@ fn input_issue_036_spectra_refuse_what_is_none() {
         (psd("uneven.csv", &["z"]), ["not evenly apart", "1.5 s"]),
         (psd("short.csv", &["z"]), ["3 rows are too few", "longer span"]),
         (vec!["plot", "sine.csv", "--y", "lift"], ["--x", "required"]),
+        (
+            [
+                &["plot", "sine.csv", "--x", "time", "--y", "lift"][..],
+                &["--resolution", "1 Hz"],
+            ]
+            .concat(),
+            ["--resolution is for --psd", "leave --resolution out"],
+        ),
         (
             vec!["plot", "sine.csv", "--x", "time", "--y", "lift", "--out", "a.csv"],
             ["SVG or PNG", "--out a.svg"],
@@ -258,4 +274,49 @@ fn issue_036_mean_forces_say_their_window() {
         let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
         assert_eq!(summary["averages"]["window"], window);
     }
+}
+
+#[test]
+fn input_issue_036_truncated_files_point_at_their_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    for (text, line) in [
+        ("[wedge]\ndamping = \"vari", ":2:"),
+        ("[wedge]\ndamping ", ":2:"),
+        ("[wedge]\ndamping = \"variable\"\n[bolst", ":3:"),
+        (
+            "[bolster]\nvertical = { shape = \"table\", points = [[\"0 s\", \"0 in\"],",
+            ":2:",
+        ),
+    ] {
+        fs::write(path.join("cut.toml"), text).unwrap();
+        refused(
+            path,
+            &["run", "cut.toml"],
+            &["the file ends here", "was cut off", &format!("cut.toml{line}")],
+        );
+    }
+    // A mistake before the end is not taken for one.
+    fs::write(path.join("wrong.toml"), "[wedge]\ndamping = variable\n").unwrap();
+    let output = wedgelab(path, &["run", "wrong.toml"]);
+    assert!(!output.err.contains("the file ends here"), "{}", output.err);
+    let whole = nucars::builtin::text("Bolst_wedge_sf_68_constant.sys").unwrap();
+    let cut = whole.split("\\PWL DATA").next().unwrap();
+    fs::write(path.join("cut.sys"), cut).unwrap();
+    let output = wedgelab(path, &["nucars", "check", "cut.sys"]);
+    let said = format!("{}{}", output.out, output.err);
+    let last = cut.trim_end().lines().count();
+    let missing = said.split("no section `\\PWL DATA`").nth(1).unwrap();
+    let place = missing
+        .split("cut.sys:")
+        .nth(1)
+        .unwrap()
+        .split(':')
+        .next()
+        .unwrap();
+    assert!(
+        place.parse::<usize>().unwrap() >= last,
+        "{place} is not at the end, line {last}"
+    );
+    assert!(missing.contains("it was cut off here"), "{said}");
 }

@@ -69,12 +69,19 @@ pub(crate) fn parse(source: &Arc<TomlSource>) -> Result<Table, Problems> {
 /// A mistake of syntax.
 fn syntax(error: &toml::de::Error, source: &Arc<TomlSource>) -> Problem {
     let message = error.message().lines().collect::<Vec<_>>().join(", ");
-    Problem::new(format!("this is not TOML: {message}"))
-        .at(&TomlLocation {
-            source: Arc::clone(source),
-            span: error.span().unwrap_or(0..0),
-        })
-        .help("a line is `key = value`; text and quantities stand in quotes: angle = \"32 deg\"")
+    let span = error.span().unwrap_or(0..0);
+    let rest = source.text().get(span.start..).unwrap_or_default();
+    let problem = Problem::new(format!("this is not TOML: {message}"));
+    let cut_off = !source.text().is_empty() && rest.trim().is_empty();
+    let problem = problem.at(&TomlLocation {
+        source: Arc::clone(source),
+        span,
+    });
+    if cut_off {
+        let help = "what was begun is not ended: the file was cut off, or a quote or bracket is missing";
+        return problem.label("the file ends here").help(help);
+    }
+    problem.help("a line is `key = value`; text and quantities stand in quotes: angle = \"32 deg\"")
 }
 
 fn table_of(table: &DeTable<'_>, source: &Arc<TomlSource>) -> Table {

@@ -50,7 +50,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", conflicts_with_all = ["x", "y"])]
     psd: Option<String>,
     /// The farthest that two frequencies may be apart [default: what at least eight segments give]
-    #[arg(long, value_name = "FREQUENCY", requires = "psd", value_parser = frequency)]
+    #[arg(long, value_name = "FREQUENCY", value_parser = frequency, allow_hyphen_values = true)]
     resolution: Option<f64>,
     #[command(flatten)]
     span: Span,
@@ -69,6 +69,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     arguments.span.apply(&mut table)?;
     let x = match (&arguments.psd, &arguments.x) {
         (Some(name), _) => return density(arguments, &table, name),
+        (None, _) if arguments.resolution.is_some() => {
+            let advice = "name the column with --psd, or leave --resolution out";
+            return Err(Message::new("--resolution is for --psd", advice).into());
+        }
         (None, Some(x)) => table.column(x)?.name.clone(),
         (None, None) => return Err(Message::new("--x is missing", "name the column with --x NAME").into()),
     };
