@@ -334,7 +334,7 @@ test("a bad value is explained where it was typed, and put right there", { skip 
   same(others.energy, told("friction.slope=0.35"));
   assert.equal(await page.locator(".wx-mistake:visible").count(), 2, "what was typed wrongly stays");
   await after_run(page, () => field(page, "friction.slope").locator(".wx-reset").click());
-  await type(page, "friction.column", "0.3")();
+  await after_run(page, type(page, "friction.column", "0.3"));
   const right = await after_run(page, type(page, "wedge.angle", "33 deg"));
   same(right.energy, told("friction.column=0.3", "wedge.angle=33 deg"));
   assert.equal(await page.locator(".wx-mistake:visible").count(), 0);
