@@ -71,17 +71,23 @@ fn syntax(error: &toml::de::Error, source: &Arc<TomlSource>) -> Problem {
     let message = error.message().lines().collect::<Vec<_>>().join(", ");
     let span = error.span().unwrap_or(0..0);
     let rest = source.text().get(span.start..).unwrap_or_default();
-    let problem = Problem::new(format!("this is not TOML: {message}"));
-    let cut_off = !source.text().is_empty() && rest.trim().is_empty();
-    let problem = problem.at(&TomlLocation {
-        source: Arc::clone(source),
-        span,
-    });
-    if cut_off {
-        let help = "what was begun is not ended: the file was cut off, or a quote or bracket is missing";
-        return problem.label("the file ends here").help(help);
-    }
-    problem.help("a line is `key = value`; text and quantities stand in quotes: angle = \"32 deg\"")
+    // A label of no length is not drawn.
+    let (end, help) = match !source.text().is_empty() && rest.trim().is_empty() {
+        true => (
+            ", and the file ends here",
+            "what was begun is not ended: the file was cut off, or a quote or bracket is missing",
+        ),
+        false => (
+            "",
+            "a line is `key = value`; text and quantities stand in quotes: angle = \"32 deg\"",
+        ),
+    };
+    Problem::new(format!("this is not TOML: {message}{end}"))
+        .at(&TomlLocation {
+            source: Arc::clone(source),
+            span,
+        })
+        .help(help)
 }
 
 fn table_of(table: &DeTable<'_>, source: &Arc<TomlSource>) -> Table {
