@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import pickle
+from typing import Any
 
 import numpy as np
 import pytest
@@ -63,14 +64,15 @@ def test_issue_036_tables_of_nucars_have_short_keys() -> None:
 
 
 def test_issue_036_notebooks_show_tables(short: wl.Result) -> None:
-    for shown, text in [
+    shows: list[tuple[Any, str]] = [
         (short, "vertical_wedge_force"),
         (short.events, "time (s)"),
         (short.ledger_history, "motion_work (J)"),
         (short.summary, "averages"),
         (short.case, "[wedge]"),
         (wl.nucars.read("bolst_wedge_sf_69_const.sys").tables["bodies"], "<table>"),
-    ]:
+    ]
+    for shown, text in shows:
         html = shown._repr_html_()
         assert text in html and html.count("<td") == html.count("</td>") and len(html) < 40_000, html[:500]
     assert "<b>" in short._repr_html_() and "<script" not in short._repr_html_()

@@ -455,7 +455,7 @@ class Result(_OfCase):
         """Changes of contact states: time (s), face, corner, from, to. The first 500; ``summary.events.total`` counts all."""
         listed = self.summary.events.listed
         columns = {"time": float, "face": str, "corner": str, "from": str, "to": str}
-        arrays = {name: np.array([event[name] for event in listed], dtype=kind) for name, kind in columns.items()}
+        arrays: dict[str, npt.NDArray[Any]] = {name: np.array([event[name] for event in listed], dtype=kind) for name, kind in columns.items()}
         return DataTable(arrays, {"time": "s"})
 
     @property
