@@ -38,7 +38,7 @@ function start(): void {
       if (fold.open && !view) {
         const run = data.run(fold.dataset.run ?? "");
         if (run) {
-          view = new RunView(run, units, switchUnits);
+          view = new RunView(run, units, switchUnits, undefined, data.others(run));
           fold.querySelector("summary")?.after(view.root);
         }
       } else if (!fold.open && view) {
@@ -50,6 +50,16 @@ function start(): void {
     fold.addEventListener("toggle", follow);
     follow();
   }
+
+  // What a page opens with is made when all else is there.
+  addEventListener("load", () => {
+    for (const place of document.querySelectorAll<HTMLElement>("[data-shown]")) {
+      const run = data.run(place.dataset.shown ?? "");
+      if (run) {
+        setTimeout(() => place.append(new RunView(run, units, switchUnits, undefined, data.others(run)).root));
+      }
+    }
+  });
 
   /** Opens what the address names. */
   const open = (): void => {

@@ -20,7 +20,7 @@ use numerics::processor::{OldProcessor, check};
 
 use commands::{
     case, compare, completions, curves, energy, explore, fit, fmu, lock_up, man, nucars, plot, quasi_static,
-    reproduce, run, stability, study, track, warp, wear, wheelrail,
+    report as report_command, reproduce, run, stability, study, track, warp, wear, wheelrail,
 };
 use failure::Failure;
 
@@ -47,6 +47,7 @@ Begin with:
   wedgelab explore my.toml           a page to change it and see its loop move
   wedgelab study STUDY.toml          many variants of a case, into one table
   wedgelab compare RESULT RESULT     differences and overlay figures
+  wedgelab report RUN RUN            a page of any runs, side by side
 
 Exit codes: 0 done; 1 a run could not finish or files could not be written; 2 the input is wrong;
 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM.
@@ -66,6 +67,7 @@ enum Command {
     Fit(fit::Arguments),
     Compare(compare::Arguments),
     Plot(plot::Arguments),
+    Report(report_command::Arguments),
     Case(case::Arguments),
     Explore(explore::Arguments),
     QuasiStatic(quasi_static::Arguments),
@@ -92,6 +94,7 @@ impl Cli {
             Command::Fit(arguments) => fit::execute(&arguments),
             Command::Compare(arguments) => compare::execute(&arguments),
             Command::Plot(arguments) => plot::execute(&arguments),
+            Command::Report(arguments) => report_command::execute(&arguments),
             Command::Case(arguments) => case::execute(&arguments),
             Command::Explore(arguments) => explore::execute(&arguments),
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),

@@ -13,6 +13,7 @@ pub mod man;
 pub mod nucars;
 pub mod plot;
 pub mod quasi_static;
+pub mod report;
 pub mod reproduce;
 pub mod run;
 pub mod stability;

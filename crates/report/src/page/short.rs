@@ -1,0 +1,71 @@
+//! How the report of all runs opens: one run moving with its loop, its key numbers, and how many statements
+//! hold.
+
+use maud::{Markup, html};
+use study::summary::SummaryValue;
+
+use super::{Contents, anchor};
+use crate::figures::{Outcome, digits};
+
+/// The run that is seen first where it is there: it lifts off, so that everything there is happens in it.
+const FIRST: &str = "vdrun_toe_0_psi_0.012";
+
+/// The section; nothing without runs.
+pub(super) fn section(contents: &Contents<'_>) -> Markup {
+    let all = || contents.outcomes.iter().chain(contents.beyond);
+    let named = all().find(|(case, _)| case.name == FIRST);
+    let Some(first) = named.or_else(|| all().next()) else {
+        return html! {};
+    };
+    let claims = contents.claims;
+    let worst = all()
+        .map(|(_, result)| result.summary.ledger.largest_relative_residual)
+        .fold(0.0_f64, f64::max);
+    let (name, numbers) = (&first.0.name, numbers(first));
+    html! {
+        section {
+            h2 id="short" { "In short" }
+            ul.tiles {
+                @if !claims.claims.is_empty() {
+                    li { a href="#claims" { strong { (claims.hold) " of " (claims.claims.len()) } }
+                        span { "statements of the thesis hold in these runs; " (claims.do_not) " do not, " (claims.undecided)
+                            " cannot be decided" } }
+                }
+                li { strong { (all().count()) } span { "runs of one wedge; largest residual of an energy ledger "
+                    (format!("{worst:.0e}").replace('-', "\u{2212}")) } }
+                @for (what, value) in &numbers {
+                    li { strong { (digits(value.value)) " " (value.unit) } span { (what) ", " (name) } }
+                }
+            }
+            @if contents.interactive.is_some() {
+                p {
+                    "The run " a href={ "#run-" (anchor(name)) } { (name) } ", "
+                    (first.0.title) ": press play, or drag in a plot."
+                }
+                div data-shown=(name) {}
+            }
+        }
+    }
+}
+
+/// Means and energy of the run, with their windows.
+fn numbers((_, result): &Outcome) -> Vec<(String, SummaryValue)> {
+    let averages = &result.summary.averages;
+    let cycles = averages.cycles;
+    let mean = |branch: &str, value: Option<&SummaryValue>| {
+        let what = format!("mean vertical wedge force while the bolster goes {branch}, over {cycles} cycles");
+        value.map(|value| (what, value.clone()))
+    };
+    let energy = averages.energy_per_cycle.get("side_frame").map(|value| {
+        let what = format!("friction energy at the side frame per cycle, mean of {cycles} cycles");
+        (what, value.clone())
+    });
+    [
+        mean("up", averages.up.get("vertical_wedge_force")),
+        mean("down", averages.down.get("vertical_wedge_force")),
+        energy,
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
