@@ -19,7 +19,8 @@ import { Store } from "./store.js";
 import { digits, type Units } from "./units.js";
 
 export const FACTORS = [1, 2, 5, 10, 20, 50];
-const PLOTS = 3;
+/** How many plots over time there are, and how many beside a loop. */
+const PLOTS = [3, 2] as const;
 /** At most this many names are shown at first. */
 const FEW = 8;
 const PLAY = "M3 1v14l11-7z";
@@ -174,10 +175,10 @@ export class RunView {
       this.stage.append(this.names.root);
       this.names.shown = this.scene.named.length <= FEW;
     }
-    this.plots = Array.from({ length: PLOTS }, (_, k) => k)
+    const loops = run.run.loops ?? [];
+    this.plots = Array.from({ length: PLOTS[loops.length > 0 ? 1 : 0] }, (_, k) => k)
       .filter((k) => k < run.run.plots.length)
       .map((k) => new RunPlot(run, this.clock, units, this.window, k, before?.plots[k], this.other));
-    const loops = run.run.loops ?? [];
     this.loop = loops.length > 0 ? new LoopPlot(run, this.clock, units, loops, this.other) : undefined;
     const plots = element("div", { class: "wl-plots" }, ...(this.loop ? [this.loop.root] : []), ...this.plots.map((plot) => plot.root));
     this.root.append(

@@ -51,7 +51,10 @@ fn row(page: &str, words: &str) -> Vec<f64> {
             .chars()
             .take_while(|sign| !matches!(sign, ' ' | '<'))
             .collect();
-        text.replace('\u{2212}', "-").parse().unwrap()
+        match text.as_str() {
+            "–" => f64::NAN,
+            text => text.replace('\u{2212}', "-").parse().unwrap(),
+        }
     };
     cells.map(number).collect()
 }
@@ -80,12 +83,12 @@ fn refused(folder: &Path, arguments: &[&str], texts: &[&str]) {
 fn wedges_stand_side_by_side_with_the_numbers_of_their_summaries() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    run(at, WEDGE, "2", &[], "one");
+    run(at, WEDGE, "8", &[], "one");
     // The same in SI units, and softer.
     run(
         at,
         WEDGE,
-        "2",
+        "8",
         &["friction.column=0.3", "simulation.output_units='si'"],
         "other run",
     );
@@ -205,12 +208,12 @@ fn trucks_and_cars_are_read_with_what_their_pages_keep() {
         limit["value"].as_f64().unwrap(),
     );
     let truck = json(&at.join("b/summary.json"));
-    let largest = truck
-        .pointer("/extremes/leading_left_column_normal_lbf/maximum")
-        .unwrap();
+    let largest = ["leading_left", "leading_right", "trailing_left", "trailing_right"]
+        .map(|wedge| format!("/extremes/{wedge}_column_normal_lbf/maximum"))
+        .map(|path| truck.pointer(&path).unwrap().as_f64().unwrap());
     near(
-        row(&page, "leading left wedge: largest normal force of the column")[1],
-        largest.as_f64().unwrap(),
+        row(&page, "largest normal force of a column")[1],
+        largest.into_iter().fold(f64::MIN, f64::max),
     );
     if let Some(view) = view(&page) {
         let runs = view["runs"].as_array().unwrap();

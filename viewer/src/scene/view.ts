@@ -544,7 +544,9 @@ export class SceneView {
 
 /** Names of solids where there are few, else of bodies; each with the place where it is written. */
 function names(data: SceneData, solids: Map<string, Group>, bodies: Map<string, Group>): { name: string; place: () => Vector3 }[] {
-  const own = data.solids.filter(({ name }) => name !== "");
+  // Wedges first: where names would cover each other, theirs are written.
+  const rank = ({ role }: { role: string }): number => (role === "wedge" ? 0 : 1);
+  const own = data.solids.filter(({ name }) => name !== "").sort((a, b) => rank(a) - rank(b));
   if (own.length <= SOLIDS) {
     return own.flatMap(({ id, name }) => {
       const group = solids.get(id);
@@ -554,7 +556,9 @@ function names(data: SceneData, solids: Map<string, Group>, bodies: Map<string, 
     });
   }
   const first = (id: string): string | undefined => own.find(({ body }) => body === id)?.name;
-  return data.bodies.flatMap(({ id }) => {
+  const wedges = new Set(own.filter(({ role }) => role === "wedge").map(({ body }) => body));
+  const ordered = [...data.bodies].sort((a, b) => Number(wedges.has(b.id)) - Number(wedges.has(a.id)));
+  return ordered.flatMap(({ id }) => {
     const [name, group] = [first(id), bodies.get(id)];
     return name !== undefined && group ? [{ name, place: () => group.getWorldPosition(new Vector3()) }] : [];
   });

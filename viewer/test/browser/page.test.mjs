@@ -150,7 +150,8 @@ test("an address with a run opens its view; closing it takes the view away", asy
   const { page, run } = await openRun();
   await page.waitForTimeout(800);
   assert.deepEqual(faults, []);
-  assert.equal(await run.locator(".wl-plot").count(), 3);
+  assert.equal(await run.locator(".wl-plot").count(), 2);
+  assert.equal(await run.locator(".wl-loop").count(), 1);
   await page.locator(`details[data-run="${RUN}"] > summary`).click();
   await run.waitFor({ state: "detached" });
   assert.equal(await page.locator("details .wl-run, details .wl-stage canvas").count(), 0);

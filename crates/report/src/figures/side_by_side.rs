@@ -8,7 +8,7 @@ use quantity::System as Units;
 
 use super::{Exhibit, axis};
 use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
-use crate::overlay::words;
+use crate::overlay::{self, words};
 use crate::run_folder::{AnySummary, RunFolder};
 use crate::table::TableColumn;
 
@@ -71,6 +71,7 @@ fn exhibit(wanted: &Wanted, runs: &[RunFolder], units: Units) -> Option<Exhibit>
             let (Some(abscissa), Some(ordinate)) = (best(run, x), best(run, y)) else {
                 continue;
             };
+            let moves = |own: &TableColumn| overlay::moves(own.kind, &own.si());
             if wanted.loops && !(moves(abscissa) && moves(ordinate)) {
                 continue;
             }
@@ -133,16 +134,6 @@ fn best<'r>(run: &'r RunFolder, name: &str) -> Option<&'r TableColumn> {
     find(&filtered).or_else(|| find(name))
 }
 
-fn moves(column: &TableColumn) -> bool {
-    let mut values = column.written.iter();
-    let first = values.next().copied().unwrap_or_default();
-    let size = column
-        .written
-        .iter()
-        .fold(0.0_f64, |most, value| most.max(value.abs()));
-    values.any(|value| (value - first).abs() > 1e-9 * size)
-}
-
 fn of_model(run: &RunFolder) -> Vec<Wanted> {
     match &run.summary {
         AnySummary::Wedge(_) => of_wedge(),
@@ -167,7 +158,7 @@ fn of_wedge() -> Vec<Wanted> {
         Wanted::new(
             "wedge_forces",
             "Forces over time",
-            "Forces of wedge and coil, and the power lost at the side frame.",
+            "Forces of wedge and coil.",
             "time",
             &[
                 ("vertical_wedge_force", "(a) vertical wedge force"),

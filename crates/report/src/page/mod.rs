@@ -243,12 +243,14 @@ fn run_page(
     document(&heading, &lead, None, main, data)
 }
 
-/// The fold in which a run is seen moving.
+/// The part of the page of one run in which it is seen moving.
 fn moving(name: &str) -> Markup {
-    moving_as(name, "Moving", true)
+    html! {
+        section { h2 id="moving" { "Moving" } (moving_as(name, name, true)) }
+    }
 }
 
-/// The same with a title, open or not.
+/// The fold in which a run is seen moving, open or not.
 fn moving_as(name: &str, title: &str, open: bool) -> Markup {
     html! {
         details id={ "run-" (anchor(name)) } data-run=(name) open[open] { summary { (title) } }

@@ -6,6 +6,7 @@ use study::summary::SummaryValue;
 
 use super::{Contents, anchor};
 use crate::figures::{Outcome, digits};
+use crate::run_folder::branch_window;
 
 /// The run that is seen first where it is there: it lifts off, so that everything there is happens in it.
 const FIRST: &str = "vdrun_toe_0_psi_0.012";
@@ -49,11 +50,12 @@ pub(super) fn section(contents: &Contents<'_>) -> Markup {
 }
 
 /// Means and energy of the run, with their windows.
-fn numbers((_, result): &Outcome) -> Vec<(String, SummaryValue)> {
+fn numbers((case, result): &Outcome) -> Vec<(String, SummaryValue)> {
     let averages = &result.summary.averages;
     let cycles = averages.cycles;
+    let window = branch_window(Some(case.parameters.damping));
     let mean = |branch: &str, value: Option<&SummaryValue>| {
-        let what = format!("mean vertical wedge force while the bolster goes {branch}, over {cycles} cycles");
+        let what = format!("mean vertical wedge force while the bolster goes {branch}, over {window}");
         value.map(|value| (what, value.clone()))
     };
     let energy = averages.energy_per_cycle.get("side_frame").map(|value| {

@@ -2,6 +2,7 @@
 //! curves over each other, limits, energy ledgers, what the numbers rest on, files.
 
 use maud::{Markup, html};
+use quantity::System as Units;
 use study::summary::SummaryValue;
 
 use super::{Viewer, anchor, document, moving_as, shown_in};
@@ -168,14 +169,10 @@ fn over(value: f64, first: f64) -> Option<String> {
 }
 
 fn numbers(runs: &[RunFolder]) -> Markup {
-    let units = runs[0].units();
-    let all: Vec<Vec<KeyNumber>> = runs.iter().map(|run| run.summary.key_numbers()).collect();
-    let mut names: Vec<&str> = Vec::new();
-    for number in all.iter().flatten() {
-        if !names.contains(&number.what.as_str()) {
-            names.push(&number.what);
-        }
-    }
+    let all: Vec<(&str, Vec<KeyNumber>)> = runs
+        .iter()
+        .map(|run| (run.label.as_str(), run.key_numbers()))
+        .collect();
     html! {
         @if runs.len() > 1 {
             p {
@@ -183,17 +180,32 @@ fn numbers(runs: &[RunFolder]) -> Markup {
                 ". Where windows differ, each stands below its number."
             }
         } @else { p { "From the run's own summary." } }
+        (table(&all, runs[0].units()))
+    }
+}
+
+/// The key numbers of runs with their names, in these units.
+pub(super) fn table(all: &[(&str, Vec<KeyNumber>)], units: Units) -> Markup {
+    let mut names: Vec<&str> = Vec::new();
+    for number in all.iter().flat_map(|(_, numbers)| numbers) {
+        if !names.contains(&number.what.as_str()) {
+            names.push(&number.what);
+        }
+    }
+    html! {
         div.wide {
             table {
-                thead { tr { th scope="col" { "number" } th scope="col" { "taken over" } th scope="col" { "unit" } (heads(runs)) } }
+                thead { tr {
+                    th scope="col" { "number" } th scope="col" { "taken over" } th scope="col" { "unit" }
+                    @for (label, _) in all { th.number scope="col" { (label) } }
+                } }
                 tbody {
                     @for name in names {
                         @let own: Vec<Option<&KeyNumber>> =
-                            all.iter().map(|one| one.iter().find(|number| number.what == name)).collect();
+                            all.iter().map(|(_, own)| own.iter().find(|number| number.what == name)).collect();
                         @let values: Vec<Option<SummaryValue>> =
                             own.iter().map(|one| one.map(|number| number.in_units(units))).collect();
-                        @let there = own.iter().flatten().next();
-                        @let window = there.map_or("", |number| number.window.as_str());
+                        @let window = own.iter().flatten().next().map_or("", |number| number.window.as_str());
                         @let same = own.iter().flatten().all(|number| number.window == window);
                         @let unit = values.iter().flatten().next().map_or("", |value| value.unit.as_str());
                         tr {
@@ -202,7 +214,7 @@ fn numbers(runs: &[RunFolder]) -> Markup {
                             td.unit { (unit) }
                             @for (number, (value, own)) in values.iter().zip(&own).enumerate() {
                                 td.number { (cell(value.as_ref(), values[0].as_ref().filter(|_| number > 0), unit))
-                                    @if let (false, Some(own)) = (same, own) { br; span.unit { (own.window) } }
+                                    @if let (false, Some(own)) = (same, own) { br; span.unit.window { (own.window) } }
                                 }
                             }
                         }

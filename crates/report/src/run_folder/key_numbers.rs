@@ -1,6 +1,7 @@
 //! The numbers of a run that people compare first, each with its window: over what it is taken.
 
 use quantity::{Kind, System as Units};
+use study::any_case::AnyCase;
 use study::car::summary::CarSummary;
 use study::half_truck::HalfTruckSummary;
 use study::metrics::Extremes;
@@ -8,8 +9,9 @@ use study::summary::{Summary, SummaryValue};
 use study::truck::WEDGE_NAMES;
 use study::truck::summary::TruckSummary;
 use study::wheelset::summary::WheelsetSummary;
+use wedge::parameters::Damping;
 
-use super::AnySummary;
+use super::{AnySummary, RunFolder};
 use crate::figures::digits;
 
 /// A number of a run.
@@ -51,6 +53,12 @@ impl KeyNumber {
         }
     }
 
+    /// Those of a truck's run.
+    #[must_use]
+    pub fn of_truck(summary: &TruckSummary) -> Vec<Self> {
+        of_truck(summary)
+    }
+
     /// The number in these units, as far as it can be converted.
     #[must_use]
     pub fn in_units(&self, units: Units) -> SummaryValue {
@@ -69,16 +77,34 @@ impl KeyNumber {
     }
 }
 
-impl AnySummary {
+impl RunFolder {
     /// The numbers that people compare first.
     #[must_use]
     pub fn key_numbers(&self) -> Vec<KeyNumber> {
-        match self {
-            Self::Wedge(own) => of_wedge(own),
-            Self::HalfTruck(own) => of_half_truck(own),
-            Self::Truck(own) => of_truck(own),
-            Self::Car(own) => of_car(own),
-            Self::Wheelset(own) => of_wheelset(own),
+        let case = self.case.as_ref().and_then(AnyCase::wedge);
+        match &self.summary {
+            AnySummary::Wedge(own) => of_wedge(own, case.map(|case| case.parameters.damping)),
+            AnySummary::HalfTruck(own) => of_half_truck(own),
+            AnySummary::Truck(own) => of_truck(own),
+            AnySummary::Car(own) => of_car(own),
+            AnySummary::Wheelset(own) => of_wheelset(own),
+        }
+    }
+}
+
+/// The output times that means of a branch are over, in words; without a damping those of both.
+#[must_use]
+pub fn branch_window(damping: Option<Damping>) -> &'static str {
+    match damping {
+        Some(Damping::Constant) => {
+            "output times after the first half period, bolster faster than 0.9 of its peak speed"
+        }
+        Some(Damping::Variable) => {
+            "output times after the first half period, bolster faster than 0.25 of its peak speed and below \
+             \u{2212}0.3 of its amplitude"
+        }
+        None => {
+            "output times after the first half period that count for the branch, which depend on the damping"
         }
     }
 }
@@ -115,7 +141,7 @@ fn extremes(
     ]
 }
 
-fn of_wedge(own: &Summary) -> Vec<KeyNumber> {
+fn of_wedge(own: &Summary, damping: Option<Damping>) -> Vec<KeyNumber> {
     let averages = &own.averages;
     let over = format!("{} after the first half period", cycles(averages.cycles));
     let mut numbers = Vec::new();
@@ -123,7 +149,7 @@ fn of_wedge(own: &Summary) -> Vec<KeyNumber> {
         if let Some(value) = means.get("vertical_wedge_force") {
             numbers.push(KeyNumber::new(
                 format!("mean vertical wedge force, bolster going {branch}"),
-                format!("that branch of {over}"),
+                branch_window(damping),
                 value,
                 Kind::Force,
             ));
@@ -174,13 +200,13 @@ fn of_half_truck(own: &HalfTruckSummary) -> Vec<KeyNumber> {
         let rows = [
             (
                 "mean column friction, bolster going up",
-                "that branch of whole cycles",
+                branch_window(None),
                 &wedge.up,
                 Kind::Force,
             ),
             (
                 "mean column friction, bolster going down",
-                "that branch of whole cycles",
+                branch_window(None),
                 &wedge.down,
                 Kind::Force,
             ),
@@ -252,18 +278,44 @@ fn of_truck(own: &TruckSummary) -> Vec<KeyNumber> {
             &value.unit,
         ));
     }
-    for wedge in WEDGE_NAMES {
-        let column = format!("{wedge}_column_normal_{}", Kind::Force.suffix(own.units));
-        let words = wedge.replace('_', " ");
-        numbers.extend(extremes(
-            own.extremes.get(&column),
-            (
-                &format!("{words} wedge: least normal force of the column"),
-                &format!("{words} wedge: largest normal force of the column"),
+    let suffix = Kind::Force.suffix(own.units);
+    let of = |wedge: &'static str| {
+        Some((
+            wedge,
+            own.extremes.get(&format!("{wedge}_column_normal_{suffix}"))?,
+        ))
+    };
+    let columns: Vec<(&str, &Extremes)> = WEDGE_NAMES.into_iter().filter_map(of).collect();
+    let number = |what: &str, (wedge, value, time): (&str, f64, f64)| KeyNumber {
+        what: what.to_owned(),
+        window: format!(
+            "{ALL_TIMES}; {} wedge at {} s",
+            wedge.replace('_', " "),
+            digits(time)
+        ),
+        value: SummaryValue {
+            value,
+            unit: Kind::Force.label(own.units).to_owned(),
+        },
+        kind: Some(Kind::Force),
+    };
+    let least = columns
+        .iter()
+        .min_by(|(_, a), (_, b)| a.minimum.total_cmp(&b.minimum));
+    let largest = columns
+        .iter()
+        .max_by(|(_, a), (_, b)| a.maximum.total_cmp(&b.maximum));
+    if let (Some((least, a)), Some((largest, b))) = (least, largest) {
+        numbers.extend([
+            number(
+                "least normal force of a column",
+                (least, a.minimum, a.minimum_time),
             ),
-            Kind::Force,
-            own.units,
-        ));
+            number(
+                "largest normal force of a column",
+                (largest, b.maximum, b.maximum_time),
+            ),
+        ]);
     }
     numbers
 }

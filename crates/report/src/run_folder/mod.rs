@@ -14,7 +14,7 @@ use study::result::RunResult;
 
 pub use any_summary::{AnySummary, Ledger};
 pub use error::RunFolderError;
-pub use key_numbers::KeyNumber;
+pub use key_numbers::{KeyNumber, branch_window};
 
 use crate::figures::car::CarRun;
 use crate::figures::truck::TruckRun;

@@ -19,6 +19,7 @@ use super::data::{Data, Precision};
 use super::scene::{self, Scene};
 use super::{car, half_truck, kind_name, truck, wheelset};
 use crate::figures::Outcome;
+use crate::overlay::moves;
 
 /// The most rows of a thinned run.
 const ROWS: usize = 1251;
@@ -185,7 +186,7 @@ impl Recording {
         };
         let rows = |values: &[f64]| -> Vec<f64> { values.iter().step_by(stride).copied().collect() };
         let mut columns = BTreeMap::new();
-        let has = |name: &str| find(name).is_some_and(|(_, values)| moves(values));
+        let has = |name: &str| find(name).is_some_and(|(own, values)| moves(own.kind, values));
         let loops = loops(plots.iter().flat_map(|plot| &plot.curves), has);
         let of_loops = loops.iter().flat_map(|own| &own.curves);
         let of_loops = of_loops.flat_map(|[x, y, _]| [x, y]);
@@ -270,14 +271,6 @@ impl Recording {
 fn table<'t>(columns: &'t [Column], values: &'t [Vec<f64>]) -> Table<'t> {
     let values = values.iter().map(Vec::as_slice);
     columns.iter().zip(values).collect()
-}
-
-/// Whether a column is not the same all the time, rounding aside.
-fn moves(values: &[f64]) -> bool {
-    let largest = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-    values
-        .iter()
-        .any(|value| (value - values[0]).abs() > 1e-9 * largest)
 }
 
 /// The loops that a run has: of pairs of columns that hold force over travel or moment over angle, of all

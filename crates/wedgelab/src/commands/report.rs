@@ -75,7 +75,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
                 "folder": run.folder,
                 "schema": run.summary.schema(),
                 "notes": run.notes,
-                "numbers": run.summary.key_numbers().into_iter().map(|number| json!({
+                "numbers": run.key_numbers().into_iter().map(|number| json!({
                     "what": number.what,
                     "window": number.window,
                     "value": number.value.value,
