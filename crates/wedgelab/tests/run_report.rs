@@ -163,14 +163,12 @@ fn wedges_stand_side_by_side_with_the_numbers_of_their_summaries() {
         assert!(page.contains(&format!("href=\"{name}\"")), "{name}");
     }
     assert!(page.contains("Numbers of all runs are shown in the units of one."));
-    let ledger = row(&page, "relative residual");
-    near(
-        ledger[0],
-        summaries[0]["ledger"]["largest_relative_residual"]
-            .as_f64()
-            .unwrap()
-            .max(1e-12),
-    );
+    // Two digits.
+    let ledger = row(&page, "relative residual")[0];
+    let own = summaries[0]["ledger"]["largest_relative_residual"]
+        .as_f64()
+        .unwrap();
+    assert!((ledger - own).abs() <= 0.05 * own, "{ledger} is not {own}");
     if let Some(view) = view(&page) {
         let runs = view["runs"].as_array().unwrap();
         assert_eq!(runs.len(), 2);
