@@ -74,7 +74,7 @@ export function interactiveFigures(data: Data, units: Store<Units>): void {
         button.textContent = "drawing";
       }
     });
-    const save = element("button", { type: "button", class: "wl-switch" }, "CSV");
+    const save = element("button", { type: "button", class: "wl-save" }, "CSV");
     save.title = "save the curves of this figure as a table";
     save.addEventListener("click", () => {
       const chart = data.document.figures[figure.dataset.figure ?? ""];

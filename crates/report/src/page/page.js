@@ -109,7 +109,8 @@
       }
     }
   };
-  reach();
+  // Sizes are asked for when all is there.
+  addEventListener("load", reach);
   addEventListener("resize", reach);
 
   const contents = document.querySelector("nav details");

@@ -35,32 +35,33 @@ pub(super) fn section(contents: &Contents<'_>) -> Markup {
                 li { strong { (all().count()) } span { "runs of one wedge; largest residual of an energy ledger "
                     (format!("{worst:.0e}").replace('-', "\u{2212}")) } }
                 @for (what, value) in &numbers {
-                    li { strong { (digits(value.value)) " " (value.unit) } span { (what) ", " (name) } }
+                    li { strong { (digits(value.value)) " " (value.unit) } span { (what) } }
                 }
             }
-            @if contents.interactive.is_some() {
-                p {
-                    "The run " a href={ "#run-" (anchor(name)) } { (name) } ", "
-                    (first.0.title) ": press play, or drag in a plot."
-                }
-                div data-shown=(name) {}
+            p {
+                "Forces and energy are those of the run " a href={ "#run-" (anchor(name)) } { (name) } " ("
+                (first.0.title) "). Means are over " (branch_window(Some(first.0.parameters.damping)))
+                "; the energy is the mean of " (first.1.summary.averages.cycles) " whole cycles."
+                @if contents.interactive.is_some() { " Press play to see it move, or drag in a plot." }
             }
+            @if contents.interactive.is_some() { div data-shown=(name) {} }
         }
     }
 }
 
-/// Means and energy of the run, with their windows.
-fn numbers((case, result): &Outcome) -> Vec<(String, SummaryValue)> {
+/// Means and energy of the run.
+fn numbers((_, result): &Outcome) -> Vec<(String, SummaryValue)> {
     let averages = &result.summary.averages;
-    let cycles = averages.cycles;
-    let window = branch_window(Some(case.parameters.damping));
     let mean = |branch: &str, value: Option<&SummaryValue>| {
-        let what = format!("mean vertical wedge force while the bolster goes {branch}, over {window}");
+        let what = format!("mean vertical wedge force, bolster going {branch}");
         value.map(|value| (what, value.clone()))
     };
-    let energy = averages.energy_per_cycle.get("side_frame").map(|value| {
-        let what = format!("friction energy at the side frame per cycle, mean of {cycles} cycles");
-        (what, value.clone())
+    let energy = averages.energy_per_cycle.get("side_frame");
+    let energy = energy.map(|value| {
+        (
+            "friction energy at the side frame per cycle".to_owned(),
+            value.clone(),
+        )
     });
     [
         mean("up", averages.up.get("vertical_wedge_force")),
