@@ -32,9 +32,22 @@ function start(): void {
   });
   document.querySelector("header")?.after(button);
 
+  // Texts and drawings first: views are made when all else is there.
+  let there = document.readyState === "complete";
+  const later: (() => void)[] = [];
+  addEventListener("load", () => {
+    there = true;
+    for (const make of later) {
+      setTimeout(make);
+    }
+  });
+
   for (const fold of document.querySelectorAll<HTMLDetailsElement>("details[data-run]")) {
     let view: RunView | undefined;
     const follow = (): void => {
+      if (!there) {
+        return;
+      }
       if (fold.open && !view) {
         const run = data.run(fold.dataset.run ?? "");
         if (run) {
@@ -49,17 +62,16 @@ function start(): void {
     };
     fold.addEventListener("toggle", follow);
     follow();
+    later.push(follow);
   }
 
-  // What a page opens with is made when all else is there.
-  addEventListener("load", () => {
-    for (const place of document.querySelectorAll<HTMLElement>("[data-shown]")) {
-      const run = data.run(place.dataset.shown ?? "");
-      if (run) {
-        setTimeout(() => place.append(new RunView(run, units, switchUnits, undefined, data.others(run)).root));
-      }
+  // What a page opens with.
+  for (const place of document.querySelectorAll<HTMLElement>("[data-shown]")) {
+    const run = data.run(place.dataset.shown ?? "");
+    if (run) {
+      later.push(() => place.append(new RunView(run, units, switchUnits, undefined, data.others(run)).root));
     }
-  });
+  }
 
   /** Opens what the address names. */
   const open = (): void => {

@@ -123,7 +123,7 @@ test("it begins with the case's loop, its plots and its 3D view, without complai
   same(now.energy, told());
   assert.equal(now.loops, "1");
   await page.locator(".wl-run[data-ready]").waitFor({ timeout: 20_000 });
-  assert.equal(await page.locator(".wl-plot").count(), 3);
+  assert.equal(await page.locator(".wl-plot, .wl-loop").count(), 3);
   assert.equal(await page.locator("#preset").inputValue(), CASE);
   await page.waitForTimeout(500);
   assert.deepEqual(faults, []);

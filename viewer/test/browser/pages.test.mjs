@@ -1,5 +1,6 @@
 // Every kind of page at the widths of a phone, a notebook and a large screen: nothing sticks out, everything can be read, reached with
 // keys and named by a screen reader. WEDGELAB: the program; WEDGELAB_REPORT: what `wedgelab reproduce` wrote; WEDGELAB_CHROMIUM: the browser.
+/* global getComputedStyle, NodeFilter */
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";

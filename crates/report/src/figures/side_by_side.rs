@@ -38,7 +38,7 @@ impl Wanted {
         }
     }
 
-    fn as_loops(self) -> Self {
+    fn looped(self) -> Self {
         Self { loops: true, ..self }
     }
 }
@@ -154,7 +154,7 @@ fn of_wedge() -> Vec<Wanted> {
             "bolster_vertical",
             &[("vertical_wedge_force", "")],
         )
-        .as_loops(),
+        .looped(),
         Wanted::new(
             "wedge_forces",
             "Forces over time",
@@ -212,7 +212,7 @@ fn of_truck() -> Vec<Wanted> {
                 ("right_nest_vertical_force", "(b) right nest"),
             ],
         )
-        .as_loops(),
+        .looped(),
         Wanted::new(
             "warp_loop",
             "Warp moment over warp angle",
@@ -220,7 +220,7 @@ fn of_truck() -> Vec<Wanted> {
             "warp_angle",
             &[("warp_moment", "")],
         )
-        .as_loops(),
+        .looped(),
         wedges(
             "column_friction",
             "Column friction of the wedges",
