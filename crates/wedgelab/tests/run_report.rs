@@ -187,7 +187,9 @@ fn trucks_and_cars_are_read_with_what_their_pages_keep() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     run(at, TRUCK, "1", &[], "a");
-    run(at, TRUCK, "1", &["truck.condition='worn'"], "b");
+    // More rows than a page keeps, and an odd number of them.
+    let fine = ["truck.condition='worn'", "simulation.output_interval='0.5 ms'"];
+    run(at, TRUCK, "0.9995", &fine, "b");
     run(at, CAR, "3", &["start.settle='1 s'"], "car");
     done(at, &["report", "a", "b", "car", "--out", "all"]);
     let page = page(&at.join("all"));
@@ -220,6 +222,11 @@ fn trucks_and_cars_are_read_with_what_their_pages_keep() {
             run("a")["scene"]["contacts"].as_array().unwrap().len(),
             32,
             "corners"
+        );
+        assert_eq!(
+            run("b")["scene"]["contacts"].as_array().unwrap().len(),
+            32,
+            "thinned"
         );
         assert!(run("car")["scene"]["track"].is_object(), "the track of the car");
         let lists = view["data"].as_array().unwrap();

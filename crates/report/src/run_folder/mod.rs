@@ -160,10 +160,15 @@ impl RunFolder {
     /// What its own page keeps, if it is a page of this run.
     fn kept(&self) -> Option<KeptView> {
         let kept = KeptView::read(&self.folder.join(page::FILE_NAME), self.summary.shared().name())?;
-        // The page of another run, before this one was written over it.
-        let end = self.table.times().last().copied()?;
-        let own = f64::from(*kept.times().last()?);
-        ((own - end).abs() <= 1e-5 * end.abs().max(1e-3)).then(|| kept.named(&self.label))
+        // It may be the page of another run, over which this one was written: a page keeps every n-th row.
+        let (own, times) = (kept.times(), self.table.times());
+        let [last, rows] = [own.len().checked_sub(1)?, times.len().checked_sub(1)?];
+        let stride = rows.checked_div(last).unwrap_or(0);
+        let same = |row: usize| {
+            let (own, time) = (f64::from(own[row]), times[row * stride]);
+            (own - time).abs() <= 1e-6 * time.abs().max(1e-3)
+        };
+        (stride > 0 && [1, last].into_iter().all(same)).then(|| kept.named(&self.label))
     }
 
     /// The run of a truck, without the corners of its wedges, which its table has not.
