@@ -443,7 +443,7 @@ test("after a change camera, exaggeration, arrows, plots, time and speed are as 
     slider.dispatchEvent(new Event("input"));
   });
   await run.locator(".wl-choice").nth(1).selectOption({ label: "Coil force" });
-  await run.locator(".wl-entry").first().click();
+  await run.locator("button.wl-entry").first().click();
   const seen = () =>
     run.evaluate((own) => ({
       eye: own.dataset.eye,
