@@ -8,7 +8,7 @@ import wedgelab as wl
 name = "nucars_69_constant_toe_out"
 system = wl.nucars.read("bolst_wedge_sf_69_const.sys")  # built in; a path reads a file of yours
 print(system.title)
-print(system.tables["Bodies"].to_pandas().to_string(index=False))
+print(system.tables["bodies"].to_pandas().to_string(index=False))
 for finding in system.findings:
     print(f"line {finding.line}: {finding.severity}: {finding.message}")
 

@@ -55,6 +55,12 @@ export interface PlotChoice {
   curves: [string, string][];
 }
 
+/** Loops in one plot: columns along both axes, and the names of the curves. */
+export interface LoopChoice {
+  title: string;
+  curves: [string, string, string][];
+}
+
 export interface Look {
   name: string;
   from: Triple;
@@ -176,6 +182,7 @@ export interface Run {
   time: number;
   columns: Record<string, Column>;
   plots: PlotChoice[];
+  loops?: LoopChoice[];
   scene: SceneData | null;
 }
 

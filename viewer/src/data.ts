@@ -51,6 +51,13 @@ export class Data {
     return list;
   }
 
+  /** The runs that share a plot with this one, which may be drawn beside it. */
+  others(run: RunData): RunData[] {
+    const names = new Set(run.run.plots.flatMap(({ curves }) => curves.map(([name]) => name)));
+    const alike = (own: Run): boolean => own !== run.run && own.plots.some(({ curves }) => curves.some(([name]) => names.has(name)));
+    return this.document.runs.filter(alike).map((own) => new RunData(own, this));
+  }
+
   run(name: string): RunData | undefined {
     const run = this.document.runs.find((own) => own.name === name);
     return run && new RunData(run, this);

@@ -1,10 +1,25 @@
 // Figures of the page become interactive when they come into view, and drawings again when they are far away.
 
+import type { Chart } from "./contract.js";
 import type { Data } from "./data.js";
 import { element } from "./dom.js";
+import { scaled } from "./plots/curves.js";
 import { FigurePlots } from "./plots/figure.js";
+import { saveTable, type SavedColumn } from "./save.js";
 import type { Store } from "./store.js";
 import type { Units } from "./units.js";
+
+/** Abscissa and ordinate of every curve, in the units that are shown. */
+function curveColumns(chart: Chart, data: Data, units: Units): SavedColumn[] {
+  return chart.panels.flatMap((panel) =>
+    panel.curves.flatMap((curve) =>
+      ([["x", panel.x], ["y", panel.y]] as const).map(([axis, { name, quantity }]) => ({
+        name: [panel.title, curve.label, units.axis(name, quantity)].filter(Boolean).join(": "),
+        values: scaled(data.list(curve[axis]), units.factor(quantity)),
+      })),
+    ),
+  );
+}
 
 export function interactiveFigures(data: Data, units: Store<Units>): void {
   const shown = new Map<Element, FigurePlots>();
@@ -59,7 +74,15 @@ export function interactiveFigures(data: Data, units: Store<Units>): void {
         button.textContent = "drawing";
       }
     });
-    figure.querySelector("figcaption")?.append(" ", button);
+    const save = element("button", { type: "button", class: "wl-save" }, "CSV");
+    save.title = "save the curves of this figure as a table";
+    save.addEventListener("click", () => {
+      const chart = data.document.figures[figure.dataset.figure ?? ""];
+      if (chart) {
+        saveTable(chart.title, curveColumns(chart, data, units.value));
+      }
+    });
+    figure.querySelector("figcaption")?.append(" ", button, " ", save);
     near.observe(figure);
   }
 }

@@ -9,6 +9,8 @@ export interface Keyed {
   orbit(about: number, up: number, nearer: number): void;
   changeFactor(by: 1 | -1): void;
   nextUnits(): void;
+  flatten(): void;
+  nameBodies(): void;
   fill(on?: boolean): void;
 }
 
@@ -45,6 +47,10 @@ export function action(target: Keyed, key: string, shift: boolean): (() => void)
       return () => target.orbit(0.1, 0, 1);
     case "e":
       return () => target.changeFactor(shift ? -1 : 1);
+    case "o":
+      return () => target.flatten();
+    case "n":
+      return () => target.nameBodies();
     case "u":
       return () => target.nextUnits();
     case "f":

@@ -32,13 +32,26 @@ function start(): void {
   });
   document.querySelector("header")?.after(button);
 
+  // Texts and drawings first: views are made when all else is there.
+  let there = document.readyState === "complete";
+  const later: (() => void)[] = [];
+  addEventListener("load", () => {
+    there = true;
+    for (const make of later) {
+      setTimeout(make);
+    }
+  });
+
   for (const fold of document.querySelectorAll<HTMLDetailsElement>("details[data-run]")) {
     let view: RunView | undefined;
     const follow = (): void => {
+      if (!there) {
+        return;
+      }
       if (fold.open && !view) {
         const run = data.run(fold.dataset.run ?? "");
         if (run) {
-          view = new RunView(run, units, switchUnits);
+          view = new RunView(run, units, switchUnits, undefined, data.others(run));
           fold.querySelector("summary")?.after(view.root);
         }
       } else if (!fold.open && view) {
@@ -49,6 +62,15 @@ function start(): void {
     };
     fold.addEventListener("toggle", follow);
     follow();
+    later.push(follow);
+  }
+
+  // What a page opens with.
+  for (const place of document.querySelectorAll<HTMLElement>("[data-shown]")) {
+    const run = data.run(place.dataset.shown ?? "");
+    if (run) {
+      later.push(() => place.append(new RunView(run, units, switchUnits, undefined, data.others(run)).root));
+    }
   }
 
   /** Opens what the address names. */

@@ -6,17 +6,23 @@ import { Clock, SPEEDS } from "./clock.js";
 import type { RunData } from "./data.js";
 import { element, icon, select } from "./dom.js";
 import { keyboard } from "./keyboard.js";
+import { LoopPlot } from "./plots/loop-plot.js";
 import { RunPlot, type Shown } from "./plots/run-plot.js";
 import type { Range } from "./plots/curves.js";
 import { FRICTION, NORMAL, STATES } from "./scene/arrows.js";
 import { ELLIPSE } from "./scene/patch.js";
 import { RAMP_STYLE } from "./scene/pressure.js";
 import { LONGEST, SceneView, type Eye } from "./scene/view.js";
+import { fileName, save } from "./save.js";
+import { Names } from "./scene/names.js";
 import { Store } from "./store.js";
 import { digits, type Units } from "./units.js";
 
 export const FACTORS = [1, 2, 5, 10, 20, 50];
-const PLOTS = 3;
+/** How many plots over time there are, and how many beside a loop. */
+const PLOTS = [3, 2] as const;
+/** At most this many names are shown at first. */
+const FEW = 8;
 const PLAY = "M3 1v14l11-7z";
 const PAUSE = "M3 1h3.5v14H3zM9.5 1H13v14H9.5z";
 const START = "M2 1h2.5v14H2zM14 1v14L5 8z";
@@ -43,6 +49,12 @@ export class RunView {
   readonly clock: Clock;
   private readonly window: Store<Range>;
   private readonly plots: RunPlot[];
+  private readonly loop: LoopPlot | undefined;
+  /** The run that is drawn beside this one. */
+  private readonly other = new Store<RunData | undefined>(undefined);
+  private readonly names = new Names();
+  private readonly flatButton: HTMLButtonElement;
+  private readonly namesButton: HTMLButtonElement;
   private readonly scene: SceneView | undefined;
   private readonly stage = element("div", { class: "wl-stage" });
   private readonly told = element("p", { class: "wl-told" });
@@ -68,6 +80,7 @@ export class RunView {
     private readonly units: Store<Units>,
     private readonly switchUnits: () => void,
     private readonly before?: Chosen,
+    others: RunData[] = [],
   ) {
     this.clock = new Clock(run.start, run.end);
     const [from, to] = before?.window ?? [run.start, run.end];
@@ -128,6 +141,15 @@ export class RunView {
         }
       },
     );
+    this.flatButton = button("parallel", "perspective or parallel projection (O)", () => this.flatten());
+    this.namesButton = button("names", "names of the bodies (N)", () => this.nameBodies());
+    const picture = button("PNG", "save this view as a picture (PNG)", () => this.savePicture());
+    const beside = select(
+      { "aria-label": "run drawn beside this one" },
+      [["", "no run beside"], ...others.map(({ run: own }, k): [string, string] => [String(k), `beside: ${own.name}`])],
+      "",
+      (chosen) => this.other.set(chosen === "" ? undefined : others[Number(chosen)]),
+    );
     const views = (run.run.scene?.looks ?? []).map(({ name }, k) => button(name, `view: ${name} (${k + 1})`, () => this.scene?.look(k)));
     this.unitsButton = button("", "inch-pound or SI (U)", this.switchUnits);
     const fill = button(icon(FILL), "fill the window (F)", () => this.fill());
@@ -142,19 +164,25 @@ export class RunView {
         this.speedList,
         element("label", {}, this.loopBox, " loop"),
         this.unitsButton,
+        ...(others.length > 0 ? [beside] : []),
         fill,
       ),
     );
     const stage = element("div", { class: "wl-scene" }, this.stage);
     if (this.scene) {
       stage.prepend(this.told);
-      stage.append(this.key, element("div", { class: "wl-views" }, ...views, this.factorList, arrows));
+      stage.append(this.key, element("div", { class: "wl-views" }, ...views, this.flatButton, this.namesButton, picture, this.factorList, arrows));
+      this.stage.append(this.names.root);
+      this.names.shown = this.scene.named.length <= FEW;
     }
-    this.plots = Array.from({ length: PLOTS }, (_, k) => k)
+    const loops = run.run.loops ?? [];
+    this.plots = Array.from({ length: PLOTS[loops.length > 0 ? 1 : 0] }, (_, k) => k)
       .filter((k) => k < run.run.plots.length)
-      .map((k) => new RunPlot(run, this.clock, units, this.window, k, before?.plots[k]));
+      .map((k) => new RunPlot(run, this.clock, units, this.window, k, before?.plots[k], this.other));
+    this.loop = loops.length > 0 ? new LoopPlot(run, this.clock, units, loops, this.other) : undefined;
+    const plots = element("div", { class: "wl-plots" }, ...(this.loop ? [this.loop.root] : []), ...this.plots.map((plot) => plot.root));
     this.root.append(
-      element("div", { class: "wl-columns" }, stage, element("div", { class: "wl-plots" }, ...this.plots.map((plot) => plot.root))),
+      element("div", { class: "wl-columns" }, stage, plots),
       help(),
     );
 
@@ -216,6 +244,7 @@ export class RunView {
     for (const plot of this.plots) {
       plot.dispose();
     }
+    this.loop?.dispose();
     this.scene?.dispose();
     this.root.remove();
   }
@@ -236,6 +265,23 @@ export class RunView {
 
   orbit(about: number, up: number, nearer: number): void {
     this.scene?.orbit(about, up, nearer);
+  }
+
+  flatten(): void {
+    if (this.scene) {
+      this.scene.flatten(!this.scene.flat);
+      this.show();
+    }
+  }
+
+  nameBodies(): void {
+    this.names.shown = !this.names.shown;
+    this.show();
+  }
+
+  /** Saves the view as it is seen, without names and key. */
+  private savePicture(): void {
+    this.scene?.picture((blob) => save(blob, fileName(`${this.run.run.name} at ${this.clock.time.toFixed(2)} s`, "png")));
   }
 
   changeFactor(by: 1 | -1): void {
@@ -298,7 +344,6 @@ export class RunView {
       this.key.append(element("span", {}, "pressure: 0 ", colours, this.pressureText));
       this.pressureText.title = "Greater pressures have the same colour.";
     }
-    this.bar.style.background = "#1b1b1b";
     this.barText.title = `Arrows longer than ${LONGEST} times this bar are cut.`;
     this.stage.append(scene.canvas, this.triad);
     scene.controls.addEventListener("change", () => this.show());
@@ -372,6 +417,10 @@ export class RunView {
     const told = (digits: number, of: (place: Vector3) => number[]): string =>
       JSON.stringify(Object.fromEntries(places.map(([id, place]) => [id, of(place).map((x) => Number(x.toFixed(digits)))])));
     state.eye = JSON.stringify(scene.eye.position.toArray().map((x) => Number(x.toFixed(5))));
+    state.flat = String(scene.flat);
+    this.flatButton.setAttribute("aria-pressed", String(scene.flat));
+    this.namesButton.setAttribute("aria-pressed", String(this.names.shown));
+    this.names.place(scene.named.map(({ name, place }) => ({ name, at: scene.project(place()) })), this.stage.clientWidth, this.stage.clientHeight);
     state.places = told(7, (place) => place.toArray());
     state.pixels = told(1, (place) => scene.project(place));
   }
@@ -466,6 +515,8 @@ function help(): HTMLElement {
       row("1, 2, …", "named views"),
       row("W A S D", "orbit; with Shift nearer and farther (W, S)"),
       row("E, Shift+E", "more, less exaggeration"),
+      row("O", "perspective or parallel projection"),
+      row("N", "names of the bodies"),
       row("U", "inch-pound or SI"),
       row("F, Esc", "fill the window, leave it"),
     ),

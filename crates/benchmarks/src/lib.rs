@@ -132,3 +132,12 @@ pub fn ledger(observation: &Observation, start: f64) -> Entries {
         residual: work - stored_change - losses,
     }
 }
+
+/// The code in the crates' README files runs with the tests of documentation.
+#[cfg(doctest)]
+mod readmes {
+    #[doc = include_str!("../../integrate/README.md")]
+    struct Integrate;
+    #[doc = include_str!("../../wheelrail/README.md")]
+    struct Wheelrail;
+}

@@ -24,7 +24,7 @@ pub struct BodyMotion {
 }
 
 /// A truck.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TruckMotion {
     /// Distance along the track of its bolster, m.
     pub distance: f64,
@@ -46,7 +46,7 @@ pub struct WheelsetAxes {
 }
 
 /// All of it, SI.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Motions {
     /// The body.
     pub body: BodyMotion,

@@ -1,5 +1,6 @@
 //! A whole FMU as bytes: description, library, case, documentation, licences.
 
+use std::borrow::Cow;
 use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -69,20 +70,22 @@ impl Platform {
     }
 
     /// Whether bytes begin as a library of this platform does.
-    fn check(self, path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    fn check(self, library: &Library) -> Result<(), Error> {
         let (kind, beginnings): (_, &[&[u8]]) = match self.ending {
             "dll" => ("PE", &[b"MZ"]),
             "dylib" => ("Mach-O", &[b"\xcf\xfa\xed\xfe", b"\xca\xfe\xba\xbe"]),
             _ => ("ELF", &[b"\x7fELF"]),
         };
-        if beginnings.iter().any(|beginning| bytes.starts_with(beginning)) {
+        if beginnings
+            .iter()
+            .any(|beginning| library.bytes.starts_with(beginning))
+        {
             return Ok(());
         }
         Err(Error::new(format!(
             "{} is no library for {}: it does not begin as a file of the kind {kind}; name the library \
              wedgelab_fmu that was built there",
-            path.display(),
-            self.three
+            library.name, self.three
         )))
     }
 
@@ -96,22 +99,53 @@ impl Platform {
     }
 }
 
+/// The library of FMUs.
+#[derive(Clone, Debug)]
+pub struct Library {
+    /// What it is called in messages.
+    name: String,
+    bytes: Cow<'static, [u8]>,
+}
+
+impl Library {
+    /// Reads a library from its file.
+    ///
+    /// # Errors
+    /// It cannot be read, or is too large.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let bytes = limits::read(path, limits::FMU_LIBRARY)
+            .map_err(|error| Error::new(format!("the library {error}")))?;
+        Ok(Self {
+            name: path.display().to_string(),
+            bytes: bytes.into(),
+        })
+    }
+
+    /// Returns the library that a program carries with it.
+    #[must_use]
+    pub fn carried(bytes: &'static [u8]) -> Self {
+        Self {
+            name: "what the program carries".to_owned(),
+            bytes: bytes.into(),
+        }
+    }
+}
+
 /// Returns the FMU of what is made of a source, with the library for one platform, as the bytes of its file,
 /// and its description.
 ///
 /// # Errors
-/// Nothing can be made of the source, or the library cannot be read.
+/// Nothing can be made of the source, or the library is none for the platform.
 pub fn fmu(
     source: &Source,
     version: Version,
-    library: &Path,
+    library: &Library,
     platform: Platform,
 ) -> Result<(Vec<u8>, Description), Error> {
     let description = Description::new(source)?;
     let name = description.model.name();
-    let binary = limits::read(library, limits::FMU_LIBRARY)
-        .map_err(|error| Error::new(format!("the library {error}")))?;
-    platform.check(library, &binary)?;
+    platform.check(library)?;
+    let binary = library.bytes.to_vec();
     let library = format!(
         "binaries/{}/{}.{}",
         platform.folder(version),

@@ -11,14 +11,12 @@
 //! Every force acts twice, on bolster and side frame; every motion is that of the truck. Wedges on the
 //! leading side are turned by 180° about z; the truck does that, so that connections need no signs.
 
-use std::path::Path;
-
 use study::case::Case;
 
 use crate::Error;
 use crate::description::xml::{Attributes, Xml, number};
 use crate::description::{Description, Version};
-use crate::package::{self, Platform};
+use crate::package::{self, Library, Platform};
 use crate::source::Source;
 use crate::truck::WEDGES;
 use crate::unit::Unit;
@@ -53,7 +51,11 @@ pub struct Connection {
 ///
 /// # Errors
 /// As [`package::fmu`].
-pub fn truck(case: &Case, library: &Path, platform: Platform) -> Result<(Vec<u8>, Vec<Connection>), Error> {
+pub fn truck(
+    case: &Case,
+    library: &Library,
+    platform: Platform,
+) -> Result<(Vec<u8>, Vec<Connection>), Error> {
     let mut files = Vec::new();
     let mut fmu = |source: Source| -> Result<Description, Error> {
         let (bytes, description) = package::fmu(&source, Version::Two, library, platform)?;

@@ -367,7 +367,8 @@ fn issue_029_what_is_no_library_is_not_put_into_an_fmu() {
     let source = Source::Wedge(Box::new(case()));
     let write = |platform: usize| {
         let platform = package::PLATFORMS[platform];
-        let written = package::fmu(&source, Version::Two, &library, platform);
+        let read = package::Library::read(&library);
+        let written = read.and_then(|read| package::fmu(&source, Version::Two, &read, platform));
         written.map(|_| ()).map_err(|error| error.message)
     };
     let reason = write(0).unwrap_err();

@@ -129,8 +129,11 @@ impl FileType {
         match self {
             Self::Case => format!("`wedgelab run {path}` runs it"),
             Self::Study => format!("`wedgelab study {path}` runs it"),
+            Self::Nucars if path.to_ascii_lowercase().ends_with(".run") => {
+                format!("`wedgelab nucars run {path}` runs it, `wedgelab nucars check {path}` reads it")
+            }
             Self::Nucars => {
-                format!("`wedgelab nucars check {path}` reads it, `wedgelab nucars run` runs a .RUN file")
+                format!("`wedgelab nucars check {path}` reads it; `wedgelab nucars run` takes the .RUN file")
             }
             Self::Results => format!("`wedgelab compare` and `wedgelab plot {path}` take it"),
             Self::Json => {

@@ -9,6 +9,8 @@ use crate::tree::{Law, SystemFile, Toe, Value};
 /// A table of texts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Table {
+    /// A short name for programs, which stays: `bodies`, `connections`, `wedges`.
+    pub key: &'static str,
     /// What it shows.
     pub title: String,
     /// Names and units of the columns; no unit is an empty text.
@@ -20,8 +22,14 @@ pub struct Table {
 }
 
 impl Table {
-    fn new(title: impl Into<String>, words: usize, columns: &[(&'static str, &'static str)]) -> Self {
+    fn new(
+        key: &'static str,
+        title: impl Into<String>,
+        words: usize,
+        columns: &[(&'static str, &'static str)],
+    ) -> Self {
         Table {
+            key,
             title: title.into(),
             columns: columns.to_vec(),
             words,
@@ -41,6 +49,7 @@ pub fn system(file: &SystemFile) -> Vec<Table> {
 
 fn bodies(file: &SystemFile) -> Table {
     let mut table = Table::new(
+        "bodies",
         "Bodies",
         3,
         &[
@@ -73,6 +82,7 @@ fn bodies(file: &SystemFile) -> Table {
 
 fn input_bodies(file: &SystemFile) -> Table {
     let mut table = Table::new(
+        "input_bodies",
         "Input bodies",
         4,
         &[
@@ -105,6 +115,7 @@ fn input_bodies(file: &SystemFile) -> Table {
 
 fn connections(file: &SystemFile) -> Table {
     let mut table = Table::new(
+        "connections",
         "Connections (body 0 is the ground; forces act on A against the stroke A - B)",
         7,
         &[
@@ -172,6 +183,7 @@ fn characteristics(file: &SystemFile) -> Vec<Table> {
     const KA: (&str, &str) = ("Ka", "lb/in");
     const CA: (&str, &str) = ("Ca", "lb·s/in");
     let mut limits = Table::new(
+        "springs",
         "Characteristics of types 1, 1.1, 1.3: springs and dampers",
         3,
         &[
@@ -183,6 +195,7 @@ fn characteristics(file: &SystemFile) -> Vec<Table> {
         ],
     );
     let mut gaps = Table::new(
+        "gaps",
         "Characteristics of type 1.2: no force between two strokes",
         3,
         &[
@@ -194,6 +207,7 @@ fn characteristics(file: &SystemFile) -> Vec<Table> {
         ],
     );
     let mut viscous = Table::new(
+        "viscous_wedges",
         "Characteristics of types 6.3 and 6.7: viscous wedges",
         4,
         &[
@@ -209,11 +223,13 @@ fn characteristics(file: &SystemFile) -> Vec<Table> {
         ],
     );
     let mut surfaces = Table::new(
+        "surfaces",
         "Characteristics of type 6.5: surface friction",
         3,
         &[NUMBER, ("normal force", ""), ("damping", ""), KA, CA, ("Mu", "")],
     );
     let mut wedges = Table::new(
+        "wedges",
         "Characteristics of type 6.8: stick-slip wedges",
         4,
         &[
@@ -231,6 +247,7 @@ fn characteristics(file: &SystemFile) -> Vec<Table> {
         ],
     );
     let mut wedges_3d = Table::new(
+        "wedges_3d",
         "Characteristics of type 6.9: stick-slip wedges in three directions",
         5,
         &[
@@ -247,7 +264,12 @@ fn characteristics(file: &SystemFile) -> Vec<Table> {
             ("FWNMAX", "lb"),
         ],
     );
-    let mut unused = Table::new("Characteristics without connection", 2, &[NUMBER, ("values", "")]);
+    let mut unused = Table::new(
+        "unused_characteristics",
+        "Characteristics without connection",
+        2,
+        &[NUMBER, ("values", "")],
+    );
     for characteristic in &file.characteristics {
         let numbers = |values: &[Spanned<f64>]| values.iter().map(|value| shown(**value)).collect::<Vec<_>>();
         let row = |words: &[String], values: &[Spanned<f64>]| {
@@ -451,6 +473,7 @@ fn units(file: &SystemFile) -> BTreeMap<u32, BTreeSet<&'static str>> {
 
 fn functions(file: &SystemFile) -> Table {
     let mut table = Table::new(
+        "functions",
         "Functions (linear between the points and on beyond them)",
         3,
         &[

@@ -34,5 +34,5 @@ pub use error::UnitError;
 pub use expression::Unit;
 pub use kind::{Kind, System};
 pub use nearest::nearest;
-pub use parse::{Number, Quantity};
+pub use parse::{Number, Quantity, SixDigits};
 pub use units::{INCH, POUND, POUND_FORCE, STANDARD_GRAVITY};

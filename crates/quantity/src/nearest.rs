@@ -3,7 +3,7 @@
 /// The candidate nearest to what was typed, if one is near enough to be worth naming.
 ///
 /// Nearness counts inserted, left-out, changed and swapped letters, whatever their case; up to
-/// two in five may differ.
+/// two in five may differ. If there is none, the shortest that begins with three or more letters typed.
 pub fn nearest<'a>(typed: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // Nothing that has a name is so long, and the time grows with the length.
     const LONGEST: usize = 200;
@@ -11,21 +11,32 @@ pub fn nearest<'a>(typed: &str, candidates: impl IntoIterator<Item = &'a str>) -
         return None;
     }
     let typed: Vec<char> = typed.to_lowercase().chars().collect();
-    candidates
+    let candidates = candidates
         .into_iter()
-        .filter(|candidate| candidate.len() <= LONGEST)
-        .filter_map(|candidate| {
-            let letters: Vec<char> = candidate.to_lowercase().chars().collect();
+        .filter(|candidate| candidate.len() <= LONGEST);
+    let candidates: Vec<(&str, Vec<char>)> = candidates
+        .map(|candidate| (candidate, candidate.to_lowercase().chars().collect()))
+        .collect();
+    let near = candidates
+        .iter()
+        .filter_map(|(candidate, letters)| {
             let longer = typed.len().max(letters.len());
             let limit = if longer == 1 { 0 } else { (longer * 2 / 5).max(1) };
             if typed.len().abs_diff(letters.len()) > limit {
                 return None;
             }
-            let distance = distance(&typed, &letters);
-            (distance <= limit).then_some((distance, candidate))
+            let distance = distance(&typed, letters);
+            (distance <= limit).then_some((distance, *candidate))
         })
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, candidate)| candidate)
+        .min_by_key(|(distance, _)| *distance);
+    let beginning = || {
+        let long = typed.len() >= 3;
+        let mut beginning: Vec<&(&str, Vec<char>)> = candidates.iter().collect();
+        beginning.retain(|(_, letters)| long && letters.starts_with(&typed));
+        beginning.into_iter().min_by_key(|(_, letters)| letters.len())
+    };
+    near.map(|(_, candidate)| candidate)
+        .or_else(|| beginning().map(|(candidate, _)| *candidate))
 }
 
 /// Optimal string alignment distance.

@@ -229,6 +229,18 @@ impl fmt::Display for Number {
     }
 }
 
+/// A number in a message, such as a time: at most six significant digits.
+#[derive(Clone, Copy, Debug)]
+pub struct SixDigits(pub f64);
+
+impl fmt::Display for SixDigits {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // What was written is read back to the same digits; what is no number stays what it is.
+        let rounded = format!("{:.5e}", self.0).parse().unwrap_or(self.0);
+        Number(rounded).fmt(out)
+    }
+}
+
 impl fmt::Display for Quantity {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         out.pad(&self.text)

@@ -292,3 +292,32 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn issue_036_numbers_in_messages_have_six_digits() {
+    for (value, text) in [
+        (1.5784466453250605, "1.57845"),
+        (0.30000000000000004, "0.3"),
+        (1234567.0, "1234570"),
+        (2.0, "2"),
+        (-0.0, "-0"),
+        (1.23456789e-9, "1.23457e-9"),
+        (f64::NAN, "NaN"),
+        (f64::INFINITY, "inf"),
+    ] {
+        assert_eq!(quantity::SixDigits(value).to_string(), text);
+    }
+}
+
+#[test]
+fn issue_036_the_beginning_of_a_name_is_understood() {
+    let names = ["vdrun_toe_0_psi_0.012", "vdrun_toe_0_psi_0", "rig"];
+    assert_eq!(quantity::nearest("vdrun_to", names), Some("vdrun_toe_0_psi_0"));
+    assert_eq!(
+        quantity::nearest("vdrun_toe_0_psi_1", names),
+        Some("vdrun_toe_0_psi_0")
+    );
+    assert_eq!(quantity::nearest("Rig", names), Some("rig"));
+    assert_eq!(quantity::nearest("vd", names), None);
+    assert_eq!(quantity::nearest("toe", names), None);
+}

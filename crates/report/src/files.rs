@@ -14,8 +14,10 @@ use std::path::{Path, PathBuf};
 use miette::Diagnostic;
 use thiserror::Error;
 
+mod lock;
 mod staging;
 
+pub(crate) use lock::Locked;
 pub(crate) use staging::PREFIX as HIDDEN;
 use staging::Staging;
 pub use staging::{Abandoned, abandon, remove_left_over};

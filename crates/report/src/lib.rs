@@ -17,14 +17,17 @@
 //! - [`warp_files`], [`curves_files`], [`wear_files`]: the files of `wedgelab warp`, `curves` and `wear`;
 //!   [`stability_files`], [`hunting_files`]: those of `wedgelab stability`; [`wheelrail_files`]: those of `wedgelab wheelrail
 //!   plot`; [`track_files`]: those of `wedgelab track show`.
-//! - [`table`]: tables of results, read back.
+//! - [`table`]: tables of results, read back; [`run_folder`]: whole runs.
 //! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table,
 //!   [`study_digest`] what their page shows.
+//! - [`certificate_work`], [`certificate_files`]: a certificate of a car, made and written.
 //! - [`fit_files`]: the files of an identification.
 //! - [`comparison`]: results beside each other; [`plot`]: any column over any other.
 
 pub mod agreement;
 pub mod beyond;
+pub mod certificate_files;
+pub mod certificate_work;
 pub mod claims;
 pub mod comparison;
 pub mod contour;
@@ -44,6 +47,7 @@ pub mod page;
 pub mod parquet;
 pub mod plot;
 pub mod run_files;
+pub mod run_folder;
 pub mod sections;
 pub mod sensitivity;
 pub mod stability_files;

@@ -33,6 +33,7 @@ const SIGN: f64 = 0.008;
 fn heading(axis: Axis, units: Units) -> String {
     match axis.unit(units).0 {
         "" => axis.name().to_owned(),
+        unit if axis == Axis::Toe => format!("toe_out_{unit}"),
         unit => format!("{}_{unit}", axis.name()),
     }
 }

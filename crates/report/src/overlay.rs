@@ -1,6 +1,6 @@
 //! Figures of columns: the one place where columns of tables become curves of the drawing layer.
 
-use quantity::System as Units;
+use quantity::{Kind, System as Units};
 
 use crate::drawing::{Colour, Curve, Figure, Line, Panel};
 use crate::figures;
@@ -16,6 +16,17 @@ pub(crate) struct Axes {
 /// The name of a column with its unit, as an axis shows it: `wedge x (in)`.
 pub(crate) fn axis(column: &TableColumn, units: Units) -> String {
     figures::axis(&words(&column.name), column.kind, units)
+}
+
+/// Whether a column (SI) changes by more than rounding: what stands still has no loop.
+pub(crate) fn moves(kind: Kind, values: &[f64]) -> bool {
+    let least = match kind {
+        // A micrometre or a microradian; a hundredth of a newton or newton metre.
+        Kind::Length | Kind::Angle => 1e-6,
+        _ => 1e-2,
+    };
+    let first = values.first().copied().unwrap_or_default();
+    values.iter().any(|value| (value - first).abs() > least)
 }
 
 /// A column's name in words.

@@ -1,7 +1,14 @@
-//! A figure of any columns of a table against another.
+//! A figure of any columns of a table against another, or of the power spectral density of one.
 
+use std::io::{self, Write};
+
+use study::signal::Spectrum;
+
+use crate::csv;
 use crate::drawing::Figure;
+use crate::figures::digits;
 use crate::overlay::{self, Axes};
+use crate::parquet::Cell;
 use crate::table::{Table, TableColumn, TableError};
 
 /// The figure of the columns `ys` over the column `x`, in the table's units; one panel a unit.
@@ -52,6 +59,69 @@ pub fn figure(table: &Table, label: &str, x: &str, ys: &[String]) -> Result<Figu
         abscissa.written.len()
     );
     Ok(overlay::figure(label.to_owned(), caption, axes.collect()))
+}
+
+/// The unit of a power spectral density of values in a unit.
+#[must_use]
+pub fn density_unit(unit: &str) -> String {
+    match unit {
+        "" => "1/Hz".to_owned(),
+        unit if unit.contains(['·', '/', '^', ' ']) => format!("({unit})²/Hz"),
+        unit => format!("{unit}²/Hz"),
+    }
+}
+
+/// The power spectral density of a column, in the column's units, in decibels over one unit.
+#[must_use]
+pub fn density_figure(table: &Table, label: &str, column: &TableColumn, spectrum: &Spectrum) -> Figure {
+    let words = overlay::words(&column.name);
+    let unit = density_unit(column.kind.label(table.units));
+    let pairs = spectrum.frequencies.iter().zip(&spectrum.density);
+    // The mean was taken out: nothing stands at zero.
+    let points = pairs
+        .filter(|(frequency, density)| **frequency > 0.0 && **density > 0.0)
+        .map(|(frequency, density)| (*frequency, 10.0 * libm::log10(*density)))
+        .collect();
+    let caption = format!(
+        "One-sided power spectral density of {words} of the result {label}, in decibels over 1 {unit}, by Welch's \
+         method: {} segments of {} rows that overlap by half, less their means, under Hann's window; lines {} Hz \
+         apart.",
+        spectrum.segments,
+        spectrum.rows,
+        digits(spectrum.resolution()),
+    );
+    let axes = Axes {
+        x_label: "frequency (Hz)".to_owned(),
+        y_label: format!("power spectral density (dB re 1 {unit})"),
+        curves: vec![(words, points)],
+    };
+    overlay::figure(label.to_owned(), caption, vec![axes])
+}
+
+/// Writes a power spectral density as CSV: `frequency_Hz`, and the density under the column's name with the
+/// square of its unit per Hz, such as `wedge_z_psd_in_squared_per_Hz`.
+///
+/// # Errors
+/// The writer's.
+pub fn write_density(
+    table: &Table,
+    column: &TableColumn,
+    spectrum: &Spectrum,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let unit = match column.kind.suffix(table.units) {
+        "" => "1".to_owned(),
+        suffix => format!("{suffix}_squared"),
+    };
+    let names = [
+        "frequency_Hz".to_owned(),
+        format!("{}_psd_{unit}_per_Hz", column.name),
+    ];
+    csv::write_header(names.iter().map(String::as_str), out)?;
+    for (frequency, density) in spectrum.frequencies.iter().zip(&spectrum.density) {
+        csv::write_cells(&[Cell::Number(*frequency), Cell::Number(*density)], out)?;
+    }
+    Ok(())
 }
 
 /// A column's name as the name of a file, without ending: of others' names only letters, digits, `_` and `-`

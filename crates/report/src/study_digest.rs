@@ -60,7 +60,7 @@ impl Axis {
                 to,
                 logarithmic,
                 ..
-            } => parts(*from, *to, *logarithmic),
+            } => parts(from.min(*to), from.max(*to), *logarithmic),
             Levels::Values(values) => {
                 let axis = Self::values(factor, values.clone());
                 match axis.numbers() {

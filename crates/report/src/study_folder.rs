@@ -4,6 +4,7 @@
 //! study.json            what the study is; a study that is not this one is refused
 //! parts/part-NNNNNN     records (`study::records`), appended one by one as variants end
 //! table.parquet         the table, made of the parts by `StudyFolder::merge` alone
+//! table.csv             the same table as text
 //! index.html            the summary page
 //! .lock                 held while a program works here
 //! ```
@@ -13,7 +14,7 @@
 //! ([`crate::files`]).
 
 use std::borrow::Cow;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -24,7 +25,8 @@ use parquet::errors::ParquetError;
 use study::design::{Factor, Study, Value};
 use study::records::{self, Record};
 
-use crate::files::{self, FileError, Folder};
+use crate::csv;
+use crate::files::{self, FileError, Folder, Locked};
 use crate::page::study as page;
 use crate::parquet::{Cell, Content, ParquetColumn, TableWriter};
 
@@ -36,6 +38,8 @@ pub use error::StudyFolderError;
 pub const STUDY_FILE: &str = "study.json";
 /// The table.
 pub const TABLE_FILE: &str = "table.parquet";
+/// The same table as text.
+pub const TABLE_CSV_FILE: &str = "table.csv";
 /// The key of the study's description in the table's metadata.
 pub const STUDY_KEY: &str = "wedgelab.study";
 /// The folder with the time series of some runs.
@@ -76,8 +80,7 @@ pub struct StudyFolder {
     count: u64,
     part_size: u64,
     removed: Vec<PathBuf>,
-    /// Kept locked; the system unlocks it when the program ends, however it ends.
-    _lock: File,
+    _lock: Locked,
     /// One record at a time.
     writing: Mutex<()>,
 }
@@ -120,11 +123,9 @@ impl StudyFolder {
             .write(true)
             .open(path.join(LOCK_FILE))
             .map_err(|reason| write_error(&path.join(LOCK_FILE), reason))?;
-        if lock.try_lock().is_err() {
-            return Err(StudyFolderError::Busy {
-                folder: path.to_owned(),
-            });
-        }
+        let lock = Locked::new(lock).map_err(|_| StudyFolderError::Busy {
+            folder: path.to_owned(),
+        })?;
         if begun {
             let found = read_text(&manifest, &MANIFEST).map_err(|error| unreadable(&manifest, error))?;
             error::compare(path, &manifest, &found, &description)?;
@@ -264,8 +265,8 @@ impl StudyFolder {
         Ok(found.records.len() as u64)
     }
 
-    /// Makes the table of all records, in the order of their numbers, and shows each row to `each` with the
-    /// values of the factors.
+    /// Makes the table of all records, in the order of their numbers, as Parquet and as CSV, and shows each row
+    /// to `each` with the values of the factors. Memory does not grow with the number of records.
     ///
     /// # Errors
     /// A record is missing, a part cannot be read, or the table cannot be written.
@@ -274,41 +275,59 @@ impl StudyFolder {
         study: &Study,
         mut each: impl FnMut(&[Option<Value>], &Record),
     ) -> Result<(), StudyFolderError> {
-        let folder = Folder::check(&self.path, &[TABLE_FILE], true)?;
+        let folder = Folder::check(&self.path, &[TABLE_FILE, TABLE_CSV_FILE], true)?;
+        let columns = columns(study);
         // An error of reading leaves the closure of writing by this way.
         let mut unread = None;
         let written = folder.write(|files| {
             files.add(TABLE_FILE, |out| {
                 let metadata = [(STUDY_KEY, self.description.clone())];
-                let mut table = TableWriter::new(out, columns(study), &metadata).map_err(plain)?;
-                for part in 0..self.parts() {
-                    let found = self.part(part).and_then(|part_found| {
-                        let missing = self.numbers(part).count() - part_found.records.len();
-                        if missing > 0 {
-                            return Err(StudyFolderError::Incomplete { missing });
-                        }
-                        Ok(part_found)
-                    });
-                    let found = match found {
-                        Ok(found) => found,
-                        Err(error) => {
-                            unread = Some(error);
-                            return Err(io::Error::other("a part cannot be read"));
-                        }
-                    };
-                    for record in &found.records {
-                        let values = study.values(record.number);
-                        table.row(cells(study, &values, record)).map_err(plain)?;
-                        each(&values, record);
-                    }
-                }
+                let mut table = TableWriter::new(out, columns.clone(), &metadata).map_err(plain)?;
+                self.for_each(&mut unread, |record| {
+                    let values = study.values(record.number);
+                    table.row(cells(study, &values, record)).map_err(plain)?;
+                    each(&values, record);
+                    Ok(())
+                })?;
                 table.finish().map_err(plain)
+            })?;
+            // The parts are read again: the rows need not be kept.
+            files.add(TABLE_CSV_FILE, |out| {
+                csv::write_header(columns.iter().map(|column| column.name.as_str()), out)?;
+                self.for_each(&mut unread, |record| {
+                    let values = study.values(record.number);
+                    csv::write_cells(&cells(study, &values, record), out)
+                })
             })
         });
         match unread {
             Some(error) => Err(error),
             None => written.map_err(StudyFolderError::after_all_runs),
         }
+    }
+
+    /// Shows all records to `each`, in the order of their numbers; why they cannot be read is left in `unread`.
+    fn for_each(
+        &self,
+        unread: &mut Option<StudyFolderError>,
+        mut each: impl FnMut(&Record) -> io::Result<()>,
+    ) -> io::Result<()> {
+        for part in 0..self.parts() {
+            let found =
+                self.part(part)
+                    .and_then(|found| match self.numbers(part).count() - found.records.len() {
+                        0 => Ok(found),
+                        missing => Err(StudyFolderError::Incomplete { missing }),
+                    });
+            match found {
+                Ok(found) => found.records.iter().try_for_each(&mut each)?,
+                Err(error) => {
+                    *unread = Some(error);
+                    return Err(io::Error::other("a part cannot be read"));
+                }
+            }
+        }
+        Ok(())
     }
 }
 
@@ -320,7 +339,7 @@ fn refuse_foreign(path: &Path) -> Result<(), StudyFolderError> {
     };
     // With parts it is a study whose description was moved away; whose records they are, each of them tells.
     let made: &[&str] = match path.join(PARTS).is_dir() {
-        true => &[TABLE_FILE, page::FILE_NAME, SERIES],
+        true => &[TABLE_FILE, TABLE_CSV_FILE, page::FILE_NAME, SERIES],
         false => &[SERIES],
     };
     let own = |name: &str| {
@@ -351,7 +370,8 @@ fn write_error(file: &Path, reason: io::Error) -> StudyFolderError {
     })
 }
 
-/// The name of a factor's column, with its unit: `wedge.angle_deg`.
+/// The name of a factor's column, with its unit: `wedge.angle_deg`. Of a toe it says the direction in which it
+/// is positive: `side_frame.toe_out_deg`.
 #[must_use]
 pub fn factor_column(factor: &Factor) -> String {
     let suffix = factor
@@ -364,8 +384,12 @@ pub fn factor_column(factor: &Factor) -> String {
         .filter(|word| !word.is_empty())
         .collect();
     let name = factor.name();
+    let name = match name.ends_with(".toe") && !words.is_empty() {
+        true => format!("{name}_out"),
+        false => name.to_owned(),
+    };
     if words.is_empty() {
-        name.to_owned()
+        name
     } else {
         format!("{name}_{}", words.join("_"))
     }

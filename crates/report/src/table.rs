@@ -200,6 +200,9 @@ struct Rows<'f> {
 impl Rows<'_> {
     fn add(&mut self, line: u64, cells: &[&str]) -> Result<(), TableError> {
         let Some((header, _)) = &self.header else {
+            if cells.starts_with(&["run", "status"]) {
+                return Err(TableError::of_study(self.file));
+            }
             let place = HeaderLocation {
                 file: self.file,
                 line,

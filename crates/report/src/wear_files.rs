@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use quantity::{Kind, System as Units};
 use study::wear::{LIMIT, Plan, WearHistory, WearLaw, WearState, maps};
-use wedge::face::FaceProperties;
+use wedge::face::{DepthMap, FaceProperties};
 use wedge::outputs::FACES;
 
 use crate::csv::converted;
@@ -18,6 +18,8 @@ pub const COURSE: &str = "wear.csv";
 pub const POINTS: &str = "wear_points.csv";
 /// The depths of both faces at the end, as `wedge_wear` takes them.
 pub const DEPTHS: [&str; 2] = ["column_wear.csv", "slope_wear.csv"];
+/// The depths of both counterfaces at the end, as `counterface_wear` takes them; where these are worn.
+pub const COUNTERFACES: [&str; 2] = ["column_counterface_wear.csv", "slope_counterface_wear.csv"];
 /// The case with the depths of the end.
 pub const CASE: &str = "worn.toml";
 /// The figure.
@@ -26,7 +28,7 @@ pub const FIGURE: &str = "wear.svg";
 pub const PICTURE: &str = "wear.png";
 /// What it comes to, in words.
 pub const WORDS: &str = "wear.txt";
-/// All of them.
+/// All of them, but for those of counterfaces.
 pub const NAMES: [&str; 8] = [COURSE, POINTS, DEPTHS[0], DEPTHS[1], CASE, FIGURE, PICTURE, WORDS];
 
 /// Which numbers of the law were given by the user, not guessed.
@@ -52,7 +54,8 @@ pub fn volume(si: f64, units: Units) -> (f64, &'static str) {
 /// A number of a state by its name and kind; volumes have none.
 type Number = (String, Option<Kind>, Box<dyn Fn(&WearState) -> f64>);
 
-fn numbers() -> Vec<Number> {
+/// Returns the numbers of states; those of counterfaces where these are worn.
+fn numbers(counterfaces: bool) -> Vec<Number> {
     let mut all: Vec<Number> = Vec::new();
     let mut add = |name: String, kind: Option<Kind>, of: Box<dyn Fn(&WearState) -> f64>| {
         all.push((name, kind, of));
@@ -83,6 +86,14 @@ fn numbers() -> Vec<Number> {
         add(format!("{name}_mean_normal_force"), Some(Kind::Force), force);
         let loss = Box::new(move |s: &WearState| s.faces[face].loss);
         add(format!("{name}_loss_per_cycle"), Some(Kind::Energy), loss);
+        if counterfaces {
+            let own = move |s: &WearState| Some(s.counterfaces.as_ref()?[face].volume);
+            let volume = move |s: &WearState| own(s).unwrap_or_default();
+            add(format!("{name}_counterface_volume"), None, Box::new(volume));
+            let deepest = move |s: &WearState| deepest_of_counterface(s, face);
+            let name = format!("{name}_counterface_deepest");
+            add(name, Some(Kind::Length), Box::new(deepest));
+        }
     }
     add("wedge_rise".to_owned(), Some(Kind::Length), Box::new(|s| s.rise));
     add(
@@ -93,13 +104,21 @@ fn numbers() -> Vec<Number> {
     all
 }
 
+/// The largest depth of a counterface, m; zero where it is not worn.
+fn deepest_of_counterface(state: &WearState, face: usize) -> f64 {
+    let map = state.counterfaces.as_ref().and_then(|own| own[face].map.as_ref());
+    let depths = map.into_iter().flat_map(DepthMap::points);
+    depths.map(|[.., depth]| depth).fold(0.0, f64::max)
+}
+
 /// Writes the course of wear: a row a state.
 ///
 /// # Errors
 /// The writer's.
 pub fn write_course(history: &WearHistory, out: &mut dyn Write) -> io::Result<()> {
     let units = history.case.simulation.output_units;
-    let numbers = numbers();
+    let worn = history.states.iter().any(|state| state.counterfaces.is_some());
+    let numbers = numbers(worn);
     write!(out, "cycles")?;
     for (name, kind, _) in &numbers {
         let unit = kind.map_or(volume(0.0, units).1, |kind| kind.suffix(units));
@@ -164,15 +183,32 @@ pub fn write_points(history: &WearHistory, out: &mut dyn Write) -> io::Result<()
 /// # Errors
 /// The writer's.
 pub fn write_depths(history: &WearHistory, face: usize, out: &mut dyn Write) -> io::Result<()> {
+    let depths = history.states.last().map(|last| {
+        let depths = [0, 1].map(|face: usize| last.faces[face].depths.clone());
+        maps(&history.case, &depths)
+    });
+    write_map(history, depths.iter().filter_map(|maps| maps[face].as_ref()), out)
+}
+
+/// Writes the depths of a counterface at the end, as `counterface_wear` takes them.
+///
+/// # Errors
+/// The writer's.
+pub fn write_counterface(history: &WearHistory, face: usize, out: &mut dyn Write) -> io::Result<()> {
+    let last = history.states.last();
+    let worn = last.and_then(|last| last.counterfaces.as_ref()?[face].map.as_ref());
+    write_map(history, worn.into_iter(), out)
+}
+
+fn write_map<'m>(
+    history: &WearHistory,
+    map: impl Iterator<Item = &'m DepthMap>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let units = history.case.simulation.output_units;
     let unit = Kind::Length.label(units);
     writeln!(out, "up [{unit}], across [{unit}], depth [{unit}]")?;
-    let Some(last) = history.states.last() else {
-        return Ok(());
-    };
-    let depths = [0, 1].map(|face: usize| last.faces[face].depths.clone());
-    let maps = maps(&history.case, &depths);
-    for point in maps[face].iter().flat_map(|map| map.points()) {
+    for point in map.flat_map(DepthMap::points) {
         let [up, across, depth] = point.map(|value| converted(value, Kind::Length, units));
         writeln!(out, "{up},{across},{depth}")?;
     }
@@ -308,7 +344,7 @@ pub fn words(history: &WearHistory, plan: &Plan, given: Given) -> String {
             digits(volume(own.volume_per_cycle, units).0),
         ));
         text.push_str(&format!(
-            "  Mean normal force from {} to {}, friction takes {} a cycle, then {}.\n",
+            "  Mean normal force over the cycle from {} to {}, friction takes {} a cycle, then {}.\n",
             shown(first.faces[face].mean_force, Kind::Force),
             shown(own.mean_force, Kind::Force),
             shown(first.faces[face].loss, Kind::Energy),
@@ -321,6 +357,17 @@ pub fn words(history: &WearHistory, plan: &Plan, given: Given) -> String {
         shown(first.damping, Kind::Damping),
         shown(last.damping, Kind::Damping),
     ));
+    if let Some(worn) = &last.counterfaces {
+        for (face, name) in FACES.into_iter().enumerate() {
+            let (volume, unit) = volume(worn[face].volume, units);
+            text.push_str(&format!(
+                "Counterface of the {name}: {} {unit} worn, {} of the wedge's; depth to {}.\n",
+                digits(volume),
+                plan.counterface,
+                shown(deepest_of_counterface(last, face), Kind::Length),
+            ));
+        }
+    }
     let mismatch = history
         .states
         .iter()
@@ -328,9 +375,13 @@ pub fn words(history: &WearHistory, plan: &Plan, given: Given) -> String {
         .fold(0.0, f64::max);
     text.push_str(&format!(
         "No step wears a point by more than {LIMIT} of its penetration. Energies of all points are within \
-         {mismatch:.1e} of the ledger's losses.\n\
-         The wedge's faces are worn, column and pocket are not: where both wear, give their sum while travel \
-         is short against the face.\n"
+         {mismatch:.1e} of the ledger's losses.\n"
     ));
+    if last.counterfaces.is_none() {
+        text.push_str(
+            "The wedge's faces are worn, column and pocket are not: with --counterface they are, by a ratio of \
+             the wedge's wear.\n",
+        );
+    }
     text
 }

@@ -314,7 +314,9 @@ fn the_page_takes_viewer_and_data_or_does_without() {
     ] {
         assert!(with.contains(part), "{part}");
     }
-    assert!(!page(None).contains("<script"));
+    let without = page(None);
+    assert!(!without.contains("wedgelab-view") && !without.contains("<div data-shown"));
+    assert_eq!(without.matches("<script").count(), 1, "what folds tables");
     assert_eq!(outcomes[0].1.summary.units, Units::Us);
 }
 

@@ -142,6 +142,51 @@ fn analytic_body_wheels_and_wedges_are_where_they_must_be() {
     }
 }
 
+/// Halves of split wedges are drawn beside each other, each with its own faces, whose forces sum to those of the
+/// wedge; the other truck's wedges are in one piece.
+#[test]
+fn analytic_halves_of_split_wedges_are_bodies_of_their_own() {
+    let text = "model = \"car\"\nstart.settle = \"0 s\"\nspeed.value = \"28 mph\"\n\
+                simulation.duration = \"0.1 s\"\nrear_truck.wedge.kind = \"split\"\n\
+                rear_truck.wedge.slope_across = \"-8 deg\"\n";
+    let case = CarCase::parse("split.toml", text, Tables::nowhere(), &[]).unwrap();
+    let run = Run::with_motions(&case).unwrap();
+    let (result, motions) = run.finish_with_motions(|_| ControlFlow::Continue(()));
+    let run = CarRun {
+        case,
+        result,
+        motions,
+    };
+    let columns = columns(&run);
+    let scene = scene(&run.case, &run.result).unwrap();
+    for name in scene.columns() {
+        assert_eq!(columns[name.as_str()].len(), run.result.rows(), "{name}");
+    }
+    assert_eq!(scene.bodies.len(), 1 + 8 + 12 + 4 * 2);
+    assert_eq!(scene.contacts.len(), 8 + 16);
+    let last = run.result.rows() - 1;
+    let at = |name: &str| columns[format!("truck_2_{name}").as_str()][last];
+    for wedge in ["leading_left", "leading_right", "trailing_left", "trailing_right"] {
+        for face in ["column", "slope"] {
+            let own = |part: &str| at(&format!("{wedge}{part}_{face}_normal"));
+            let [outboard, inboard, whole] = [own("_outboard"), own("_inboard"), own("")];
+            assert!(outboard > 0.2 * whole && (outboard + inboard - whole).abs() < 1e-9 * whole);
+        }
+        assert!(at(&format!("{wedge}_split_normal")) > 0.0);
+        let place = |part: &str| {
+            let id = format!("truck_2_{wedge}_{part}_wedge");
+            scene.bodies.iter().find(|own| own.id == id).unwrap().position[1]
+        };
+        let width = run.case.parameters.trucks[1].wedges[0].width;
+        let apart = (place("outboard") - place("inboard")).abs();
+        assert!(
+            (apart / (0.5 * width) - 1.0).abs() < 1e-4,
+            "{apart} m of {width} m"
+        );
+    }
+    assert!(!columns.contains_key("truck_1_leading_left_outboard_column_normal"));
+}
+
 /// The page holds the run, and is not too large.
 #[test]
 fn input_the_page_moves() {

@@ -346,7 +346,7 @@ fn the_page_of_a_run_tells_loops_wedges_and_doubts() {
         assert!(with.contains(part), "{part}");
     }
     let without = truck_run::render(&run, None).unwrap();
-    assert!(!without.contains("<script") && without.contains("<svg"));
+    assert!(!without.contains("wedgelab-view") && without.contains("<svg"));
     let warp = ran("truck_warp_nest_constant_rising", &["simulation.duration=4 s"]);
     assert!(
         exhibits(&warp)

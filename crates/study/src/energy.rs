@@ -4,7 +4,7 @@
 //! The measure and its limits are those of [`mechanics::energy_balance`].
 
 use mechanics::energy_balance::{DOUBTFUL, EnergyBalance, FAILED, Verdict};
-use quantity::Number;
+use quantity::SixDigits;
 
 /// How warnings about the energy ledger begin.
 const BEGINNING: &str = "the energy ledger does not close";
@@ -27,8 +27,7 @@ pub fn warning(balance: &EnergyBalance, what_to_do: &str) -> Option<String> {
     Some(format!(
         "{BEGINNING}: its relative residual is {:.2e} (above {limit:e}), the largest at {} s; {what_to_do}",
         balance.relative_residual(),
-        // Multiples of the output interval, without the rounding of the product.
-        Number((balance.largest_residual_time * 1e9).round() / 1e9)
+        SixDigits(balance.largest_residual_time)
     ))
 }
 

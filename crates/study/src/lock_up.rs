@@ -182,7 +182,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// Reads a text such as `angle=20 deg..50 deg`.
+    /// Reads a text such as `angle=20 deg..50 deg`, whichever end comes first.
     ///
     /// # Errors
     /// What is wrong with it, and what to write.
@@ -199,16 +199,13 @@ impl Span {
             .split_once("..")
             .ok_or(format!("{name} needs a range; {HOW}"))?;
         match [axis.read(from)?, axis.read(to)?] {
-            [from, to] if from < to => Ok(Self {
-                axis,
-                ends: [from, to],
-            }),
             [from, to] if from == to => Err(format!(
-                "{name} goes from {values}: one point only; give two different values, the smaller one first"
+                "{name} goes from {values}: one point only; give two different values"
             )),
-            _ => Err(format!(
-                "{name} goes from {values}; the second value must be the greater one (a toe in is negative)"
-            )),
+            [from, to] => Ok(Self {
+                axis,
+                ends: [from.min(to), from.max(to)],
+            }),
         }
     }
 
@@ -295,6 +292,8 @@ pub struct LockUpMap {
     pub values: [Vec<f64>; 2],
     /// Its points, the second axis changing fastest.
     pub cells: Vec<Cell>,
+    /// Why it was ended early, if it was: points whose rigs were not run have the closed form alone.
+    pub interrupted: Option<String>,
 }
 
 /// Returns the rig of a case with these values of the axes.
@@ -305,10 +304,11 @@ fn rig(text: &str, values: [(Axis, f64); 2]) -> Result<Case, CaseError> {
 }
 
 /// Returns the map of a case: `points` along each axis, on so many threads. `go_on` is asked before each rig,
-/// with its number, and may end the map with a reason.
+/// with its number, and may end the map with a reason; what was found until then is kept.
 ///
 /// # Errors
-/// The same axis twice, fewer than two points, or a value that the case refuses.
+/// The same axis twice, fewer than two points, a value that the case refuses, or it is ended before any rig
+/// was.
 pub fn map(
     case: &Case,
     spans: [Span; 2],
@@ -367,14 +367,26 @@ pub fn map(
         }
     });
     let (cells, error) = done.into_inner().unwrap_or_else(PoisonError::into_inner);
-    match error {
-        Some(error) => Err(error),
-        None => Ok(LockUpMap {
-            spans,
-            values,
-            cells: cells.into_iter().flatten().collect(),
-        }),
+    let interrupted = match error {
+        None => None,
+        Some(MapError::Interrupted(reason)) if cells.iter().any(Option::is_some) => Some(reason),
+        Some(error) => return Err(error),
+    };
+    let mut map = LockUpMap {
+        spans,
+        values: values.clone(),
+        cells: Vec::with_capacity(cells.len()),
+        interrupted,
+    };
+    for (number, cell) in cells.into_iter().enumerate() {
+        let cell = cell.unwrap_or_else(|| {
+            let (wedge, yaw) = map.massless(case, at(number).map(|(_, value)| value));
+            let reason = map.interrupted.clone().unwrap_or_default();
+            closed(&wedge, yaw, Found::Unknown(reason))
+        });
+        map.cells.push(cell);
     }
+    Ok(map)
 }
 
 impl LockUpMap {
@@ -414,20 +426,30 @@ impl LockUpMap {
     }
 }
 
+/// Returns what the closed form says of a point whose rig was not run; `why` unless the faces open upwards.
+fn closed(wedge: &QuasiStaticWedge, yaw: f64, why: Found) -> Cell {
+    let slide = wedge.slide(Direction::Down, SlopeFriction::UpSlope, 1.0);
+    let closing_angle = wedge.closing_angle(yaw);
+    Cell {
+        closing_angle,
+        margin: wedge.lock_up_margin(yaw),
+        expected_ratio: slide.map(|slide| slide.column_normal * libm::cos(wedge.toe)),
+        found: if closing_angle <= 0.0 {
+            Found::PushedOut
+        } else {
+            why
+        },
+        holding: [f64::NAN; 2],
+        ratio: f64::NAN,
+    }
+}
+
 /// Runs a rig.
 fn cell(case: &Case) -> Cell {
     let wedge = closed_form::wedge(&case.parameters);
     let yaw = closed_form::yaw(&case.parameters);
-    let slide = wedge.slide(Direction::Down, SlopeFriction::UpSlope, 1.0);
-    let mut cell = Cell {
-        closing_angle: wedge.closing_angle(yaw),
-        margin: wedge.lock_up_margin(yaw),
-        expected_ratio: slide.map(|slide| slide.column_normal * libm::cos(wedge.toe)),
-        found: Found::PushedOut,
-        holding: [f64::NAN; 2],
-        ratio: f64::NAN,
-    };
-    if cell.closing_angle <= 0.0 {
+    let mut cell = closed(&wedge, yaw, Found::Slides);
+    if cell.found == Found::PushedOut {
         return cell;
     }
     let result = match Run::new(case) {
@@ -494,7 +516,7 @@ pub enum MapError {
     /// The case refuses a value.
     #[error(transparent)]
     Case(#[from] CaseError),
-    /// It was interrupted, and why.
+    /// It was interrupted before any rig was run, and why.
     #[error("{0}")]
     Interrupted(String),
 }

@@ -13,7 +13,7 @@
 use integrate::{Integrator, Problem, StepError};
 use mechanics::body::COORDINATES;
 use mechanics::system::{EnergyTermKind, System};
-use quantity::Number;
+use quantity::{Number, SixDigits};
 use serde::{Deserialize, Serialize};
 
 /// The way, s,
@@ -83,7 +83,7 @@ fn attempts<P: Problem>(integrator: &Integrator<P>) -> u64 {
 #[error(
     "the run hardly progresses at {} s: {attempts} attempted steps brought it forward by {advance:.1e} s, \
      and {} are admissible for {} s",
-    Number(*time),
+    SixDigits(*time),
     most_attempts(*required),
     Number(*required)
 )]

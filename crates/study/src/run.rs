@@ -13,7 +13,7 @@ use mechanics::energy_balance::{EnergyBalance, Entries};
 use mechanics::output::Column;
 use mechanics::plausibility::{Finding, Plausibility};
 use mechanics::system::{ModelError, NoEquilibrium, System};
-use quantity::System as Units;
+use quantity::{SixDigits, System as Units};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use thiserror::Error;
@@ -57,9 +57,10 @@ pub enum RunError {
     },
     /// A force is so large that it would tear the model apart.
     #[error(
-        "the force of `{element}` is {force:.3e} lbf at {time} s, above the limit of {limit:.1e} lbf at \
-         which a run is taken for a truck torn apart: lower the motion that presses its parts together, or \
-         give them more clearance"
+        "the force of `{element}` is {force:.3e} lbf at {} s, above the limit of {limit:.1e} lbf at which a \
+         run is taken for a truck torn apart: lower the motion that presses its parts together, or give them \
+         more clearance",
+        SixDigits(*time)
     )]
     TornApart {
         /// The element.
@@ -115,7 +116,8 @@ pub enum RunError {
 /// A value of the result is not finite.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error(
-    "`{column}` is {value} at {time} s, which is not a finite number: look for values out of all proportion"
+    "`{column}` is {value} at {} s, which is not a finite number: look for values out of all proportion",
+    SixDigits(*time)
 )]
 pub struct NotFinite {
     /// The column, without unit.

@@ -6,6 +6,10 @@ use std::f64::consts::{PI, SQRT_2};
 
 use thiserror::Error;
 
+pub use spectrum::{FEWEST_ROWS, Spectrum, SpectrumError};
+
+mod spectrum;
+
 /// A low-pass filter of fourth order without phase: Butterworth's filter of second order, forward and then
 /// backward.
 ///
@@ -176,12 +180,6 @@ fn range(values: &[f64]) -> Option<[f64; 2]> {
     let first = *values.first()?;
     let wider = |[low, high]: [f64; 2], value: &f64| [low.min(*value), high.max(*value)];
     Some(values.iter().fold([first; 2], wider))
-}
-
-/// Returns the greatest less the least value; zero without values.
-#[must_use]
-pub fn peak_to_peak(values: &[f64]) -> f64 {
-    range(values).map_or(0.0, |[low, high]| high - low)
 }
 
 /// Returns the value below which a `share` (0 to 1) of the values lies, straight between two values; `None`

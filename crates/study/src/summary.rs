@@ -199,9 +199,12 @@ pub struct Averages {
     /// Damping of the same first harmonic: of all that resists the bolster.
     #[serde(default)]
     pub equivalent_damping_on_bolster: Option<SummaryValue>,
-    /// Means over the branch in which the bolster goes up, by column.
+    /// The window of the means below ([`window_of`](crate::metrics::window_of)): `mid stroke`, `lower stroke`.
+    #[serde(default)]
+    pub window: String,
+    /// Means over the window where the bolster goes up, by column.
     pub up: BTreeMap<String, SummaryValue>,
-    /// Means over the branch in which it goes down, by column.
+    /// Means over the window where it goes down, by column.
     pub down: BTreeMap<String, SummaryValue>,
 }
 

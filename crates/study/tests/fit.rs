@@ -242,7 +242,7 @@ fn input_free_parameters() {
     for (text, problem) in [
         ("friction.column", "frees nothing"),
         ("friction.column=0.2", "frees nothing"),
-        ("friction.column=0.6..0.2", "nothing does"),
+        ("friction.column=0.6..0.6", "nothing does"),
         ("friction.column=a..0.2", "is no bound"),
         ("wedge.angle=30 deg..1 in", "do not measure the same"),
         ("wedge.angle=30 dg..31 deg", "dg"),
@@ -251,6 +251,9 @@ fn input_free_parameters() {
         assert!(error.problem.contains(problem), "{}", error.problem);
         assert!(error.advice.contains("--free"));
     }
+    // Either end may come first.
+    let down = Free::parse("wedge.angle=35 deg..30 deg").unwrap();
+    assert_eq!((down.low, down.high), (30.0, 35.0));
     let measured = Measured {
         times: vec![0.1, 0.2, 0.3],
         values: vec![0.0; 3],

@@ -7,7 +7,7 @@ mod runs;
 use mechanics::quasi_static::{Direction, QuasiStaticWedge, SlopeFriction};
 use mechanics::system::System;
 use nucars::truck::Choices;
-use quantity::Number;
+use quantity::SixDigits;
 use runs::{LBF, LBF_IN, column};
 use study::case::builtin;
 use study::half_truck::catalog::entry;
@@ -122,7 +122,7 @@ fn limits_a_run_that_hardly_progresses_stops_by_the_rule_and_says_where() {
     assert!(!result.summary.complete && result.summary.rows == 1);
     for part in [
         "hardly progresses",
-        &format!("at {} s", Number(stopped.time)),
+        &format!("at {} s", SixDigits(stopped.time)),
         "1100000 are admissible for 0.1 s",
         "the largest error is that of the speed in",
         "of the wedge",

@@ -5,7 +5,7 @@
 use std::f64::consts::{PI, SQRT_2};
 
 use study::signal::{
-    LowPass, TooCoarse, largest_deviation, largest_rms, peak_to_peak, percentile, sustained,
+    LowPass, Spectrum, SpectrumError, TooCoarse, largest_deviation, largest_rms, percentile, sustained,
 };
 
 fn times(interval: f64, count: usize) -> Vec<f64> {
@@ -133,7 +133,6 @@ fn analytic_percentiles_of_a_uniform_row() {
     assert_eq!(percentile(&values, 1.0), Some(100.0));
     assert_eq!(percentile(&[1.0, 2.0], 0.25), Some(1.25));
     assert_eq!(percentile(&[], 0.95), None);
-    assert_eq!(peak_to_peak(&values), 100.0);
 }
 
 /// A sine that lasts for a part of the run: over a stretch within it, deviation and rms are `a/√2`; with a
@@ -174,4 +173,84 @@ fn limits_deviation_on_a_large_mean() {
         "{}",
         found.value
     );
+}
+
+/// A sine of amplitude A has the variance A²/2; under Hann's window its density stands within two lines of its
+/// frequency, of which the middle one is A²/2 over 1.5 lines if the frequency is one of them.
+#[test]
+fn analytic_issue_036_the_density_of_a_sine_is_its_variance() {
+    let (interval, amplitude) = (0.005, 3.0);
+    let t = times(interval, 8192);
+    for frequency in [12.5, 20.3, 77.7] {
+        let values: Vec<f64> = sine(&t, frequency)
+            .iter()
+            .map(|own| 100.0 + amplitude * own)
+            .collect();
+        let spectrum = Spectrum::welch(&t, &values, None).unwrap();
+        assert_eq!((spectrum.rows, spectrum.segments), (1024, 15));
+        assert!((spectrum.resolution() - 200.0 / 1024.0).abs() < 1e-12);
+        let variance = amplitude * amplitude / 2.0;
+        let error = spectrum.variance() / variance - 1.0;
+        assert!(error.abs() < 2e-3, "{frequency} Hz: {error}");
+        assert!(
+            (spectrum.peak() - frequency).abs() <= spectrum.resolution(),
+            "{frequency} Hz"
+        );
+        // Twenty lines off, Hann's window lets through (1/(20 π (20² - 1)))² = 1.6e-9 of the peak. The mean over a
+        // broken cycle stands at the first lines.
+        let far = spectrum.frequencies.iter().zip(&spectrum.density).skip(3);
+        let far = far.filter(|(own, _)| (**own - frequency).abs() > 20.0 * spectrum.resolution());
+        let most = far.map(|(_, density)| *density).fold(0.0, f64::max);
+        assert!(most < 1e-7 * variance, "{frequency} Hz leaks: {most}");
+    }
+    let values: Vec<f64> = sine(&t, 12.5).iter().map(|own| amplitude * own).collect();
+    let spectrum = Spectrum::welch(&t, &values, None).unwrap();
+    let middle = spectrum.density[64];
+    let expected = amplitude * amplitude / 2.0 / (1.5 * spectrum.resolution());
+    assert!((middle / expected - 1.0).abs() < 1e-9, "{middle} {expected}");
+}
+
+/// White noise of variance s² at a rate f has the density 2 s²/f at all frequencies: the mean over 511 lines of
+/// 255 segments has a standard deviation of about 0.4 %, a single line one of about 8 %.
+#[test]
+fn analytic_issue_036_white_noise_is_flat() {
+    let (interval, rows) = (0.01, 1 << 17);
+    let mut state = 1_u64;
+    // Marsaglia's xorshift; uniform between -1 and 1 with the variance 1/3.
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    let values: Vec<f64> = (0..rows).map(|_| next()).collect();
+    let t = times(interval, rows);
+    let spectrum = Spectrum::welch(&t, &values, Some(100.0 / 1024.0)).unwrap();
+    assert_eq!((spectrum.rows, spectrum.segments), (1024, 255));
+    let expected = 2.0 / 3.0 * interval;
+    let inner = &spectrum.density[2..512];
+    let mean = inner.iter().sum::<f64>() / inner.len() as f64;
+    assert!((mean / expected - 1.0).abs() < 0.015, "{mean} {expected}");
+    for density in inner {
+        assert!((density / expected - 1.0).abs() < 0.4, "{density} {expected}");
+    }
+}
+
+#[test]
+fn input_issue_036_spectra_need_even_rows_and_enough_of_them() {
+    let t = times(0.01, 100);
+    let values = sine(&t, 5.0);
+    let mut uneven = t.clone();
+    uneven[50] += 0.002;
+    let found = Spectrum::welch(&uneven, &values, None).unwrap_err();
+    assert!(matches!(found, SpectrumError::Uneven { .. }), "{found}");
+    for (rows, resolution) in [(4, None), (100, Some(0.5)), (100, Some(1.0 - 1e-3))] {
+        let found = Spectrum::welch(&t[..rows], &values[..rows], resolution).unwrap_err();
+        assert!(matches!(found, SpectrumError::TooShort { .. }), "{found}");
+    }
+    for resolution in [0.0, -1.0, f64::NAN, 50.0] {
+        let found = Spectrum::welch(&t, &values, Some(resolution)).unwrap_err();
+        assert!(matches!(found, SpectrumError::Resolution { .. }), "{found}");
+    }
+    assert_eq!(Spectrum::welch(&t, &values, Some(2.0)).unwrap().rows, 64);
 }

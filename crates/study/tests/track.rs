@@ -142,6 +142,51 @@ fn input_messages_of_track_files_say_what_to_write() {
     assert!(refused(spectrum).contains("no class 9"));
 }
 
+/// A circle may be run but not closed: its ends must stay 6 m (19.7 ft) apart, as chord; a track that crosses
+/// itself is refused with both distances, a table as well as segments.
+#[test]
+fn input_tracks_that_come_back_near_themselves_are_refused() {
+    let radius = 150.0;
+    let circle = |gap: f64| {
+        let length = std::f64::consts::TAU * radius - gap;
+        format!("[[segments]]\ncurve = \"{length} m\"\nradius = \"{radius} m\"\n")
+    };
+    assert!(TrackFile::parse("open.toml", &circle(6.1)).is_ok());
+    let message = refused(&circle(5.9));
+    // 2 π 150 m - 5.9 m = 3072.7 ft
+    for part in [
+        "at 3073 ft (937 m)",
+        "within 20 ft",
+        "at 0 ft (0 m)",
+        "end the track before",
+    ] {
+        assert!(message.contains(part), "{message}");
+    }
+    // Straight on, 270 deg around, and across: the loop leaves the tangent's end, at 100 m, to the left and
+    // crosses the tangent 100 m before it ends.
+    let mut table = "distance [m],curvature [1/m]\n,left\n0,0\n200,0\n".to_owned();
+    let turn = 1.5 * std::f64::consts::PI * 100.0;
+    table += &format!("200.001,0.01\n{},0.01\n{},0\n", 200.001 + turn, 200.002 + turn);
+    let crossing = |after: f64| {
+        let table = format!("{table}{},0\n", 200.002 + turn + after);
+        let track = "[center_line]\ntable = \"loop.csv\"\n";
+        let folder = in_folder(&[("loop.csv", table), ("track.toml", track.to_owned())]);
+        TrackFile::read(&folder.path().join("track.toml"))
+            .err()
+            .map(|error| error.to_string())
+    };
+    assert_eq!(crossing(90.0), None);
+    let message = crossing(110.0).unwrap();
+    // The first pair within 6 m: the tangent at 94 .. 96 m; 200 m + 471.2 m + 100 m = 771 m.
+    let distance = |mark: &str| -> f64 {
+        let (_, rest) = message.split_once(mark).unwrap();
+        let (_, metres) = rest.split_once('(').unwrap();
+        metres.split_once(" m)").unwrap().0.parse().unwrap()
+    };
+    assert!((distance("at ") - 771.0).abs() <= 6.0, "{message}");
+    assert!((distance("lies at ") - 100.0).abs() <= 6.0, "{message}");
+}
+
 fn in_folder(files: &[(&str, String)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, text) in files {

@@ -38,6 +38,7 @@ fn plan(cycles: f64, steps: u32, law: WearLaw) -> Plan {
         steps,
         most_steps: 100,
         law,
+        counterface: 0.0,
     }
 }
 
@@ -294,4 +295,137 @@ fn limits_a_stop_keeps_the_states_before() {
     let map = parameters.column_face.wedge_wear.as_ref().unwrap();
     let half = [0.5 * parameters.wedge.height, 0.5 * parameters.wedge.width];
     assert!((map.depth(-half[0], -half[1]) - depth(0)).abs() <= 1e-12 * depth(0));
+}
+
+/// A flat block that a constant force presses: each place of the column is worn by the way that the block makes
+/// over it, `2 K p / H` times the part of -A .. A within half a length of the place in a cycle. The volume is the
+/// wedge's times the ratio.
+#[test]
+fn analytic_a_counterface_is_worn_where_the_wedge_slides() {
+    let case = read(
+        "constant",
+        "[friction]\ncolumn = 0\nslope = 0\n[contact]\ndamping = \"200 lbf s/in\"\n[column_face]\ngrid = [9, 3]\n",
+    );
+    let (cycles, ratio) = (1000.0, 0.6);
+    let plan = Plan {
+        counterface: ratio,
+        ..plan(cycles, 1, WearLaw::Archard(ARCHARD))
+    };
+    let history = worn(&case, &plan);
+    let [_, last] = history.states.as_slice() else {
+        panic!("{} states", history.states.len());
+    };
+    let counterfaces = last.counterfaces.as_ref().unwrap();
+    for (own, wedge) in counterfaces.iter().zip(&last.faces) {
+        let wanted = ratio * wedge.volume;
+        assert!(
+            (own.volume - wanted).abs() < 1e-9 * wanted,
+            "{} {wanted}",
+            own.volume
+        );
+        // What the map holds, by the trapezoidal rule.
+        let map = own.map.as_ref().unwrap();
+        let [up, across] = map.places();
+        let cell = |places: &[f64], k: usize| {
+            let last = places.len() - 1;
+            0.5 * (places[(k + 1).min(last)] - places[k.saturating_sub(1)])
+        };
+        let mut held = 0.0;
+        for (i, u) in up.iter().enumerate() {
+            for (j, a) in across.iter().enumerate() {
+                held += map.depth(*u, *a) * cell(up, i) * cell(across, j);
+            }
+        }
+        assert!((held - wanted).abs() < 1e-9 * wanted, "{held} {wanted}");
+    }
+    let column = &last.faces[0];
+    let (height, width) = (case.parameters.wedge.height, case.parameters.wedge.width);
+    let pressure = column.mean_force / (height * width);
+    let amplitude = INCH;
+    let depth = |place: f64| {
+        let reach = (place + 0.5 * height).min(amplitude) - (place - 0.5 * height).max(-amplitude);
+        ratio * ARCHARD.coefficient * pressure / ARCHARD.hardness * cycles * 2.0 * reach.max(0.0)
+    };
+    let map = counterfaces[0].map.as_ref().unwrap();
+    let [up, across] = map.places();
+    // The places in time of Gauss's rule miss the end of the stroke by a part of a step, where nothing slides.
+    let end = -0.5 * height - amplitude;
+    assert!(up[0] > end - 1e-9 && up[0] < end + 0.03 * amplitude, "{}", up[0]);
+    // A sixteenth of the face is less than the travel: over the plateau and the middle of the ramps the hats see
+    // straight lines alone.
+    let spacing = height / 16.0;
+    for side in [across[0], 0.0, across[across.len() - 1]] {
+        for (place, tolerance) in [
+            (0.0, 1e-3),
+            (spacing, 1e-3),
+            (2.0 * spacing, 1e-3),
+            (0.5 * height, 0.02),
+        ] {
+            // The coil tilts the wedge somewhat: what is linear in its pressure cancels out of both sides.
+            let found = 0.5 * (map.depth(place, side) + map.depth(-place, side));
+            let wanted = depth(place);
+            assert!(
+                (found / wanted - 1.0).abs() < tolerance,
+                "{place}: {found} {wanted}"
+            );
+        }
+    }
+    // The worn case has it.
+    let own = history.case.parameters.column_face.counterface_wear.as_ref();
+    assert!((own.unwrap().depth(0.0, 0.0) / depth(0.0) - 1.0).abs() < 2e-3);
+}
+
+/// While travel is short against the face, wear of both partners is that of the wedge alone at twice the
+/// coefficient: depths on wedge and counterface sum to its depths at every point, uneven as they are.
+#[test]
+fn limits_short_travel_wears_both_partners_as_one() {
+    let lines = "[bolster]\nvertical = { shape = \"sine\", amplitude = \"0.02 in\", frequency = \"0.318 Hz\" }\n\
+                 [column_face]\ngrid = [5, 5]\n[slope_face]\ngrid = [5, 5]\n[side_frame]\nyaw = \"0.1 deg\"\n";
+    let case = read("constant", lines);
+    let law = |times: f64| {
+        WearLaw::Archard(Archard {
+            coefficient: times * ARCHARD.coefficient,
+            ..ARCHARD
+        })
+    };
+    let cycles = 40_000.0;
+    let alone = worn(&case, &plan(cycles, 2, law(2.0)));
+    let both = worn(
+        &case,
+        &Plan {
+            counterface: 1.0,
+            ..plan(cycles, 2, law(1.0))
+        },
+    );
+    let (alone, both) = (alone.states.last().unwrap(), both.states.last().unwrap());
+    let rectangles = case.parameters.rectangles();
+    let counterfaces = both.counterfaces.as_ref().unwrap();
+    for face in 0..2 {
+        let properties = [&case.parameters.column_face, &case.parameters.slope_face][face];
+        let deepest = alone.faces[face]
+            .depths
+            .iter()
+            .fold(0.0_f64, |most, own| most.max(*own));
+        let least = alone.faces[face]
+            .depths
+            .iter()
+            .fold(f64::INFINITY, |least, own| least.min(*own));
+        assert!(least < 0.8 * deepest, "even: {least} {deepest}");
+        for (i, point) in properties.grid.points().iter().enumerate() {
+            let (up, across) = rectangles[face].distances(point);
+            let map = counterfaces[face].map.as_ref().unwrap();
+            let sum = both.faces[face].depths[i] + map.depth(up, across);
+            let wanted = alone.faces[face].depths[i];
+            assert!(
+                (sum - wanted).abs() < 0.1 * deepest,
+                "{face} {i}: {sum} {wanted} {deepest}"
+            );
+        }
+    }
+    assert!(
+        (both.rise / alone.rise - 1.0).abs() < 0.03,
+        "{} {}",
+        both.rise,
+        alone.rise
+    );
 }

@@ -19,31 +19,17 @@ pub struct FaceForce {
     pub state: ContactState,
 }
 
-impl FaceForce {
-    /// Returns what this face and another exert together.
-    fn and(&self, other: &Self) -> Self {
-        let states = [self.state, other.state];
-        let mut strongest = [ContactState::Slip, ContactState::Stick].into_iter();
-        Self {
-            normal: self.normal + other.normal,
-            friction: std::array::from_fn(|k| self.friction[k] + other.friction[k]),
-            state: strongest
-                .find(|state| states.contains(state))
-                .unwrap_or(ContactState::Open),
-        }
-    }
-}
-
 /// Parts of a truck, SI: displacements of centers of gravity from their nominal places and roll, pitch, yaw,
 /// in the axes of the truck.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Motions {
     /// The bolster.
     pub bolster: [f64; 6],
     /// The side frames, left and right.
     pub side_frames: [[f64; 6]; 2],
-    /// Column and slope of each wedge (of both halves of a split one), in the order of [`WEDGE_NAMES`](crate::WEDGE_NAMES).
-    pub faces: [[FaceForce; 2]; 4],
+    /// Column and slope of each wedge or half of one, in the order of
+    /// [`Parameters::wedge_parts`](crate::Parameters::wedge_parts).
+    pub faces: Vec<[FaceForce; 2]>,
 }
 
 impl MountedTruck {
@@ -60,20 +46,27 @@ impl MountedTruck {
         Motions {
             bolster: part(BOLSTER),
             side_frames: [part(SIDE_FRAMES), part(SIDE_FRAMES + 1)],
-            faces: [0, 1, 2, 3].map(|number| self.faces(number, &view)),
+            faces: self.faces(&view),
         }
     }
 
-    fn faces(&self, number: usize, view: &View<'_>) -> [FaceForce; 2] {
-        let of = |face: usize| of_face(&view.seen.faces[face], view);
-        let connection = match self.added.wedges[number] {
-            WedgePlace::Body { column } => return [of(column), of(column + 1)],
-            // Column and slope of the outboard half, then those of the inboard one.
-            WedgePlace::Split { column } => {
-                return [column, column + 1].map(|face| of(face).and(&of(face + 2)));
-            }
-            WedgePlace::Massless { connection } => &view.seen.connections[connection],
-        };
+    fn faces(&self, view: &View<'_>) -> Vec<[FaceForce; 2]> {
+        let pair = |column: usize| [column, column + 1].map(|face| of_face(&view.seen.faces[face], view));
+        let whole = (0..).zip(&self.added.wedges).map(|(number, place)| match *place {
+            // Of a split wedge column and slope of the outboard half, then those of the inboard one.
+            WedgePlace::Body { column } | WedgePlace::Split { column } => pair(column),
+            WedgePlace::Massless { connection } => self.massless(number, connection, view),
+        });
+        let inboard = self.added.wedges.iter().filter_map(|place| match *place {
+            WedgePlace::Split { column } => Some(pair(column + 2)),
+            _ => None,
+        });
+        whole.chain(inboard).collect()
+    }
+
+    /// The faces of a wedge without mass.
+    fn massless(&self, number: usize, connection: usize, view: &View<'_>) -> [FaceForce; 2] {
+        let connection = &view.seen.connections[connection];
         let inside = connection.wedge.unwrap_or_default();
         let state = connection.contact_state.unwrap_or(ContactState::Open);
         let state_of = |normal: f64| if normal > 0.0 { state } else { ContactState::Open };

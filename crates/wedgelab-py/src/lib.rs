@@ -10,6 +10,7 @@
 use pyo3::prelude::*;
 
 mod case;
+mod certificate;
 mod errors;
 mod figures;
 mod half_truck;
@@ -32,6 +33,8 @@ mod _wedgelab {
 
     #[pymodule_export]
     use crate::case::{NativeCase, built_in_groups};
+    #[pymodule_export]
+    use crate::certificate::NativeCertificate;
     #[pymodule_export]
     use crate::errors::fail_inside;
     #[pymodule_export]

@@ -17,7 +17,12 @@ pub fn load_error(py: Python<'_>, error: &LoadError) -> PyErr {
 }
 
 /// A table: title, names and units of columns, rows of texts.
-type ShownTable = (String, Vec<(&'static str, &'static str)>, Vec<Vec<String>>);
+type ShownTable = (
+    &'static str,
+    String,
+    Vec<(&'static str, &'static str)>,
+    Vec<Vec<String>>,
+);
 
 /// A file that was read and checked alone.
 #[pyclass(frozen, module = "wedgelab._wedgelab", name = "NativeFile")]
@@ -96,7 +101,7 @@ fn of_source(source: &std::sync::Arc<SourceText>) -> Result<NativeFile, LoadErro
             read.add(check::system(&read));
             let shown = show::system(&read.tree).into_iter();
             tables = shown
-                .map(|table| (table.title, table.columns, table.rows))
+                .map(|table| (table.key, table.title, table.columns, table.rows))
                 .collect();
             (
                 read.tree.title.text.value.clone(),

@@ -27,7 +27,7 @@ use crate::outcome::from_saved;
 const INTERVAL: Duration = Duration::from_millis(50);
 
 /// `wedgelab.StudyError`.
-fn study_error(py: Python<'_>, error: &StudyFolderError) -> PyErr {
+pub(crate) fn study_error(py: Python<'_>, error: &StudyFolderError) -> PyErr {
     let diagnostic: &dyn Diagnostic = error;
     raise(py, "StudyError", (error.to_string(), shown(diagnostic)))
 }
@@ -36,6 +36,14 @@ fn study_error(py: Python<'_>, error: &StudyFolderError) -> PyErr {
 #[pyclass(frozen, module = "wedgelab._wedgelab", name = "NativeStudy")]
 pub struct NativeStudy {
     study: Arc<Study>,
+}
+
+impl NativeStudy {
+    pub(crate) fn new(study: Study) -> Self {
+        Self {
+            study: Arc::new(study),
+        }
+    }
 }
 
 /// Name, unit, text and kind of a column.
@@ -49,9 +57,7 @@ impl NativeStudy {
         let py = class.py();
         guarded(py, || {
             let study = Study::read(&path).map_err(|error| case_error(py, &error))?;
-            Ok(Self {
-                study: Arc::new(study),
-            })
+            Ok(Self::new(study))
         })
     }
 
@@ -66,9 +72,7 @@ impl NativeStudy {
                 simple(py, "StudyError", &message, help)
             })?;
             let study = Study::of_source(source).map_err(|error| case_error(py, &error))?;
-            Ok(Self {
-                study: Arc::new(study),
-            })
+            Ok(Self::new(study))
         })
     }
 
@@ -169,7 +173,7 @@ pub struct NativeStudyFolder {
 }
 
 impl NativeStudyFolder {
-    fn held(&self, py: Python<'_>) -> PyResult<Arc<StudyFolder>> {
+    pub(crate) fn held(&self, py: Python<'_>) -> PyResult<Arc<StudyFolder>> {
         let held = self.folder.lock().unwrap_or_else(PoisonError::into_inner);
         let held = held.as_ref().map(Arc::clone);
         held.ok_or_else(|| internal(py, "the folder of the study was closed"))
@@ -232,27 +236,12 @@ impl NativeStudyFolder {
     #[pyo3(signature = (jobs, progress))]
     fn compute(&self, py: Python<'_>, jobs: usize, progress: Option<Py<PyAny>>) -> PyResult<u64> {
         let folder = self.held(py)?;
-        let (study, progress) = (&self.study, progress.as_ref());
-        let (stop, count) = (AtomicBool::new(false), AtomicU64::new(0));
-        let done = || {
-            count.fetch_add(1, Ordering::Relaxed);
+        let study = &self.study;
+        let work = |stop: &AtomicBool, done: &(dyn Fn() + Sync)| {
+            study_work::compute(study, &folder, jobs, stop, done)
         };
-        let work = || study_work::compute(study, &folder, jobs, &stop, &done);
-        let (computed, said) = py.detach(|| {
-            thread::scope(|scope| {
-                let worker = scope.spawn(work);
-                let said = listen(&worker, &count, progress);
-                stop.store(said.is_err(), Ordering::Relaxed);
-                (worker.join(), said)
-            })
-        });
-        // Ctrl-C before what it led to.
-        said?;
-        match computed {
-            Ok(computed) => computed.map_err(|error| study_error(py, &error))?,
-            Err(panic) => return Err(internal(py, &panic_text(panic.as_ref()))),
-        }
-        Ok(count.into_inner())
+        let ((), count) = heard(py, progress.as_ref(), work)?;
+        Ok(count)
     }
 
     /// Makes the table and the page of all runs.
@@ -266,6 +255,35 @@ impl NativeStudyFolder {
     /// Lets other programs work in the folder.
     fn close(&self) {
         *self.folder.lock().unwrap_or_else(PoisonError::into_inner) = None;
+    }
+}
+
+/// Has something worked on without the interpreter lock: gives what came out, and how many were done.
+pub(crate) fn heard<T: Send>(
+    py: Python<'_>,
+    progress: Option<&Py<PyAny>>,
+    work: impl FnOnce(&AtomicBool, &(dyn Fn() + Sync)) -> Result<T, StudyFolderError> + Send,
+) -> PyResult<(T, u64)> {
+    let (stop, count) = (AtomicBool::new(false), AtomicU64::new(0));
+    let done = || {
+        count.fetch_add(1, Ordering::Relaxed);
+    };
+    let (worked, said) = py.detach(|| {
+        thread::scope(|scope| {
+            let worker = scope.spawn(|| work(&stop, &done));
+            let said = listen(&worker, &count, progress);
+            stop.store(said.is_err(), Ordering::Relaxed);
+            (worker.join(), said)
+        })
+    });
+    // Ctrl-C before what it led to.
+    said?;
+    match worked {
+        Ok(worked) => Ok((
+            worked.map_err(|error| study_error(py, &error))?,
+            count.into_inner(),
+        )),
+        Err(panic) => Err(internal(py, &panic_text(panic.as_ref()))),
     }
 }
 

@@ -214,3 +214,21 @@ def test_a_panic_becomes_an_exception(capfd: pytest.CaptureFixture[str]) -> None
         _wedgelab._fail_inside()
     assert Case().name == "case"
     capfd.readouterr()
+
+
+def test_issue_036_names_of_built_in_cases_are_understood() -> None:
+    for kind, name, help_text in [
+        (wl.Case, "vdrun_toe_0_psi_1", "did you mean vdrun_toe_0_psi_0?"),
+        (wl.Case, "vdrun_toe", "did you mean vdrun_toe_0_psi_0?"),
+        (wl.Case, "truck_vertical_variable", "`TruckCase` takes it"),
+        (wl.Case, "nucars_69_constant_toe_out", "`HalfTruckCase` takes it"),
+        (wl.TruckCase, "truck_vertcal_variable", "did you mean truck_vertical_variable?"),
+        (wl.TruckCase, "vdrun_toe_0_psi_0", "`Case` takes it"),
+        (wl.CarCase, "car_hunting_emty", "did you mean car_hunting_empty?"),
+        (wl.CarCase, "truck_vertical_variable", "`TruckCase` takes it"),
+    ]:
+        with pytest.raises(wl.CaseError) as caught:
+            kind(name)
+        assert help_text in str(caught.value), str(caught.value)
+    with pytest.raises(wl.WedgelabError, match="did you mean nucars_69_constant_toe_out"):
+        wl.HalfTruckCase("nucars_69_constant_toe_ut")

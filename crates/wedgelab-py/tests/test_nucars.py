@@ -26,7 +26,7 @@ def folder(tmp_path: Path) -> Path:
 def test_input_reading_and_writing_anew(folder: Path) -> None:
     system = nucars.read(folder / FILES[1])
     assert system.kind == "system" and not system.has_errors and system.title
-    frame = system.tables["Bodies"].to_pandas()
+    frame = system.tables["bodies"].to_pandas()
     assert len(frame) == 3 and np.issubdtype(frame["x [in]"].dtype, np.number)
     (folder / "again.sys").write_text(system.written)
     assert nucars.read(folder / "again.sys").tables == system.tables

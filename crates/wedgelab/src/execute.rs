@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use quantity::Number;
+use quantity::SixDigits;
 use report::files::Folder;
 use report::page::{self, Viewer};
 use report::run_files::RunFiles;
@@ -81,7 +81,7 @@ fn compute_by<C: RunCase, T>(
 }
 
 /// A run that has begun; where nothing can be computed at all, the input is at fault.
-fn begun<C: RunCase>(case: &C, run: Result<Run<C>, RunError>) -> Result<Run<C>, Message> {
+pub fn begun<C: RunCase>(case: &C, run: Result<Run<C>, RunError>) -> Result<Run<C>, Message> {
     run.map_err(|error| {
         let message = format!("the run {} cannot begin: {error}", case.name());
         Message::new(message, C::WHERE_TO_LOOK)
@@ -111,7 +111,7 @@ pub fn write_quietly<C: RunFiles>(
 ) -> Result<(), Failure> {
     case.write(folder, &done.result)?;
     let how = match done.result.summary.stopped() {
-        Some(stopped) => format!("stopped at {} s", Number(stopped.time)),
+        Some(stopped) => format!("stopped at {} s", SixDigits(stopped.time)),
         None => format!("{:.2} s", done.wall.as_secs_f64()),
     };
     progress.done(case.name(), &how);
@@ -157,6 +157,29 @@ pub fn unsound<C: RunFiles>(summary: &C::Summary, folder: &Path) -> Option<Failu
     Some(failed_run(summary.name(), reason, folder))
 }
 
+/// Why a run of which nothing is written is incomplete or has failed, for its user; `None` if it is sound.
+pub fn unsound_unwritten<C: RunFiles>(summary: &C::Summary) -> Option<Failure> {
+    let name = summary.name();
+    let nothing = "nothing of it is written";
+    let (message, advice) = match (summary.stopped(), summary.failed()) {
+        (Some(stopped), _) => {
+            let time = SixDigits(stopped.time);
+            let message = format!(
+                "the run {name} stopped at {time} s and is incomplete: {}",
+                stopped.reason
+            );
+            let advice = match C::WHAT_TO_TRY {
+                "" => nothing.to_owned(),
+                suspects => format!("{nothing}; {suspects}"),
+            };
+            (message, advice)
+        }
+        (None, Some(reason)) => (format!("the run {name} has failed: {reason}"), nothing.to_owned()),
+        (None, None) => return None,
+    };
+    Some(Failure::Failed(Message::new(message, advice).into()))
+}
+
 /// A run that came to its end but failed, and whose files are written.
 fn failed_run(name: &str, reason: &str, folder: &Path) -> Failure {
     let message = format!("the run {name} has failed: {reason}");
@@ -171,7 +194,7 @@ fn failed_run(name: &str, reason: &str, folder: &Path) -> Failure {
 fn stopped_run(name: &str, stopped: &Stopped, folder: &Path, suspects: &str) -> Failure {
     let message = format!(
         "the run {name} stopped at {} s and is incomplete: {}",
-        Number(stopped.time),
+        SixDigits(stopped.time),
         stopped.reason
     );
     let kept = format!(
@@ -193,9 +216,10 @@ pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone
         found.map_or(String::new(), |measure| measure.unit.clone())
     };
     let mut table = Table::new(
-        1,
+        2,
         &[
             ("run", ""),
+            ("window", "of mean force"),
             ("mean force, up", &unit(up)),
             ("mean force, down", &unit(down)),
             ("energy per cycle", &unit(energy)),
@@ -209,6 +233,7 @@ pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone
         };
         table.row([
             summary.name.clone(),
+            summary.averages.window.clone(),
             cell(up(summary)),
             cell(down(summary)),
             cell(energy(summary)),
@@ -221,9 +246,11 @@ pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone
 
 /// What the columns of the table are.
 pub const TABLE_NOTE: &str = "\
-Mean force: vertical wedge force (column friction on the side frame, positive up), averaged over the branch in which the
-bolster goes up or down. Energy per cycle: lost in friction at the side frame. Ledger residual: the largest at any output time,
-over the largest of work, losses and change of stored energy.";
+Mean force: vertical wedge force (column friction on the side frame, positive up), averaged while the bolster goes up or down, over
+the output times after the first half period in the window: mid stroke (constant damping), the bolster faster than 0.9 of its peak
+speed; lower stroke (variable damping), faster than 0.25 of it, and lower than 0.3 of its amplitude below its middle. Energy per
+cycle: lost in friction at the side frame. Ledger residual: the largest at any output time, over the largest of work, losses and
+change of stored energy.";
 
 fn up(summary: &Summary) -> Option<&SummaryValue> {
     summary.averages.up.get("vertical_wedge_force")

@@ -7,6 +7,7 @@ use miette::{Diagnostic, MietteHandlerOpts, Report};
 use nucars::file_sets::LoadError;
 use report::comparison::ComparisonError;
 use report::files::FileError;
+use report::run_folder::RunFolderError;
 use report::table::TableError;
 use study::case::CaseError;
 use thiserror::Error;
@@ -59,6 +60,12 @@ impl From<FileError> for Failure {
 
 impl From<TableError> for Failure {
     fn from(error: TableError) -> Self {
+        Self::Input(error.into())
+    }
+}
+
+impl From<RunFolderError> for Failure {
+    fn from(error: RunFolderError) -> Self {
         Self::Input(error.into())
     }
 }

@@ -9,6 +9,7 @@ mod folders;
 mod interrupt;
 mod json;
 mod progress;
+mod saved;
 mod select;
 mod table;
 
@@ -19,8 +20,9 @@ use clap::{CommandFactory, Parser, Subcommand};
 use numerics::processor::{OldProcessor, check};
 
 use commands::{
-    case, compare, completions, curves, energy, explore, fit, fmu, lock_up, man, nucars, plot, quasi_static,
-    reproduce, run, stability, study, track, warp, wear, wheelrail,
+    case, certify, compare, completions, curves, energy, explore, fit, fmu, lock_up, man, nucars, plot,
+    quasi_static, regime, report as report_command, reproduce, run, stability, study, track, warp, wear,
+    wheelrail,
 };
 use failure::Failure;
 
@@ -44,9 +46,11 @@ Begin with:
   wedgelab warp                      warp of a whole truck with four wedges
   wedgelab lock-up                   where a wedge locks up, over two of its parameters
   wedgelab stability CAR             vibrations of a whole car over speed
+  wedgelab certify CAR               a car in the regimes of its assessment, beside limits
   wedgelab explore my.toml           a page to change it and see its loop move
   wedgelab study STUDY.toml          many variants of a case, into one table
   wedgelab compare RESULT RESULT     differences and overlay figures
+  wedgelab report RUN RUN            a page of any runs, side by side
 
 Exit codes: 0 done; 1 a run could not finish or files could not be written; 2 the input is wrong;
 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM.
@@ -66,6 +70,7 @@ enum Command {
     Fit(fit::Arguments),
     Compare(compare::Arguments),
     Plot(plot::Arguments),
+    Report(report_command::Arguments),
     Case(case::Arguments),
     Explore(explore::Arguments),
     QuasiStatic(quasi_static::Arguments),
@@ -75,6 +80,8 @@ enum Command {
     Energy(energy::Arguments),
     Wear(wear::Arguments),
     Stability(stability::Arguments),
+    Regime(regime::Arguments),
+    Certify(certify::Arguments),
     Wheelrail(wheelrail::Arguments),
     Track(track::Arguments),
     Nucars(nucars::Arguments),
@@ -92,6 +99,7 @@ impl Cli {
             Command::Fit(arguments) => fit::execute(&arguments),
             Command::Compare(arguments) => compare::execute(&arguments),
             Command::Plot(arguments) => plot::execute(&arguments),
+            Command::Report(arguments) => report_command::execute(&arguments),
             Command::Case(arguments) => case::execute(&arguments),
             Command::Explore(arguments) => explore::execute(&arguments),
             Command::QuasiStatic(arguments) => quasi_static::execute(&arguments),
@@ -101,6 +109,8 @@ impl Cli {
             Command::Energy(arguments) => energy::execute(&arguments),
             Command::Wear(arguments) => wear::execute(&arguments),
             Command::Stability(arguments) => stability::execute(&arguments),
+            Command::Regime(arguments) => regime::execute(&arguments),
+            Command::Certify(arguments) => certify::execute(&arguments),
             Command::Wheelrail(arguments) => wheelrail::execute(&arguments),
             Command::Track(arguments) => track::execute(&arguments),
             Command::Nucars(arguments) => nucars::execute(&arguments),

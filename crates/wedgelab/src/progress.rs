@@ -126,10 +126,10 @@ impl Steady {
             let rate = told.0 as f64 / self.start.elapsed().as_secs_f64();
             let done = self.before + told.0;
             let left = (self.all - done) as f64 / rate;
-            let rate = if rate < 10.0 {
-                format!("{rate:.1}")
-            } else {
-                format!("{rate:.0}")
+            let rate = match rate {
+                rate if rate < 1.0 => format!("{rate:.2}"),
+                rate if rate < 10.0 => format!("{rate:.1}"),
+                rate => format!("{rate:.0}"),
             };
             say(&format!(
                 "{done} of {} {what}, {rate} {what}/s, {} left",

@@ -1,9 +1,39 @@
 //! Choosing built-in cases by name, beginning of a name, or pattern.
 
-use quantity::nearest;
-use study::case::builtin;
+use std::path::Path;
 
-use crate::failure::Message;
+use quantity::nearest;
+use report::table::Table;
+use study::case::builtin;
+use study::half_truck::catalog;
+
+use crate::commands::run::built_in_names;
+use crate::failure::{Failure, Message};
+
+/// Says which command runs the built-in case or half-truck of this name, to the user of one that does not take
+/// it; `None` if nothing has this name.
+pub fn built_in_elsewhere(path: &Path) -> Option<Message> {
+    let name = path.to_str()?;
+    let (what, command) = match built_in_names().any(|own| own == name) {
+        true => ("a built-in case", "wedgelab run"),
+        false => (
+            catalog::entry(name).map(|_| "a built-in half-truck")?,
+            "wedgelab nucars run",
+        ),
+    };
+    Some(Message::new(
+        format!("`{name}` is {what}, and this command does not take it"),
+        format!("`{command} {name}` runs it"),
+    ))
+}
+
+/// Reads the result of a run, or another table.
+pub fn read_table(path: &Path) -> Result<Table, Failure> {
+    match built_in_elsewhere(path).filter(|_| !path.exists()) {
+        Some(message) => Err(message.into()),
+        None => Ok(Table::read(path)?),
+    }
+}
 
 /// Those of the names that the texts choose, in the order of the names; all of them if there are no texts.
 pub fn select(
@@ -52,6 +82,10 @@ fn matching(text: &str, names: &[&str]) -> Result<Vec<usize>, Message> {
         [] if builtin::names().any(|name| name == text) => Err(Message::new(
             format!("the built-in case `{text}` is not one of these"),
             format!("`wedgelab run {text}` runs it"),
+        )),
+        [] if catalog::entry(text).is_some() => Err(Message::new(
+            format!("`{text}` is a built-in half-truck, whose files are those of NUCARS"),
+            format!("`wedgelab nucars run {text}` runs it"),
         )),
         [] => Err(Message::new(
             format!("there is no built-in case `{text}`"),

@@ -177,3 +177,43 @@ fn limits_a_car_on_rollers_hunts_once_disturbed() {
     assert!(table.starts_with("ramp,time_s,speed_mph,axle_1_lateral_amplitude_in,"));
     assert!(table.contains("\nfalling,") && table.contains("\nrising,"));
 }
+
+/// Where the energy of a run went: told, as JSON, and written with its figure.
+#[test]
+fn energy_of_a_run_is_told_and_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let settings = ["simulation.duration=0.5 s", "start.settle=0 s"];
+    let set: Vec<&str> = settings.iter().flat_map(|own| ["--set", own]).collect();
+    let energy = |more: &[&str]| {
+        let arguments = [&["energy", "car_tangent_loaded", "--quiet"], &set[..], more].concat();
+        let done = wedgelab(at, &arguments);
+        assert_eq!(done.code, Some(0), "{}", done.err);
+        done.out
+    };
+    let told = energy(&["--out", "told"]);
+    for part in [
+        "Energy of a run: the whole run, 0.000 s to 0.500 s",
+        "drive work",
+        "resistance",
+        "wheel 1 left",
+        "energy.json, power_flow.svg, power_flow.png",
+    ] {
+        assert!(told.contains(part), "{told} without {part}");
+    }
+    let printed: serde_json::Value = serde_json::from_str(&energy(&["--json"])).unwrap();
+    let written = fs::read_to_string(at.join("told/energy.json")).unwrap();
+    assert_eq!(
+        printed,
+        serde_json::from_str::<serde_json::Value>(&written).unwrap()
+    );
+    assert_eq!(
+        printed["losses"]["wheel_loss"]["by_point"]
+            .as_object()
+            .unwrap()
+            .len(),
+        8
+    );
+    let svg = fs::read_to_string(at.join("told/power_flow.svg")).unwrap();
+    assert!(svg.contains("Energy of a run"));
+}

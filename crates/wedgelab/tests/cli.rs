@@ -75,6 +75,7 @@ fn help_shows_examples() {
         (vec!["compare", "--help"], "other_program.csv"),
         (vec!["explore", "--help"], "--port 8080"),
         (vec!["plot", "--help"], "--out loop.svg"),
+        (vec!["report", "--help"], "softer --out both"),
         (vec!["quasi-static", "--help"], "0.2 deg out"),
         (vec!["--version"], env!("CARGO_PKG_VERSION")),
     ] {

@@ -171,10 +171,6 @@ fn energy_of_a_cycle_is_told_and_written() {
             ],
             "no whole cycle",
         ),
-        (
-            &["energy", "car_hunting_empty", "--quiet"],
-            "neither a wedge nor a truck",
-        ),
     ] {
         let done = wedgelab(folder.path(), arguments);
         assert_eq!(done.code, Some(2), "{}", done.err);

@@ -123,3 +123,39 @@ fn what_makes_no_half_truck_is_refused_with_the_reason() {
         assert!(!folder.path().join("half.fmu").exists(), "{arguments:?}");
     }
 }
+
+/// The program alone in a folder, as `cargo install` leaves it.
+#[test]
+fn issue_036_the_program_alone_exports_fmus() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = folder.path().join("wedgelab");
+    fs::copy(env!("CARGO_BIN_EXE_wedgelab"), &program).unwrap();
+    let call = |arguments: &[&str]| {
+        let output = Command::new(&program)
+            .current_dir(folder.path())
+            .args(["fmu", "export", "cdrun_toe_0_psi_0", "-o", "wedge.fmu", "--force"])
+            .args(arguments)
+            .output()
+            .unwrap();
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        fs::read(folder.path().join("wedge.fmu")).unwrap()
+    };
+    for version in ["2", "3"] {
+        let fmu = call(&["--fmi", version]);
+        // Packed, the library is some megabytes: a page and a case alone would not be one.
+        assert!(
+            fmu.starts_with(b"PK") && fmu.len() > 500_000,
+            "{} bytes",
+            fmu.len()
+        );
+    }
+    // Another library goes in when it is named.
+    fs::write(folder.path().join("own"), b"\x7fELF").unwrap();
+    if cfg!(target_os = "linux") {
+        assert!(call(&["--library", "own"]).len() < 500_000);
+    }
+}

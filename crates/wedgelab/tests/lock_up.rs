@@ -36,7 +36,7 @@ fn limits_a_map_has_its_table_and_figures() {
         &[&["lock-up", "--points", "2", "--out", "two", "-q"], &over[..]].concat(),
     );
     let csv = fs::read_to_string(at.join("two/lock_up.csv")).unwrap();
-    assert!(csv.starts_with("toe_deg,crown_in,"), "{csv}");
+    assert!(csv.starts_with("toe_out_deg,crown_in,"), "{csv}");
     assert!(csv.contains("\n-3") && csv.lines().count() == 5, "{csv}");
 }
 
@@ -60,7 +60,7 @@ fn input_maps_that_make_no_sense_are_refused() {
         ),
         (
             over("angle=32 deg..32 deg", friction),
-            ["one point only", "smaller one first"],
+            ["one point only", "give two different values"],
         ),
         (
             over("speed=1..2", friction),

@@ -288,3 +288,79 @@ fn track_show_tells_chord_offsets() {
     let refused = wedgelab(at, &["track", "show", "none.toml"]);
     assert_eq!(refused.code, Some(2), "{}", refused.err);
 }
+
+/// A run that is saved on its way and goes on has the rows of the whole run, digit by digit; a state of another
+/// case is refused.
+#[test]
+fn reproducible_a_run_goes_on_from_its_saved_state() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let base = [
+        "truck_vertical_variable",
+        "-q",
+        "--set",
+        "simulation.duration=1 s",
+    ];
+    let run = |more: &[&str]| wedgelab(at, &[&["run"], &base[..], more].concat());
+    assert_eq!(run(&["--out", "whole"]).code, Some(0));
+    let first = run(&[
+        "--out",
+        "first",
+        "--save",
+        "states/half.json",
+        "--until",
+        "0.42 s",
+    ]);
+    assert_eq!(first.code, Some(0), "{}", first.err);
+    assert!(first.err.contains("--continue states/half.json"), "{}", first.err);
+    let second = run(&["--out", "second", "--continue", "states/half.json"]);
+    assert_eq!(second.code, Some(0), "{}", second.err);
+    let table = |name: &str| fs::read_to_string(at.join(name).join("result.csv")).unwrap();
+    let (whole, first, second) = (table("whole"), table("first"), table("second"));
+    let (head, rows) = second.split_once('\n').unwrap();
+    assert!(first.starts_with(head) && first.lines().count() > 40 && rows.lines().count() > 50);
+    assert_eq!(first + rows, whole);
+    let summary = |name: &str| -> serde_json::Value {
+        let text = fs::read_to_string(at.join(name).join("summary.json")).unwrap();
+        serde_json::from_str(&text).unwrap()
+    };
+    assert_eq!(summary("first")["complete"], false);
+    for member in ["complete", "ledger", "statistics", "energy", "cycles"] {
+        assert_eq!(summary("second")[member], summary("whole")[member], "{member}");
+    }
+    // What does not fit is said, and nothing is written.
+    let other = run(&[
+        "--out",
+        "x",
+        "--continue",
+        "states/half.json",
+        "--set",
+        "friction.column=0.3",
+    ]);
+    assert_eq!(other.code, Some(2));
+    assert!(
+        other.err.contains("the state of another case") && other.err.contains("column = 0.3"),
+        "{}",
+        other.err
+    );
+    let late = run(&["--out", "x", "--save", "late.json", "--until", "2 s"]);
+    assert!(
+        late.code == Some(2) && late.err.contains("the run ends at 1 s"),
+        "{}",
+        late.err
+    );
+    fs::write(at.join("broken.json"), "{\"schema\": \"wedgelab.run_state/1\"").unwrap();
+    let broken = run(&["--out", "x", "--continue", "broken.json"]);
+    assert!(
+        broken.code == Some(2) && broken.err.contains("is no saved state"),
+        "{}",
+        broken.err
+    );
+    let again = run(&["--out", "first", "--force", "--continue", "gone.json"]);
+    assert!(
+        again.code == Some(2) && again.err.contains("there is no saved state gone.json"),
+        "{}",
+        again.err
+    );
+    assert!(!at.join("x").exists() && !at.join("late.json").exists());
+}

@@ -41,11 +41,12 @@ class Lists extends Data {
   }
 }
 
-/** Blue for the latest, fading to a light grey. */
-export function colour(age: number): string {
-  const share = Math.min(1, age / (MOST - 1));
-  const mix = (from: number, to: number): string => Math.round(from + (to - from) * share).toString(16).padStart(2, "0");
-  return age === 0 ? "#0072b2" : `#${mix(0x8a, 0xdc)}${mix(0x9b, 0xe0)}${mix(0xa8, 0xe4)}`;
+/** Colours that people with any kind of colour vision tell apart (Okabe and Ito), and a brown. */
+const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#8c6d31"];
+
+/** The colour of a run, which stays while later ones come; no two that are shown have the same. */
+export function colour(number: number): string {
+  return COLOURS[(number - 1) % COLOURS.length] ?? "#000000";
 }
 
 export function loopOf(run: RunData, shown: Shown): Pick<Loop, "shown" | "quantities" | "travel" | "force"> {
@@ -128,8 +129,8 @@ export class Loops {
     const lists = this.loops.flatMap(({ travel, force }) => [travel, force]);
     const curves = this.loops.map(({ number }, k) => ({
       label: `run ${number}`,
-      colour: colour(k),
-      width: k === 0 ? 2 : 1.2,
+      colour: colour(number),
+      width: k === 0 ? 2.4 : 1.2,
       dashes: [],
       x: 2 * k,
       y: 2 * k + 1,
@@ -168,9 +169,9 @@ export class Loops {
     const per = this.loops[0]?.shown.energy_per ?? "cycle";
     this.head.textContent = `energy per ${per} (${units.label("energy")})`;
     this.rows.replaceChildren(
-      ...this.loops.map(({ number, label, shown: { energy }, seconds }, k) => {
+      ...this.loops.map(({ number, label, shown: { energy }, seconds }) => {
         const mark = element("i", { class: "wl-stroke" });
-        mark.style.background = colour(k);
+        mark.style.background = colour(number);
         const shown = energy === null ? "–" : (energy * units.factor("energy")).toFixed(1).replace("-", "\u2212");
         return element(
           "tr",

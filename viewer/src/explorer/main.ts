@@ -25,6 +25,12 @@ function within(set: Record<string, string>, path: string): string {
   return JSON.stringify(Object.entries(set).filter(([own]) => own === path || own.startsWith(`${path}.`)));
 }
 
+/** What was typed wrongly: while it stands in its field, the last good value runs. */
+interface Wrong {
+  text: string;
+  mistakes: Mistake[];
+}
+
 class Explorer {
   private readonly form: Form;
   private readonly loops: Loops;
@@ -32,10 +38,14 @@ class Explorer {
   private readonly systems: Record<System, Units>;
   private readonly status = element("p", { class: "wx-status", role: "status" });
   private readonly faults = element("div", { class: "wx-faults", role: "alert" });
+  private readonly bar = element("div", { class: "wx-bar", role: "alert" });
   private readonly lookAt = element("p", { class: "wx-about" });
   private readonly stage = element("div", { class: "wx-stage" });
   private preset: string | null;
   private set: Record<string, string> = {};
+  /** What was set in the last run that was made. */
+  private good: Record<string, string> = {};
+  private wrong = new Map<string, Wrong>();
   /** What is being asked for, and since when. */
   private asked: { since: number } | undefined;
   private waiting: { live: boolean; first: boolean } | undefined;
@@ -87,6 +97,7 @@ class Explorer {
     presets.addEventListener("change", () => {
       this.preset = presets.value || null;
       this.set = {};
+      this.forgive();
       this.label = presets.value || start.name;
       this.about();
       this.ask({ live: false, first: true });
@@ -110,6 +121,7 @@ class Explorer {
     this.about();
     this.root.replaceChildren(
       element("header", { class: "wx-header" }, element("h1", {}, "Wedgelab explorer"), units, this.status),
+      this.bar,
       element(
         "div",
         { class: "wx-page" },
@@ -146,6 +158,7 @@ class Explorer {
     const inside = Object.keys(this.set).filter((own) => own.startsWith(`${path}.`));
     const kept = Object.entries(this.set).filter(([own]) => !inside.includes(own));
     this.set = { ...Object.fromEntries(kept), [path]: text };
+    this.forgive(path);
     this.label = `${path} = ${text}`;
     this.form.mark(path, true);
     this.ask({ live, first: false });
@@ -153,12 +166,14 @@ class Explorer {
 
   private back(path: string): void {
     this.set = Object.fromEntries(Object.entries(this.set).filter(([own]) => own !== path && !own.startsWith(`${path}.`)));
+    this.forgive(path);
     this.label = `${path} back`;
     this.ask({ live: false, first: false });
   }
 
   private allBack(): void {
     this.set = {};
+    this.forgive();
     this.label = this.preset ?? this.start.name;
     this.ask({ live: false, first: true });
   }
@@ -215,9 +230,7 @@ class Explorer {
         this.root.dataset.milliseconds = milliseconds.toFixed(0);
         break;
       case "mistakes":
-        this.last = "";
-        this.status.textContent = "Not run: something that was typed is wrong.";
-        this.show(this.form.complain(outcome.mistakes));
+        this.refuse(outcome.mistakes, wanted, how);
         break;
       case "replaced":
         this.last = "";
@@ -231,12 +244,60 @@ class Explorer {
     }
   }
 
+  /** What was changed since the last run is wrong: its last good value runs on, while what was typed stays in its field. */
+  private refuse(mistakes: Mistake[], wanted: Wanted, how: { live: boolean; first: boolean }): void {
+    this.last = "";
+    const changed = [...new Set([...Object.keys(wanted.set), ...Object.keys(this.good)])].filter((path) => wanted.set[path] !== this.good[path]);
+    const named = changed.filter((path) => mistakes.some((mistake) => mistake.path === path));
+    // A mistake may be told at another field than the one that was changed: then all that was changed is to blame.
+    for (const path of named.length > 0 ? named : changed) {
+      const own = mistakes.filter((mistake) => named.length === 0 || mistake.path === path);
+      this.wrong.set(path, { text: wanted.set[path] ?? "", mistakes: own });
+      if (this.set[path] === wanted.set[path]) {
+        const { [path]: before } = this.good;
+        const others = Object.fromEntries(Object.entries(this.set).filter(([own]) => own !== path));
+        this.set = before === undefined ? others : { ...others, [path]: before };
+      }
+    }
+    const rest = changed.length > 0 ? this.complain() : this.form.complain(mistakes);
+    this.show(rest);
+    this.status.textContent = "Not run: something that was typed is wrong.";
+    // What else was changed goes on with the last good value.
+    if (changed.length > 0 && JSON.stringify(this.set) !== JSON.stringify(this.good)) {
+      this.waiting ??= { live: how.live, first: how.first };
+    }
+  }
+
+  /** Shows what is wrong in its fields and in the bar; gives what belongs to no field. */
+  private complain(): Mistake[] {
+    const mistakes = [...this.wrong.values()].flatMap((wrong) => wrong.mistakes);
+    const rest = this.form.complain(mistakes);
+    const one = (path: string, { text, mistakes: own }: Wrong): HTMLElement => {
+      const why = own.map(({ message }) => message).join("; ");
+      const runs = this.good[path] ?? "the case's own value";
+      return element("p", {}, `${path} = ${text}: ${why}. Runs go on with ${runs}.`);
+    };
+    this.bar.replaceChildren(...[...this.wrong].map(([path, wrong]) => one(path, wrong)));
+    return rest;
+  }
+
+  /** A field, or all of them, are no longer wrong: something else was typed. */
+  private forgive(path?: string): void {
+    if (path === undefined) {
+      this.wrong.clear();
+    } else {
+      this.wrong.delete(path);
+    }
+    this.complain();
+  }
+
   private take(answer: Answer, wanted: Wanted, { live, first }: { live: boolean; first: boolean }): void {
     const { summary, view, loop, sections, seconds } = answer;
     this.last = JSON.stringify(wanted);
-    this.form.complain([]);
-    this.form.show(sections, this.set, first, (path) => within(this.set, path) !== within(wanted.set, path));
-    const notes = summary.warnings.map((message) => ({ path: "", message, help: "" }));
+    this.good = wanted.set;
+    const rest = this.complain();
+    this.form.show(sections, this.set, first, (path) => this.wrong.has(path) || within(this.set, path) !== within(wanted.set, path));
+    const notes = [...rest, ...summary.warnings.map((message) => ({ path: "", message, help: "" }))];
     if (summary.failed) {
       notes.push({ path: "", message: "The run has failed: do not use its numbers.", help: "" });
     }

@@ -5,14 +5,15 @@ import uPlot from "uplot";
 import type { Clock } from "../clock.js";
 import type { Instant, RunData } from "../data.js";
 import { element, select } from "../dom.js";
-import type { Store } from "../store.js";
+import { Store } from "../store.js";
+import { saveTable } from "../save.js";
 import { digits, type Units } from "../units.js";
 import { around, AXIS, extremes, scaled, tickRoom, tickTexts, wheelZoom, type Range } from "./curves.js";
 import { swatch } from "./figure.js";
 import { pinchZoom } from "./pinch.js";
 
 /** Colours (Okabe and Ito, 2008) and lines, as in the static figures. */
-const STYLES: [string, number[]][] = [
+export const STYLES: [string, number[]][] = [
   ["#0072B2", []],
   ["#000000", [9, 4]],
   ["#D55E00", [10, 3, 2, 3]],
@@ -44,6 +45,8 @@ export class RunPlot {
     private readonly window: Store<Range>,
     private choice: number,
     before?: Shown,
+    /** A run that is drawn beside this one. */
+    private readonly other: Store<RunData | undefined> = new Store<RunData | undefined>(undefined),
   ) {
     const same = run.run.plots.findIndex(({ title }) => title === before?.title);
     if (before && same >= 0) {
@@ -56,8 +59,10 @@ export class RunPlot {
       this.hidden.clear();
       this.build(units.value);
     });
-    this.root.append(element("div", { class: "wl-plot-head" }, chooser, this.legend), this.body);
+    const save = element("button", { type: "button", class: "wl-save", title: "save these curves as a table (CSV)", onclick: () => this.save() }, "CSV");
+    this.root.append(element("div", { class: "wl-plot-head" }, element("div", { class: "wl-plot-line" }, chooser, save), this.legend), this.body);
     this.stops = [
+      other.watch(() => this.build(units.value)),
       units.watch((now) => this.build(now)),
       window.watch(([min, max]) => this.plot?.setScale("x", { min, max })),
       clock.watch(() => this.show()),
@@ -94,9 +99,11 @@ export class RunPlot {
     const quantity = curves[0] ? this.run.quantity(curves[0][0]) : "dimensionless";
     const columns = curves.map(([name]) => scaled(this.run.values(name), units.factor(quantity)));
     const times = Float64Array.from(this.run.times);
+    const beside = this.beside(curves);
     const range = (): Range => {
       const shown = columns.filter((_, k) => !this.hidden.has(curves[k]?.[0] ?? ""));
-      return around(...extremes(shown.map((y) => ({ x: times, y })), "y", this.window.value));
+      const all = [...shown, ...beside.map(({ values }) => values)];
+      return around(...extremes(all.map((y) => ({ x: times, y })), "y", this.window.value));
     };
     const options: uPlot.Options = {
       width: Math.max(200, this.body.clientWidth),
@@ -115,15 +122,50 @@ export class RunPlot {
           const [stroke, dash] = STYLES[k % STYLES.length] ?? ["#000", []];
           return { label, stroke, dash, width: 1.4, show: !this.hidden.has(name), points: { show: false } };
         }),
+        // The other run's are pale under the same colours.
+        ...beside.map(({ label, place }) => ({ label, stroke: `${(STYLES[place % STYLES.length] ?? ["#000000"])[0]}80`, width: 3, points: { show: false } })),
       ],
     };
-    this.plot = new uPlot(options, [times, ...columns] as uPlot.AlignedData, this.body);
+    this.plot = new uPlot(options, [times, ...columns, ...beside.map(({ values }) => values)] as uPlot.AlignedData, this.body);
     const [min, max] = this.window.value;
     this.plot.setScale("x", { min, max });
     this.plot.over.append(this.playhead);
     this.listen(this.plot);
     this.entries(curves);
     this.show();
+  }
+
+  /** The other run's columns at this run's times, as far as it goes. */
+  private beside(curves: [string, string][]): { label: string; place: number; values: Float64Array }[] {
+    const other = this.other.value;
+    if (!other) {
+      return [];
+    }
+    const units = this.units.value;
+    return curves.flatMap(([name, label], place) => {
+      if (!(name in other.run.columns)) {
+        return [];
+      }
+      const [read, factor] = [other.reader(name), units.factor(other.quantity(name))];
+      const within = (time: number): boolean => time >= other.start && time <= other.end;
+      const values = Float64Array.from(this.run.times, (time) => (within(time) ? read(other.at(time)) * factor : NaN));
+      return [{ label: `${label}, ${other.run.name}`, place, values }];
+    });
+  }
+
+  /** Saves what is shown, in the units that are shown. */
+  private save(): void {
+    const { run } = this;
+    const units = this.units.value;
+    const chosen = run.run.plots[this.choice];
+    const curves = (chosen?.curves ?? []).filter(([name]) => name in run.run.columns && !this.hidden.has(name));
+    const column = ([name]: [string, string]): { name: string; values: Float64Array } => ({
+      name: units.axis(name, run.quantity(name)),
+      values: scaled(run.values(name), units.factor(run.quantity(name))),
+    });
+    const beside = this.beside(curves).map(({ label, place, values }) => ({ name: units.axis(label, run.quantity(curves[place]?.[0] ?? "")), values }));
+    const times = { name: "time_s", values: Float64Array.from(run.times) };
+    saveTable(`${run.run.name} ${chosen?.title ?? ""}`, [times, ...curves.map(column), ...beside]);
   }
 
   private listen(plot: uPlot): void {

@@ -6,6 +6,7 @@ import {
   Group,
   Mesh,
   type Object3D,
+  OrthographicCamera,
   PerspectiveCamera,
   Quaternion,
   Scene,
@@ -50,6 +51,9 @@ interface Mounted {
 export interface Eye {
   position: Vector3;
   target: Vector3;
+  /** Whether the projection is parallel, and how many metres the picture is high then. */
+  flat?: boolean;
+  height?: number;
 }
 
 interface Touch {
@@ -75,6 +79,8 @@ interface Sprung {
 
 const Z = new Vector3(0, 0, 1);
 const FIELD = 26;
+/** With more solids than this, bodies are named instead. */
+const SOLIDS = 12;
 /** Arrows longer than this many times the scale's force are cut. */
 export const LONGEST = 2.5;
 
@@ -105,7 +111,18 @@ function asksForSoftware(): boolean {
 export class SceneView {
   readonly canvas: HTMLCanvasElement;
   readonly controls: OrbitControls;
-  readonly camera = new PerspectiveCamera(FIELD, 1, 0.01, 20);
+  private readonly perspective = new PerspectiveCamera(FIELD, 1, 0.01, 20);
+  private readonly parallel = new OrthographicCamera(-1, 1, 1, -1, 0.01, 20);
+  /** Whether the projection is parallel: that of named views along an axis. */
+  flat = false;
+  private aspect = 1;
+  private readonly dark = matchMedia("(prefers-color-scheme: dark)");
+  private readonly paper = (): void => {
+    // A page that knows light colours alone stays light.
+    const dark = this.dark.matches && getComputedStyle(document.documentElement).colorScheme.includes("dark");
+    this.scene.background = new Color(dark ? 0x1b2127 : 0xf7f9fb);
+    this.refresh();
+  };
   /** The force whose arrow has the length `arrow`: of contacts, or of patches where there are no contacts. */
   readonly scaleForce: number;
   /** The pressure of the strongest colour; none without faces that have pressures. */
@@ -143,7 +160,8 @@ export class SceneView {
     this.software = drawsInSoftware();
     this.renderer = new WebGLRenderer({ antialias: !this.software, powerPreference: "low-power" });
     this.canvas = this.renderer.domElement;
-    this.scene.background = new Color(0xf7f9fb);
+    this.dark.addEventListener("change", this.paper);
+    this.paper();
 
     this.scene.add(this.world);
     const { track } = data;
@@ -173,6 +191,7 @@ export class SceneView {
       this.mounted.push({ group, angles: solid.mount.angles });
       solids.set(solid.id, group);
     }
+    this.named.push(...names(data, solids, bodies));
     for (const coil of data.coils) {
       const mesh = coilMesh(coil, data.coils.length > 4);
       this.scene.add(mesh);
@@ -224,20 +243,24 @@ export class SceneView {
       this.touches.push(touch);
     }
 
-    this.camera.up.copy(Z);
+    this.perspective.up.copy(Z);
+    this.parallel.up.copy(Z);
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.enableDamping = false;
     // The nearest look is not too near.
     const nearest = data.looks.reduce((least, { at }) => Math.min(least, at?.[1] ?? least), this.arrow);
     this.controls.minDistance = 2 * nearest;
     this.controls.maxDistance = 20 * this.ball.radius;
-    this.camera.near = 0.2 * nearest;
-    this.camera.far = Math.max(22 * this.ball.radius, this.track ? TRACK_SEEN : 0);
+    for (const camera of [this.perspective, this.parallel]) {
+      camera.near = 0.2 * nearest;
+      camera.far = Math.max(22 * this.ball.radius, this.track ? TRACK_SEEN : 0);
+    }
     this.controls.addEventListener("change", () => this.refresh());
   }
 
   dispose(): void {
     this.controls.dispose();
+    this.dark.removeEventListener("change", this.paper);
     this.track?.dispose();
     this.scene.traverse((object) => {
       if (object instanceof Mesh || object instanceof LineSegments) {
@@ -261,8 +284,54 @@ export class SceneView {
     this.fine = false;
     this.renderer.setPixelRatio(this.density);
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / Math.max(1, height);
-    this.camera.updateProjectionMatrix();
+    this.aspect = width / Math.max(1, height);
+    this.perspective.aspect = this.aspect;
+    this.perspective.updateProjectionMatrix();
+    this.frame(this.height);
+    this.refresh();
+  }
+
+  get camera(): PerspectiveCamera | OrthographicCamera {
+    return this.flat ? this.parallel : this.perspective;
+  }
+
+  /** Metres from the lower to the upper edge of the picture, at the target. */
+  private get height(): number {
+    if (this.flat) {
+      return (this.parallel.top - this.parallel.bottom) / this.parallel.zoom;
+    }
+    return 2 * this.perspective.position.distanceTo(this.controls.target) * Math.tan((FIELD / 2) * (Math.PI / 180));
+  }
+
+  /** Makes the parallel projection this high, m. */
+  private frame(height: number): void {
+    const half = 0.5 * height;
+    Object.assign(this.parallel, { top: half, bottom: -half, left: -half * this.aspect, right: half * this.aspect, zoom: 1 });
+    this.parallel.updateProjectionMatrix();
+  }
+
+  /** Changes the projection; what is at the target stays as large. */
+  flatten(flat: boolean): void {
+    if (flat === this.flat) {
+      return;
+    }
+    const { height } = this;
+    const arm = this.camera.position.clone().sub(this.controls.target).normalize();
+    this.flat = flat;
+    this.controls.object = this.camera;
+    this.frame(height);
+    // From far enough away nothing is cut off by the near plane.
+    const distance = flat ? 6 * this.ball.radius : height / (2 * Math.tan((FIELD / 2) * (Math.PI / 180)));
+    this.camera.position.copy(this.controls.target).addScaledVector(arm, distance);
+    this.turned();
+  }
+
+  /** After the eye has moved. */
+  private turned(): void {
+    this.camera.lookAt(this.controls.target);
+    this.camera.updateMatrixWorld();
+    this.controls.update();
+    this.camera.updateMatrixWorld();
     this.refresh();
   }
 
@@ -275,30 +344,35 @@ export class SceneView {
     this.arrow = look.arrow ?? this.data.arrow;
     const [center, radius] = look.at ? [new Vector3(...look.at[0]), look.at[1]] : [this.ball.center, 0.93 * this.ball.radius];
     const half = (FIELD / 2) * (Math.PI / 180);
-    const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect));
+    const narrow = Math.min(half, Math.atan(Math.tan(half) * this.aspect));
+    // Along an axis sizes are compared: nearer things must not be larger.
+    this.flat = look.from.filter((part) => part !== 0).length === 1;
+    this.controls.object = this.camera;
     const from = new Vector3(...look.from).normalize();
     if (Math.abs(from.z) > 0.9999) {
       // Straight from above the camera would not know which way is up.
       from.y -= 0.001;
     }
     this.controls.target.copy(center);
-    this.camera.position.copy(from).multiplyScalar(radius / Math.sin(narrow)).add(center);
-    this.controls.update();
-    this.camera.updateMatrixWorld();
+    const distance = this.flat ? 6 * this.ball.radius : radius / Math.sin(narrow);
+    this.frame((2 * radius) / Math.min(1, this.aspect));
+    this.camera.position.copy(from).multiplyScalar(distance).add(center);
+    this.turned();
     this.placeAgain();
   }
 
   /** Where the eye is and what it looks at. */
   get eye(): Eye {
-    return { position: this.camera.position.clone(), target: this.controls.target.clone() };
+    return { position: this.camera.position.clone(), target: this.controls.target.clone(), flat: this.flat, height: this.height };
   }
 
-  set eye({ position, target }: Eye) {
+  set eye({ position, target, flat = false, height }: Eye) {
+    this.flat = flat;
+    this.controls.object = this.camera;
     this.controls.target.copy(target);
     this.camera.position.copy(position);
-    this.controls.update();
-    this.camera.updateMatrixWorld();
-    this.refresh();
+    this.frame(height ?? this.height);
+    this.turned();
   }
 
   /** Turns and moves nearer by keys. */
@@ -308,16 +382,18 @@ export class SceneView {
     arm.applyAxisAngle(Z, about);
     const level = Math.asin(arm.z / arm.length());
     arm.applyAxisAngle(sideways, -Math.max(-1.5 - level, Math.min(1.5 - level, up)));
-    this.camera.position.copy(this.controls.target).add(arm.multiplyScalar(nearer));
-    this.controls.update();
-    this.camera.updateMatrixWorld();
-    this.refresh();
+    if (this.flat) {
+      this.frame(this.height * nearer);
+    } else {
+      arm.multiplyScalar(nearer);
+    }
+    this.camera.position.copy(this.controls.target).add(arm);
+    this.turned();
   }
 
   /** Pixels of the screen for a metre at the target. */
   get pixels(): number {
-    const distance = this.camera.position.distanceTo(this.controls.target);
-    return this.canvas.clientHeight / (2 * distance * Math.tan((FIELD / 2) * (Math.PI / 180)));
+    return this.canvas.clientHeight / this.height;
   }
 
   /** Puts everything where it is at an instant. */
@@ -435,6 +511,8 @@ export class SceneView {
 
   /** Directions of the axes on the screen, x to the right and y down. */
   axes(): [number, number][] {
+    // Listeners of the controls ask before the next picture is drawn.
+    this.camera.updateMatrixWorld();
     const turned = this.camera.matrixWorldInverse;
     return ([[1, 0, 0], [0, 1, 0], [0, 0, 1]] as const).map((axis): [number, number] => {
       const seen = new Vector3(...axis).transformDirection(turned);
@@ -444,14 +522,46 @@ export class SceneView {
 
   /** Where a place is seen on the canvas, from its upper left corner. */
   project(place: Vector3): [number, number] {
+    this.camera.updateMatrixWorld();
     const seen = place.clone().project(this.camera);
     return [((seen.x + 1) / 2) * this.canvas.clientWidth, ((1 - seen.y) / 2) * this.canvas.clientHeight];
   }
+
+  /** Draws once more and gives the picture. */
+  picture(take: (blob: Blob) => void): void {
+    this.renderer.render(this.scene, this.camera);
+    this.canvas.toBlob((blob) => blob && take(blob));
+  }
+
+  /** What has a name: solids where they are few, else bodies, each with the place of its name. */
+  readonly named: { name: string; place: () => Vector3 }[] = [];
 
   /** For tests: what is in the scene. */
   get root(): Object3D {
     return this.scene;
   }
+}
+
+/** Names of solids where there are few, else of bodies; each with the place where it is written. */
+function names(data: SceneData, solids: Map<string, Group>, bodies: Map<string, Group>): { name: string; place: () => Vector3 }[] {
+  // Wedges first: where names would cover each other, theirs are written.
+  const rank = ({ role }: { role: string }): number => (role === "wedge" ? 0 : 1);
+  const own = data.solids.filter(({ name }) => name !== "").sort((a, b) => rank(a) - rank(b));
+  if (own.length <= SOLIDS) {
+    return own.flatMap(({ id, name }) => {
+      const group = solids.get(id);
+      const center = group && new Box3().setFromObject(group).getCenter(new Vector3());
+      const local = center && group.worldToLocal(center);
+      return local ? [{ name, place: () => group.localToWorld(local.clone()) }] : [];
+    });
+  }
+  const first = (id: string): string | undefined => own.find(({ body }) => body === id)?.name;
+  const wedges = new Set(own.filter(({ role }) => role === "wedge").map(({ body }) => body));
+  const ordered = [...data.bodies].sort((a, b) => Number(wedges.has(b.id)) - Number(wedges.has(a.id)));
+  return ordered.flatMap(({ id }) => {
+    const [name, group] = [first(id), bodies.get(id)];
+    return name !== undefined && group ? [{ name, place: () => group.getWorldPosition(new Vector3()) }] : [];
+  });
 }
 
 /** A force that few of these exceed, so that most arrows are readable. */

@@ -123,7 +123,7 @@ test("it begins with the case's loop, its plots and its 3D view, without complai
   same(now.energy, told());
   assert.equal(now.loops, "1");
   await page.locator(".wl-run[data-ready]").waitFor({ timeout: 20_000 });
-  assert.equal(await page.locator(".wl-plot").count(), 3);
+  assert.equal(await page.locator(".wl-plot, .wl-loop").count(), 3);
   assert.equal(await page.locator("#preset").inputValue(), CASE);
   await page.waitForTimeout(500);
   assert.deepEqual(faults, []);
@@ -326,10 +326,19 @@ test("a bad value is explained where it was typed, and put right there", { skip 
   await field(page, "wedge.angle").locator(".wx-mistake").filter({ hasText: "angle" }).waitFor();
   assert.equal(await page.locator(".wx-mistake:visible").count(), 2);
   assert.equal((await state(page)).runs, before.runs, "nothing was run");
-  await type(page, "friction.column", "0.3")();
+  // The bar names both, and what else is changed runs with the last good values.
+  const bar = page.locator(".wx-bar");
+  assert.match(await bar.textContent(), /friction\.column = -1: .*Runs go on with the case's own value/s);
+  assert.match(await bar.textContent(), /wedge\.angle = 32 in/);
+  const others = await after_run(page, type(page, "friction.slope", "0.35"));
+  same(others.energy, told("friction.slope=0.35"));
+  assert.equal(await page.locator(".wx-mistake:visible").count(), 2, "what was typed wrongly stays");
+  await after_run(page, () => field(page, "friction.slope").locator(".wx-reset").click());
+  await after_run(page, type(page, "friction.column", "0.3"));
   const right = await after_run(page, type(page, "wedge.angle", "33 deg"));
   same(right.energy, told("friction.column=0.3", "wedge.angle=33 deg"));
   assert.equal(await page.locator(".wx-mistake:visible").count(), 0);
+  assert.equal(await bar.locator("p").count(), 0);
   assert.deepEqual(faults, []);
   await page.close();
 });
@@ -443,7 +452,7 @@ test("after a change camera, exaggeration, arrows, plots, time and speed are as 
     slider.dispatchEvent(new Event("input"));
   });
   await run.locator(".wl-choice").nth(1).selectOption({ label: "Coil force" });
-  await run.locator(".wl-entry").first().click();
+  await run.locator("button.wl-entry").first().click();
   const seen = () =>
     run.evaluate((own) => ({
       eye: own.dataset.eye,

@@ -128,14 +128,33 @@ test("the page opens from disk in 2 s, without complaints and without network", 
   await page.close();
 });
 
+test("the page begins with a run in 3D, its loop, key numbers, and how many statements hold", async () => {
+  const page = await open();
+  const first = page.locator("main section").first();
+  await first.locator(".wl-run[data-ready]").waitFor();
+  assert.ok(await first.locator(".wl-loop canvas").isVisible());
+  const { claims } = JSON.parse(readFileSync(join(folder, "claims.json"), "utf8"));
+  const hold = claims.filter(({ verdict }) => verdict === "holds").length;
+  const tiles = await first.locator(".tiles").innerText();
+  assert.ok(tiles.includes(`${hold} of ${claims.length}`), tiles);
+  const { averages } = JSON.parse(readFileSync(join(folder, "runs", RUN, "summary.json"), "utf8"));
+  for (const branch of ["up", "down"]) {
+    const { value, unit } = averages[branch].vertical_wedge_force;
+    assert.match(tiles.replaceAll("\u2212", "-"), new RegExp(`${value.toFixed(0)} ${unit}\\s+mean vertical wedge force, bolster going ${branch}`));
+  }
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
 test("an address with a run opens its view; closing it takes the view away", async () => {
   const { page, run } = await openRun();
   await page.waitForTimeout(800);
   assert.deepEqual(faults, []);
-  assert.equal(await run.locator(".wl-plot").count(), 3);
+  assert.equal(await run.locator(".wl-plot").count(), 2);
+  assert.equal(await run.locator(".wl-loop").count(), 1);
   await page.locator(`details[data-run="${RUN}"] > summary`).click();
   await run.waitFor({ state: "detached" });
-  assert.equal(await page.locator(".wl-run, .wl-stage canvas").count(), 0);
+  assert.equal(await page.locator("details .wl-run, details .wl-stage canvas").count(), 0);
   await page.close();
 });
 

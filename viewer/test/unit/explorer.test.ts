@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import type { Measured } from "../../src/explorer/api.js";
+import { colour, MOST } from "../../src/explorer/loops.js";
 import { place, quoted, shownIn, STEPS, typed, valueAt, widened, words } from "../../src/explorer/numbers.js";
 
 const angle: Measured = { value: 32, unit: "deg", si: 0.5585, kind: "angle", low: 20, high: 55, logarithmic: false, signs: null };
@@ -65,4 +66,12 @@ test("a slider keeps its range when a value is typed in the other units", () => 
 test("paths are told in words", () => {
   assert.equal(words("vertical.0.start_frequency"), "vertical: part 1: start frequency");
   assert.equal(words("vertical.points.2.1"), "vertical: points: point 3: value");
+});
+
+test("loops that are shown together have colours of their own, which stay", () => {
+  for (let latest = MOST; latest < 40; latest++) {
+    const shown = Array.from({ length: MOST }, (_, age) => colour(latest - age));
+    assert.equal(new Set(shown).size, MOST);
+    assert.ok(shown.every((own) => /^#[0-9a-f]{6}$/.test(own)));
+  }
 });

@@ -14,6 +14,8 @@ test("keys do what the help says, and no others", () => {
     orbit: () => void done.push("orbit"),
     changeFactor: (by: number) => void done.push(`factor ${by}`),
     nextUnits: () => void done.push("units"),
+    flatten: () => void done.push("flat"),
+    nameBodies: () => void done.push("names"),
     fill: (on?: boolean) => void done.push(`fill ${on}`),
   };
   const keys: [string, boolean][] = [

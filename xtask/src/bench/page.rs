@@ -26,8 +26,9 @@ pub struct Section {
     pub program: &'static [&'static str],
 }
 
-const COLUMNS_OF_RUNS: &str = "Ten seconds each. Mean forces while the bolster rises and falls, friction \
-                               energy per cycle at the side frame, relative residual of the energy ledger, \
+const COLUMNS_OF_RUNS: &str = "Ten seconds each. Mean forces while the bolster rises and falls (constant \
+                               damping: mid stroke; variable: lower stroke), friction energy per cycle at \
+                               the side frame, relative residual of the energy ledger, \
                                accepted steps, explicit ones among them, rejected attempts, wall time. It \
                                includes contact events and output times each 0.01 s, but no files.";
 

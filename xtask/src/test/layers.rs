@@ -20,17 +20,10 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("vehicles", &["car"]),
     ("analysis", &["study"]),
     ("output", &["report", "fmi"]),
+    ("libraries", &["wedgelab-fmu"]),
     (
         "interfaces",
-        &[
-            "wedgelab",
-            "wedgelab-py",
-            "wedgelab-fmu",
-            "benchmarks",
-            "fuzz",
-            "race",
-            "xtask",
-        ],
+        &["wedgelab", "wedgelab-py", "benchmarks", "fuzz", "race", "xtask"],
     ),
 ];
 

@@ -47,6 +47,7 @@ pub fn check(workspace: &Workspace) -> Outcome {
             "--test-concurrency=1",
             "test/browser/page.test.mjs",
             "test/browser/car.test.mjs",
+            "test/browser/pages.test.mjs",
             "test/browser/explorer.test.mjs",
         ],
     );

@@ -1,7 +1,8 @@
 //! Loads over time on free coordinates, in place of prescribed motions.
 
 use super::FreeBody;
-use super::model::{ModelError, Parts};
+use super::model::ModelError;
+use super::mounted::Parts;
 use crate::body::{Body, COORDINATES};
 use crate::motion::Motion;
 

@@ -5,7 +5,8 @@ use numerics::partitioned::Partitioned;
 
 use super::FrameState;
 use super::energy_term::{EnergyTerm, EnergyTermKind};
-use super::model::{ModelError, Mounted, Parts};
+use super::model::ModelError;
+use super::mounted::{Mounted, Parts};
 use crate::body::{Body, Kinematics};
 use crate::contact::Points;
 use crate::link::{Marker, RelativeFrame, Translation};

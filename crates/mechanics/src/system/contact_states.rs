@@ -2,7 +2,8 @@
 //!
 //! Contact states are recorded. They do not change the forces. Thresholds with hysteresis keep rounding from
 //! counting as events:
-//! - a point closes where its gap falls to [`CLOSING_GAP`], and opens where it grows to [`OPENING_GAP`];
+//! - a point closes where its gap falls to [`CLOSING_GAP`], and opens where it grows to [`OPENING_GAP`], at
+//!   which its normal force ends: a point without normal force is open;
 //! - it starts to slip where the load of its friction law rises to [`SLIP_LOAD`], and sticks again where it
 //!   falls to [`STICK_LOAD`]. The load is |v|/v0 with tanh and |T|/(μN) with the bristle.
 
@@ -17,10 +18,13 @@ use crate::contact::{CurvedMotion, PlaneMotion};
 use crate::friction::FrictionLaw;
 use crate::link::RelativeMotion;
 
-/// A point closes at this gap, m.
-pub const CLOSING_GAP: f64 = 0.0;
-/// A point opens at this gap, m: a millionth of an inch.
-pub const OPENING_GAP: f64 = 2.54e-8;
+/// A point closes at this gap, m: where it is pressed in by 1e-11 in. Gaps are rounded to some 1e-14 in; and contacts
+/// a million times as stiff as usual are pressed in by more.
+pub const CLOSING_GAP: f64 = -2.54e-13;
+/// A point opens at this gap, m.
+pub const OPENING_GAP: f64 = 0.0;
+/// The width of the band of hysteresis between them, m.
+const BAND: f64 = OPENING_GAP - CLOSING_GAP;
 /// Load at which slip begins: tanh (|v|/v0; the force is 0.96 of its limit), bristle (|T|/(μN)).
 pub const SLIP_LOAD: [f64; 2] = [2.0, 1.0];
 /// Load at which stick begins: tanh (|v|/v0; the force is 0.76 of its limit), bristle (|T|/(μN)).
@@ -128,15 +132,15 @@ fn margins_of(contact_states: &[u8], gap: Lanes, load: Lanes, law: usize) -> Lan
             contact_states.get(i) == Some(&(contact_state as u8))
         }))
     };
-    let stays_closed = (OPENING_GAP - gap) / OPENING_GAP;
+    let stays_closed = (OPENING_GAP - gap) / BAND;
     let (stays_stuck, keeps_slipping) = (SLIP_LOAD[law] - load, load - STICK_LOAD[law]);
     let friction = if all(ContactState::Slip) {
         keeps_slipping
     } else {
         Lanes::blend(which(ContactState::Stick), stays_stuck, keeps_slipping)
     };
-    // A closed point in the band of hysteresis carries no force, so its load has no meaning; nor has NaN.
-    let bears = gap.below(Lanes::zero()).and(friction.below(stays_closed));
+    // Without a force the load has no meaning; nor has NaN.
+    let bears = gap.below(OPENING_GAP.into()).and(friction.below(stays_closed));
     let stays = Lanes::blend(bears, friction, stays_closed);
     Lanes::blend(which(ContactState::Open), stays_open, stays)
 }
@@ -380,22 +384,22 @@ mod tests {
             ContactState::Stick,
         ]
         .map(|contact_state| contact_state as u8);
-        let half = 0.5 * OPENING_GAP;
+        let half = 0.5 * CLOSING_GAP;
         for law in 0..2 {
             for gaps in [
                 [half; 4],
-                [-1e-6, -1e-6, -1e-6, 2.0 * OPENING_GAP],
+                [-1e-6, -1e-6, -1e-6, 2.0 * BAND],
                 [1e-6, half, half, 0.0],
             ] {
                 for load in [0.0, 0.5, 1.0, 1.5, 3.0, f64::NAN] {
                     let found =
                         margins_of(&contact_states, Lanes::new(gaps), Lanes::from(load), law).to_array();
                     for ((contact_state, gap), found) in contact_states.iter().zip(gaps).zip(found) {
-                        let opens = (OPENING_GAP - gap) / OPENING_GAP;
-                        // In the band of hysteresis there is no normal force, hence no friction.
+                        let opens = (OPENING_GAP - gap) / BAND;
+                        // Without a normal force there is no friction.
                         let expected = match ContactState::from_number(*contact_state) {
                             ContactState::Open => gap - CLOSING_GAP,
-                            _ if gap >= 0.0 || load.is_nan() => opens,
+                            _ if gap >= OPENING_GAP || load.is_nan() => opens,
                             ContactState::Stick => opens.min(SLIP_LOAD[law] - load),
                             ContactState::Slip => opens.min(load - STICK_LOAD[law]),
                         };

@@ -1,7 +1,7 @@
 //! Updates the kinematics of frames, markers and bodies at a time and a state: of all, or of those at one
 //! face.
 
-use super::model::Mounted;
+use super::mounted::Mounted;
 use super::{FrameState, System};
 use crate::body::Kinematics;
 use crate::frame::Frame;

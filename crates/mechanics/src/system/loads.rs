@@ -5,7 +5,7 @@
 
 use super::forces::Mountable;
 use super::observe::{BodyState, CoilState, FaceState};
-use super::{ContactState, Mounted, STICK_LOAD, System};
+use super::{CLOSING_GAP, ContactState, Mounted, STICK_LOAD, System};
 use crate::body::Kinematics;
 use crate::contact::{ContactFace, Interface};
 use crate::link::{BodyWrench, RelativeMotion};
@@ -69,10 +69,15 @@ impl FaceState {
         load
     }
 
-    /// Returns the state of the whole face: it slips where one of its points does, else sticks where one does.
+    /// Returns the state of the whole face without a history: it slips where one of its points does, else sticks
+    /// where one does.
     #[must_use]
     pub fn contact_state(&self) -> ContactState {
-        let mut pressed = self.points.iter().filter(|point| point.gap < 0.0).peekable();
+        let mut pressed = self
+            .points
+            .iter()
+            .filter(|point| point.gap < CLOSING_GAP)
+            .peekable();
         if pressed.peek().is_none() {
             ContactState::Open
         } else if pressed.any(|point| point.friction.load >= STICK_LOAD[1]) {

@@ -6,6 +6,7 @@
 
 mod applied_load;
 mod assembler;
+mod build;
 mod chain;
 mod contact_losses;
 mod contact_states;
@@ -23,6 +24,7 @@ mod jacobian_vector_product;
 mod kinematics;
 mod loads;
 mod model;
+mod mounted;
 mod observe;
 mod relative;
 mod spectral_radius;
@@ -57,8 +59,9 @@ pub use evaluation::{CoilEvaluation, ElementEvaluation, Load, PointEvaluation};
 pub use inputs::InputError;
 pub use jacobian_vector_product::{Direction, JacobianVectorProduct, MotionChange};
 pub use loads::{CoilLoad, FaceLoad, Loads};
-pub(crate) use model::Parts;
-pub use model::{Model, ModelError, Mounted};
+pub use model::{Model, ModelError};
+pub use mounted::Mounted;
+pub(crate) use mounted::Parts;
 pub use observe::{BodyState, CoilState, ElementState, Energies, FaceState, Observation};
 pub use vibration::{Held, NoVibration, Vibration, Vibrations};
 
@@ -237,7 +240,7 @@ impl System {
     /// The model refers to bodies that do not exist, has no free body, or something else that
     /// [`ModelError`] names.
     pub fn new(model: Model) -> Result<Self, ModelError> {
-        model::build(model)
+        build::build(model)
     }
 
     /// Returns the bodies.
@@ -493,7 +496,7 @@ impl Problem for System {
 }
 
 /// Returns the parts of the state vector and the structure of the Jacobian.
-fn structure(free: &[FreeBody], couplings: Vec<(usize, usize)>, model: &model::Parts) -> Structure {
+fn structure(free: &[FreeBody], couplings: Vec<(usize, usize)>, model: &Parts) -> Structure {
     Structure {
         bodies: free.iter().map(|free| free.free.len()).collect(),
         couplings,

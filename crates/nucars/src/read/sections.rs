@@ -111,17 +111,15 @@ pub fn required<'a>(
     // A file without any keyword has one mistake, not one for each.
     if found.is_none() && !sections.is_empty() {
         let off = sections.iter().find(|section| section.is(keyword));
-        let place = off.map_or_else(
-            || {
-                sections
-                    .first()
-                    .map_or(Span::default(), |first| first.keyword.span)
-            },
-            |off| off.keyword.span,
-        );
+        // What is missing stands nowhere: the end of the file is where it would go on.
+        let end = sections.last().map_or(0, |last| last.body.end as usize);
+        let place = off.map_or(Span::new(end.saturating_sub(1), end), |off| off.keyword.span);
         let help = match off {
             Some(_) => "take away the `$` before the `\\`".to_owned(),
-            None => format!("a line `\\{keyword}`, with the `\\` in the first column, begins it"),
+            None => format!(
+                "a line `\\{keyword}`, with the `\\` in the first column, begins it; if the file had it, it was cut \
+                 off here"
+            ),
         };
         findings.error(
             "missing-section",

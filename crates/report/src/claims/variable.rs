@@ -102,8 +102,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         place: "section 5.1, figure 5-3, page 43",
         says: "The toe angles are so small that the vertical forces of the three toe cases differ very \
                little.",
-        test: "the mean forces on the side frame of the three toe cases differ by no more than 10 % going \
-               down, and by no more than 10 % going up",
+        test: "the mean forces on the side frame (lower stroke) of the three toe cases differ by no more than 10 % \
+               going down, and by no more than 10 % going up",
         runs: [vd_out, vd_none, vd_in],
         holds: all([
             within(0.1, [vd_out, vd_none, vd_in].map(|run| size(run, side_frame_force, going_down))),

@@ -100,8 +100,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: VariableYawed,
         place: "section 5.2, figure 5-11, pages 49 and 50",
         says: "With yaw the vertical forces of the toe cases differ by much.",
-        test: "the mean forces on the side frame of the three toe cases differ by more than 10 %, going \
-               down or going up",
+        test: "the mean forces on the side frame (lower stroke) of the three toe cases differ by more than 10 %, \
+               going down or going up",
         runs: [vd_out_yaw, vd_none_yaw, vd_in_yaw],
         holds: !all([
             within(0.1, [vd_out_yaw, vd_none_yaw, vd_in_yaw].map(|run| size(run, side_frame_force, going_down))),
@@ -180,7 +180,7 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: VariableYawed,
         place: "section 5.2, figures 5-11 and 5-14, page 52",
         says: "Going down, toe in has the largest vertical force.",
-        test: "size of the mean force on the side frame going down: toe in > toe out, toe in > no toe",
+        test: "size of the mean force on the side frame (lower stroke) going down: toe in > toe out, toe in > no toe",
         runs: [vd_in_yaw, vd_out_yaw, vd_none_yaw],
         holds: all([
             size(vd_in_yaw, side_frame_force, going_down) > size(vd_out_yaw, side_frame_force, going_down),

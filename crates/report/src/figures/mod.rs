@@ -6,10 +6,13 @@
 //! - [`run`]: what the thesis lacks, run by run; `pressure`: over faces with grids of points.
 //! - [`power_flow`]: where the energy of a cycle goes, of any run.
 //! - [`truck`]: a run of a three-piece truck; [`car`]: of a car on track, over the distance.
+//! - [`certificate`]: of a car in regimes, over the speed.
+//! - [`side_by_side`]: runs over each other, read back from their folders.
 //! - [`sensitivity`]: statements that hold over the contact stiffness.
 //! - [`study`]: main effects and contours of studies; [`jam`]: their jam map.
 
 pub mod car;
+pub mod certificate;
 pub mod comparison;
 pub mod jam;
 pub mod model;
@@ -17,6 +20,7 @@ pub mod power_flow;
 mod pressure;
 pub mod run;
 pub mod sensitivity;
+pub mod side_by_side;
 pub mod study;
 pub mod thesis;
 pub mod truck;

@@ -17,17 +17,20 @@ const NAMED: [(&str, Colour); STATES.len()] = [
 /// What is smaller than this share of the inflow is not drawn: it would be thinner than a line.
 const THIN: f64 = 1e-3;
 
-/// Returns the figure of a run; `None` if it has no energies of a cycle.
+/// Returns the figure of a run; `None` if it has no energies.
 #[must_use]
 pub fn figure(energy: &EnergySummary) -> Option<Figure> {
     let flow = PowerFlow::of(energy)?;
     let unit = flow.unit.as_str();
     let whole = flow.inflow();
-    let cycles = energy.cycles;
+    let over = match &energy.distance {
+        None => format!("Mean of {} whole cycles", energy.cycles),
+        Some(distance) => format!("The whole run of {} {}", digits(distance.value), distance.unit),
+    };
     Some(Figure {
-        title: format!("Energy of a cycle: {} {unit}", digits(whole)),
+        title: format!("Energy of a {}: {} {unit}", energy.whole(), digits(whole)),
         caption: format!(
-            "Mean of {cycles} whole cycles, from {} s to {} s. From left to right: what is put in (work of \
+            "{over}, from {} s to {} s. From left to right: what is put in (work of \
              prescribed motions and loads; stored energy that is given back), what flows through, where it \
              goes, and in which state the contacts were where friction took it. Widths are proportional to \
              energies. In: {} {unit}; out: {} {unit}; the difference of {:.1e} {unit} is the residual of the \

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 use quantity::{Kind, System as Units};
 use study::energy;
+use study::metrics::{WINDOWS, window_of};
 use study::plausibility;
 use study::summary::SummaryValue;
 
@@ -50,9 +51,10 @@ pub(super) fn section(comparison: &Comparison<'_>) -> Markup {
 fn agreement(group: &Group, units: Units) -> Markup {
     let yaw = if group.yawed { "with yaw" } else { "without yaw" };
     let kinds = [Kind::Force, Kind::Force, Kind::Energy, Kind::Energy];
+    let window = window_of(group.damping);
     let names = [
-        "mean force, up",
-        "mean force, down",
+        &format!("mean force up, {window}"),
+        &format!("mean force down, {window}"),
         "energy per cycle",
         "loop area",
     ];
@@ -100,7 +102,8 @@ fn trucks(trucks: &[TruckOutcome]) -> Markup {
     html! {
         h3 { "All runs of the half-truck" }
         p {
-            "Wedge 127. Type 6.8 has no angle: no toe and toe out are the same to it. The yawed input as \
+            "Wedge 127. Mean force: column friction on the side frame over the window that is named; "
+            (WINDOWS) ". Type 6.8 has no angle: no toe and toe out are the same to it. The yawed input as \
              printed hardly yaws; as intended the springs against it are taken out, and a slow undamped \
              swing about the mean stays. Jammed: share of the time in which no steady sliding exists and \
              only the limit of the files holds the normal force. Ledger residual: the largest at any output \
@@ -111,6 +114,7 @@ fn trucks(trucks: &[TruckOutcome]) -> Markup {
                 thead {
                     tr {
                         th scope="col" { "run" }
+                        th scope="col" { "window of mean force" }
                         th.number scope="col" { "mean force, up" br; span.unit { (unit(up)) } }
                         th.number scope="col" { "mean force, down" br; span.unit { (unit(down)) } }
                         th.number scope="col" { "energy per cycle" br; span.unit { (unit(energy)) } }
@@ -127,6 +131,7 @@ fn trucks(trucks: &[TruckOutcome]) -> Markup {
                         @let summary = &result.summary;
                         tr {
                             th scope="row" { (entry.name()) }
+                            td { (window(outcome)) }
                             td.number { (cell(up(outcome))) }
                             td.number { (cell(down(outcome))) }
                             td.number { (cell(energy(outcome))) }
@@ -153,6 +158,11 @@ fn trucks(trucks: &[TruckOutcome]) -> Markup {
             }
         }
     }
+}
+
+fn window((_, result): &TruckOutcome) -> &str {
+    let wedge = result.summary.wedges.get(COMPONENT);
+    wedge.map_or("", |wedge| &wedge.window)
 }
 
 fn up((_, result): &TruckOutcome) -> Option<&SummaryValue> {

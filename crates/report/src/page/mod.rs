@@ -2,11 +2,15 @@
 
 mod agreement;
 pub mod car_run;
+pub mod certificate;
 mod claims;
+mod contents;
 pub mod explorer;
 pub mod half_truck_run;
 mod runs;
 mod sensitivity;
+mod short;
+pub mod side_by_side;
 pub mod study;
 pub mod truck;
 pub mod truck_run;
@@ -33,6 +37,8 @@ pub const FILE_NAME: &str = "index.html";
 pub const FIGURES: &str = "figures";
 
 const STYLE: &str = include_str!("style.css");
+/// What pages do without the viewer.
+const SCRIPT: &str = include_str!("page.js");
 
 /// A figure with its drawing.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,8 +108,8 @@ pub fn render(contents: &Contents<'_>) -> String {
         (program) "."
     };
     let nav = html! {
-        nav aria-label="Contents" {
             ul {
+                @if !(contents.outcomes.is_empty() && contents.beyond.is_empty()) { li { a href="#short" { "In short" } } }
                 @if !contents.outcomes.is_empty() { li { a href="#runs" { "Runs" } } }
                 @if !contents.claims.claims.is_empty() {
                     li { a href="#claims" { "The thesis's statements, one by one" } }
@@ -117,9 +123,9 @@ pub fn render(contents: &Contents<'_>) -> String {
                 li { a href="#assumptions" { "Assumptions" } }
                 li { a href="#files" { "Files" } }
             }
-        }
     };
     let main = html! {
+        (short::section(contents))
         (runs::table(contents.outcomes))
         (claims::tables(contents.claims, contents.sensitivity))
         @if let Some(found) = contents.sensitivity { (sensitivity::section(found)) }
@@ -238,15 +244,22 @@ fn run_page(
     document(&heading, &lead, None, main, data)
 }
 
-/// The fold in which a run is seen moving.
+/// The part of the page of one run in which it is seen moving.
 fn moving(name: &str) -> Markup {
     html! {
-        details id={ "run-" (anchor(name)) } data-run=(name) open { summary { "Moving" } }
+        section { h2 id="moving" { "Moving" } (moving_as(name, name, true)) }
     }
 }
 
-/// A page with its heading, what stands below it, links to its parts (may be empty), and its interactive part
-/// if there is one.
+/// The fold in which a run is seen moving, open or not.
+fn moving_as(name: &str, title: &str, open: bool) -> Markup {
+    html! {
+        details id={ "run-" (anchor(name)) } data-run=(name) open[open] { summary { (title) } }
+    }
+}
+
+/// A page with its heading, what stands below it, a list of links to its parts (none: to its headings), and
+/// its interactive part if there is one.
 fn document(
     heading: &str,
     lead: &impl Render,
@@ -254,6 +267,11 @@ fn document(
     main: &Markup,
     interactive: Option<(Viewer, &str)>,
 ) -> String {
+    let (main, found) = match nav {
+        Some(_) => (main.0.clone(), None),
+        None => contents::of(&main.0),
+    };
+    let nav = nav.or(found.as_ref());
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -264,10 +282,14 @@ fn document(
                 style { (PreEscaped(STYLE)) }
                 @if let Some((viewer, _)) = interactive { style { (PreEscaped(viewer.style)) } }
             }
-            body {
+            body.sided[nav.is_some()] {
+                a.skip href="#main" { "Skip to the content" }
                 header { h1 { (heading) } p.lead { (lead) } }
-                @if let Some(nav) = nav { (nav) }
-                main { (main) }
+                @if let Some(nav) = nav {
+                    nav aria-label="Contents" { details open { summary { "Contents" } (nav) } }
+                }
+                main id="main" { (PreEscaped(main)) }
+                script { (PreEscaped(SCRIPT)) }
                 @if let Some((viewer, data)) = interactive {
                     script type="application/json" id="wedgelab-view" { (PreEscaped(data)) }
                     script { (PreEscaped(viewer.script)) }
@@ -278,9 +300,11 @@ fn document(
     page.into_string()
 }
 
-/// A name as the target of links, where points are not allowed.
+/// A name as the target of links: letters, digits and `-`, all else is `_`.
 fn anchor(name: &str) -> String {
-    name.replace('.', "_")
+    let plain = |sign: char| sign.is_ascii_alphanumeric() || sign == '-';
+    let signs = name.chars();
+    signs.map(|sign| if plain(sign) { sign } else { '_' }).collect()
 }
 
 /// A drawing as part of the page: a picture with a name, scaled to the page's width. Its description stands

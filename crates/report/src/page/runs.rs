@@ -1,6 +1,7 @@
 //! The table of runs, their assumptions, and their files.
 
 use maud::{Markup, html};
+use study::metrics::WINDOWS;
 use study::summary::{Summary, SummaryValue};
 
 use super::{Contents, FIGURES};
@@ -24,8 +25,8 @@ pub(super) fn table(outcomes: &[Outcome]) -> Markup {
             h2 id="runs" { "Runs" }
             p {
                 "Each run gives the bolster a vertical motion and computes the wedge. Mean force: vertical \
-                 wedge force (friction of the column on the side frame, positive up), averaged over the \
-                 branch in which the bolster goes up or down. Energy per cycle: lost in friction at the \
+                 wedge force (friction of the column on the side frame, positive up), averaged while the \
+                 bolster goes up or down over the window that is named; " (WINDOWS) ". Energy per cycle: lost in friction at the \
                  side frame. Equivalent damping: that energy over π ω A². Ledger residual: the largest at \
                  any output time, over the largest of work, losses and change of stored energy; above 1e-3 \
                  a run has a warning, above 1e-2 it has failed."
@@ -38,6 +39,7 @@ pub(super) fn table(outcomes: &[Outcome]) -> Markup {
                             th scope="col" { "damping" }
                             th scope="col" { "toe" }
                             th.number scope="col" { "yaw" br; span.unit { "rad" } }
+                            th scope="col" { "window of mean force" }
                             th.number scope="col" { "mean force, up" br; span.unit { (unit(up)) } }
                             th.number scope="col" { "mean force, down" br; span.unit { (unit(down)) } }
                             th.number scope="col" { "energy per cycle" br; span.unit { (unit(energy)) } }
@@ -54,6 +56,7 @@ pub(super) fn table(outcomes: &[Outcome]) -> Markup {
                                 td { (case.parameters.damping.name()) }
                                 td.plain { (toe_style(case.parameters.toe).0) }
                                 td.number { (yaw(case)) }
+                                td { (summary.averages.window) }
                                 td.number { (cell(up(summary))) }
                                 td.number { (cell(down(summary))) }
                                 td.number { (cell(energy(summary))) }

@@ -9,8 +9,9 @@ use study::summary::SummaryValue;
 use study::truck::WEDGE_NAMES;
 use study::truck::summary::TruckSummary;
 
-use super::{Viewer, doubts, interactive, moving, run_page, shown_in};
+use super::{Viewer, doubts, interactive, moving, run_page, shown_in, side_by_side};
 use crate::figures::truck::{TruckRun, exhibits};
+use crate::run_folder::KeyNumber;
 use crate::view::run::{Detail, Recording};
 
 /// The page as HTML; it needs nothing else to be shown.
@@ -26,6 +27,10 @@ pub fn render(run: &TruckRun, viewer: Option<Viewer>) -> Result<String, serde_js
     let main = html! {
         (doubts(summary))
         @if data.is_some() { (moving(&summary.name)) }
+        section {
+            h2 { "Key numbers" }
+            (side_by_side::table(&[("value", KeyNumber::of_truck(summary))], summary.units))
+        }
         section { h2 { "Wedges" } (wedges(summary)) }
         @if let Some(loss) = &summary.energy.loss {
             section { h2 { "Energy of a cycle" } (losses(&summary.energy, loss)) }

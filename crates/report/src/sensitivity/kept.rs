@@ -6,7 +6,7 @@
 //! ```
 
 use std::collections::BTreeMap;
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs::{self, OpenOptions, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -21,6 +21,7 @@ use super::axes::AXES;
 use super::point::Found;
 use super::space::{FRICTIONS, Place, Space};
 use crate::claims::{Verdict, claims};
+use crate::files::Locked;
 
 /// The folder, beside the report.
 pub const FOLDER: &str = "sensitivity";
@@ -107,8 +108,7 @@ fn verdict(letter: char) -> Option<Verdict> {
 pub struct Kept {
     folder: PathBuf,
     found: BTreeMap<String, Found>,
-    /// Locked; the system unlocks it when the program ends, however it ends.
-    points: Mutex<File>,
+    points: Mutex<Locked>,
 }
 
 impl Kept {
@@ -128,8 +128,7 @@ impl Kept {
             .append(true)
             .create(true)
             .open(&file);
-        let mut points = opened.map_err(failed(&file))?;
-        points.try_lock().map_err(|error| match error {
+        let mut points = Locked::new(opened.map_err(failed(&file))?).map_err(|error| match error {
             TryLockError::WouldBlock => KeptError::Busy {
                 folder: folder.to_owned(),
             },
@@ -137,7 +136,7 @@ impl Kept {
         })?;
         let description = describe(space);
         let manifest = folder.join(SPACE_FILE);
-        let length = points.metadata().map_err(failed(&file))?.len();
+        let length = points.file().metadata().map_err(failed(&file))?.len();
         let is_same = read_text(&manifest, &SPACE_EXPECTED).is_ok_and(|found| found == description);
         if !is_same {
             if length > 0 && !anew {
@@ -145,13 +144,13 @@ impl Kept {
                     folder: folder.to_owned(),
                 });
             }
-            points.set_len(0).map_err(failed(&file))?;
+            points.file().set_len(0).map_err(failed(&file))?;
             fs::write(&manifest, &description).map_err(failed(&manifest))?;
         }
         let text = read(&file, &POINTS_EXPECTED).map_err(|error| failed(&file)(reason(error)))?;
         if text.last().is_some_and(|last| *last != b'\n') {
             // The next line must not go on in one that was cut off.
-            points.write_all(b"\n").map_err(failed(&file))?;
+            points.file().write_all(b"\n").map_err(failed(&file))?;
         }
         let lines = text.split(|byte| *byte == b'\n');
         Ok(Self {
@@ -193,7 +192,7 @@ impl Kept {
             .and_then(|mut text| {
                 text.push('\n');
                 let mut points = self.points.lock().unwrap_or_else(PoisonError::into_inner);
-                points.write_all(text.as_bytes())
+                points.file().write_all(text.as_bytes())
             });
         written.map_err(|reason| KeptError::File {
             file: self.folder.join(POINTS_FILE),

@@ -122,10 +122,7 @@ fn choices(
     let values = values.iter().map(|toml| Value::Toml((*toml).to_owned()));
     OpenParameter {
         name,
-        factor: Factor {
-            paths: vec![key.to_owned()],
-            levels: Levels::Values(values.collect()),
-        },
+        factor: Factor::new(vec![key.to_owned()], Levels::Values(values.collect())),
         labels,
         decided: labels.first().copied().unwrap_or_default(),
         reason,
@@ -138,16 +135,16 @@ pub fn open_parameters() -> Vec<OpenParameter> {
     vec![
         OpenParameter {
             name: "contact stiffness",
-            factor: Factor {
-                paths: vec![STIFFNESS_KEY.to_owned()],
-                levels: Levels::Range {
+            factor: Factor::new(
+                vec![STIFFNESS_KEY.to_owned()],
+                Levels::Range {
                     from: LADDER[0],
                     to: LADDER[LADDER.len() - 1],
                     unit: "lbf/in".to_owned(),
                     logarithmic: true,
                     count: 1,
                 },
-            },
+            ),
             labels: &[],
             decided: "2.5e5 lbf/in",
             reason: "a corner; the thesis gives none. A tenth to ten times a quarter of the comparison \

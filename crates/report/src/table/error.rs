@@ -202,6 +202,16 @@ impl TableError {
         }
     }
 
+    /// The table of a study, which has no times.
+    pub(super) fn of_study(file: &Path) -> Self {
+        Self::Foreign {
+            file: file.to_owned(),
+            what: "the table of a study, which has no times",
+            advice: "its page, index.html beside it, draws it; spreadsheets, pandas and DuckDB read it"
+                .to_owned(),
+        }
+    }
+
     /// A file of another type.
     pub(super) fn of_type(file: &Path, found: FileType) -> Self {
         Self::Foreign {

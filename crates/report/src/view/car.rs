@@ -9,7 +9,7 @@
 use car::{Mass, Parameters, Wheels};
 use study::car::CarCase;
 use study::car::run::CarResult;
-use truck::{WEDGE_NAMES, WedgeKind};
+use truck::WEDGE_NAMES;
 use wheelrail::profile::{Profile, ProfileError, nominal};
 use wheelrail::track::RailLines;
 
@@ -220,19 +220,10 @@ fn edges(mass: &Mass) -> [f64; 3] {
     [length, width.min(2.0 * half_width), high]
 }
 
-/// A truck in the axes of the track at its bolster. Split wedges are drawn in one piece: a car's results have
-/// the means of their halves.
+/// A truck in the axes of the track at its bolster.
 fn add_truck(scene: &mut Scene, parameters: &truck::Parameters, prefix: &str) {
     let frame = prefix.trim_end_matches('_').to_owned();
-    let mut parameters = parameters.clone();
-    for wedge in parameters
-        .wedges
-        .iter_mut()
-        .filter(|wedge| wedge.kind == WedgeKind::Split)
-    {
-        wedge.kind = WedgeKind::Body;
-    }
-    let carriage = three_piece::carriage(&parameters, prefix, &[None, None, None]);
+    let carriage = three_piece::carriage(parameters, prefix, &[None, None, None]);
     let contacts = carriage.wedges.iter().flat_map(|wedge| {
         carriage.faces(wedge, |face| {
             let own = |what: &str| format!("{}_{face}_{what}", wedge.key);

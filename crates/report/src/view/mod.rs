@@ -2,7 +2,7 @@
 //!
 //! - [`data`]: numbers as text, each list once.
 //! - [`chart`]: figures as curves instead of drawings.
-//! - [`run`]: a run's columns, and which belong in one plot.
+//! - [`run`]: a run's columns, and which belong in one plot; [`kept`]: a run as its own page keeps it.
 //! - [`scene`]: what a run looks like: bodies, solids, coils, contacts; [`truck`] and [`half_truck`]: that of
 //!   a truck and of a half-truck, by what both have in common; [`rolling`]: track, wheels and contact patches
 //!   of all that rolls, [`wheelset`]: one wheelset, [`car`]: a car of two trucks.
@@ -14,6 +14,7 @@ mod carriage;
 pub mod chart;
 pub mod data;
 pub mod half_truck;
+pub mod kept;
 mod pressure;
 pub mod rolling;
 pub mod run;
@@ -28,6 +29,7 @@ use serde::Serialize;
 
 use crate::figures::Exhibit;
 use data::{Data, List};
+use kept::KeptView;
 use run::Recording;
 
 /// The name and version of what is written.
@@ -99,8 +101,27 @@ impl View {
     /// # Errors
     /// What the writer of JSON says.
     pub fn to_json(&self) -> Result<String, serde_json::Error> {
-        Ok(serde_json::to_string(self)?.replace('<', "\\u003c"))
+        Ok(escaped(&serde_json::to_string(self)?))
     }
+
+    /// The same with runs that come from other pages.
+    ///
+    /// # Errors
+    /// What the writer of JSON says.
+    pub fn to_json_with(
+        &self,
+        kept: impl IntoIterator<Item = KeptView>,
+    ) -> Result<String, serde_json::Error> {
+        let mut document = serde_json::to_value(self)?;
+        for own in kept {
+            own.add_to(&mut document);
+        }
+        Ok(escaped(&serde_json::to_string(&document)?))
+    }
+}
+
+fn escaped(json: &str) -> String {
+    json.replace('<', "\\u003c")
 }
 
 /// A kind's name in the document.

@@ -9,8 +9,8 @@ use study::car::motions::MotionTable;
 use study::car::run::CarResult;
 use study::contacts::ContactTable;
 use study::half_truck::{HalfTruckCase, HalfTruckResult};
-use study::truck::TruckCase;
 use study::truck::run::TruckResult;
+use study::truck::{TruckCase, WEDGE_NAMES};
 use study::wheelset::WheelsetCase;
 use study::wheelset::run::WheelsetResult;
 use wedge::outputs::{CORNERS, FACES};
@@ -19,6 +19,7 @@ use super::data::{Data, Precision};
 use super::scene::{self, Scene};
 use super::{car, half_truck, kind_name, truck, wheelset};
 use crate::figures::Outcome;
+use crate::overlay::moves;
 
 /// The most rows of a thinned run.
 const ROWS: usize = 1251;
@@ -36,6 +37,9 @@ pub struct RunView {
     pub columns: BTreeMap<String, ViewColumn>,
     /// Columns that belong in one plot; the first ones are shown first.
     pub plots: Vec<Plot>,
+    /// Loops: one column over another, the first one shown first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub loops: Vec<Loop>,
     /// What it looks like; missing if it cannot be built.
     pub scene: Option<Scene>,
 }
@@ -63,6 +67,15 @@ pub struct Plot {
     pub title: String,
     /// Columns with the names of their curves.
     pub curves: Vec<(String, String)>,
+}
+
+/// Loops in one plot.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Loop {
+    /// Its title.
+    pub title: String,
+    /// Columns along both axes, with the names of the curves.
+    pub curves: Vec<[String; 3]>,
 }
 
 /// How much of a run is kept.
@@ -173,7 +186,12 @@ impl Recording {
         };
         let rows = |values: &[f64]| -> Vec<f64> { values.iter().step_by(stride).copied().collect() };
         let mut columns = BTreeMap::new();
+        let has = |name: &str| find(name).is_some_and(|(own, values)| moves(own.kind, values));
+        let loops = loops(plots.iter().flat_map(|plot| &plot.curves), has);
+        let of_loops = loops.iter().flat_map(|own| &own.curves);
+        let of_loops = of_loops.flat_map(|[x, y, _]| [x, y]);
         let named = plots.iter().flat_map(|plot| &plot.curves).map(|(name, _)| name);
+        let named = named.chain(of_loops);
         let seen = scene.iter().flat_map(Scene::columns);
         let exact: BTreeSet<&String> = scene.iter().flat_map(Scene::exact_columns).collect();
         for name in named.chain(seen) {
@@ -202,9 +220,35 @@ impl Recording {
             time: data.keep(&rows(times), Precision::Exact),
             columns,
             plots,
+            loops,
             scene,
         };
         Self { view, data }
+    }
+
+    /// The same under another name.
+    #[must_use]
+    pub fn named(mut self, name: &str) -> Self {
+        name.clone_into(&mut self.view.name);
+        self
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.view.name
+    }
+
+    /// Its title.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        &self.view.title
+    }
+
+    /// Whether it has a 3D view.
+    #[must_use]
+    pub fn has_scene(&self) -> bool {
+        self.view.scene.is_some()
     }
 
     /// The view, its lists put to the others.
@@ -227,6 +271,87 @@ impl Recording {
 fn table<'t>(columns: &'t [Column], values: &'t [Vec<f64>]) -> Table<'t> {
     let values = values.iter().map(Vec::as_slice);
     columns.iter().zip(values).collect()
+}
+
+/// The loops that a run has: of pairs of columns that hold force over travel or moment over angle, of all
+/// models, those that both move. `plotted` are the columns of its plots, which tell the names of wedges.
+fn loops<'p>(plotted: impl Iterator<Item = &'p (String, String)>, moves: impl Fn(&str) -> bool) -> Vec<Loop> {
+    let made = |title: &str, curves: Vec<[&str; 3]>| Loop {
+        title: title.to_owned(),
+        curves: curves
+            .into_iter()
+            .filter(|[x, y, _]| moves(x) && moves(y))
+            .map(|own| own.map(str::to_owned))
+            .collect(),
+    };
+    let strokes: Vec<Loop> = plotted
+        .filter_map(|(name, label)| {
+            let stem = name.strip_suffix("_column_friction")?;
+            let [x, y] = ["stroke", "column_friction"].map(|what| format!("{stem}_{what}"));
+            let own = made("", vec![[&x, &y, label]]);
+            (!own.curves.is_empty()).then_some(own)
+        })
+        .collect();
+    let strokes = Loop {
+        title: "Column friction over stroke".to_owned(),
+        curves: strokes.into_iter().flat_map(|own| own.curves).collect(),
+    };
+    let friction = |side: &str| {
+        ["leading", "trailing"]
+            .map(|end| (format!("{end}_{side}_column_friction_z"), format!("{end} {side}")))
+    };
+    let wedges: Vec<(String, String)> = ["left", "right"].into_iter().flat_map(friction).collect();
+    let wedges = wedges.iter().map(|(name, label)| ["bolster_z", name, label]);
+    let in_car = |truck: usize| {
+        let of = |wedge: &str| {
+            let stem = format!("truck_{truck}_{wedge}");
+            [
+                format!("{stem}_z"),
+                format!("{stem}_column_friction_z"),
+                wedge.replace('_', " "),
+            ]
+        };
+        WEDGE_NAMES.map(of)
+    };
+    let cars = [1, 2].map(in_car);
+    let rise = |truck: usize| {
+        cars[truck]
+            .each_ref()
+            .map(|own| own.each_ref().map(String::as_str))
+    };
+    let mut loops = vec![
+        made(
+            "Vertical wedge force over travel",
+            vec![["bolster_vertical", "vertical_wedge_force", "wedge"]],
+        ),
+        made(
+            "Nest loads over travel",
+            vec![
+                ["bolster_z", "left_nest_vertical_force", "left"],
+                ["bolster_z", "right_nest_vertical_force", "right"],
+            ],
+        ),
+        made("Column friction over travel", wedges.collect()),
+        made(
+            "Warp moment over warp angle",
+            vec![
+                ["warp_angle", "warp_moment", "truck"],
+                ["truck_1_warp_angle", "truck_1_warp_moment", "front truck"],
+                ["truck_2_warp_angle", "truck_2_warp_moment", "rear truck"],
+            ],
+        ),
+        strokes,
+        made(
+            "Column friction over the wedge's rise, front truck",
+            rise(0).to_vec(),
+        ),
+        made(
+            "Column friction over the wedge's rise, rear truck",
+            rise(1).to_vec(),
+        ),
+    ];
+    loops.retain(|own| !own.curves.is_empty());
+    loops
 }
 
 fn column(column: &Column, values: &[f64], precision: Precision, data: &mut Data) -> ViewColumn {

@@ -1,11 +1,12 @@
-//! The built-in cars, after the regimes by which freight cars are assessed. Every one is the text of a case
-//! file.
-//!
-//! Amplitudes and curves are remembered of AAR M-1001, chapter XI: check them against your edition.
+//! The built-in cars, after the [regimes](Regime) by which freight cars are assessed. Every one is the text of
+//! a case file.
 
 use std::sync::LazyLock;
 
+use quantity::Quantity;
+
 use super::CarCase;
+use super::regime::Regime;
 use crate::case::builtin::{BuiltIn, Group, names_in, text_in};
 use crate::case::{CaseError, Tables};
 
@@ -31,36 +32,23 @@ direction = \"lateral\"
 seed = 3
 ";
 
-/// A curve to the left with spirals at both ends: lengths of tangent, spiral and curve (ft), degree,
-/// superelevation (in).
-fn curve([tangent, spiral, curve]: [f64; 3], degree: f64, superelevation: f64, after: &str) -> String {
-    format!(
-        "[[track.segments]]
-tangent = \"{tangent} ft\"
-[[track.segments]]
-spiral = \"{spiral} ft\"
-[[track.segments]]
-curve = \"{curve} ft\"
-degree = \"{degree} deg\"
-direction = \"left\"
-superelevation = \"{superelevation} in\"
-{after}"
-    )
+/// The track of a regime, as a line of a case.
+fn track_of(regime: &str) -> String {
+    let track = Regime::named(regime).map_or("{}", |own| &own.track);
+    format!("track = {track}\n")
 }
 
-/// Ten low joints 39 ft apart, 0.75 in deep, of these rails, from a distance (ft) on.
-fn joints(rails: &str, start: f64) -> String {
-    format!(
-        "[[track.irregularities]]
-shape = \"joints\"
-rails = \"{rails}\"
-direction = \"vertical\"
-depth = \"0.75 in\"
-spacing = \"39 ft\"
-joints = 10
-start = \"{start} ft\"
-"
-    )
+/// A car in a regime at the speed with this place among the regime's own.
+fn in_regime(name: &str, lading: &str, place: usize) -> Option<BuiltIn> {
+    let regime = Regime::named(name)?;
+    let speed: &Quantity = regime.speeds.get(place)?;
+    let settings = regime.settings(speed).ok()?.join("\n");
+    let body = format!("model = \"car\"\nlading.kind = \"{lading}\"\n{settings}\n");
+    Some(BuiltIn::new(
+        format!("car_{name}_{lading}"),
+        format!("{} at {speed}, {lading} car", regime.title),
+        &body,
+    ))
 }
 
 fn tangent(length: f64) -> String {
@@ -88,16 +76,6 @@ fn held(speed: f64) -> String {
 
 static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
     let rough = format!("{}{CLASS_4}", tangent(2500.0));
-    let bend = curve([300.0, 200.0, 800.0], 7.5, 4.0, "");
-    let out = "[[track.segments]]\nspiral = \"150 ft\"\n[[track.segments]]\ntangent = \"500 ft\"\n";
-    let bunched = curve([300.0, 150.0, 200.0], 7.5, 4.5, out);
-    let staggered = format!(
-        "{}{}{}",
-        tangent(1000.0),
-        joints("left", 200.0),
-        joints("right", 219.5)
-    );
-    let abreast = format!("{}{}", tangent(1500.0), joints("both", 200.0));
     let both = |name: &str, title: &str, speed: f64, duration: f64, track: &str| {
         ["loaded", "empty"].map(|lading| case(name, title, lading, &held(speed), duration, track))
     };
@@ -108,6 +86,27 @@ start.axle_shift = \"0.2 in\"";
 speed.kind = \"over_time\"
 speed.over_time = [[\"10 s\", \"75 mph\"], [\"70 s\", \"30 mph\"]]
 start.axle_shift = \"0.4 in\"";
+    // At a speed in the middle, and spectra at the greatest speed of their class.
+    let others = [
+        ("yaw_and_sway", "loaded", 3),
+        ("dynamic_curving", "loaded", 3),
+        ("constant_curve_10", "loaded", 3),
+        ("constant_curve_12", "loaded", 3),
+        ("bunched_spiral", "loaded", 2),
+        ("fra_class_1", "loaded", 5),
+        ("fra_class_1", "empty", 5),
+        ("fra_class_2", "loaded", 5),
+        ("fra_class_2", "empty", 5),
+        ("fra_class_3", "loaded", 5),
+        ("fra_class_3", "empty", 5),
+        ("fra_class_4", "loaded", 5),
+        ("fra_class_4", "empty", 5),
+        ("fra_class_5", "loaded", 5),
+        ("fra_class_5", "empty", 5),
+    ];
+    let others = others
+        .iter()
+        .filter_map(|(name, lading, place)| in_regime(name, lading, *place));
     vec![
         Group {
             name: "car",
@@ -129,7 +128,7 @@ start.axle_shift = \"0.4 in\"";
                     "curve of 7.5 deg at 28 mph, balanced",
                     28.0,
                     28.0,
-                    &bend,
+                    &track_of("constant_curve"),
                 ),
             ]
             .concat(),
@@ -139,7 +138,8 @@ start.axle_shift = \"0.4 in\"";
             title: "Regimes of freight cars",
             look_at: "Spiral: the least wheel load. Hunting: where the lateral motion dies while the car \
                       slows down, and the standard deviation of the lateral acceleration. Twist and roll: \
-                      the roll of the body, greatest less least, over speeds. Pitch and bounce: wheel loads.",
+                      the roll of the body, greatest less least, over speeds. Pitch and bounce: wheel loads. \
+                      Yaw and sway, dynamic curving: L/V. `wedgelab regime` runs them over speeds.",
             cases: vec![
                 case(
                     "spiral",
@@ -147,7 +147,7 @@ start.axle_shift = \"0.4 in\"";
                     "loaded",
                     &held(20.0),
                     28.0,
-                    &bunched,
+                    &track_of("spiral"),
                 ),
                 case(
                     "hunting",
@@ -171,7 +171,7 @@ start.axle_shift = \"0.4 in\"";
                     "loaded",
                     &held(16.0),
                     27.0,
-                    &staggered,
+                    &track_of("twist_and_roll"),
                 ),
                 case(
                     "pitch_and_bounce",
@@ -179,9 +179,12 @@ start.axle_shift = \"0.4 in\"";
                     "loaded",
                     &held(55.0),
                     10.0,
-                    &abreast,
+                    &track_of("pitch_and_bounce"),
                 ),
-            ],
+            ]
+            .into_iter()
+            .chain(others)
+            .collect(),
         },
     ]
 });

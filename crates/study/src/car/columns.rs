@@ -4,10 +4,11 @@ use car::{BuildError, Car, Loads, Parameters};
 use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
 use quantity::Kind;
-use truck::{HALVES, WEDGE_NAMES};
+use truck::{HALVES, WEDGE_NAMES, WedgeKind};
 
 use super::derailment;
 use super::statistics::{SIDES, ratio};
+use crate::truck::columns::of_halves;
 
 /// The table of a car's results, for any observation of its system.
 pub struct CarTable {
@@ -24,7 +25,7 @@ impl CarTable {
     pub fn new(parameters: &Parameters) -> Result<Self, BuildError> {
         let car = Car::new(parameters)?;
         let static_loads = derailment::static_loads(parameters);
-        let columns = Columns::new(&car, static_loads);
+        let columns = Columns::new(&car, &parameters.trucks, static_loads);
         Ok(Self {
             car,
             columns,
@@ -99,8 +100,9 @@ const BODY: &str = "of the car body: left, up";
 const TRUCK: &str = "of the truck: x forward, y left, z up";
 
 impl Columns {
-    /// Returns the columns of a car; static loads of the wheels are by axle, left and right, N.
-    fn new(car: &Car, static_loads: [[f64; 2]; 4]) -> Self {
+    /// Returns the columns of a car on these trucks; static loads of the wheels are by axle, left and right,
+    /// N.
+    fn new(car: &Car, trucks: &[truck::Parameters; 2], static_loads: [[f64; 2]; 4]) -> Self {
         let mut own = Self {
             columns: Vec::new(),
             fixed: 0,
@@ -151,8 +153,13 @@ impl Columns {
             own.truck(truck);
         }
         own.fixed = own.columns.len();
-        for truck in 0..2 {
+        for (truck, parameters) in trucks.iter().enumerate() {
             own.more_of_truck(truck);
+            for (number, name) in WEDGE_NAMES.into_iter().enumerate() {
+                if parameters.wedges[number].kind == WedgeKind::Split {
+                    own.halves(truck, number, name);
+                }
+            }
         }
         own.wear();
         own.losses_of_wedges(&car.system);
@@ -299,6 +306,16 @@ impl Columns {
         }
     }
 
+    /// The halves of a split wedge.
+    fn halves(&mut self, truck: usize, number: usize, name: &str) {
+        for own in of_halves() {
+            let name = format!("truck_{}_{name}_{}", truck + 1, own.name);
+            self.add(name, own.kind, TRUCK, own.text, move |seen| {
+                (own.value)(&seen.loads.trucks[truck].wedges[number])
+            });
+        }
+    }
+
     fn wear(&mut self) {
         for axle in 0..4 {
             for (side, name) in SIDES.into_iter().enumerate() {
@@ -408,12 +425,37 @@ impl Columns {
     }
 }
 
+/// The names that the faces of a wedge (`truck_1_leading_left`) may have.
+fn faces_of_wedge(stem: &str) -> Vec<String> {
+    let whole = ["column", "slope", "split"].map(|face| format!("{stem}_{face}"));
+    let halves = HALVES.map(|half| ["column", "slope"].map(|face| format!("{stem}_{half}_{face}")));
+    whole.into_iter().chain(halves.into_iter().flatten()).collect()
+}
+
+/// The places among the contact states of the points of a wedge's faces, by the wedge's name; none of a
+/// massless wedge.
+pub(super) fn points_of_wedges(system: &System) -> Vec<(String, Vec<usize>)> {
+    let names = (1..=2).flat_map(|truck| WEDGE_NAMES.map(|wedge| format!("truck_{truck}_{wedge}")));
+    let points = names.map(|stem| {
+        let faces = faces_of_wedge(&stem);
+        let mut from = 0;
+        let mut own = Vec::new();
+        for mounted in system.faces() {
+            let to = from + mounted.element.points.len();
+            if faces.contains(&mounted.element.name) {
+                own.extend(from..to);
+            }
+            from = to;
+        }
+        (stem, own)
+    });
+    points.filter(|(_, own)| !own.is_empty()).collect()
+}
+
 /// The places among the energy terms of what a wedge of a truck (1 front, 2 rear) loses in friction.
 pub(super) fn losses_of_wedge(system: &System, truck: usize, wedge: &str) -> Vec<usize> {
     let stem = format!("truck_{truck}_{wedge}");
-    let whole = ["column", "slope", "split"].map(|face| format!("{stem}_{face}"));
-    let halves = HALVES.map(|half| ["column", "slope"].map(|face| format!("{stem}_{half}_{face}")));
-    let faces: Vec<String> = whole.into_iter().chain(halves.into_iter().flatten()).collect();
+    let faces = faces_of_wedge(&stem);
     let terms = system.energy_terms().iter().enumerate();
     terms
         .filter(|(_, term)| match term.kind {

@@ -16,6 +16,7 @@
 use std::ops::ControlFlow;
 
 use car::{Drive, Parameters, Start, Wheels};
+use quantity::SixDigits;
 use thiserror::Error;
 use wheelrail::track::shape::Shape;
 use wheelrail::track::{Direction, Irregularity, Placed, Rails};
@@ -134,7 +135,7 @@ pub enum HuntingError {
     #[error(transparent)]
     Run(#[from] RunError),
     /// A run ended before its time.
-    #[error("the run with {which} speed stopped at {time} s: {reason}")]
+    #[error("the run with {which} speed stopped at {} s: {reason}", SixDigits(*time))]
     Stopped {
         /// `falling` or `rising`.
         which: &'static str,

@@ -1,17 +1,126 @@
-//! Limits that rules set, beside the worst statistic of each kind.
+//! Limits that rules set, as data, and what is left to them.
+//!
+//! ```toml
+//! title = "our rules"
+//! source = "letter of 2026-03-01"
+//! [[limits]]
+//! name = "body_roll"                        # of its own in this file
+//! quantity = "body roll, greatest less least"
+//! measure = "body_roll_peak_to_peak"        # of docs/regimes.md
+//! regimes = ["twist_and_roll"]              # or "all"
+//! at_most = "6 deg"                         # or at_least; a pure number without quotes
+//! remark = ""                               # may be left out
+//! ```
+//!
+//! Those that are built in ([`LimitSet::built_in`]) are remembered: check them against your edition.
 
 use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::LazyLock;
 
+use input::file::{Expected, read_text};
+use input::{FileType, limits};
+use quantity::{Kind, Quantity, System as Units, nearest};
 use serde::{Deserialize, Serialize};
 
 use super::statistics::Statistic;
-use crate::summary::SummaryValue;
+use super::worst::{WORST, Worst};
+use crate::case::CaseError;
+use crate::case::problem::{Problem, Problems, TomlSource};
+use crate::case::section::{Range, Section};
+use crate::case::tree::{self, Table, Value};
 
-const GRAVITY: f64 = 9.806_65;
+const KEYS: [&str; 3] = ["title", "source", "limits"];
+const LIMIT_KEYS: [&str; 7] = [
+    "name", "quantity", "measure", "regimes", "at_most", "at_least", "remark",
+];
+const HELP: &str = "write [[limits]] and below it name, quantity, measure, regimes and at_most or at_least";
+const FILE: Expected = Expected {
+    what: "file of limits",
+    types: &[FileType::Case, FileType::Study],
+    most: limits::TEXT_FILE,
+};
 
-/// A limit that rules set.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// The built-in sets, by name; the first one is that of freight cars.
+const BUILT_IN: [(&str, &str); 2] = [
+    (
+        "aar_chapter_xi",
+        include_str!("../../regimes/limits/aar_chapter_xi.toml"),
+    ),
+    (
+        "fra_213_333",
+        include_str!("../../regimes/limits/fra_213_333.toml"),
+    ),
+];
+
+static ALL: LazyLock<Vec<LimitSet>> = LazyLock::new(|| {
+    // That all of them can be read, a test holds.
+    let sets = BUILT_IN.iter();
+    sets.filter_map(|(name, text)| LimitSet::parse(&format!("{name}.toml"), text).ok())
+        .collect()
+});
+
+/// On which side of a limit values must lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// At or below it.
+    AtMost,
+    /// At or above it.
+    AtLeast,
+}
+
+impl Bound {
+    /// Returns its name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::AtMost => "at_most",
+            Self::AtLeast => "at_least",
+        }
+    }
+}
+
+/// A limit.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
+    /// Its name.
+    pub name: String,
+    /// What is limited, in words.
+    pub quantity: String,
+    /// What is measured.
+    pub measure: &'static Worst,
+    /// The regimes that it is set for; `None`: all.
+    pub regimes: Option<Vec<String>>,
+    /// Its side.
+    pub bound: Bound,
+    /// Its value in its unit.
+    pub value: f64,
+    /// Its unit as typed.
+    pub unit: String,
+    /// What else is to be said; may be empty.
+    pub remark: String,
+    /// Its unit in SI.
+    si: f64,
+}
+
+/// Limits of one source.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LimitSet {
+    /// The file's name without its ending.
+    pub name: String,
+    /// One line for people.
+    pub title: String,
+    /// Where they come from.
+    pub source: String,
+    /// The limits.
+    pub limits: Vec<Limit>,
+    /// The file.
+    pub text: String,
+}
+
+/// A limit beside the worst statistic of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LimitCheck {
     /// What is limited.
     pub quantity: String,
     /// Regimes that it is set for.
@@ -28,112 +137,347 @@ pub struct Limit {
     pub margin: f64,
 }
 
-/// A limit as rules state it: what it is, the regimes, the ending of its statistics, the limit, its unit, the
-/// limit in SI of that unit, and whether values must lie above.
-struct Stated {
-    quantity: &'static str,
-    regimes: &'static str,
-    ending: &'static str,
-    limit: f64,
-    unit: &'static str,
-    below: bool,
+impl Limit {
+    /// Whether it is set for a regime.
+    #[must_use]
+    pub fn is_for(&self, regime: &str) -> bool {
+        let regimes = self.regimes.as_ref();
+        regimes.is_none_or(|own| own.iter().any(|name| name == regime))
+    }
+
+    /// Returns the regimes in words.
+    #[must_use]
+    pub fn regimes_in_words(&self) -> String {
+        let words = match &self.regimes {
+            None => "all".to_owned(),
+            Some(names) => names.join(", ").replace('_', " "),
+        };
+        match self.remark.as_str() {
+            "" => words,
+            remark => format!("{words} ({remark})"),
+        }
+    }
+
+    /// Returns a value of its measure (SI) in its unit.
+    #[must_use]
+    pub fn in_unit(&self, value: f64) -> f64 {
+        value / self.si
+    }
+
+    /// Returns by how much a value in its unit keeps it, in parts of it: negative where it does not.
+    #[must_use]
+    pub fn margin(&self, value: f64) -> f64 {
+        let left = match self.bound {
+            Bound::AtMost => self.value - value,
+            Bound::AtLeast => value - self.value,
+        };
+        left / self.value.abs()
+    }
 }
 
-/// Remembered: AAR M-1001 chapter XI (1993; [later edition]).
-const STATED: [Stated; 7] = [
-    Stated {
-        quantity: "wheel L/V that lasts for the hold time",
-        regimes: "dynamic curving (0.8; later edition 1.0)",
-        ending: "_l_over_v_time",
-        limit: 1.0,
-        unit: "",
-        below: true,
-    },
-    Stated {
-        quantity: "wheel L/V in curves, percentile",
-        regimes: "constant curving (0.8)",
-        ending: "_l_over_v_in_curves",
-        limit: 0.8,
-        unit: "",
-        below: true,
-    },
-    Stated {
-        quantity: "axle sum L/V that lasts for the hold time",
-        regimes: "hunting, twist and roll, yaw and sway, dynamic curving (1.3; later edition 1.5)",
-        ending: "_sum_l_over_v_time",
-        limit: 1.5,
-        unit: "",
-        below: true,
-    },
-    Stated {
-        quantity: "truck side L/V",
-        regimes: "yaw and sway",
-        ending: "_side_l_over_v",
-        limit: 0.6,
-        unit: "",
-        below: true,
-    },
-    Stated {
-        quantity: "least wheel load that lasts for the hold time",
-        regimes: "twist and roll, pitch and bounce, dynamic curving, spiral",
-        ending: "_least_load_time",
-        limit: 10.0,
-        unit: "%",
-        below: false,
-    },
-    Stated {
-        quantity: "body roll, greatest less least",
-        regimes: "twist and roll, dynamic curving",
-        ending: "body_roll_peak_to_peak",
-        limit: 6.0,
-        unit: "deg",
-        below: true,
-    },
-    Stated {
-        quantity: "lateral acceleration at a truck center, standard deviation",
-        regimes: "hunting (later edition; 1993: 1.0 g, greatest less least)",
-        ending: "_lateral_acceleration_deviation",
-        limit: 0.13,
-        unit: "g",
-        below: true,
-    },
-];
+impl LimitSet {
+    /// Returns the built-in sets.
+    #[must_use]
+    pub fn built_in() -> &'static [Self] {
+        &ALL
+    }
 
-/// Returns the limits beside the worst value of each, in the order of the table of rules.
-#[must_use]
-pub fn of(statistics: &BTreeMap<String, Statistic>) -> Vec<Limit> {
-    let mut limits = Vec::new();
-    for stated in &STATED {
-        let sum = stated.ending.contains("_sum_");
-        let own = statistics
+    /// Returns the built-in set of this name, or reads a file.
+    ///
+    /// # Errors
+    /// There is neither; or something in the file is wrong: all mistakes are reported together.
+    pub fn named_or_read(text: &str) -> Result<Self, CaseError> {
+        let path = Path::new(text);
+        let built_in = Self::built_in().iter().find(|own| own.name == text);
+        if let (false, Some(own)) = (path.is_file(), built_in) {
+            return Ok(own.clone());
+        }
+        if path.exists() || path.extension().is_some() {
+            return Self::read(path);
+        }
+        let names = Self::built_in().iter().map(|own| own.name.as_str());
+        let help = match nearest(text, names.clone()) {
+            Some(near) => format!("did you mean {near}?"),
+            None => format!(
+                "there are {}; or name a file",
+                names.collect::<Vec<_>>().join(", ")
+            ),
+        };
+        Err(Problem::new(format!("there are no limits \"{text}\""))
+            .help(help)
+            .into())
+    }
+
+    /// Reads a file of limits.
+    ///
+    /// # Errors
+    /// It cannot be read, or something in it is wrong; all mistakes are reported together.
+    pub fn read(path: &Path) -> Result<Self, CaseError> {
+        let text = read_text(path, &FILE).map_err(|error| {
+            let help = "`wedgelab regime --show aar_chapter_xi` prints limits to begin with";
+            Problem::new(error.to_string()).help(error.help().unwrap_or_else(|| help.to_owned()))
+        })?;
+        Self::parse(&path.display().to_string(), &text)
+    }
+
+    /// As [`LimitSet::read`], from a text that `source` names in messages.
+    ///
+    /// # Errors
+    /// As [`LimitSet::read`].
+    pub fn parse(source: &str, text: &str) -> Result<Self, CaseError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let failed = |problems| CaseError::new(problems).of("file of limits");
+        let tree = tree::parse(&TomlSource::new(source, text)).map_err(failed)?;
+        let mut problems = Problems::new();
+        let stem = Path::new(source).file_stem().and_then(|stem| stem.to_str());
+        let set = read(&tree, stem.unwrap_or("limits"), text, &mut problems);
+        let set = set.filter(|_| problems.is_empty());
+        set.ok_or_else(|| failed(problems))
+    }
+}
+
+fn read(tree: &Table, name: &str, text: &str, problems: &mut Problems) -> Option<LimitSet> {
+    let top = Section {
+        path: String::new(),
+        table: tree,
+        place: None,
+    };
+    top.allow_in(&KEYS, &[], "a file of limits", problems);
+    let title = top.text("title", problems).map(|(text, _)| text.to_owned());
+    // Limits without a source are limits that nobody can check.
+    let source = top.text("source", problems).map(|(text, _)| text.to_owned());
+    let node = top.require("limits", HELP, problems)?;
+    let items = match &node.value {
+        Value::List(items) if !items.is_empty() => items.as_slice(),
+        _ => {
+            let problem = Problem::new("`limits` is no list of limits").at(&node.place);
+            problems.push(problem.label("tables are expected").help(HELP));
+            &[]
+        }
+    };
+    let mut found: Vec<(Limit, &tree::Node)> = Vec::new();
+    for (number, item) in items.iter().enumerate() {
+        let Value::Table(table) = &item.value else {
+            let problem = Problem::new("a limit is no table").at(&item.place);
+            problems.push(problem.label("a table is expected").help(HELP));
+            continue;
+        };
+        let own = Section {
+            path: format!("limits[{number}]"),
+            table,
+            place: Some(item.place.clone()),
+        };
+        let Some(limit) = limit(&own, problems) else {
+            continue;
+        };
+        for (other, _) in &found {
+            contradiction(other, &limit, &own, problems);
+        }
+        found.push((limit, item));
+    }
+    Some(LimitSet {
+        name: name.to_owned(),
+        title: title?,
+        source: source?,
+        limits: found.into_iter().map(|(limit, _)| limit).collect(),
+        text: text.to_owned(),
+    })
+}
+
+/// Reads a limit.
+fn limit(own: &Section<'_>, problems: &mut Problems) -> Option<Limit> {
+    own.allow(&LIMIT_KEYS, &[], problems);
+    let text = |key: &str, problems: &mut Problems| own.text(key, problems).map(|(text, _)| text.to_owned());
+    let name = text("name", problems);
+    let quantity = text("quantity", problems);
+    let remark = match own.table.get("remark") {
+        Some(_) => text("remark", problems),
+        None => Some(String::new()),
+    };
+    let measure = own.text("measure", problems).and_then(|(text, node)| {
+        let measure = Worst::named(text);
+        if measure.is_none() {
+            let names = WORST.iter().map(|own| own.name);
+            let help = match nearest(text, names.clone()) {
+                Some(near) => format!("did you mean \"{near}\"?"),
+                None => format!("there are {}", names.collect::<Vec<_>>().join(", ")),
+            };
+            let problem = Problem::new(format!("there is no measure \"{text}\"")).at(&node.place);
+            problems.push(problem.label("this measure").help(help));
+        }
+        measure
+    });
+    let regimes = regimes(own, problems);
+    let sides = [Bound::AtMost, Bound::AtLeast].map(|bound| (bound.name(), bound));
+    let mut given = sides.into_iter().filter(|(key, _)| own.table.get(key).is_some());
+    let (key, bound) = match (given.next(), given.next()) {
+        (Some(side), None) => side,
+        (first, _) => {
+            let what = if first.is_some() { "both" } else { "neither" };
+            let message = format!("`{}` has {what} of `at_most` and `at_least`", own.path);
+            let mut problem = Problem::new(message).label("one of them is expected");
+            if let Some(place) = &own.place {
+                problem = problem.at(place);
+            }
+            let help = "write for example at_most = 0.8; two limits of one measure are two [[limits]]";
+            problems.push(problem.help(help));
+            return None;
+        }
+    };
+    let measure = measure?;
+    let (value, unit, si) = value(own, key, measure, problems)?;
+    Some(Limit {
+        name: name?,
+        quantity: quantity?,
+        measure,
+        regimes: regimes?,
+        bound,
+        value,
+        unit,
+        remark: remark?,
+        si,
+    })
+}
+
+/// Reads the value of a limit, its unit, and that in SI.
+fn value(
+    own: &Section<'_>,
+    key: &str,
+    measure: &Worst,
+    problems: &mut Problems,
+) -> Option<(f64, String, f64)> {
+    if measure.unit.is_empty() && measure.kind == Kind::Dimensionless {
+        let value = own.number(key, Range::Positive, "0.8", problems)?;
+        return Some((value, String::new(), 1.0));
+    }
+    if measure.kind != Kind::Dimensionless {
+        let quantity = own.quantity(key, measure.kind, Range::Positive, problems)?;
+        let si = Quantity::new(1.0, quantity.unit_text()).ok()?.to_si();
+        // Accelerations of a ride are told in g, which case files call g0.
+        let unit = match quantity.unit_text() {
+            "g0" => "g",
+            unit => unit,
+        };
+        return Some((quantity.value(), unit.to_owned(), si));
+    }
+    // A share, as it is measured: in %.
+    let (text, node) = own.text(key, problems)?;
+    let unit = measure.unit;
+    let number = text
+        .strip_suffix(unit)
+        .and_then(|own| own.trim().parse::<f64>().ok());
+    match number.filter(|own| own.is_finite() && *own > 0.0) {
+        Some(value) => Some((value, unit.to_owned(), 1.0)),
+        None => {
+            let message = format!(
+                "`{}` is \"{text}\"; a share in {unit} is expected",
+                own.path_of(key)
+            );
+            let problem = Problem::new(message).at(&node.place).label("above zero");
+            problems.push(problem.help(format!("write for example {key} = \"10 {unit}\"")));
+            None
+        }
+    }
+}
+
+/// Reads the regimes of a limit; `None` inside: all.
+fn regimes(own: &Section<'_>, problems: &mut Problems) -> Option<Option<Vec<String>>> {
+    let help = "write regimes = \"all\", or names of regimes: [\"twist_and_roll\"]";
+    let node = own.require("regimes", help, problems)?;
+    let names = match &node.value {
+        Value::Text(text) if text == "all" => return Some(None),
+        Value::List(items) if !items.is_empty() => items
             .iter()
-            .filter(|(name, _)| name.ends_with(stated.ending) && (sum || !name.contains("_sum_")));
-        let values = own.filter_map(|(name, own)| {
-            let value = own.filtered.as_ref().or(own.raw.as_ref())?;
-            Some((name, in_unit(value, stated.unit)))
-        });
-        let worse = |a: f64, b: f64| if stated.below { a > b } else { a < b };
-        let worst = values.reduce(|worst, own| if worse(own.1, worst.1) { own } else { worst });
-        let Some((name, value)) = worst else { continue };
-        let margin = (stated.limit - value) / stated.limit;
-        limits.push(Limit {
-            quantity: stated.quantity.to_owned(),
-            regimes: stated.regimes.to_owned(),
-            statistic: name.clone(),
-            value,
-            limit: stated.limit,
-            unit: stated.unit.to_owned(),
-            margin: if stated.below { margin } else { -margin },
-        });
+            .map(|item| match &item.value {
+                Value::Text(text) => Some(text.clone()),
+                _ => None,
+            })
+            .collect::<Option<Vec<String>>>(),
+        _ => None,
+    };
+    if names.is_none() {
+        let problem = Problem::new(format!("`{}` names no regimes", own.path_of("regimes")));
+        problems.push(problem.at(&node.place).label("names of regimes").help(help));
     }
-    limits
+    names.map(Some)
 }
 
-/// A value of a summary in the unit of a limit.
-fn in_unit(value: &SummaryValue, unit: &str) -> f64 {
-    match (value.unit.as_str(), unit) {
-        ("rad", "deg") => value.value.to_degrees(),
-        ("m/s²", "g") => value.value / GRAVITY,
-        _ => value.value,
+/// Notes what two limits cannot both be.
+fn contradiction(first: &Limit, second: &Limit, own: &Section<'_>, problems: &mut Problems) {
+    let place = own.table.entry("name").map(|entry| &entry.key_place);
+    let mut note = |message: String, label: &str, help: &str| {
+        let problem = Problem::new(message).label(label);
+        problems.push(
+            match place {
+                Some(place) => problem.at(place),
+                None => problem,
+            }
+            .help(help),
+        );
+    };
+    if first.name == second.name {
+        let message = format!("there are two limits `{}`", first.name);
+        note(message, "the second one", "give each limit a name of its own");
+        return;
     }
+    let common = match (&first.regimes, &second.regimes) {
+        (Some(names), _) => names.iter().find(|name| second.is_for(name)).map(String::as_str),
+        (None, Some(names)) => names.first().map(String::as_str),
+        (None, None) => Some("all regimes"),
+    };
+    let (Some(regime), true) = (common, first.measure == second.measure) else {
+        return;
+    };
+    let [low, high] = match (first.bound, second.bound) {
+        (Bound::AtLeast, Bound::AtMost) => [first, second],
+        (Bound::AtMost, Bound::AtLeast) => [second, first],
+        _ => {
+            let message = format!(
+                "`{}` and `{}` limit `{}` on the same side in {regime}",
+                first.name, second.name, first.measure.name
+            );
+            let help = "the stricter one is enough: leave the other out, or set it for other regimes";
+            note(message, "which of them counts?", help);
+            return;
+        }
+    };
+    if low.value * low.si > high.value * high.si {
+        let message = format!(
+            "`{}` wants at least {} {} and `{}` at most {} {} of `{}` in {regime}",
+            low.name, low.value, low.unit, high.name, high.value, high.unit, low.measure.name
+        );
+        note(
+            message,
+            "nothing keeps both",
+            "correct one of them, or set them for other regimes",
+        );
+    }
+}
+
+/// Returns the limits of freight cars beside the worst statistic of each.
+#[must_use]
+pub fn of(statistics: &BTreeMap<String, Statistic>) -> Vec<LimitCheck> {
+    let Some(set) = LimitSet::built_in().first() else {
+        return Vec::new();
+    };
+    let checks = set.limits.iter().filter_map(|limit| {
+        let worst = limit.measure.of(statistics)?;
+        let kind = limit.measure.kind;
+        let units = [Units::Us, Units::Si];
+        let units = units
+            .into_iter()
+            .find(|units| kind.label(*units) == worst.value.unit);
+        let si = worst.value.value / units.map_or(1.0, |units| kind.from_si(units));
+        let value = limit.in_unit(si);
+        Some(LimitCheck {
+            quantity: limit.quantity.clone(),
+            regimes: limit.regimes_in_words(),
+            statistic: worst.statistic.to_owned(),
+            value,
+            limit: limit.value,
+            unit: limit.unit.clone(),
+            margin: limit.margin(value),
+        })
+    });
+    checks.collect()
 }

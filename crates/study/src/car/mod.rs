@@ -1,19 +1,22 @@
 //! Freight cars on track: cases, runs, statistics, results.
 //!
-//! [`CarCase`] is what a user writes, completed and in SI; [`builtin`] has cases after the regimes of the
-//! field; [`statistics`] says what rules for the assessment of cars ask, [`limits`] beside what they allow;
-//! [`run`] records a run, [`motions`] what a picture of it needs; [`stability`] linearizes; [`hunting`] ramps the
-//! speed.
+//! [`CarCase`] is what a user writes, completed and in SI; [`regime`] has the tracks and speeds of the field,
+//! [`builtin`] cases on them; [`statistics`] says what rules for the assessment of cars ask, [`limits`] beside
+//! what they allow; [`run`] records a run, [`motions`] what a picture of it needs; [`stability`] linearizes;
+//! [`hunting`] ramps the speed.
 
 mod assumptions;
 pub mod builtin;
+pub mod certificate;
 mod checks;
 pub mod columns;
+pub mod conditions;
 mod derailment;
 pub mod hunting;
 mod lading;
 pub mod limits;
 pub mod motions;
+pub mod regime;
 pub mod run;
 mod sections;
 pub mod stability;
@@ -22,6 +25,7 @@ pub mod summary;
 mod track;
 mod trucks;
 mod wheels;
+pub mod worst;
 
 use std::path::Path;
 

@@ -4,12 +4,11 @@
 
 use std::array::from_fn;
 
-use car::Car;
+use car::{Car, Parameters};
 use mechanics::output::Column;
 use mechanics::system::Observation;
 use mechanics::vector::Vector;
 use quantity::Kind;
-use truck::WEDGE_NAMES;
 use wheelrail::contact::Side;
 
 use super::statistics::SIDES;
@@ -29,7 +28,7 @@ const FACES: [&str; 2] = ["column", "slope"];
 /// | `body_lateral`, `body_vertical`, `body_turn_roll`, `_pitch`, `_yaw` | of body and lading in the axes of the track at their center of gravity, from the nominal layout |
 /// | `chord_lateral`, `chord_vertical` | the middle between the feet of the bolsters on the center line, there |
 /// | `truck_1_distance`, `truck_1_bolster_x`, ..., `truck_1_left_side_frame_yaw` | in the axes of the track at the bolster |
-/// | `truck_1_leading_left_column_friction_on_wedge_x`, ..., `_state` | of column and slope: sums over the points, on the wedge |
+/// | `truck_1_leading_left_column_friction_on_wedge_x`, ..., `_state` | of column and slope: sums over the points, on the wedge; of a split one on each half, `truck_1_leading_left_outboard_...` |
 /// | `axle_1_distance`, `_vertical`, `_roll`, `_spin`; `axle_1_left_patch_1_x`, ... | as of a wheelset's run |
 #[derive(Clone, Debug)]
 pub struct MotionTable {
@@ -43,8 +42,8 @@ pub struct MotionTable {
 }
 
 impl MotionTable {
-    /// Returns an empty table of a car whose wheels have a nominal radius (m).
-    pub(super) fn new(radius: f64) -> Self {
+    /// Returns an empty table of a car.
+    pub(super) fn new(car: &Parameters) -> Self {
         let mut columns = Vec::new();
         let mut add = |name: String, kind: Kind, text: &str| {
             columns.push(Column {
@@ -68,7 +67,7 @@ impl MotionTable {
             let text = "middle between the feet of the bolsters on the center line, where the body is";
             add(format!("chord_{name}"), Kind::Length, text);
         }
-        for truck in 1..=2 {
+        for (truck, parameters) in (1..).zip(&car.trucks) {
             let text = "distance of the bolster along the track";
             add(format!("truck_{truck}_distance"), Kind::Distance, text);
             for part in PARTS {
@@ -77,9 +76,9 @@ impl MotionTable {
                     add(format!("truck_{truck}_{part}_{name}"), kind(k), text);
                 }
             }
-            for wedge in WEDGE_NAMES {
+            for part in parameters.wedge_parts() {
                 for face in FACES {
-                    let stem = format!("truck_{truck}_{wedge}_{face}");
+                    let stem = format!("truck_{truck}_{}_{face}", part.name);
                     for axis in ["x", "y", "z"] {
                         let text = "friction of the face on the wedge, axes of the truck";
                         add(format!("{stem}_friction_on_wedge_{axis}"), Kind::Force, text);
@@ -113,7 +112,7 @@ impl MotionTable {
             values: vec![Vec::new(); columns.len()],
             row: Vec::with_capacity(columns.len()),
             columns,
-            radius,
+            radius: car.wheel_radius(),
         }
     }
 

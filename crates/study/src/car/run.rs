@@ -15,13 +15,14 @@ use wheelrail::track::Track;
 
 use super::CarCase;
 use super::checks::POUND_FORCE;
-use super::columns::{CarTable, losses_of_wedge};
+use super::columns::{CarTable, losses_of_wedge, points_of_wedges};
 use super::motions::MotionTable;
 use super::statistics::{self, Histories, SIDES, Statistics};
 use super::summary::{CarSummary, Derailed, SCHEMA};
 use super::{derailment, limits};
 use crate::energy;
 use crate::finite::{find, is_finite};
+use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::plausibility;
 use crate::progress;
@@ -47,15 +48,25 @@ pub struct CarRecorder {
     /// Rates of the state.
     rates: Vec<f64>,
     track: Track,
+    /// Places of the points of each wedge among the contact states.
+    points: Vec<(String, Vec<usize>)>,
+    counts: CarCounts,
+    /// Where statistics begin, s.
+    settle: f64,
     /// Heights of the axles at the first row, m.
     heights: Option<[f64; 4]>,
     /// Where its bodies are and what their faces exert, where it is asked for.
     motions: Option<MotionTable>,
 }
 
-/// What is counted along a car's run: nothing, since all is in its rows.
+/// What is counted along a car's run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct CarCounts {}
+pub struct CarCounts {
+    /// Rows after settling.
+    rows: u64,
+    /// Those in which no point of a wedge's faces slips, by wedge.
+    locked: Vec<u64>,
+}
 
 impl RunCase for CarCase {
     type Recorder = CarRecorder;
@@ -84,6 +95,7 @@ impl RunCase for CarCase {
     fn begin(&self) -> Result<Beginning<CarRecorder>, RunError> {
         let table = CarTable::new(&self.parameters)?;
         let (car, columns) = (table.car(), table.columns().len());
+        let points = points_of_wedges(&car.system);
         Ok(Beginning {
             system: car.system.clone(),
             x: car.initial_state.clone(),
@@ -93,6 +105,12 @@ impl RunCase for CarCase {
                 rates: vec![0.0; car.initial_state.len()],
                 heights: None,
                 motions: None,
+                counts: CarCounts {
+                    rows: 0,
+                    locked: vec![0; points.len()],
+                },
+                points,
+                settle: self.parameters.start.settle,
                 track: self.parameters.track.clone(),
                 derailed: None,
                 units: self.simulation.output_units,
@@ -114,7 +132,7 @@ impl Run<CarCase> {
     /// As [`Run::new`].
     pub fn with_motions(case: &CarCase) -> Result<Self, RunError> {
         let mut run = Self::new(case)?;
-        let mut table = MotionTable::new(case.parameters.wheel_radius());
+        let mut table = MotionTable::new(&case.parameters);
         let seen = run.system.observe(run.integrator.time(), run.integrator.x());
         table.take(run.recorder.table.car(), &seen);
         run.recorder.motions = Some(table);
@@ -143,10 +161,11 @@ impl Recorder for CarRecorder {
     type Counts = CarCounts;
 
     fn counts(&self) -> CarCounts {
-        CarCounts {}
+        self.counts.clone()
     }
 
-    fn restore(&mut self, _: CarCounts, time: f64) -> Result<(), RunError> {
+    fn restore(&mut self, counts: CarCounts, time: f64) -> Result<(), RunError> {
+        self.counts = counts;
         self.continued = Some(time);
         Ok(())
     }
@@ -175,6 +194,13 @@ impl Recorder for CarRecorder {
         append(&mut self.values, self.table.columns(), &self.row, row.time)?;
         if let Some(motions) = &mut self.motions {
             motions.take(self.table.car(), &observation);
+        }
+        if row.time >= self.settle {
+            self.counts.rows += 1;
+            for ((_, points), locked) in self.points.iter().zip(&mut self.counts.locked) {
+                let slips = |place: &usize| row.contact_states[*place] == ContactState::Slip as u8;
+                *locked += u64::from(!points.iter().any(slips));
+            }
         }
         if let Some(own) = derailment::of(&loads, &self.track, heights) {
             let distance = SummaryValue::new(own.distance, Kind::Distance, self.units);
@@ -275,6 +301,12 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     let rows = time.len();
     let ledger = LedgerSummary::of_run(&mut run, units);
     let wedge_losses = losses(&mut run);
+    let counts = &run.recorder.counts;
+    let shares = counts.locked.iter().map(|own| *own as f64 / counts.rows as f64);
+    let wedges = run.recorder.points.iter().map(|(wedge, _)| wedge.clone());
+    let wedge_locked = wedges.zip(shares).filter(|_| counts.rows > 0).collect();
+    let reached = column("distance").last().copied();
+    let energy = whole_run(&mut run, reached);
     let mut summary = CarSummary {
         schema: SCHEMA.to_owned(),
         program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
@@ -293,6 +325,8 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         limits: limits::of(&told.values),
         statistics: told.values,
         wedge_losses,
+        wedge_locked,
+        energy,
         extremes,
         ledger,
         method: run.case.simulation.method.to_string(),
@@ -392,6 +426,21 @@ fn filtered(run: &Run<CarCase>, told: &Statistics, columns: &mut Vec<Column>, va
             }
         }
     }
+}
+
+/// Where the energy of the run went until it reached a distance along the track (m).
+fn whole_run(run: &mut Run<CarCase>, reached: Option<f64>) -> EnergySummary {
+    let units = run.case.simulation.output_units;
+    let car = run.recorder.table.car();
+    let start = car.initial_state.clone();
+    // Where it started, which a run that goes on from a saved state has no row of.
+    let seen = car.system.clone().observe(0.0, &start);
+    let from = car.loads(&seen, &vec![0.0; start.len()]).distance;
+    let ends = [
+        (0.0, start.as_slice()),
+        (run.integrator.time(), run.integrator.x()),
+    ];
+    EnergySummary::of_whole_run(&mut run.system, ends, reached.unwrap_or(from) - from, units)
 }
 
 /// What the friction of each wedge took by the end.

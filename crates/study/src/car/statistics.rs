@@ -24,7 +24,7 @@ use std::collections::BTreeMap;
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
-use crate::signal::{Found, LowPass, largest_deviation, largest_rms, peak_to_peak, percentile, sustained};
+use crate::signal::{Found, LowPass, largest_deviation, largest_rms, percentile, sustained};
 use crate::summary::SummaryValue;
 
 const FOOT: f64 = 0.3048;
@@ -430,14 +430,18 @@ pub fn ratio(lateral: f64, vertical: f64, static_load: f64) -> f64 {
     }
 }
 
-/// Greatest less least value of all rows.
+/// Greatest less least value of all rows, with the time from the first of both to the second.
 fn whole(rows: Rows<'_>) -> impl Fn(&[f64]) -> Option<Found> {
-    let (start, length) = (rows.time[0], rows.time[rows.time.len() - 1] - rows.time[0]);
     move |values| {
+        let extreme = |worse: fn(&f64, &f64) -> bool| {
+            let pairs = values.iter().zip(rows.time);
+            pairs.reduce(|most, own| if worse(own.0, most.0) { own } else { most })
+        };
+        let (greatest, least) = (extreme(|a, b| a > b)?, extreme(|a, b| a < b)?);
         Some(Found {
-            value: peak_to_peak(values),
-            start,
-            length,
+            value: greatest.0 - least.0,
+            start: greatest.1.min(*least.1),
+            length: (greatest.1 - least.1).abs(),
         })
     }
 }

@@ -6,8 +6,9 @@ use integrate::Statistics as Counters;
 use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 
-use super::limits::Limit;
+use super::limits::LimitCheck;
 use super::statistics::Statistic;
+use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
 
@@ -48,9 +49,15 @@ pub struct CarSummary {
     /// Statistics by name: see the table in docs/car.md.
     pub statistics: BTreeMap<String, Statistic>,
     /// Limits of rules beside the worst value of each; remembered.
-    pub limits: Vec<Limit>,
+    pub limits: Vec<LimitCheck>,
     /// Energy that the friction of each wedge took, by its name: `truck_1_leading_left`.
     pub wedge_losses: BTreeMap<String, SummaryValue>,
+    /// Share of the rows after settling in which no point of a wedge's faces slips, by its name; none of
+    /// massless wedges.
+    #[serde(default)]
+    pub wedge_locked: BTreeMap<String, f64>,
+    /// Where the energy of the run came from and where it went.
+    pub energy: EnergySummary,
     /// Least and greatest values of all columns, by their names with units.
     pub extremes: BTreeMap<String, Extremes>,
     /// The energy ledger at the end; losses by element.

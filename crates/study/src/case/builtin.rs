@@ -9,6 +9,7 @@ mod thesis;
 
 use super::problem::Problem;
 use super::{Case, CaseError};
+use crate::{car, half_truck, truck};
 use quantity::nearest;
 use std::path::Path;
 use std::sync::LazyLock;
@@ -117,6 +118,9 @@ pub fn text(name: &str) -> Result<&'static str, CaseError> {
     if let Some(case) = CASES.iter().find(|case| case.name == name) {
         return Ok(&case.text);
     }
+    if let Some(problem) = of_another_model(name) {
+        return Err(problem.into());
+    }
     let help = match nearest(name, names()) {
         Some(near) => format!("did you mean {near}?"),
         None => format!(
@@ -127,6 +131,28 @@ pub fn text(name: &str) -> Result<&'static str, CaseError> {
     Err(Problem::new(format!("there is no built-in case \"{name}\""))
         .help(help)
         .into())
+}
+
+/// Says of which model a built-in case is that was asked of another.
+fn of_another_model(name: &str) -> Option<Problem> {
+    let (what, class) = if names().any(|own| own == name) {
+        ("wedge", "Case")
+    } else if truck::builtin::names().any(|own| own == name) {
+        ("truck", "TruckCase")
+    } else if car::builtin::names().any(|own| own == name) {
+        ("car", "CarCase")
+    } else {
+        half_truck::catalog::entry(name)?;
+        ("half-truck", "HalfTruckCase")
+    };
+    let problem = Problem::new(format!("\"{name}\" is a built-in {what}"));
+    let command = match what {
+        "half-truck" => "wedgelab nucars run",
+        _ => "wedgelab run",
+    };
+    Some(problem.help(format!(
+        "`{command} {name}` runs it; in Python `{class}` takes it"
+    )))
 }
 
 /// Returns the names of all cases of groups.
@@ -145,6 +171,9 @@ pub(crate) fn text_in(groups: &'static [Group], name: &str, what: &str) -> Resul
         .find(|case| case.name == name)
         .map(BuiltIn::text)
         .ok_or_else(|| {
+            if let Some(problem) = of_another_model(name) {
+                return problem.into();
+            }
             let help = match nearest(name, names_in(groups)) {
                 Some(near) => format!("did you mean {near}?"),
                 None => "`wedgelab case` lists all".to_owned(),

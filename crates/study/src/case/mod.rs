@@ -223,8 +223,15 @@ fn tree_of(source: &str, text: &str) -> Result<tree::Table, CaseError> {
     Ok(tree)
 }
 
-/// Refuses a study file where a case is expected.
+/// Refuses a study file, or a track file, where a case is expected.
 fn refuse_study(tree: &tree::Table, source: &str) -> Result<(), CaseError> {
+    if let Some(segments) = tree.entry("segments") {
+        let problem = Problem::new(format!("{source} is a track file; a case file is expected"));
+        let problem = problem.at(&segments.key_place).label("only a track has this");
+        return Err(problem
+            .help(format!("`wedgelab track show {source}` shows it"))
+            .into());
+    }
     let Some(study) = STUDY_KEYS.iter().find_map(|key| tree.entry(key)) else {
         return Ok(());
     };
@@ -234,7 +241,7 @@ fn refuse_study(tree: &tree::Table, source: &str) -> Result<(), CaseError> {
 }
 
 /// Keys that only a study has.
-const STUDY_KEYS: [&str; 4] = ["sampling", "vary", "variants", "case"];
+pub(crate) const STUDY_KEYS: [&str; 4] = ["sampling", "vary", "variants", "case"];
 
 /// What a case file must be.
 pub(crate) const CASE_FILE: Expected = Expected {

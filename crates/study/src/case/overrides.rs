@@ -19,6 +19,14 @@ pub(crate) fn apply(tree: &mut Table, overrides: &[String]) -> Problems {
     problems
 }
 
+/// An override as a line of TOML.
+pub(crate) fn to_toml(text: &str) -> Result<String, Problems> {
+    let (tables, entry) = parse(text)?;
+    let keys = tables.iter().chain([&entry]).map(|own| own.key.as_str());
+    let path = keys.collect::<Vec<_>>().join(".");
+    Ok(format!("{path} = {}", entry.node.value.to_toml()))
+}
+
 /// The tables on the way, and the last key with its value.
 fn parse(text: &str) -> Result<(Vec<Entry>, Entry), Problems> {
     let source = TomlSource::new(SOURCE, text);

@@ -128,13 +128,6 @@ impl Problem {
         })
     }
 
-    /// Whether it is shown at this place.
-    pub(crate) fn is_at(&self, other: &TomlLocation) -> bool {
-        self.place
-            .as_ref()
-            .is_some_and(|place| place.span == other.span && place.source.name() == other.source.name())
-    }
-
     /// Shows it in an override as typed: at its value, or at its key.
     pub(crate) fn in_override(self, typed: &str, at_value: bool) -> Self {
         let equals = typed.find('=').unwrap_or(typed.len());

@@ -129,7 +129,16 @@ impl<'a> Section<'a> {
                 let help = match (nearest(&entry.key, keys.iter().copied()), owner) {
                     (Some(near), _) => format!("did you mean `{near}`?"),
                     (None, Some((owner, _))) => format!("`{}` belongs below [{owner}]", entry.key),
-                    (None, None) => format!("known here: {}", keys.join(", ")),
+                    (None, None) => {
+                        // A key stands once for each of its shapes.
+                        let mut known: Vec<&str> = Vec::with_capacity(keys.len());
+                        for key in keys {
+                            if !known.contains(key) {
+                                known.push(key);
+                            }
+                        }
+                        format!("known here: {}", known.join(", "))
+                    }
                 };
                 let place = if self.path.is_empty() {
                     format!("in {top}")

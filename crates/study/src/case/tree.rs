@@ -69,12 +69,25 @@ pub(crate) fn parse(source: &Arc<TomlSource>) -> Result<Table, Problems> {
 /// A mistake of syntax.
 fn syntax(error: &toml::de::Error, source: &Arc<TomlSource>) -> Problem {
     let message = error.message().lines().collect::<Vec<_>>().join(", ");
-    Problem::new(format!("this is not TOML: {message}"))
+    let span = error.span().unwrap_or(0..0);
+    let rest = source.text().get(span.start..).unwrap_or_default();
+    // A label of no length is not drawn.
+    let (end, help) = match !source.text().is_empty() && rest.trim().is_empty() {
+        true => (
+            ", and the file ends here",
+            "what was begun is not ended: the file was cut off, or a quote or bracket is missing",
+        ),
+        false => (
+            "",
+            "a line is `key = value`; text and quantities stand in quotes: angle = \"32 deg\"",
+        ),
+    };
+    Problem::new(format!("this is not TOML: {message}{end}"))
         .at(&TomlLocation {
             source: Arc::clone(source),
-            span: error.span().unwrap_or(0..0),
+            span,
         })
-        .help("a line is `key = value`; text and quantities stand in quotes: angle = \"32 deg\"")
+        .help(help)
 }
 
 fn table_of(table: &DeTable<'_>, source: &Arc<TomlSource>) -> Table {

@@ -122,20 +122,56 @@ pub enum Levels {
     },
 }
 
-/// A parameter that is varied, and those that take the same value with it.
+/// Values of several parameters under one name.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Group {
+    /// Its name.
+    pub name: String,
+    /// What it sets, as `--set` takes it.
+    pub set: Vec<String>,
+}
+
+/// A parameter that is varied, and those that take the same value with it; or groups of values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Factor {
-    /// The paths, as `--set` takes them; the first one names it.
+    /// The paths, as `--set` takes them; the first one names it. Of groups: their common name.
     pub paths: Vec<String>,
-    /// Its values.
+    /// Its values; of groups, their names.
     pub levels: Levels,
+    /// What its values stand for, if they are names of groups.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub groups: Vec<Group>,
 }
 
 impl Factor {
+    /// A factor of these paths and values.
+    #[must_use]
+    pub fn new(paths: Vec<String>, levels: Levels) -> Self {
+        Self {
+            paths,
+            levels,
+            groups: Vec::new(),
+        }
+    }
+
     /// Its name: the first path.
     #[must_use]
     pub fn name(&self) -> &str {
         self.paths.first().map_or("", String::as_str)
+    }
+
+    /// What one of its values sets, as `--set` takes it.
+    #[must_use]
+    pub fn overrides(&self, value: &Value) -> Vec<String> {
+        if !self.groups.is_empty() {
+            let name = value.shown();
+            let group = self.groups.iter().find(|group| group.name == name);
+            return group.map(|group| group.set.clone()).unwrap_or_default();
+        }
+        let paths = self.paths.iter();
+        paths
+            .map(|path| format!("{path}={}", value.to_toml(path)))
+            .collect()
     }
 
     /// How many values it has in a full factorial study.

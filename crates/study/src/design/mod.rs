@@ -17,16 +17,18 @@ use std::path::{Path, PathBuf};
 use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 
-pub use factor::{Factor, Levels, Value};
+pub use factor::{Factor, Group, Levels, Value};
 pub use latin_hypercube::LatinHypercube;
 pub use sobol::{DIMENSIONS, Sobol};
+
+pub(crate) use read::settings;
 
 use crate::any_case::{AnyCase, CaseSource};
 use crate::case::CaseError;
 use crate::measures::Definitions;
 
 /// Version of what a study computes: it grows when the same document gives another table.
-pub const STUDY_VERSION: u32 = 4;
+pub const STUDY_VERSION: u32 = 5;
 
 /// Studies of more runs than this are begun only if the user says so.
 pub const MANY: u64 = 1_000_000;
@@ -190,12 +192,10 @@ impl Study {
     #[must_use]
     pub fn overrides(&self, number: u64) -> Vec<String> {
         let values = self.values(number);
-        let varied = self.factors.iter().zip(&values).flat_map(|(factor, value)| {
-            let value = value.as_ref();
-            factor
-                .paths
-                .iter()
-                .filter_map(move |path| Some(format!("{path}={}", value?.to_toml(path))))
+        let varied = self.factors.iter().zip(&values);
+        let varied = varied.flat_map(|(factor, value)| {
+            let own = value.as_ref().map(|value| factor.overrides(value));
+            own.unwrap_or_default()
         });
         self.everywhere().chain(varied).collect()
     }

@@ -1,7 +1,9 @@
 //! From the text of a study file to the study, with every mistake shown where it was written.
 
+mod groups;
 mod vary;
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use input::file::{Expected, Reason, read_text};
@@ -20,8 +22,8 @@ use crate::case::{CASE_FILE, CaseDocument, CaseError};
 use crate::truck;
 use vary::{RANGE_HELP, TRIED, assignments, check_paths, factors, variants};
 
-const KEYS: [&str; 10] = [
-    "name", "title", "case", "sampling", "runs", "seed", "accuracy", "set", "vary", "variants",
+const KEYS: [&str; 11] = [
+    "name", "title", "case", "sampling", "runs", "seed", "accuracy", "set", "groups", "vary", "variants",
 ];
 const MOST_RUNS: f64 = (1_u64 << 52) as f64;
 #[derive(Clone, Copy, PartialEq)]
@@ -43,12 +45,32 @@ const ACCURACIES: Names<Accuracy> = &[("case", Accuracy::Case), ("engineering", 
 /// A value and where it stands.
 type Written = (Value, TomlLocation);
 
+/// Values by path, as written.
+type Assigned = Vec<(String, Written)>;
+
 /// A factor being read.
 struct Draft {
     factor: Factor,
     key: TomlLocation,
     /// What is tried out.
     written: Vec<Written>,
+    /// What the names of groups stand for.
+    groups: Vec<(String, Assigned)>,
+}
+
+impl Draft {
+    /// What a value of it sets.
+    fn assigned(&self, (value, place): &Written) -> Assigned {
+        if self.groups.is_empty() {
+            let paths = self.factor.paths.iter();
+            return paths
+                .map(|path| (path.clone(), (value.clone(), place.clone())))
+                .collect();
+        }
+        let name = value.shown();
+        let group = self.groups.iter().find(|(own, _)| *own == name);
+        group.map(|(_, assigned)| assigned.clone()).unwrap_or_default()
+    }
 }
 
 pub(super) fn file(path: &Path) -> Result<Study, CaseError> {
@@ -147,6 +169,7 @@ pub(super) fn text(
     }
     let mut drafts = Vec::new();
     let mut list = Vec::new();
+    let mut rows = Vec::new();
     if kind == Kind::List {
         refuse(
             &top,
@@ -155,7 +178,7 @@ pub(super) fn text(
             "a list has [[variants]]; take [vary] out",
             &mut problems,
         );
-        (drafts, list) = variants(&top, &mut problems);
+        (drafts, list, rows) = variants(&top, &mut problems);
     } else {
         let help = "[[variants]] belong to sampling = \"list\"";
         refuse(&top, "variants", "this sampling", help, &mut problems);
@@ -171,6 +194,7 @@ pub(super) fn text(
             problems.push(Problem::new("nothing is varied: [vary] is empty").help(RANGE_HELP));
         }
     }
+    groups::find(&top, &mut drafts, &mut problems);
     let varied: usize = drafts.iter().map(|draft| draft.factor.paths.len()).sum();
     if varied.max(set.len()) > limits::FACTORS {
         let message = format!("more than {} parameters are varied or set", limits::FACTORS);
@@ -199,10 +223,7 @@ pub(super) fn text(
         problems.push(Problem::new(message).help("vary fewer, or take sampling = \"latin_hypercube\""));
     }
     let everywhere: Vec<String> = accuracy_overrides(accuracy)
-        .chain(
-            set.iter()
-                .map(|(path, (value, _))| format!("{path}={}", value.to_toml(path))),
-        )
+        .chain(set.iter().map(overriding))
         .collect();
     let try_out = |overrides: &[String]| source.case(overrides);
     // The case itself, then what is set, then each value alone.
@@ -215,27 +236,60 @@ pub(super) fn text(
         }
         Err(error) => return Err(error),
     };
-    let tried = (TRIED / varied.max(1)).max(2);
-    for draft in &drafts {
-        for (value, place) in draft.written.iter().take(tried) {
-            for path in &draft.factor.paths {
-                let mut overrides = everywhere.clone();
-                overrides.push(format!("{path}={}", value.to_toml(path)));
-                if let Err(error) = try_out(&overrides) {
-                    let written = (value.clone(), place.clone());
-                    let about_key = error.problems().iter().any(Problem::is_about_key);
-                    problems.append(moved(
-                        error,
-                        [(path.as_str(), &written)].into_iter(),
-                        Some(&draft.key),
-                    ));
-                    if about_key {
-                        break;
+    let grouped = drafts.iter().any(|draft| !draft.groups.is_empty());
+    let mut try_over = |assigned: &[(String, Written)], key: Option<&TomlLocation>| {
+        let overrides: Vec<String> = everywhere
+            .iter()
+            .cloned()
+            .chain(assigned.iter().map(overriding))
+            .collect();
+        let Err(error) = try_out(&overrides) else {
+            return false;
+        };
+        let about_key = error.problems().iter().any(Problem::is_about_key);
+        let set = set.iter().chain(assigned);
+        let written: Vec<_> = set.map(|(path, written)| (path.as_str(), written)).collect();
+        problems.append(moved(error, written.into_iter().rev(), key));
+        about_key
+    };
+    if kind == Kind::List && grouped {
+        let mut tried_rows = 0;
+        // Values of groups need each other: rows are tried whole, as long as one has a value of its own.
+        let mut seen = HashSet::new();
+        for row in rows {
+            let values = row.iter();
+            let new = values.filter(|(path, (value, _))| seen.insert((path.clone(), value.to_toml(path))));
+            if new.count() == 0 || tried_rows == TRIED {
+                continue;
+            }
+            tried_rows += 1;
+            let whole: Assigned = drafts
+                .iter()
+                .filter_map(|draft| {
+                    let (_, written) = row.iter().find(|(path, _)| path == draft.factor.name())?;
+                    Some(draft.assigned(written))
+                })
+                .flatten()
+                .collect();
+            try_over(&whole, None);
+        }
+    } else {
+        let tried = (TRIED / varied.max(1)).max(2);
+        'drafts: for draft in &drafts {
+            for written in draft.written.iter().take(tried) {
+                let all = draft.assigned(written);
+                // A group at once; values that go together each for itself.
+                let size = if draft.groups.is_empty() {
+                    1
+                } else {
+                    all.len().max(1)
+                };
+                let key = draft.groups.is_empty().then_some(&draft.key);
+                for part in all.chunks(size) {
+                    if try_over(part, key) && key.is_some() {
+                        continue 'drafts;
                     }
                 }
-            }
-            if problems.kept().iter().any(|problem| problem.is_at(&draft.key)) {
-                break;
             }
         }
     }
@@ -274,10 +328,7 @@ pub(super) fn text(
         sampling,
         accuracy,
         factors,
-        set: set
-            .iter()
-            .map(|(path, (value, _))| format!("{path}={}", value.to_toml(path)))
-            .collect(),
+        set: set.iter().map(overriding).collect(),
         measures: base.definitions(),
         base,
         list,
@@ -289,6 +340,18 @@ pub(super) fn text(
         },
         count,
     })
+}
+
+/// All values below a table, as `--set` takes them; a table in braces is one value.
+pub(crate) fn settings(table: &Table) -> Vec<String> {
+    let mut assigned = Vec::new();
+    assignments(table, "", &mut assigned);
+    assigned.iter().map(overriding).collect()
+}
+
+/// A value as `--set` takes it.
+fn overriding((path, (value, _)): &(String, Written)) -> String {
+    format!("{path}={}", value.to_toml(path))
 }
 
 /// The mistakes of a case, moved to where the study has the value, or to its key.

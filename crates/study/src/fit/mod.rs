@@ -10,7 +10,7 @@ pub mod least_squares;
 mod student;
 
 use input::bounded;
-use quantity::{Number, Quantity};
+use quantity::{Quantity, SixDigits};
 use thiserror::Error;
 
 use crate::any_case::AnyCase;
@@ -93,7 +93,7 @@ impl Free {
             );
             return Err(error(message));
         };
-        if *value >= last {
+        if *value == last {
             let message = format!(
                 "`{path}` is to lie between {} and {}: nothing does",
                 low.shown(),
@@ -103,8 +103,8 @@ impl Free {
         }
         Ok(Self {
             path: path.to_owned(),
-            low: *value,
-            high: last,
+            low: value.min(last),
+            high: value.max(last),
             unit: unit.clone(),
         })
     }
@@ -209,7 +209,7 @@ pub fn course(case: &AnyCase, column: &str, times: &[f64]) -> Result<Vec<f64>, S
     if let Some(stopped) = result.stopped() {
         return Err(format!(
             "the run stopped at {} s: {}",
-            Number(stopped.time),
+            SixDigits(stopped.time),
             stopped.reason
         ));
     }

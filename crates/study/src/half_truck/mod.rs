@@ -140,9 +140,13 @@ pub struct WedgeSummary {
     /// Equivalent viscous damping of that energy, W/(π ω A²) with ω and A of the vertical input.
     #[serde(default)]
     pub equivalent_damping: Option<SummaryValue>,
-    /// Mean of the column's friction on the side frame (positive up) while the bolster goes up.
+    /// The window of the means below ([`window_of`](crate::metrics::window_of)): `mid stroke`, `lower stroke`;
+    /// empty if the input does not cycle.
+    #[serde(default)]
+    pub window: String,
+    /// Mean of the column's friction on the side frame (positive up) over the window where the input goes up.
     pub up: Option<SummaryValue>,
-    /// The same while it goes down.
+    /// The same where it goes down.
     pub down: Option<SummaryValue>,
     /// Largest normal force of the column.
     pub largest_normal_force: Option<SummaryValue>,

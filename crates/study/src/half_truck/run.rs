@@ -21,7 +21,7 @@ use super::{HalfTruckCase, HalfTruckResult, HalfTruckStart, HalfTruckSummary, SC
 use crate::contacts::{ContactTable, TakesCorners};
 use crate::energy;
 use crate::finite::{find, is_finite};
-use crate::metrics::{Cycle, mean};
+use crate::metrics::{Cycle, mean, window_of};
 use crate::plausibility;
 use crate::progress;
 use crate::run::{
@@ -489,6 +489,7 @@ fn wedge(case: &HalfTruckCase, result: &HalfTruckResult, works: &Works, place: u
         result.column("input_vertical").unwrap_or_default(),
         result.column("input_vertical_rate").unwrap_or_default(),
     );
+    summary.window = window_of(damping).to_owned();
     let mut branches = [Vec::new(), Vec::new()];
     for (row, time) in times.iter().enumerate() {
         if let Some(up) = cycle.branch(damping, *time, input[row], rate[row]) {

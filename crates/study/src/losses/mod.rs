@@ -17,6 +17,7 @@
 pub mod flow;
 pub mod stroke;
 mod summary;
+mod whole_run;
 
 use integrate::Integrator;
 use mechanics::system::{ContactState, Energies, System};

@@ -15,14 +15,18 @@ use crate::summary::SummaryValue;
 /// The contact states, by number.
 pub const STATES: [&str; 3] = ["open", "stick", "slip"];
 
-/// Where the energy of a cycle comes from and where it goes: means over whole cycles.
+/// Where the energy of a cycle comes from and where it goes, as means over whole cycles; or that of a whole run
+/// along a distance.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergySummary {
     /// Why there are no energies; empty where there are.
     pub missing: String,
-    /// Number of whole cycles.
+    /// Number of whole cycles; zero where the energies are those of the whole run.
     pub cycles: u32,
-    /// Beginning and end of these cycles, s.
+    /// Distance along which the whole run went: a vehicle's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub distance: Option<SummaryValue>,
+    /// Beginning and end of these cycles or of the run, s.
     pub window: [f64; 2],
     /// Work put in each cycle, by name.
     pub supplied: BTreeMap<String, SummaryValue>,
@@ -50,7 +54,8 @@ pub struct LossSplit {
     pub kind: String,
     /// All of it.
     pub total: Option<SummaryValue>,
-    /// By contact point; empty for what is no contact face.
+    /// By contact point; empty for what is no contact face. Of a whole run by element, where several stand
+    /// together.
     pub by_point: BTreeMap<String, SummaryValue>,
     /// By contact state; empty for what is no contact face.
     pub by_state: BTreeMap<String, SummaryValue>,
@@ -120,6 +125,36 @@ impl EnergySummary {
             .collect();
         losses.sort_by(|a, b| b.2.total_cmp(&a.2));
         losses
+    }
+
+    /// Returns of what the energies are: `cycle` or `run`.
+    #[must_use]
+    pub fn whole(&self) -> &'static str {
+        match self.distance {
+            Some(_) => "run",
+            None => "cycle",
+        }
+    }
+
+    /// Returns over what they are taken, in words.
+    #[must_use]
+    pub fn span(&self) -> String {
+        let [start, end] = self.window;
+        let Some(distance) = &self.distance else {
+            return format!("mean of {} whole cycles, {start:.3} s to {end:.3} s", self.cycles);
+        };
+        let SummaryValue { value, unit } = distance;
+        format!("the whole run, {start:.3} s to {end:.3} s, {value:.1} {unit}")
+    }
+
+    /// Returns an energy of a whole run (in the unit of the summary) by the distance gone: a mean force
+    /// against the motion, such as the resistance that a loss makes. `None` where nothing went a distance.
+    #[must_use]
+    pub fn by_distance(&self, energy: f64, units: Units) -> Option<SummaryValue> {
+        let si = |value: f64, kind: Kind| value / kind.from_si(units);
+        let distance = si(self.distance.as_ref()?.value, Kind::Distance);
+        let force = si(energy, Kind::Energy) / distance;
+        (distance > 0.0).then(|| SummaryValue::new(force, Kind::Force, units))
     }
 
     /// Returns what enters less what is stored and lost, from the entries alone, in their unit. If an entry

@@ -4,105 +4,38 @@
 use std::borrow::Cow;
 
 use quantity::{Kind, System as Units};
+use truck::WEDGE_NAMES;
 
 use super::measuring::run_whole;
 use super::{Definitions, Judged, Measure, Measures, Unmeasured};
 use crate::car::CarCase;
 use crate::car::run::CarResult;
+use crate::car::worst::WORST;
 use crate::plausibility;
 
-/// A measure of a statistic: its name, kind, meaning, the ending of the statistics, and whether the least is
-/// worst.
-type Worst = (&'static str, Kind, &'static str, &'static str, bool);
-
-const WORST: [Worst; 11] = [
-    (
-        "l_over_v_time",
-        Kind::Dimensionless,
-        "largest wheel L/V that lasts for the hold time",
-        "_l_over_v_time",
-        false,
-    ),
-    (
-        "l_over_v_distance",
-        Kind::Dimensionless,
-        "largest wheel L/V that lasts over the hold distance",
-        "_l_over_v_distance",
-        false,
-    ),
-    (
-        "axle_sum_l_over_v_time",
-        Kind::Dimensionless,
-        "largest axle sum of L/V that lasts for the hold time",
-        "_sum_l_over_v_time",
-        false,
-    ),
-    (
-        "side_l_over_v",
-        Kind::Dimensionless,
-        "largest L/V of a truck's side over the side distance",
-        "_side_l_over_v",
-        false,
-    ),
-    (
-        "l_over_v_in_curves",
-        Kind::Dimensionless,
-        "largest percentile of wheel L/V in curves",
-        "_l_over_v_in_curves",
-        false,
-    ),
-    (
-        "least_load_time",
-        Kind::Dimensionless,
-        "least wheel load that lasts for the hold time, % of the static one",
-        "_least_load_time",
-        true,
-    ),
-    (
-        "body_roll_peak_to_peak",
-        Kind::Angle,
-        "greatest less least roll of the body",
-        "body_roll_peak_to_peak",
-        false,
-    ),
-    (
-        "lateral_acceleration_deviation",
-        Kind::RideAcceleration,
-        "largest standard deviation of the lateral acceleration at a truck center",
-        "_lateral_acceleration_deviation",
-        false,
-    ),
-    (
-        "lateral_acceleration_peak_to_peak",
-        Kind::RideAcceleration,
-        "greatest less least lateral acceleration at a truck center",
-        "_lateral_acceleration_peak_to_peak",
-        false,
-    ),
-    (
-        "vertical_acceleration_peak_to_peak",
-        Kind::RideAcceleration,
-        "greatest less least vertical acceleration at a truck center",
-        "_vertical_acceleration_peak_to_peak",
-        false,
-    ),
-    (
-        "lateral_acceleration_rms",
-        Kind::RideAcceleration,
-        "largest rms of the lateral acceleration at a truck center",
-        "_lateral_acceleration_rms",
-        false,
-    ),
-];
-
-const OTHERS: [(&str, Kind, &str); 6] = [
+const OTHERS: [(&str, Kind, &str); 9] = [
     (
         "largest_warp_angle",
         Kind::Angle,
         "largest warp angle of a truck, without sign",
     ),
+    (
+        "largest_nest_load",
+        Kind::Force,
+        "largest vertical force of a nest on its bolster",
+    ),
+    (
+        "largest_wear_number",
+        Kind::Force,
+        "largest energy that creep takes by the distance, of a wheel",
+    ),
     ("wedge_loss", Kind::Energy, "lost in the friction of all wedges"),
     ("end_speed", Kind::TravelSpeed, "speed at the end"),
+    (
+        "end_distance",
+        Kind::Distance,
+        "distance along the track at the end",
+    ),
     ("derailed", Kind::Count, "1 if a wheel left its rail, else 0"),
     (
         "ledger_residual",
@@ -124,11 +57,25 @@ pub fn definitions() -> Definitions {
     };
     let worst = WORST
         .iter()
-        .map(|(name, kind, text, ..)| define(name, *kind, text, false));
+        .map(|own| define(own.name, own.kind, own.text, false));
     let others = OTHERS
         .iter()
         .map(|(name, kind, text)| define(name, *kind, text, true));
-    Definitions(worst.chain(others).collect())
+    let of_wedges = |ending: &str, kind: Kind, text: &'static str, always: bool| {
+        let names = wedges().map(|wedge| format!("{wedge}_{ending}"));
+        let all = names.map(|name| Measure {
+            name: Cow::Owned(name),
+            text: Cow::Borrowed(text),
+            kind,
+            always,
+        });
+        all.collect::<Vec<_>>()
+    };
+    let text = "share of the time after settling in which no point of its faces slips";
+    let locked = of_wedges("locked_share", Kind::Dimensionless, text, false);
+    let text = "lost in its friction";
+    let losses = of_wedges("friction_loss", Kind::Energy, text, true);
+    Definitions(worst.chain(others).chain(locked).chain(losses).collect())
 }
 
 /// Runs a car, measures it in the order of [`definitions`], and judges whether the measures mean something.
@@ -146,36 +93,40 @@ pub fn judge(case: &CarCase) -> Result<Judged, Unmeasured> {
     })
 }
 
+/// Returns the names of all wedges.
+fn wedges() -> impl Iterator<Item = String> {
+    (1..=2).flat_map(|truck| WEDGE_NAMES.map(|wedge| format!("truck_{truck}_{wedge}")))
+}
+
 fn measures(result: &CarResult) -> Measures {
     let summary = &result.summary;
-    let mut values = Vec::new();
-    for (_, _, _, ending, least) in WORST {
-        let sum = ending.contains("_sum_");
-        let own = summary
-            .statistics
-            .iter()
-            .filter(|(name, _)| name.ends_with(ending) && (sum || !name.contains("_sum_")));
-        let found = own.filter_map(|(_, own)| own.filtered.as_ref().or(own.raw.as_ref()));
-        let found = found.map(|own| own.value);
-        let worst = if least {
-            found.reduce(f64::min)
-        } else {
-            found.reduce(f64::max)
-        };
-        values.push(worst.unwrap_or(f64::NAN));
-    }
+    let worst = WORST.iter().map(|own| own.of(&summary.statistics));
+    let mut values: Vec<f64> = worst
+        .map(|found| found.map_or(f64::NAN, |own| own.value.value))
+        .collect();
     let largest = |name: &str| {
         let values = result.column(name).unwrap_or_default();
         values.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
     };
-    let [_, end] = &summary.speed;
+    let largest_of = |ending: &str| {
+        let names = result.columns.iter().map(|column| &*column.name);
+        let own = names.filter(|name| name.ends_with(ending));
+        own.map(largest).fold(0.0, f64::max)
+    };
     values.extend([
-        largest("truck_1_warp_angle").max(largest("truck_2_warp_angle")),
+        largest_of("_warp_angle"),
+        largest_of("_nest_vertical_force"),
+        largest_of("_wear_number"),
         summary.wedge_losses.values().map(|own| own.value).sum(),
-        end.value,
+        summary.speed[1].value,
+        summary.distance[1].value,
         f64::from(u8::from(summary.derailed.is_some())),
         summary.ledger.largest_relative_residual,
         summary.solver.steps as f64,
     ]);
+    let locked = |wedge: String| summary.wedge_locked.get(&wedge).copied();
+    values.extend(wedges().map(|wedge| locked(wedge).unwrap_or(f64::NAN)));
+    let loss = |wedge: String| summary.wedge_losses.get(&wedge).map(|own| own.value);
+    values.extend(wedges().map(|wedge| loss(wedge).unwrap_or(0.0)));
     Measures(values)
 }

@@ -134,7 +134,8 @@ const WEDGE: [(&str, Kind, &str); COUNT] = [
     (
         "mean_vertical_wedge_force_up",
         Kind::Force,
-        "column friction on the side frame, positive up; mean while the bolster rises",
+        "column friction on the side frame, positive up; mean while the bolster rises, at mid stroke with constant \
+         damping, in the lower stroke with variable damping",
     ),
     (
         "mean_vertical_wedge_force_down",
@@ -144,7 +145,8 @@ const WEDGE: [(&str, Kind, &str); COUNT] = [
     (
         "mean_vertical_force_on_side_frame_up",
         Kind::Force,
-        "the same with the spring force of a coil on the side frame; mean while the bolster rises",
+        "the same friction with the spring force of a coil on the side frame; mean while the bolster rises, in the \
+         same window",
     ),
     (
         "mean_vertical_force_on_side_frame_down",
@@ -154,7 +156,7 @@ const WEDGE: [(&str, Kind, &str); COUNT] = [
     (
         "mean_longitudinal_wedge_force_up",
         Kind::Force,
-        "normal forces of the column along x; mean while the bolster rises",
+        "normal forces of the column along x; mean while the bolster rises, in the same window",
     ),
     (
         "mean_longitudinal_wedge_force_down",

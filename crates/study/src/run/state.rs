@@ -12,7 +12,7 @@ use crate::progress::Pace;
 use crate::rows::Rows;
 
 /// Version of [`RunState`].
-pub const RUN_STATE_VERSION: u32 = 4;
+pub const RUN_STATE_VERSION: u32 = 5;
 
 /// Everything needed to continue a run with the same bits; `N` is what the case's recorder has counted.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -15,7 +15,7 @@ use crate::closed_form;
 use crate::energy;
 use crate::jam::{self, JamMargins};
 use crate::losses::{EnergySummary, Equivalent};
-use crate::metrics::{Cycle, Extremes, FirstHarmonic, first_harmonic, mean};
+use crate::metrics::{Cycle, Extremes, FirstHarmonic, first_harmonic, mean, window_of};
 use crate::plausibility;
 use crate::summary::{
     Averages, Events, FrictionSummary, LedgerSummary, SCHEMA, Solver, Stopped, Summary, SummaryValue,
@@ -162,6 +162,7 @@ fn averages(run: &Run<Case>, on_bolster: Option<FirstHarmonic>) -> Averages {
             rows[usize::from(up)].push(row);
         }
     }
+    averages.window = window_of(run.case.parameters.damping).to_owned();
     for (rows, target) in rows.iter().zip([&mut averages.down, &mut averages.up]) {
         for name in BRANCH_COLUMNS {
             let kind = if name.ends_with("dissipation") {
@@ -247,7 +248,7 @@ fn events(run: &Run<Case>) -> Events {
         unresolved: statistics.events_unresolved,
         motion_breaks: statistics.restarts,
         thresholds: vec![
-            "a corner closes where its gap falls to 0, and opens where it grows to 1e-6 in (2.54e-8 m)"
+            "a corner closes where it is pressed in by 1e-11 in (2.54e-13 m), and opens where its normal force ends"
                 .to_owned(),
             "tanh: slip begins at |v| = 2 v0 (96 % of the friction limit), stick at |v| = v0 (76 %)"
                 .to_owned(),

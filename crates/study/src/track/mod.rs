@@ -31,12 +31,12 @@ mod support;
 use std::path::Path;
 
 use quantity::{Kind, Quantity};
-use wheelrail::track::{CenterLine, CurveElements, Placed, Segment, Track, TrackError};
+use wheelrail::track::{CLEARANCE, CenterLine, CurveElements, Placed, Segment, Track, TrackError};
 
 use crate::case::problem::{Problem, Problems, TomlSource};
 use crate::case::section::{Names, Range, Section};
 use crate::case::tree::{self, Node, Table, Value};
-use crate::case::{CaseError, Tables, name, text_of};
+use crate::case::{CaseDocument, CaseError, STUDY_KEYS, Tables, name, text_of};
 
 use irregularity::irregularity;
 pub use support::Support;
@@ -66,6 +66,7 @@ const KEYS: [&str; 8] = [
 ];
 const TURNS: Names<f64> = &[("left", 1.0), ("right", -1.0)];
 const SPIRALS: Names<bool> = &[("linear", false), ("cubic", true)];
+const FOOT: f64 = 0.3048;
 /// The longest track, m.
 const LONGEST: f64 = 1e6;
 
@@ -86,6 +87,16 @@ impl TrackFile {
     pub fn parse(source: &str, text: &str) -> Result<Self, CaseError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let tree = tree::parse(&TomlSource::new(source, text)).map_err(CaseError::new)?;
+        let sections = CaseDocument::SECTIONS.iter();
+        let mut foreign = sections
+            .chain(STUDY_KEYS.iter())
+            .filter_map(|key| tree.entry(key));
+        if let (None, Some(found)) = (tree.entry("segments"), foreign.next()) {
+            let problem = Problem::new(format!("{source} is no track file, but a case or a study"));
+            let problem = problem.at(&found.key_place).label("no track has this");
+            let help = "a track file begins with [[segments]]; docs/wheelrail.md has one to begin with";
+            return Err(problem.help(help).into());
+        }
         let mut problems = Problems::new();
         let file = read(&tree, source, &mut problems);
         file.filter(|_| problems.is_empty())
@@ -179,6 +190,9 @@ pub(crate) fn of_section(
         }
         _ => None,
     };
+    if let Some(distances) = center_line.as_ref().and_then(CenterLine::near_itself) {
+        problems.push(near_itself(tree, distances));
+    }
     let end = center_line.as_ref().map(CenterLine::length);
     let irregularities: Vec<Option<Vec<Placed>>> = list(top, "irregularities", problems)
         .iter()
@@ -193,6 +207,24 @@ pub(crate) fn of_section(
         irregularities: irregularities.into_iter().flatten().collect(),
     };
     Some((track, support?))
+}
+
+/// A track that comes back near itself at two distances (m).
+fn near_itself(tree: &Table, distances: [f64; 2]) -> Problem {
+    let [first, second] = distances.map(|distance| format!("{:.0} ft ({distance:.0} m)", distance / FOOT));
+    let problem = Problem::new(format!(
+        "at {second} the track comes within {:.0} ft of where it lies at {first}",
+        CLEARANCE / FOOT
+    ));
+    let lies = ["segments", "center_line"];
+    let problem = match lies.into_iter().find_map(|key| tree.place_of(key)) {
+        Some(place) => problem.at(place).label("this center line"),
+        None => problem,
+    };
+    problem.help(
+        "wheels find their rail by place, in plan, and would be taken to the first passage: end the track \
+         before it comes back, or lead it past; a lap cannot be closed",
+    )
 }
 
 /// A track that cannot be, shown at its segments.

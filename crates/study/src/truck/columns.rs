@@ -5,8 +5,8 @@ use mechanics::system::{EnergyTermKind, Observation, System};
 use mechanics::vector::{Matrix, Vector};
 use quantity::Kind;
 use truck::{
-    BOLSTER, BuildError, CAR_BODY, HALVES, Loads, Parameters, SIDE_FRAMES, Truck, WEDGE_NAMES, WHEELSETS,
-    WarpMoment, WedgeKind,
+    BOLSTER, BuildError, CAR_BODY, HALVES, HalfLoads, Loads, Parameters, SIDE_FRAMES, Truck, WEDGE_NAMES,
+    WHEELSETS, WarpMoment, WedgeKind, WedgeLoads,
 };
 
 use super::TruckCase;
@@ -250,34 +250,11 @@ impl Columns {
 
     /// The halves of a split wedge.
     fn halves(&mut self, number: usize, name: &str) {
-        for (half, half_name) in HALVES.into_iter().enumerate() {
-            let stem = format!("{name}_{half_name}");
-            let text = "normal force of the half's part of the column";
-            self.add(format!("{stem}_column_normal"), Kind::Force, text, move |seen| {
-                seen.loads.wedges[number].halves[half].column_normal
+        for own in of_halves() {
+            self.add(format!("{name}_{}", own.name), own.kind, own.text, move |seen| {
+                (own.value)(&seen.loads.wedges[number])
             });
-            let text = "normal force of the half's part of the slope";
-            self.add(format!("{stem}_slope_normal"), Kind::Force, text, move |seen| {
-                seen.loads.wedges[number].halves[half].slope_normal
-            });
-            for (k, coordinate) in COORDINATES.into_iter().enumerate() {
-                let name = format!("{stem}_{coordinate}");
-                if k < 3 {
-                    let text = "displacement of the half's center of gravity from its nominal place";
-                    self.add(name, Kind::Length, text, move |seen| {
-                        seen.loads.wedges[number].halves[half].displacement[k]
-                    });
-                } else {
-                    self.add(name, Kind::Angle, "the half's angle in truck axes", move |seen| {
-                        seen.loads.wedges[number].halves[half].angles[k - 3]
-                    });
-                }
-            }
         }
-        let text = "normal force between the halves";
-        self.add(format!("{name}_split_normal"), Kind::Force, text, move |seen| {
-            seen.loads.wedges[number].split_normal
-        });
     }
 
     fn parts_of_warp_moment(&mut self) {
@@ -402,4 +379,67 @@ fn angles(rotation: &Matrix<f64>) -> [f64; 3] {
         libm::atan2(-r[2][0], r[0][0]),
         libm::asin(r[1][0].clamp(-1.0, 1.0)),
     ]
+}
+
+/// A column of a split wedge's halves.
+pub(crate) struct HalfColumn {
+    /// Its name after that of the wedge.
+    pub name: String,
+    pub kind: Kind,
+    pub text: &'static str,
+    /// Its value by the loads of the wedge, SI.
+    pub value: Box<dyn Fn(&WedgeLoads) -> f64 + Send + Sync>,
+}
+
+/// Returns the columns of a split wedge's halves, of trucks and of trucks under cars.
+pub(crate) fn of_halves() -> Vec<HalfColumn> {
+    type Take = fn(&HalfLoads) -> f64;
+    let forces: [(&str, &str, Take); 2] = [
+        (
+            "column_normal",
+            "normal force of the half's part of the column",
+            |half| half.column_normal,
+        ),
+        (
+            "slope_normal",
+            "normal force of the half's part of the slope",
+            |half| half.slope_normal,
+        ),
+    ];
+    let mut columns = Vec::new();
+    for (half, half_name) in HALVES.into_iter().enumerate() {
+        for (name, text, value) in forces {
+            columns.push(HalfColumn {
+                name: format!("{half_name}_{name}"),
+                kind: Kind::Force,
+                text,
+                value: Box::new(move |wedge| value(&wedge.halves[half])),
+            });
+        }
+        for (k, coordinate) in COORDINATES.into_iter().enumerate() {
+            let name = format!("{half_name}_{coordinate}");
+            columns.push(if k < 3 {
+                HalfColumn {
+                    name,
+                    kind: Kind::Length,
+                    text: "displacement of the half's center of gravity from its nominal place",
+                    value: Box::new(move |wedge| wedge.halves[half].displacement[k]),
+                }
+            } else {
+                HalfColumn {
+                    name,
+                    kind: Kind::Angle,
+                    text: "the half's angle in truck axes",
+                    value: Box::new(move |wedge| wedge.halves[half].angles[k - 3]),
+                }
+            });
+        }
+    }
+    columns.push(HalfColumn {
+        name: "split_normal".to_owned(),
+        kind: Kind::Force,
+        text: "normal force between the halves",
+        value: Box::new(|wedge| wedge.split_normal),
+    });
+    columns
 }

@@ -6,10 +6,14 @@
 
 use std::ops::ControlFlow;
 
+use mechanics::contact::PointContact;
 use mechanics::system::Observation;
+use mechanics::vector::Vector;
 use wedge::WEDGE;
+use wedge::face::Rectangle;
 use wedge::outputs::FACES;
 
+use super::counterface::{Laid, Lattice};
 use super::{WearError, WearStop};
 use crate::case::Case;
 use crate::metrics::Cycle;
@@ -30,11 +34,23 @@ pub struct PointWork {
     pub energy: f64,
 }
 
+impl PointWork {
+    /// Adds a share of another.
+    pub(super) fn add(&mut self, other: &Self, share: f64) {
+        self.load_times_path += share * other.load_times_path;
+        self.path += share * other.path;
+        self.impulse += share * other.impulse;
+        self.energy += share * other.energy;
+    }
+}
+
 /// What one cycle does to a wedge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CycleWork {
     /// The points of each face, in the order of its grid.
     pub points: [Vec<PointWork>; FACES.len()],
+    /// What the points do to their counterfaces, by place; nothing where that is not asked for.
+    pub counterfaces: Option<[Laid<PointWork>; FACES.len()]>,
     /// Energy lost in friction at each face by the ledger, J.
     pub losses: [f64; FACES.len()],
     /// Mean height of the wedge above its nominal position, m.
@@ -67,12 +83,16 @@ impl CycleWork {
         }
     }
 
-    /// Runs a case and returns what its last whole cycle does. `go_on` is asked after each step, with the time
-    /// reached.
+    /// Runs a case and returns what its last whole cycle does, with lattices to the counterfaces too. `go_on`
+    /// is asked after each step, with the time reached.
     ///
     /// # Errors
     /// The bolster has no whole cycle, or the run cannot begin, stops or fails.
-    pub fn of(case: &Case, go_on: &mut dyn FnMut(f64) -> ControlFlow<String>) -> Result<Self, WearStop> {
+    pub fn of(
+        case: &Case,
+        lattices: Option<&[Lattice; FACES.len()]>,
+        go_on: &mut dyn FnMut(f64) -> ControlFlow<String>,
+    ) -> Result<Self, WearStop> {
         let cycle = Cycle::of(&case.parameters).ok_or(WearError::NoCycle)?;
         let window = cycle.window(case.simulation.duration);
         let (_, end, _) = window.ok_or(WearError::NoCycle)?;
@@ -81,6 +101,7 @@ impl CycleWork {
         let count = |face: usize| run.system.faces()[face].element.points.len();
         let mut work = Self {
             points: [0, 1].map(|face| vec![PointWork::default(); count(face)]),
+            counterfaces: lattices.map(|own| own.each_ref().map(Lattice::empty)),
             losses: [0.0; 2],
             height: 0.0,
             period: end - start,
@@ -100,10 +121,22 @@ impl CycleWork {
             }
             let (from, to) = (before.max(start), after.min(end));
             if from < to {
-                for place in GAUSS {
-                    let time = from + place * (to - from);
-                    run.integrator.interpolate(time, &mut x);
-                    work.add(&run.system.observe(time, &x), 0.5 * (to - from));
+                // By place a step may be long: it must not leap over nodes of the lattices.
+                let count = match lattices {
+                    Some(_) => (PIECES * (to - from) / work.period).ceil(),
+                    None => 1.0,
+                };
+                let piece = (to - from) / count;
+                for number in 0..count as usize {
+                    for place in GAUSS {
+                        let time = from + (number as f64 + place) * piece;
+                        run.integrator.interpolate(time, &mut x);
+                        let seen = run.system.observe(time, &x);
+                        work.add(&seen, 0.5 * piece);
+                        if let Some(lattices) = lattices {
+                            work.lay(&seen, case, lattices, 0.5 * piece);
+                        }
+                    }
                 }
             }
             if let ControlFlow::Break(reason) = go_on(after) {
@@ -122,18 +155,53 @@ impl CycleWork {
         self.height += seen.bodies[WEDGE].coordinates[2] * duration / self.period;
         for (points, face) in self.points.iter_mut().zip(&seen.faces) {
             for (work, point) in points.iter_mut().zip(&face.points) {
-                let [a, b] = point.slip;
-                let speed = (a * a + b * b).sqrt();
-                work.load_times_path += point.normal * speed * duration;
-                work.impulse += point.normal * duration;
-                work.energy += point.friction.loss * duration;
-                if point.normal > 0.0 {
-                    work.path += speed * duration;
+                work.add(&of_point(point), duration);
+            }
+        }
+    }
+
+    /// Lays what happens at an instant over a time (s) down on the counterfaces.
+    fn lay(&mut self, seen: &Observation, case: &Case, lattices: &[Lattice; 2], duration: f64) {
+        let (rectangles, faces) = (case.parameters.rectangles(), super::faces(case));
+        let Some(counterfaces) = &mut self.counterfaces else {
+            return;
+        };
+        for (number, laid) in counterfaces.iter_mut().enumerate() {
+            let face = &seen.faces[number];
+            let rectangle: &Rectangle = &rectangles[number];
+            for (place, own) in faces[number].grid.points().iter().enumerate() {
+                let point = &face.points[place];
+                if point.normal <= 0.0 {
+                    continue;
                 }
+                let Vector([_, across, along]) = point.position;
+                let (up, side) = rectangle.distances(own);
+                let moved = [UPWARDS[number] * along - up, across - side];
+                let mut work = PointWork::default();
+                work.add(&of_point(point), duration);
+                lattices[number].lay(laid, place, moved, &work);
             }
         }
     }
 }
+
+/// The sign of the marker's axis z up each face: that of the slope points down.
+const UPWARDS: [f64; FACES.len()] = [1.0, -1.0];
+
+/// Returns what a point does in a time of 1 s.
+fn of_point(point: &PointContact<f64>) -> PointWork {
+    let [a, b] = point.slip;
+    let speed = (a * a + b * b).sqrt();
+    PointWork {
+        load_times_path: point.normal * speed,
+        path: if point.normal > 0.0 { speed } else { 0.0 },
+        impulse: point.normal,
+        energy: point.friction.loss,
+    }
+}
+
+/// Pieces of a cycle at least, where it matters what happens at which place.
+const PIECES: f64 = 400.0;
 
 /// The places of Gauss's rule with two points in an interval of length 1.
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];

@@ -10,10 +10,11 @@
 //! No point may be worn in a step by more than [`LIMIT`] of its mean penetration, weighted by its slip; steps
 //! that are too long are divided.
 //!
-//! Limits: the wedge's faces are worn, its counterfaces are not. Where the wear of both is one number, it may
-//! be given as that of the wedge while travel is short against the face.
+//! A counterface is worn by a stated ratio of what the wedge's face loses, where the points are at the time
+//! ([`counterface`]). Without a ratio counterfaces keep their shapes.
 
 pub mod archard;
+pub mod counterface;
 pub mod cycle;
 pub mod energy;
 
@@ -27,6 +28,7 @@ use wedge::outputs::FACES;
 use crate::case::{Case, CaseError, QuantityTable};
 use crate::run::RunError;
 use archard::Archard;
+use counterface::{Counterfaces, Lattice};
 use cycle::{CycleWork, PointWork};
 use energy::WearByEnergy;
 
@@ -64,6 +66,9 @@ pub struct Plan {
     pub most_steps: u32,
     /// The law.
     pub law: WearLaw,
+    /// What the counterfaces lose, by what the wedge's faces lose: the ratio of their coefficients of wear;
+    /// zero or positive.
+    pub counterface: f64,
 }
 
 /// Why wear is not computed.
@@ -128,6 +133,15 @@ pub struct FaceWear {
     pub mean_force: f64,
 }
 
+/// The wear of a counterface at some number of cycles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CounterfaceWear {
+    /// Its depths, with those of the case at the start; none where nothing is worn.
+    pub map: Option<DepthMap>,
+    /// Volume worn since the start, m³.
+    pub volume: f64,
+}
+
 /// The wedge after some number of cycles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WearState {
@@ -135,6 +149,8 @@ pub struct WearState {
     pub cycles: f64,
     /// Its faces.
     pub faces: [FaceWear; FACES.len()],
+    /// Their counterfaces, where these are worn.
+    pub counterfaces: Option<[CounterfaceWear; FACES.len()]>,
     /// Mean height of the wedge over that at the start, m.
     pub rise: f64,
     /// Equivalent viscous damping of the column's friction, N·s/m.
@@ -173,10 +189,12 @@ pub fn advance(
     let mut next = case.clone();
     let mut wear = start(case);
     let mut volumes = [0.0; FACES.len()];
+    let lattices = (plan.counterface > 0.0).then(|| lattices(case));
+    let mut counterfaces = lattices.as_ref().map(Counterfaces::new);
     let (mut cycles, mut height) = (0.0, None);
     loop {
         let done = cycles / plan.cycles;
-        let work = match CycleWork::of(&next, &mut |time| go_on(done, time)) {
+        let work = match CycleWork::of(&next, lattices.as_ref(), &mut |time| go_on(done, time)) {
             Ok(work) => work,
             Err(stop) if history.states.is_empty() => return Err(stop),
             Err(stop) => {
@@ -185,7 +203,8 @@ pub fn advance(
             }
         };
         let first = *height.get_or_insert(work.height);
-        let seen = state(case, &work, &wear, volumes, plan, cycles, first);
+        let mut seen = state(case, &work, &wear, volumes, plan, cycles, first);
+        seen.counterfaces = counterfaces.as_ref().map(|own| own.wear(case));
         history.states.push(seen);
         history.case.clone_from(&next);
         let left = plan.cycles - cycles;
@@ -221,8 +240,11 @@ pub fn advance(
                 volumes[face] += volume;
             }
         }
+        if let (Some(own), Some(work)) = (&mut counterfaces, &work.counterfaces) {
+            own.add(work, |own| step * plan.counterface * plan.law.volume(own));
+        }
         cycles = if last { plan.cycles } else { cycles + step };
-        next = match worn(case, &wear) {
+        next = match worn(case, &wear, counterfaces.as_ref()) {
             Ok(next) => next,
             Err(error) => {
                 history.stopped = Some(error.into());
@@ -266,7 +288,9 @@ fn largest_part(case: &Case, work: &CycleWork, plan: &Plan, areas: &[Vec<f64>; 2
         for ((point, own), area) in points.iter().zip(&work.points[face]).zip(&areas[face]) {
             if own.load_times_path > 0.0 && own.path > 0.0 {
                 let penetration = own.load_times_path / own.path / point.stiffness;
-                largest = largest.max(plan.law.volume(own) / area / penetration);
+                // Both partners open the gap.
+                let both = (1.0 + plan.counterface) * plan.law.volume(own);
+                largest = largest.max(both / area / penetration);
             }
         }
     }
@@ -301,26 +325,41 @@ fn state(
     WearState {
         cycles,
         faces: [face(0), face(1)],
+        counterfaces: None,
         rise: work.height - first_height,
         damping: cycle.map_or(0.0, |cycle| cycle.equivalent_damping(work.losses[0])),
         mismatch: work.mismatch(),
     }
 }
 
-/// Returns a case with these depths at the points of its faces.
-fn worn(case: &Case, depths: &[Vec<f64>; 2]) -> Result<Case, WearError> {
+/// Returns the lattices of both counterfaces.
+fn lattices(case: &Case) -> [Lattice; FACES.len()] {
+    let (rectangles, faces) = (case.parameters.rectangles(), faces(case));
+    [0, 1].map(|face| Lattice::new(faces[face], &rectangles[face]))
+}
+
+/// Returns a case with these depths at the points of its faces, and of its counterfaces where these are worn.
+fn worn(
+    case: &Case,
+    depths: &[Vec<f64>; 2],
+    counterfaces: Option<&Counterfaces<'_>>,
+) -> Result<Case, WearError> {
+    let table = |map: DepthMap| QuantityTable {
+        file: None,
+        rows: map
+            .points()
+            .map(|point| point.map(|value| Quantity::new(value, "m")))
+            .map(|[up, across, depth]| Some([up.ok()?, across.ok()?, depth.ok()?]))
+            .collect::<Option<Vec<_>>>()
+            .unwrap_or_default(),
+    };
     let mut document = case.document.clone();
-    for (number, own) in maps(case, depths).into_iter().enumerate() {
-        let table = own.map(|map| QuantityTable {
-            file: None,
-            rows: map
-                .points()
-                .map(|point| point.map(|value| Quantity::new(value, "m")))
-                .map(|[up, across, depth]| Some([up.ok()?, across.ok()?, depth.ok()?]))
-                .collect::<Option<Vec<_>>>()
-                .unwrap_or_default(),
-        });
-        document.faces[number].wedge_wear = table;
+    for (own, map) in document.faces.iter_mut().zip(maps(case, depths)) {
+        own.wedge_wear = map.map(table);
+    }
+    let counterfaces = counterfaces.into_iter().flat_map(|own| own.wear(case));
+    for (own, worn) in document.faces.iter_mut().zip(counterfaces) {
+        own.counterface_wear = worn.map.map(table);
     }
     Case::from_document(&document).map_err(|error| WearError::Case(Box::new(error)))
 }

@@ -10,7 +10,7 @@ use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
 use mechanics::plausibility::Finding;
 use mechanics::system::System;
-use quantity::{Kind, System as Units};
+use quantity::{Kind, SixDigits, System as Units};
 use rolling::rig::Rig;
 use wheelrail::loaded::Seat;
 
@@ -120,7 +120,7 @@ impl Recorder for WheelsetRecorder {
                 time: row.time,
                 distance: self.row[1],
             });
-            let what = format!("a wheel has derailed at {} s", row.time);
+            let what = format!("a wheel has derailed at {} s", SixDigits(row.time));
             return Err(RunError::Derailed { what });
         }
         Ok(entries)

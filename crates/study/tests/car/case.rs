@@ -29,6 +29,21 @@ fn input_built_in_cars_read_back_to_the_same_case() {
         "car_hunting_roller_empty",
         "car_twist_and_roll_loaded",
         "car_pitch_and_bounce_loaded",
+        "car_yaw_and_sway_loaded",
+        "car_dynamic_curving_loaded",
+        "car_constant_curve_10_loaded",
+        "car_constant_curve_12_loaded",
+        "car_bunched_spiral_loaded",
+        "car_fra_class_1_loaded",
+        "car_fra_class_1_empty",
+        "car_fra_class_2_loaded",
+        "car_fra_class_2_empty",
+        "car_fra_class_3_loaded",
+        "car_fra_class_3_empty",
+        "car_fra_class_4_loaded",
+        "car_fra_class_4_empty",
+        "car_fra_class_5_loaded",
+        "car_fra_class_5_empty",
     ];
     for name in names {
         let case = builtin::case_with(name, &[]).unwrap();

@@ -131,6 +131,56 @@ fn energy_the_ledger_closes_over_a_dip() {
         - last("ledger_residual");
     let scale = losses.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
     assert!(rest.abs() < 1e-9 * scale, "{rest} {scale}");
+    where_the_energy_went(
+        &result,
+        losses.iter().sum(),
+        last("creep_loss"),
+        last("ledger_residual"),
+    );
+}
+
+/// Energies of the run as a whole say what the ledger's columns say: all losses (J), those of the wheels, and
+/// the residual; each group is the sum of its elements, and one that is left out is noticed.
+fn where_the_energy_went(result: &CarResult, lost: f64, creep: f64, residual: f64) {
+    const INCH_POUND: f64 = 4.448_221_615_260_5 * 0.0254;
+    let energy = &result.summary.energy;
+    let near = |told: f64, wanted: f64| {
+        assert!(
+            (told * INCH_POUND - wanted).abs() < 1e-9 * lost,
+            "{told} {wanted}"
+        );
+    };
+    near(energy.loss.as_ref().unwrap().value, lost);
+    near(energy.residual.as_ref().unwrap().value, residual);
+    near(energy.balance(), residual);
+    let wheels = &energy.losses["wheel_loss"];
+    near(wheels.total.as_ref().unwrap().value, creep);
+    assert_eq!(wheels.by_point.len(), 8);
+    assert_eq!(energy.losses["column_friction_loss"].by_point.len(), 8);
+    assert_eq!(energy.losses["adapter_friction_loss"].by_point.len(), 8);
+    for (name, own) in energy.losses.iter().filter(|(_, own)| !own.by_point.is_empty()) {
+        let sum: f64 = own.by_point.values().map(|own| own.value).sum();
+        let total = own.total.as_ref().unwrap().value;
+        assert!((sum - total).abs() <= 1e-12 * total.abs(), "{name}");
+    }
+    let column = result.column("distance").unwrap();
+    let gone = column[column.len() - 1] - column[0];
+    let distance = energy.distance.as_ref().unwrap();
+    assert_eq!(distance.unit, "ft");
+    assert!((distance.value * 0.3048 / gone - 1.0).abs() < 1e-12);
+    // As a force: what it takes to make up for the loss.
+    let resistance = energy
+        .by_distance(energy.loss.as_ref().unwrap().value, System::Us)
+        .unwrap();
+    assert!((resistance.value * 4.448_221_615_260_5 * gone / lost - 1.0).abs() < 1e-12);
+    let mut without = energy.clone();
+    without.losses.remove("column_friction_loss");
+    let total = energy.losses["column_friction_loss"]
+        .total
+        .as_ref()
+        .unwrap()
+        .value;
+    assert!(total > 0.0 && (without.balance() - energy.balance() - total).abs() < 1e-9 * total);
 }
 
 /// A run that is saved and goes on gives the same bits from there on.

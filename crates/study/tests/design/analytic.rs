@@ -231,3 +231,20 @@ fn analytic_a_list_is_what_is_written() {
     assert_eq!(angle(0), study.base.wedge().unwrap().parameters.wedge.angle);
     assert!((angle(1) - 36_f64.to_radians()).abs() < 1e-15);
 }
+
+#[test]
+fn issue_036_ranges_descend() {
+    let runs = |range: &str| {
+        let vary = format!("[vary]\nwedge.angle = {{ {range} }}\n");
+        let study = study(&format!("{HEAD}sampling = \"full_factorial\"\n{vary}"));
+        let value = |number| study.values(number)[0].as_ref().unwrap().in_unit("deg").unwrap();
+        (0..study.count()).map(value).collect::<Vec<f64>>()
+    };
+    assert_eq!(
+        runs("from = \"40 deg\", to = \"30 deg\", count = 3"),
+        [40.0, 35.0, 30.0]
+    );
+    let shares = runs("from = \"40 deg\", to = \"10 deg\", count = 3, scale = \"logarithmic\"");
+    assert_eq!([shares[0], shares[2]], [40.0, 10.0]);
+    assert!((shares[1] - 20.0).abs() < 1e-12, "{shares:?}");
+}

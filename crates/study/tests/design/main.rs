@@ -4,6 +4,7 @@
 
 mod analytic;
 mod common;
+mod groups;
 mod half_truck;
 mod input;
 mod limits;

@@ -7,6 +7,7 @@ from . import cluster, nucars, wheelrail
 from ._wedgelab import Quantity, __version__
 from .car import CarCase
 from .case import Case, Group, built_in
+from .certificate import Certificate, CertificateOutcome, Verdict
 from .errors import (
     CaseError,
     EnergyWarning,
@@ -33,6 +34,7 @@ from .result import (
     Column,
     DataTable,
     HalfTruckResult,
+    Measure,
     Record,
     Result,
     TruckResult,
@@ -66,6 +68,8 @@ __all__ = [
     "CarResult",
     "Case",
     "CaseError",
+    "Certificate",
+    "CertificateOutcome",
     "Column",
     "Constant",
     "ContactSection",
@@ -85,6 +89,7 @@ __all__ = [
     "HalfTruckResult",
     "InternalError",
     "Mark",
+    "Measure",
     "MissingDependencyError",
     "Motion",
     "NucarsError",
@@ -112,6 +117,7 @@ __all__ = [
     "TruckResult",
     "UnitError",
     "UnknownColumn",
+    "Verdict",
     "Wedge",
     "WedgeSection",
     "WedgelabError",

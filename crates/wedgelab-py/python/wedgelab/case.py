@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar, Union
 
+from . import _html
 from ._wedgelab import NativeCarCase, NativeCase, NativeResult, NativeTruckCase, built_in_groups
 from .errors import CaseError
 from .result import Result, checked
@@ -113,6 +114,10 @@ class CompleteCase:
 
     def __hash__(self) -> int:
         return hash(self.to_toml())
+
+    def _repr_html_(self) -> str:
+        title = f"{self.name}: {self.title}" if self.title else self.name
+        return _html.page(f"{type(self).__name__} {title}", [f"<pre>{_html.escape(self.to_toml())}</pre>"])
 
     def __repr__(self) -> str:
         kind = type(self).__name__

@@ -13,11 +13,12 @@ from typing import Any
 
 from ._optional import need
 from ._wedgelab import NativeStudy, NativeStudyFolder
+from .certificate import Certificate, CertificateOutcome
 from .errors import StudyError
 from .many import Progress, _teller
 from .study import PathLike, Study, StudyOutcome, finished, opened
 
-__all__ = ["run_study"]
+__all__ = ["run_certificate", "run_study"]
 
 DEATHS = 5
 """A batch on which workers died so often, as often as Dask itself tries it each time, is given up."""
@@ -38,22 +39,45 @@ def run_study(
     of the same version, and tables in files of their own where this process finds them, but no other file. Without any worker it waits until
     one joins. What ends this process ends the study, which the same call continues. Other arguments as in ``Study.run``.
     """
-    distributed = need("distributed", "wedgelab.cluster", "cluster")
     if not isinstance(study, Study):
         study = Study(study)
+    with opened(study, folder, yes) as (native, path):
+        before = _compute(study, native, client, batch, progress)
+        return finished(study, native, path, before)
+
+
+def run_certificate(
+    certificate: Certificate,
+    folder: PathLike | None = None,
+    *,
+    client: Any,
+    batch: int = 1,
+    progress: Progress = False,
+) -> CertificateOutcome:
+    """Runs what the folder of a certificate lacks on the workers of ``client``, then makes its tables and page in this process.
+
+    As ``run_study``; what ``wedgelab certify`` or ``Certificate.run`` began goes on here, and the other way round, with the same bytes.
+    """
+    with opened(certificate.study, certificate._folder(folder), False) as (native, path):
+        before = _compute(certificate.study, native, client, batch, progress)
+        return certificate._finished(native, path, before, None)
+
+
+def _compute(study: Study, native: NativeStudyFolder, client: Any, batch: int, progress: Progress) -> int:
+    """Has all missing runs computed by the workers; how many were there before."""
+    distributed = need("distributed", "wedgelab.cluster", "cluster")
     if isinstance(batch, bool) or not isinstance(batch, int) or batch < 1:
         raise StudyError(f"batch is {batch!r}; a whole number, 1 or more, is expected")
     if not isinstance(client, distributed.Client) or client.asynchronous:
         raise StudyError(f"client is {client!r}; a dask.distributed.Client that is not asynchronous is expected")
-    with opened(study, folder, yes) as (native, path):
-        before, _ = native.begun()
-        tell = _teller(progress, study.count)
-        done = before
-        for kept in _kept(distributed, client, study, native, batch):
-            done += kept
-            if tell is not None:
-                tell(done)
-        return finished(study, native, path, before)
+    before, _ = native.begun()
+    tell = _teller(progress, study.count)
+    done = before
+    for kept in _kept(distributed, client, study, native, batch):
+        done += kept
+        if tell is not None:
+            tell(done)
+    return before
 
 
 def _kept(distributed: Any, client: Any, study: Study, native: NativeStudyFolder, batch: int) -> Iterator[int]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Iterable
-from typing import Any, Union, overload
+from typing import Any, TextIO, Union, overload
 
 from ._wedgelab import NativeCarCase, NativeCase, NativeHalfTruckCase, NativeTruckCase
 from ._wedgelab import run_many as _run_many
@@ -79,7 +79,7 @@ def run_many(
 
     The results do not depend on ``workers`` (by default, as many as there are processors). ``columns`` are the names
     (without units) of those that are kept; a result with all columns of a run of 10 s has a megabyte, and ``columns=[]`` keeps the
-    summary only. ``progress=True`` writes a line to the standard error; a function is called with how many are done and how many there are. Ctrl-C
+    summary only. ``progress=True`` writes to the standard error, on a terminal one line and elsewhere at most ten; a function is called with how many are done and how many there are. Ctrl-C
     stops all of them.
 
     Runs that cannot begin or go on: with ``errors="raise"`` all others are finished, then the first of them is raised, with everything
@@ -123,16 +123,33 @@ def _finished(one: Any) -> AnyResult | WedgelabError:
     return result
 
 
+def _written(count: int, out: TextIO) -> Callable[[int], None]:
+    """Writes how far it is: on a terminal one line that is written over, elsewhere (notebooks, logs) a line for each tenth."""
+    if out.isatty():
+
+        def over(done: int) -> None:
+            end = "\n" if done == count else "\r"
+            print(f"{done} of {count} runs", end=end, file=out, flush=True)
+
+        return over
+    told = 0
+
+    def lines(done: int) -> None:
+        nonlocal told
+        tenth = 10 * done // max(count, 1)
+        if tenth > told:
+            told = tenth
+            print(f"{done} of {count} runs", file=out, flush=True)
+
+    return lines
+
+
 def _teller(progress: Progress, count: int) -> Callable[[int], None] | None:
     if progress is False or progress is None:
         return None
     if progress is True:
 
-        def write(done: int) -> None:
-            end = "\n" if done == count else "\r"
-            print(f"{done} of {count} runs", end=end, file=sys.stderr, flush=True)
-
-        return write
+        return _written(count, sys.stderr)
     if not callable(progress):
         raise WedgelabError(f"progress is {progress!r}; True, False or a function is expected")
     call = progress

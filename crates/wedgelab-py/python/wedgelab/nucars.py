@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Union
 
+from . import _html
 from ._optional import need
 from ._units import si
 from ._wedgelab import NativeHalfTruckCase, built_in_half_trucks, check_files, read_file
@@ -25,13 +26,15 @@ Path = Union[str, "os.PathLike[str]"]
 class ShownTable:
     """A table of a system file, in the file's units."""
 
+    key: str
+    """A short name, which stays: ``bodies``, ``connections``, ``wedges``."""
     title: str
     columns: tuple[tuple[str, str], ...]
     """Names and units."""
     rows: tuple[tuple[str, ...], ...]
 
     def to_pandas(self) -> Any:
-        """A ``pandas.DataFrame``; columns that hold numbers only are numbers."""
+        """A ``pandas.DataFrame``; columns that hold numbers only are numbers. Its ``attrs`` have ``title`` and ``units``."""
         pandas = need("pandas", "to_pandas", "pandas")
         names = [f"{name} [{unit}]" if unit else name for name, unit in self.columns]
         frame = pandas.DataFrame(list(self.rows), columns=names)
@@ -40,7 +43,13 @@ class ShownTable:
                 frame[name] = pandas.to_numeric(frame[name])
             except (ValueError, TypeError):
                 continue
+        frame.attrs["title"] = self.title
+        frame.attrs["units"] = {name: unit for name, (_, unit) in zip(names, self.columns)}
         return frame
+
+    def _repr_html_(self) -> str:
+        header = [f"{name} ({unit})" if unit else name for name, unit in self.columns]
+        return _html.page(self.title, [_html.table(header, self.rows, most=40)])
 
 
 @dataclass(frozen=True)
@@ -56,7 +65,8 @@ class NucarsFile:
     written: str
     """Written anew from what was understood."""
     tables: dict[str, ShownTable]
-    """Of a system file: bodies, connections, characteristics, functions, by their titles."""
+    """Of a system file, those that have rows, by their keys: ``bodies``, ``input_bodies``, ``connections``, ``springs``, ``gaps``,
+    ``viscous_wedges``, ``surfaces``, ``wedges``, ``wedges_3d``, ``unused_characteristics``, ``functions``."""
     findings: list[Finding]
     """Errors, warnings and notes, in the order of the text."""
 
@@ -86,14 +96,14 @@ def read(path: Path, *, strict: bool = True) -> NucarsFile:
     Errors in it raise `NucarsError`; with ``strict=False`` what could be read is returned, with ``findings``.
     """
     native = read_file(path)
-    tables = (ShownTable(title, tuple(columns), tuple(map(tuple, rows))) for title, columns, rows in native.tables)
+    tables = (ShownTable(key, title, tuple(columns), tuple(map(tuple, rows))) for key, title, columns, rows in native.tables)
     file = NucarsFile(
         native.name,
         native.kind,
         native.title,
         native.text,
         native.written,
-        {table.title: table for table in tables},
+        {table.key: table for table in tables},
         list(native.findings),
     )
     errors = [finding for finding in file.findings if finding.severity == "error"]

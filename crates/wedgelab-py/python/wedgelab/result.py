@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 import numpy.typing as npt
 
+from . import _html
 from ._optional import need
-from ._wedgelab import NativeCarCase, NativeCase, NativeResult, NativeTruckCase
-from .errors import EnergyWarning, PlausibilityWarning, RunError, WedgelabError
+from ._wedgelab import NativeCarCase, NativeCase, NativeResult, NativeTruckCase, Quantity
+from .errors import EnergyWarning, PlausibilityWarning, RunError, UnitError, WedgelabError
 from .figures import Figure, _figures
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
     from .case import Case
 
-__all__ = ["AnyResult", "CarResult", "Column", "DataTable", "HalfTruckResult", "Record", "Result", "TruckResult"]
+__all__ = ["AnyResult", "CarResult", "Column", "DataTable", "HalfTruckResult", "Measure", "Record", "Result", "TruckResult"]
 
 Floats = npt.NDArray[np.float64]
 
@@ -76,23 +77,49 @@ class Record(Mapping[str, Any]):
     def __repr__(self) -> str:
         return f"Record({self.to_dict()!r})"
 
-    def __str__(self) -> str:
-        """A quantity as number and unit, ``1560.09 lbf``; anything else as `repr` has it."""
-        if self._entries.keys() == {"value", "unit"}:
-            return f"{self._entries['value']:.6g} {self._entries['unit']}".rstrip()
-        return repr(self)
+    def _repr_html_(self) -> str:
+        rows = [(key, value if isinstance(value, Measure) else _short(value)) for key, value in self._entries.items()]
+        return _html.table(("key", "value"), rows, most=60)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (Record, (self.to_dict(),))
+        return (_record, (self.to_dict(),))
 
     def to_dict(self) -> dict[str, Any]:
         """Plain nested dicts and lists."""
         return {key: _plain(value) for key, value in self._entries.items()}
 
 
+class Measure(Record):
+    """A number with its unit, ``value`` and ``unit``, that converts: ``measure.to("N")``, ``measure.si``."""
+
+    __slots__ = ()
+
+    def to(self, unit: str) -> float:
+        """The value in another unit of the same kind."""
+        return Quantity(self["value"], self["unit"]).to(unit)
+
+    @property
+    def si(self) -> float:
+        """The value in SI units."""
+        return Quantity(self["value"], self["unit"]).si
+
+    def __str__(self) -> str:
+        return f"{self['value']:.6g} {self['unit']}".rstrip()
+
+
+def _short(value: Any) -> str:
+    """What stands for a value in a table."""
+    if isinstance(value, Record):
+        return ", ".join(value)
+    if isinstance(value, list):
+        return f"{len(value)} entries"
+    return _html.shown(value)
+
+
 def _record(value: Any) -> Any:
     if isinstance(value, Mapping):
-        return Record(value)
+        is_measure = value.keys() == {"value", "unit"} and isinstance(value["value"], (int, float))
+        return Measure(value) if is_measure else Record(value)
     if isinstance(value, list):
         return [_record(one) for one in value]
     return value
@@ -109,10 +136,16 @@ def _plain(value: Any) -> Any:
 class DataTable(Mapping[str, npt.NDArray[Any]]):
     """A table: arrays of the same length by name. `to_pandas` makes a DataFrame of it."""
 
-    __slots__ = ("_arrays",)
+    __slots__ = ("_arrays", "_units")
 
-    def __init__(self, arrays: Mapping[str, npt.NDArray[Any]]) -> None:
+    def __init__(self, arrays: Mapping[str, npt.NDArray[Any]], units: Mapping[str, str] | None = None) -> None:
         self._arrays = dict(arrays)
+        self._units = dict(units or {})
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The units of the columns that have one."""
+        return dict(self._units)
 
     def __getitem__(self, name: str) -> npt.NDArray[Any]:
         return self._arrays[name]
@@ -133,11 +166,21 @@ class DataTable(Mapping[str, npt.NDArray[Any]]):
         return dict(self._arrays)
 
     def to_pandas(self) -> Any:
-        """A ``pandas.DataFrame``."""
-        return need("pandas", "to_pandas", "pandas").DataFrame(self._arrays)
+        """A ``pandas.DataFrame``; its ``attrs`` have the ``units``."""
+        frame = need("pandas", "to_pandas", "pandas").DataFrame(self._arrays)
+        frame.attrs["units"] = self.units
+        return frame
 
     def __repr__(self) -> str:
         return f"<DataTable of {self.rows} rows: {', '.join(self._arrays)}>"
+
+    def _repr_html_(self) -> str:
+        header = [f"{name} ({self._units[name]})" if self._units.get(name) else name for name in self._arrays]
+        count = self.rows
+        # As many as are shown.
+        places = range(count) if count <= 10 else [*range(5), *range(count - 6, count)]
+        rows = [[array[place] for array in self._arrays.values()] for place in places]
+        return _html.page(f"{count} rows", [_html.table(header, rows)])
 
 
 class _Base:
@@ -217,10 +260,20 @@ class _Base:
         return list(self)
 
     def array(self, name: str, units: str | None = None) -> tuple[Floats, str]:
-        """A column by its bare name, and its unit: in ``"us"`` or ``"si"`` units, by default those of the summary."""
+        """A column by its bare name, and its unit: in ``"us"`` or ``"si"`` units, by default those of the summary.
+
+        ``units`` may also be a unit of the column's kind: ``result.array("wedge_z", "mm")``.
+        """
         place, _ = self._place(name)
-        label, _, factor = self._described()[place][_system(units or self.units)]
-        return self._native.values(place, factor), label
+        column = self._described()[place]
+        chosen = units or self.units
+        if chosen in ("us", "si") or not isinstance(chosen, str):
+            label, _, factor = column[_system(chosen)]
+            return self._native.values(place, factor), label
+        own = column[6][0]
+        if not own:
+            raise UnitError(f"{column[0]} is a number without unit; it has no value in {chosen}")
+        return self._native.values(place, Quantity(1.0, own).to(chosen)), chosen
 
     def label(self, name: str, units: str | None = None) -> str:
         """A column's name in words with its unit, as axes have it."""
@@ -233,32 +286,48 @@ class _Base:
     def to_dict(self, units: str | None = None) -> dict[str, Floats]:
         """All columns by their names with units, as in ``result.csv``; ``"us"`` or ``"si"``, by default those of the summary."""
         system = _system(units or self.units)
-        arrays = {}
-        for place, column in enumerate(self._described()):
-            _, suffix, factor = column[system]
-            name = f"{column[0]}_{suffix}" if suffix else column[0]
-            arrays[name] = self._native.values(place, factor)
-        return arrays
+        columns = enumerate(self._described())
+        factors = (self._native.values(place, column[system][2]) for place, column in columns)
+        return dict(zip(self.to_names(units), factors))
+
+    def to_names(self, units: str | None = None) -> list[str]:
+        """The names of all columns with units, as in ``result.csv``; ``"us"`` or ``"si"``, by default those of the summary."""
+        system = _system(units or self.units)
+        return [f"{column[0]}_{column[system][1]}" if column[system][1] else column[0] for column in self._described()]
 
     def to_pandas(self, units: str | None = None) -> Any:
-        """A ``pandas.DataFrame`` of `to_dict`, with the time as its index."""
+        """A ``pandas.DataFrame`` of `to_dict`, with the time as its index.
+
+        Its ``attrs`` have the ``name`` and ``title`` of the run, and the ``units`` and ``descriptions`` of the columns by their names.
+        """
         frame = need("pandas", "to_pandas", "pandas").DataFrame(self.to_dict(units))
-        return frame.set_index("time_s") if "time_s" in frame else frame
+        frame = frame.set_index("time_s") if "time_s" in frame else frame
+        system = _system(units or self.units)
+        frame.attrs["name"], frame.attrs["title"] = self.summary.name, self.summary.title
+        pairs = list(zip(self.to_names(units), self._described()))
+        frame.attrs["units"] = {name: column[system][0] for name, column in pairs}
+        frame.attrs["descriptions"] = {name: column[4] for name, column in pairs}
+        return frame
 
     def to_xarray(self, units: str | None = None) -> Any:
-        """A ``xarray.Dataset``: variables by their bare names over ``time``, with unit and description as attributes."""
+        """A ``xarray.Dataset`` over ``time``, with unit and description of each variable as attributes.
+
+        As everywhere, bare names are in SI units: without ``units`` variables have bare names and SI units; with ``"us"`` or ``"si"``
+        they are in these, under the names that say so, as in `to_dict`.
+        """
         xarray = need("xarray", "to_xarray", "xarray")
-        system = _system(units or self.units)
+        system = _system(units or "si")
+        names = list(self) if units is None else self.to_names(units)
         variables = {}
         for place, column in enumerate(self._described()):
             label, _, factor = column[system]
             attributes = {"units": label, "long_name": column[4], "frame": column[2], "reference_point": column[3]}
             dimension = "time" if "time" in self else "row"
             kept = {key: value for key, value in attributes.items() if value}
-            variables[column[0]] = (dimension, self._native.values(place, factor), kept)
+            variables["time" if column[0] == "time" else names[place]] = (dimension, self._native.values(place, factor), kept)
         time = variables.pop("time", None)
         coordinates = {} if time is None else {"time": time}
-        attributes = {"name": self.summary.name, "title": self.summary.title, "units": units or self.units}
+        attributes = {"name": self.summary.name, "title": self.summary.title, "units": units or "si"}
         return xarray.Dataset(variables, coords=coordinates, attrs=attributes)
 
     @property
@@ -291,7 +360,7 @@ class _Base:
     def _energies(self) -> DataTable:
         names = ["time"] if "time" in self else []
         names += [column[0] for column in self._described() if column[1] == "energy"]
-        return DataTable({name: self[name] for name in names})
+        return DataTable({name: self[name] for name in names}, {name: self.columns[name].unit for name in names})
 
     @property
     def ledger_history(self) -> DataTable:
@@ -310,6 +379,15 @@ class _Base:
     def __repr__(self) -> str:
         how = "" if self.is_complete else ", incomplete"
         return f"<{type(self).__name__} of {self.summary.name}: {self.rows} rows, {len(self)} columns{how}>"
+
+    def _repr_html_(self) -> str:
+        columns = ((name, own.unit, own.text) for name, own in self.columns.items())
+        how = "" if self.is_complete else ", incomplete"
+        title = f"{self.summary.name}: {self.summary.title}" if self.summary.title else self.summary.name
+        note = "Bare names are in SI units; assumptions and summary say what the numbers rest on."
+        texts = [_html.table(("column", "unit", "what it is"), list(columns), most=30)]
+        warned = "".join(f"<p>Warning: {_html.escape(text)}</p>" for text in self.warnings)
+        return _html.page(f"{title} ({self.rows} rows, {len(self)} columns{how})", [warned, *texts], note)
 
 
 class _OfCase(_Base):
@@ -377,7 +455,8 @@ class Result(_OfCase):
         """Changes of contact states: time (s), face, corner, from, to. The first 500; ``summary.events.total`` counts all."""
         listed = self.summary.events.listed
         columns = {"time": float, "face": str, "corner": str, "from": str, "to": str}
-        return DataTable({name: np.array([event[name] for event in listed], dtype=kind) for name, kind in columns.items()})
+        arrays: dict[str, npt.NDArray[Any]] = {name: np.array([event[name] for event in listed], dtype=kind) for name, kind in columns.items()}
+        return DataTable(arrays, {"time": "s"})
 
     @property
     def ledger(self) -> DataTable:
@@ -524,7 +603,7 @@ def unsound_error(result: Any) -> RunError:
         advice = "the exception's `result` has what was computed; do not use its numbers"
         return RunError(message, f"  × {message}\n  help: {advice}", result)
     time, reason = result._native.stopped
-    message = f"the run {result.summary.name} stopped at {time} s and is incomplete: {reason}"
+    message = f"the run {result.summary.name} stopped at {time:.6g} s and is incomplete: {reason}"
     advice = (
         "the exception's `result` has what was computed until then; values far from the thesis's are the first suspects: try a softer "
         "contact.stiffness, a larger friction.reference_speed, another simulation.relative_tolerance"

@@ -45,6 +45,8 @@ class StudyOutcome:
     """Where it is."""
     table: Path
     """The Parquet table."""
+    csv: Path
+    """The same table as text."""
     page: Path
     """The summary page."""
     runs: int
@@ -177,6 +179,7 @@ def finished(study: Study, native: NativeStudyFolder, path: Path, before: int) -
     return StudyOutcome(
         folder=path,
         table=path / "table.parquet",
+        csv=path / "table.csv",
         page=path / "index.html",
         runs=study.count,
         before=before,

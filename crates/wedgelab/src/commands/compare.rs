@@ -6,7 +6,6 @@ use std::process::ExitCode;
 
 use clap::Args;
 use report::comparison::{Comparison, Entry, FILE_NAME};
-use report::table::Table as Results;
 use serde_json::{Value, json};
 
 use crate::adjust::{Names, Span};
@@ -14,6 +13,7 @@ use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
 use crate::json;
+use crate::select::read_table;
 use crate::table::Table;
 
 /// Compare results: overlay figures and a table of differences
@@ -149,7 +149,7 @@ fn document(comparison: &Comparison, entries: &[Entry], folder: &Path, names: &[
 fn read(paths: &[PathBuf]) -> Result<Vec<Entry>, Failure> {
     let mut entries: Vec<Entry> = Vec::new();
     for path in paths {
-        let table = Results::read(path)?;
+        let table = read_table(path)?;
         if entries.iter().any(|entry| entry.table.file == table.file) {
             let message = format!("`{}` is named twice", path.display());
             return Err(Message::new(message, "name two different results").into());

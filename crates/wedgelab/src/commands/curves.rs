@@ -10,7 +10,7 @@ use report::csv::converted;
 use report::curves_files::{self, NAMES, Named};
 use study::truck::loop_curve::{LoopCurve, LoopKind};
 
-use super::warp::{Varied, run};
+use super::warp::{STOPPING, Varied, interrupted, run};
 use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
@@ -60,10 +60,12 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .unwrap_or_else(|| PathBuf::from(format!("{name}_curves")));
     let folder = folders::check(path, &NAMES, arguments.force)?;
     let progress = Progress::new(cases.len(), arguments.quiet);
-    interrupt::stops_run();
+    interrupt::stops(STOPPING, "nothing was written");
     let mut loops: Vec<Named> = Vec::new();
     for (label, case) in &cases {
-        let result = run(label, case, &progress, folder.path())?;
+        let Some(result) = run(label, case, &progress)? else {
+            break;
+        };
         let Some(curve) = LoopCurve::of(case, &result) else {
             progress.finish();
             let message = format!(
@@ -77,6 +79,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         loops.push((label.clone(), curve));
     }
     progress.finish();
+    let early = interrupted(loops.len(), cases.len());
+    if loops.is_empty() {
+        return early.map_or(Ok(ExitCode::SUCCESS), Err);
+    }
     let figure = Drawn::of(&curves_files::figure(&loops))?;
     folder.write(|files| {
         files.add(curves_files::LOOPS, |out| curves_files::write(&loops, out))?;
@@ -93,7 +99,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         folder.path().display(),
         NAMES.join(", ")
     )?;
-    Ok(ExitCode::SUCCESS)
+    early.map_or(Ok(ExitCode::SUCCESS), Err)
 }
 
 /// The table of loops.

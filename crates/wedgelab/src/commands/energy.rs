@@ -1,10 +1,11 @@
-//! `wedgelab energy`: where the energy of a cycle goes.
+//! `wedgelab energy`: where the energy of a cycle goes, and that of a car's run.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
+use quantity::{Kind, SixDigits, System as Units};
 use report::figures::power_flow;
 use report::run_files::{CASE_FILE_NAME, RunFiles};
 use report::summary::write_json;
@@ -16,10 +17,11 @@ use study::summary::{RunSummary, SummaryValue};
 
 use super::run::read_any;
 use crate::drawn::Drawn;
-use crate::execute::compute;
+use crate::execute::{compute, unsound_unwritten};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
+use crate::json;
 use crate::progress::Progress;
 use crate::table::Table;
 
@@ -28,17 +30,20 @@ const NAMES: [&str; 3] = ["energy.json", "power_flow.svg", "power_flow.png"];
 /// Losses below this share of all that is lost have no rows of their own.
 const SMALL: f64 = 1e-3;
 
-/// Where the energy of a cycle comes from and goes
+/// Where the energy of a cycle, or of a car's run, comes from and goes
 ///
 /// Runs a case of a wedge or a truck in which something moves as a sine or a triangle, and tells the energy
 /// of a cycle (the mean of its whole cycles): what is put in, what is lost by face and element, by corner or
-/// point, by contact state, by part of the stroke, and the equivalent viscous damping. With --out the numbers
-/// are written as energy.json, the flow of energy as power_flow.svg and power_flow.png.
+/// point, by contact state, by part of the stroke, and the equivalent viscous damping. Of a car it tells the
+/// energy of the whole run: what is lost in each kind of face and element and by each of these, by the distance
+/// too, as the mean resistance to the motion. With --out the numbers are written as energy.json, the flow of
+/// energy as power_flow.svg and power_flow.png.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
   wedgelab energy vdrun_toe_0.2_psi_0.012
   wedgelab energy truck_vertical_variable --out bounce
+  wedgelab energy car_constant_curve_loaded --out curve
   wedgelab energy my_run --set friction.column=0.3")]
 pub struct Arguments {
     /// Case file, folder of a run (whose case is run again), or the name of a built-in case
@@ -52,6 +57,8 @@ pub struct Arguments {
     /// Overwrite existing results
     #[arg(long)]
     force: bool,
+    #[arg(long, help = json::HELP)]
+    json: bool,
     /// No progress
     #[arg(long, short)]
     quiet: bool,
@@ -71,12 +78,14 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Some(path) => Some(folders::check(path, &NAMES, arguments.force)?),
         None => None,
     };
-    let energy = match &case {
+    let (energy, units) = match &case {
         AnyCase::Wedge(case) => energy_of(&**case, arguments.quiet, |summary| summary.energy.clone())?,
         AnyCase::Truck(case) => energy_of(&**case, arguments.quiet, |summary| summary.energy.clone())?,
-        AnyCase::Car(_) | AnyCase::HalfTruck(_) => {
-            let message = format!("{} is neither a wedge nor a truck", case.name());
-            let advice = "energies of a cycle are told of wedges and trucks whose motion or load is periodic";
+        AnyCase::Car(case) => energy_of(&**case, arguments.quiet, |summary| summary.energy.clone())?,
+        AnyCase::HalfTruck(_) => {
+            let message = format!("{} is neither a wedge, nor a truck, nor a car", case.name());
+            let advice =
+                "energies are told of wedges and trucks whose motion or load is periodic, and of cars";
             return Err(Message::new(message, advice).into());
         }
     };
@@ -91,47 +100,56 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
                       room for two of its periods";
         return Err(Message::new(message, advice).into());
     };
-    let mut out = io::stdout().lock();
-    write(&energy, &mut out)?;
+    if arguments.json {
+        json::print(&energy)?;
+    } else {
+        write(&energy, units, &mut io::stdout().lock())?;
+    }
     if let Some(folder) = folder {
         let figure = Drawn::of(&figure)?;
         folder.write(|files| {
             files.add(NAMES[0], |out| write_json(&energy, out))?;
             figure.add(files, NAMES[1], NAMES[2])
         })?;
-        writeln!(
-            out,
-            "\nWritten into {}: {}.",
-            folder.path().display(),
-            NAMES.join(", ")
-        )?;
+        if !arguments.json {
+            let (path, names) = (folder.path().display(), NAMES.join(", "));
+            writeln!(io::stdout(), "\nWritten into {path}: {names}.")?;
+        }
     }
     Ok(ExitCode::SUCCESS)
 }
 
-/// Runs a case, and returns the energies of its summary.
+/// Runs a case, and returns the energies of its summary and their units.
 fn energy_of<C: RunFiles>(
     case: &C,
     quiet: bool,
     energy: impl FnOnce(&C::Summary) -> EnergySummary,
-) -> Result<EnergySummary, Failure> {
+) -> Result<(EnergySummary, Units), Failure> {
     let progress = Progress::new(1, quiet);
-    interrupt::stops_run();
+    interrupt::stops(
+        "stopping: energies of a cycle are told of whole runs (once more: ends at once)",
+        "nothing was written",
+    );
     let done = compute(case, &progress);
     progress.finish();
     let summary = &done?.result.summary;
-    if let Some(stopped) = summary.stopped() {
-        let message = format!("the run {} stopped: {}", summary.name(), stopped.reason);
-        return Err(Failure::Failed(Message::new(message, C::WHAT_TO_TRY).into()));
+    if let Some(stopped) = summary
+        .stopped()
+        .filter(|stopped| interrupt::is_reason(Some(stopped)))
+    {
+        let time = SixDigits(stopped.time);
+        let message = format!("the run {} was interrupted at {time} s", summary.name());
+        let advice = "nothing is written, for energies of a cycle are told of whole runs; a simulation.duration of \
+                      two periods is enough";
+        return Err(Failure::Interrupted(Message::new(message, advice).into()));
     }
-    if let Some(reason) = summary.failed() {
-        let message = format!("the run {} has failed: {reason}", summary.name());
-        return Err(Failure::Failed(Message::new(message, "").into()));
+    if let Some(failure) = unsound_unwritten::<C>(summary) {
+        return Err(failure);
     }
     for warning in summary.warnings() {
         say(&format!("warning: {}: {warning}", case.name()));
     }
-    Ok(energy(summary))
+    Ok((energy(summary), case.units()))
 }
 
 /// Returns what `run` tells of the energy of a cycle, in a few lines; `None` if there is none.
@@ -186,17 +204,94 @@ fn equivalent(energy: &EnergySummary) -> Option<String> {
 }
 
 /// Writes all tables.
-fn write(energy: &EnergySummary, out: &mut impl Write) -> io::Result<()> {
+fn write(energy: &EnergySummary, units: Units, out: &mut impl Write) -> io::Result<()> {
     let Some(loss) = &energy.loss else {
         return Ok(());
     };
+    writeln!(out, "Energy of a {}: {}.\n", energy.whole(), energy.span())?;
+    balance(energy, loss).write(out)?;
+    writeln!(out)?;
+    let run = energy.distance.is_some();
+    if run {
+        of_run(energy, loss, units).write(out)?;
+    } else {
+        of_cycle(energy, loss).write(out)?;
+    }
+    let rows: Vec<(&str, &LossSplit, f64)> = energy
+        .by_size()
+        .into_iter()
+        .filter(|(_, own, total)| !own.by_point.is_empty() && *total >= SMALL * loss.value)
+        .collect();
+    if !rows.is_empty() {
+        let point = if run { "element" } else { "point" };
+        let head = [
+            (point, ""),
+            ("lost in", ""),
+            ("energy", &loss.unit),
+            ("share", "%"),
+        ];
+        let mut table = Table::new(2, &head);
+        for (name, own, total) in rows {
+            let lost_in = words(if run { name } else { &own.kind });
+            for (point, value) in &own.by_point {
+                table.row([
+                    point.replace('_', " "),
+                    lost_in.clone(),
+                    format!("{:.2}", value.value),
+                    percent(value.value, total),
+                ]);
+            }
+        }
+        writeln!(out)?;
+        table.write(out)?;
+    }
+    if let Some(line) = equivalent(energy) {
+        writeln!(out, "\n{line}")?;
+    }
+    if run {
+        return writeln!(
+            out,
+            "\nShares of elements are of the loss in all elements of their kind. The resistance is the energy by \
+             the distance: the mean\nforce that makes up for it. What wheels lose is creep and the damping of their \
+             contacts."
+        );
+    }
     writeln!(
         out,
-        "Energy of a cycle: mean of {} whole cycles, {:.3} s to {:.3} s.\n",
-        energy.cycles, energy.window[0], energy.window[1]
-    )?;
-    let percent = |value: f64, of: f64| format!("{:.1}", 100.0 * value / of);
-    balance(energy, loss).write(out)?;
+        "\nShares of states, parts of the stroke and points are of the loss in their row. The powers of the points, integrated \
+         step by\nstep, differ from the ledger by at most {:.1e} of all that is lost.",
+        energy.largest_correction
+    )
+}
+
+fn percent(value: f64, of: f64) -> String {
+    format!("{:.1}", 100.0 * value / of)
+}
+
+/// Adds a row for each loss, from the largest on, those below [`SMALL`] together.
+fn losses(
+    table: &mut Table,
+    energy: &EnergySummary,
+    loss: &SummaryValue,
+    more: impl Fn(&LossSplit, f64) -> Vec<String>,
+) {
+    let (mut count, mut sum) = (0, 0.0);
+    for (name, own, total) in energy.by_size() {
+        if total.abs() < SMALL * loss.value {
+            (count, sum) = (count + 1, sum + total);
+            continue;
+        }
+        let first = [words(name), format!("{total:.2}"), percent(total, loss.value)];
+        table.row(first.into_iter().chain(more(own, total)));
+    }
+    if count > 0 {
+        let name = format!("{count} others below {} %", 100.0 * SMALL);
+        table.row([name, format!("{sum:.2}"), percent(sum, loss.value)]);
+    }
+}
+
+/// Returns the losses of a cycle, by contact state and part of the stroke.
+fn of_cycle(energy: &EnergySummary, loss: &SummaryValue) -> Table {
     let mut table = Table::new(
         1,
         &[
@@ -211,22 +306,12 @@ fn write(energy: &EnergySummary, out: &mut impl Write) -> io::Result<()> {
             ("rising, lower", "%"),
         ],
     );
-    let mut small = (0, 0.0);
-    for (name, own, total) in energy.by_size() {
-        if total.abs() < SMALL * loss.value {
-            small = (small.0 + 1, small.1 + total);
-            continue;
-        }
+    losses(&mut table, energy, loss, |own, total| {
         let share = |own: Option<&SummaryValue>| own.map_or("-".to_owned(), |own| percent(own.value, total));
         let states = ["stick", "slip"].map(|state| share(own.by_state.get(state)));
         let parts = PARTS.map(|part| share(own.by_stroke.get(part)));
-        let first = [words(name), format!("{total:.2}"), percent(total, loss.value)];
-        table.row(first.into_iter().chain(states).chain(parts));
-    }
-    if small.0 > 0 {
-        let name = format!("{} others below {} %", small.0, 100.0 * SMALL);
-        table.row([name, format!("{:.2}", small.1), percent(small.1, loss.value)]);
-    }
+        states.into_iter().chain(parts).collect()
+    });
     let parts = PARTS.map(|part| {
         let own = energy.by_stroke.get(part);
         own.map_or("-".to_owned(), |own| percent(own.value, loss.value))
@@ -234,45 +319,27 @@ fn write(energy: &EnergySummary, out: &mut impl Write) -> io::Result<()> {
     let first = ["all".to_owned(), format!("{:.2}", loss.value), "100.0".to_owned()];
     let empty = [String::new(), String::new()];
     table.row(first.into_iter().chain(empty).chain(parts));
-    writeln!(out)?;
-    table.write(out)?;
-    let rows: Vec<(&str, &LossSplit, f64)> = energy
-        .by_size()
-        .into_iter()
-        .filter(|(_, own, total)| !own.by_point.is_empty() && *total >= SMALL * loss.value)
-        .collect();
-    if !rows.is_empty() {
-        let mut table = Table::new(
-            2,
-            &[
-                ("point", ""),
-                ("lost in", ""),
-                ("energy", &loss.unit),
-                ("share", "%"),
-            ],
-        );
-        for (_, own, total) in rows {
-            for (point, value) in &own.by_point {
-                table.row([
-                    point.replace('_', " "),
-                    words(&own.kind),
-                    format!("{:.2}", value.value),
-                    percent(value.value, total),
-                ]);
-            }
-        }
-        writeln!(out)?;
-        table.write(out)?;
-    }
-    if let Some(line) = equivalent(energy) {
-        writeln!(out, "\n{line}")?;
-    }
-    writeln!(
-        out,
-        "\nShares of states, parts of the stroke and points are of the loss in their row. The powers of the points, integrated \
-         step by\nstep, differ from the ledger by at most {:.1e} of all that is lost.",
-        energy.largest_correction
-    )
+    table
+}
+
+/// Returns the losses of a run, with the resistance that each makes.
+fn of_run(energy: &EnergySummary, loss: &SummaryValue, units: Units) -> Table {
+    let resistance = |total: f64| {
+        let force = energy.by_distance(total, units);
+        force.map_or("-".to_owned(), |force| format!("{:.2}", force.value))
+    };
+    let force = Kind::Force.label(units);
+    let head = [
+        ("lost in", ""),
+        ("energy", loss.unit.as_str()),
+        ("share", "%"),
+        ("resistance", force),
+    ];
+    let mut table = Table::new(1, &head);
+    losses(&mut table, energy, loss, |_, total| vec![resistance(total)]);
+    let all = ["all".to_owned(), format!("{:.2}", loss.value), "100.0".to_owned()];
+    table.row(all.into_iter().chain([resistance(loss.value)]));
+    table
 }
 
 /// Returns the table of what goes in and out.

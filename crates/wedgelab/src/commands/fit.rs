@@ -21,6 +21,7 @@ use crate::drawn::Drawn;
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
+use crate::select::read_table;
 use crate::table::Table;
 
 /// Columns of a wedge or a truck that may hold the measured force, the first one found being taken.
@@ -145,7 +146,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         )
         .into());
     }
-    let mut table = Measurements::read(&arguments.measured)?;
+    let mut table = read_table(&arguments.measured)?;
     arguments.names.apply([&mut table])?;
     adjust::keep(&mut table, None, arguments.to)?;
     let force = force(&table, arguments.column.as_deref())?;

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use report::lock_up_files::{self, NAMES};
-use study::lock_up::{LockUpMap, MapError, Span, map};
+use study::lock_up::{Found, LockUpMap, MapError, Span, map};
 
 use super::run::read;
 use crate::drawn::Drawn;
@@ -80,7 +80,7 @@ fn refused(error: MapError) -> Failure {
         .into(),
         MapError::OnePoint(_) => Message::new(message, "give at least 2 points").into(),
         MapError::Interrupted(_) => {
-            Failure::Interrupted(Message::new(message, "nothing was written; give fewer --points").into())
+            Failure::Interrupted(Message::new(message, "no rig had ended, and nothing is written").into())
         }
     }
 }
@@ -106,7 +106,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let all = arguments.points * arguments.points;
     let progress = Steady::new("rigs", all as u64, 0, arguments.quiet);
     interrupt::stops(
-        "stopping: nothing is written (once more: ends at once)",
+        "stopping: the rigs that have ended are written (once more: ends at once and writes nothing)",
         "nothing was written",
     );
     let found = map(&case, [first, second], arguments.points, jobs, |_| {
@@ -130,7 +130,17 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         folder.path().display(),
         NAMES.join(", ")
     )?;
-    Ok(ExitCode::SUCCESS)
+    let Some(reason) = &found.interrupted else {
+        return Ok(ExitCode::SUCCESS);
+    };
+    let left = found.cells.iter().filter(|cell| match &cell.found {
+        Found::Unknown(why) => why == reason,
+        _ => false,
+    });
+    let message = format!("{reason}: {} of {all} rigs were not run", left.count());
+    let advice = "their points have the closed form alone, and are marked as unknown; the same command with \
+                  --force makes the whole map, and fewer --points are sooner done";
+    Err(Failure::Interrupted(Message::new(message, advice).into()))
 }
 
 /// Says what was found.

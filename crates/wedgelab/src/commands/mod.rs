@@ -1,6 +1,7 @@
 //! The commands, one file each: arguments and what they do.
 
 pub mod case;
+pub mod certify;
 pub mod compare;
 pub mod completions;
 pub mod curves;
@@ -13,6 +14,8 @@ pub mod man;
 pub mod nucars;
 pub mod plot;
 pub mod quasi_static;
+pub mod regime;
+pub mod report;
 pub mod reproduce;
 pub mod run;
 pub mod stability;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use quantity::{Kind, nearest};
+use quantity::{Kind, Number, Quantity, nearest};
 use report::figures::car::CarRun;
 use report::figures::truck::TruckRun;
 use report::files::Folder;
@@ -18,6 +18,7 @@ use study::any_case::AnyCase;
 use study::car::summary::CarSummary;
 use study::car::{self, CarCase};
 use study::case::{Case, builtin};
+use study::summary::RunSummary;
 use study::truck::run::TruckResult;
 use study::truck::{self, TruckCase, WEDGE_NAMES};
 
@@ -30,6 +31,8 @@ use crate::folders;
 use crate::interrupt;
 use crate::json;
 use crate::progress::Progress;
+use crate::saved::{self, Parts, Saved};
+use crate::select::built_in_elsewhere;
 use crate::table::Table;
 
 /// Run one case
@@ -39,6 +42,9 @@ use crate::table::Table;
 /// summary.json (averages, extremes, events, energy ledger, solver statistics, assumptions) into a folder
 /// named as the case; of a truck also index.html, where it is seen moving in 3D with its loops and wedges, of
 /// a car on its track with limits, statistics and figures over the distance.
+///
+/// A run with --save or --continue writes the same files but index.html. Its rows have the same bits as those of
+/// the whole run.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -48,6 +54,8 @@ Examples:
   wedgelab run truck_vertical_variable --set wedge.leading_left.friction.column=0.2
   wedgelab run car_twist_and_roll_loaded --set 'speed.value=\"18 mph\"' --set truck.friction.column=0.1
   wedgelab run my.toml --json --quiet | jq .summary.ledger
+  wedgelab run car_hunting_empty --save state.json --until '20 s' --out first
+  wedgelab run car_hunting_empty --continue state.json --out second
   wedgelab run vdrun_toe_0_psi_0 --set 'wedge.angle=\"35 deg\"' --set 'simulation.duration=\"20 s\"'")]
 pub struct Arguments {
     /// Case file, or, if there is no such file, the name of a built-in case
@@ -66,12 +74,33 @@ pub struct Arguments {
     quiet: bool,
     #[arg(long, help = json::HELP)]
     json: bool,
+    /// File to save the state of the run in where it stops: by --until, or by Ctrl-C
+    #[arg(long, value_name = "FILE")]
+    save: Option<PathBuf>,
+    /// When to stop, and save
+    #[arg(long, value_name = "TIME", requires = "save", value_parser = time)]
+    until: Option<Quantity>,
+    /// File with the state to go on from, of the same case; rows before it are not repeated
+    #[arg(long = "continue", value_name = "FILE")]
+    from: Option<PathBuf>,
+}
+
+fn time(text: &str) -> Result<Quantity, String> {
+    let quantity = Quantity::parse_as(text, Kind::Time).map_err(|error| error.to_string())?;
+    match quantity.to_si() > 0.0 {
+        true => Ok(quantity),
+        false => Err("a time above zero is expected, for example \"5 s\"".to_owned()),
+    }
 }
 
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
-    match read_any(&arguments.case, &arguments.set)? {
+    let case = read_any(&arguments.case, &arguments.set)?;
+    if arguments.save.is_some() || arguments.from.is_some() {
+        return execute_in_parts(&case, arguments);
+    }
+    match case {
         AnyCase::Wedge(case) => run(&*case, arguments, |done| {
             let summary = &done.result.summary;
             let energy = energy::in_short(&summary.energy);
@@ -79,12 +108,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         }),
         AnyCase::Truck(case) => run_truck(&case, arguments),
         AnyCase::Car(case) => run_car(&case, arguments),
-        // Those have a command of their own.
-        AnyCase::HalfTruck(case) => Err(Message::new(
-            format!("{} is a half-truck", case.name),
-            "`wedgelab nucars run` runs it",
-        )
-        .into()),
+        AnyCase::HalfTruck(case) => Err(not_here(&case.name)),
     }
 }
 
@@ -112,6 +136,71 @@ fn run<C: RunFiles>(
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),
     }
+}
+
+/// Runs a case of any model in parts.
+fn execute_in_parts(case: &AnyCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
+    match case {
+        AnyCase::Wedge(case) => {
+            let text = case.document.clone().with_tables_embedded().to_toml();
+            run_in_parts(&**case, &text, arguments, |done| {
+                (table([(&done.result.summary, done.wall)]), TABLE_NOTE.to_owned())
+            })
+        }
+        AnyCase::Truck(case) => run_in_parts(&**case, case.to_toml_embedded(), arguments, |done| {
+            (truck_table(&done.result), TRUCK_NOTE.to_owned())
+        }),
+        AnyCase::Car(case) => run_in_parts(&**case, case.to_toml_embedded(), arguments, |done| {
+            told_of_car(&done.result.summary)
+        }),
+        AnyCase::HalfTruck(case) => Err(not_here(&case.name)),
+    }
+}
+
+fn run_in_parts<C: RunFiles>(
+    case: &C,
+    text: &str,
+    arguments: &Arguments,
+    shown: impl FnOnce(&Done<C::Output>) -> (Table, String),
+) -> Result<ExitCode, Failure> {
+    let path = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(case.name()));
+    let folder = folders::check(path, &case.names(), arguments.force)?;
+    let progress = Progress::new(1, arguments.quiet);
+    interrupt::stops_run();
+    let parts = Parts {
+        case: text,
+        from: arguments.from.as_deref(),
+        save: arguments.save.as_deref(),
+        until: arguments.until.as_ref().map(Quantity::to_si),
+        force: arguments.force,
+    };
+    let computed = saved::compute(case, &parts, &progress)
+        .and_then(|(done, saved)| write(&done, case, &folder, &progress).map(|()| (done, saved)));
+    progress.finish();
+    let (done, saved) = computed?;
+    let summary = &done.result.summary;
+    tell(arguments, &folder, &case.names(), summary, || shown(&done))?;
+    if let Some(Saved { time, path }) = &saved {
+        let (time, path) = (Number(*time), path.display());
+        say(&format!(
+            "saved at {time} s in {path}; --continue {path} goes on from there"
+        ));
+    } else if arguments.save.is_some() && summary.stopped().is_none() {
+        say("the run came to its end; no state is saved");
+    }
+    let told = summary.stopped().is_some_and(|own| saved::is_reason(&own.reason));
+    match unsound::<C>(summary, folder.path()) {
+        Some(failure) if !told => Err(failure),
+        _ => Ok(ExitCode::SUCCESS),
+    }
+}
+
+/// Half-trucks have a command of their own.
+fn not_here(name: &str) -> Failure {
+    Message::new(format!("{name} is a half-truck"), "`wedgelab nucars run` runs it").into()
 }
 
 /// Returns a note with what is told of the energy of a cycle.
@@ -167,13 +256,7 @@ fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     write_page(&folder, |viewer| page::car_run::render(&run, viewer))?;
     let summary = &run.result.summary;
-    tell(arguments, &folder, &names, summary, || {
-        if summary.limits.is_empty() {
-            (Table::new(1, &[]), NO_STATISTICS.to_owned())
-        } else {
-            (car_table(summary), CAR_NOTE.to_owned())
-        }
-    })?;
+    tell(arguments, &folder, &names, summary, || told_of_car(summary))?;
     if Viewer::embedded().is_none() {
         say(page::MISSING);
     }
@@ -206,6 +289,15 @@ fn tell(
     let names = names.join(", ");
     writeln!(out, "\n{note}\n\nWritten into {}: {names}{page}.", path.display())?;
     Ok(())
+}
+
+/// What is told of a car's run.
+fn told_of_car(summary: &CarSummary) -> (Table, String) {
+    if summary.limits.is_empty() {
+        (Table::new(1, &[]), NO_STATISTICS.to_owned())
+    } else {
+        (car_table(summary), CAR_NOTE.to_owned())
+    }
 }
 
 /// Instead of a car's table where there is nothing in it.
@@ -299,6 +391,9 @@ pub fn read_any(path: &Path, set: &[String]) -> Result<AnyCase, Failure> {
     if path.is_dir() {
         let advice = format!("name a case file, perhaps {}", path.join("case.toml").display());
         return Err(Message::new(format!("`{name}` is a folder, not a case file"), advice).into());
+    }
+    if let Some(message) = built_in_elsewhere(path).filter(|_| !path.exists()) {
+        return Err(message.into());
     }
     if !path.exists() && !name.ends_with(".toml") && path.components().count() == 1 {
         let advice = match nearest(name, built_in_names()) {

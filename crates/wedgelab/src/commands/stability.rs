@@ -72,7 +72,7 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// A range of speeds, m/s.
+/// A range of speeds, m/s, rising; whichever end comes first in the text.
 fn range(text: &str) -> Result<[f64; 2], String> {
     const HOW: &str = "write for example \"30 mph\"..\"80 mph\"";
     let (from, to) = text.split_once("..").ok_or(HOW)?;
@@ -84,10 +84,10 @@ fn range(text: &str) -> Result<[f64; 2], String> {
             _ => Err("speeds must be positive, below 1000 m/s".to_owned()),
         }
     };
-    let speeds = [speed(from)?, speed(to)?];
-    match speeds[0] < speeds[1] {
-        true => Ok(speeds),
-        false => Err(format!("the second speed must be the higher one; {HOW}")),
+    let [from, to] = [speed(from)?, speed(to)?];
+    match from == to {
+        true => Err(format!("this is one speed only; {HOW}")),
+        false => Ok([from.min(to), from.max(to)]),
     }
 }
 

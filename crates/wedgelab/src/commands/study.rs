@@ -1,16 +1,18 @@
 //! `wedgelab study`: many variants of a case.
 
 mod series;
-mod work;
+pub(super) mod work;
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Args;
+use report::csv;
 use report::page::study as page;
-use report::study_folder::{StudyFolder, StudyFolderError, TABLE_FILE};
+use report::run_files::CASE_FILE_NAME;
+use report::study_folder::{STUDY_FILE, StudyFolder, StudyFolderError, TABLE_CSV_FILE, TABLE_FILE};
 use report::study_work;
 use serde_json::json;
 use study::design::{MANY, Study};
@@ -19,15 +21,16 @@ use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
 use crate::json;
+use crate::select::built_in_elsewhere;
 
 /// Run many variants of a case
 ///
 /// Reads a study file (TOML): a case, and parameters to vary as full factorial, Latin hypercube, Sobol'
 /// sequence or list. Computes the measures of every variant (energies per cycle, equivalent damping and
 /// stiffness, branch forces, peak moments, lift-off time, stick share, jam margin, wear power) and writes
-/// table.parquet, with units in its metadata, and index.html (main effects, contour maps, jam map). A study
-/// that was ended or killed goes on where it was when the command is given again; the table does not depend
-/// on that, nor on the number of jobs.
+/// table.parquet, with units in its metadata, the same as table.csv, and index.html (main effects, contour
+/// maps, jam map). A study that was ended or killed goes on where it was when the command is given again; the
+/// table does not depend on that, nor on the number of jobs.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -63,6 +66,23 @@ pub struct Arguments {
     json: bool,
 }
 
+/// What is wrong if a built-in case, or the folder of a run or a study, is named in place of a study file.
+fn no_study(path: &Path) -> Option<Message> {
+    let shown = path.display();
+    if path.join(STUDY_FILE).is_file() {
+        let advice = "give the study file that it was made of: it goes on where it was";
+        return Some(Message::new(format!("{shown} is the folder of a study"), advice));
+    }
+    if path.join(csv::FILE_NAME).is_file() {
+        let advice = format!(
+            "`wedgelab plot` and `wedgelab compare` take it; a study of its case begins with case = \"{}\"",
+            path.join(CASE_FILE_NAME).display()
+        );
+        return Some(Message::new(format!("{shown} is the result of a run"), advice));
+    }
+    built_in_elsewhere(path).filter(|_| !path.exists())
+}
+
 impl From<StudyFolderError> for Failure {
     fn from(error: StudyFolderError) -> Self {
         match error {
@@ -77,6 +97,9 @@ impl From<StudyFolderError> for Failure {
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
+    if let Some(message) = no_study(&arguments.study) {
+        return Err(message.into());
+    }
     let study = Study::read(&arguments.study)?;
     if let Some(number) = arguments.series.iter().find(|number| **number >= study.count()) {
         let message = format!("there is no run {number}: the study has {} runs", study.count());
@@ -144,7 +167,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         let reasons = reasons.map(|(run, reason)| json!({ "run": run, "reason": reason }));
         json::print(&json!({
             "folder": path,
-            "files": [TABLE_FILE, page::FILE_NAME],
+            "files": [TABLE_FILE, TABLE_CSV_FILE, page::FILE_NAME],
             "runs": study.count(),
             "complete": complete,
             "refused": refused,
@@ -175,7 +198,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     writeln!(
         out,
-        "\nWritten into {}: {TABLE_FILE}, {} (open it in a browser).",
+        "\nWritten into {}: {TABLE_FILE}, {TABLE_CSV_FILE}, {} (open it in a browser).",
         path.display(),
         page::FILE_NAME
     )?;

@@ -13,7 +13,7 @@ use study::truck::warp::{NUCARS_STIFFNESS, WarpCurve};
 
 use super::run::read_any;
 use crate::drawn::Drawn;
-use crate::execute::{Done, compute, unsound};
+use crate::execute::{Done, compute, unsound_unwritten};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
@@ -81,10 +81,12 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .unwrap_or_else(|| PathBuf::from(format!("{}_warp", first.name)));
     let folder = folders::check(path, &NAMES, arguments.force)?;
     let progress = Progress::new(cases.len(), arguments.quiet);
-    interrupt::stops_run();
+    interrupt::stops(STOPPING, "nothing was written");
     let mut tests = Vec::new();
     for (label, case) in &cases {
-        let result = run(label, case, &progress, folder.path())?;
+        let Some(result) = run(label, case, &progress)? else {
+            break;
+        };
         let Some(curve) = WarpCurve::of(case, &result) else {
             progress.finish();
             let message = format!("in {} the warp angle stays below 0.5 mrad", case.name);
@@ -99,6 +101,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         });
     }
     progress.finish();
+    let early = interrupted(tests.len(), cases.len());
+    if tests.is_empty() {
+        return early.map_or(Ok(ExitCode::SUCCESS), Err);
+    }
     let figure = Drawn::of(&warp_files::figure(&tests))?;
     folder.write(|files| {
         files.add(warp_files::STIFFNESS, |out| {
@@ -119,7 +125,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         folder.path().display(),
         NAMES.join(", ")
     )?;
-    Ok(ExitCode::SUCCESS)
+    early.map_or(Ok(ExitCode::SUCCESS), Err)
 }
 
 impl Varied {
@@ -173,16 +179,34 @@ impl Varied {
     }
 }
 
-/// Runs one test: its progress and warnings go to standard error.
-pub fn run(
-    label: &str,
-    case: &TruckCase,
-    progress: &Progress,
-    folder: &Path,
-) -> Result<TruckResult, Failure> {
+/// What a first signal says to a command that runs several tests.
+pub const STOPPING: &str =
+    "stopping: the tests that have ended are written (once more: ends at once and writes nothing)";
+
+/// What is said of an interrupted command that has made so many of its tests; `None` if it was not.
+pub fn interrupted(made: usize, all: usize) -> Option<Failure> {
+    if made == all || !interrupt::wanted() {
+        return None;
+    }
+    let message = format!("{}: {made} of {all} tests have ended", interrupt::REASON);
+    let advice = match made {
+        0 => "nothing is written; the same command begins anew",
+        _ => "they are written; the same command with --force makes all of them, from the start",
+    };
+    Some(Failure::Interrupted(Message::new(message, advice).into()))
+}
+
+/// Runs one test: its progress and warnings go to standard error. `None` if it was interrupted.
+pub fn run(label: &str, case: &TruckCase, progress: &Progress) -> Result<Option<TruckResult>, Failure> {
+    if interrupt::wanted() {
+        return Ok(None);
+    }
     let Done { result, wall } = compute(case, progress)?;
+    if interrupt::is_reason(result.summary.stopped.as_ref()) {
+        return Ok(None);
+    }
     progress.done(&case.name, &format!("{:.2} s", wall.as_secs_f64()));
-    if let Some(failure) = unsound::<TruckCase>(&result.summary, folder) {
+    if let Some(failure) = unsound_unwritten::<TruckCase>(&result.summary) {
         progress.finish();
         return Err(failure);
     }
@@ -192,7 +216,7 @@ pub fn run(
             if label.is_empty() { &case.name } else { label }
         ));
     }
-    Ok(result)
+    Ok(Some(result))
 }
 
 /// The table of stiffnesses.

@@ -24,7 +24,9 @@ use crate::progress::Progress;
 /// the wedge's faces grow by a law of wear over many cycles, and runs the worn wedge again, step by step. Writes
 /// wear.csv (volumes, losses, forces, rise over the cycles), wear_points.csv (depth and pressure of every point
 /// at every step), column_wear.csv and slope_wear.csv (what wedge_wear takes), worn.toml (the worn case),
-/// wear.svg, wear.png and wear.txt (the result in words).
+/// wear.svg, wear.png and wear.txt (the result in words). With --counterface column and pocket are worn too, where
+/// the wedge slides over them: column_counterface_wear.csv, slope_counterface_wear.csv (what counterface_wear
+/// takes).
 ///
 /// The laws' default numbers are guesses, known to an order of magnitude at best.
 #[derive(Debug, Args)]
@@ -32,7 +34,8 @@ use crate::progress::Progress;
 Examples:
   wedgelab wear vdrun_toe_0_psi_0 --cycles 100000
   wedgelab wear my.toml --cycles 1e6 --steps 20 --coefficient 3e-5 --hardness '2000 MPa' --set 'column_face.grid=[5, 5]'
-  wedgelab wear my.toml --cycles 1e6 --law energy --coefficient 2e-14")]
+  wedgelab wear my.toml --cycles 1e6 --law energy --coefficient 2e-14
+  wedgelab wear my.toml --cycles 1e6 --counterface 0.5 --set 'column_face.grid=[5, 5]'")]
 pub struct Arguments {
     /// Case file of a single wedge, or the name of a built-in case
     case: PathBuf,
@@ -55,6 +58,9 @@ pub struct Arguments {
     /// Hardness of the softer partner, of Archard's law [default: 2450 MPa, a guess]
     #[arg(long, value_name = "PRESSURE", value_parser = hardness)]
     hardness: Option<Quantity>,
+    /// What column and pocket lose, by what the wedge's faces lose: the ratio of their coefficients of wear
+    #[arg(long, value_name = "RATIO", value_parser = ratio, allow_hyphen_values = true, default_value_t = 0.0)]
+    counterface: f64,
     /// Set one value over those of the case; VALUE is TOML (quotes around text may be left out)
     #[arg(long, value_name = "PATH.KEY=VALUE")]
     set: Vec<String>,
@@ -87,6 +93,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         steps: arguments.steps,
         most_steps: arguments.most_steps.max(arguments.steps),
         law: law(arguments)?,
+        counterface: arguments.counterface,
     };
     let given = Given {
         coefficient: arguments.coefficient.is_some(),
@@ -96,7 +103,12 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .out
         .clone()
         .unwrap_or_else(|| PathBuf::from(format!("{}_wear", case.name)));
-    let folder = folders::check(path, &NAMES, arguments.force)?;
+    let counterfaces: &[&str] = match plan.counterface > 0.0 {
+        true => &files::COUNTERFACES,
+        false => &[],
+    };
+    let names = [&NAMES[..], counterfaces].concat();
+    let folder = folders::check(path, &names, arguments.force)?;
     let progress = Progress::new(1, arguments.quiet);
     let first =
         "stopping: the steps that were computed are written (once more: ends at once and writes nothing)";
@@ -116,6 +128,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         for (face, name) in files::DEPTHS.into_iter().enumerate() {
             all.add(name, |out| files::write_depths(&history, face, out))?;
         }
+        for (face, name) in counterfaces.iter().enumerate() {
+            all.add(name, |out| files::write_counterface(&history, face, out))?;
+        }
         all.add(files::CASE, |out| {
             let document = history.case.document.clone().with_tables_embedded();
             out.write_all(document.to_toml().as_bytes())
@@ -128,7 +143,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         out,
         "{words}\nWritten into {}: {}.",
         folder.path().display(),
-        NAMES.join(", ")
+        names.join(", ")
     )?;
     stopped(&history, &plan)
 }
@@ -217,6 +232,15 @@ fn coefficient(text: &str) -> Result<f64, String> {
         _ => Err(
             "a number above 0 up to 1 is expected, for example 1e-4 (Archard's K) or 1e-13 (by energy, m³/J)"
                 .to_owned(),
+        ),
+    }
+}
+
+fn ratio(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if (0.0..=1e3).contains(&value) => Ok(value),
+        _ => Err(
+            "a ratio from 0 (not worn) to 1000 is expected, for example 1 where both wear alike".to_owned(),
         ),
     }
 }

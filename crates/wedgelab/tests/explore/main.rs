@@ -5,6 +5,7 @@
 mod common;
 mod issue_029_random;
 mod issue_029_safety;
+mod issue_036_open;
 
 use std::fs;
 use std::net::TcpStream;

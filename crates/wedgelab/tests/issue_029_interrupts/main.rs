@@ -7,6 +7,7 @@
 mod brief;
 mod common;
 mod left_over;
+mod others;
 mod reproduction;
 mod runs;
 mod studies;

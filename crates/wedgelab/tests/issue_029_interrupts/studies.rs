@@ -22,7 +22,14 @@ friction.column = { from = 0.2, to = 0.6, count = 20 }
 control_coil.stiffness = { from = \"1500 lbf/in\", to = \"2500 lbf/in\", count = 15 }
 ";
 /// What lies in the folder of a study that is done.
-const WHOLE: [&str; 5] = [".lock", "index.html", "parts", "study.json", "table.parquet"];
+const WHOLE: [&str; 6] = [
+    ".lock",
+    "index.html",
+    "parts",
+    "study.json",
+    "table.csv",
+    "table.parquet",
+];
 
 /// Bytes of records that are there.
 fn kept(folder: &Path) -> u64 {

@@ -20,7 +20,14 @@ control_coil.stiffness = { from = \"1500 lbf/in\", to = \"2500 lbf/in\", count =
 ";
 
 /// What lies in the folder of a study that is done.
-pub const WHOLE: [&str; 5] = [".lock", "index.html", "parts", "study.json", "table.parquet"];
+pub const WHOLE: [&str; 6] = [
+    ".lock",
+    "index.html",
+    "parts",
+    "study.json",
+    "table.csv",
+    "table.parquet",
+];
 
 pub struct Output {
     pub code: Option<i32>,
@@ -76,8 +83,11 @@ pub fn refused(folder: &Path, arguments: &[&str], code: i32, texts: &[&str]) {
     assert!(!output.err.contains("panicked"), "{}", output.err);
 }
 
+/// The bytes of both tables.
 pub fn table(folder: &Path) -> Vec<u8> {
-    fs::read(folder.join("table.parquet")).unwrap()
+    ["table.parquet", "table.csv"]
+        .map(|name| fs::read(folder.join(name)).unwrap())
+        .concat()
 }
 
 /// The names in a folder, sorted.

@@ -74,7 +74,7 @@ fn input_what_cannot_be_fitted() {
             ["cannot determine", "fewer"],
         ),
         (
-            ["few.csv", "case.toml", "friction.column=0.6..0.2"],
+            ["few.csv", "case.toml", "friction.column=0.6..0.6"],
             ["nothing does", "--free"],
         ),
         (

@@ -20,8 +20,8 @@ fn input_what_is_wrong_is_shown_where_it_stands() {
         ),
         (
             "from = 0.2, to = 0.6",
-            "from = 0.6, to = 0.2",
-            ["goes from 0.6 down to 0.2", "exchange"],
+            "from = 0.6, to = 0.6",
+            ["goes from 0.6 to the same", "[set]"],
         ),
         (
             "\"2500 lbf/in\"",

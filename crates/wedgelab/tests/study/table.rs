@@ -64,8 +64,8 @@ fn limits_a_row_is_the_summary_of_the_same_run() {
     let rows = rows(&path.join("mixed"));
     assert_eq!(rows.len(), 4);
     assert_eq!(number(&rows[1], "friction.column"), 0.35);
-    assert_eq!(number(&rows[1], "side_frame.toe_deg"), -0.2);
-    assert_eq!(*cell(&rows[0], "side_frame.toe_deg"), Field::Null);
+    assert_eq!(number(&rows[1], "side_frame.toe_out_deg"), -0.2);
+    assert_eq!(*cell(&rows[0], "side_frame.toe_out_deg"), Field::Null);
     assert_eq!(*cell(&rows[3], "wedge.damping"), Field::Str("variable".into()));
     // The failed one says why, and the others are there.
     assert_eq!(*cell(&rows[2], "energy_per_cycle_side_frame_lbf_in"), Field::Null);
@@ -105,6 +105,59 @@ fn limits_a_row_is_the_summary_of_the_same_run() {
     }
 }
 
+/// The cells of a line of CSV, without quotation marks.
+fn cells(line: &str) -> Vec<String> {
+    let (mut cells, mut quoted) = (vec![String::new()], false);
+    for sign in line.chars() {
+        match sign {
+            '"' => quoted = !quoted,
+            ',' if !quoted => cells.push(String::new()),
+            sign => cells.last_mut().unwrap().push(sign),
+        }
+    }
+    cells
+}
+
+#[test]
+fn issue_036_the_table_as_csv_is_the_parquet_table() {
+    let folder = tempdir().unwrap();
+    let path = folder.path();
+    fs::write(path.join("mixed.toml"), MIXED.replace("\"5 s\"", "\"2 s\"")).unwrap();
+    done(path, &["study", "mixed.toml", "--quiet"]);
+    let text = fs::read_to_string(path.join("mixed/table.csv")).unwrap();
+    let mut lines = text.lines();
+    let header = cells(lines.next().unwrap());
+    let rows = rows(&path.join("mixed"));
+    assert_eq!(lines.clone().count(), rows.len());
+    assert!(
+        header.contains(&"energy_per_cycle_side_frame_lbf_in".to_owned()),
+        "{header:?}"
+    );
+    assert!(
+        header.contains(&"side_frame.toe_out_deg".to_owned()),
+        "{header:?}"
+    );
+    let mut numbers = 0;
+    for (line, row) in lines.zip(&rows) {
+        let line = cells(line);
+        assert_eq!((line.len(), header.len()), (row.len(), row.len()));
+        for ((text, name), (own, field)) in line.iter().zip(&header).zip(row) {
+            assert_eq!(name, own);
+            match field {
+                Field::Null => assert_eq!(text, "", "{name}"),
+                Field::Double(value) => {
+                    assert_eq!(text.parse::<f64>().unwrap().to_bits(), value.to_bits(), "{name}");
+                    numbers += 1;
+                }
+                Field::Long(value) => assert_eq!(text.parse::<i64>().unwrap(), *value, "{name}"),
+                Field::Str(value) => assert_eq!(text, &value.replace('"', ""), "{name}"),
+                other => panic!("{name}: {other:?}"),
+            }
+        }
+    }
+    assert!(numbers > 60, "{numbers}");
+}
+
 #[test]
 fn limits_units_stand_in_the_metadata() {
     let folder = tempdir().unwrap();
@@ -128,7 +181,7 @@ fn limits_units_stand_in_the_metadata() {
     };
     assert_eq!(unit("energy_per_cycle_side_frame_J"), "J");
     assert_eq!(unit("equivalent_stiffness_N_per_m"), "N/m");
-    assert_eq!(unit("side_frame.toe_deg"), "deg");
+    assert_eq!(unit("side_frame.toe_out_deg"), "deg");
     assert_eq!(unit("jam_margin_rad"), "rad");
     assert_eq!(
         columns.as_array().unwrap().len(),

@@ -13,7 +13,8 @@
 //!
 //! The **foot** of a point is where the section holds it: `(p - r(s)) · r'(s) = 0`. It is found from the
 //! point alone: places every 2 m, each skipping as far as the point is away, then Newton's method. Where a
-//! track passes a point more than once, the first passage counts.
+//! track passes a point more than once, the first passage counts; [`CenterLine::near_itself`] tells of such
+//! tracks.
 //!
 //! Irregularities and roll are kept at points 1/8 m apart with their derivatives, and are quintics between
 //! them (relative error 5e-7 at a wavelength of 1.5 m). Corners of the superelevation are rounded: it is
@@ -29,9 +30,9 @@ use crate::vector::{cross, dot};
 /// Distance of the points between which irregularities are interpolated, m.
 const SPACING: f64 = 0.125;
 /// Distance of the places from which feet are looked for, m.
-const STRIDE: f64 = 2.0;
+pub(super) const STRIDE: f64 = 2.0;
 /// A place this near begins Newton's method, m.
-const CLOSE: f64 = 5.0;
+pub(super) const CLOSE: f64 = 5.0;
 /// What is looked for lies within this distance of the center line, m; less than [`CLOSE`] by half a stride.
 const BESIDE: f64 = 4.0;
 /// Half the length over which superelevation is averaged, m.

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use input::limits;
 
-use super::{Draft, Kind, Written};
+use super::{Assigned, Draft, Kind, Written};
 use crate::case::problem::{Problem, Problems, TomlLocation};
 use crate::case::section::{Names, Section};
 use crate::case::tree::{Node, Table, Value as Toml};
@@ -45,7 +45,7 @@ fn in_braces(node: &Node) -> bool {
 }
 
 /// Values by path, from tables that lead to them.
-pub(super) fn assignments(table: &Table, path: &str, out: &mut Vec<(String, Written)>) {
+pub(super) fn assignments(table: &Table, path: &str, out: &mut Assigned) {
     for entry in &table.entries {
         let path = below(path, &entry.key);
         match &entry.node.value {
@@ -92,9 +92,10 @@ pub(super) fn factors(table: &Table, path: &str, kind: Kind, out: &mut Vec<Draft
         };
         if let Some((paths, levels, written)) = draft {
             out.push(Draft {
-                factor: Factor { paths, levels },
+                factor: Factor::new(paths, levels),
                 key: entry.key_place.clone(),
                 written,
+                groups: Vec::new(),
             });
         }
     }
@@ -225,14 +226,18 @@ fn range(
         let help = "write another end, or put the value below [set]";
         return wrong(&to.place, message, "the same as `from`", help);
     }
-    if *first > last {
-        let message = format!("`{path}` goes from {} down to {}", low.shown(), high.shown());
-        return wrong(&to.place, message, "less than `from`", "exchange from and to");
-    }
-    if logarithmic && *first <= 0.0 {
-        let message = format!("`{path}` begins at {}: shares of it lead nowhere", low.shown());
-        let help = "a logarithmic scale begins above zero; take scale = \"linear\"";
-        return wrong(&from.place, message, "greater than zero is expected", help);
+    let (least, at) = match *first < last {
+        true => (*first, (from, &low)),
+        false => (last, (to, &high)),
+    };
+    if logarithmic && least <= 0.0 {
+        let (end, shown) = at;
+        let message = format!(
+            "`{path}` has an end at {}: shares of it lead nowhere",
+            shown.shown()
+        );
+        let help = "both ends of a logarithmic scale are above zero; take scale = \"linear\"";
+        return wrong(&end.place, message, "greater than zero is expected", help);
     }
     let count = match (kind, table.entry("count")) {
         (Kind::Factorial, Some(entry)) => match entry.node.value {
@@ -270,11 +275,14 @@ fn range(
     (problems.count() == before).then_some((paths, levels, written))
 }
 
-/// The variants of a list: all paths that one of them sets, and for each variant its values.
-pub(super) fn variants(top: &Section<'_>, problems: &mut Problems) -> (Vec<Draft>, Vec<Vec<Option<Value>>>) {
+/// All paths that a variant sets; for each variant its values; and what it says.
+type Variants = (Vec<Draft>, Vec<Vec<Option<Value>>>, Vec<Assigned>);
+
+/// The variants of a list.
+pub(super) fn variants(top: &Section<'_>, problems: &mut Problems) -> Variants {
     const HELP: &str = "write [[variants]] for each of them and below it for example friction.column = 0.3";
     let mut drafts: Vec<Draft> = Vec::new();
-    let mut rows: Vec<Vec<(String, Written)>> = Vec::new();
+    let mut rows: Vec<Assigned> = Vec::new();
     match top.table.get("variants") {
         Some(node) => match &node.value {
             Toml::List(items) if !items.is_empty() => {
@@ -306,16 +314,14 @@ pub(super) fn variants(top: &Section<'_>, problems: &mut Problems) -> (Vec<Draft
                 let message = format!("the variants set more than {} parameters", limits::FACTORS);
                 let problem = Problem::new(message).at(&written.1).label("one too many");
                 problems.push(problem.help("put what all of them share below [set]"));
-                return (drafts, Vec::new());
+                return (drafts, Vec::new(), Vec::new());
             }
             None => {
                 drafts.push(Draft {
-                    factor: Factor {
-                        paths: vec![path.clone()],
-                        levels: Levels::Values(Vec::new()),
-                    },
+                    factor: Factor::new(vec![path.clone()], Levels::Values(Vec::new())),
                     key: written.1.clone(),
                     written: Vec::new(),
+                    groups: Vec::new(),
                 });
                 let last = drafts.len() - 1;
                 &mut drafts[last]
@@ -339,7 +345,7 @@ pub(super) fn variants(top: &Section<'_>, problems: &mut Problems) -> (Vec<Draft
             drafts.iter().map(value).collect()
         })
         .collect();
-    (drafts, list)
+    (drafts, list, rows)
 }
 
 /// Paths that stand twice, or that a study cannot vary.

@@ -7,10 +7,12 @@
 //! - [`limits`]: what a request, a connection, and all of them may take.
 //! - [`routes`]: reading requests, work on other threads, answering.
 //! - [`connections`]: taking connections, within time limits.
+//! - [`browser`]: calling a browser with the page.
 //! - [`server`]: start and stop.
 
 mod api;
 mod base;
+mod browser;
 mod connections;
 mod guard;
 mod limits;
@@ -39,7 +41,7 @@ const FIRST: &str = "vdrun_toe_0_psi_0";
 #[command(after_long_help = "\
 Examples:
   wedgelab explore
-  wedgelab explore my.toml
+  wedgelab explore my.toml --open
   wedgelab explore truck_warp_nest_constant_rising
   wedgelab explore car_pitch_and_bounce_loaded
   wedgelab explore cdrun_toe_0_psi_0.012 --port 8080")]
@@ -50,12 +52,15 @@ pub struct Arguments {
     /// Port to listen at; 0: any that is free
     #[arg(long, value_name = "PORT", default_value_t = 0)]
     port: u16,
+    /// Open the page in a browser: $BROWSER, or the one that the system has
+    #[arg(long)]
+    open: bool,
 }
 
 /// Does it.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let path = arguments.case.clone().unwrap_or_else(|| PathBuf::from(FIRST));
     let base = Base::open(&path)?;
-    server::serve(base, arguments.port)?;
+    server::serve(base, arguments.port, arguments.open)?;
     Ok(ExitCode::SUCCESS)
 }

@@ -10,6 +10,7 @@ use tokio::signal;
 
 use super::api::Explorer;
 use super::base::Base;
+use super::browser::Leading;
 use super::connections;
 use super::guard::Guard;
 use super::limits::{self, Patience};
@@ -21,7 +22,7 @@ use crate::failure::{Failure, Message, say};
 ///
 /// # Errors
 /// The port cannot be had.
-pub fn serve(base: Base, port: u16) -> Result<(), Failure> {
+pub fn serve(base: Base, port: u16, open: bool) -> Result<(), Failure> {
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
         .thread_stack_size(limits::STACK)
@@ -31,13 +32,13 @@ pub fn serve(base: Base, port: u16) -> Result<(), Failure> {
         Failure::Failed(Message::new(format!("cannot start the server: {error}"), "").into())
     })?;
     let patience = Patience::default();
-    let served = runtime.block_on(listen(base, port, patience));
+    let served = runtime.block_on(listen(base, (port, open), patience));
     // Runs end at their next step.
     runtime.shutdown_timeout(patience.end);
     served
 }
 
-async fn listen(base: Base, port: u16, patience: Patience) -> Result<(), Failure> {
+async fn listen(base: Base, (port, open): (u16, bool), patience: Patience) -> Result<(), Failure> {
     let wanted = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
     let cannot = |error: std::io::Error| {
         let advice = "choose another port with --port, or leave it out";
@@ -56,15 +57,21 @@ async fn listen(base: Base, port: u16, patience: Patience) -> Result<(), Failure
         patience,
     );
 
+    let page = format!("http://{address}/{}", token.query());
     {
         let mut out = std::io::stdout().lock();
-        writeln!(
-            out,
-            "Open http://{address}/{} in a browser. Ctrl-C stops.",
-            token.query()
-        )?;
+        writeln!(out, "Open {page} in a browser. Ctrl-C stops.")?;
         out.flush()?;
     }
+    let _leading = match open.then(|| Leading::open(&page)).transpose() {
+        Ok(leading) => leading,
+        Err(error) => {
+            say(&format!(
+                "no browser can be called ({error}): open the address yourself"
+            ));
+            None
+        }
+    };
     if explorer::Explorer::embedded().is_none() {
         say(explorer::MISSING);
     }

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use fmi::description::{FmuModel, Version};
-use fmi::package::{self, Platform};
+use fmi::package::{self, Library, Platform};
 use fmi::source::Source;
 use study::any_case::AnyCase;
 
@@ -52,7 +52,7 @@ pub struct Arguments {
     set: Vec<String>,
     #[command(flatten)]
     choice: Choice,
-    /// The library for the FMU [default: the one beside this program]
+    /// The library for the FMU [default: the one that this program carries]
     #[arg(long, value_name = "FILE")]
     library: Option<PathBuf>,
     /// Overwrite an existing file
@@ -152,12 +152,14 @@ impl Arguments {
     }
 }
 
-const BUILD: &str = "`cargo build --release -p wedgelab-fmu` makes it, in the folder target/release; \
-                     `--library FILE` names it where it lies elsewhere";
+/// The library that this program carries: empty if it was not compiled together with it.
+static LIBRARY: &[u8] = include_bytes!(env!("WEDGELAB_FMU_LIBRARY"));
 
-/// The platform of this program, and the library for it: the one that is named, or the one beside the
-/// program.
-pub(super) fn parts(library: Option<&Path>) -> Result<(Platform, PathBuf), Failure> {
+const BUILD: &str = "`cargo build --release -p wedgelab-fmu` makes it, in the folder target/release; \
+                     `--library FILE` names it";
+
+/// The platform of this program, and the library for it: the one that is named, or the one that it carries.
+pub(super) fn parts(library: Option<&Path>) -> Result<(Platform, Library), Failure> {
     let Some(platform) = Platform::here() else {
         let message = format!(
             "FMUs know no platform {}-{}",
@@ -167,12 +169,17 @@ pub(super) fn parts(library: Option<&Path>) -> Result<(Platform, PathBuf), Failu
         return Err(Message::new(message, "export on Linux, Windows or macOS").into());
     };
     let library = match library {
-        Some(library) if library.is_file() => library.to_path_buf(),
+        Some(library) if library.is_file() => {
+            Library::read(library).map_err(|error| Message::new(error.to_string(), BUILD))?
+        }
         Some(library) => {
             let message = format!("there is no library {}", library.display());
             return Err(Message::new(message, BUILD).into());
         }
-        None => beside()?,
+        None if LIBRARY.is_empty() => {
+            return Err(Message::new("this program does not carry the library of FMUs", BUILD).into());
+        }
+        None => Library::carried(LIBRARY),
     };
     Ok((platform, library))
 }
@@ -188,27 +195,4 @@ pub(super) fn may_write(path: &Path, force: bool) -> Result<(), Failure> {
         return Err(Message::new(message, "`--force` overwrites it; or write another name after -o").into());
     }
     Ok(())
-}
-
-/// The library beside this program, where cargo puts both.
-fn beside() -> Result<PathBuf, Failure> {
-    let name = format!(
-        "{}wedgelab_fmu{}",
-        std::env::consts::DLL_PREFIX,
-        std::env::consts::DLL_SUFFIX
-    );
-    let program = std::env::current_exe().unwrap_or_default();
-    let folder = program.parent().unwrap_or(Path::new(""));
-    // Tests run programs from the folder `deps` beside it.
-    let places = [folder.join(&name), folder.join("..").join(&name)];
-    match places.into_iter().find(|place| place.is_file()) {
-        Some(place) => Ok(place),
-        None => {
-            let message = format!(
-                "the library {name} is missing beside this program, in {}",
-                folder.display()
-            );
-            Err(Message::new(message, BUILD).into())
-        }
-    }
 }

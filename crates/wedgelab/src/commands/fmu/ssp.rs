@@ -29,7 +29,7 @@ pub struct Arguments {
     /// Set one value over those of the case; VALUE is TOML (quotes around text may be left out)
     #[arg(long, value_name = "PATH.KEY=VALUE")]
     set: Vec<String>,
-    /// The library for the FMUs [default: the one beside this program]
+    /// The library for the FMUs [default: the one that this program carries]
     #[arg(long, value_name = "FILE")]
     library: Option<PathBuf>,
     /// Overwrite an existing file

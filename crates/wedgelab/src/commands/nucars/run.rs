@@ -17,6 +17,7 @@ use study::half_truck::{HalfTruckCase, HalfTruckStart, HalfTruckSummary, options
 
 use super::files::Instead;
 use super::load::tell;
+use crate::commands::run::is_built_in;
 use crate::execute::{compute_with_contacts, unsound, write, write_page};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
@@ -146,6 +147,14 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let settings = arguments.settings()?;
     let case = match built_in(file)? {
         Some(entry) => arguments.built_in(entry, settings)?,
+        None if !file.exists() && is_built_in(file) => {
+            let message = format!(
+                "`{}` is a built-in case, not a half-truck of NUCARS's files",
+                file.display()
+            );
+            let advice = format!("`wedgelab run {}` runs it", file.display());
+            return Err(Message::new(message, advice).into());
+        }
         None => arguments.of_files(file, &settings)?,
     };
     let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&case.name));
@@ -360,17 +369,20 @@ fn list() -> Result<ExitCode, Failure> {
 
 /// What the columns of the table are.
 const TABLE_NOTE: &str = "\
-Mean force: column friction on the side frame, positive up, over the branch in which the input goes up or down. Energy per cycle:
-lost in friction at the column. Jammed: share of the output times without steady sliding, held by the limit alone.";
+Mean force: column friction on the side frame, positive up, averaged while the input goes up or down, over the output times after
+the first half period in the window: mid stroke (constant damping), the input faster than 0.9 of its peak speed; lower stroke
+(variable damping), faster than 0.25 of it, and lower than 0.3 of its amplitude. Energy per cycle: lost in friction at the column.
+Jammed: share of the output times without steady sliding, held by the limit alone.";
 
 /// The table of wedges.
 fn table(summary: &HalfTruckSummary) -> Table {
     let units = summary.units;
     let (force, energy) = (Kind::Force.label(units), Kind::Energy.label(units));
     let mut table = Table::new(
-        1,
+        2,
         &[
             ("wedge", ""),
+            ("window", "of mean force"),
             ("mean force, up", force),
             ("mean force, down", force),
             ("energy per cycle", energy),
@@ -385,6 +397,7 @@ fn table(summary: &HalfTruckSummary) -> Table {
         };
         table.row([
             number.clone(),
+            wedge.window.clone(),
             cell(&wedge.up),
             cell(&wedge.down),
             cell(&wedge.energy_per_cycle),

@@ -1,0 +1,143 @@
+//! What is made of a certificate's runs when all are kept: tables, the worst run of each regime, the page.
+
+use std::collections::VecDeque;
+use std::io;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use study::any_case::AnyCase;
+use study::car::CarCase;
+use study::car::certificate::{Assessed, Certificate, worst_run};
+use study::run::Run;
+
+use crate::certificate_files::{self, Findings, NAMES};
+use crate::figures::car::CarRun;
+use crate::files::{FileError, Folder};
+use crate::page::certificate::{self as page, Against, WorstRun};
+use crate::page::{self as pages, Viewer};
+use crate::run_files::RunFiles;
+use crate::study_folder::{StudyFolder, StudyFolderError};
+
+/// The folder of the worst runs, in that of the certificate.
+pub const WORST: &str = "worst";
+
+/// Assesses all runs, computes the worst one of each regime again with the motions of its bodies, and writes
+/// tables and page; `None` if `stop` became true meanwhile. Tells each worst run that is done.
+///
+/// # Errors
+/// A run is missing, or something cannot be read or written.
+pub fn finish(
+    certificate: &Certificate,
+    folder: &StudyFolder,
+    jobs: usize,
+    against: Option<&Against>,
+    stop: &AtomicBool,
+    done: &(dyn Fn() + Sync),
+) -> Result<Option<Findings>, StudyFolderError> {
+    let findings = Findings::gather(certificate, folder)?;
+    let worst = worst_runs(certificate, &findings, folder.path(), jobs, stop, done)?;
+    if stop.load(Ordering::Relaxed) {
+        return Ok(None);
+    }
+    let page = page::render(certificate, &findings, &worst, against, Viewer::embedded());
+    let page = page.map_err(|error| unwritable(folder.path(), error))?;
+    let files = Folder::check(folder.path(), &NAMES, true)?;
+    certificate_files::write(certificate, &findings, &page, &files)
+        .map_err(StudyFolderError::after_all_runs)?;
+    Ok(Some(findings))
+}
+
+/// How many worst runs there will be.
+#[must_use]
+pub fn count(certificate: &Certificate) -> u64 {
+    certificate.regimes.len() as u64
+}
+
+fn unwritable(folder: &Path, error: serde_json::Error) -> StudyFolderError {
+    StudyFolderError::Table {
+        file: folder.join(pages::FILE_NAME),
+        reason: io::Error::other(error),
+    }
+}
+
+fn worst_runs(
+    certificate: &Certificate,
+    findings: &Findings,
+    path: &Path,
+    jobs: usize,
+    stop: &AtomicBool,
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<WorstRun>, StudyFolderError> {
+    let regimes = 0..certificate.regimes.len();
+    let wanted: VecDeque<(usize, &Assessed)> = regimes
+        .filter_map(|regime| Some((regime, worst_run(&findings.runs, regime)?)))
+        .collect();
+    let (queue, found) = (Mutex::new(wanted), Mutex::new(Vec::new()));
+    let worker = || {
+        let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).pop_front();
+        while let Some((regime, run)) = next() {
+            let own = one(certificate, regime, run, path, stop);
+            found.lock().unwrap_or_else(PoisonError::into_inner).push(own);
+            done();
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..jobs.max(1) {
+            scope.spawn(worker);
+        }
+    });
+    let found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let found: Result<Vec<Option<WorstRun>>, StudyFolderError> = found.into_iter().collect();
+    let mut found: Vec<WorstRun> = found?.into_iter().flatten().collect();
+    found.sort_by_key(|own| own.regime);
+    Ok(found)
+}
+
+/// One of them; `None` if it was stopped, or is no run any more.
+fn one(
+    certificate: &Certificate,
+    regime: usize,
+    run: &Assessed,
+    path: &Path,
+    stop: &AtomicBool,
+) -> Result<Option<WorstRun>, StudyFolderError> {
+    let name = certificate.regimes[regime].name.as_str();
+    let Ok(AnyCase::Car(case)) = certificate.study.case(run.run) else {
+        return Ok(None);
+    };
+    let case = case.named(name);
+    let Ok(begun) = Run::with_motions(&case) else {
+        return Ok(None);
+    };
+    let stops = || stop.load(Ordering::Relaxed);
+    let (result, motions) = begun.finish_with_motions(|_| match stops() {
+        true => ControlFlow::Break(String::new()),
+        false => ControlFlow::Continue(()),
+    });
+    if stops() {
+        return Ok(None);
+    }
+    let run = CarRun {
+        case,
+        result,
+        motions,
+    };
+    let own = format!("{WORST}/{name}");
+    let names: Vec<&str> = CarCase::FILES.iter().copied().chain([pages::FILE_NAME]).collect();
+    // The same run gives the same files.
+    let folder = Folder::check(path.join(&own), &names, true)?;
+    run.case.write(&folder, &run.result)?;
+    let html = pages::car_run::render(&run, Viewer::embedded());
+    let html = html.map_err(|error| unwritable(folder.path(), error))?;
+    let written: Result<(), FileError> =
+        folder.write(|files| files.add(pages::FILE_NAME, |out| out.write_all(html.as_bytes())));
+    written?;
+    Ok(Some(WorstRun {
+        regime,
+        worst: page::worst_second(certificate, regime, &run),
+        run,
+        folder: own,
+    }))
+}

@@ -1,0 +1,422 @@
+//! The page of a certificate: limits by regime, what is worst in 3D, figures over speed and distance, wedges.
+
+use maud::{Markup, html};
+use quantity::System as Units;
+use study::car::certificate::{Certificate, Verdict, worst_run};
+use study::car::limits::Bound;
+
+use super::{Viewer, document, moving_as, shown_in};
+use crate::certificate_files::{Findings, NAMES};
+use crate::figures::car::{CarRun, exhibits};
+use crate::figures::certificate::over_speed;
+use crate::figures::{Exhibit, capital, digits};
+use crate::study_folder::TABLE_FILE;
+use crate::view::View;
+use crate::view::run::{Detail, Recording};
+
+/// The page's file name.
+pub const FILE_NAME: &str = super::FILE_NAME;
+/// What is shown moving: this long around the worst, s.
+const SECOND: f64 = 1.0;
+/// Figures over the distance of the worst run of a regime.
+const OVER_DISTANCE: [&str; 3] = ["wheel_loads", "l_over_v", "body_roll"];
+
+/// The worst run of a regime.
+#[derive(Clone, Debug)]
+pub struct WorstRun {
+    /// The number of the regime.
+    pub regime: usize,
+    /// The run, with the motions of its bodies.
+    pub run: CarRun,
+    /// Where its files are, from the page's folder.
+    pub folder: String,
+    /// When the worst begins, s, and what it is.
+    pub worst: Option<(f64, String)>,
+}
+
+/// What another certificate says of a limit.
+#[derive(Clone, Debug)]
+pub struct Other {
+    /// Regime, condition, limit.
+    pub key: [String; 3],
+    /// The worst value, in the limit's unit.
+    pub value: f64,
+    /// What is left, in parts of the limit.
+    pub margin: f64,
+}
+
+/// Another certificate, beside which this one is shown.
+#[derive(Clone, Debug)]
+pub struct Against {
+    /// Its car and folder, in words.
+    pub name: String,
+    /// What it says.
+    pub others: Vec<Other>,
+}
+
+/// The page as HTML; it needs nothing else to be shown.
+///
+/// # Errors
+/// What the writer of JSON says.
+pub fn render(
+    certificate: &Certificate,
+    findings: &Findings,
+    worst: &[WorstRun],
+    against: Option<&Against>,
+    viewer: Option<Viewer>,
+) -> Result<String, serde_json::Error> {
+    let regimes = 0..certificate.regimes.len();
+    let over_speeds: Vec<Exhibit> = regimes
+        .clone()
+        .map(|regime| over_speed(certificate, findings, regime))
+        .collect();
+    let over_distances: Vec<Vec<Exhibit>> = worst
+        .iter()
+        .map(|own| {
+            let all = exhibits(&own.run);
+            let wanted = |exhibit: &Exhibit| OVER_DISTANCE.iter().any(|name| exhibit.name.ends_with(name));
+            all.into_iter().filter(wanted).collect()
+        })
+        .collect();
+    let data = match viewer {
+        Some(viewer) => {
+            let recordings = worst.iter().map(second);
+            let shown = over_speeds.iter().chain(over_distances.iter().flatten());
+            Some((viewer, View::new(Units::Us, recordings, shown).to_json()?))
+        }
+        None => None,
+    };
+    let main = html! {
+        (summary(certificate, findings))
+        @for (condition, own) in certificate.conditions.iter().enumerate() {
+            section {
+                h2 id={ "condition-" (own.name) } { "Limits: " (own.title) }
+                (limits(certificate, findings, condition, against))
+            }
+        }
+        @if certificate.conditions.len() > 1 { (conditions(certificate, findings)) }
+        @for regime in regimes {
+            @let own = &certificate.regimes[regime];
+            section {
+                h2 id={ "regime-" (own.name) } { (capital(&own.title)) }
+                p { "Regime " code { (own.name) } ", " (own.source) "." @if !own.looks_at.is_empty() { " To look at: " (own.looks_at) "." } }
+                (shown_in(&over_speeds[regime], &over_speeds[regime].figure.to_svg(), None))
+                @for (own, drawn) in worst.iter().zip(&over_distances).filter(|(own, _)| own.regime == regime) {
+                    (worst_of(certificate, findings, own, data.is_some()))
+                    @for exhibit in drawn { (shown_in(exhibit, &exhibit.figure.to_svg(), None)) }
+                }
+            }
+        }
+        (files())
+    };
+    let lead = format!(
+        "{} runs of the car {}: {} regimes, {} conditions. Limits: {}, {}. Tracks of the regimes are remembered, \
+         too: check both against your edition.",
+        findings.runs.len(),
+        certificate.car,
+        certificate.regimes.len(),
+        certificate.conditions.len(),
+        certificate.limits.title,
+        certificate.limits.source,
+    );
+    let heading = format!("Certificate: {}", certificate.car);
+    let interactive = data.as_ref().map(|(viewer, view)| (*viewer, view.as_str()));
+    Ok(document(&heading, &lead, None, &main, interactive))
+}
+
+/// The rows of a run around its worst second.
+fn second(own: &WorstRun) -> Recording {
+    let run = &own.run;
+    let (mut result, mut motions) = (run.result.clone(), run.motions.clone());
+    if let (Some((begin, _)), Some(times)) = (&own.worst, run.result.column("time")) {
+        let from = times.partition_point(|time| *time < begin - 0.5 * SECOND);
+        let to = times.partition_point(|time| *time <= begin + 0.5 * SECOND);
+        let tables = [
+            Some(&mut result.values),
+            motions.as_mut().map(|own| &mut own.values),
+        ];
+        for column in tables.into_iter().flatten().flatten() {
+            *column = column.get(from..to).unwrap_or_default().to_vec();
+        }
+    }
+    Recording::of_car(&run.case, &result, motions.as_ref(), Detail::Thinned)
+}
+
+fn summary(certificate: &Certificate, findings: &Findings) -> Markup {
+    let [kept, exceeded, unknown] = findings.counts();
+    let unsound = findings
+        .runs
+        .iter()
+        .filter(|run| run.status != "complete" || run.derailed);
+    let unsound: Vec<_> = unsound.collect();
+    let without = certificate.without_limits();
+    html! {
+        section {
+            h2 id="summary" { "In short" }
+            p {
+                (kept) " limits are kept, " strong { (exceeded) " exceeded" }
+                @if unknown > 0 { ", " (unknown) " unknown, because a run has no numbers" } "."
+                @if !without.is_empty() { " No limit is set for " (without.join(", ").replace('_', " ")) "." }
+            }
+            @if !unsound.is_empty() {
+                details open[unsound.len() < 10] {
+                    summary { (unsound.len()) " runs did not come to the end of their track, or failed" }
+                    ul {
+                        @for run in &unsound {
+                            li {
+                                "run " (run.run) ", " (certificate.regimes[run.regime].name.replace('_', " ")) ", "
+                                (certificate.conditions[run.condition].name.replace('_', " ")) ", " (run.speed) ": "
+                                (run.status) ". " (run.note)
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn value(own: f64, unit: &str) -> String {
+    match unit {
+        "" => digits(own),
+        unit => format!("{} {unit}", digits(own)),
+    }
+}
+
+fn percent(margin: f64) -> String {
+    format!("{:.0} %", 100.0 * margin).replace('-', "\u{2212}")
+}
+
+fn limits(
+    certificate: &Certificate,
+    findings: &Findings,
+    condition: usize,
+    against: Option<&Against>,
+) -> Markup {
+    let own = findings.verdicts.iter().filter(|own| own.condition == condition);
+    let other = |own: &Verdict| {
+        let key = [
+            &certificate.regimes[own.regime].name,
+            &certificate.conditions[own.condition].name,
+            &certificate.limits.limits[own.limit].name,
+        ];
+        let found = against?.others.iter().find(|other| other.key.iter().eq(key));
+        found.map(|other| (other.value, other.margin))
+    };
+    html! {
+        div.wide {
+            table {
+                thead {
+                    tr {
+                        th scope="col" { "regime" } th scope="col" { "quantity" }
+                        th.number scope="col" { "worst" } th.number scope="col" { "at" }
+                        th.number scope="col" { "limit" } th.number scope="col" { "margin" }
+                        th scope="col" { "verdict" }
+                        @if let Some(against) = against {
+                            th.number scope="col" { (against.name) } th.number scope="col" { "its margin" }
+                        }
+                    }
+                }
+                tbody {
+                    @for own in own {
+                        @let limit = &certificate.limits.limits[own.limit];
+                        tr {
+                            th scope="row" { a href={ "#regime-" (certificate.regimes[own.regime].name) } { (certificate.regimes[own.regime].name.replace('_', " ")) } }
+                            td { (limit.quantity) @if !limit.remark.is_empty() { " (" (limit.remark) ")" } }
+                            td.number { (own.worst.as_ref().map_or("–".to_owned(), |worst| value(worst.value, &limit.unit))) }
+                            td.number { (own.worst.as_ref().map_or("–", |worst| worst.speed.as_str())) }
+                            td.number {
+                                (match limit.bound { Bound::AtMost => "≤ ", Bound::AtLeast => "≥ " })
+                                (value(limit.value, &limit.unit))
+                            }
+                            td.number { (own.worst.as_ref().map_or("–".to_owned(), |worst| percent(worst.margin))) }
+                            td { (said(own)) }
+                            @if against.is_some() {
+                                @match other(own) {
+                                    Some((number, margin)) => {
+                                        td.number { (value(number, &limit.unit)) } td.number { (percent(margin)) }
+                                    }
+                                    None => { td.number { "–" } td.number { "–" } }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A verdict in words.
+fn said(own: &Verdict) -> Markup {
+    html! {
+        @match own.word() {
+            "exceeded" => strong { "exceeded" },
+            word => (word),
+        }
+        @if !own.derailed.is_empty() { ": derailed at " (own.derailed.join(", ")) }
+        @if !own.missing.is_empty() { "; no numbers at " (own.missing.join(", ")) }
+    }
+}
+
+/// The least margin by regime and condition.
+fn conditions(certificate: &Certificate, findings: &Findings) -> Markup {
+    let least = |regime: usize, condition: usize| {
+        let own = findings
+            .verdicts
+            .iter()
+            .filter(|own| own.regime == regime && own.condition == condition);
+        let (mut least, mut derailed) = (f64::INFINITY, false);
+        for verdict in own {
+            derailed |= !verdict.derailed.is_empty();
+            least = verdict
+                .worst
+                .as_ref()
+                .map_or(least, |worst| least.min(worst.margin));
+        }
+        match (derailed, least.is_finite()) {
+            (true, _) => "derailed".to_owned(),
+            (false, true) => percent(least),
+            (false, false) => "–".to_owned(),
+        }
+    };
+    html! {
+        section {
+            h2 id="conditions" { "Conditions beside each other" }
+            p { "The least margin of all limits of a regime, in parts of its limit." }
+            div.wide {
+                table {
+                    thead {
+                        tr {
+                            th scope="col" { "regime" }
+                            @for own in &certificate.conditions { th.number scope="col" { (own.name.replace('_', " ")) } }
+                        }
+                    }
+                    tbody {
+                        @for (regime, own) in certificate.regimes.iter().enumerate() {
+                            tr {
+                                th scope="row" { (own.name.replace('_', " ")) }
+                                @for condition in 0..certificate.conditions.len() {
+                                    td.number { (least(regime, condition)) }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The worst run of a regime: what is worst, its wedges, where its files are.
+fn worst_of(certificate: &Certificate, findings: &Findings, own: &WorstRun, moves: bool) -> Markup {
+    let Some(run) = worst_run(&findings.runs, own.regime) else {
+        return html! {};
+    };
+    let summary = &own.run.result.summary;
+    html! {
+        h3 { "The worst run: " (run.speed) ", " (certificate.conditions[run.condition].title) }
+        p {
+            @if let Some((time, what)) = &own.worst { "From " (digits(*time)) " s on: " (what) ". " }
+            a href={ (own.folder) "/" (super::FILE_NAME) } { "All of this run" } "."
+        }
+        @if moves && own.run.motions.is_some() { (moving_as(&summary.name, "The worst second, moving", own.regime == 0)) }
+        div.wide {
+            table {
+                thead {
+                    tr {
+                        th scope="col" { "wedge" } th.number scope="col" { "lost in friction" }
+                        th.number scope="col" { "no point slips" }
+                    }
+                }
+                tbody {
+                    @for (name, loss) in &summary.wedge_losses {
+                        tr {
+                            th scope="row" { (name.replace('_', " ")) }
+                            td.number { (value(loss.value, &loss.unit)) }
+                            td.number {
+                                (summary.wedge_locked.get(name).map_or("–".to_owned(), |share| format!("{:.0} % of the time", 100.0 * share)))
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn files() -> Markup {
+    html! {
+        section {
+            h2 id="files" { "Files" }
+            p {
+                a href=(NAMES[1]) { (NAMES[1]) } " and " a href=(NAMES[0]) { (NAMES[0]) }
+                ": a row each run and limit. " a href=(TABLE_FILE) { (TABLE_FILE) }
+                ": all measures of each run. " a href=(NAMES[2]) { (NAMES[2]) } ": what this page says."
+            }
+        }
+    }
+}
+
+/// Returns what is worst in a run: its time and what it is, of the limit that is kept least.
+#[must_use]
+pub fn worst_second(certificate: &Certificate, regime: usize, run: &CarRun) -> Option<(f64, String)> {
+    let summary = &run.result.summary;
+    if let Some(own) = &summary.derailed {
+        return Some((own.time, own.what.clone()));
+    }
+    let name = &certificate.regimes[regime].name;
+    let limits = certificate
+        .limits
+        .limits
+        .iter()
+        .filter(|limit| limit.is_for(name));
+    let found = limits.filter_map(|limit| {
+        let worst = limit.measure.of(&summary.statistics)?;
+        let units = if summary.units == Units::Si {
+            Units::Si
+        } else {
+            Units::Us
+        };
+        let si = worst.value.value / limit.measure.kind.from_si(units);
+        let margin = limit.margin(limit.in_unit(si));
+        let what = format!("{}, {}", limit.quantity, worst.statistic.replace('_', " "));
+        Some((margin, worst.time?, what))
+    });
+    let least = found.min_by(|a, b| a.0.total_cmp(&b.0));
+    least.map(|(_, time, what)| (time, what))
+}
+
+/// Reads what another certificate says.
+///
+/// # Errors
+/// It is none, or of another version.
+pub fn against(name: &str, document: &serde_json::Value) -> Result<Against, String> {
+    let text = |value: &serde_json::Value, key: &str| {
+        value
+            .get(key)
+            .and_then(|own| own.as_str())
+            .unwrap_or_default()
+            .to_owned()
+    };
+    let schema = text(document, "schema");
+    if schema != crate::certificate_files::SCHEMA {
+        return Err(format!(
+            "its schema is \"{schema}\"; {} is expected",
+            crate::certificate_files::SCHEMA
+        ));
+    }
+    let verdicts = document.get("verdicts").and_then(|own| own.as_array());
+    let others = verdicts.into_iter().flatten().filter_map(|own| {
+        let worst = own.get("worst")?;
+        Some(Other {
+            key: ["regime", "condition", "limit"].map(|key| text(own, key)),
+            value: worst.get("value")?.as_f64()?,
+            margin: worst.get("margin")?.as_f64()?,
+        })
+    });
+    Ok(Against {
+        name: format!("{} ({name})", text(document, "car")),
+        others: others.collect(),
+    })
+}

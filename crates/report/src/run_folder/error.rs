@@ -1,0 +1,164 @@
+//! What can be wrong with the folder of a run.
+
+use std::path::{Path, PathBuf};
+
+use input::file::ReadError;
+use input::shortened;
+use miette::Diagnostic;
+use study::any_case::AnyCase;
+use thiserror::Error;
+
+use super::any_summary::SCHEMAS;
+use crate::table::TableError;
+use crate::{claims, csv, study_folder, summary};
+
+/// Why there is no run to read. Lines and columns count from one.
+#[derive(Debug, Error, Diagnostic)]
+pub enum RunFolderError {
+    /// The table cannot be read.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Table(#[from] TableError),
+    /// What is named is no folder of a run.
+    #[error("`{}` is {what}; the folder of a run is expected", .path.display())]
+    #[diagnostic(help("{advice}"))]
+    NoRun {
+        /// What was named.
+        path: PathBuf,
+        /// What it seems to be.
+        what: &'static str,
+        /// What takes it, or what to name instead.
+        advice: String,
+    },
+    /// A table without a summary.
+    #[error("there is no summary.json in `{}`", .folder.display())]
+    #[diagnostic(help(
+        "a report needs both files of a run; `wedgelab compare` and `wedgelab plot` take tables alone"
+    ))]
+    NoSummary {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The summary is not read.
+    #[error(transparent)]
+    Unreadable(ReadError),
+    /// The summary is of another version, or of something else.
+    #[error("`{}` has the schema {found}; this version reads {expected}", .file.display())]
+    #[diagnostic(help("{advice}"))]
+    Schema {
+        /// The file.
+        file: PathBuf,
+        /// Its schema.
+        found: String,
+        /// Those that are read.
+        expected: String,
+        /// What to do.
+        advice: String,
+    },
+    /// The summary is not what its schema says.
+    #[error("`{}`, line {line}, column {column}: {reason}", .file.display())]
+    #[diagnostic(help("the file is damaged: copy it again, or run the case again with --force"))]
+    Damaged {
+        /// The file.
+        file: PathBuf,
+        /// The line.
+        line: usize,
+        /// The column.
+        column: usize,
+        /// What is wrong there.
+        reason: String,
+    },
+}
+
+impl RunFolderError {
+    /// A summary that does not follow its schema.
+    pub(super) fn damaged(file: &Path, error: &serde_json::Error) -> Self {
+        let text = error.to_string();
+        let reason = text
+            .rsplit_once(" at line ")
+            .map_or(text.as_str(), |(own, _)| own);
+        Self::Damaged {
+            file: file.to_owned(),
+            line: error.line(),
+            column: error.column(),
+            reason: shortened(reason),
+        }
+    }
+
+    /// A summary of another schema.
+    pub(super) fn schema(file: &Path, found: &str) -> Self {
+        let stem = |schema: &str| schema.split('/').next().unwrap_or_default().to_owned();
+        let folder = file.parent().unwrap_or(Path::new(".")).display();
+        let same = SCHEMAS.iter().find(|(own, _)| stem(own) == stem(found));
+        Self::Schema {
+            file: file.to_owned(),
+            found: match found {
+                "" => "of no name".to_owned(),
+                found => format!("`{}`", shortened(found)),
+            },
+            expected: match same {
+                Some((own, _)) => format!("`{own}`"),
+                None => SCHEMAS.map(|(own, _)| format!("`{own}`")).join(", "),
+            },
+            advice: match same {
+                Some((_, "run")) => format!(
+                    "another version of the program wrote it: `wedgelab run {folder}/case.toml --out {folder} \
+                     --force` runs the case again with this one"
+                ),
+                Some((_, command)) => format!(
+                    "another version of the program wrote it: run the case again with `wedgelab {command}`"
+                ),
+                None => "name the folder of a run, which `wedgelab run` has written".to_owned(),
+            },
+        }
+    }
+}
+
+/// The folder of a run that is meant: itself, or that of its `result.csv` or `summary.json`.
+pub(super) fn folder_of(path: &Path) -> Result<PathBuf, RunFolderError> {
+    let no_run = |what: &'static str, advice: String| RunFolderError::NoRun {
+        path: path.to_owned(),
+        what,
+        advice,
+    };
+    if path.is_dir() {
+        let holds = |name: &str| path.join(name).exists();
+        if !holds(csv::FILE_NAME) && holds(study_folder::STUDY_FILE) {
+            let advice = format!(
+                "its own page is {}; `wedgelab report` takes single runs",
+                path.join(crate::page::FILE_NAME).display()
+            );
+            return Err(no_run("the folder of a study", advice));
+        }
+        if !holds(csv::FILE_NAME) && holds(claims::FILE_NAME) {
+            let advice = format!(
+                "its own page is {}; its runs are the folders in {}",
+                path.join(crate::page::FILE_NAME).display(),
+                path.join("runs").display()
+            );
+            return Err(no_run("the folder of a whole reproduction", advice));
+        }
+        return Ok(path.to_owned());
+    }
+    let named = path
+        .file_name()
+        .and_then(|name| name.to_str())
+        .unwrap_or_default();
+    if [csv::FILE_NAME, summary::FILE_NAME].contains(&named) && path.is_file() {
+        let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+        return Ok(parent.unwrap_or(Path::new(".")).to_owned());
+    }
+    if path.is_file() {
+        // Says what the file is, and which command takes it; a table is no run.
+        crate::table::Table::read(path)?;
+        let advice = "a report needs the folder with result.csv and summary.json; `wedgelab compare` and \
+                      `wedgelab plot` take tables alone";
+        return Err(no_run("a table", advice.to_owned()));
+    }
+    let name = path.to_str().unwrap_or_default();
+    if !path.exists() && matches!(AnyCase::built_in(name, &[]), Ok(Some(_))) {
+        let advice = format!("`wedgelab run {name}` runs it, and writes the folder {name}");
+        return Err(no_run("the name of a built-in case", advice));
+    }
+    Ok(path.to_owned())
+}

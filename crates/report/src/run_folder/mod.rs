@@ -1,0 +1,228 @@
+//! The folder of a run, read back: its table, its summary, its case, and what its page keeps of its 3D view.
+//!
+//! Nothing here runs a case: results may come from another machine, or from a run of hours. What is read is
+//! what `wedgelab run`, `nucars run`, `wheelrail run` and `reproduce` have written.
+
+use std::path::{Path, PathBuf};
+
+use input::file::{Expected, Reason, read};
+use input::{FileType, limits};
+use mechanics::output::Column;
+use quantity::System as Units;
+use study::any_case::AnyCase;
+use study::result::RunResult;
+
+pub use any_summary::{AnySummary, Ledger};
+pub use error::RunFolderError;
+pub use key_numbers::{KeyNumber, branch_window};
+
+use crate::figures::car::CarRun;
+use crate::figures::truck::TruckRun;
+use crate::run_files::CASE_FILE_NAME;
+use crate::table::Table;
+use crate::view::kept::KeptView;
+use crate::view::run::{Detail, Recording};
+use crate::{csv, mat, page, summary};
+
+mod any_summary;
+mod error;
+mod key_numbers;
+
+/// What the file of a summary must be.
+const SUMMARY_FILE: Expected = Expected {
+    what: "summary",
+    types: &[FileType::Json],
+    most: limits::RECORD_FILE,
+};
+
+/// The files of a run that its page links to, if they are there.
+const FILES: [&str; 5] = [
+    page::FILE_NAME,
+    csv::FILE_NAME,
+    summary::FILE_NAME,
+    CASE_FILE_NAME,
+    mat::FILE_NAME,
+];
+
+/// A run, read back.
+#[derive(Clone, Debug)]
+pub struct RunFolder {
+    /// Its name beside others: that of its folder.
+    pub label: String,
+    /// The folder.
+    pub folder: PathBuf,
+    /// Its table.
+    pub table: Table,
+    /// Its summary.
+    pub summary: AnySummary,
+    /// Its case; a half-truck and a wheelset have no file of it.
+    pub case: Option<AnyCase>,
+    /// Its files, as far as they are there.
+    pub files: Vec<&'static str>,
+    /// What is missing, or does not fit together.
+    pub notes: Vec<String>,
+}
+
+/// Where a run's 3D view and plots come from.
+#[derive(Clone, Debug)]
+pub enum Seen {
+    /// From its table and case.
+    Made(Box<Recording>),
+    /// From its own page, which keeps more than its table.
+    Kept(Box<KeptView>),
+}
+
+impl RunFolder {
+    /// Reads the run in a folder, or the one whose `result.csv` or `summary.json` is named.
+    ///
+    /// # Errors
+    /// There is no run, or its files are damaged or of another version: see [`RunFolderError`].
+    pub fn read(path: &Path) -> Result<Self, RunFolderError> {
+        let folder = error::folder_of(path)?;
+        let table = Table::read(&folder)?;
+        let file = folder.join(summary::FILE_NAME);
+        let bytes = read(&file, &SUMMARY_FILE).map_err(|error| match error.reason {
+            Reason::NotFound => RunFolderError::NoSummary {
+                folder: folder.clone(),
+            },
+            _ => RunFolderError::Unreadable(error),
+        })?;
+        let summary = AnySummary::parse(&file, &bytes)?;
+        let mut notes = Vec::new();
+        let rows = table.times().len();
+        if rows != summary.rows() {
+            notes.push(format!(
+                "result.csv has {rows} rows, and summary.json is about {}: they are not of one run",
+                summary.rows()
+            ));
+        }
+        let case = folder.join(CASE_FILE_NAME);
+        let case = match case.is_file().then(|| AnyCase::read(&case, &[])) {
+            Some(Ok(case)) => Some(case),
+            Some(Err(error)) => {
+                let reason = error.to_string();
+                let first = reason.lines().next().unwrap_or_default();
+                notes.push(format!("case.toml cannot be read by this version: {first}"));
+                None
+            }
+            None => None,
+        };
+        let name = folder.canonicalize().ok();
+        let name = name.as_deref().unwrap_or(&folder).file_name();
+        Ok(Self {
+            label: name.map_or_else(
+                || summary.shared().name().to_owned(),
+                |name| name.to_string_lossy().into_owned(),
+            ),
+            files: FILES
+                .into_iter()
+                .filter(|name| folder.join(name).is_file())
+                .collect(),
+            folder,
+            table,
+            summary,
+            case,
+            notes,
+        })
+    }
+
+    /// The units of its numbers.
+    #[must_use]
+    pub fn units(&self) -> Units {
+        self.summary.shared().units()
+    }
+
+    /// Its 3D view and plots: those that its own page keeps, or made from its table and its case; `None`
+    /// where neither is there.
+    #[must_use]
+    pub fn seen(&self) -> Option<Seen> {
+        if let Some(kept) = self.kept() {
+            return Some(Seen::Kept(Box::new(kept)));
+        }
+        let made = match (&self.summary, self.case.as_ref()?) {
+            (AnySummary::Wedge(summary), AnyCase::Wedge(case)) => {
+                let outcome = ((**case).clone(), self.result((**summary).clone()));
+                Recording::of_wedge(&outcome, Detail::Thinned)
+            }
+            (AnySummary::Truck(_), AnyCase::Truck(_)) => {
+                let run = self.truck()?;
+                Recording::of_three_piece_truck(&run.case, &run.result, None, Detail::Thinned)
+            }
+            (AnySummary::Car(summary), AnyCase::Car(case)) => {
+                let result = self.result((**summary).clone());
+                Recording::of_car(case, &result, None, Detail::Thinned)
+            }
+            _ => return None,
+        };
+        Some(Seen::Made(Box::new(made.named(&self.label))))
+    }
+
+    /// What its own page keeps, if it is a page of this run.
+    fn kept(&self) -> Option<KeptView> {
+        let kept = KeptView::read(&self.folder.join(page::FILE_NAME), self.summary.shared().name())?;
+        // It may be the page of another run, over which this one was written: a page keeps every n-th row.
+        let (own, times) = (kept.times(), self.table.times());
+        let [last, rows] = [own.len().checked_sub(1)?, times.len().checked_sub(1)?];
+        let stride = rows.checked_div(last).unwrap_or(0);
+        let same = |row: usize| {
+            let (own, time) = (f64::from(own[row]), times[row * stride]);
+            (own - time).abs() <= 1e-6 * time.abs().max(1e-3)
+        };
+        (stride > 0 && [1, last].into_iter().all(same)).then(|| kept.named(&self.label))
+    }
+
+    /// The run of a truck, without the corners of its wedges, which its table has not.
+    #[must_use]
+    pub fn truck(&self) -> Option<TruckRun> {
+        match (&self.summary, self.case.as_ref()?) {
+            (AnySummary::Truck(summary), AnyCase::Truck(case)) => Some(TruckRun {
+                case: (**case).clone(),
+                result: self.result((**summary).clone()),
+                contacts: None,
+            }),
+            _ => None,
+        }
+    }
+
+    /// The run of a car, without the motions of its bodies, which its table has not.
+    #[must_use]
+    pub fn car(&self) -> Option<CarRun> {
+        match (&self.summary, self.case.as_ref()?) {
+            (AnySummary::Car(summary), AnyCase::Car(case)) => Some(CarRun {
+                case: (**case).clone(),
+                result: self.result((**summary).clone()),
+                motions: None,
+            }),
+            _ => None,
+        }
+    }
+
+    /// The result as it came out of the run: what stands in the table, SI, without texts of columns.
+    fn result<S>(&self, summary: S) -> RunResult<S> {
+        let columns = self.table.columns();
+        RunResult {
+            columns: columns
+                .iter()
+                .map(|own| Column {
+                    name: own.name.clone(),
+                    kind: own.kind,
+                    frame: "".into(),
+                    reference: "".into(),
+                    text: String::new(),
+                })
+                .collect(),
+            values: columns.iter().map(|own| own.si()).collect(),
+            summary,
+        }
+    }
+}
+
+/// Gives runs names that differ: folders of one name are called as they were named.
+pub fn tell_apart(runs: &mut [RunFolder], named: &[PathBuf]) {
+    let labels: Vec<String> = runs.iter().map(|run| run.label.clone()).collect();
+    for (run, path) in runs.iter_mut().zip(named) {
+        if labels.iter().filter(|other| **other == run.label).count() > 1 {
+            run.label = path.display().to_string();
+        }
+    }
+}

@@ -1,0 +1,407 @@
+//! A certificate: a car in regimes, at speeds and in conditions, and what is left to the limits of rules.
+//!
+//! It is a [study](crate::design) whose list of variants has a row each regime, condition and speed; a
+//! study's folder, table and cluster serve it as they are. What is more here is the assessment of a record
+//! ([`Certificate::assess`]).
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use quantity::{Kind, Quantity};
+use serde::{Deserialize, Serialize};
+
+use super::conditions::Condition;
+use super::limits::{Limit, LimitSet};
+use super::regime::Regime;
+use crate::any_case::{AnyCase, CaseSource};
+use crate::case::problem::Problem;
+use crate::case::{self, CaseError, overrides};
+use crate::design::{Study, StudySource, Value};
+use crate::records::{Record, Status};
+
+/// What is asked for.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Request {
+    /// The car: a case file, or the name of a built-in case.
+    pub car: PathBuf,
+    /// Values laid over the car, as `--set` takes them.
+    pub set: Vec<String>,
+    /// Names or files of regimes; none: the first eight that are built in.
+    pub regimes: Vec<String>,
+    /// Speeds for all regimes; none: those of each regime.
+    pub speeds: Vec<Quantity>,
+    /// Names or files of conditions; none: as the case says.
+    pub conditions: Vec<String>,
+    /// Name or file of the limits.
+    pub limits: String,
+}
+
+/// How many of the built-in regimes a certificate has if none are named.
+pub const USUAL_REGIMES: usize = 8;
+
+/// A car in regimes, at speeds and in conditions.
+#[derive(Clone, Debug)]
+pub struct Certificate {
+    /// The car's name.
+    pub car: String,
+    /// The runs.
+    pub study: Study,
+    /// The regimes.
+    pub regimes: Vec<Regime>,
+    /// The conditions.
+    pub conditions: Vec<Condition>,
+    /// The limits.
+    pub limits: LimitSet,
+}
+
+/// How one limit is kept by a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Check {
+    /// Its number in the set.
+    pub limit: usize,
+    /// What is measured, in its unit; `None` if the run has none.
+    pub value: Option<f64>,
+    /// What is left, in parts of the limit; negative where it is not kept.
+    pub margin: Option<f64>,
+}
+
+/// A run beside the limits that are set for its regime.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Assessed {
+    /// The run's number.
+    pub run: u64,
+    /// The number of its regime.
+    pub regime: usize,
+    /// The number of its condition.
+    pub condition: usize,
+    /// Its speed as typed.
+    pub speed: String,
+    /// The same, m/s.
+    pub speed_si: f64,
+    /// How it ended.
+    pub status: &'static str,
+    /// What is to be said: why it has no numbers, or where the car derailed; may be empty.
+    pub note: String,
+    /// Whether a wheel left its rail: no limit is kept then.
+    pub derailed: bool,
+    /// The limits.
+    pub checks: Vec<Check>,
+    /// Measures, SI, in the study's order; none if it has none.
+    #[serde(skip)]
+    pub measures: Vec<f64>,
+}
+
+impl Assessed {
+    /// Whether a limit is kept.
+    #[must_use]
+    pub fn keeps(&self, check: &Check) -> Option<bool> {
+        match self.derailed {
+            true => Some(false),
+            false => check.margin.map(|margin| margin >= 0.0),
+        }
+    }
+}
+
+impl Certificate {
+    /// Makes a certificate's study.
+    ///
+    /// # Errors
+    /// The car, a regime, a condition or the limits cannot be read, or do not go together.
+    pub fn new(request: &Request) -> Result<Self, CaseError> {
+        let limits = LimitSet::named_or_read(&request.limits)?;
+        let regimes = match request.regimes.as_slice() {
+            [] => Regime::all().iter().take(USUAL_REGIMES).cloned().collect(),
+            names => {
+                let named = names.iter().map(|name| Regime::named_or_read(name));
+                named.collect::<Result<Vec<_>, _>>()?
+            }
+        };
+        if let Some(twice) = repeated(&regimes) {
+            let problem = Problem::new(format!("the regime {twice} is named twice"));
+            return Err(problem.help("name each regime once").into());
+        }
+        let conditions = match request.conditions.as_slice() {
+            [] => Condition::all().iter().take(1).cloned().collect(),
+            names => Condition::chosen(names)?,
+        };
+        let (source, car) = car(request)?;
+        let text = text(&regimes, &conditions, request, &car)?;
+        let study = Study::of_source(StudySource {
+            name: "certificate.toml".to_owned(),
+            text,
+            folder: PathBuf::new(),
+            case: source,
+        })?;
+        Ok(Self {
+            car: car.name().to_owned(),
+            study,
+            regimes,
+            conditions,
+            limits,
+        })
+    }
+
+    /// Returns the limits that are set for none of its regimes, by name, and the regimes without limits.
+    #[must_use]
+    pub fn without_limits(&self) -> Vec<&str> {
+        let limited = |regime: &&Regime| !self.limits.limits.iter().any(|limit| limit.is_for(&regime.name));
+        let without = self.regimes.iter().filter(limited);
+        without.map(|regime| regime.name.as_str()).collect()
+    }
+
+    /// Returns what a run says of the limits.
+    #[must_use]
+    pub fn assess(&self, values: &[Option<Value>], record: &Record) -> Assessed {
+        let value = |name: &str| {
+            let place = self.study.factors.iter().position(|factor| factor.name() == name);
+            place.and_then(|place| values.get(place)?.as_ref())
+        };
+        let name = |path: &str| {
+            value(path)
+                .map(|own| own.shown().into_owned())
+                .unwrap_or_default()
+        };
+        let [regime, condition] = ["regime", "condition"].map(name);
+        let speed = value("speed.value");
+        let measures = self.study.measures();
+        let measured = |name: &str| measures.get(&record.measures, name);
+        let derailed = measured("derailed").is_some_and(|own| own > 0.5);
+        let note = match (derailed, measured("end_distance")) {
+            (true, Some(at)) => {
+                let feet = at * Kind::Distance.from_si(quantity::System::Us);
+                format!("derailed {feet:.0} ft along the track: the run ends there")
+            }
+            _ => record.reason.clone(),
+        };
+        let place = |limit: &Limit| limit.is_for(&regime);
+        let limits = self.limits.limits.iter().enumerate();
+        let checks = limits.filter(|(_, limit)| place(limit)).map(|(number, limit)| {
+            let usable = record.status == Status::Complete;
+            let found = measured(limit.measure.name).filter(|_| usable);
+            let value = found.map(|own| limit.in_unit(own));
+            Check {
+                limit: number,
+                value,
+                margin: value.map(|own| limit.margin(own)),
+            }
+        });
+        Assessed {
+            run: record.number,
+            regime: self
+                .regimes
+                .iter()
+                .position(|own| own.name == regime)
+                .unwrap_or(0),
+            condition: self
+                .conditions
+                .iter()
+                .position(|own| own.name == condition)
+                .unwrap_or(0),
+            speed: speed.map(|own| own.shown().into_owned()).unwrap_or_default(),
+            speed_si: speed.and_then(|own| own.in_unit("m/s")).unwrap_or(f64::NAN),
+            status: record.status.name(),
+            note,
+            derailed,
+            checks: checks.collect(),
+            measures: record.measures.0.clone(),
+        }
+    }
+}
+
+/// How a limit is kept in a regime and a condition, over all speeds.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Verdict {
+    /// The number of the regime.
+    pub regime: usize,
+    /// The number of the condition.
+    pub condition: usize,
+    /// The number of the limit.
+    pub limit: usize,
+    /// The run with the least margin, its speed, value and margin; `None` if no run has one.
+    pub worst: Option<Worst>,
+    /// Speeds at which a wheel left its rail.
+    pub derailed: Vec<String>,
+    /// Speeds of runs without a value.
+    pub missing: Vec<String>,
+}
+
+/// The run that keeps a limit least.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Worst {
+    /// Its number.
+    pub run: u64,
+    /// Its speed as typed.
+    pub speed: String,
+    /// What is measured, in the limit's unit.
+    pub value: f64,
+    /// What is left, in parts of the limit.
+    pub margin: f64,
+}
+
+impl Verdict {
+    /// Returns `kept`, `exceeded`, or `unknown` if a run is missing and none exceeds it.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        let exceeded = self.worst.as_ref().is_some_and(|own| own.margin < 0.0);
+        if exceeded || !self.derailed.is_empty() {
+            return "exceeded";
+        }
+        match self.missing.is_empty() && self.worst.is_some() {
+            true => "kept",
+            false => "unknown",
+        }
+    }
+}
+
+/// Returns how each limit is kept, by regime, condition and limit.
+#[must_use]
+pub fn verdicts(runs: &[Assessed]) -> Vec<Verdict> {
+    let mut found: Vec<Verdict> = Vec::new();
+    for run in runs {
+        for check in &run.checks {
+            let key = (run.regime, run.condition, check.limit);
+            let place = found
+                .iter()
+                .position(|own| (own.regime, own.condition, own.limit) == key);
+            let place = place.unwrap_or_else(|| {
+                found.push(Verdict {
+                    regime: run.regime,
+                    condition: run.condition,
+                    limit: check.limit,
+                    worst: None,
+                    derailed: Vec::new(),
+                    missing: Vec::new(),
+                });
+                found.len() - 1
+            });
+            let own = &mut found[place];
+            if run.derailed {
+                own.derailed.push(run.speed.clone());
+            }
+            let (Some(value), Some(margin)) = (check.value, check.margin) else {
+                own.missing.push(run.speed.clone());
+                continue;
+            };
+            if own.worst.as_ref().is_none_or(|worst| margin < worst.margin) {
+                own.worst = Some(Worst {
+                    run: run.run,
+                    speed: run.speed.clone(),
+                    value,
+                    margin,
+                });
+            }
+        }
+    }
+    found.sort_by_key(|own| (own.condition, own.regime, own.limit));
+    found
+}
+
+/// Returns the run of a regime that is worst: the first in which a wheel left its rail, else that with the
+/// least margin, else the fastest; `None` if none is complete.
+#[must_use]
+pub fn worst_run(runs: &[Assessed], regime: usize) -> Option<&Assessed> {
+    let complete = Status::Complete.name();
+    let own = runs
+        .iter()
+        .filter(|run| run.regime == regime && run.status == complete);
+    let rank = |run: &Assessed| match run.derailed {
+        true => f64::NEG_INFINITY,
+        false => {
+            let margins = run.checks.iter().filter_map(|check| check.margin);
+            margins.fold(f64::INFINITY, f64::min)
+        }
+    };
+    own.min_by(|a, b| {
+        rank(a)
+            .total_cmp(&rank(b))
+            .then(b.speed_si.total_cmp(&a.speed_si))
+    })
+}
+
+/// The first regime that is there twice.
+fn repeated(regimes: &[Regime]) -> Option<&str> {
+    let names = regimes.iter().map(|own| own.name.as_str()).enumerate();
+    let mut twice = names.filter(|(place, name)| regimes[..*place].iter().any(|own| own.name == *name));
+    twice.next().map(|(_, name)| name)
+}
+
+/// Reads the car.
+fn car(request: &Request) -> Result<(CaseSource, AnyCase), CaseError> {
+    let path = &request.car;
+    let name = path.to_str().unwrap_or_default();
+    let source = match super::builtin::text(name) {
+        Ok(text) if !path.is_file() => CaseSource::File {
+            name: format!("{name}.toml"),
+            text: text.to_owned(),
+            folder: PathBuf::new(),
+        },
+        Err(error) if !path.exists() && path.extension().is_none() => return Err(error),
+        _ => CaseSource::File {
+            name: path.display().to_string(),
+            text: case::text_of(path)?,
+            folder: path.parent().unwrap_or(Path::new("")).to_owned(),
+        },
+    };
+    let case = source.case(&request.set)?;
+    if !matches!(case, AnyCase::Car(_)) {
+        let problem = Problem::new(format!("{} is no case of a car", path.display()));
+        return Err(problem
+            .help("regimes are for cars: write model = \"car\", or take a built-in one such as car_tangent_loaded")
+            .into());
+    }
+    Ok((source, case))
+}
+
+/// Writes the study.
+fn text(
+    regimes: &[Regime],
+    conditions: &[Condition],
+    request: &Request,
+    car: &AnyCase,
+) -> Result<String, CaseError> {
+    let is_empty = matches!(car, AnyCase::Car(own) if own.parameters.lading.is_empty());
+    let mut text = format!("case = \"{}\"\nsampling = \"list\"\n[set]\n", car.name());
+    let lines = |text: &mut String, set: &[String]| {
+        for own in set {
+            // Writing into a text cannot fail.
+            let _ = writeln!(text, "{own}");
+        }
+    };
+    let set = request.set.iter().map(|own| overrides::to_toml(own));
+    lines(
+        &mut text,
+        &set.collect::<Result<Vec<_>, _>>().map_err(CaseError::new)?,
+    );
+    let mut rows = String::new();
+    for regime in regimes {
+        let _ = writeln!(text, "[groups.regime.{}]", regime.name);
+        let lading = match regime.lading.as_deref() {
+            Some("loaded") if is_empty => Some("loaded"),
+            Some("empty") if !is_empty => Some("empty"),
+            _ => None,
+        };
+        if let Some(lading) = lading {
+            let _ = writeln!(text, "lading = {{ kind = \"{lading}\" }}");
+        }
+        lines(&mut text, &regime.everywhere());
+        let speeds = match request.speeds.as_slice() {
+            [] => regime.speeds.as_slice(),
+            speeds => speeds,
+        };
+        for condition in conditions {
+            for speed in speeds {
+                let _ = writeln!(
+                    rows,
+                    "[[variants]]\nregime = \"{}\"\ncondition = \"{}\"",
+                    regime.name, condition.name
+                );
+                lines(&mut rows, &regime.at(speed)?);
+            }
+        }
+    }
+    for condition in conditions {
+        let _ = writeln!(text, "[groups.condition.{}]", condition.name);
+        lines(&mut text, &condition.set);
+    }
+    Ok(text + &rows)
+}

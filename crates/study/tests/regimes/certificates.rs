@@ -1,0 +1,274 @@
+//! Limits, conditions and what a certificate makes of records.
+
+use std::path::PathBuf;
+
+use quantity::Quantity;
+use study::car::certificate::{Certificate, Request, verdicts, worst_run};
+use study::car::conditions::{self, Condition};
+use study::car::limits::{Bound, LimitSet};
+use study::measures::Measures;
+use study::records::{Record, Status};
+
+fn request(regimes: &[&str]) -> Request {
+    Request {
+        car: PathBuf::from("car_tangent_loaded"),
+        set: Vec::new(),
+        regimes: regimes.iter().map(|own| (*own).to_owned()).collect(),
+        speeds: ["16 mph", "20 mph"]
+            .map(|own| Quantity::parse(own).unwrap())
+            .to_vec(),
+        conditions: Vec::new(),
+        limits: "aar_chapter_xi".to_owned(),
+    }
+}
+
+/// A record of a run with these measures (SI) and zeros for the others.
+fn record(certificate: &Certificate, number: u64, given: &[(&str, f64)]) -> Record {
+    let definitions = certificate.study.measures();
+    let mut values = vec![0.0; definitions.len()];
+    for (name, value) in given {
+        values[definitions.place(name).unwrap()] = *value;
+    }
+    Record {
+        number,
+        status: Status::Complete,
+        reason: String::new(),
+        measures: Measures(values),
+    }
+}
+
+fn lowered(limit: &str) -> LimitSet {
+    let text = format!(
+        "title = \"ours\"\nsource = \"a letter\"\n[[limits]]\nname = \"roll\"\nquantity = \"body roll\"\n\
+         measure = \"body_roll_peak_to_peak\"\nregimes = [\"twist_and_roll\"]\nat_most = \"{limit}\"\n"
+    );
+    LimitSet::parse("ours.toml", &text).unwrap()
+}
+
+#[test]
+fn input_all_that_is_built_in_can_be_read() {
+    let names: Vec<&str> = LimitSet::built_in().iter().map(|own| own.name.as_str()).collect();
+    assert_eq!(names, ["aar_chapter_xi", "fra_213_333"]);
+    let parsed = conditions::parse("conditions.toml", conditions::BUILT_IN).unwrap();
+    assert_eq!(parsed.as_slice(), Condition::all());
+    assert!(Condition::all()[0].set.is_empty());
+    for name in [
+        "new",
+        "worn",
+        "broken_control_coil",
+        "missing_load_coil",
+        "dry_center_plate",
+        "greased_center_plate",
+        "empty",
+        "loaded",
+        "lading_off_center",
+        "massless_wedges",
+    ] {
+        assert!(Condition::all().iter().any(|own| own.name == name), "{name}");
+    }
+    // All of them make cases of loaded and of empty cars.
+    let request = Request {
+        speeds: vec![Quantity::parse("30 mph").unwrap()],
+        conditions: Condition::all().iter().map(|own| own.name.clone()).collect(),
+        ..request(&["hunting", "twist_and_roll"])
+    };
+    let certificate = Certificate::new(&request).unwrap();
+    assert_eq!(certificate.study.count(), 2 * Condition::all().len() as u64);
+    for number in 0..certificate.study.count() {
+        if let Err(error) = certificate.study.case(number) {
+            panic!("{:?}: {:?}", certificate.study.values(number), error.problems());
+        }
+    }
+}
+
+/// A limit lowered by hand turns its row; margins are parts of the limit.
+#[test]
+fn analytic_margins_and_verdicts() {
+    let mut certificate = Certificate::new(&request(&["twist_and_roll"])).unwrap();
+    let rolls = [3.0_f64, 4.5];
+    let assessed = |certificate: &Certificate| -> Vec<_> {
+        (0..2)
+            .map(|number| {
+                let roll = ("body_roll_peak_to_peak", rolls[number as usize].to_radians());
+                let record = record(certificate, number, &[roll, ("least_load_time", 40.0)]);
+                certificate.assess(&certificate.study.values(number), &record)
+            })
+            .collect()
+    };
+    let runs = assessed(&certificate);
+    assert_eq!(runs[1].speed, "20 mph");
+    assert!((runs[1].speed_si - 8.9408).abs() < 1e-12);
+    let found = verdicts(&runs);
+    let of = |name: &str| {
+        let limits = &certificate.limits.limits;
+        let place = limits.iter().position(|own| own.name == name).unwrap();
+        found.iter().find(|own| own.limit == place).unwrap()
+    };
+    let roll = of("body_roll");
+    let worst = roll.worst.as_ref().unwrap();
+    assert_eq!((worst.run, roll.word()), (1, "kept"));
+    assert!((worst.value - 4.5).abs() < 1e-12 && (worst.margin - 0.25).abs() < 1e-12);
+    // At least 10 %: 40 % is 30 % above, three times the limit.
+    let load = of("least_wheel_load").worst.as_ref().unwrap();
+    assert!((load.margin - 3.0).abs() < 1e-12);
+    assert_eq!(
+        certificate.limits.limits[of("least_wheel_load").limit].bound,
+        Bound::AtLeast
+    );
+    assert_eq!(worst_run(&runs, 0).unwrap().run, 1);
+
+    certificate.limits = lowered("4 deg");
+    let found = verdicts(&assessed(&certificate));
+    assert_eq!(found[0].word(), "exceeded");
+    assert!((found[0].worst.as_ref().unwrap().margin + 0.125).abs() < 1e-12);
+    certificate.limits = lowered("5 deg");
+    assert_eq!(verdicts(&assessed(&certificate))[0].word(), "kept");
+}
+
+/// A car that derails keeps no limit; a run without numbers leaves them unknown.
+#[test]
+fn analytic_derailed_and_missing_runs_are_said() {
+    let mut certificate = Certificate::new(&request(&["twist_and_roll"])).unwrap();
+    certificate.limits = lowered("6 deg");
+    let values = |number| certificate.study.values(number);
+    let derailed = record(&certificate, 0, &[("derailed", 1.0), ("end_distance", 152.4)]);
+    let mut stopped = record(&certificate, 1, &[]);
+    stopped.status = Status::Stopped;
+    stopped.reason = "the step became too small".to_owned();
+    stopped.measures = Measures::default();
+    let good = certificate.assess(&values(0), &record(&certificate, 0, &[]));
+    let gone = certificate.assess(&values(0), &derailed);
+    let missing = certificate.assess(&values(1), &stopped);
+    assert!(gone.note.contains("derailed 500 ft"), "{}", gone.note);
+    assert_eq!(missing.note, "the step became too small");
+    let first = verdicts(&[gone, missing.clone()]);
+    assert_eq!(
+        (first[0].word(), first[0].derailed.as_slice()),
+        ("exceeded", &["16 mph".to_owned()][..])
+    );
+    let second = verdicts(&[good, missing]);
+    assert_eq!(
+        (second[0].word(), second[0].missing.as_slice()),
+        ("unknown", &["20 mph".to_owned()][..])
+    );
+}
+
+/// The text has one mistake: in its message, in its help.
+#[track_caller]
+fn refused(text: &str, message: &str, help: &str) {
+    let error = LimitSet::parse("ours.toml", text)
+        .err()
+        .unwrap_or_else(|| panic!("it is accepted:\n{text}"));
+    let [problem] = error.problems() else {
+        panic!("{:#?}", error.problems())
+    };
+    assert!(problem.message().contains(message), "{}", problem.message());
+    assert!(
+        problem.advice().unwrap_or("").contains(help),
+        "{:?}",
+        problem.advice()
+    );
+}
+
+#[test]
+fn input_limits_that_are_missing_or_contradict_each_other() {
+    let head = "title = \"ours\"\nsource = \"a letter\"\n";
+    let one = "[[limits]]\nname = \"a\"\nquantity = \"roll\"\nmeasure = \"body_roll_peak_to_peak\"\nregimes = \"all\"\n";
+    let good = format!("{head}{one}at_most = \"6 deg\"\n");
+    assert_eq!(LimitSet::parse("ours.toml", &good).unwrap().limits.len(), 1);
+    refused(head, "`limits` is missing", "[[limits]]");
+    refused(&format!("{head}limits = []\n"), "no list of limits", "[[limits]]");
+    refused(
+        &format!("{head}{one}"),
+        "neither of `at_most` and `at_least`",
+        "at_most = 0.8",
+    );
+    refused(
+        &format!("{good}at_least = \"1 deg\"\n"),
+        "both of `at_most` and `at_least`",
+        "two [[limits]]",
+    );
+    refused(&good.replace("\"6 deg\"", "6"), "at_most", "deg");
+    refused(&good.replace("\"6 deg\"", "\"6 in\""), "at_most", "");
+    refused(
+        &good.replace("body_roll_peak_to_peak", "body_rol_peak_to_peak"),
+        "no measure",
+        "did you mean \"body_roll_peak_to_peak\"",
+    );
+    let second = one.replace("\"a\"", "\"b\"");
+    refused(
+        &format!("{good}{second}at_most = \"5 deg\"\n"),
+        "on the same side",
+        "the stricter one",
+    );
+    refused(
+        &format!("{good}{second}at_least = \"7 deg\"\n"),
+        "wants at least 7 deg",
+        "correct one of them",
+    );
+    refused(
+        &format!("{good}{one}at_most = \"5 deg\"\n"),
+        "two limits `a`",
+        "name of its own",
+    );
+    let load = good
+        .replace("body_roll_peak_to_peak", "least_load_time")
+        .replace("at_most = \"6 deg\"", "at_least = \"10\"");
+    refused(&load, "a share in % is expected", "10 %");
+}
+
+#[test]
+fn input_what_a_certificate_cannot_be() {
+    let message = |request: &Request| {
+        let error = Certificate::new(request)
+            .err()
+            .unwrap_or_else(|| panic!("it is accepted: {request:?}"));
+        let problem = &error.problems()[0];
+        format!("{} | {}", problem.message(), problem.advice().unwrap_or(""))
+    };
+    let fast = Request {
+        speeds: vec![Quantity::parse("90 mph").unwrap()],
+        ..request(&["twist_and_roll"])
+    };
+    assert!(
+        message(&fast).contains("10 mph to 70 mph, not for 90 mph"),
+        "{}",
+        message(&fast)
+    );
+    let unknown = request(&["twist_and_rol"]);
+    assert!(
+        message(&unknown).contains("did you mean twist_and_roll?"),
+        "{}",
+        message(&unknown)
+    );
+    let twice = request(&["hunting", "hunting"]);
+    assert!(message(&twice).contains("named twice"), "{}", message(&twice));
+    let condition = Request {
+        conditions: vec!["wornn".to_owned()],
+        ..request(&["hunting"])
+    };
+    assert!(
+        message(&condition).contains("did you mean worn?"),
+        "{}",
+        message(&condition)
+    );
+    let limits = Request {
+        limits: "aar_chapter".to_owned(),
+        ..request(&["hunting"])
+    };
+    assert!(
+        message(&limits).contains("aar_chapter_xi"),
+        "{}",
+        message(&limits)
+    );
+    let wedge = Request {
+        car: PathBuf::from("vdrun_toe_0_psi_0"),
+        ..request(&["hunting"])
+    };
+    assert!(message(&wedge).contains("car"), "{}", message(&wedge));
+    let set = Request {
+        set: vec!["truck.friction.colum=0.3".to_owned()],
+        ..request(&["hunting"])
+    };
+    assert!(message(&set).contains("colum"), "{}", message(&set));
+}

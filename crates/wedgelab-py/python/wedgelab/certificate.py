@@ -1,0 +1,132 @@
+"""Certificates: a car in the regimes of its assessment, beside limits, as ``wedgelab certify`` makes them (``docs/regimes.md``)."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from ._wedgelab import NativeCertificate, NativeStudyFolder
+from .many import Progress, _teller, _workers
+from .study import PathLike, Study, opened
+
+__all__ = ["Certificate", "CertificateOutcome", "Verdict"]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """How a limit is kept in a regime and a condition, over all speeds."""
+
+    regime: str
+    """The regime."""
+    condition: str
+    """The condition."""
+    limit: str
+    """The limit's name."""
+    quantity: str
+    """What is limited, in words."""
+    verdict: str
+    """``kept``, ``exceeded``, or ``unknown`` if a run has no numbers."""
+    value: float | None
+    """The worst value, in ``unit``."""
+    limit_value: float
+    """The limit, in ``unit``."""
+    unit: str
+    """Their unit; empty for pure numbers."""
+    margin: float | None
+    """What is left, in parts of the limit; negative where it is not kept."""
+    speed: str | None
+    """The speed of the worst run, with its unit."""
+    run: int | None
+    """The number of the worst run."""
+    derailed: tuple[str, ...]
+    """Speeds at which a wheel left its rail."""
+    missing: tuple[str, ...]
+    """Speeds of runs without numbers."""
+
+
+@dataclass(frozen=True)
+class CertificateOutcome:
+    """What came out of a certificate."""
+
+    folder: Path
+    """Where it is."""
+    page: Path
+    """The page."""
+    table: Path
+    """A row each run and limit, as CSV; Parquet stands beside it."""
+    runs: int
+    """Number of runs."""
+    before: int
+    """How many of them were there before."""
+    verdicts: tuple[Verdict, ...]
+    """How each limit is kept."""
+
+
+class Certificate:
+    """A car in regimes, at speeds and in conditions, beside limits.
+
+    ``car`` is the name of a built-in car or the path of a case file; ``regimes`` are names or files (by default the first eight), ``speeds``
+    texts such as ``"30 mph"`` (by default those of each regime), ``conditions`` names or a file, ``limits`` a name or a file, and ``set`` values
+    over the car's case as ``--set`` takes them.
+    """
+
+    def __init__(
+        self,
+        car: PathLike,
+        *,
+        regimes: Iterable[str] = (),
+        speeds: Iterable[str] = (),
+        conditions: Iterable[str] = (),
+        limits: str = "aar_chapter_xi",
+        set: Iterable[str] = (),
+    ) -> None:
+        """Reads what is named; a mistake in it is a ``CaseError`` that shows where."""
+        self._native = NativeCertificate(
+            Path(car), list(set), list(regimes), list(speeds), list(conditions), limits
+        )
+        self.study: Study = Study._of(self._native.study())
+        """Its runs."""
+
+    def __repr__(self) -> str:
+        return f"<Certificate of {self._native.car!r}: {self.study.count} runs>"
+
+    def run(
+        self, folder: PathLike | None = None, *, jobs: int | None = None, progress: Progress = False
+    ) -> CertificateOutcome:
+        """Runs what the folder lacks (by default ``NAME_certificate``) on ``jobs`` threads, then makes its tables and page.
+
+        What ``wedgelab certify`` began goes on here, and the other way round. Other arguments as in ``Study.run``.
+        """
+        with opened(self.study, self._folder(folder), False) as (native, path):
+            before, _ = native.begun()
+            tell = _teller(progress, self.study.count)
+            native.compute(_workers(jobs), None if tell is None else lambda now: tell(before + now))
+            return self._finished(native, path, before, jobs)
+
+    def _folder(self, folder: PathLike | None) -> PathLike:
+        return f"{self._native.car}_certificate" if folder is None else folder
+
+    def _finished(
+        self, native: NativeStudyFolder, path: Path, before: int, jobs: int | None
+    ) -> CertificateOutcome:
+        self._native.finish(native, _workers(jobs))
+        told = json.loads((path / "certificate.json").read_text(encoding="utf-8"))
+        return CertificateOutcome(
+            folder=path,
+            page=path / "index.html",
+            table=path / "certificate.csv",
+            runs=self.study.count,
+            before=before,
+            verdicts=tuple(_verdict(own) for own in told["verdicts"]),
+        )
+
+
+def _verdict(own: dict[str, object]) -> Verdict:
+    """A verdict as ``certificate.json`` has it."""
+    worst = own.pop("worst")
+    found = worst if isinstance(worst, dict) else dict.fromkeys(("run", "speed", "value", "margin"))
+    lists = {key: tuple(own.pop(key)) for key in ("derailed", "missing")}  # type: ignore[arg-type]
+    del own["bound"]
+    return Verdict(**own, **found, **lists)  # type: ignore[arg-type]

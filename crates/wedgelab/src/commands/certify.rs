@@ -1,0 +1,298 @@
+//! `wedgelab certify`: a car in regimes, at speeds and in conditions, beside the limits of rules.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use quantity::{Kind, Quantity};
+use report::certificate_files::{Findings, NAMES};
+use report::certificate_work;
+use report::page::certificate::{self as page, Against};
+use report::study_folder::{StudyFolder, TABLE_FILE};
+use serde_json::json;
+use study::car::certificate::{Certificate, Request};
+
+use super::study::work;
+use crate::failure::{Failure, Message, say};
+use crate::folders;
+use crate::interrupt;
+use crate::json;
+use crate::progress::Steady;
+use crate::table::Table;
+
+/// Run a car in all regimes of the assessment of freight cars, beside the limits of rules
+///
+/// Each regime is a track (`wedgelab regime` lists them) that the car passes at several speeds, in one or
+/// more conditions: worn wedges, a broken coil, empty. Writes one page (limits, what is worst in 3D, figures
+/// over speed and distance, wedges), certificate.csv and certificate.parquet (a row each run and limit),
+/// table.parquet (all measures of each run) and certificate.json. A certificate that was ended or killed goes
+/// on where it was when the command is given again. Tracks and limits are remembered of AAR M-1001, chapter
+/// XI: check them against your edition.
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Examples:
+  wedgelab certify my_car.toml
+  wedgelab certify car_tangent_loaded --regimes twist_and_roll pitch_and_bounce
+  wedgelab certify my_car.toml --conditions new worn broken_control_coil massless_wedges
+  wedgelab certify my_car.toml --limits my_limits.toml --against other_car_certificate")]
+pub struct Arguments {
+    /// Case file of a car, or the name of a built-in case
+    car: PathBuf,
+    /// Regimes by name, or files of your own [default: the first eight that `wedgelab regime` lists]
+    #[arg(long, value_name = "REGIME", num_args = 1..)]
+    regimes: Vec<String>,
+    #[command(flatten)]
+    common: Common,
+}
+
+/// What `certify` and `regime` take.
+#[derive(Debug, Args)]
+pub struct Common {
+    /// Speeds for all regimes, with --steps; or several speeds [default: those of each regime]
+    #[arg(long, value_name = "FROM..TO", num_args = 1..)]
+    speeds: Vec<String>,
+    /// Number of speeds from the first to the last
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u32).range(2..=100))]
+    steps: u32,
+    /// Conditions by name (as_given, new, worn, ...), or a file of your own [default: as the case says]
+    #[arg(long, value_name = "CONDITION", num_args = 0..)]
+    conditions: Option<Vec<String>>,
+    /// Limits by name (aar_chapter_xi, fra_213_333), or a file of your own
+    #[arg(long, value_name = "LIMITS", default_value = "aar_chapter_xi")]
+    limits: String,
+    /// Folder of another certificate, to be shown beside this one
+    #[arg(long, value_name = "DIR")]
+    against: Option<PathBuf>,
+    /// Set one value over those of the case
+    #[arg(long, value_name = "PATH.KEY=VALUE")]
+    set: Vec<String>,
+    /// Folder to write into, or to go on in [default: NAME_certificate, or NAME_REGIME]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// How many runs at a time [default: as many as there are processors]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// No progress
+    #[arg(long, short)]
+    quiet: bool,
+    #[arg(long, help = json::HELP)]
+    json: bool,
+}
+
+/// Does it.
+pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    assess(
+        &arguments.car,
+        &arguments.regimes,
+        &arguments.common,
+        "certificate",
+    )
+}
+
+/// Runs a car in regimes and writes what comes out.
+pub fn assess(car: &Path, regimes: &[String], common: &Common, ending: &str) -> Result<ExitCode, Failure> {
+    interrupt::listen();
+    let conditions = match &common.conditions {
+        None => Vec::new(),
+        // The option alone: all of them.
+        Some(names) if names.is_empty() => {
+            let all = study::car::conditions::Condition::all().iter();
+            all.map(|own| own.name.clone()).collect()
+        }
+        Some(names) => names.clone(),
+    };
+    let certificate = Certificate::new(&Request {
+        car: car.to_owned(),
+        set: common.set.clone(),
+        regimes: regimes.to_vec(),
+        speeds: speeds(&common.speeds, common.steps)?,
+        conditions,
+        limits: common.limits.clone(),
+    })?;
+    let path = common
+        .out
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(format!("{}_{ending}", certificate.car)));
+    let against = common.against.as_deref().map(other).transpose()?;
+    for regime in certificate.without_limits() {
+        say(&format!(
+            "note: {} sets no limit for the regime {regime}",
+            certificate.limits.title
+        ));
+    }
+    let folder = StudyFolder::open(&path, &certificate.study)?;
+    folders::tell_removed(folder.removed());
+    interrupt::stops(
+        "stopping: the runs under way are finished and kept (once more: ends at once)",
+        &format!(
+            "the runs that ended are kept in {}. The same command goes on from there.",
+            path.display()
+        ),
+    );
+    let jobs = common.jobs.map_or_else(
+        || std::thread::available_parallelism().map_or(1, usize::from),
+        usize::from,
+    );
+    let done = work::all(&certificate.study, &folder, jobs, common.quiet)?;
+    if done.interrupted || interrupt::wanted() {
+        return Err(interrupted(&certificate, &path, done.before + done.now));
+    }
+    let progress = Steady::new(
+        "worst runs",
+        certificate_work::count(&certificate),
+        0,
+        common.quiet,
+    );
+    let finished = certificate_work::finish(
+        &certificate,
+        &folder,
+        jobs,
+        against.as_ref(),
+        interrupt::flag(),
+        &|| progress.done(),
+    );
+    progress.finish();
+    let Some(findings) = finished? else {
+        return Err(interrupted(&certificate, &path, certificate.study.count()));
+    };
+    if common.json {
+        let [kept, exceeded, unknown] = findings.counts();
+        json::print(&json!({
+            "folder": path,
+            "files": NAMES.iter().chain([&TABLE_FILE]).collect::<Vec<_>>(),
+            "runs": findings.runs.len(),
+            "before": done.before,
+            "kept": kept,
+            "exceeded": exceeded,
+            "unknown": unknown,
+        }))?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    told(&certificate, &findings, &path)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn interrupted(certificate: &Certificate, path: &Path, kept: u64) -> Failure {
+    let message = format!(
+        "{}: {kept} of {} runs are kept in {}",
+        interrupt::REASON,
+        certificate.study.count(),
+        path.display()
+    );
+    Failure::Interrupted(Message::new(message, "the same command goes on from there").into())
+}
+
+/// Reads speeds: several, or from one to another.
+fn speeds(texts: &[String], steps: u32) -> Result<Vec<Quantity>, Message> {
+    const HELP: &str =
+        "write --speeds \"10 mph..70 mph\" --steps 6, or several speeds: --speeds \"30 mph\" \"50 mph\"";
+    let speed = |text: &str| {
+        let quantity = Quantity::parse_as(text.trim(), Kind::TravelSpeed)
+            .map_err(|error| Message::new(format!("the speed \"{}\": {error}", text.trim()), HELP))?;
+        match quantity.to_si() > 0.0 && quantity.to_si() < 1e3 {
+            true => Ok(quantity),
+            false => Err(Message::new(
+                format!("the speed {quantity} is not positive and below 1000 m/s"),
+                HELP,
+            )),
+        }
+    };
+    let mut found = Vec::new();
+    for text in texts {
+        let Some((from, to)) = text.split_once("..") else {
+            found.push(speed(text)?);
+            continue;
+        };
+        let (from, to) = (speed(from)?, speed(to)?);
+        let unit = from.unit_text();
+        let last = to.to_si() / from.to_si() * from.value();
+        for step in 0..steps {
+            let share = f64::from(step) / f64::from(steps - 1);
+            let value = from.value() + (last - from.value()) * share;
+            // Six digits are more than a speed has.
+            let value: f64 = format!("{value:.6e}").parse().unwrap_or(value);
+            found.push(speed(&format!("{value} {unit}"))?);
+        }
+    }
+    found.sort_by(|a, b| a.to_si().total_cmp(&b.to_si()));
+    found.dedup_by(|a, b| a.to_si() == b.to_si());
+    Ok(found)
+}
+
+/// Reads another certificate.
+fn other(folder: &Path) -> Result<Against, Failure> {
+    let file = folder.join(NAMES[2]);
+    let wrong = |reason: String| {
+        let message = format!("{} is no certificate to compare with: {reason}", file.display());
+        Message::new(
+            message,
+            "name the folder that `wedgelab certify` or `wedgelab regime` wrote",
+        )
+    };
+    let text = fs::read_to_string(&file).map_err(|error| wrong(error.to_string()))?;
+    let document = serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
+    Ok(page::against(&folder.display().to_string(), &document).map_err(wrong)?)
+}
+
+/// Prints the table of limits.
+fn told(certificate: &Certificate, findings: &Findings, path: &Path) -> io::Result<()> {
+    let several = certificate.conditions.len() > 1;
+    let mut table = Table::new(
+        if several { 3 } else { 2 },
+        &[
+            ("regime", ""),
+            ("limit", ""),
+            if several { ("condition", "") } else { ("at", "") },
+            ("worst", ""),
+            ("limit", ""),
+            ("margin", "%"),
+            ("verdict", ""),
+        ],
+    );
+    for own in &findings.verdicts {
+        let limit = &certificate.limits.limits[own.limit];
+        let worst = own.worst.as_ref();
+        let third = match several {
+            true => certificate.conditions[own.condition].name.clone(),
+            false => worst.map_or("-".to_owned(), |worst| worst.speed.clone()),
+        };
+        let derailed = if own.derailed.is_empty() { "" } else { ", derailed" };
+        table.row([
+            certificate.regimes[own.regime].name.clone(),
+            limit.name.clone(),
+            third,
+            worst.map_or("-".to_owned(), |worst| {
+                format!("{:.3} {}", worst.value, limit.unit)
+            }),
+            format!("{} {}", limit.value, limit.unit),
+            worst.map_or("-".to_owned(), |worst| format!("{:.0}", 100.0 * worst.margin)),
+            format!("{}{derailed}", own.word()),
+        ]);
+    }
+    let mut out = io::stdout().lock();
+    table.write(&mut out)?;
+    let [kept, exceeded, unknown] = findings.counts();
+    writeln!(
+        out,
+        "\n{} runs. Limits: {kept} kept, {exceeded} exceeded, {unknown} unknown. {}: {}.",
+        findings.runs.len(),
+        certificate.limits.title,
+        certificate.limits.source
+    )?;
+    for run in findings.runs.iter().filter(|run| !run.note.is_empty()).take(5) {
+        writeln!(
+            out,
+            "  run {} ({}, {}): {}: {}",
+            run.run, certificate.regimes[run.regime].name, run.speed, run.status, run.note
+        )?;
+    }
+    writeln!(
+        out,
+        "\nWritten into {}: {}, {TABLE_FILE} (open {} in a browser).",
+        path.display(),
+        NAMES.join(", "),
+        NAMES[3]
+    )
+}
