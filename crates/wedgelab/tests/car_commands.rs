@@ -80,8 +80,8 @@ fn input_commands_say_what_they_take() {
             &["\"30 mph\"..\"80 mph\""],
         ),
         (
-            &["stability", "car_hunting_empty", "--speeds", "60 mph..30 mph"],
-            &["must be the higher one"],
+            &["stability", "car_hunting_empty", "--speeds", "60 mph..60 mph"],
+            &["this is one speed only"],
         ),
         (
             &[

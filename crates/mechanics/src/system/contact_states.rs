@@ -412,6 +412,6 @@ mod tests {
             }
         }
         let alone = margins_of(&[0], Lanes::from(0.3), Lanes::from(9.0), 0);
-        assert_eq!(alone.at(0), 0.3);
+        assert_eq!(alone.at(0), 0.3 - CLOSING_GAP);
     }
 }

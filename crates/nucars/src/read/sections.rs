@@ -113,7 +113,7 @@ pub fn required<'a>(
         let off = sections.iter().find(|section| section.is(keyword));
         // What is missing stands nowhere: the end of the file is where it would go on.
         let end = sections.last().map_or(0, |last| last.body.end as usize);
-        let place = off.map_or(Span::new(end.saturating_sub(1), end), |off| off.keyword.span);
+        let place = off.map_or(Span::new(end, end), |off| off.keyword.span);
         let help = match off {
             Some(_) => "take away the `$` before the `\\`".to_owned(),
             None => format!(

@@ -26,7 +26,7 @@ pub struct Request {
     pub car: PathBuf,
     /// Values laid over the car, as `--set` takes them.
     pub set: Vec<String>,
-    /// Names or files of regimes; none: the first eight that are built in.
+    /// Names or files of regimes; none: all that are built in.
     pub regimes: Vec<String>,
     /// Speeds for all regimes; none: those of each regime.
     pub speeds: Vec<Quantity>,
@@ -35,9 +35,6 @@ pub struct Request {
     /// Name or file of the limits.
     pub limits: String,
 }
-
-/// How many of the built-in regimes a certificate has if none are named.
-pub const USUAL_REGIMES: usize = 8;
 
 /// A car in regimes, at speeds and in conditions.
 #[derive(Clone, Debug)]
@@ -110,7 +107,7 @@ impl Certificate {
     pub fn new(request: &Request) -> Result<Self, CaseError> {
         let limits = LimitSet::named_or_read(&request.limits)?;
         let regimes = match request.regimes.as_slice() {
-            [] => Regime::all().iter().take(USUAL_REGIMES).cloned().collect(),
+            [] => Regime::all().to_vec(),
             names => {
                 let named = names.iter().map(|name| Regime::named_or_read(name));
                 named.collect::<Result<Vec<_>, _>>()?
@@ -335,6 +332,7 @@ fn car(request: &Request) -> Result<(CaseSource, AnyCase), CaseError> {
             text: text.to_owned(),
             folder: PathBuf::new(),
         },
+        Err(_) if matches!(AnyCase::built_in(name, &[]), Ok(Some(_))) => return Err(no_car(path)),
         Err(error) if !path.exists() && path.extension().is_none() => return Err(error),
         _ => CaseSource::File {
             name: path.display().to_string(),
@@ -344,12 +342,18 @@ fn car(request: &Request) -> Result<(CaseSource, AnyCase), CaseError> {
     };
     let case = source.case(&request.set)?;
     if !matches!(case, AnyCase::Car(_)) {
-        let problem = Problem::new(format!("{} is no case of a car", path.display()));
-        return Err(problem
-            .help("regimes are for cars: write model = \"car\", or take a built-in one such as car_tangent_loaded")
-            .into());
+        return Err(no_car(path));
     }
     Ok((source, case))
+}
+
+fn no_car(path: &Path) -> CaseError {
+    let problem = Problem::new(format!("{} is no case of a car", path.display()));
+    problem
+        .help(
+            "regimes are for cars: write model = \"car\", or take a built-in one such as car_tangent_loaded",
+        )
+        .into()
 }
 
 /// Writes the study.

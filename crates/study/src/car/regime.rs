@@ -198,8 +198,11 @@ impl Regime {
     /// # Errors
     /// The speed lies outside the range that the track bears.
     pub fn settings(&self, speed: &Quantity) -> Result<Vec<String>, CaseError> {
-        let mut settings = self.everywhere();
-        settings.extend(self.at(speed)?);
+        // Lines of a case file, in which a table stands once.
+        let speed_alone = format!("speed={{ kind = \"held\", value = {} }}", quoted(speed.text()));
+        let mut settings = vec![format!("track={}", self.track), speed_alone];
+        settings.extend(self.at(speed)?.into_iter().skip(1));
+        settings.extend(self.set.iter().cloned());
         Ok(settings)
     }
 
@@ -214,7 +217,7 @@ impl Regime {
         settings
     }
 
-    /// Returns what depends on the speed: that, the duration, and how much of it is settling.
+    /// Returns what depends on the speed: first that, then the duration, and how much of it is settling.
     ///
     /// # Errors
     /// The speed lies outside the range that the track bears.

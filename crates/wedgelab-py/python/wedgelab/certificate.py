@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from ._wedgelab import NativeCertificate, NativeStudyFolder
 from .many import Progress, _teller, _workers
@@ -67,7 +68,7 @@ class CertificateOutcome:
 class Certificate:
     """A car in regimes, at speeds and in conditions, beside limits.
 
-    ``car`` is the name of a built-in car or the path of a case file; ``regimes`` are names or files (by default the first eight), ``speeds``
+    ``car`` is the name of a built-in car or the path of a case file; ``regimes`` are names or files (by default all that are built in), ``speeds``
     texts such as ``"30 mph"`` (by default those of each regime), ``conditions`` names or a file, ``limits`` a name or a file, and ``set`` values
     over the car's case as ``--set`` takes them.
     """
@@ -123,10 +124,21 @@ class Certificate:
         )
 
 
-def _verdict(own: dict[str, object]) -> Verdict:
+def _verdict(own: dict[str, Any]) -> Verdict:
     """A verdict as ``certificate.json`` has it."""
-    worst = own.pop("worst")
-    found = worst if isinstance(worst, dict) else dict.fromkeys(("run", "speed", "value", "margin"))
-    lists = {key: tuple(own.pop(key)) for key in ("derailed", "missing")}  # type: ignore[arg-type]
-    del own["bound"]
-    return Verdict(**own, **found, **lists)  # type: ignore[arg-type]
+    worst = own["worst"] or {}
+    return Verdict(
+        regime=own["regime"],
+        condition=own["condition"],
+        limit=own["limit"],
+        quantity=own["quantity"],
+        verdict=own["verdict"],
+        value=worst.get("value"),
+        limit_value=own["limit_value"],
+        unit=own["unit"],
+        margin=worst.get("margin"),
+        speed=worst.get("speed"),
+        run=worst.get("run"),
+        derailed=tuple(own["derailed"]),
+        missing=tuple(own["missing"]),
+    )

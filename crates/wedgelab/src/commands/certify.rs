@@ -40,7 +40,7 @@ Examples:
 pub struct Arguments {
     /// Case file of a car, or the name of a built-in case
     car: PathBuf,
-    /// Regimes by name, or files of your own [default: the first eight that `wedgelab regime` lists]
+    /// Regimes by name, or files of your own [default: all that `wedgelab regime` lists]
     #[arg(long, value_name = "REGIME", num_args = 1..)]
     regimes: Vec<String>,
     #[command(flatten)]

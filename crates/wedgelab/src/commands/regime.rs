@@ -113,7 +113,7 @@ fn list() -> io::Result<()> {
     }
     writeln!(
         out,
-        "\n`wedgelab regime NAME CAR` runs a car in one of them, `wedgelab certify CAR` in the first eight; \
+        "\n`wedgelab regime NAME CAR` runs a car in one of them, `wedgelab certify CAR` in all; \
          `wedgelab regime --show NAME` prints any of these as a file to change."
     )
 }
