@@ -18,6 +18,7 @@ _Load = tuple[list[float], list[float]]
 
 __all__ = [
     "NativeCase",
+    "NativeCertificate",
     "NativeFile",
     "NativeProfile",
     "NativeResult",
