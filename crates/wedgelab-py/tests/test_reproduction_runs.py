@@ -61,7 +61,7 @@ def test_names_units_and_labels(short: wl.Result) -> None:
 def test_tables(short: wl.Result) -> None:
     frame = short.to_pandas()
     assert frame.index.name == "time_s" and np.array_equal(frame["wedge_z_in"].to_numpy(), short["wedge_z_in"])
-    data = short.to_xarray("si")
+    data = short.to_xarray()
     assert data["wedge_z"].attrs["units"] == "m" and np.array_equal(data["wedge_z"].values, short["wedge_z"])
     assert data.sel(time=0.25, method="nearest")["wedge_z"].size == 1
     events = short.events

@@ -41,8 +41,9 @@ def run_study(
     """
     if not isinstance(study, Study):
         study = Study(study)
+    distributed = _checked(client, batch)
     with opened(study, folder, yes) as (native, path):
-        before = _compute(study, native, client, batch, progress)
+        before = _compute(distributed, study, native, client, batch, progress)
         return finished(study, native, path, before)
 
 
@@ -58,18 +59,26 @@ def run_certificate(
 
     As ``run_study``; what ``wedgelab certify`` or ``Certificate.run`` began goes on here, and the other way round, with the same bytes.
     """
+    distributed = _checked(client, batch)
     with opened(certificate.study, certificate._folder(folder), False) as (native, path):
-        before = _compute(certificate.study, native, client, batch, progress)
+        before = _compute(distributed, certificate.study, native, client, batch, progress)
         return certificate._finished(native, path, before, None)
 
 
-def _compute(study: Study, native: NativeStudyFolder, client: Any, batch: int, progress: Progress) -> int:
-    """Has all missing runs computed by the workers; how many were there before."""
+def _checked(client: Any, batch: int) -> Any:
+    """The package ``distributed``, if what a caller gave can be worked with."""
     distributed = need("distributed", "wedgelab.cluster", "cluster")
     if isinstance(batch, bool) or not isinstance(batch, int) or batch < 1:
         raise StudyError(f"batch is {batch!r}; a whole number, 1 or more, is expected")
     if not isinstance(client, distributed.Client) or client.asynchronous:
         raise StudyError(f"client is {client!r}; a dask.distributed.Client that is not asynchronous is expected")
+    return distributed
+
+
+def _compute(
+    distributed: Any, study: Study, native: NativeStudyFolder, client: Any, batch: int, progress: Progress
+) -> int:
+    """Has all missing runs computed by the workers; how many were there before."""
     before, _ = native.begun()
     tell = _teller(progress, study.count)
     done = before
