@@ -4,7 +4,7 @@ use super::center_line::CenterLine;
 use super::rails::{CLOSE, STRIDE};
 
 /// How far parts of a track must lie from each other in plan, m: a foot is looked for from places within
-/// [`CLOSE`], and wheels that run on the track lie within 1 m of its center line.
+/// 5 m, and wheels that run on the track lie within 1 m of its center line.
 pub const CLEARANCE: f64 = CLOSE + 1.0;
 
 impl CenterLine {
