@@ -5,7 +5,6 @@ use std::borrow::Cow;
 use std::io::{self, Write};
 
 use quantity::{Kind, System as Units};
-use serde::Serialize;
 use serde_json::json;
 use study::car::certificate::{Assessed, Certificate, Verdict, verdicts};
 
@@ -186,48 +185,24 @@ fn table_as_csv(certificate: &Certificate, findings: &Findings, out: &mut dyn Wr
     Ok(())
 }
 
-/// A verdict with its names.
-#[derive(Serialize)]
-struct Told<'c> {
-    regime: &'c str,
-    condition: &'c str,
-    limit: &'c str,
-    quantity: &'c str,
-    bound: &'static str,
-    limit_value: f64,
-    unit: &'c str,
-    verdict: &'static str,
-    #[serde(flatten)]
-    own: Own<'c>,
-}
-
-#[derive(Serialize)]
-struct Own<'c> {
-    worst: &'c Option<study::car::certificate::Worst>,
-    derailed: &'c [String],
-    missing: &'c [String],
-}
-
 /// All that a certificate says.
 fn document(certificate: &Certificate, findings: &Findings) -> serde_json::Value {
     let limits = &certificate.limits;
     let told = findings.verdicts.iter().map(|own| {
         let limit = &limits.limits[own.limit];
-        Told {
-            regime: &certificate.regimes[own.regime].name,
-            condition: &certificate.conditions[own.condition].name,
-            limit: &limit.name,
-            quantity: &limit.quantity,
-            bound: limit.bound.name(),
-            limit_value: limit.value,
-            unit: &limit.unit,
-            verdict: own.word(),
-            own: Own {
-                worst: &own.worst,
-                derailed: &own.derailed,
-                missing: &own.missing,
-            },
-        }
+        json!({
+            "regime": certificate.regimes[own.regime].name,
+            "condition": certificate.conditions[own.condition].name,
+            "limit": limit.name,
+            "quantity": limit.quantity,
+            "bound": limit.bound.name(),
+            "limit_value": limit.value,
+            "unit": limit.unit,
+            "verdict": own.word(),
+            "worst": own.worst,
+            "derailed": own.derailed,
+            "missing": own.missing,
+        })
     });
     let regimes = certificate.regimes.iter();
     let regimes = regimes.map(|own| json!({ "name": own.name, "title": own.title, "source": own.source }));

@@ -49,12 +49,6 @@ pub fn finish(
     Ok(Some(findings))
 }
 
-/// How many worst runs there will be.
-#[must_use]
-pub fn count(certificate: &Certificate) -> u64 {
-    certificate.regimes.len() as u64
-}
-
 fn unwritable(folder: &Path, error: serde_json::Error) -> StudyFolderError {
     StudyFolderError::Table {
         file: folder.join(pages::FILE_NAME),

@@ -372,16 +372,9 @@ pub fn worst_second(certificate: &Certificate, regime: usize, run: &CarRun) -> O
         .iter()
         .filter(|limit| limit.is_for(name));
     let found = limits.filter_map(|limit| {
-        let worst = limit.measure.of(&summary.statistics)?;
-        let units = if summary.units == Units::Si {
-            Units::Si
-        } else {
-            Units::Us
-        };
-        let si = worst.value.value / limit.measure.kind.from_si(units);
-        let margin = limit.margin(limit.in_unit(si));
-        let what = format!("{}, {}", limit.quantity, worst.statistic.replace('_', " "));
-        Some((margin, worst.time?, what))
+        let (check, time) = limit.check(&summary.statistics, summary.units)?;
+        let what = format!("{}, {}", check.quantity, check.statistic.replace('_', " "));
+        Some((check.margin, time?, what))
     });
     let least = found.min_by(|a, b| a.0.total_cmp(&b.0));
     least.map(|(_, time, what)| (time, what))

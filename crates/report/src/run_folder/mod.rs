@@ -148,9 +148,9 @@ impl RunFolder {
                 let run = self.truck()?;
                 Recording::of_three_piece_truck(&run.case, &run.result, None, Detail::Thinned)
             }
-            (AnySummary::Car(summary), AnyCase::Car(case)) => {
-                let result = self.result((**summary).clone());
-                Recording::of_car(case, &result, None, Detail::Thinned)
+            (AnySummary::Car(_), AnyCase::Car(_)) => {
+                let run = self.car()?;
+                Recording::of_car(&run.case, &run.result, None, Detail::Thinned)
             }
             _ => return None,
         };

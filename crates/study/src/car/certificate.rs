@@ -8,7 +8,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use quantity::{Kind, Quantity};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::conditions::Condition;
 use super::limits::{Limit, LimitSet};
@@ -20,7 +20,7 @@ use crate::design::{Study, StudySource, Value};
 use crate::records::{Record, Status};
 
 /// What is asked for.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug)]
 pub struct Request {
     /// The car: a case file, or the name of a built-in case.
     pub car: PathBuf,
@@ -52,7 +52,7 @@ pub struct Certificate {
 }
 
 /// How one limit is kept by a run.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Check {
     /// Its number in the set.
     pub limit: usize,
@@ -63,7 +63,7 @@ pub struct Check {
 }
 
 /// A run beside the limits that are set for its regime.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Assessed {
     /// The run's number.
     pub run: u64,
@@ -84,7 +84,6 @@ pub struct Assessed {
     /// The limits.
     pub checks: Vec<Check>,
     /// Measures, SI, in the study's order; none if it has none.
-    #[serde(skip)]
     pub measures: Vec<f64>,
 }
 
@@ -138,7 +137,7 @@ impl Certificate {
         })
     }
 
-    /// Returns the limits that are set for none of its regimes, by name, and the regimes without limits.
+    /// Returns the regimes that no limit is set for, by name.
     #[must_use]
     pub fn without_limits(&self) -> Vec<&str> {
         let limited = |regime: &&Regime| !self.limits.limits.iter().any(|limit| limit.is_for(&regime.name));
@@ -206,7 +205,7 @@ impl Certificate {
 }
 
 /// How a limit is kept in a regime and a condition, over all speeds.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// The number of the regime.
     pub regime: usize,

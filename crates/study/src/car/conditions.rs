@@ -10,11 +10,8 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use input::file::{Expected, read_text};
-use input::{FileType, limits};
-use quantity::nearest;
-
 use super::CarCase;
+use super::named::{self, Named, find};
 use crate::case::problem::{Problem, Problems, TomlSource};
 use crate::case::section::Section;
 use crate::case::tree::{self, Table, Value};
@@ -23,12 +20,6 @@ use crate::design::settings;
 
 const HELP: &str =
     "write [conditions.NAME] with a title, and below [conditions.NAME.set] keys of a car's case";
-const FILE: Expected = Expected {
-    what: "file of conditions",
-    types: &[FileType::Case, FileType::Study],
-    most: limits::TEXT_FILE,
-};
-
 /// The built-in conditions as a file.
 pub const BUILT_IN: &str = include_str!("../../regimes/conditions.toml");
 
@@ -62,12 +53,9 @@ impl Condition {
     pub fn chosen(texts: &[String]) -> Result<Vec<Self>, CaseError> {
         let mut chosen: Vec<Self> = Vec::new();
         for text in texts {
-            let path = Path::new(text);
-            let built_in = Self::all().iter().find(|own| own.name == *text);
-            let found = match built_in {
-                Some(own) if !path.is_file() => vec![own.clone()],
-                _ if path.exists() || path.extension().is_some() => read(path)?,
-                _ => return Err(unknown(text)),
+            let found = match find("there is no condition", text, Self::all(), |own| &own.name)? {
+                Named::BuiltIn(own) => vec![own.clone()],
+                Named::File(path) => read(path)?,
             };
             for own in found {
                 if chosen.iter().any(|other| other.name == own.name) {
@@ -81,41 +69,14 @@ impl Condition {
     }
 }
 
-fn unknown(text: &str) -> CaseError {
-    let names = Condition::all().iter().map(|own| own.name.as_str());
-    let help = match nearest(text, names.clone()) {
-        Some(near) => format!("did you mean {near}?"),
-        None => format!(
-            "there are {}; or name a file",
-            names.collect::<Vec<_>>().join(", ")
-        ),
-    };
-    let problem = Problem::new(format!("there is no condition \"{text}\""));
-    problem.help(help).into()
-}
-
-/// Reads a file of conditions, and tries each on the car of which nothing is given.
+/// Reads a file of conditions, and tries each on the car of which nothing is given; mistakes are shown in the
+/// file.
 fn read(path: &Path) -> Result<Vec<Condition>, CaseError> {
-    let text = read_text(path, &FILE).map_err(|error| {
-        let help = "`wedgelab regime --show conditions` prints conditions to begin with";
-        Problem::new(error.to_string()).help(error.help().unwrap_or_else(|| help.to_owned()))
-    })?;
-    parse(&path.display().to_string(), &text)
-}
-
-/// Reads conditions from a text that `source` names in messages.
-///
-/// # Errors
-/// Something is wrong: all mistakes are reported together.
-pub fn parse(source: &str, text: &str) -> Result<Vec<Condition>, CaseError> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let failed = |problems| CaseError::new(problems).of("file of conditions");
-    let tree = tree::parse(&TomlSource::new(source, text)).map_err(failed)?;
-    let mut problems = Problems::new();
-    let found = conditions(&tree, &mut problems);
-    if !problems.is_empty() {
-        return Err(failed(problems));
-    }
+    let help = "`wedgelab regime --show conditions` prints conditions to begin with";
+    let text = named::read(path, "file of conditions", help)?;
+    let source = path.display().to_string();
+    let found = parse(&source, &text)?;
+    let tree = tree::parse(&TomlSource::new(source, text.as_str())).map_err(CaseError::new)?;
     for own in &found {
         CarCase::parse("car.toml", "model = \"car\"", Path::new(""), &own.set).map_err(|error| {
             let key = format!("conditions.{}.set", own.name);
@@ -130,6 +91,22 @@ pub fn parse(source: &str, text: &str) -> Result<Vec<Condition>, CaseError> {
         })?;
     }
     Ok(found)
+}
+
+/// Reads conditions from a text that `source` names in messages. Whether a car takes them is not tried.
+///
+/// # Errors
+/// Something is wrong: all mistakes are reported together.
+pub fn parse(source: &str, text: &str) -> Result<Vec<Condition>, CaseError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let failed = |problems| CaseError::new(problems).of("file of conditions");
+    let tree = tree::parse(&TomlSource::new(source, text)).map_err(failed)?;
+    let mut problems = Problems::new();
+    let found = conditions(&tree, &mut problems);
+    match problems.is_empty() {
+        true => Ok(found),
+        false => Err(failed(problems)),
+    }
 }
 
 fn conditions(tree: &Table, problems: &mut Problems) -> Vec<Condition> {

@@ -18,11 +18,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use input::file::{Expected, read_text};
-use input::{FileType, limits};
 use quantity::{Kind, Quantity, System as Units, nearest};
 use serde::{Deserialize, Serialize};
 
+use super::named::{self, Named, find};
 use super::statistics::Statistic;
 use super::worst::{WORST, Worst};
 use crate::case::CaseError;
@@ -35,12 +34,6 @@ const LIMIT_KEYS: [&str; 7] = [
     "name", "quantity", "measure", "regimes", "at_most", "at_least", "remark",
 ];
 const HELP: &str = "write [[limits]] and below it name, quantity, measure, regimes and at_most or at_least";
-const FILE: Expected = Expected {
-    what: "file of limits",
-    types: &[FileType::Case, FileType::Study],
-    most: limits::TEXT_FILE,
-};
-
 /// The built-in sets, by name; the first one is that of freight cars.
 const BUILT_IN: [(&str, &str); 2] = [
     (
@@ -164,6 +157,28 @@ impl Limit {
         value / self.si
     }
 
+    /// Returns it beside the worst of the statistics of a run, whose numbers are in these units, and when that
+    /// begins, s; `None` if the run has none of its kind.
+    #[must_use]
+    pub fn check(
+        &self,
+        statistics: &BTreeMap<String, Statistic>,
+        units: Units,
+    ) -> Option<(LimitCheck, Option<f64>)> {
+        let worst = self.measure.of(statistics)?;
+        let value = self.in_unit(worst.value.value / self.measure.kind.from_si(units));
+        let check = LimitCheck {
+            quantity: self.quantity.clone(),
+            regimes: self.regimes_in_words(),
+            statistic: worst.statistic.to_owned(),
+            value,
+            limit: self.value,
+            unit: self.unit.clone(),
+            margin: self.margin(value),
+        };
+        Some((check, worst.time))
+    }
+
     /// Returns by how much a value in its unit keeps it, in parts of it: negative where it does not.
     #[must_use]
     pub fn margin(&self, value: f64) -> f64 {
@@ -187,25 +202,10 @@ impl LimitSet {
     /// # Errors
     /// There is neither; or something in the file is wrong: all mistakes are reported together.
     pub fn named_or_read(text: &str) -> Result<Self, CaseError> {
-        let path = Path::new(text);
-        let built_in = Self::built_in().iter().find(|own| own.name == text);
-        if let (false, Some(own)) = (path.is_file(), built_in) {
-            return Ok(own.clone());
+        match find("there are no limits", text, Self::built_in(), |own| &own.name)? {
+            Named::BuiltIn(own) => Ok(own.clone()),
+            Named::File(path) => Self::read(path),
         }
-        if path.exists() || path.extension().is_some() {
-            return Self::read(path);
-        }
-        let names = Self::built_in().iter().map(|own| own.name.as_str());
-        let help = match nearest(text, names.clone()) {
-            Some(near) => format!("did you mean {near}?"),
-            None => format!(
-                "there are {}; or name a file",
-                names.collect::<Vec<_>>().join(", ")
-            ),
-        };
-        Err(Problem::new(format!("there are no limits \"{text}\""))
-            .help(help)
-            .into())
     }
 
     /// Reads a file of limits.
@@ -213,10 +213,8 @@ impl LimitSet {
     /// # Errors
     /// It cannot be read, or something in it is wrong; all mistakes are reported together.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
-        let text = read_text(path, &FILE).map_err(|error| {
-            let help = "`wedgelab regime --show aar_chapter_xi` prints limits to begin with";
-            Problem::new(error.to_string()).help(error.help().unwrap_or_else(|| help.to_owned()))
-        })?;
+        let help = "`wedgelab regime --show aar_chapter_xi` prints limits to begin with";
+        let text = named::read(path, "file of limits", help)?;
         Self::parse(&path.display().to_string(), &text)
     }
 
@@ -454,30 +452,14 @@ fn contradiction(first: &Limit, second: &Limit, own: &Section<'_>, problems: &mu
     }
 }
 
-/// Returns the limits of freight cars beside the worst statistic of each.
+/// Returns the limits of freight cars beside the worst of the statistics of a run, whose numbers are in these
+/// units.
 #[must_use]
-pub fn of(statistics: &BTreeMap<String, Statistic>) -> Vec<LimitCheck> {
-    let Some(set) = LimitSet::built_in().first() else {
-        return Vec::new();
-    };
-    let checks = set.limits.iter().filter_map(|limit| {
-        let worst = limit.measure.of(statistics)?;
-        let kind = limit.measure.kind;
-        let units = [Units::Us, Units::Si];
-        let units = units
-            .into_iter()
-            .find(|units| kind.label(*units) == worst.value.unit);
-        let si = worst.value.value / units.map_or(1.0, |units| kind.from_si(units));
-        let value = limit.in_unit(si);
-        Some(LimitCheck {
-            quantity: limit.quantity.clone(),
-            regimes: limit.regimes_in_words(),
-            statistic: worst.statistic.to_owned(),
-            value,
-            limit: limit.value,
-            unit: limit.unit.clone(),
-            margin: limit.margin(value),
-        })
-    });
-    checks.collect()
+pub fn of(statistics: &BTreeMap<String, Statistic>, units: Units) -> Vec<LimitCheck> {
+    let limits = LimitSet::built_in()
+        .first()
+        .into_iter()
+        .flat_map(|set| &set.limits);
+    let checks = limits.filter_map(|limit| limit.check(statistics, units));
+    checks.map(|(check, _)| check).collect()
 }

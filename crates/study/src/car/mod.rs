@@ -16,6 +16,7 @@ pub mod hunting;
 mod lading;
 pub mod limits;
 pub mod motions;
+mod named;
 pub mod regime;
 pub mod run;
 mod sections;

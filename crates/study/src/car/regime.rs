@@ -23,11 +23,10 @@
 use std::path::{Path, absolute};
 use std::sync::LazyLock;
 
-use input::file::{Expected, read_text};
-use input::{FileType, limits};
-use quantity::{Kind, Quantity, nearest};
+use quantity::{Kind, Quantity};
 
 use super::CarCase;
+use super::named::{self, Named, find};
 use crate::case::field::quoted;
 use crate::case::problem::{Problem, Problems, TomlLocation, TomlSource};
 use crate::case::section::{Names, Range, Section, quantity};
@@ -49,12 +48,6 @@ const OWN: [(&str, &str); 4] = [
 const LADINGS: Names<&str> = &[("loaded", "loaded"), ("empty", "empty")];
 /// Most speeds in a file.
 const MOST_SPEEDS: usize = 100;
-/// A regime's file.
-const FILE: Expected = Expected {
-    what: "regime's file",
-    types: &[FileType::Case, FileType::Study],
-    most: limits::TEXT_FILE,
-};
 /// Durations are whole multiples of it, s.
 const DURATION_STEP: f64 = 0.05;
 /// Parts of a range by which a speed may lie outside: digits of units.
@@ -144,24 +137,10 @@ impl Regime {
     /// # Errors
     /// There is neither; or something in the file is wrong: all mistakes are reported together.
     pub fn named_or_read(text: &str) -> Result<Regime, CaseError> {
-        let path = Path::new(text);
-        if let (false, Some(regime)) = (path.is_file(), Self::named(text)) {
-            return Ok(regime.clone());
+        match find("there is no regime", text, Self::all(), |own| &own.name)? {
+            Named::BuiltIn(own) => Ok(own.clone()),
+            Named::File(path) => Self::read(path),
         }
-        if path.exists() || path.extension().is_some() {
-            return Self::read(path);
-        }
-        let names = Self::all().iter().map(|own| own.name.as_str());
-        let help = match nearest(text, names.clone()) {
-            Some(near) => format!("did you mean {near}?"),
-            None => format!(
-                "there are {}; or name a file",
-                names.collect::<Vec<_>>().join(", ")
-            ),
-        };
-        Err(Problem::new(format!("there is no regime \"{text}\""))
-            .help(help)
-            .into())
     }
 
     /// Reads a regime's file. Files that its track names are looked for from its folder.
@@ -169,10 +148,8 @@ impl Regime {
     /// # Errors
     /// The file cannot be read, or something in it is wrong; all mistakes are reported together.
     pub fn read(path: &Path) -> Result<Regime, CaseError> {
-        let text = read_text(path, &FILE).map_err(|error| {
-            let help = "docs/regimes.md says how to write one, and has a regime to begin with";
-            Problem::new(error.to_string()).help(error.help().unwrap_or_else(|| help.to_owned()))
-        })?;
+        let help = "docs/regimes.md says how to write one, and has a regime to begin with";
+        let text = named::read(path, "regime's file", help)?;
         let regime = Self::parse(&path.display().to_string(), &text)?;
         regime.try_out(path)?;
         Ok(regime)

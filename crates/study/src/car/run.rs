@@ -322,7 +322,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         distance,
         speed,
         static_loads,
-        limits: limits::of(&told.values),
+        limits: limits::of(&told.values, units),
         statistics: told.values,
         wedge_losses,
         wedge_locked,

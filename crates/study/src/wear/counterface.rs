@@ -21,11 +21,12 @@ use crate::case::Case;
 /// Fewest intervals of the lattice over a face.
 const FEWEST: usize = 8;
 
-/// The lattice under a face, and the cells of the face's points: up and across, from the middle, m.
+/// The lattice under a face, and the face's points with their cells: up and across, from the middle, m.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lattice {
     spacing: [f64; 2],
     half: [f64; 2],
+    places: Vec<[f64; 2]>,
     cells: Vec<[[f64; 2]; 2]>,
 }
 
@@ -43,9 +44,12 @@ impl Lattice {
         let extent = [rectangle.length(), rectangle.width];
         let count = [face.grid.up, face.grid.across];
         let interval = [0, 1].map(|axis| extent[axis] / (count[axis] - 1) as f64);
-        let cell = |point: &GridPoint| {
+        let place = |point: &GridPoint| {
             let (up, across) = rectangle.distances(point);
-            let place = [up, across];
+            [up, across]
+        };
+        let places: Vec<[f64; 2]> = face.grid.points().iter().map(place).collect();
+        let cell = |place: &[f64; 2]| {
             [0, 1].map(|axis| {
                 let half = 0.5 * extent[axis];
                 [-0.5, 0.5].map(|way| (place[axis] + way * interval[axis]).clamp(-half, half))
@@ -54,7 +58,8 @@ impl Lattice {
         Self {
             spacing: [0, 1].map(|axis| extent[axis] / (2 * (count[axis] - 1)).max(FEWEST) as f64),
             half: extent.map(|extent| 0.5 * extent),
-            cells: face.grid.points().iter().map(cell).collect(),
+            cells: places.iter().map(cell).collect(),
+            places,
         }
     }
 
@@ -65,6 +70,11 @@ impl Lattice {
             nodes: BTreeMap::new(),
             reach: self.half.map(|half| [-half, half]),
         }
+    }
+
+    /// Returns the places of the face's points on the wedge: up and across, m.
+    pub(super) fn places(&self) -> &[[f64; 2]] {
+        &self.places
     }
 
     /// Lays down what a point does while it is moved up and across (m) from its place on the wedge.
@@ -109,7 +119,7 @@ impl Lattice {
         if volumes.nodes.is_empty() {
             return before.cloned();
         }
-        let places = [0, 1].map(|axis| self.places(axis, volumes.reach[axis]));
+        let places = [0, 1].map(|axis| self.ticks(axis, volumes.reach[axis]));
         let [up, across] = &places;
         let mut depths = vec![0.0; up.len() * across.len()];
         for (node, volume) in &volumes.nodes {
@@ -136,7 +146,7 @@ impl Lattice {
 
     /// Returns the places of the map along an axis: both ends, and the nodes between that are half a spacing
     /// away from them.
-    fn places(&self, axis: usize, [low, high]: [f64; 2]) -> Vec<f64> {
+    fn ticks(&self, axis: usize, [low, high]: [f64; 2]) -> Vec<f64> {
         let (spacing, half) = (self.spacing[axis], self.half[axis]);
         let (first, last) = (
             ((low + half) / spacing).floor() as i32,

@@ -10,7 +10,6 @@ use mechanics::contact::PointContact;
 use mechanics::system::Observation;
 use mechanics::vector::Vector;
 use wedge::WEDGE;
-use wedge::face::Rectangle;
 use wedge::outputs::FACES;
 
 use super::counterface::{Laid, Lattice};
@@ -134,7 +133,7 @@ impl CycleWork {
                         let seen = run.system.observe(time, &x);
                         work.add(&seen, 0.5 * piece);
                         if let Some(lattices) = lattices {
-                            work.lay(&seen, case, lattices, 0.5 * piece);
+                            work.lay(&seen, lattices, 0.5 * piece);
                         }
                     }
                 }
@@ -161,25 +160,21 @@ impl CycleWork {
     }
 
     /// Lays what happens at an instant over a time (s) down on the counterfaces.
-    fn lay(&mut self, seen: &Observation, case: &Case, lattices: &[Lattice; 2], duration: f64) {
-        let (rectangles, faces) = (case.parameters.rectangles(), super::faces(case));
+    fn lay(&mut self, seen: &Observation, lattices: &[Lattice; FACES.len()], duration: f64) {
         let Some(counterfaces) = &mut self.counterfaces else {
             return;
         };
         for (number, laid) in counterfaces.iter_mut().enumerate() {
-            let face = &seen.faces[number];
-            let rectangle: &Rectangle = &rectangles[number];
-            for (place, own) in faces[number].grid.points().iter().enumerate() {
-                let point = &face.points[place];
+            let (lattice, points) = (&lattices[number], &seen.faces[number].points);
+            for (place, ([up, side], point)) in lattice.places().iter().zip(points).enumerate() {
                 if point.normal <= 0.0 {
                     continue;
                 }
                 let Vector([_, across, along]) = point.position;
-                let (up, side) = rectangle.distances(own);
                 let moved = [UPWARDS[number] * along - up, across - side];
                 let mut work = PointWork::default();
                 work.add(&of_point(point), duration);
-                lattices[number].lay(laid, place, moved, &work);
+                lattice.lay(laid, place, moved, &work);
             }
         }
     }

@@ -192,7 +192,7 @@ fn analytic_limits_name_the_worst_statistic() {
     set(&mut columns, "axle_2_right_lateral", |_| 40e3);
     set(&mut columns, "axle_3_left_vertical", |_| 60e3);
     let told = told(&columns, &Rules::default());
-    let limits = limits::of(&told.values);
+    let limits = limits::of(&told.values, System::Us);
     let of = |quantity: &str| {
         limits
             .iter()

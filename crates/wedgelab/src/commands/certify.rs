@@ -10,13 +10,13 @@ use quantity::{Kind, Quantity};
 use report::certificate_files::{Findings, NAMES};
 use report::certificate_work;
 use report::page::certificate::{self as page, Against};
-use report::study_folder::{StudyFolder, TABLE_FILE};
+use report::study_folder::TABLE_FILE;
 use serde_json::json;
 use study::car::certificate::{Certificate, Request};
 
 use super::study::work;
+use crate::execute::jobs;
 use crate::failure::{Failure, Message, say};
-use crate::folders;
 use crate::interrupt;
 use crate::json;
 use crate::progress::Steady;
@@ -122,29 +122,13 @@ pub fn assess(car: &Path, regimes: &[String], common: &Common, ending: &str) -> 
             certificate.limits.title
         ));
     }
-    let folder = StudyFolder::open(&path, &certificate.study)?;
-    folders::tell_removed(folder.removed());
-    interrupt::stops(
-        "stopping: the runs under way are finished and kept (once more: ends at once)",
-        &format!(
-            "the runs that ended are kept in {}. The same command goes on from there.",
-            path.display()
-        ),
-    );
-    let jobs = common.jobs.map_or_else(
-        || std::thread::available_parallelism().map_or(1, usize::from),
-        usize::from,
-    );
+    let folder = work::open(&certificate.study, &path)?;
+    let jobs = jobs(common.jobs);
     let done = work::all(&certificate.study, &folder, jobs, common.quiet)?;
     if done.interrupted || interrupt::wanted() {
         return Err(interrupted(&certificate, &path, done.before + done.now));
     }
-    let progress = Steady::new(
-        "worst runs",
-        certificate_work::count(&certificate),
-        0,
-        common.quiet,
-    );
+    let progress = Steady::new("worst runs", certificate.regimes.len() as u64, 0, common.quiet);
     let finished = certificate_work::finish(
         &certificate,
         &folder,

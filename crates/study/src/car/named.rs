@@ -1,0 +1,57 @@
+//! What is chosen by the name of something built in, or by that of a file: regimes, conditions, limits.
+
+use std::path::Path;
+
+use input::file::{Expected, read_text};
+use input::{FileType, limits};
+use quantity::nearest;
+
+use crate::case::CaseError;
+use crate::case::problem::Problem;
+
+/// What a text names.
+pub(super) enum Named<'a, T> {
+    /// Something built in.
+    BuiltIn(&'a T),
+    /// A file.
+    File(&'a Path),
+}
+
+/// Finds what a text names; `none` begins the message if there is neither: `there is no regime`.
+pub(super) fn find<'a, T>(
+    none: &str,
+    text: &'a str,
+    all: &'a [T],
+    name: fn(&T) -> &str,
+) -> Result<Named<'a, T>, CaseError> {
+    let path = Path::new(text);
+    if let (false, Some(own)) = (path.is_file(), all.iter().find(|own| name(own) == text)) {
+        return Ok(Named::BuiltIn(own));
+    }
+    if path.exists() || path.extension().is_some() {
+        return Ok(Named::File(path));
+    }
+    let names = all.iter().map(name);
+    let help = match nearest(text, names.clone()) {
+        Some(near) => format!("did you mean {near}?"),
+        None => format!(
+            "there are {}; or name a file",
+            names.collect::<Vec<_>>().join(", ")
+        ),
+    };
+    let problem = Problem::new(format!("{none} \"{text}\""));
+    Err(problem.help(help).into())
+}
+
+/// Reads such a file; `help` says where one to begin with is found.
+pub(super) fn read(path: &Path, what: &'static str, help: &str) -> Result<String, CaseError> {
+    let expected = Expected {
+        what,
+        types: &[FileType::Case, FileType::Study],
+        most: limits::TEXT_FILE,
+    };
+    read_text(path, &expected).map_err(|error| {
+        let own = error.help().unwrap_or_else(|| help.to_owned());
+        Problem::new(error.to_string()).help(own).into()
+    })
+}
