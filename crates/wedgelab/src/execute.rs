@@ -162,19 +162,11 @@ pub fn unsound_unwritten<C: RunFiles>(summary: &C::Summary) -> Option<Failure> {
     let name = summary.name();
     let nothing = "nothing of it is written";
     let (message, advice) = match (summary.stopped(), summary.failed()) {
-        (Some(stopped), _) => {
-            let time = SixDigits(stopped.time);
-            let message = format!(
-                "the run {name} stopped at {time} s and is incomplete: {}",
-                stopped.reason
-            );
-            let advice = match C::WHAT_TO_TRY {
-                "" => nothing.to_owned(),
-                suspects => format!("{nothing}; {suspects}"),
-            };
-            (message, advice)
-        }
-        (None, Some(reason)) => (format!("the run {name} has failed: {reason}"), nothing.to_owned()),
+        (Some(stopped), _) => (
+            stopped_message(name, stopped),
+            with_suspects(nothing, C::WHAT_TO_TRY),
+        ),
+        (None, Some(reason)) => (failed_message(name, reason), nothing.to_owned()),
         (None, None) => return None,
     };
     Some(Failure::Failed(Message::new(message, advice).into()))
@@ -182,7 +174,7 @@ pub fn unsound_unwritten<C: RunFiles>(summary: &C::Summary) -> Option<Failure> {
 
 /// A run that came to its end but failed, and whose files are written.
 fn failed_run(name: &str, reason: &str, folder: &Path) -> Failure {
-    let message = format!("the run {name} has failed: {reason}");
+    let message = failed_message(name, reason);
     let kept = format!(
         "its files are in {}, marked as failed; do not use their numbers",
         folder.display()
@@ -192,11 +184,7 @@ fn failed_run(name: &str, reason: &str, folder: &Path) -> Failure {
 
 /// A run that stopped and whose files are written; `suspects` says what to try if it could not go on.
 fn stopped_run(name: &str, stopped: &Stopped, folder: &Path, suspects: &str) -> Failure {
-    let message = format!(
-        "the run {name} stopped at {} s and is incomplete: {}",
-        SixDigits(stopped.time),
-        stopped.reason
-    );
+    let message = stopped_message(name, stopped);
     let kept = format!(
         "what was computed until then is in {}, marked as incomplete",
         folder.display()
@@ -205,8 +193,32 @@ fn stopped_run(name: &str, stopped: &Stopped, folder: &Path, suspects: &str) -> 
         let advice = format!("{kept}; the same command with --force computes the whole run, from its start");
         return Failure::Interrupted(Message::new(message, advice).into());
     }
-    let advice = [kept.as_str(), suspects].join(if suspects.is_empty() { "" } else { "; " });
-    Failure::Failed(Message::new(message, advice).into())
+    Failure::Failed(Message::new(message, with_suspects(&kept, suspects)).into())
+}
+
+fn stopped_message(name: &str, stopped: &Stopped) -> String {
+    format!(
+        "the run {name} stopped at {} s and is incomplete: {}",
+        SixDigits(stopped.time),
+        stopped.reason
+    )
+}
+
+fn failed_message(name: &str, reason: &str) -> String {
+    format!("the run {name} has failed: {reason}")
+}
+
+/// What is kept of a run, and what to try if it could not go on.
+fn with_suspects(kept: &str, suspects: &str) -> String {
+    [kept, suspects].join(if suspects.is_empty() { "" } else { "; " })
+}
+
+/// How many runs at a time: as given, or as many as there are processors.
+pub fn jobs(given: Option<u16>) -> usize {
+    given.map_or_else(
+        || std::thread::available_parallelism().map_or(1, usize::from),
+        usize::from,
+    )
 }
 
 /// The table of runs; all of them in the same units.

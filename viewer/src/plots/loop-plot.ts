@@ -11,6 +11,7 @@ import type { Store } from "../store.js";
 import type { Units } from "../units.js";
 import { around, AXIS, extremes, path, scaled, tickRoom, tickTexts, type Points } from "./curves.js";
 import { swatch } from "./figure.js";
+import { FramedPlot, saveButton } from "./framed.js";
 import { STYLES } from "./run-plot.js";
 
 // The enumeration exists in uPlot's types only.
@@ -23,16 +24,11 @@ interface Moving {
   y: (at: Instant) => number;
 }
 
-export class LoopPlot {
+export class LoopPlot extends FramedPlot {
   readonly root = element("div", { class: "wl-loop", role: "group" });
-  private readonly body = element("div", { class: "wl-loop-body" });
-  private readonly legend = element("div", { class: "wl-legend" });
-  private plot: uPlot | undefined;
   private moving: Moving[] = [];
   private factors: [number, number] = [1, 1];
   private choice = 0;
-  private readonly stops: (() => void)[];
-  private readonly observer: ResizeObserver;
 
   constructor(
     private readonly run: RunData,
@@ -41,34 +37,16 @@ export class LoopPlot {
     private readonly loops: LoopChoice[],
     private readonly other: Store<RunData | undefined>,
   ) {
+    super("wl-loop-body");
     this.root.setAttribute("aria-label", "Loop with the point of this moment");
     const options = loops.map(({ title }, k): [string, string] => [String(k), title]);
     const chooser = select({ "aria-label": "Which loop is shown", class: "wl-choice" }, options, "0", (chosen) => {
       this.choice = Number(chosen);
       this.build(units.value);
     });
-    const save = element("button", { type: "button", class: "wl-save", title: "save these curves as a table (CSV)", onclick: () => this.save() }, "CSV");
-    this.root.append(element("div", { class: "wl-plot-line" }, chooser, save), this.body, this.legend);
+    this.root.append(element("div", { class: "wl-plot-line" }, chooser, saveButton(() => this.save())), this.body, this.legend);
     this.stops = [units.watch((now) => this.build(now)), other.watch(() => this.build(units.value)), clock.watch(() => this.show())];
-    this.observer = new ResizeObserver(() => this.resize());
-    this.observer.observe(this.body);
-  }
-
-  dispose(): void {
-    for (const stop of this.stops) {
-      stop();
-    }
-    this.observer.disconnect();
-    this.plot?.destroy();
-    this.root.remove();
-  }
-
-  private resize(): void {
-    const { clientWidth: width, clientHeight: height } = this.body;
-    if (this.plot && width > 0 && (width !== this.plot.width || height !== this.plot.height)) {
-      this.plot.setSize({ width, height });
-      this.show();
-    }
+    this.follow();
   }
 
   /** The curves of a run, as far as it has their columns. */
@@ -129,7 +107,7 @@ export class LoopPlot {
   }
 
   /** Puts the points where the clock's time is. */
-  private show(): void {
+  protected override show(): void {
     const { plot } = this;
     if (!plot) {
       return;

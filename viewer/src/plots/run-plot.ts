@@ -10,6 +10,7 @@ import { saveTable } from "../save.js";
 import { digits, type Units } from "../units.js";
 import { around, AXIS, extremes, scaled, tickRoom, tickTexts, wheelZoom, type Range } from "./curves.js";
 import { swatch } from "./figure.js";
+import { FramedPlot, saveButton } from "./framed.js";
 import { pinchZoom } from "./pinch.js";
 
 /** Colours (Okabe and Ito, 2008) and lines, as in the static figures. */
@@ -26,16 +27,11 @@ export interface Shown {
   hidden: string[];
 }
 
-export class RunPlot {
+export class RunPlot extends FramedPlot {
   readonly root = element("div", { class: "wl-plot" });
-  private readonly body = element("div", { class: "wl-plot-body" });
-  private readonly legend = element("div", { class: "wl-legend" });
   private readonly playhead = element("div", { class: "wl-playhead" });
   private readonly hidden = new Set<string>();
-  private plot: uPlot | undefined;
   private values: { show: (text: string) => void; read: (at: Instant) => number }[] = [];
-  private readonly stops: (() => void)[];
-  private readonly observer: ResizeObserver;
 
   constructor(
     private readonly run: RunData,
@@ -48,6 +44,7 @@ export class RunPlot {
     /** A run that is drawn beside this one. */
     private readonly other: Store<RunData | undefined> = new Store<RunData | undefined>(undefined),
   ) {
+    super("wl-plot-body");
     const same = run.run.plots.findIndex(({ title }) => title === before?.title);
     if (before && same >= 0) {
       this.choice = same;
@@ -59,37 +56,18 @@ export class RunPlot {
       this.hidden.clear();
       this.build(units.value);
     });
-    const save = element("button", { type: "button", class: "wl-save", title: "save these curves as a table (CSV)", onclick: () => this.save() }, "CSV");
-    this.root.append(element("div", { class: "wl-plot-head" }, element("div", { class: "wl-plot-line" }, chooser, save), this.legend), this.body);
+    this.root.append(element("div", { class: "wl-plot-head" }, element("div", { class: "wl-plot-line" }, chooser, saveButton(() => this.save())), this.legend), this.body);
     this.stops = [
       other.watch(() => this.build(units.value)),
       units.watch((now) => this.build(now)),
       window.watch(([min, max]) => this.plot?.setScale("x", { min, max })),
       clock.watch(() => this.show()),
     ];
-    this.observer = new ResizeObserver(() => this.resize());
-    this.observer.observe(this.body);
+    this.follow();
   }
 
   get shown(): Shown {
     return { title: this.run.run.plots[this.choice]?.title ?? "", hidden: [...this.hidden] };
-  }
-
-  dispose(): void {
-    for (const stop of this.stops) {
-      stop();
-    }
-    this.observer.disconnect();
-    this.plot?.destroy();
-    this.root.remove();
-  }
-
-  private resize(): void {
-    const { clientWidth: width, clientHeight: height } = this.body;
-    if (this.plot && width > 0 && (width !== this.plot.width || height !== this.plot.height)) {
-      this.plot.setSize({ width, height });
-      this.show();
-    }
   }
 
   private build(units: Units): void {
@@ -226,7 +204,7 @@ export class RunPlot {
   }
 
   /** Puts the playhead and the values at the clock's time. */
-  private show(): void {
+  protected override show(): void {
     const { plot } = this;
     if (!plot) {
       return;

@@ -10,6 +10,7 @@ use study::lock_up::{Found, LockUpMap, MapError, Span, map};
 
 use super::run::read;
 use crate::drawn::Drawn;
+use crate::execute::jobs;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -99,10 +100,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .clone()
         .unwrap_or_else(|| PathBuf::from(format!("{}_lock_up", case.name)));
     let folder = folders::check(path, &NAMES, arguments.force)?;
-    let jobs = arguments.jobs.map_or_else(
-        || std::thread::available_parallelism().map_or(1, usize::from),
-        usize::from,
-    );
+    let jobs = jobs(arguments.jobs);
     let all = arguments.points * arguments.points;
     let progress = Steady::new("rigs", all as u64, 0, arguments.quiet);
     interrupt::stops(

@@ -10,6 +10,7 @@ use report::page::{self, Viewer};
 use report::run_folder::{self, RunFolder};
 use serde_json::json;
 
+use crate::execute::write_page;
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
@@ -63,11 +64,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let folder = folders::check(&arguments.out, &[page::FILE_NAME], arguments.force)?;
     let out = absolute(folder.path());
     let links: Vec<String> = places.iter().map(|place| link(&out, place)).collect();
-    let html = side_by_side::render(&runs, &links, Viewer::embedded()).map_err(|error| {
-        let message = format!("cannot write the page's data: {error}");
-        Failure::Failed(Message::new(message, "").into())
-    })?;
-    folder.write(|files| files.add(page::FILE_NAME, |out| out.write_all(html.as_bytes())))?;
+    write_page(&folder, |viewer| side_by_side::render(&runs, &links, viewer))?;
     if arguments.json {
         let told = runs.iter().map(|run| {
             json!({

@@ -112,19 +112,21 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
 }
 
+/// Returns the folder for the files of a run of this name, and its progress; a signal stops it from now on.
+fn begin(name: &str, files: &[&str], arguments: &Arguments) -> Result<(Folder, Progress), Failure> {
+    let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(name));
+    let folder = folders::check(path, files, arguments.force)?;
+    interrupt::stops_run();
+    Ok((folder, Progress::new(1, arguments.quiet)))
+}
+
 /// Runs a case of any model and writes its files; `shown` gives the table to print and what its columns are.
 fn run<C: RunFiles>(
     case: &C,
     arguments: &Arguments,
     shown: impl FnOnce(&Done<C::Output>) -> (Table, String),
 ) -> Result<ExitCode, Failure> {
-    let path = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| PathBuf::from(case.name()));
-    let folder = folders::check(path, &case.names(), arguments.force)?;
-    let progress = Progress::new(1, arguments.quiet);
-    interrupt::stops_run();
+    let (folder, progress) = begin(case.name(), &case.names(), arguments)?;
     let done =
         compute(case, &progress).and_then(|done| write(&done, case, &folder, &progress).map(|()| done));
     progress.finish();
@@ -163,13 +165,7 @@ fn run_in_parts<C: RunFiles>(
     arguments: &Arguments,
     shown: impl FnOnce(&Done<C::Output>) -> (Table, String),
 ) -> Result<ExitCode, Failure> {
-    let path = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| PathBuf::from(case.name()));
-    let folder = folders::check(path, &case.names(), arguments.force)?;
-    let progress = Progress::new(1, arguments.quiet);
-    interrupt::stops_run();
+    let (folder, progress) = begin(case.name(), &case.names(), arguments)?;
     let parts = Parts {
         case: text,
         from: arguments.from.as_deref(),
@@ -210,11 +206,8 @@ fn note(about: &str, energy: Option<String>) -> String {
 
 /// Runs a truck, and writes its page besides.
 fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&case.name));
     let names = [<TruckCase as RunFiles>::FILES, &[page::FILE_NAME]].concat();
-    let folder = folders::check(path, &names, arguments.force)?;
-    let progress = Progress::new(1, arguments.quiet);
-    interrupt::stops_run();
+    let (folder, progress) = begin(&case.name, &names, arguments)?;
     let done = compute_with_contacts(case, &progress)
         .and_then(|(done, contacts)| write(&done, case, &folder, &progress).map(|()| (done, contacts)));
     progress.finish();
@@ -240,11 +233,8 @@ fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failur
 
 /// Runs a car, and writes its page besides.
 fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&case.name));
     let names = [<CarCase as RunFiles>::FILES, &[page::FILE_NAME]].concat();
-    let folder = folders::check(path, &names, arguments.force)?;
-    let progress = Progress::new(1, arguments.quiet);
-    interrupt::stops_run();
+    let (folder, progress) = begin(&case.name, &names, arguments)?;
     let done = compute_with_motions(case, &progress)
         .and_then(|(done, motions)| write(&done, case, &folder, &progress).map(|()| (done, motions)));
     progress.finish();

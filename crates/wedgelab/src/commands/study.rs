@@ -12,13 +12,13 @@ use clap::Args;
 use report::csv;
 use report::page::study as page;
 use report::run_files::CASE_FILE_NAME;
-use report::study_folder::{STUDY_FILE, StudyFolder, StudyFolderError, TABLE_CSV_FILE, TABLE_FILE};
+use report::study_folder::{STUDY_FILE, StudyFolderError, TABLE_CSV_FILE, TABLE_FILE};
 use report::study_work;
 use serde_json::json;
 use study::design::{MANY, Study};
 
+use crate::execute::jobs;
 use crate::failure::{Failure, Message, say};
-use crate::folders;
 use crate::interrupt;
 use crate::json;
 use crate::select::built_in_elsewhere;
@@ -122,27 +122,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
                       = \"sobol\", runs = 1000) often says as much";
         return Err(Message::new(message, advice).into());
     }
-    let folder = StudyFolder::open(&path, &study)?;
-    folders::tell_removed(folder.removed());
-    interrupt::stops(
-        "stopping: the runs under way are finished and kept (once more: ends at once)",
-        &format!(
-            "the runs that ended are kept in {}. The same command goes on from there.",
-            path.display()
-        ),
-    );
+    let folder = work::open(&study, &path)?;
     let clock = Instant::now();
-    let jobs = arguments.jobs.map_or_else(
-        || std::thread::available_parallelism().map_or(1, usize::from),
-        usize::from,
-    );
+    let jobs = jobs(arguments.jobs);
     let done = work::all(&study, &folder, jobs, arguments.quiet)?;
-    if done.lost > 0 {
-        say(&format!(
-            "note: {} bytes in parts/ were cut off or damaged; their runs were computed again",
-            done.lost
-        ));
-    }
     let kept = format!(
         "{} of {} runs are kept in {}",
         done.before + done.now,

@@ -1,9 +1,13 @@
 //! Computing what a study lacks, several runs at a time.
 
+use std::path::Path;
+
 use report::study_folder::{StudyFolder, StudyFolderError};
 use report::study_work;
 use study::design::Study;
 
+use crate::failure::say;
+use crate::folders;
 use crate::interrupt;
 use crate::progress::Steady;
 
@@ -16,8 +20,20 @@ pub struct Done {
     pub now: u64,
     /// Whether the user stopped it.
     pub interrupted: bool,
-    /// Bytes of records that were cut off or damaged.
-    pub lost: usize,
+}
+
+/// Holds the folder of a study: a signal from now on stops the runs, and those that ended are kept.
+pub fn open(study: &Study, path: &Path) -> Result<StudyFolder, StudyFolderError> {
+    let folder = StudyFolder::open(path, study)?;
+    folders::tell_removed(folder.removed());
+    interrupt::stops(
+        "stopping: the runs under way are finished and kept (once more: ends at once)",
+        &format!(
+            "the runs that ended are kept in {}. The same command goes on from there.",
+            path.display()
+        ),
+    );
+    Ok(folder)
 }
 
 /// Computes all runs that have no record.
@@ -27,10 +43,15 @@ pub fn all(study: &Study, folder: &StudyFolder, jobs: usize, quiet: bool) -> Res
     let computed = study_work::compute(study, folder, jobs, interrupt::flag(), &|| progress.done());
     let now = progress.finish();
     computed?;
+    if begun.lost > 0 {
+        say(&format!(
+            "note: {} bytes in parts/ were cut off or damaged; their runs were computed again",
+            begun.lost
+        ));
+    }
     Ok(Done {
         before: begun.runs,
         now,
         interrupted: begun.runs + now < study.count(),
-        lost: begun.lost,
     })
 }
