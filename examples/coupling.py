@@ -9,7 +9,7 @@ the bolster in, a force on the bolster out.
 import wedgelab as wl
 
 MASS, STIFFNESS, STEP = 5000.0, 2.0e6, 5e-4  # kg, N/m, s
-case = wl.Case("cdrun_toe_-0.2_psi_0.012")
+case = wl.Case("cdrun_toe_out_0.2_psi_0.012")
 # What the spring carries besides: the wedge's force midway between a bolster that rises and one that falls.
 carried = case.run()["net_force_on_bolster_z"].mean()
 

@@ -6,7 +6,7 @@
 
 import wedgelab as wl
 
-case = wl.Case("cdrun_toe_-0.2_psi_0.012", friction={"column": 0.3})
+case = wl.Case("cdrun_toe_out_0.2_psi_0.012", friction={"column": 0.3})
 result = case.run()
 
 averages = result.summary.averages

@@ -10,7 +10,7 @@ import numpy as np
 import wedgelab as wl
 
 KEYS = ("friction.column", "friction.slope")
-BASE = wl.Case("cdrun_toe_-0.2_psi_0.012", simulation={"duration": "4.8 s"})
+BASE = wl.Case("cdrun_toe_out_0.2_psi_0.012", simulation={"duration": "4.8 s"})
 
 
 def forces(points: list[np.ndarray]) -> np.ndarray:

@@ -2,7 +2,7 @@
 
     pip install fmpy
     cargo build --release
-    target/release/wedgelab fmu export cdrun_toe_-0.2_psi_0.012 -o wedge.fmu
+    target/release/wedgelab fmu export cdrun_toe_out_0.2_psi_0.012 -o wedge.fmu
     python examples/fmu_in_fmpy.py wedge.fmu
 """
 

@@ -14,7 +14,7 @@ import wedgelab as wl
 Path("friction_and_angle.toml").write_text(
     """
 title = "Friction and angle"
-case = "cdrun_toe_-0.2_psi_0.012"
+case = "cdrun_toe_out_0.2_psi_0.012"
 sampling = "full_factorial"
 [set]
 simulation.duration = "4.8 s"

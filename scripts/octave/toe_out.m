@@ -8,10 +8,10 @@ function figures = toe_out (folder)
   % Figure 6-11 departs from the thesis's script, which by then has loaded the run without yaw and plots that run's
   % force, with its sign turned, over the yawed run's displacement: here both are of the yawed run.
 
-  variable = load_run (folder, 'vdrun_toe_-0.2_psi_0');
-  variable_yaw = load_run (folder, 'vdrun_toe_-0.2_psi_0.012');
-  constant = load_run (folder, 'cdrun_toe_-0.2_psi_0');
-  constant_yaw = load_run (folder, 'cdrun_toe_-0.2_psi_0.012');
+  variable = load_run (folder, 'vdrun_toe_out_0.2_psi_0');
+  variable_yaw = load_run (folder, 'vdrun_toe_out_0.2_psi_0.012');
+  constant = load_run (folder, 'cdrun_toe_out_0.2_psi_0');
+  constant_yaw = load_run (folder, 'cdrun_toe_out_0.2_psi_0.012');
 
   time = 'Time, (s)';
   force = 'Vertical Wedge Force, (lb)';

@@ -17,7 +17,7 @@ is installed), and writes docs/benchmarks.md: some minutes. With arguments, runs
 are chosen, such as `cargo xtask bench --package benchmarks`.";
 
 /// The run whose instructions are counted: the slowest yawed one.
-const COUNTED_RUN: [&str; 3] = ["rodas5p", "1e-6", "vdrun_toe_0.2_psi_0.012"];
+const COUNTED_RUN: [&str; 3] = ["rodas5p", "1e-6", "vdrun_toe_in_0.2_psi_0.012"];
 
 /// A line that programs print for those who run them alone; the page says it for all.
 const CAVEAT: &str = "Wall times on a machine";

@@ -31,7 +31,7 @@ What is Rust is compiled for processors with AVX2; with RUSTFLAGS=\"-C target-cp
 /// What `--quick` runs.
 const QUICK: [&str; 8] = [
     "--cases",
-    "vdrun_toe_-0.2_psi_0.012,cdrun_toe_0_psi_0.012,planar_constant,stick",
+    "vdrun_toe_out_0.2_psi_0.012,cdrun_toe_0_psi_0.012,planar_constant,stick",
     "--tolerances",
     "1e-3,1e-5,1e-7",
     "--solvers",

@@ -21,7 +21,7 @@ use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
 fn case() -> Case {
-    builtin::case("cdrun_toe_-0.2_psi_0.012").unwrap()
+    builtin::case("cdrun_toe_out_0.2_psi_0.012").unwrap()
 }
 
 /// What a model is made of here.

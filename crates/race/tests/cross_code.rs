@@ -9,7 +9,7 @@ use race::{diffsol, own};
 /// The release and the first sliding of a yawed case.
 #[test]
 fn diffsol_agrees_on_a_yawed_case() {
-    let (name, rows) = ("cdrun_toe_-0.2_psi_0.012", 51);
+    let (name, rows) = ("cdrun_toe_out_0.2_psi_0.012", 51);
     let mut judge = Judge::new(name).unwrap();
     let mut quantities = |(outcome, states): (race::outcome::Outcome, Vec<f64>)| {
         assert_eq!(outcome.failure, "");

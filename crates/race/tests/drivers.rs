@@ -11,7 +11,7 @@ use race::measure::Judge;
 use race::outcome::{Outcome, read_states};
 use race::own;
 
-const CASE: &str = "cdrun_toe_-0.2_psi_0.012";
+const CASE: &str = "cdrun_toe_out_0.2_psi_0.012";
 
 /// The driver's report and states of the first rows.
 fn cvode(command: &mut Command, tolerance: &str, rows: usize) -> (Outcome, Vec<f64>) {

@@ -166,7 +166,7 @@ fn cross_code_the_equations_in_octave_are_the_compiled_ones() {
 #[test]
 #[ignore = "needs Octave: cargo xtask test --only octave"]
 fn cross_code_ode15s_with_equations_in_octave_runs_as_ours_does() {
-    let (name, rows) = ("cdrun_toe_0.2_psi_0.012", 11);
+    let (name, rows) = ("cdrun_toe_in_0.2_psi_0.012", 11);
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("states.f64");
     let printed = octave(

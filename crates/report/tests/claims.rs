@@ -166,7 +166,7 @@ fn what_must_hold_holds() {
 fn values_are_those_of_the_summaries() {
     let (_, result) = twelve()
         .iter()
-        .find(|(case, _)| case.name == "cdrun_toe_-0.2_psi_0")
+        .find(|(case, _)| case.name == "cdrun_toe_out_0.2_psi_0")
         .unwrap();
     let expected = &result.summary.averages.up["vertical_wedge_force"];
     let found = &row(rows(), "6.1-toe-order-up").values[0];
@@ -197,7 +197,7 @@ fn values_are_those_of_the_definitions() {
         );
     };
     let pound = 4.448_221_615_260_5;
-    let column = find("vdrun_toe_-0.2_psi_0");
+    let column = find("vdrun_toe_out_0.2_psi_0");
     let time = column("time");
     // z = sin 2t in, after the first half period π/2.
     let at = |so: &dyn Fn(f64, f64) -> bool| -> Vec<usize> {
@@ -320,7 +320,7 @@ fn missing_runs_leave_claims_undecided() {
     }
     let without: Vec<&(Case, RunResult)> = twelve()
         .iter()
-        .filter(|(case, _)| case.name != "cdrun_toe_0.2_psi_0")
+        .filter(|(case, _)| case.name != "cdrun_toe_in_0.2_psi_0")
         .collect();
     let found = evaluate(&Evidence::new(
         without.iter().map(|(case, result)| (case, result)),

@@ -25,7 +25,7 @@ fn runs() -> &'static (Vec<Outcome>, Vec<TruckOutcome>) {
     static RUNS: OnceLock<(Vec<Outcome>, Vec<TruckOutcome>)> = OnceLock::new();
     RUNS.get_or_init(|| {
         let alone = builtin::thesis_names()
-            .filter(|name| name.contains("toe_-0.2"))
+            .filter(|name| name.contains("toe_out_0.2"))
             .map(|name| {
                 let case = builtin::case(name).unwrap();
                 let result = Run::new(&case).unwrap().finish(|_| ());
@@ -212,8 +212,8 @@ fn curves_are_the_columns_of_the_tables() {
 #[test]
 fn numbers_are_found_again_from_the_columns() {
     for (damping, name) in [
-        (Damping::Constant, "cdrun_toe_-0.2_psi_0"),
-        (Damping::Variable, "vdrun_toe_-0.2_psi_0"),
+        (Damping::Constant, "cdrun_toe_out_0.2_psi_0"),
+        (Damping::Variable, "vdrun_toe_out_0.2_psi_0"),
     ] {
         let group = agreement(damping, false);
         let branch = |z: f64, speed: f64| match damping {

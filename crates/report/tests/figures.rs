@@ -17,12 +17,12 @@ fn outcomes() -> &'static [Outcome] {
     static OUTCOMES: OnceLock<Vec<Outcome>> = OnceLock::new();
     OUTCOMES.get_or_init(|| {
         [
-            "vdrun_toe_-0.2_psi_0",
-            "vdrun_toe_0.2_psi_0.012",
-            "cdrun_toe_-0.2_psi_0",
+            "vdrun_toe_out_0.2_psi_0",
+            "vdrun_toe_in_0.2_psi_0.012",
+            "cdrun_toe_out_0.2_psi_0",
             "cdrun_toe_0_psi_0",
-            "cdrun_toe_-0.2_psi_0.012",
-            "cdrun_toe_0.2_psi_0.012",
+            "cdrun_toe_out_0.2_psi_0.012",
+            "cdrun_toe_in_0.2_psi_0.012",
         ]
         .into_iter()
         .map(|name| {
@@ -117,7 +117,7 @@ fn sizes_of_friction_forces_come_from_their_parts() {
 
 #[test]
 fn strips_show_every_state_for_its_time() {
-    let figure = exhibit("vdrun_toe_-0.2_psi_0_contact_states").figure;
+    let figure = exhibit("vdrun_toe_out_0.2_psi_0_contact_states").figure;
     let table = table(&outcomes()[0]);
     let states = &table["column_upper_left_state"];
     let panel = &figure.panels[0];
@@ -150,7 +150,7 @@ fn strips_show_every_state_for_its_time() {
 fn stick_and_wear_follow_from_the_table() {
     let outcome = &outcomes()[0];
     let table = table(outcome);
-    let figure = exhibit("vdrun_toe_-0.2_psi_0_stick_and_wear").figure;
+    let figure = exhibit("vdrun_toe_out_0.2_psi_0_stick_and_wear").figure;
     // The second cycle: from pi to 2 pi seconds.
     let (start, end) = (std::f64::consts::PI, 2.0 * std::f64::consts::PI);
     let rows = || {
@@ -315,7 +315,7 @@ fn styles_of_toe_are_the_same_everywhere() {
 /// residual, what flows out; the numbers are those of the summary.
 #[test]
 fn energy_bands_of_the_power_flow_balance() {
-    let figure = exhibit("vdrun_toe_0.2_psi_0.012_power_flow").figure;
+    let figure = exhibit("vdrun_toe_in_0.2_psi_0.012_power_flow").figure;
     let chart = figure.flow.unwrap();
     let sum = |own: fn(&report::drawing::flow::Band) -> usize, number: usize| -> f64 {
         let bands = chart.bands.iter().filter(|band| own(band) == number);

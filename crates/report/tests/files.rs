@@ -24,7 +24,7 @@ fn short(units: &str) -> (Case, RunResult) {
         "simulation.duration=0.05 s".to_owned(),
         format!("simulation.output_units={units}"),
     ];
-    let case = builtin::case_with("vdrun_toe_0.2_psi_0.012", &set).unwrap();
+    let case = builtin::case_with("vdrun_toe_in_0.2_psi_0.012", &set).unwrap();
     let result = Run::new(&case).unwrap().finish(|_| ());
     (case, result)
 }

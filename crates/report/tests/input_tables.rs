@@ -18,7 +18,7 @@ fn short(units: &str) -> RunResult {
         "simulation.duration=0.05 s".to_owned(),
         format!("simulation.output_units={units}"),
     ];
-    let case = builtin::case_with("cdrun_toe_0.2_psi_0.012", &set).unwrap();
+    let case = builtin::case_with("cdrun_toe_in_0.2_psi_0.012", &set).unwrap();
     Run::new(&case).unwrap().finish(|_| ())
 }
 

@@ -183,7 +183,7 @@ fn reproduction_statements_of_breaking_out_turn_with_friction_of_rest() {
     ]
     .map(str::to_owned);
     let decide = |set: &[String]| {
-        let runs = ["vdrun_toe_-0.2_psi_0", "cdrun_toe_-0.2_psi_0"].map(|name| {
+        let runs = ["vdrun_toe_out_0.2_psi_0", "cdrun_toe_out_0.2_psi_0"].map(|name| {
             let case = builtin::case_with(name, set).unwrap();
             let result = Run::new(&case).unwrap().finish(|_| ());
             assert!(result.summary.complete, "{name}");

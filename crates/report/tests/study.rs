@@ -12,7 +12,7 @@ use study::design::Study;
 use study::measures::{Measures, of_wedges};
 use study::records::{Record, Status};
 
-const STUDY: &str = "case = \"cdrun_toe_-0.2_psi_0.012\"\nsampling = \"full_factorial\"\n[vary]\n\
+const STUDY: &str = "case = \"cdrun_toe_out_0.2_psi_0.012\"\nsampling = \"full_factorial\"\n[vary]\n\
     wedge.angle = { from = \"24 deg\", to = \"48 deg\", count = 9 }\n\
     friction.column = { from = 0.1, to = 0.6, count = 6, also = [\"friction.slope\"] }\n\
     side_frame.toe = [\"0.2 deg in\", \"0.2 deg out\"]\n";

@@ -120,7 +120,7 @@ fn columns(document: &Value, run: &Value) -> BTreeMap<String, Vec<f64>> {
 #[test]
 fn columns_are_those_of_the_result() {
     let outcomes = [
-        outcome("vdrun_toe_0.2_psi_0.012", &["simulation.duration=0.5 s"]),
+        outcome("vdrun_toe_in_0.2_psi_0.012", &["simulation.duration=0.5 s"]),
         outcome("cdrun_toe_0_psi_0", &["simulation.duration=0.5 s"]),
     ];
     let document = document(&outcomes);
@@ -175,9 +175,9 @@ fn find<'v>(list: &'v Value, id: &Value) -> &'v Value {
 #[test]
 fn the_scene_has_the_gaps_of_the_result() {
     for (name, set) in [
-        ("vdrun_toe_-0.2_psi_0", &["simulation.duration=1 s"][..]),
-        ("vdrun_toe_0.2_psi_0.012", &["simulation.duration=1 s"]),
-        ("cdrun_toe_0.2_psi_0.012", &["simulation.duration=0.5 s"]),
+        ("vdrun_toe_out_0.2_psi_0", &["simulation.duration=1 s"][..]),
+        ("vdrun_toe_in_0.2_psi_0.012", &["simulation.duration=1 s"]),
+        ("cdrun_toe_in_0.2_psi_0.012", &["simulation.duration=0.5 s"]),
         (
             "cdrun_toe_0_psi_0",
             &[
@@ -233,7 +233,7 @@ fn the_scene_has_the_gaps_of_the_result() {
 /// The points of contact are corners of the wedge's solid, and the surfaces are faces of theirs.
 #[test]
 fn contacts_are_corners_and_faces_of_solids() {
-    let outcomes = [outcome("vdrun_toe_0.2_psi_0", &["simulation.duration=0.1 s"])];
+    let outcomes = [outcome("vdrun_toe_in_0.2_psi_0", &["simulation.duration=0.1 s"])];
     let document = document(&outcomes);
     let scene = &document["runs"][0]["scene"];
     let vertices = |id: &Value| -> Vec<Triple> {

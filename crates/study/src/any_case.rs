@@ -80,6 +80,7 @@ impl AnyCase {
     /// # Errors
     /// An override is wrong.
     pub fn built_in(name: &str, overrides: &[String]) -> Result<Option<Self>, CaseError> {
+        let name = &*builtin::own_name(name);
         if builtin::names().any(|own| own == name) {
             let case = builtin::case_with(name, overrides)?;
             return Ok(Some(Self::Wedge(Box::new(case))));

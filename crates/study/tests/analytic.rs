@@ -296,7 +296,7 @@ fn reference_lines_in_numbers() {
     let thesis = builtin::case("vdrun_toe_0_psi_0").unwrap().parameters;
     assert_eq!(closed_form::first_harmonic(&thesis), None);
     // Toe in jams on the way down at friction 0.4.
-    let jam = builtin::case("cdrun_toe_0.2_psi_0").unwrap().parameters;
+    let jam = builtin::case("cdrun_toe_in_0.2_psi_0").unwrap().parameters;
     assert_eq!(
         closed_form::vertical_wedge_force(&jam, 0.0, Direction::Down),
         None

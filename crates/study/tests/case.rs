@@ -98,10 +98,10 @@ fn built_in_cases_are_the_defaults_with_toe_and_yaw() {
         };
         assert_eq!(case.document.wedge.damping, damping);
         let mut parameters = parse(&format!("[wedge]\ndamping = \"{}\"\n", damping.name())).parameters;
-        // In run names -0.2 is toe out, which is positive inside.
+        // Toe out is positive inside.
         parameters.toe = match name.split('_').nth(2).unwrap() {
-            "-0.2" => 0.2 * (PI / 180.0),
-            "0.2" => -0.2 * (PI / 180.0),
+            "out" => 0.2 * (PI / 180.0),
+            "in" => -0.2 * (PI / 180.0),
             _ => 0.0,
         };
         let yaw = if name.ends_with("0.012") { 0.012 } else { 0.0 };
@@ -177,8 +177,14 @@ fn numbers(parameters: &Parameters) -> Vec<f64> {
 #[test]
 fn the_wedge_crate_knows_the_same_thesis() {
     for (name, damping) in [
-        ("vdrun_toe_-0.2_psi_0.012", wedge::parameters::Damping::Variable),
-        ("cdrun_toe_-0.2_psi_0.012", wedge::parameters::Damping::Constant),
+        (
+            "vdrun_toe_out_0.2_psi_0.012",
+            wedge::parameters::Damping::Variable,
+        ),
+        (
+            "cdrun_toe_out_0.2_psi_0.012",
+            wedge::parameters::Damping::Constant,
+        ),
     ] {
         let ours = builtin::case(name).unwrap().parameters;
         let theirs = wedge::thesis::parameters(damping, 0.2 * PI / 180.0, 0.012);
@@ -215,7 +221,7 @@ fn printed_built_in_cases_read_back_to_the_same_bits() {
 
 #[test]
 fn a_printed_case_has_every_key_and_comments() {
-    let text = builtin::case("cdrun_toe_-0.2_psi_0.012")
+    let text = builtin::case("cdrun_toe_out_0.2_psi_0.012")
         .unwrap()
         .document
         .to_toml();

@@ -25,8 +25,8 @@ fn yawed_cases_converge() {
     // The largest errors of all cases: that of a single one may be small by chance at a wide tolerance.
     let (mut wide, mut narrow) = (0.0_f64, 0.0_f64);
     for name in [
-        "vdrun_toe_-0.2_psi_0.012",
-        "cdrun_toe_-0.2_psi_0.012",
+        "vdrun_toe_out_0.2_psi_0.012",
+        "cdrun_toe_out_0.2_psi_0.012",
         "cdrun_toe_0_psi_0.012",
     ] {
         let tolerances = [1e-3, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
@@ -54,7 +54,7 @@ fn yawed_cases_converge() {
 /// single row at a reversal was off by as much as the friction, and made an error of 4e-2 here.
 #[test]
 fn force_histories_of_methods_that_damp_converge() {
-    for name in ["cdrun_toe_-0.2_psi_0.012", "cdrun_toe_0.2_psi_0.012"] {
+    for name in ["cdrun_toe_out_0.2_psi_0.012", "cdrun_toe_in_0.2_psi_0.012"] {
         let reference = case(name, 1e-9, 0.01, 10.0);
         let mut cases = vec![reference];
         for method in [Method::TrBdf2, Method::Esdirk3] {
@@ -84,7 +84,7 @@ fn force_histories_of_methods_that_damp_converge() {
 
 #[test]
 fn the_output_interval_changes_nothing_but_the_rows() {
-    for name in ["vdrun_toe_0_psi_0", "cdrun_toe_-0.2_psi_0.012"] {
+    for name in ["vdrun_toe_0_psi_0", "cdrun_toe_out_0.2_psi_0.012"] {
         let cases = [0.01, 0.0037, 2.0].map(|interval| case(name, 1e-6, interval, 5.0));
         let results = run_all(&cases, 2);
         let first = &results[0].summary;

@@ -86,10 +86,10 @@ fn run(name: &str, set: &[&str]) -> RunResult {
 fn energy_the_measure_is_what_a_hand_computes_from_the_columns() {
     let close = |a: f64, b: f64, name: &str| assert!((a - b).abs() <= 1e-12 * b, "{name}: {a} {b}");
     for (name, set) in [
-        ("cdrun_toe_-0.2_psi_0.012", &["simulation.duration=2 s"][..]),
+        ("cdrun_toe_out_0.2_psi_0.012", &["simulation.duration=2 s"][..]),
         ("vdrun_toe_0_psi_0", &["bolster.vertical=0 in"]),
         (
-            "vdrun_toe_0.2_psi_0.012",
+            "vdrun_toe_in_0.2_psi_0.012",
             &["simulation.method=tr-bdf2", "simulation.relative_tolerance=1e-3"],
         ),
     ] {

@@ -16,7 +16,7 @@ use study::summary::SummaryValue;
 use study::truck;
 
 /// A wedge that yaws, so that its corners carry and slip differently.
-const YAWED: &str = "vdrun_toe_0.2_psi_0.012";
+const YAWED: &str = "vdrun_toe_in_0.2_psi_0.012";
 const SHORT: [&str; 3] = ["simulation.duration=1.5 s", "simulation.output_units=si", FAST];
 /// Short cycles.
 const FAST: &str =

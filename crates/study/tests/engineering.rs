@@ -41,12 +41,12 @@ fn off([close, engineering]: &[Measures; 2], name: &str) -> f64 {
 #[test]
 fn convergence_branch_means_at_engineering_accuracy() {
     let names = [
-        "vdrun_toe_-0.2_psi_0.012",
+        "vdrun_toe_out_0.2_psi_0.012",
         "vdrun_toe_0_psi_0.012",
-        "vdrun_toe_0.2_psi_0.012",
-        "cdrun_toe_-0.2_psi_0.012",
+        "vdrun_toe_in_0.2_psi_0.012",
+        "cdrun_toe_out_0.2_psi_0.012",
         "cdrun_toe_0_psi_0.012",
-        "cdrun_toe_0.2_psi_0.012",
+        "cdrun_toe_in_0.2_psi_0.012",
         // Faster motions, worn faces, and a pocket that moves in six ways.
         "sweep_constant_1in_2hz",
         "sweep_variable_0.25in_2hz",

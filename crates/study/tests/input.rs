@@ -403,7 +403,7 @@ fn names_that_are_no_folders() {
         assert_eq!(problem.line_and_column(), Some((1, 8)));
         assert!(problem.advice().unwrap().contains("my_wedge"));
     }
-    for name in ["vdrun_toe_-0.2_psi_0", "Keil 3", "com", "com10", "conical"] {
+    for name in ["vdrun_toe_out_0.2_psi_0", "Keil 3", "com", "com10", "conical"] {
         assert!(
             Case::parse("x.toml", &format!("name = \"{name}\"\n"), Path::new(""), &[]).is_ok(),
             "{name}"

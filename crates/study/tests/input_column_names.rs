@@ -155,8 +155,8 @@ impl Rule {
 /// The columns of both dampings, and of faces with grids of points.
 fn wedge_columns() -> Vec<Column> {
     [
-        ("vdrun_toe_-0.2_psi_0.012", "[2, 2]"),
-        ("cdrun_toe_0.2_psi_0", "[3, 4]"),
+        ("vdrun_toe_out_0.2_psi_0.012", "[2, 2]"),
+        ("cdrun_toe_in_0.2_psi_0", "[3, 4]"),
     ]
     .iter()
     .flat_map(|(name, grid)| {

@@ -5,6 +5,7 @@
 mod common;
 
 use common::only;
+use study::any_case::AnyCase;
 use study::case::{Case, CaseError, builtin};
 
 fn set(overrides: &[&str]) -> Result<Case, CaseError> {
@@ -136,12 +137,25 @@ fn bad_overrides_show_what_was_set() {
 }
 
 #[test]
+fn issue_036_behaviour_names_of_the_thesis_are_read() {
+    for name in builtin::thesis_names() {
+        let signed = name.replace("toe_out_", "toe_-").replace("toe_in_", "toe_");
+        assert_eq!(builtin::case(&signed).unwrap(), builtin::case(name).unwrap());
+        let any = AnyCase::built_in(&signed, &[]).unwrap().unwrap();
+        assert_eq!(any.name(), name);
+    }
+    let case = builtin::case("cdrun_toe_-0.2_psi_0.012").unwrap();
+    assert!(case.parameters.toe > 0.0, "toe out is positive in the equations");
+    assert_eq!(case.name, "cdrun_toe_out_0.2_psi_0.012");
+}
+
+#[test]
 fn unknown_built_in_cases() {
-    let error = builtin::case("vdrun_toe_-0.2_psi_0.12").unwrap_err();
+    let error = builtin::case("vdrun_toe_out_0.2_psi_0.12").unwrap_err();
     assert!(error.to_string().contains("no built-in case"));
     assert_eq!(
         only(&error).advice(),
-        Some("did you mean vdrun_toe_-0.2_psi_0.012?")
+        Some("did you mean vdrun_toe_out_0.2_psi_0.012?")
     );
     let error = builtin::case("nothing").unwrap_err();
     assert!(only(&error).advice().unwrap().contains("cdrun_toe_0_psi_0.012"));

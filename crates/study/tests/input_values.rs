@@ -27,8 +27,8 @@ fn bare_numbers_are_si_in_values_and_nowhere_else() {
 
 #[test]
 fn values_win_over_the_case_below_and_leave_the_rest() {
-    let text = builtin::text("cdrun_toe_-0.2_psi_0.012").unwrap();
-    let base = builtin::case("cdrun_toe_-0.2_psi_0.012").unwrap();
+    let text = builtin::text("cdrun_toe_out_0.2_psi_0.012").unwrap();
+    let base = builtin::case("cdrun_toe_out_0.2_psi_0.012").unwrap();
     let case = over(Some(("base.toml", text)), "[friction]\ncolumn = 0.3").unwrap();
     assert_eq!(case.parameters.column_friction.coefficient, 0.3);
     let mut same = case.clone();

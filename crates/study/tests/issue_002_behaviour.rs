@@ -8,8 +8,8 @@ use study::run::Run;
 #[test]
 fn a_yawed_run_takes_the_steps_of_a_right_jacobian() {
     for (name, most) in [
-        ("vdrun_toe_-0.2_psi_0.012", 45_000),
-        ("cdrun_toe_-0.2_psi_0.012", 12_000),
+        ("vdrun_toe_out_0.2_psi_0.012", 45_000),
+        ("cdrun_toe_out_0.2_psi_0.012", 12_000),
     ] {
         let summary = Run::new(&builtin::case(name).unwrap())
             .unwrap()

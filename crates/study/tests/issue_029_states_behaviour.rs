@@ -12,7 +12,7 @@ use study::progress::most_attempts;
 use study::run::{Counts, EVENT_CAP, Run, RunError, RunState};
 use study::stepping::{CoilInput, MOST_STATE_BYTES, SteppedState, SteppedWedge, SteppingError};
 
-const YAWED: &str = "cdrun_toe_-0.2_psi_0.012";
+const YAWED: &str = "cdrun_toe_out_0.2_psi_0.012";
 
 fn case(overrides: &[&str]) -> Case {
     let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();

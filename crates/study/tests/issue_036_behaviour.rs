@@ -30,7 +30,7 @@ fn issue_036_a_corner_without_normal_force_is_open() {
     for (name, duration) in [
         ("vdrun_toe_0_psi_0", "1.7 s"),
         ("cdrun_toe_0_psi_0", "1.7 s"),
-        ("vdrun_toe_-0.2_psi_0", "1.7 s"),
+        ("vdrun_toe_out_0.2_psi_0", "1.7 s"),
         ("lock_up_friction_0.4", "1 s"),
     ] {
         let result = run(name, duration);

@@ -116,7 +116,7 @@ const STALLS: [&str; 3] = [
 /// that was saved and continued stops at the same step.
 #[test]
 fn limits_a_run_that_hardly_progresses_stops_by_the_rule_and_says_where() {
-    let case = builtin::case_with("cdrun_toe_0.2_psi_0.012", &STALLS.map(str::to_owned)).unwrap();
+    let case = builtin::case_with("cdrun_toe_in_0.2_psi_0.012", &STALLS.map(str::to_owned)).unwrap();
     let result = Run::new(&case).unwrap().finish(|_| {});
     let stopped = result.summary.stopped.unwrap();
     assert!(!result.summary.complete && result.summary.rows == 1);
@@ -148,7 +148,7 @@ fn limits_a_run_that_hardly_progresses_stops_by_the_rule_and_says_where() {
 /// The same rule for neighbours that a caller drives: the way is the communication step.
 #[test]
 fn limits_a_communication_step_that_hardly_progresses_stops_by_the_same_rule() {
-    let case = builtin::case_with("cdrun_toe_0.2_psi_0.012", &STALLS.map(str::to_owned)).unwrap();
+    let case = builtin::case_with("cdrun_toe_in_0.2_psi_0.012", &STALLS.map(str::to_owned)).unwrap();
     let mut wedge = SteppedWedge::new(&case).unwrap();
     let place = *wedge.neighbours();
     let error = wedge.step(&place, 0.01).unwrap_err();

@@ -34,7 +34,7 @@ fn cases() -> Vec<Case> {
         case.simulation.duration = if i % 3 == 0 { 3.3 } else { 1.7 };
     }
     let bristle = [r#"friction.law="bristle""#.to_owned()];
-    let mut bristle = builtin::case_with("cdrun_toe_-0.2_psi_0.012", &bristle).unwrap();
+    let mut bristle = builtin::case_with("cdrun_toe_out_0.2_psi_0.012", &bristle).unwrap();
     bristle.simulation.duration = 2.0;
     cases.push(bristle);
     cases
@@ -119,7 +119,7 @@ fn across_save_and_continue() {
 /// The summary holds the solver's counts: those must not tell either that a run was saved and continued.
 #[test]
 fn the_cost_of_a_continued_run_is_that_of_a_straight_one() {
-    let mut case = builtin::case("cdrun_toe_-0.2_psi_0.012").unwrap();
+    let mut case = builtin::case("cdrun_toe_out_0.2_psi_0.012").unwrap();
     case.simulation.duration = 0.3;
     let straight = Run::new(&case).unwrap().finish(|_| {});
     let mut run = Run::new(&case).unwrap();

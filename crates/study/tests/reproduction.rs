@@ -12,8 +12,8 @@ use study::result::RunResult;
 #[test]
 fn anchors() {
     for (name, expected) in [
-        ("vdrun_toe_-0.2_psi_0.012", [1432.0, -931.0, 1746.0]),
-        ("cdrun_toe_-0.2_psi_0.012", [1949.0, -1364.0, 6616.0]),
+        ("vdrun_toe_out_0.2_psi_0.012", [1432.0, -931.0, 1746.0]),
+        ("cdrun_toe_out_0.2_psi_0.012", [1949.0, -1364.0, 6616.0]),
     ] {
         let found = averages(twelve(name));
         for (found, expected) in found.iter().zip(expected) {
@@ -69,8 +69,12 @@ fn averages_are_those_of_the_definitions() {
 
 #[test]
 fn constant_damping_without_yaw_is_ordered_by_toe() {
-    let [out, none, into] = ["cdrun_toe_-0.2_psi_0", "cdrun_toe_0_psi_0", "cdrun_toe_0.2_psi_0"]
-        .map(|name| averages(twelve(name)));
+    let [out, none, into] = [
+        "cdrun_toe_out_0.2_psi_0",
+        "cdrun_toe_0_psi_0",
+        "cdrun_toe_in_0.2_psi_0",
+    ]
+    .map(|name| averages(twelve(name)));
     println!("out {out:?}, none {none:?}, in {into:?}");
     assert!(out[0] > none[0] && none[0] > into[0], "going up: out > none > in");
     assert!(
@@ -81,8 +85,12 @@ fn constant_damping_without_yaw_is_ordered_by_toe() {
 
 #[test]
 fn variable_damping_without_yaw_is_ordered_by_toe_going_down() {
-    let [out, none, into] = ["vdrun_toe_-0.2_psi_0", "vdrun_toe_0_psi_0", "vdrun_toe_0.2_psi_0"]
-        .map(|name| averages(twelve(name)));
+    let [out, none, into] = [
+        "vdrun_toe_out_0.2_psi_0",
+        "vdrun_toe_0_psi_0",
+        "vdrun_toe_in_0.2_psi_0",
+    ]
+    .map(|name| averages(twelve(name)));
     println!("out {out:?}, none {none:?}, in {into:?}");
     assert!(
         out[1].abs() < none[1].abs() && none[1].abs() < into[1].abs(),
@@ -113,7 +121,7 @@ fn envelopes() {
             "{name} {column}: {least} to {most}, not within {low} to {high}"
         );
     };
-    for name in ["cdrun_toe_-0.2_psi_0", "cdrun_toe_-0.2_psi_0.012"] {
+    for name in ["cdrun_toe_out_0.2_psi_0", "cdrun_toe_out_0.2_psi_0.012"] {
         within(name, "vertical_wedge_force", LBF, -2100.0, 2600.0);
     }
     for name in TWELVE.keys() {

@@ -45,7 +45,7 @@ def of_step(count: int) -> float:
     """Processor time of a step of 1 ms of the yawed wedge, s."""
     from math import cos, sin
 
-    case = wl.Case("cdrun_toe_-0.2_psi_0.012")
+    case = wl.Case("cdrun_toe_out_0.2_psi_0.012")
     wedge = wl.Wedge(case, bolster={"yaw": 0.012})
     start = time.process_time()
     for k in range(1, count + 1):
@@ -62,7 +62,7 @@ def busy(workers: int, count: int) -> tuple[float, float, float]:
     Two shares: processor time over wall time, which is right on an idle machine only; and the time in which the workers computed or waited for a
     processor that others had, which says what we leave idle (Linux only; NaN elsewhere).
     """
-    base = wl.Case("cdrun_toe_-0.2_psi_0.012").replace({"simulation.duration": "1 s"})
+    base = wl.Case("cdrun_toe_out_0.2_psi_0.012").replace({"simulation.duration": "1 s"})
     cases = [base.replace({"friction.column": 0.2 + 0.3 * k / count}) for k in range(count)]
     own = os.listdir("/proc/self/task") if os.path.isdir("/proc/self/task") else []
     seen: dict[str, tuple[float, float]] = {}

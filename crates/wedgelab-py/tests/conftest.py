@@ -10,7 +10,7 @@ import pytest
 import wedgelab as wl
 
 SHORT = {"simulation.duration": "0.5 s"}
-YAWED = "cdrun_toe_-0.2_psi_0.012"
+YAWED = "cdrun_toe_out_0.2_psi_0.012"
 
 
 @pytest.fixture(scope="session")

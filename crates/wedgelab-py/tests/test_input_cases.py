@@ -51,7 +51,7 @@ def test_bare_numbers_are_si_and_texts_have_units() -> None:
 
 
 def test_sections_are_typed_and_complete() -> None:
-    case = Case("cdrun_toe_-0.2_psi_0.012")
+    case = Case("cdrun_toe_out_0.2_psi_0.012")
     for name in ("wedge", "control_coil", "contact", "friction", "environment", "simulation"):
         section = getattr(case, name)
         missing = [f.name for f in dataclasses.fields(section) if getattr(section, f.name) is None]

@@ -76,7 +76,7 @@ def test_trucks_edited_by_hand() -> None:
 
 
 def test_states_of_wedges_edited_by_hand() -> None:
-    wedge = wl.Wedge("cdrun_toe_-0.2_psi_0.012")
+    wedge = wl.Wedge("cdrun_toe_out_0.2_psi_0.012")
     wedge.step(wl.Motion({"vertical": 1e-4}), 1e-3)
     good = wedge.save()
 

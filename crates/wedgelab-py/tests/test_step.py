@@ -13,7 +13,7 @@ import pytest
 import wedgelab as wl
 from wedgelab import Motion, StepError, Wedge
 
-YAWED = "cdrun_toe_-0.2_psi_0.012"
+YAWED = "cdrun_toe_out_0.2_psi_0.012"
 
 
 def bolster(time: float) -> Motion:

@@ -20,7 +20,7 @@ from distributed import Client, LocalCluster
 
 STUDY = """
 title = "Friction and stiffness"
-case = "cdrun_toe_-0.2_psi_0.012"
+case = "cdrun_toe_out_0.2_psi_0.012"
 sampling = "full_factorial"
 [set]
 simulation.duration = "0.12 s"

@@ -13,7 +13,7 @@ use crate::failure::{Failure, Message};
 /// Says which command runs the built-in case or half-truck of this name, to the user of one that does not take
 /// it; `None` if nothing has this name.
 pub fn built_in_elsewhere(path: &Path) -> Option<Message> {
-    let name = path.to_str()?;
+    let name = &*builtin::own_name(path.to_str()?);
     let (what, command) = match built_in_names().any(|own| own == name) {
         true => ("a built-in case", "wedgelab run"),
         false => (
@@ -58,6 +58,7 @@ pub fn select(
 }
 
 fn matching(text: &str, names: &[&str]) -> Result<Vec<usize>, Message> {
+    let text = &*builtin::own_name(text);
     let having = |fits: &dyn Fn(&str) -> bool| -> Vec<usize> {
         (0..names.len()).filter(|index| fits(names[*index])).collect()
     };

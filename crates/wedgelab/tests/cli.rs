@@ -95,7 +95,7 @@ fn the_list_of_cases() {
     assert!(
         output
             .out
-            .contains("cdrun_toe_-0.2_psi_0.012   constant damping, toe out, yawed"),
+            .contains("cdrun_toe_out_0.2_psi_0.012   constant damping, toe out, yawed"),
         "{}",
         output.out
     );
@@ -131,7 +131,7 @@ fn the_list_of_cases() {
 fn a_printed_case_runs_as_the_built_in_one() {
     let folder = temporary();
     let path = folder.path();
-    for name in ["vdrun_toe_-0.2_psi_0.012", "cdrun_toe_0.2_psi_0"] {
+    for name in ["vdrun_toe_out_0.2_psi_0.012", "cdrun_toe_in_0.2_psi_0"] {
         let printed = wedgelab(path, &["case", name]);
         assert_eq!(printed.code, Some(0));
         fs::write(path.join("a.toml"), &printed.out).unwrap();

@@ -84,7 +84,7 @@ fn near(found: f64, expected: f64) {
 fn two_runs() {
     let folder = temporary();
     let path = folder.path();
-    let (a, b) = ("cdrun_toe_0_psi_0.012", "cdrun_toe_0.2_psi_0.012");
+    let (a, b) = ("cdrun_toe_0_psi_0.012", "cdrun_toe_in_0.2_psi_0.012");
     done(path, &["reproduce", "--quiet", "--only", a, b]);
     let runs = path.join("reproduction/runs");
     let [first, second] = [a, b].map(|name| format!("reproduction/runs/{name}"));
@@ -166,7 +166,7 @@ fn two_runs() {
 fn units_are_converted() {
     let folder = temporary();
     let path = folder.path();
-    let case = "cdrun_toe_0.2_psi_0.012";
+    let case = "cdrun_toe_in_0.2_psi_0.012";
     done(path, &["run", case, "--quiet", "--out", "us"]);
     done(
         path,

@@ -99,7 +99,7 @@ fn energy_of_a_cycle_is_told_and_written() {
     let folder = tempfile::tempdir().unwrap();
     let set = "bolster.vertical={ shape = \"sine\", amplitude = \"0.5 in\", frequency = \"2 Hz\" }";
     let short = "simulation.duration=1.3 s";
-    let case = ["energy", "vdrun_toe_0.2_psi_0.012", "--quiet", "--set", short];
+    let case = ["energy", "vdrun_toe_in_0.2_psi_0.012", "--quiet", "--set", short];
     let done = wedgelab(
         folder.path(),
         &[&case[..], &["--set", set, "--out", "told"]].concat(),
@@ -136,7 +136,7 @@ fn energy_of_a_cycle_is_told_and_written() {
     // The same of a run's folder, whose summary has the same numbers, and in short on the terminal.
     let run = [
         "run",
-        "vdrun_toe_0.2_psi_0.012",
+        "vdrun_toe_in_0.2_psi_0.012",
         "--quiet",
         "--set",
         short,

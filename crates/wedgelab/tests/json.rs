@@ -12,7 +12,7 @@ use serde_json::Value;
 use common::{done, wedgelab};
 
 const SHORT: [&str; 2] = ["--set", "simulation.duration='0.5 s'"];
-const CASE: &str = "cdrun_toe_-0.2_psi_0.012";
+const CASE: &str = "cdrun_toe_out_0.2_psi_0.012";
 
 #[track_caller]
 fn json(folder: &Path, arguments: &[&str]) -> Value {

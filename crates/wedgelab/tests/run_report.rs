@@ -11,7 +11,7 @@ use serde_json::Value;
 
 use common::{done, wedgelab};
 
-const WEDGE: &str = "cdrun_toe_-0.2_psi_0.012";
+const WEDGE: &str = "cdrun_toe_out_0.2_psi_0.012";
 const TRUCK: &str = "truck_vertical_variable";
 const CAR: &str = "car_twist_and_roll_loaded";
 

@@ -13,7 +13,7 @@ const program = process.env.WEDGELAB;
 const skip = program ? false : "WEDGELAB names the program";
 
 /** Yawed, toe in: the slowest of the thesis's runs. */
-const CASE = "vdrun_toe_0.2_psi_0.012";
+const CASE = "vdrun_toe_in_0.2_psi_0.012";
 const JOULES = 0.1129848290276167;
 
 let browser;

@@ -290,7 +290,7 @@ mod tests {
         };
         let bench = "test right-hand side, Variable ... bench:         217 ns/iter (+/- 3)\n\
                      test jacobian, Variable ... bench:       1,017 ns/iter (+/- 9)\n";
-        let runs = "run  ms\nvdrun_toe_0_psi_0.012  1 40.0\nvdrun_toe_0.2_psi_0.012 1 44.6\nall 0.73 s\n";
+        let runs = "run  ms\nvdrun_toe_0_psi_0.012  1 40.0\nvdrun_toe_in_0.2_psi_0.012 1 44.6\nall 0.73 s\n";
         let printed = [
             Printed {
                 section: SECTIONS[0],

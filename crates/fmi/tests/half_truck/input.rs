@@ -15,7 +15,7 @@ use super::{NAME, Part, half_truck, settings};
 /// The variables that the truck without wedges has had since it can be exported.
 #[test]
 fn names_of_the_truck_without_wedges_stay() {
-    let case = builtin::case("cdrun_toe_-0.2_psi_0.012").unwrap();
+    let case = builtin::case("cdrun_toe_out_0.2_psi_0.012").unwrap();
     let source = Source::of_case(FmuModel::Truck, case).unwrap();
     let description = Description::new(&source).unwrap();
     let own = description.variables.iter().map(|variable| {

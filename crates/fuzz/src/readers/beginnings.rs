@@ -23,7 +23,7 @@ fn begin(input: &[u8]) -> Outcome {
     };
     let set: Vec<String> = text.lines().map(str::to_owned).collect();
     // What is wrong with the text is for the reader `overrides`.
-    let Ok(case) = builtin::case_with("vdrun_toe_-0.2_psi_0.012", &set) else {
+    let Ok(case) = builtin::case_with("vdrun_toe_out_0.2_psi_0.012", &set) else {
         return Outcome::NO_TEXT;
     };
     let mut run = match Run::new(&case) {

@@ -32,7 +32,7 @@ pub const OVERRIDES: Reader = Reader {
 };
 
 /// The case that is varied: yawed, so that it has most keys.
-const BASE: &str = "vdrun_toe_-0.2_psi_0.012";
+const BASE: &str = "vdrun_toe_out_0.2_psi_0.012";
 
 const DICTIONARY: &[&[u8]] = &[
     b"[wedge]",

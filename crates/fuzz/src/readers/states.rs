@@ -74,7 +74,7 @@ const STEP: f64 = 1e-3;
 /// A short run of a yawed wedge.
 static CASE: LazyLock<Option<Case>> = LazyLock::new(|| {
     let set = ["simulation.duration=0.02 s", "simulation.output_interval=0.002 s"];
-    builtin::case_with("cdrun_toe_-0.2_psi_0.012", &set.map(str::to_owned)).ok()
+    builtin::case_with("cdrun_toe_out_0.2_psi_0.012", &set.map(str::to_owned)).ok()
 });
 
 fn driven_corpus() -> Vec<Vec<u8>> {

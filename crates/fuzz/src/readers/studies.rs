@@ -29,7 +29,7 @@ pub const STUDIES: Reader = Reader {
         b"runs = 4503599627370496",
         b"seed = 7",
         b"accuracy = \"engineering\"",
-        b"case = \"cdrun_toe_-0.2_psi_0.012\"",
+        b"case = \"cdrun_toe_out_0.2_psi_0.012\"",
         b"{ from = 0.2, to = 0.6, count = 5 }",
         b"{ from = \"1e5 lbf/in\", to = \"1e6 lbf/in\", count = 3, scale = \"logarithmic\" }",
         b", also = [\"friction.slope\"]",

@@ -114,7 +114,7 @@ fn compare(entries: &[Entry]) -> Outcome {
 /// A case with such tables.
 static BASE: LazyLock<Option<Case>> = LazyLock::new(|| {
     let set = ["simulation.duration=0.1 s".to_owned()];
-    builtin::case_with("vdrun_toe_-0.2_psi_0.012", &set).ok()
+    builtin::case_with("vdrun_toe_out_0.2_psi_0.012", &set).ok()
 });
 
 fn table(input: &[u8]) -> Outcome {

@@ -11,6 +11,7 @@ use super::problem::Problem;
 use super::{Case, CaseError};
 use crate::{car, half_truck, truck};
 use quantity::nearest;
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -71,6 +72,12 @@ pub fn group(name: &str) -> Option<&'static Group> {
     groups().iter().find(|group| group.name == name)
 }
 
+/// Returns the name of the built-in case that is meant: the thesis's names of its runs, with a sign for the
+/// direction of the toe (`vdrun_toe_-0.2_psi_0` is toe out), are ours with the direction in words.
+pub fn own_name(name: &str) -> Cow<'_, str> {
+    thesis::own_name(name)
+}
+
 /// The group that a built-in case belongs to.
 pub fn group_of(case: &str) -> Option<&'static Group> {
     groups()
@@ -107,7 +114,8 @@ pub fn case(name: &str) -> Result<Case, CaseError> {
 /// # Errors
 /// There is none of this name, or an override is wrong.
 pub fn case_with(name: &str, overrides: &[String]) -> Result<Case, CaseError> {
-    Case::parse(&format!("{name}.toml"), text(name)?, Path::new(""), overrides)
+    let name = own_name(name);
+    Case::parse(&format!("{name}.toml"), text(&name)?, Path::new(""), overrides)
 }
 
 /// The case file of the built-in case of this name.
@@ -115,7 +123,8 @@ pub fn case_with(name: &str, overrides: &[String]) -> Result<Case, CaseError> {
 /// # Errors
 /// There is none of this name; the help names the nearest, or the thesis's.
 pub fn text(name: &str) -> Result<&'static str, CaseError> {
-    if let Some(case) = CASES.iter().find(|case| case.name == name) {
+    let own = own_name(name);
+    if let Some(case) = CASES.iter().find(|case| case.name == own) {
         return Ok(&case.text);
     }
     if let Some(problem) = of_another_model(name) {

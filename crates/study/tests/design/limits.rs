@@ -19,8 +19,8 @@ fn limits_measures_are_those_of_the_summary() {
     .map(str::to_owned)
     .to_vec();
     for name in [
-        "vdrun_toe_-0.2_psi_0.012",
-        "cdrun_toe_0.2_psi_0.012",
+        "vdrun_toe_out_0.2_psi_0.012",
+        "cdrun_toe_in_0.2_psi_0.012",
         "rig_constant",
         "warp_friction_0.2",
         "sweep_variable_0.25in_0.5hz",

@@ -116,7 +116,7 @@ fn limits_a_study_from_its_texts_is_the_same() {
     *name = format!("/nowhere/{name}");
     elsewhere.text = elsewhere
         .text
-        .replace("cdrun_toe_-0.2_psi_0.012", "some/case.toml");
+        .replace("cdrun_toe_out_0.2_psi_0.012", "some/case.toml");
     let again = Study::of_source(elsewhere).unwrap();
     assert_eq!(again.fingerprint(), study.fingerprint());
 }

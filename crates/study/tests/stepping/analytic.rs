@@ -41,7 +41,7 @@ fn force_and_moment_times_the_rates_are_the_power_of_the_motions() {
 /// The sum of all forces on wedge and neighbours, and of their moments, is nothing.
 #[test]
 fn action_and_reaction_balance() {
-    for name in [YAWED, "vdrun_toe_0.2_psi_0.012"] {
+    for name in [YAWED, "vdrun_toe_in_0.2_psi_0.012"] {
         let case = case(name, &[]);
         let mut wedge = at(&case, 2.2, 1e-3);
         let seen = {
@@ -94,7 +94,7 @@ fn action_and_reaction_balance() {
 /// A coil whose stiffness or force is given as the parameters have it is the coil of the parameters.
 #[test]
 fn a_coil_from_outside_is_the_coil_inside() {
-    let case = case("cdrun_toe_-0.2_psi_0.012", &[]);
+    let case = case("cdrun_toe_out_0.2_psi_0.012", &[]);
     let mut inside = at(&case, 0.2, 1e-3);
     let mut outside = SteppedWedge::new(&case).unwrap();
     let stiffness = match case.parameters.coil.law {

@@ -4,7 +4,7 @@ use study::case::{Case, builtin};
 use study::stepping::{Neighbours, SteppedWedge};
 
 /// A yawed case of each damping, a straight one, and one with bristles.
-pub const YAWED: &str = "cdrun_toe_-0.2_psi_0.012";
+pub const YAWED: &str = "cdrun_toe_out_0.2_psi_0.012";
 
 /// A built-in case with overrides.
 pub fn case(name: &str, overrides: &[&str]) -> Case {

@@ -95,7 +95,7 @@ fn agree(name: &str, overrides: &[&str], rates: bool, admissible: f64) {
 #[test]
 fn steps_of_a_millisecond_give_the_averages_of_a_run() {
     agree(YAWED, &[], true, 1e-4);
-    agree("vdrun_toe_-0.2_psi_0.012", &[], true, 1e-4);
+    agree("vdrun_toe_out_0.2_psi_0.012", &[], true, 1e-4);
     agree(YAWED, &["friction.law=\"bristle\""], true, 1e-4);
 }
 

@@ -39,7 +39,7 @@ fn the_length_of_the_steps_hardly_matters() {
 #[test]
 fn a_motion_of_both_neighbours_is_a_ride() {
     let case = case(
-        "cdrun_toe_-0.2_psi_0.012",
+        "cdrun_toe_out_0.2_psi_0.012",
         &[
             "simulation.start=\"equilibrium\"",
             "environment.gravity=\"0 m/s^2\"",

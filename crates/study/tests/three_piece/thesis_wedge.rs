@@ -85,10 +85,10 @@ fn mounted(number: usize, damping: &str, toe: &str) -> Averages {
 #[test]
 fn limits_a_wedge_of_the_truck_is_the_thesis_wedge_from_all_four_mounts() {
     for (name, damping, toe, bound) in [
-        ("cdrun_toe_-0.2_psi_0.012", "constant", "0.2 deg out", 1e-6),
+        ("cdrun_toe_out_0.2_psi_0.012", "constant", "0.2 deg out", 1e-6),
         ("cdrun_toe_0_psi_0.012", "constant", "0 deg", 1e-6),
-        ("cdrun_toe_0.2_psi_0.012", "constant", "0.2 deg in", 1e-6),
-        ("vdrun_toe_-0.2_psi_0.012", "variable", "0.2 deg out", 1e-3),
+        ("cdrun_toe_in_0.2_psi_0.012", "constant", "0.2 deg in", 1e-6),
+        ("vdrun_toe_out_0.2_psi_0.012", "variable", "0.2 deg out", 1e-3),
     ] {
         let single = single(name);
         for number in 0..4 {

@@ -118,7 +118,7 @@ struct Names {
 
 impl Fmu {
     fn new(version: Version) -> Self {
-        let case = builtin::case("cdrun_toe_-0.2_psi_0.012").unwrap();
+        let case = builtin::case("cdrun_toe_out_0.2_psi_0.012").unwrap();
         let description = Description::new(&Source::Wedge(Box::new(case))).unwrap();
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join(resources::CASE), &description.file.1).unwrap();

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-CASE = "cdrun_toe_-0.2_psi_0.012"
+CASE = "cdrun_toe_out_0.2_psi_0.012"
 INCH = 0.0254
 LBF = 0.45359237 * 9.80665
 # The bolster moves by 1 in · sin(2 rad/s · t), for 5 s: one whole cycle after the first half period.

@@ -82,7 +82,7 @@ def test_cross_code_rates_can_be_left_to_the_fmu(fmus, run, signal):
 @pytest.mark.parametrize("version", ["2", "3"])
 def test_analytic_the_quasi_static_element_follows_its_closed_form(fmus, signal, version, kind):
     result = simulate_fmu(
-        fmus(version, "quasi_static", "cdrun_toe_-0.2_psi_0"),
+        fmus(version, "quasi_static", "cdrun_toe_out_0.2_psi_0"),
         fmi_type=kind,
         stop_time=DURATION,
         output_interval=STEP if kind == "CoSimulation" else 0.01,

@@ -22,7 +22,7 @@ def test_input_bristles_and_free_roll_make_a_valid_description(fmus):
     path = fmus(
         "2",
         "wedge",
-        "vdrun_toe_0.2_psi_0.012",
+        "vdrun_toe_in_0.2_psi_0.012",
         "--set",
         'friction.law="bristle"',
         "--set",

@@ -182,7 +182,7 @@ class Case(CompleteCase):
     the thesis for the damping. What is given by keywords is laid over it: section objects, or mappings with the keys of case files. A text carries its
     unit; a bare number is in SI units.
 
-    >>> Case("cdrun_toe_-0.2_psi_0.012").run()                                          # doctest: +SKIP
+    >>> Case("cdrun_toe_out_0.2_psi_0.012").run()                                          # doctest: +SKIP
     >>> Case(wedge={"damping": "constant"}, friction={"column": 0.3})                   # doctest: +SKIP
     >>> Case("my.toml", bolster=BolsterSection(vertical=Sine("20 mm", "0.5 Hz")))       # doctest: +SKIP
 

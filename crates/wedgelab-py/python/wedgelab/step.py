@@ -102,7 +102,7 @@ class Wedge:
     It has the parameters, tolerances and start of a case, at time zero; the case's motions only say where the neighbours are then,
     unless places are given.
 
-    >>> wedge = Wedge(Case("cdrun_toe_-0.2_psi_0.012"))                    # doctest: +SKIP
+    >>> wedge = Wedge(Case("cdrun_toe_out_0.2_psi_0.012"))                    # doctest: +SKIP
     >>> forces = wedge.step({"vertical": "0.05 mm", "yaw": 0.012}, "1 ms")  # doctest: +SKIP
     >>> state = wedge.save()                                               # doctest: +SKIP
     """

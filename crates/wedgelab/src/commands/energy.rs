@@ -41,7 +41,7 @@ const SMALL: f64 = 1e-3;
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
-  wedgelab energy vdrun_toe_0.2_psi_0.012
+  wedgelab energy vdrun_toe_in_0.2_psi_0.012
   wedgelab energy truck_vertical_variable --out bounce
   wedgelab energy car_constant_curve_loaded --out curve
   wedgelab energy my_run --set friction.column=0.3")]

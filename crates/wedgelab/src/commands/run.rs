@@ -366,7 +366,7 @@ pub fn built_in_names() -> impl Iterator<Item = &'static str> {
 
 /// Whether a built-in case is meant. A folder may well have its name: that of its results.
 pub fn is_built_in(path: &Path) -> bool {
-    let name = path.to_str().unwrap_or("");
+    let name = builtin::own_name(path.to_str().unwrap_or(""));
     (!path.exists() || path.is_dir()) && built_in_names().any(|builtin| builtin == name)
 }
 

@@ -39,7 +39,7 @@ Examples:
   wedgelab study friction.toml --series 0 17        time series of two of its runs, any time
 
 A study file:
-  case = \"vdrun_toe_-0.2_psi_0.012\"
+  case = \"vdrun_toe_out_0.2_psi_0.012\"
   sampling = \"full_factorial\"
   [vary]
   friction.column = { from = 0.2, to = 0.6, count = 5 }

@@ -89,7 +89,7 @@ fn issue_029_an_interrupted_fit_writes_nothing() {
         path,
         &[
             "run",
-            "cdrun_toe_-0.2_psi_0.012",
+            "cdrun_toe_out_0.2_psi_0.012",
             "--out",
             "measured",
             "--set",
@@ -102,7 +102,7 @@ fn issue_029_an_interrupted_fit_writes_nothing() {
             &[
                 "fit",
                 "measured",
-                "cdrun_toe_-0.2_psi_0.012",
+                "cdrun_toe_out_0.2_psi_0.012",
                 "--free",
                 "friction.column=0.2..0.6",
                 "friction.slope=0.2..0.6",

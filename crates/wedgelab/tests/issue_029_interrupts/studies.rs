@@ -13,7 +13,7 @@ use crate::common::{SIGNALS, contains, done, hidden, names, start, start_by_shel
 
 /// Three hundred runs of some milliseconds.
 const SHORT: &str = "\
-case = \"cdrun_toe_-0.2_psi_0.012\"
+case = \"cdrun_toe_out_0.2_psi_0.012\"
 sampling = \"full_factorial\"
 [set]
 simulation.duration = \"0.12 s\"
@@ -108,7 +108,7 @@ fn issue_029_a_study_that_is_interrupted_in_its_table_leaves_none() {
     let folder = tempdir().unwrap();
     let path = folder.path();
     let text = format!(
-        "case = \"cdrun_toe_-0.2_psi_0.012\"\nsampling = \"sobol\"\nruns = {RUNS}\n[vary]\n\
+        "case = \"cdrun_toe_out_0.2_psi_0.012\"\nsampling = \"sobol\"\nruns = {RUNS}\n[vary]\n\
          friction.column = {{ from = 0.2, to = 0.6 }}\nfriction.slope = {{ from = 0.2, to = 0.6 }}\n"
     );
     fs::write(path.join("large.toml"), text).unwrap();
@@ -157,7 +157,7 @@ fn issue_029_series_that_are_interrupted_are_whole_or_not_there() {
     for (signal, code) in SIGNALS {
         let folder = tempdir().unwrap();
         let path = folder.path();
-        let text = "case = \"cdrun_toe_-0.2_psi_0.012\"\nsampling = \"full_factorial\"\n[vary]\n\
+        let text = "case = \"cdrun_toe_out_0.2_psi_0.012\"\nsampling = \"full_factorial\"\n[vary]\n\
              simulation.duration = [\"0.05 s\", \"3000 s\"]\n";
         fs::write(path.join("two.toml"), text.replace("0.05", "0.06")).unwrap();
         let mut running = start(path, &["study", "two.toml", "--out", "a", "--series", "0", "1"]);

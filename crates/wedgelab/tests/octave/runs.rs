@@ -8,18 +8,18 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 pub const NAMES: [&str; 12] = [
-    "vdrun_toe_-0.2_psi_0",
+    "vdrun_toe_out_0.2_psi_0",
     "vdrun_toe_0_psi_0",
-    "vdrun_toe_0.2_psi_0",
-    "vdrun_toe_-0.2_psi_0.012",
+    "vdrun_toe_in_0.2_psi_0",
+    "vdrun_toe_out_0.2_psi_0.012",
     "vdrun_toe_0_psi_0.012",
-    "vdrun_toe_0.2_psi_0.012",
-    "cdrun_toe_-0.2_psi_0",
+    "vdrun_toe_in_0.2_psi_0.012",
+    "cdrun_toe_out_0.2_psi_0",
     "cdrun_toe_0_psi_0",
-    "cdrun_toe_0.2_psi_0",
-    "cdrun_toe_-0.2_psi_0.012",
+    "cdrun_toe_in_0.2_psi_0",
+    "cdrun_toe_out_0.2_psi_0.012",
     "cdrun_toe_0_psi_0.012",
-    "cdrun_toe_0.2_psi_0.012",
+    "cdrun_toe_in_0.2_psi_0.012",
 ];
 
 /// The twelve runs, computed once.

@@ -10,7 +10,7 @@ use study::records;
 /// A study of 120 short runs, a few milliseconds each.
 pub const SMALL: &str = "\
 title = \"Friction and stiffness\"
-case = \"cdrun_toe_-0.2_psi_0.012\"
+case = \"cdrun_toe_out_0.2_psi_0.012\"
 sampling = \"full_factorial\"
 [set]
 simulation.duration = \"0.12 s\"

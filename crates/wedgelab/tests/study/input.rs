@@ -87,8 +87,8 @@ fn input_a_changed_study_is_refused_and_nothing_is_touched() {
         ),
         ("0.12 s", "0.13 s", "what is set for all runs"),
         (
-            "cdrun_toe_-0.2_psi_0.012",
-            "cdrun_toe_0.2_psi_0.012",
+            "cdrun_toe_out_0.2_psi_0.012",
+            "cdrun_toe_in_0.2_psi_0.012",
             "the case changed: `",
         ),
     ] {

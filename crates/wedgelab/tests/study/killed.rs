@@ -99,7 +99,7 @@ fn limits_killed_while_the_table_is_written_it_writes_it_again() {
     let folder = tempdir().unwrap();
     let path = folder.path();
     let text = format!(
-        "case = \"cdrun_toe_-0.2_psi_0.012\"\nsampling = \"sobol\"\nruns = {RUNS}\n[vary]\n\
+        "case = \"cdrun_toe_out_0.2_psi_0.012\"\nsampling = \"sobol\"\nruns = {RUNS}\n[vary]\n\
          friction.column = {{ from = 0.2, to = 0.6 }}\nfriction.slope = {{ from = 0.2, to = 0.6 }}\n"
     );
     fs::write(path.join("large.toml"), text).unwrap();

@@ -38,7 +38,7 @@ fn number(row: &[(String, Field)], name: &str) -> f64 {
 }
 
 const MIXED: &str = "\
-case = \"cdrun_toe_-0.2_psi_0.012\"
+case = \"cdrun_toe_out_0.2_psi_0.012\"
 sampling = \"list\"
 [set]
 simulation.duration = \"5 s\"
@@ -194,7 +194,7 @@ fn limits_units_stand_in_the_metadata() {
 fn limits_the_page_has_effects_contours_and_the_jam_map() {
     let folder = tempdir().unwrap();
     let path = folder.path();
-    let text = "case = \"cdrun_toe_0.2_psi_0.012\"\nsampling = \"sobol\"\nruns = 128\nname = \"map\"\n\
+    let text = "case = \"cdrun_toe_in_0.2_psi_0.012\"\nsampling = \"sobol\"\nruns = 128\nname = \"map\"\n\
                 [set]\nbolster.vertical.frequency = \"40 rad/s\"\nsimulation.duration = \"0.25 s\"\n\
                 simulation.relative_tolerance = 1e-5\n[vary]\n\
                 wedge.angle = { from = \"25 deg\", to = \"45 deg\" }\n\

@@ -1,7 +1,9 @@
 //! The twelve runs of the thesis's table 4-1.
 //!
-//! Their names carry the thesis's sign of the toe, in which -0.2 is toe *out*; eq. 5-1 has it the
-//! other way round. This file is the one place where the names are translated.
+//! Their names say the direction of the toe in words. The thesis's files have a sign instead, in which -0.2 is
+//! toe *out*; eq. 5-1 has it the other way round. This file is the one place where its names are translated.
+
+use std::borrow::Cow;
 
 use super::{BuiltIn, Group};
 
@@ -10,19 +12,53 @@ pub(super) const NAME: &str = "thesis";
 
 /// Name, damping, toe, yaw.
 const RUNS: [[&str; 4]; 12] = [
-    ["vdrun_toe_-0.2_psi_0", "variable", "0.2 deg out", "0 rad"],
+    ["vdrun_toe_out_0.2_psi_0", "variable", "0.2 deg out", "0 rad"],
     ["vdrun_toe_0_psi_0", "variable", "0 deg", "0 rad"],
-    ["vdrun_toe_0.2_psi_0", "variable", "0.2 deg in", "0 rad"],
-    ["vdrun_toe_-0.2_psi_0.012", "variable", "0.2 deg out", "0.012 rad"],
+    ["vdrun_toe_in_0.2_psi_0", "variable", "0.2 deg in", "0 rad"],
+    [
+        "vdrun_toe_out_0.2_psi_0.012",
+        "variable",
+        "0.2 deg out",
+        "0.012 rad",
+    ],
     ["vdrun_toe_0_psi_0.012", "variable", "0 deg", "0.012 rad"],
-    ["vdrun_toe_0.2_psi_0.012", "variable", "0.2 deg in", "0.012 rad"],
-    ["cdrun_toe_-0.2_psi_0", "constant", "0.2 deg out", "0 rad"],
+    [
+        "vdrun_toe_in_0.2_psi_0.012",
+        "variable",
+        "0.2 deg in",
+        "0.012 rad",
+    ],
+    ["cdrun_toe_out_0.2_psi_0", "constant", "0.2 deg out", "0 rad"],
     ["cdrun_toe_0_psi_0", "constant", "0 deg", "0 rad"],
-    ["cdrun_toe_0.2_psi_0", "constant", "0.2 deg in", "0 rad"],
-    ["cdrun_toe_-0.2_psi_0.012", "constant", "0.2 deg out", "0.012 rad"],
+    ["cdrun_toe_in_0.2_psi_0", "constant", "0.2 deg in", "0 rad"],
+    [
+        "cdrun_toe_out_0.2_psi_0.012",
+        "constant",
+        "0.2 deg out",
+        "0.012 rad",
+    ],
     ["cdrun_toe_0_psi_0.012", "constant", "0 deg", "0.012 rad"],
-    ["cdrun_toe_0.2_psi_0.012", "constant", "0.2 deg in", "0.012 rad"],
+    [
+        "cdrun_toe_in_0.2_psi_0.012",
+        "constant",
+        "0.2 deg in",
+        "0.012 rad",
+    ],
 ];
+
+/// Returns our name of a run that is called by its name in the thesis (`vdrun_toe_-0.2_psi_0`), and any other
+/// name as it is.
+pub(super) fn own_name(name: &str) -> Cow<'_, str> {
+    for (signed, in_words) in [
+        ("run_toe_-0.2_", "run_toe_out_0.2_"),
+        ("run_toe_0.2_", "run_toe_in_0.2_"),
+    ] {
+        if name.contains(signed) {
+            return name.replace(signed, in_words).into();
+        }
+    }
+    name.into()
+}
 
 pub(super) fn group() -> Group {
     Group {
