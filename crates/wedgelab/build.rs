@@ -1,5 +1,5 @@
-//! Says where cargo puts the library of FMUs, so that the program carries it: `wedgelab fmu export` needs nothing
-//! beside it, and its FMUs compute what it computes.
+//! Says where cargo puts the library of FMUs, so that the program carries it: `wedgelab fmu export` needs
+//! nothing beside it, and its FMUs compute what it computes.
 
 use std::error::Error;
 use std::fs::OpenOptions;
@@ -27,8 +27,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// An empty file where there is none: `cargo check` and `cargo clippy` make no library. Where it is made, that is
-/// before the program is compiled, of which it is a dependency, and it takes the place of this file.
+/// An empty file where there is none: `cargo check` and `cargo clippy` make no library. Where it is made,
+/// that is before the program is compiled, of which it is a dependency, and it takes the place of this file.
 fn stand_in(library: &PathBuf) -> io::Result<()> {
     match OpenOptions::new().write(true).create_new(true).open(library) {
         Err(error) if error.kind() != ErrorKind::AlreadyExists => Err(error),

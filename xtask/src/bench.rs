@@ -12,8 +12,10 @@ use page::{INSTRUCTIONS, Printed, SECTIONS};
 const HELP: &str = "\
 Usage: cargo xtask bench [arguments of `cargo bench`]
 
-Without arguments: measures evaluations, the thesis's runs, studies, half-truck, truck and FMUs, counts instructions (where valgrind
-is installed), and writes docs/benchmarks.md: some minutes. With arguments, runs `cargo bench` with them, over all crates unless some
+Without arguments: measures evaluations, the thesis's runs, studies, half-truck, truck and FMUs, counts \
+instructions (where valgrind
+is installed), and writes docs/benchmarks.md: some minutes. With arguments, runs `cargo bench` with them, \
+over all crates unless some
 are chosen, such as `cargo xtask bench --package benchmarks`.";
 
 /// The run whose instructions are counted: the slowest yawed one.

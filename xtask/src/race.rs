@@ -11,8 +11,10 @@ use crate::shell::{self, Workspace};
 const HELP: &str = "\
 Usage: cargo xtask race [--quick | --page] [--again] [options of the race]
 
-Builds the race and its drivers, installs what they need (Debian: SUNDIALS, Octave; into target/tools: SciPy, Exudyn), runs all
-solvers on the thesis's twelve cases, the planar wedge and the stick test, and writes all runs into target/race. A race over all
+Builds the race and its drivers, installs what they need (Debian: SUNDIALS, Octave; into target/tools: \
+SciPy, Exudyn), runs all
+solvers on the thesis's twelve cases, the planar wedge and the stick test, and writes all runs into \
+target/race. A race over all
 cases, solvers and tolerances writes docs/race.md, its figures, and its results into docs/measured/race.json.
 Octave runs with the compiled equations and, on the yawed cases, with equations in its own language.
 Runs that are there already are kept; --again begins anew.
@@ -24,7 +26,8 @@ What is Rust is compiled for processors with AVX2; with RUSTFLAGS=\"-C target-cp
   --solvers PART,...  solvers likewise
   --tolerances T,...  some of 1e-3, 1e-4, ... 1e-9
   --limit SECONDS     CPU time of a run (60)
-  --starts NUMBER     starts of each case of which only means are compared (5): errors are their root mean square
+  --starts NUMBER     starts of each case of which only means are compared (5): errors are their root mean \
+square
   --short SECONDS     simulated time of Octave's runs (1); 10: minutes a run
   --kept-only yes     run nothing, judge what was kept";
 

@@ -10,7 +10,8 @@ use crate::shell::{self, Workspace};
 const HELP: &str = "\
 Usage: cargo xtask viewer
 
-Bundles the interactive part of the report's page (TypeScript in `viewer`) into `viewer/dist`; what is built with cargo after
+Bundles the interactive part of the report's page (TypeScript in `viewer`) into `viewer/dist`; what is built \
+with cargo after
 that holds it. Needs Node.js 20.19 or later with npm; fetches the packages of its lock file once.";
 
 const LOCK: &str = "package-lock.json";

@@ -9,9 +9,12 @@ use crate::venv;
 const HELP: &str = "\
 Usage: cargo xtask wheel [arguments of `maturin build`]
 
-Builds a wheel of the Python package for this platform into target/wheels; one wheel serves Python 3.10 and later, on all processors:
-compiled without AVX2 it takes a quarter more time for the same numbers (RUSTFLAGS in the environment decides otherwise). Arguments are
-passed on, such as `--zig --compatibility manylinux2014`, or `--target aarch64-apple-darwin`; docs/python.md has recipes.";
+Builds a wheel of the Python package for this platform into target/wheels; one wheel serves Python 3.10 and \
+later, on all processors:
+compiled without AVX2 it takes a quarter more time for the same numbers (RUSTFLAGS in the environment \
+decides otherwise). Arguments are
+passed on, such as `--zig --compatibility manylinux2014`, or `--target aarch64-apple-darwin`; docs/python.md \
+has recipes.";
 
 /// Runs the command.
 pub fn run(workspace: &Workspace, arguments: &[String]) -> ExitCode {

@@ -53,8 +53,8 @@ pub struct Numbers {
     pub bolsters: [usize; 2],
     /// The side frames of each truck, left and right.
     pub side_frames: [[usize; 2]; 2],
-    /// The wedges of each truck in the order of [`truck::WEDGE_NAMES`], then the inboard halves of split ones;
-    /// those without mass stand still.
+    /// The wedges of each truck in the order of [`truck::WEDGE_NAMES`], then the inboard halves of split
+    /// ones; those without mass stand still.
     pub wedges: [Vec<usize>; 2],
     /// The wheelsets from the front.
     pub wheelsets: [usize; 4],

@@ -77,8 +77,8 @@ pub enum Drive {
         speeds: Vec<[f64; 2]>,
     },
     /// As `Held`, to the speed of a history: pairs of time (s, from zero on, rising) and speed (m/s,
-    /// positive), linear between them, constant before and after. What is wanted at a place is the speed of the history at the
-    /// time when a car that follows it comes there: a car that lags meets it later.
+    /// positive), linear between them, constant before and after. What is wanted at a place is the speed of
+    /// the history at the time when a car that follows it comes there: a car that lags meets it later.
     History {
         /// Force by speed, N·s/m.
         gain: f64,

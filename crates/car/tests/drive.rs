@@ -15,8 +15,9 @@ fn following(mut parameters: Parameters, speeds: Vec<[f64; 2]>) -> Parameters {
     parameters
 }
 
-/// From 12 to 9 m/s between 1 and 11 s, then held. A car of mass m (with the inertia of its wheelsets about the
-/// axle) that slows down by a lags behind the speed of its place by `m a/gain`; by time it is within that.
+/// From 12 to 9 m/s between 1 and 11 s, then held. A car of mass m (with the inertia of its wheelsets about
+/// the axle) that slows down by a lags behind the speed of its place by `m a/gain`; by time it is within
+/// that.
 #[test]
 fn analytic_a_car_follows_a_speed_history() {
     let history = vec![[1.0, 12.0], [11.0, 9.0]];

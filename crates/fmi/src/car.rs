@@ -77,8 +77,8 @@ fn all(table: &CarTable) -> (Entries, Ports) {
         let own = &system.bodies()[*body];
         for (coordinate, axis) in ["x", "y", "z"].into_iter().enumerate() {
             let name = format!("{}_{axis}_motion", own.name);
-            let text = "displacement of what the rail lies on under this wheel, along the fixed axes, added to \
-                        the track's irregularities; read if motion = 0";
+            let text = "displacement of what the rail lies on under this wheel, along the fixed axes, added \
+                        to the track's irregularities; read if motion = 0";
             add_motion((&mut inputs, &mut ports), (*body, own), coordinate, (&name, text));
         }
     }

@@ -72,8 +72,8 @@ const TRACK: &str = "simulation.duration = \"0.2 s\"\nspeed.value = \"40 mph\"\n
 const DIP: &str = "[[track.irregularities]]\nshape = \"dip\"\nrails = \"both\"\ndirection = \"vertical\"\n\
                    depth = \"0.1 in\"\nlength = \"10 ft\"\nstart = \"54 ft\"\n";
 
-/// With inputs left alone the FMU does what the run does: it starts moving, and is integrated by the method of
-/// its case. Steps end at communication points too, so that not all bits are the same.
+/// With inputs left alone the FMU does what the run does: it starts moving, and is integrated by the method
+/// of its case. Steps end at communication points too, so that not all bits are the same.
 #[test]
 fn cross_code_a_car_gives_the_columns_of_its_run() {
     let own = case(&format!("simulation.relative_tolerance = 1e-5\n{TRACK}{DIP}"));
@@ -110,8 +110,8 @@ fn cross_code_a_car_gives_the_columns_of_its_run() {
     assert!(relative.abs() < 2.0 * wanted, "{relative} {wanted}");
 }
 
-/// On rails that do not give way, a wheel over a dip feels what a wheel feels whose rail is moved by the dip's
-/// depth at its place; but for the slope, along which a wheel's normal force pushes a little backward.
+/// On rails that do not give way, a wheel over a dip feels what a wheel feels whose rail is moved by the
+/// dip's depth at its place; but for the slope, along which a wheel's normal force pushes a little backward.
 #[test]
 fn cross_code_moved_rails_do_what_the_same_irregularity_does() {
     let rigid = |more: &str| case(&format!("track.support.kind = \"rigid\"\n{TRACK}{more}"));
@@ -185,7 +185,8 @@ fn reproducible_a_saved_car_goes_on_with_the_same_bits() {
     let first = on(&mut part);
     part.instance.restore(&saved).unwrap();
     assert_eq!(on(&mut part), first);
-    // To the left, and up by the spirals of no curve: the body's place to the left is minus its third coordinate.
+    // To the left, and up by the spirals of no curve: the body's place to the left is minus its third
+    // coordinate.
     let (work, way) = (part.get("load_work"), -part.get("car_body_minus_y"));
     assert!(
         work > 0.0 && (work - 20e3 * way).abs() < 1e-6 * work,

@@ -5,7 +5,10 @@
 /// A line on the standard output. If nobody reads there is nothing to be done.
 macro_rules! say {
     ($($told:tt)*) => {{
-        let _ = std::io::Write::write_fmt(&mut std::io::stdout(), format_args!("{}\n", format_args!($($told)*)));
+        let _ = std::io::Write::write_fmt(
+            &mut std::io::stdout(),
+            format_args!("{}\n", format_args!($($told)*)),
+        );
     }};
 }
 
@@ -49,7 +52,8 @@ const WRONG: u8 = 2;
     bin_name = "cargo xtask fuzz",
     max_term_width = 100,
     after_help = "\
-An input is a function of reader, seed and number: what is found is found again with --repeat READER:SEED:NUMBER.
+An input is a function of reader, seed and number: what is found is found again with --repeat \
+READER:SEED:NUMBER.
 
 Exit codes: 0 nothing was found; 1 something was found; 2 the call is wrong."
 )]

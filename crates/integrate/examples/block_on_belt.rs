@@ -1,5 +1,5 @@
-//! A block on a spring, carried along by a belt through regularized dry friction: it sticks, slips, and sticks
-//! again. `cargo run --release -p integrate --example block_on_belt`
+//! A block on a spring, carried along by a belt through regularized dry friction: it sticks, slips, and
+//! sticks again. `cargo run --release -p integrate --example block_on_belt`
 
 use integrate::{FunctionProblem, Integrator, Method, Options};
 

@@ -1,8 +1,8 @@
 //! A surface of depths over two coordinates, with continuous curvature: the tensor product of cubic splines.
 //!
-//! It goes through the depths at the nodes of a rectangle. In each cell it is the bicubic Hermite polynomial of
-//! depth, slopes and twist at its corners (de Boor 1962); these come from not-a-knot splines along the lines of
-//! nodes, so that second derivatives are continuous. Beyond its edges it goes on straight.
+//! It goes through the depths at the nodes of a rectangle. In each cell it is the bicubic Hermite polynomial
+//! of depth, slopes and twist at its corners (de Boor 1962); these come from not-a-knot splines along the
+//! lines of nodes, so that second derivatives are continuous. Beyond its edges it goes on straight.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,8 +13,8 @@ use crate::spline::{Spline, SplineError};
 pub struct DepthSurface {
     y: Vec<f64>,
     z: Vec<f64>,
-    /// Depth, its derivatives by y and by z and by both, at each node: row by row along y, row after row along
-    /// z.
+    /// Depth, its derivatives by y and by z and by both, at each node: row by row along y, row after row
+    /// along z.
     nodes: Vec<[f64; 4]>,
 }
 
@@ -30,12 +30,12 @@ pub struct Depth {
 }
 
 impl DepthSurface {
-    /// Returns the surface through `depths` at the places `y` and `z`: row by row along y, row after row along
-    /// z.
+    /// Returns the surface through `depths` at the places `y` and `z`: row by row along y, row after row
+    /// along z.
     ///
     /// # Errors
-    /// Fewer than four places along a coordinate, places that do not increase, too few depths, values that are
-    /// not finite.
+    /// Fewer than four places along a coordinate, places that do not increase, too few depths, values that
+    /// are not finite.
     pub fn new(y: Vec<f64>, z: Vec<f64>, depths: &[f64]) -> Result<Self, SplineError> {
         let (width, height) = (y.len(), z.len());
         if depths.len() != width * height {

@@ -122,8 +122,8 @@ impl QuasiStaticWedge {
         2.0 * libm::asin(square.sqrt().min(1.0)).copysign(half)
     }
 
-    /// Returns the lock-up margin `α - ψ_c - ψ_s`, rad: where it is not positive, the friction cones of the two
-    /// faces hold a line in common, and a wedge on which the faces close locks.
+    /// Returns the lock-up margin `α - ψ_c - ψ_s`, rad: where it is not positive, the friction cones of the
+    /// two faces hold a line in common, and a wedge on which the faces close locks.
     #[must_use]
     pub fn lock_up_margin(&self, yaw: f64) -> f64 {
         self.closing_angle(yaw) - libm::atan(self.column_friction) - libm::atan(self.slope_friction)

@@ -20,14 +20,14 @@
 //! K = Tᵀ ∇∇h T / w,   K' = K (1 + g K)⁻¹
 //! ```
 //!
-//! T turns with n by the shortest way from the axes of the marker: with δn = T k, k = K' Tᵀdr, the tangents turn
-//! about n by `(k₁ n_z - k₂ n_y) / (1 + n_x)`.
+//! T turns with n by the shortest way from the axes of the marker: with δn = T k, k = K' Tᵀdr, the tangents
+//! turn about n by `(k₁ n_z - k₂ n_y) / (1 + n_x)`.
 //!
 //! For κ = 0 the arc is the plane, to the last bit of g and n. Moving by dr changes g by n·dr and turns the
 //! normal by κ' t·dr, t = (-n_s, n_x). So forces along n have a potential, and energy closes.
 //!
-//! Limits: points may not lie beyond the center of an arc, nor beyond that of a hollow table or map. Outside its
-//! first and last depth a table goes on straight; its curvature jumps there unless it is zero.
+//! Limits: points may not lie beyond the center of an arc, nor beyond that of a hollow table or map. Outside
+//! its first and last depth a table goes on straight; its curvature jumps there unless it is zero.
 
 use numerics::lanes::{LANES, Lanes};
 use numerics::scalar::{Number, Real};
@@ -89,7 +89,8 @@ pub(crate) struct Bend<P> {
     pub axes: [[P; 3]; 3],
     /// Curvatures at that distance, 1/m: of the first tangent, of both, of the second.
     pub curvature: [P; 3],
-    /// By how much the tangents turn about the normal where it tilts along the first one and along the second.
+    /// By how much the tangents turn about the normal where it tilts along the first one and along the
+    /// second.
     pub twist: [P; 2],
 }
 
@@ -390,8 +391,8 @@ impl Shape {
 }
 
 impl<P: Plain> Bend<P> {
-    /// Returns by how much the normal tilts along the first and along the second tangent, and the tangents turn
-    /// about it, where the point moves by these components along the tangents.
+    /// Returns by how much the normal tilts along the first and along the second tangent, and the tangents
+    /// turn about it, where the point moves by these components along the tangents.
     #[inline(always)]
     pub fn tilt<S: Number>(&self, first: S, second: S) -> (S, S, S)
     where

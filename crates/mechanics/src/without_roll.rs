@@ -8,7 +8,8 @@
 //! the free translations eliminated:
 //!
 //! ```text
-//! Σ_l J_kl q¨_l = e_k · (M - I β - ω × I ω - r × Rᵀ w),   w = F where the body is free to move, m (R b + field) where it is held,
+//! Σ_l J_kl q¨_l = e_k · (M - I β - ω × I ω - r × Rᵀ w),
+//! w = F where the body is free to move, m (R b + field) where it is held,
 //! J_kl = e_k · I e_l + m Σ_held h_k h_l,   h_k = e_k · (r × Rᵀ e_held),
 //! R and e_held: from body axes to the frame's, and the direction there.
 //! ```
@@ -127,11 +128,18 @@ mod tests {
             let rigid = body.rigid();
 
             let (inertia, gyroscopic) = kinematics.inertia(&rigid, &frame, false, gravity, &[0.0; 6]);
-            let expected = kinematics.accelerations(&rigid, &(force - inertia), kinematics.about_axes(&(moment - gyroscopic)));
+            let expected = kinematics.accelerations(
+                &rigid,
+                &(force - inertia),
+                kinematics.about_axes(&(moment - gyroscopic)),
+            );
             let field: Vector<f64> = frame.rotation.apply_transposed(frame.acceleration - gravity);
             let found = kinematics.accelerations_without_roll(&rigid, &field, &force, &moment);
             for (found, expected) in found.iter().zip(expected) {
-                prop_assert!((found - expected).abs() <= 1e-12 * (10.0 + expected.abs()), "{found} {expected}");
+                prop_assert!(
+                    (found - expected).abs() <= 1e-12 * (10.0 + expected.abs()),
+                    "{found} {expected}",
+                );
             }
         }
     }

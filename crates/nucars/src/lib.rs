@@ -29,7 +29,8 @@
 //!
 //! let wedge = system.connection(127).expect("a wedge");
 //! let characteristic = *wedge.element.characteristics()[0];
-//! let Law::StickSlipWedge3d { coil, .. } = system.characteristic(characteristic).expect("its law").law else {
+//! let law = system.characteristic(characteristic).expect("its law").law;
+//! let Law::StickSlipWedge3d { coil, .. } = law else {
 //!     unreachable!("type 6.9");
 //! };
 //! assert_eq!(system.function(*coil).expect("the coil").value(0.0), -3702.2);

@@ -261,7 +261,11 @@ const TEXTS: [&str; 12] = [
 
 proptest! {
     #[test]
-    fn printing_and_reading_gives_the_same_bits(value in -1e12..1e12f64, exponent in -20..20i32, unit in 0..TEXTS.len()) {
+    fn printing_and_reading_gives_the_same_bits(
+        value in -1e12..1e12f64,
+        exponent in -20..20i32,
+        unit in 0..TEXTS.len(),
+    ) {
         let value = value * 10f64.powi(exponent);
         let quantity = Quantity::new(value, TEXTS[unit]).unwrap();
         prop_assert_eq!(quantity.value().to_bits(), value.to_bits());
@@ -271,7 +275,10 @@ proptest! {
     }
 
     #[test]
-    fn conversion_there_and_back_is_exact_to_the_last_bits(value in -1e9..1e9f64, kind in 0..Kind::ALL.len()) {
+    fn conversion_there_and_back_is_exact_to_the_last_bits(
+        value in -1e9..1e9f64,
+        kind in 0..Kind::ALL.len(),
+    ) {
         let kind = Kind::ALL[kind];
         prop_assume!(kind.dimension() != Dimension::NONE && kind != Kind::Angle);
         let quantity = Quantity::new(value, kind.unit(System::Us)).unwrap();

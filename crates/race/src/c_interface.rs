@@ -2,7 +2,8 @@
 //!
 //! A handle comes from [`race_open`] and goes to [`race_close`]. Vectors are as long as [`race_dimension`]
 //! says. No panic crosses the border: a call that fails gives a null pointer, or something other than zero.
-#![allow(unsafe_code)] // A C interface is made of pointers; each use says why it holds. Valgrind runs it in the `race` check.
+// A C interface is made of pointers; each use says why it holds. Valgrind runs it in the `race` check.
+#![allow(unsafe_code)]
 
 use std::ffi::{CStr, c_char, c_int};
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -16,7 +16,8 @@ const USAGE: &str = "\
 race solve SOLVER CASE TOLERANCE LIMIT FILE [ROWS]   one run of a solver that is compiled in
 race wedge CASE                                      parameters, start, scales and times of a wedge, as JSON
 race all --library FILE --drivers FOLDER --out FOLDER [--cvode FILE] [--python FILE] [--exudyn FILE]
-         [--octave FILE --mex FOLDER] [--cases PART,...] [--solvers PART,...] [--tolerances T,...] [--limit SECONDS]
+         [--octave FILE --mex FOLDER] [--cases PART,...] [--solvers PART,...] [--tolerances T,...] [--limit \
+SECONDS]
          [--starts NUMBER] [--short SECONDS] [--kept-only yes]
          [--docs FOLDER --machine TEXT --cores NUMBER --date DATE --rustc VERSION]
 race page RESULTS PAGE                               the page of stored results";

@@ -189,51 +189,75 @@ impl Race {
 const ABOUT: &str = "\
 # The race
 
-Our integrator and the solvers of others on the same equations: how much CPU time each takes for the same error.
-`cargo xtask race` measures everything and writes this page; `cargo xtask race --page` writes it anew from the stored results
+Our integrator and the solvers of others on the same equations: how much CPU time each takes for the same \
+error.
+`cargo xtask race` measures everything and writes this page; `cargo xtask race --page` writes it anew from \
+the stored results
 (`docs/measured/race.json`). Both take the text from `crates/race/src/page.rs`: edit it there.
 
 ## What is measured
 
-- **Cases**: the twelve runs of the thesis, a planar wedge with variable and with constant damping, and a stick test with bristles and with tanh. The equations
+- **Cases**: the twelve runs of the thesis, a planar wedge with variable and with constant damping, and a \
+stick test with bristles and with tanh. The equations
   are those of this project: nothing here says how a solver does on others.
-- **Equations**: all solvers get the same compiled right-hand side and the same analytic Jacobian matrix. SciPy and Octave call them from their languages, which is where
-  most of their time goes. On the yawed cases Octave's ode15s also runs with the right-hand side in Octave's own language (`wedge_rates.m`, vectorized over the eight contacts)
+- **Equations**: all solvers get the same compiled right-hand side and the same analytic Jacobian matrix. \
+SciPy and Octave call them from their languages, which is where
+  most of their time goes. On the yawed cases Octave's ode15s also runs with the right-hand side in Octave's \
+own language (`wedge_rates.m`, vectorized over the eight contacts)
   and a Jacobian matrix by its own differences.
-- **Times** are CPU times of the integration alone, the least of up to five repetitions, on a machine that may do other things: trust ratios of 1.5 and more
-  within one race. Right-hand sides that our output times take (two in a hundred) are in the times, but not in the counts.
-- **Errors** are those of force histories where a motion converges (with yaw, planar with constant damping), of positions in the stick test. The other cases ring and are chaotic
-  in detail: there, branch means and the energy per cycle are compared, each run is made from several starts, a hundredth of a millimeter apart, and the error is the root mean square over them.
-- **The floor** of a case is how well its reference is known: how far the reference's solver at 1e-9 and 1e-10 is from itself at 1e-11. With several starts, the floor includes twice the
+- **Times** are CPU times of the integration alone, the least of up to five repetitions, on a machine that \
+may do other things: trust ratios of 1.5 and more
+  within one race. Right-hand sides that our output times take (two in a hundred) are in the times, but not \
+in the counts.
+- **Errors** are those of force histories where a motion converges (with yaw, planar with constant damping), \
+of positions in the stick test. The other cases ring and are chaotic
+  in detail: there, branch means and the energy per cycle are compared, each run is made from several \
+starts, a hundredth of a millimeter apart, and the error is the root mean square over them.
+- **The floor** of a case is how well its reference is known: how far the reference's solver at 1e-9 and \
+1e-10 is from itself at 1e-11. With several starts, the floor includes twice the
   scatter of a root mean square. Nearer to the floor, luck decides.
-- **Octave's ode15s** gets one second of simulated time and is compared with ours over the same second, whose first part is the release from the start.
-- **The drivers of the other solvers are ours** (`crates/race/drivers`, `crates/race/src/diffsol.rs`). Who knows a solver better may set it better.
+- **Octave's ode15s** gets one second of simulated time and is compared with ours over the same second, \
+whose first part is the release from the start.
+- **The drivers of the other solvers are ours** (`crates/race/drivers`, `crates/race/src/diffsol.rs`). Who \
+knows a solver better may set it better.
 
 ## What is not the same for all
 
 - Ours integrates all energies of the ledger; the others integrate one energy.
-- Ours alone is told where contacts open and close and where slip reverses. Its Rosenbrock methods end their steps there; its TR-BDF2 and ESDIRK3 keep Jacobian matrices in between and look there for reversals in Newton's method.
+- Ours alone is told where contacts open and close and where slip reverses. Its Rosenbrock methods end their \
+steps there; its TR-BDF2 and ESDIRK3 keep Jacobian matrices in between and look there for reversals in \
+Newton's method.
 - No solver records when contacts change, except ours where its name says so, as in users' runs.
 
 ## What a tolerance means
 
-The absolute tolerance of each state is the tolerance times the state's scale; there is no relative tolerance. It means to each solver what it means to it:
+The absolute tolerance of each state is the tolerance times the state's scale; there is no relative \
+tolerance. It means to each solver what it means to it:
 
 | solver | what the tolerance bounds |
 |---|---|
-| our Rosenbrock methods | the error estimate of a step in all states, energies of the ledger too. From 1e-3 to 1e-5 they do more than they are asked to: speeds are held to the reference speed of friction (0.001 in/s) where a point sticks, and the wedge's positions to 1e-6 m |
-| our TR-BDF2, ESDIRK3 | the error estimate of a step in displacements alone; steps end at the output times. They damp the vibrations of contacts: where these carry the force (variable damping without yaw), both are off until the tolerance resolves them |
-| CVODE, diffsol, SciPy, ode15s | the error estimate of a step in all their states, in the norm of each solver |
+| our Rosenbrock methods | the error estimate of a step in all states, energies of the ledger too. From 1e-3 \
+to 1e-5 they do more than they are asked to: speeds are held to the reference speed of friction (0.001 in/s) \
+where a point sticks, and the wedge's positions to 1e-6 m |
+| our TR-BDF2, ESDIRK3 | the error estimate of a step in displacements alone; steps end at the output times. \
+They damp the vibrations of contacts: where these carry the force (variable damping without yaw), both are \
+off until the tolerance resolves them |
+| CVODE, diffsol, SciPy, ode15s | the error estimate of a step in all their states, in the norm of each \
+solver |
 | Exudyn | nothing: its steps are fixed |
 
-Equal tolerances are therefore not equal errors: compare at equal error. The compiled solvers run at 3e-4, 3e-5, ... 3e-8 besides the decades.
+Equal tolerances are therefore not equal errors: compare at equal error. The compiled solvers run at 3e-4, \
+3e-5, ... 3e-8 besides the decades.
 
 ## How to read the tables
 
-- A **ratio** is the CPU time of another solver over that of ours at equal error, each solver at its best tolerance. Levels of error are 3e-2 to 1e-7, as far as the floor allows: a cell gives the least ratio, the error at
+- A **ratio** is the CPU time of another solver over that of ours at equal error, each solver at its best \
+tolerance. Levels of error are 3e-2 to 1e-7, as far as the floor allows: a cell gives the least ratio, the \
+error at
   which it occurs, and the greatest ratio. Above 1, ours is faster.
 - \"Never as exact\": no run of that solver reached an error that ours reached, within its CPU time.
-- The table of cheapest runs shows what an error of 1 % costs: tolerance, error, time, steps, evaluations. \"Times ours\" is over our best.
+- The table of cheapest runs shows what an error of 1 % costs: tolerance, error, time, steps, evaluations. \
+\"Times ours\" is over our best.
 ";
 
 /// The figures.
@@ -244,7 +268,8 @@ const FIGURES: &str = "
 
 ![Work-precision: the planar wedge and the stick test](figures/race_others.svg)
 
-![Work-precision: the first second, ours and Octave's ode15s with compiled equations and with equations in Octave](figures/race_short.svg)
+![Work-precision: the first second, ours and Octave's ode15s with compiled equations and with equations in \
+Octave](figures/race_short.svg)
 ";
 
 /// A cell of the table of ratios, `219.4 (at 3e-2) to 219.4`, as its least and its greatest ratio.

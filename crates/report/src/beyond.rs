@@ -321,8 +321,8 @@ fn wear(runs: &[Ran], units: Units) -> Vec<Panel> {
     ]
 }
 
-/// Force of the column and vertical force on the bolster over time, with the quasi-static wedge that the faces
-/// close on, and with what the friction of the column can hold.
+/// Force of the column and vertical force on the bolster over time, with the quasi-static wedge that the
+/// faces close on, and with what the friction of the column can hold.
 fn lock_up(runs: &[Ran], units: Units) -> Vec<Panel> {
     let (mut normals, mut verticals) = (Vec::new(), Vec::new());
     for ((case, result), style) in runs.iter().zip(STYLES) {

@@ -1,5 +1,5 @@
-//! The files of `wedgelab stability --nonlinear`: amplitudes of a car's hunting over ramps of its speed, as CSV,
-//! JSON and figure.
+//! The files of `wedgelab stability --nonlinear`: amplitudes of a car's hunting over ramps of its speed, as
+//! CSV, JSON and figure.
 
 use std::io::{self, Write};
 
@@ -151,7 +151,8 @@ pub fn write_numbers(
     write_json(&document, out)
 }
 
-/// The figure: the largest lateral amplitude of the wheelsets, and the body's lateral acceleration, over speed.
+/// The figure: the largest lateral amplitude of the wheelsets, and the body's lateral acceleration, over
+/// speed.
 #[must_use]
 pub fn figure(case: &str, found: &Hunting, stability: &Stability, units: Units) -> Figure {
     let speed = |si: f64| si * Kind::TravelSpeed.from_si(units);
@@ -210,9 +211,9 @@ pub fn figure(case: &str, found: &Hunting, stability: &Stability, units: Units) 
     };
     Figure {
         title: format!("{case}: hunting over speed"),
-        caption: "Amplitudes within 1.5 s. Speed falls: from a lateral start at the highest speed. Speed rises: \
-                  over lateral dips of the rails of 0.02 in every 200 ft. Where the curves differ the car runs \
-                  quietly or hunts, after what disturbed it."
+        caption: "Amplitudes within 1.5 s. Speed falls: from a lateral start at the highest speed. Speed \
+                  rises: over lateral dips of the rails of 0.02 in every 200 ft. Where the curves differ the \
+                  car runs quietly or hunts, after what disturbed it."
             .to_owned(),
         panels: vec![
             panel(

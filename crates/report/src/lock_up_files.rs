@@ -187,12 +187,12 @@ pub fn figure(case: &Case, map: &LockUpMap, units: Units) -> Figure {
             axes[1].name()
         ),
         caption: format!(
-            "A bolster presses the wedge by 0.3 in against the column at 0.2 in/s. (a) Lines: closing angle of \
-             the faces less the friction angles of both; it locks up where this margin is not positive. Signs: \
-             what {} rigs found. (b) The column's normal force along the track at the end over the coil's force \
-             less the weight, of the rigs (marked with the ratio) and, dashed, of the massless wedge for the \
-             same ratios, which has none where it locks up: there the rigs' forces grow with the press against \
-             the stiffness of the contacts.",
+            "A bolster presses the wedge by 0.3 in against the column at 0.2 in/s. (a) Lines: closing angle \
+             of the faces less the friction angles of both; it locks up where this margin is not positive. \
+             Signs: what {} rigs found. (b) The column's normal force along the track at the end over the \
+             coil's force less the weight, of the rigs (marked with the ratio) and, dashed, of the massless \
+             wedge for the same ratios, which has none where it locks up: there the rigs' forces grow with \
+             the press against the stiffness of the contacts.",
             map.cells.len()
         ),
         columns: 2,

@@ -83,9 +83,9 @@ pub fn density_figure(table: &Table, label: &str, column: &TableColumn, spectrum
         .map(|(frequency, density)| (*frequency, 10.0 * libm::log10(*density)))
         .collect();
     let caption = format!(
-        "One-sided power spectral density of {words} of the result {label}, in decibels over 1 {unit}, by Welch's \
-         method: {} segments of {} rows that overlap by half, less their means, under Hann's window; lines {} Hz \
-         apart.",
+        "One-sided power spectral density of {words} of the result {label}, in decibels over 1 {unit}, by \
+         Welch's method: {} segments of {} rows that overlap by half, less their means, under Hann's window; \
+         lines {} Hz apart.",
         spectrum.segments,
         spectrum.rows,
         digits(spectrum.resolution()),

@@ -265,8 +265,8 @@ impl StudyFolder {
         Ok(found.records.len() as u64)
     }
 
-    /// Makes the table of all records, in the order of their numbers, as Parquet and as CSV, and shows each row
-    /// to `each` with the values of the factors. Memory does not grow with the number of records.
+    /// Makes the table of all records, in the order of their numbers, as Parquet and as CSV, and shows each
+    /// row to `each` with the values of the factors. Memory does not grow with the number of records.
     ///
     /// # Errors
     /// A record is missing, a part cannot be read, or the table cannot be written.
@@ -306,7 +306,8 @@ impl StudyFolder {
         }
     }
 
-    /// Shows all records to `each`, in the order of their numbers; why they cannot be read is left in `unread`.
+    /// Shows all records to `each`, in the order of their numbers; why they cannot be read is left in
+    /// `unread`.
     fn for_each(
         &self,
         unread: &mut Option<StudyFolderError>,
@@ -370,8 +371,8 @@ fn write_error(file: &Path, reason: io::Error) -> StudyFolderError {
     })
 }
 
-/// The name of a factor's column, with its unit: `wedge.angle_deg`. Of a toe it says the direction in which it
-/// is positive: `side_frame.toe_out_deg`.
+/// The name of a factor's column, with its unit: `wedge.angle_deg`. Of a toe it says the direction in which
+/// it is positive: `side_frame.toe_out_deg`.
 #[must_use]
 pub fn factor_column(factor: &Factor) -> String {
     let suffix = factor

@@ -321,8 +321,8 @@ pub fn words(history: &WearHistory, plan: &Plan, given: Given) -> String {
     let guessed = !given.coefficient || (!given.hardness && matches!(plan.law, WearLaw::Archard(_)));
     if guessed {
         text.push_str(
-            "Guessed numbers are known to an order of magnitude at best: volumes and numbers of cycles are as \
-             uncertain.\nMeasure the wear of your pair, and give --coefficient and --hardness.\n",
+            "Guessed numbers are known to an order of magnitude at best: volumes and numbers of cycles are \
+             as uncertain.\nMeasure the wear of your pair, and give --coefficient and --hardness.\n",
         );
     }
     let shown = |value: f64, kind: Kind| {
@@ -379,8 +379,8 @@ pub fn words(history: &WearHistory, plan: &Plan, given: Given) -> String {
     ));
     if last.counterfaces.is_none() {
         text.push_str(
-            "The wedge's faces are worn, column and pocket are not: with --counterface they are, by a ratio of \
-             the wedge's wear.\n",
+            "The wedge's faces are worn, column and pocket are not: with --counterface they are, by a ratio \
+             of the wedge's wear.\n",
         );
     }
     text

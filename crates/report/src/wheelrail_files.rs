@@ -27,8 +27,8 @@ const INCH: f64 = 0.0254;
 pub fn write(positions: &[RigidPosition], out: &mut dyn Write) -> io::Result<()> {
     writeln!(
         out,
-        "shift_in,rolling_radius_difference_in,left_contact_angle_rad,right_contact_angle_rad,roll_rad,left_wheel_place_in,\
-         right_wheel_place_in,left_rail_place_in,right_rail_place_in"
+        "shift_in,rolling_radius_difference_in,left_contact_angle_rad,right_contact_angle_rad,roll_rad,\
+         left_wheel_place_in,right_wheel_place_in,left_rail_place_in,right_rail_place_in"
     )?;
     for position in positions {
         let [left, right] = position.contact_angles();

@@ -15,8 +15,9 @@ use study::run::Run;
 
 const FIXED: &str = "time_s,bolster_vertical_in,wedge_x_in,wedge_z_in,wedge_pitch_rad,wedge_yaw_rad,\
                      longitudinal_wedge_force_lbf,vertical_wedge_force_lbf,vertical_force_on_side_frame_lbf,\
-                     side_frame_friction_power_lbf_in_per_s,bolster_friction_power_lbf_in_per_s,side_frame_dissipation_lbf_in_per_s,\
-                     bolster_dissipation_lbf_in_per_s,side_frame_roll_moment_lbf_in,side_frame_pitch_moment_lbf_in,\
+                     side_frame_friction_power_lbf_in_per_s,bolster_friction_power_lbf_in_per_s,\
+                     side_frame_dissipation_lbf_in_per_s,bolster_dissipation_lbf_in_per_s,\
+                     side_frame_roll_moment_lbf_in,side_frame_pitch_moment_lbf_in,\
                      side_frame_yaw_moment_lbf_in,coil_force_lbf,coil_length_in";
 
 fn short(units: &str) -> (Case, RunResult) {

@@ -142,8 +142,8 @@ fn analytic_body_wheels_and_wedges_are_where_they_must_be() {
     }
 }
 
-/// Halves of split wedges are drawn beside each other, each with its own faces, whose forces sum to those of the
-/// wedge; the other truck's wedges are in one piece.
+/// Halves of split wedges are drawn beside each other, each with its own faces, whose forces sum to those of
+/// the wedge; the other truck's wedges are in one piece.
 #[test]
 fn analytic_halves_of_split_wedges_are_bodies_of_their_own() {
     let text = "model = \"car\"\nstart.settle = \"0 s\"\nspeed.value = \"28 mph\"\n\

@@ -176,8 +176,8 @@ fn main() -> Result<(), Failure> {
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     writeln!(
         out,
-        "run,time_s,distance_m,lateral_mm,yaw_mrad,normal_left_kN,normal_right_kN,creep_left_kN,creep_right_kN,\
-         patches_left,patches_right"
+        "run,time_s,distance_m,lateral_mm,yaw_mrad,normal_left_kN,normal_right_kN,creep_left_kN,\
+         creep_right_kN,patches_left,patches_right"
     )?;
     let cones = wheels(true)?;
     let klingel = LinearGeometry::of(&cones.0, 1e-3)?.klingel_wavelength();

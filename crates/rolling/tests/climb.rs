@@ -26,8 +26,8 @@ fn zero([mut low, mut high]: [f64; 2], falling: impl Fn(f64) -> f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// The largest ratio of lateral to vertical force on the way over the flange, of a left wheel under a load (N)
-/// at an angle of attack (rad) whose axle turns freely; and the tangent of the contact angle there.
+/// The largest ratio of lateral to vertical force on the way over the flange, of a left wheel under a load
+/// (N) at an angle of attack (rad) whose axle turns freely; and the tangent of the contact angle there.
 fn largest_ratio(law: ContactLaw, attack: f64, load: f64) -> [f64; 2] {
     let wheels = freight();
     let half = 0.5 * wheels.1;
@@ -81,9 +81,10 @@ fn largest_ratio(law: ContactLaw, attack: f64, load: f64) -> [f64; 2] {
     largest
 }
 
-/// Nadal's limit `(tan δ - μ)/(1 + μ tan δ)` by creep laws that saturate, at an angle of attack of 50 mrad. The
-/// flange of 75° then meets the rail 90 mm ahead of the axle, where the wheel is 8 mm higher: the contact angle δ
-/// there is that of the tip's beginning, 70°. Polach's law comes near to its saturation but slowly: 15 % above.
+/// Nadal's limit `(tan δ - μ)/(1 + μ tan δ)` by creep laws that saturate, at an angle of attack of 50 mrad.
+/// The flange of 75° then meets the rail 90 mm ahead of the axle, where the wheel is 8 mm higher: the contact
+/// angle δ there is that of the tip's beginning, 70°. Polach's law comes near to its saturation but slowly:
+/// 15 % above.
 #[test]
 fn analytic_a_wheel_that_climbs_reaches_nadals_limit() {
     let fastsim = CreepLaw::Fastsim(Grid {

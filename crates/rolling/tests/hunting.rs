@@ -13,8 +13,8 @@ fn cross_code_critical_speed_by_time_steps_on_profiles() {
     assert!((stepped / speed - 1.0).abs() < 0.01, "{stepped} and {speed} m/s");
 }
 
-/// Below it even a start near the flange dies away; above it a small one grows until the flanges stop it, at a
-/// clearance of 0.547 in less what the throats take.
+/// Below it even a start near the flange dies away; above it a small one grows until the flanges stop it, at
+/// a clearance of 0.547 in less what the throats take.
 #[test]
 fn limits_hunting_ends_and_grows_up_to_the_flanges() {
     let [speed, _] = critical();

@@ -1,5 +1,5 @@
-//! reproduction: vehicle 1 of the Manchester benchmarks through the elements on the core, against its matrices
-//! by themselves.
+//! reproduction: vehicle 1 of the Manchester benchmarks through the elements on the core, against its
+//! matrices by themselves.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 mod common;

@@ -30,9 +30,12 @@ const THRESHOLD: f64 = 0.05 * INCH;
 const HEAD: &str = "\
 # Validation: cars on track
 
-Numbers of whole cars with three-piece trucks, beside those of the field and of closed forms. **Nothing is tuned to them**: all
-parameters are the defaults of [the car](car.md) unless a table says otherwise. This page is written by `cargo run --release -p
-study --example car_validation`, in some minutes; the tests of the crates `car` and `study` hold what is exact. Wheelsets and
+Numbers of whole cars with three-piece trucks, beside those of the field and of closed forms. **Nothing is \
+tuned to them**: all
+parameters are the defaults of [the car](car.md) unless a table says otherwise. This page is written by \
+`cargo run --release -p
+study --example car_validation`, in some minutes; the tests of the crates `car` and `study` hold what is \
+exact. Wheelsets and
 linear vehicles: [validation of wheelsets](validation-rolling.md).
 ";
 
@@ -155,13 +158,14 @@ fn words(boundary: Boundary) -> String {
 fn hunting_over_speed() -> Result<String, Failure> {
     let mut out = "## Hunting\n\n\
          The speed falls by a slow ramp (50 s) after a lateral start of all axles by 0.4 in at the highest \
-         speed, and rises from the lowest over\nlateral dips of 0.02 in; an axle with an amplitude of 0.05 in hunts, one with 0.5 in\n\
+         speed, and rises from the lowest over\nlateral dips of 0.02 in; an axle with an amplitude of 0.05 \
+         in hunts, one with 0.5 in\n\
          runs from flange to flange. \
          Profiles: AAR-1B with its tread of 1:20, and the same flange with a\ntread of 1:10 (conicity \
          0.1; one of 0.2 leaves this flange no face). In the field empty cars hunt from 50 to\n\
          55 mph on, loaded ones from 90 to 100 mph.\n\n\
-         | car | side bearings | tread | speeds, mph | falling: flange to flange down to, mph | falling: dies at, mph | rising: begins at, mph | largest \
-         amplitude, in |\n|---|---|---|---|---|---|---|---|\n"
+         | car | side bearings | tread | speeds, mph | falling: flange to flange down to, mph | falling: \
+         dies at, mph | rising: begins at, mph | largest amplitude, in |\n|---|---|---|---|---|---|---|---|\n"
         .to_owned();
     let rows: [(&str, &str, &str, [f64; 2]); 5] = [
         ("empty", "roller", "aar_1b", [30.0, 80.0]),
@@ -217,11 +221,11 @@ fn hunting_over_speed() -> Result<String, Failure> {
 fn hunting_held() -> Result<String, Failure> {
     let mut out = "## Hunting at held speeds\n\n\
          The regime `hunting`: the empty car with roller side bearings, all axles 0.4 in to the left at the \
-         start, held at a speed over 2,620 ft:\nhow far the first axle is from the middle within the last two \
-         seconds (friction may hold it there), and the standard deviation of the body's lateral\nacceleration \
-         over 2,000 ft. The field tells hunting of empty cars from 50 to 55 mph on, and allows a deviation of 0.13 g \
-         (remembered).\n\n| speed, mph | farthest from the middle, in | deviation, front, g | deviation, rear, g \
-         |\n|---|---|---|---|\n"
+         start, held at a speed over 2,620 ft:\nhow far the first axle is from the middle within the last \
+         two seconds (friction may hold it there), and the standard deviation of the body's \
+         lateral\nacceleration over 2,000 ft. The field tells hunting of empty cars from 50 to 55 mph on, \
+         and allows a deviation of 0.13 g (remembered).\n\n| speed, mph | farthest from the middle, in | \
+         deviation, front, g | deviation, rear, g |\n|---|---|---|---|\n"
         .to_owned();
     let speeds = [30.0, 40.0, 50.0, 60.0, 70.0, 80.0];
     let lines = each(&speeds, |speed| {
@@ -248,13 +252,13 @@ fn hunting_held() -> Result<String, Failure> {
 
 fn sides_in_curves() -> Result<String, Failure> {
     let mut out = "## Sides in curves\n\n\
-         The regime `constant_curve`, the loaded car in 7.5° to the left with 4 in of superelevation, from 3 in \
-         of cant excess to 3 in of deficiency:\nmeans of the last two seconds, and L/V of the front truck's \
-         sides. The leading outer wheel runs on its flange (0.55 in) at all speeds and has the\nlargest L/V, less \
-         at deficiency, where it bears more. The truck's outer side has the larger L/V from 18 mph on, far below \
-         balance at 28 mph.\n\n| speed, mph | cant deficiency, in | leading axle to the outside, \
-         in | L/V leading outer | L/V leading inner | truck side outer | truck side inner \
-         |\n|---|---|---|---|---|---|---|\n"
+         The regime `constant_curve`, the loaded car in 7.5° to the left with 4 in of superelevation, from 3 \
+         in of cant excess to 3 in of deficiency:\nmeans of the last two seconds, and L/V of the front \
+         truck's sides. The leading outer wheel runs on its flange (0.55 in) at all speeds and has \
+         the\nlargest L/V, less at deficiency, where it bears more. The truck's outer side has the larger \
+         L/V from 18 mph on, far below balance at 28 mph.\n\n| speed, mph | cant deficiency, in | leading \
+         axle to the outside, in | L/V leading outer | L/V leading inner | truck side outer | truck side \
+         inner |\n|---|---|---|---|---|---|---|\n"
         .to_owned();
     let speeds: [f64; 6] = [14.0, 18.0, 23.0, 28.0, 32.0, 36.0];
     let lines = each(&speeds, |speed| {
@@ -299,12 +303,12 @@ fn bounce() -> Result<String, Failure> {
     let found = found.ok_or("there is no bounce")?.frequency;
     let mut out = format!(
         "## Bounce\n\n\
-         The regime `pitch_and_bounce`, ten low joints of 0.75 in every 39 ft on both rails alike, the loaded \
-         car: standard deviation of the body's\nvertical acceleration over the front truck, and least wheel \
-         load. On its coils the car bounces with {coils:.3} Hz, on coils, contacts and sprung rails\nwith \
-         {found:.3} Hz by linearization without friction: joints come with it at {:.1} mph.\n\n\
-         | speed, mph | deviation, g, wedge friction 0.4 | wedge friction 0.1 | least wheel load, %, 0.4 | 0.1 \
-         |\n|---|---|---|---|---|\n",
+         The regime `pitch_and_bounce`, ten low joints of 0.75 in every 39 ft on both rails alike, the \
+         loaded car: standard deviation of the body's\nvertical acceleration over the front truck, and least \
+         wheel load. On its coils the car bounces with {coils:.3} Hz, on coils, contacts and sprung \
+         rails\nwith {found:.3} Hz by linearization without friction: joints come with it at {:.1} mph.\n\n\
+         | speed, mph | deviation, g, wedge friction 0.4 | wedge friction 0.1 | least wheel load, %, 0.4 | \
+         0.1 |\n|---|---|---|---|---|\n",
         found * 39.0 * 0.3048 / MPH
     );
     let speeds = [40.0, 45.0, 50.0, 55.0, 60.0, 65.0, 70.0];
@@ -329,8 +333,9 @@ fn bounce() -> Result<String, Failure> {
             );
         }
     }
-    out += "\nWith friction of 0.1 the coils go solid from 50 mph on. That stiffens the car: it bounces most above the \
-            speed of its\nfrequency, and falls out of step beyond. With friction of 0.4 there is no such resonance.\n";
+    out += "\nWith friction of 0.1 the coils go solid from 50 mph on. That stiffens the car: it bounces most \
+            above the speed of its\nfrequency, and falls out of step beyond. With friction of 0.4 there is \
+            no such resonance.\n";
     Ok(out)
 }
 
@@ -342,9 +347,9 @@ fn late(values: &[f64]) -> f64 {
 
 fn flange_contact() -> Result<String, Failure> {
     let mut out = "## Flange contact in curves\n\n\
-         The loaded car at 25 mph in curves without superelevation, after 20 s. Free rolling on cones of 1:20 \
-         needs a shift of r a/(λR); the\nflange of the AAR-1B (narrow) touches at 0.55 in. The field tells \
-         flange contact above about 2°.\n\n\
+         The loaded car at 25 mph in curves without superelevation, after 20 s. Free rolling on cones of \
+         1:20 needs a shift of r a/(λR); the\nflange of the AAR-1B (narrow) touches at 0.55 in. The field \
+         tells flange contact above about 2°.\n\n\
          | curve, deg | leading axle to the outside, in | free rolling, in | its angle of attack, mrad | L/V \
          of its outer wheel |\n|---|---|---|---|---|\n"
         .to_owned();
@@ -375,10 +380,11 @@ fn flange_contact() -> Result<String, Failure> {
 fn turning_moment() -> Result<String, Failure> {
     let result = run("car_spiral_loaded", &set(&["truck.side_bearing.kind=roller"]))?;
     let mut out = "## Center plates in a spiral\n\n\
-         The loaded car with roller side bearings runs into a curve of 7.5° by a spiral of 150 ft. A flat plate \
-         of radius R that slides all\nover turns with 2/3 μ W R: 114 kip·in at 14 in, μ = 0.2 and half of the \
-         body's weight. One that bears on its edge alone turns with μ W R,\nhalf as much again: numbers between \
-         both are those of a plate on which the load lies unevenly, as the twist of a spiral puts it.\n\n| truck | turning moment, largest, kip·in | plate load there, kip | 2/3 μ W R, kip·in \
+         The loaded car with roller side bearings runs into a curve of 7.5° by a spiral of 150 ft. A flat \
+         plate of radius R that slides all\nover turns with 2/3 μ W R: 114 kip·in at 14 in, μ = 0.2 and half \
+         of the body's weight. One that bears on its edge alone turns with μ W R,\nhalf as much again: \
+         numbers between both are those of a plate on which the load lies unevenly, as the twist of a spiral \
+         puts it.\n\n| truck | turning moment, largest, kip·in | plate load there, kip | 2/3 μ W R, kip·in \
          |  |\n|---|---|---|---|---|\n"
         .to_owned();
     for truck in 1..=2 {
@@ -407,8 +413,9 @@ fn turning_moment() -> Result<String, Failure> {
 
 fn rock_and_roll() -> Result<String, Failure> {
     let mut out = "## Rock and roll\n\n\
-         Ten staggered low joints of 0.75 in every 39 ft, the loaded car: roll of the body, greatest less least, \
-         degrees. The field tells the\nlargest roll at 12 to 24 mph; less friction of the wedges rolls more.\n\n\
+         Ten staggered low joints of 0.75 in every 39 ft, the loaded car: roll of the body, greatest less \
+         least, degrees. The field tells the\nlargest roll at 12 to 24 mph; less friction of the wedges \
+         rolls more.\n\n\
          | speed, mph | wedge friction 0.4 | wedge friction 0.1 |\n|---|---|---|\n"
         .to_owned();
     let speeds = [12.0, 14.0, 16.0, 18.0, 22.0];
@@ -490,7 +497,8 @@ fn headings() -> Result<String, Failure> {
     let mut out = "## A circle of curve\n\n\
          The loaded car through nearly a full circle of 10° at 15 mph without superelevation: forces of all \
          wheels around the circle,\nbeside those a quarter of a circle after its beginning.\n\n\
-         | part of the circle | largest difference of wheel forces | in parts of the static load |\n|---|---|---|\n"
+         | part of the circle | largest difference of wheel forces | in parts of the static load \
+         |\n|---|---|---|\n"
         .to_owned();
     // 3,604 ft a lap at 22 ft/s: 163.8 s.
     let overrides = [

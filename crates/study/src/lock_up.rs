@@ -1,11 +1,11 @@
 //! Lock-up maps: where a wedge locks up over two of its parameters, by closed form and by runs.
 //!
-//! The closed form is the lock-up margin of the massless wedge ([`mechanics::quasi_static`]). The run is a rig:
-//! the case's wedge starts in equilibrium, the bolster presses it against the column at a constant speed and
-//! does nothing else. The faces close on the wedge: if it slides at both faces when the rig ends, it gets out
-//! of the way, and its normal force is that of the massless wedge; if it holds at one of them (more than half
-//! of the normal force is carried by points that stick), it is locked, and its force has grown against the
-//! stiffness of the contacts. Neither knows of the other.
+//! The closed form is the lock-up margin of the massless wedge ([`mechanics::quasi_static`]). The run is a
+//! rig: the case's wedge starts in equilibrium, the bolster presses it against the column at a constant speed
+//! and does nothing else. The faces close on the wedge: if it slides at both faces when the rig ends, it gets
+//! out of the way, and its normal force is that of the massless wedge; if it holds at one of them (more than
+//! half of the normal force is carried by points that stick), it is locked, and its force has grown against
+//! the stiffness of the contacts. Neither knows of the other.
 //!
 //! Limits: other motions of the case are left out. Near the boundary the rig is too short to tell: a wedge
 //! that slides must be pressed the farther the smaller its margin.
@@ -119,8 +119,8 @@ impl Axis {
                 // The corners alone would not meet a crown.
                 "column_face.grid=[9, 2]".to_owned(),
                 format!(
-                    "column_face.wedge_surface={{ shape = \"crown\", radius = \"{value} m\", direction = \"up\" \
-                     }}"
+                    "column_face.wedge_surface={{ shape = \"crown\", radius = \"{value} m\", direction = \
+                     \"up\" }}"
                 ),
             ],
             Self::Yaw => vec![format!("bolster.yaw={value} rad")],
@@ -264,7 +264,8 @@ pub struct Cell {
     pub expected_ratio: Option<f64>,
     /// What the rig found.
     pub found: Found,
-    /// Parts of the normal forces of column and slope that are carried by points that stick, at the rig's end.
+    /// Parts of the normal forces of column and slope that are carried by points that stick, at the rig's
+    /// end.
     pub holding: [f64; 2],
     /// The column's normal force along the track over the load (the coil's force less the weight), at the
     /// rig's end.

@@ -1,9 +1,9 @@
 //! Averages and extremes, defined so that two people compute the same.
 //!
 //! - Energies per cycle are means over whole cycles after the first half period.
-//! - Branch means run over the output times after the first half period in a window that depends on the damping
-//!   ([`window_of`]): with constant damping, |ż_b| > 0.9 of its peak, and with variable damping |ż_b| > 0.25 of
-//!   its peak and z_b < -0.3 of the amplitude.
+//! - Branch means run over the output times after the first half period in a window that depends on the
+//!   damping ([`window_of`]): with constant damping, |ż_b| > 0.9 of its peak, and with variable damping |ż_b|
+//!   > 0.25 of its peak and z_b < -0.3 of the amplitude.
 //! - Equivalent viscous damping is W/(π ω A²).
 //! - Equivalent stiffness and damping of a force are those of its first harmonic, see [`first_harmonic`].
 
@@ -12,9 +12,10 @@ use serde::{Deserialize, Serialize};
 use wedge::parameters::{Damping, Parameters};
 
 /// The windows of branch means, in words.
-pub const WINDOWS: &str = "mid stroke (constant damping): the bolster is faster than 0.9 of its peak speed; lower \
-                           stroke (variable damping): it is faster than 0.25 of its peak speed and lower than 0.3 \
-                           of its amplitude below its middle; both at the output times after the first half period";
+pub const WINDOWS: &str = "mid stroke (constant damping): the bolster is faster than 0.9 of its peak speed; \
+                           lower stroke (variable damping): it is faster than 0.25 of its peak speed and \
+                           lower than 0.3 of its amplitude below its middle; both at the output times after \
+                           the first half period";
 
 /// The name of the window of the branch means of a damping, see [`WINDOWS`] and [`Cycle::branch`].
 #[must_use]

@@ -199,7 +199,8 @@ pub struct Averages {
     /// Damping of the same first harmonic: of all that resists the bolster.
     #[serde(default)]
     pub equivalent_damping_on_bolster: Option<SummaryValue>,
-    /// The window of the means below ([`window_of`](crate::metrics::window_of)): `mid stroke`, `lower stroke`.
+    /// The window of the means below ([`window_of`](crate::metrics::window_of)): `mid stroke`, `lower
+    /// stroke`.
     #[serde(default)]
     pub window: String,
     /// Means over the window where the bolster goes up, by column.

@@ -33,8 +33,8 @@ fn at(result: &RunResult, name: &str, unit: f64, time: f64) -> f64 {
     column(result, name, unit)[(time / 0.01).round() as usize]
 }
 
-/// Pressed by 0.03 in, the wedge of friction 0.2 slides under the force of the quasi-static wedge on which the
-/// faces close.
+/// Pressed by 0.03 in, the wedge of friction 0.2 slides under the force of the quasi-static wedge on which
+/// the faces close.
 #[test]
 fn a_pressed_wedge_with_a_positive_margin_slides_under_the_quasi_static_force() {
     let case = builtin::case("lock_up_friction_0.2").unwrap();
@@ -80,8 +80,8 @@ fn a_locked_wedge_grows_against_the_stiffness_of_its_contacts() {
     }
 }
 
-/// Forced down, the locked bolster moves under μ N_c, no sooner; raised by about d/tan θ it is free, and slides
-/// under the force of the quasi-static wedge going up.
+/// Forced down, the locked bolster moves under μ N_c, no sooner; raised by about d/tan θ it is free, and
+/// slides under the force of the quasi-static wedge going up.
 #[test]
 fn a_locked_wedge_is_freed_by_the_force_of_its_friction_and_by_raising_the_bolster() {
     let result = run("lock_up_friction_0.4", &[]);
@@ -95,8 +95,9 @@ fn a_locked_wedge_is_freed_by_the_force_of_its_friction_and_by_raising_the_bolst
     // Before, the wedge does not move along the column but for its bristles.
     let before = at(&result, "wedge_z", INCH, 1.5) - at(&result, "wedge_z", INCH, 0.0);
     assert!(before.abs() < 0.005, "{before} in");
-    // Raised from -0.2 in: first column and slope turn over under the locked force (K/2), then the slope slips
-    // and the force falls, then the column turns over the other way, and the wedge goes up with the bolster.
+    // Raised from -0.2 in: first column and slope turn over under the locked force (K/2), then the slope
+    // slips and the force falls, then the column turns over the other way, and the wedge goes up with the
+    // bolster.
     let (angle, friction) = (37.5_f64.to_radians(), 0.4_f64.atan());
     let case = builtin::case("lock_up_friction_0.4").unwrap();
     let wedge = closed_form::wedge(&case.parameters);
@@ -225,8 +226,8 @@ fn inches(result: &truck::run::TruckResult, name: &str) -> Vec<f64> {
 }
 
 type Nest = (&'static str, [f64; 3], Option<[f64; 3]>);
-/// Of each damping: preload, stiffness and solid travel of a load coil; the same of a control coil that stands
-/// on the side frame.
+/// Of each damping: preload, stiffness and solid travel of a load coil; the same of a control coil that
+/// stands on the side frame.
 const DAMPINGS: [Nest; 2] = [
     ("constant", [15_403.8, 6468.7, 1.306], None),
     (
@@ -236,13 +237,14 @@ const DAMPINGS: [Nest; 2] = [
     ),
 ];
 
-/// The force of a coil pressed by `travel` from the nominal layout, lbf: 250,000 lbf/in beyond its solid travel.
+/// The force of a coil pressed by `travel` from the nominal layout, lbf: 250,000 lbf/in beyond its solid
+/// travel.
 fn coil_force([preload, stiffness, solid]: [f64; 3], travel: f64) -> f64 {
     preload + stiffness * travel + 250_000.0 * (travel - solid).max(0.0)
 }
 
-/// A pressed nest carries the force of its coils, beyond solid height 250,000 lbf more for each inch of each of
-/// them, and the friction of its columns.
+/// A pressed nest carries the force of its coils, beyond solid height 250,000 lbf more for each inch of each
+/// of them, and the friction of its columns.
 #[test]
 fn a_bottomed_nest_carries_what_is_beyond_its_solid_height() {
     for (damping, load_coil, control_coil) in DAMPINGS {
@@ -324,8 +326,8 @@ fn a_lifted_car_strikes_its_coils_at_the_speed_of_its_fall() {
     }
 }
 
-/// Ten times the load rests where solid coils, adapters and, with variable damping, pressed wedges carry it: in
-/// equilibrium at the closed form; a released car comes to rest about it.
+/// Ten times the load rests where solid coils, adapters and, with variable damping, pressed wedges carry it:
+/// in equilibrium at the closed form; a released car comes to rest about it.
 #[test]
 fn ten_times_the_load_rests_on_solid_coils() {
     const SOLID: f64 = 250_000.0;

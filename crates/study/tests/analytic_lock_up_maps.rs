@@ -15,8 +15,8 @@ fn map_of(texts: [&str; 2], points: usize) -> LockUpMap {
     map(&case, spans(texts), points, 2, |_| ControlFlow::Continue(())).unwrap()
 }
 
-/// Away from the boundary every rig finds what the margin says; where it slides, its force is the quasi-static
-/// one.
+/// Away from the boundary every rig finds what the margin says; where it slides, its force is the
+/// quasi-static one.
 #[test]
 fn rigs_agree_with_the_lock_up_margin_away_from_its_boundary() {
     for (texts, near) in [

@@ -261,16 +261,26 @@ fn a_case_of_everything_reads_back() {
         [side_frame]
         toe = " 0.1 deg  in "
         center = ["1 in", "2 in", "3 mm"]
-        vertical = { shape = "swept_sine", amplitude = "1 mm", start_frequency = "0 Hz", end_frequency = "600 rpm", duration = "4 s" }
+        vertical.shape = "swept_sine"
+        vertical.amplitude = "1 mm"
+        vertical.start_frequency = "0 Hz"
+        vertical.end_frequency = "600 rpm"
+        vertical.duration = "4 s"
         [bolster]
         longitudinal = { shape = "triangle", amplitude = "0.1 in", frequency = "1 Hz" }
         vertical = [
             { shape = "sine", amplitude = "1 in", frequency = "2 rad/s", phase = "90 deg" },
             { shape = "constant", value = "-1 in" },
-            { shape = "table", points = [["-1 s", "0 in"], ["1 s", "1 in"], ["3 s", "-1 mm"], ["30 s", "0 in"]] },
+            { shape = "table", points = [
+                ["-1 s", "0 in"], ["1 s", "1 in"], ["3 s", "-1 mm"], ["30 s", "0 in"],
+            ] },
             "0.5 in",
         ]
-        yaw = { shape = "ramp", amplitude = "12 mrad", start = "1 s", duration = "500 ms", profile = "linear" }
+        yaw.shape = "ramp"
+        yaw.amplitude = "12 mrad"
+        yaw.start = "1 s"
+        yaw.duration = "500 ms"
+        yaw.profile = "linear"
         roll = { shape = "ramp", amplitude = "1 deg", duration = "1 s" }
         [environment]
         gravity = "0 m/s^2"

@@ -1,5 +1,5 @@
-//! Loss and equivalent damping against closed forms: dampers, Coulomb friction over amplitude, frequency, load
-//! and toe, bristles below break-away.
+//! Loss and equivalent damping against closed forms: dampers, Coulomb friction over amplitude, frequency,
+//! load and toe, bristles below break-away.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::PI;
@@ -81,8 +81,8 @@ fn analytic_equivalents_of_a_damper_and_of_coulomb_friction() {
     assert_eq!((slider.damping_ratio, slider.stiffness), (None, None));
 }
 
-/// A wedge without friction whose coil has a damper: the equivalent damping is the coil's, but for the contacts'
-/// elasticity, in inverse proportion to their stiffness; without it by extrapolation.
+/// A wedge without friction whose coil has a damper: the equivalent damping is the coil's, but for the
+/// contacts' elasticity, in inverse proportion to their stiffness; without it by extrapolation.
 #[test]
 fn analytic_a_coil_with_a_damper_has_its_own_damping() {
     // Where the coil presses all the time.
@@ -116,7 +116,8 @@ fn analytic_loss_over_amplitude_frequency_load_and_toe() {
     const RIGID: &str = "contact.stiffness=1e7 lbf/in";
     let at = |amplitude: &str, frequency: &str, more: &[&str]| {
         let motion = format!(
-            "bolster.vertical={{ shape = \"sine\", amplitude = \"{amplitude} in\", frequency = \"{frequency} Hz\" }}"
+            "bolster.vertical={{ shape = \"sine\", amplitude = \"{amplitude} in\", frequency = \"{frequency} \
+             Hz\" }}"
         );
         let set = [&["friction.slope=0", &motion], more].concat();
         let (energy, closed) = wedge("cdrun_toe_0_psi_0", &set);
@@ -157,7 +158,8 @@ fn analytic_loss_over_amplitude_frequency_load_and_toe() {
 fn analytic_bristles_below_break_away_lose_what_their_dashpots_lose() {
     let at = |amplitude: &str, frequency: &str| {
         let motion = format!(
-            "bolster.vertical={{ shape = \"sine\", amplitude = \"{amplitude} in\", frequency = \"{frequency} Hz\" }}"
+            "bolster.vertical={{ shape = \"sine\", amplitude = \"{amplitude} in\", frequency = \"{frequency} \
+             Hz\" }}"
         );
         let (energy, _) = wedge(
             "cdrun_toe_0_psi_0",

@@ -229,7 +229,8 @@ fn input_what_has_no_cycle_says_why() {
         (&["bolster.vertical=0 in"][..], "does not move up and down"),
         (
             &[
-                "bolster.vertical={ shape = \"ramp\", amplitude = \"0.1 in\", start = \"0 s\", duration = \"1 s\" }",
+                "bolster.vertical={ shape = \"ramp\", amplitude = \"0.1 in\", start = \"0 s\", \
+                 duration = \"1 s\" }",
             ],
             "not one sine or triangle",
         ),

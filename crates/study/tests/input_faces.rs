@@ -10,10 +10,15 @@ use wedge::face::{FaceDirection, Grid};
 const FACES: &str = r#"
 [column_face]
 grid = [5, 3]
-counterface = { shape = "table", direction = "up", points = [["-4 in", "0.03 in"], ["-1 in", "0.001 in"], ["1 in", "0 in"], ["4 in", "0.02 in"]] }
+counterface = { shape = "table", direction = "up", points = [
+    ["-4 in", "0.03 in"], ["-1 in", "0.001 in"], ["1 in", "0 in"], ["4 in", "0.02 in"],
+] }
 sliding_friction = 0.3
 stribeck_speed = "0.05 in/s"
-wedge_wear = [["-9 in", "-9 in", "0 in"], ["-9 in", "9 in", "0.01 in"], ["9 in", "-9 in", "0.02 in"], ["9 in", "9 in", "0.04 in"]]
+wedge_wear = [
+    ["-9 in", "-9 in", "0 in"], ["-9 in", "9 in", "0.01 in"],
+    ["9 in", "-9 in", "0.02 in"], ["9 in", "9 in", "0.04 in"],
+]
 
 [slope_face]
 grid = [9, 2]
@@ -21,7 +26,12 @@ wedge_surface = { shape = "crown", radius = "90 in", direction = "up" }
 counterface = { shape = "hollow", radius = "200 in", direction = "across" }
 friction_half_load = "30000 lbf"
 friction_map = [[1.0, 1.0], [0.5, 0.75]]
-pad = { stiffness = "4e5 lbf/in", damping = "50 lbf s/in", hardening = "0.02 in", friction = 0.6, shear_stiffness = "1e5 lbf/in", shear_damping = "100 lbf s/in" }
+pad.stiffness = "4e5 lbf/in"
+pad.damping = "50 lbf s/in"
+pad.hardening = "0.02 in"
+pad.friction = 0.6
+pad.shear_stiffness = "1e5 lbf/in"
+pad.shear_damping = "100 lbf s/in"
 "#;
 
 fn read(text: &str) -> Result<Case, CaseError> {
@@ -140,8 +150,8 @@ fn input_mistakes_in_faces_are_told() {
         ),
         (
             "[slope_face]\n\
-             counterface_wear = [[\"-9 in\", \"-9 in\", \"0 in\"], [\"-9 in\", \"9 in\", \"0 in\"], [\"9 in\", \
-             \"-9 in\", \"0 in\"], [\"9 in\", \"9 in\", \"0 in\"]]",
+             counterface_wear = [[\"-9 in\", \"-9 in\", \"0 in\"], [\"-9 in\", \"9 in\", \"0 in\"], [\"9 \
+             in\", \"-9 in\", \"0 in\"], [\"9 in\", \"9 in\", \"0 in\"]]",
             "four places up and four across",
         ),
         ("[column_face]\nsliding_friction = 11", "between 0 and 10"),
@@ -246,8 +256,8 @@ fn analytic_a_run_with_refined_faces_has_their_pressures() {
 fn limits_too_few_points_on_a_curved_face_are_told() {
     let warned = |grid: &str, surface: &str| -> Vec<String> {
         let text = format!(
-            "[slope_face]\ngrid = {grid}\nwedge_surface = {surface}\n[simulation]\nduration = \"0.3 s\"\nstart = \
-             \"equilibrium\"\n"
+            "[slope_face]\ngrid = {grid}\nwedge_surface = {surface}\n[simulation]\nduration = \"0.3 \
+             s\"\nstart = \"equilibrium\"\n"
         );
         let whole = Run::new(&read(&text).unwrap()).unwrap().finish(|_| ());
         let warnings = whole.summary.warnings.into_iter();

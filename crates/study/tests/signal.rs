@@ -175,8 +175,8 @@ fn limits_deviation_on_a_large_mean() {
     );
 }
 
-/// A sine of amplitude A has the variance A²/2; under Hann's window its density stands within two lines of its
-/// frequency, of which the middle one is A²/2 over 1.5 lines if the frequency is one of them.
+/// A sine of amplitude A has the variance A²/2; under Hann's window its density stands within two lines of
+/// its frequency, of which the middle one is A²/2 over 1.5 lines if the frequency is one of them.
 #[test]
 fn analytic_issue_036_the_density_of_a_sine_is_its_variance() {
     let (interval, amplitude) = (0.005, 3.0);
@@ -196,8 +196,8 @@ fn analytic_issue_036_the_density_of_a_sine_is_its_variance() {
             (spectrum.peak() - frequency).abs() <= spectrum.resolution(),
             "{frequency} Hz"
         );
-        // Twenty lines off, Hann's window lets through (1/(20 π (20² - 1)))² = 1.6e-9 of the peak. The mean over a
-        // broken cycle stands at the first lines.
+        // Twenty lines off, Hann's window lets through (1/(20 π (20² - 1)))² = 1.6e-9 of the peak. The mean
+        // over a broken cycle stands at the first lines.
         let far = spectrum.frequencies.iter().zip(&spectrum.density).skip(3);
         let far = far.filter(|(own, _)| (**own - frequency).abs() > 20.0 * spectrum.resolution());
         let most = far.map(|(_, density)| *density).fold(0.0, f64::max);
@@ -210,8 +210,8 @@ fn analytic_issue_036_the_density_of_a_sine_is_its_variance() {
     assert!((middle / expected - 1.0).abs() < 1e-9, "{middle} {expected}");
 }
 
-/// White noise of variance s² at a rate f has the density 2 s²/f at all frequencies: the mean over 511 lines of
-/// 255 segments has a standard deviation of about 0.4 %, a single line one of about 8 %.
+/// White noise of variance s² at a rate f has the density 2 s²/f at all frequencies: the mean over 511 lines
+/// of 255 segments has a standard deviation of about 0.4 %, a single line one of about 8 %.
 #[test]
 fn analytic_issue_036_white_noise_is_flat() {
     let (interval, rows) = (0.01, 1 << 17);

@@ -81,7 +81,8 @@ fn load_times_path(case: &Case) -> [f64; 2] {
     sums
 }
 
-/// The volume of a face is K ∫ N |v| dt / H, computed apart from it, and is what its map holds, on every grid.
+/// The volume of a face is K ∫ N |v| dt / H, computed apart from it, and is what its map holds, on every
+/// grid.
 #[test]
 fn analytic_volumes_are_those_of_archard_on_every_grid() {
     let mut first: Option<[f64; 2]> = None;
@@ -115,7 +116,8 @@ fn analytic_volumes_are_those_of_archard_on_every_grid() {
             }
             assert!((held - volume).abs() < 1e-9 * volume, "{points}: {held} {volume}");
         }
-        // Energies of points are what the ledger says. Finer grids resist tilting less: forces differ somewhat.
+        // Energies of points are what the ledger says. Finer grids resist tilting less: forces differ
+        // somewhat.
         assert!(last.mismatch < 1e-3, "{points}: {}", last.mismatch);
         let volumes = [0, 1].map(|face| last.faces[face].volume);
         let coarse = *first.get_or_insert(volumes);
@@ -132,7 +134,8 @@ fn analytic_volumes_are_those_of_archard_on_every_grid() {
 fn analytic_a_flat_block_under_constant_load() {
     let case = read(
         "constant",
-        "[friction]\ncolumn = 0\nslope = 0\n[contact]\ndamping = \"200 lbf s/in\"\n[column_face]\ngrid = [3, 3]\n",
+        "[friction]\ncolumn = 0\nslope = 0\n[contact]\ndamping = \"200 lbf s/in\"\n[column_face]\ngrid = [3, \
+         3]\n",
     );
     let parameters = &case.parameters;
     let mut wedge = Wedge::new(parameters.clone()).unwrap();
@@ -297,14 +300,15 @@ fn limits_a_stop_keeps_the_states_before() {
     assert!((map.depth(-half[0], -half[1]) - depth(0)).abs() <= 1e-12 * depth(0));
 }
 
-/// A flat block that a constant force presses: each place of the column is worn by the way that the block makes
-/// over it, `2 K p / H` times the part of -A .. A within half a length of the place in a cycle. The volume is the
-/// wedge's times the ratio.
+/// A flat block that a constant force presses: each place of the column is worn by the way that the block
+/// makes over it, `2 K p / H` times the part of -A .. A within half a length of the place in a cycle. The
+/// volume is the wedge's times the ratio.
 #[test]
 fn analytic_a_counterface_is_worn_where_the_wedge_slides() {
     let case = read(
         "constant",
-        "[friction]\ncolumn = 0\nslope = 0\n[contact]\ndamping = \"200 lbf s/in\"\n[column_face]\ngrid = [9, 3]\n",
+        "[friction]\ncolumn = 0\nslope = 0\n[contact]\ndamping = \"200 lbf s/in\"\n[column_face]\ngrid = [9, \
+         3]\n",
     );
     let (cycles, ratio) = (1000.0, 0.6);
     let plan = Plan {
@@ -348,11 +352,12 @@ fn analytic_a_counterface_is_worn_where_the_wedge_slides() {
     };
     let map = counterfaces[0].map.as_ref().unwrap();
     let [up, across] = map.places();
-    // The places in time of Gauss's rule miss the end of the stroke by a part of a step, where nothing slides.
+    // The places in time of Gauss's rule miss the end of the stroke by a part of a step, where nothing
+    // slides.
     let end = -0.5 * height - amplitude;
     assert!(up[0] > end - 1e-9 && up[0] < end + 0.03 * amplitude, "{}", up[0]);
-    // A sixteenth of the face is less than the travel: over the plateau and the middle of the ramps the hats see
-    // straight lines alone.
+    // A sixteenth of the face is less than the travel: over the plateau and the middle of the ramps the hats
+    // see straight lines alone.
     let spacing = height / 16.0;
     for side in [across[0], 0.0, across[across.len() - 1]] {
         for (place, tolerance) in [
@@ -379,8 +384,10 @@ fn analytic_a_counterface_is_worn_where_the_wedge_slides() {
 /// coefficient: depths on wedge and counterface sum to its depths at every point, uneven as they are.
 #[test]
 fn limits_short_travel_wears_both_partners_as_one() {
-    let lines = "[bolster]\nvertical = { shape = \"sine\", amplitude = \"0.02 in\", frequency = \"0.318 Hz\" }\n\
-                 [column_face]\ngrid = [5, 5]\n[slope_face]\ngrid = [5, 5]\n[side_frame]\nyaw = \"0.1 deg\"\n";
+    let lines = "[bolster]\nvertical = \
+                 { shape = \"sine\", amplitude = \"0.02 in\", frequency = \"0.318 Hz\" }\n\
+                 [column_face]\ngrid = [5, 5]\n[slope_face]\ngrid = [5, 5]\n[side_frame]\nyaw = \"0.1 \
+                 deg\"\n";
     let case = read("constant", lines);
     let law = |times: f64| {
         WearLaw::Archard(Archard {

@@ -112,10 +112,9 @@ impl Default for WedgePlace {
 /// Where a truck stands in a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mount {
-    /// The numbers of its bodies there, in the order of [`WHEELSETS`] to [`CAR_BODY`] and the inboard halves of
-    /// split wedges ([`numbers`](crate::numbers)). Two may be one: the
-    /// bolster and a car that is rigid with it. Of wheelsets that spin it is their carriers
-    /// (`Model::add_carrier`).
+    /// The numbers of its bodies there, in the order of [`WHEELSETS`] to [`CAR_BODY`] and the inboard halves
+    /// of split wedges ([`numbers`](crate::numbers)). Two may be one: the bolster and a car that is rigid
+    /// with it. Of wheelsets that spin it is their carriers (`Model::add_carrier`).
     pub bodies: [usize; NUMBERS],
     /// Its center, m.
     pub center: [f64; 3],

@@ -2,9 +2,9 @@
 //!
 //! Each half leans on three planes: its half of the slope, its half of the column, and the side of the pocket
 //! on its side. The slopes of the halves are inclined across in opposite senses, so that the control coil
-//! presses the halves apart, against the sides (`slope_across` positive), or together (negative). Between them
-//! is a plane with friction, vertical or inclined: an outboard half that leans over the inboard one is carried
-//! and pushed outboard by it.
+//! presses the halves apart, against the sides (`slope_across` positive), or together (negative). Between
+//! them is a plane with friction, vertical or inclined: an outboard half that leans over the inboard one is
+//! carried and pushed outboard by it.
 //!
 //! Without friction a half that the coil presses with F has the normal force N_s = F / (sin θ cos β) on its
 //! slope and the thrust F tan β / sin θ across; where halves are pressed together, that thrust is N cos γ of

@@ -87,8 +87,9 @@ fn analytic_a_frictionless_wedge_presses_on_three_planes() {
     }
 }
 
-/// A bolster that is moved aside by d: each wedge follows its slope, z = t (d - y), t = tan β / sin θ, against
-/// the coil (k) and its shear (k_s): t² k k_s / (k_s + t² k) a wedge. The thrusts of left and right cancel.
+/// A bolster that is moved aside by d: each wedge follows its slope, z = t (d - y), t = tan β / sin θ,
+/// against the coil (k) and its shear (k_s): t² k k_s / (k_s + t² k) a wedge. The thrusts of left and right
+/// cancel.
 #[test]
 fn analytic_mirrored_wedges_center_the_bolster() {
     let shear = 1317.0;

@@ -102,8 +102,8 @@ fn analytic_halves_touch_in_the_nominal_layout() {
     }
 }
 
-/// Pressed apart, each half bears on three planes: N_s = F / (sin θ cos β), N_c = F cot θ, and the side of the
-/// pocket has F tan β / sin θ; nothing goes over between them.
+/// Pressed apart, each half bears on three planes: N_s = F / (sin θ cos β), N_c = F cot θ, and the side of
+/// the pocket has F tan β / sin θ; nothing goes over between them.
 #[test]
 fn analytic_halves_that_are_pressed_apart_bear_on_the_sides_of_the_pocket() {
     let parameters = frictionless(ACROSS, 0.0, 0.6);

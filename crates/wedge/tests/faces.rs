@@ -168,8 +168,8 @@ fn analytic_even_maps_raise_the_wedge_as_even_wear_does() {
     assert!((worn - rise).abs() < 0.05 * rise, "{worn} {rise}");
 }
 
-/// A counterface worn by a cubic map along either coordinate is the counterface with that cubic as its table, at
-/// both faces: places and senses are right.
+/// A counterface worn by a cubic map along either coordinate is the counterface with that cubic as its table,
+/// at both faces: places and senses are right.
 #[test]
 fn analytic_a_cubic_map_of_a_counterface_is_its_table() {
     let cubic = |s: f64| 2.0 * s * s - 20.0 * s * s * s + 0.01 * s;

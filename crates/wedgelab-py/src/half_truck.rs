@@ -135,7 +135,9 @@ fn of_files(py: Python<'_>, path: &Path, files: &RunFiles, settings: &Settings) 
 impl NativeHalfTruckCase {
     /// From a run file, or the name of a built-in run.
     #[classmethod]
-    #[pyo3(signature = (path, system, data, input, yaw, options, duration, interval, start, all_outputs, units, tolerance, set))]
+    #[pyo3(signature = (
+        path, system, data, input, yaw, options, duration, interval, start, all_outputs, units, tolerance, set
+    ))]
     fn read(
         class: &Bound<'_, PyType>,
         path: PathBuf,

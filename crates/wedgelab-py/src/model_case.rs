@@ -28,8 +28,8 @@ fn over<C: Send>(
     guarded(py, || make(values).map_err(|error| case_error(py, &error)))
 }
 
-/// A class for the cases of a model: its name here and in Python, the case, its module of built-in ones, the origin of its
-/// results. (Classes for Python cannot be generic.)
+/// A class for the cases of a model: its name here and in Python, the case, its module of built-in ones, the
+/// origin of its results. (Classes for Python cannot be generic.)
 macro_rules! model_case {
     ($native:ident, $name:literal, $case:ident, $builtin:ident, $origin:ident, $about:literal) => {
         #[doc = $about]

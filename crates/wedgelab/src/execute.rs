@@ -258,10 +258,14 @@ pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone
 
 /// What the columns of the table are.
 pub const TABLE_NOTE: &str = "\
-Mean force: vertical wedge force (column friction on the side frame, positive up), averaged while the bolster goes up or down, over
-the output times after the first half period in the window: mid stroke (constant damping), the bolster faster than 0.9 of its peak
-speed; lower stroke (variable damping), faster than 0.25 of it, and lower than 0.3 of its amplitude below its middle. Energy per
-cycle: lost in friction at the side frame. Ledger residual: the largest at any output time, over the largest of work, losses and
+Mean force: vertical wedge force (column friction on the side frame, positive up), averaged while the \
+bolster goes up or down, over
+the output times after the first half period in the window: mid stroke (constant damping), the bolster \
+faster than 0.9 of its peak
+speed; lower stroke (variable damping), faster than 0.25 of it, and lower than 0.3 of its amplitude below \
+its middle. Energy per
+cycle: lost in friction at the side frame. Ledger residual: the largest at any output time, over the largest \
+of work, losses and
 change of stored energy.";
 
 fn up(summary: &Summary) -> Option<&SummaryValue> {

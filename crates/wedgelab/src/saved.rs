@@ -1,7 +1,7 @@
 //! Runs in parts: a state that a run is saved in, in one file with its case, and goes on from.
 //!
-//! The file is JSON: the schema, the case as it is printed, and the state, every number with all of its bits. A
-//! state belongs to its case: a run of another one does not go on from it.
+//! The file is JSON: the schema, the case as it is printed, and the state, every number with all of its bits.
+//! A state belongs to its case: a run of another one does not go on from it.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;

@@ -10,8 +10,8 @@ use study::half_truck::catalog;
 use crate::commands::run::built_in_names;
 use crate::failure::{Failure, Message};
 
-/// Says which command runs the built-in case or half-truck of this name, to the user of one that does not take
-/// it; `None` if nothing has this name.
+/// Says which command runs the built-in case or half-truck of this name, to the user of one that does not
+/// take it; `None` if nothing has this name.
 pub fn built_in_elsewhere(path: &Path) -> Option<Message> {
     let name = &*builtin::own_name(path.to_str()?);
     let (what, command) = match built_in_names().any(|own| own == name) {

@@ -144,7 +144,8 @@ fn input_commands_say_what_they_take() {
     }
 }
 
-/// The empty car on rollers hunts at 70 mph once its axles start 0.4 in off the middle: files and words say so.
+/// The empty car on rollers hunts at 70 mph once its axles start 0.4 in off the middle: files and words say
+/// so.
 #[test]
 fn limits_a_car_on_rollers_hunts_once_disturbed() {
     let folder = tempfile::tempdir().unwrap();

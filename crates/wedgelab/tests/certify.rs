@@ -33,7 +33,8 @@ start = "55 ft"
 
 fn limits(load: &str) -> String {
     format!(
-        "title = \"ours\"\nsource = \"made up\"\n[[limits]]\nname = \"load\"\nquantity = \"least wheel load\"\n\
+        "title = \"ours\"\nsource = \"made up\"\n[[limits]]\nname = \"load\"\nquantity = \"least wheel \
+         load\"\n\
          measure = \"least_load_time\"\nregimes = [\"short\"]\nat_least = \"{load}\"\n"
     )
 }

@@ -92,8 +92,8 @@ fn energy_rows_of_a_study_are_marked_and_keep_their_values() {
     assert!(page.contains("1 failed.") && page.contains("the energy ledger of 1 runs does not close"));
 }
 
-/// `wedgelab energy` tells the balance and every division, and writes what it has told; without a cycle it says
-/// why.
+/// `wedgelab energy` tells the balance and every division, and writes what it has told; without a cycle it
+/// says why.
 #[test]
 fn energy_of_a_cycle_is_told_and_written() {
     let folder = tempfile::tempdir().unwrap();

@@ -9,7 +9,8 @@ use std::path::Path;
 
 use common::{done, wedgelab};
 
-const STUDY: &str = "case = \"vdrun_toe_0_psi_0\"\nsampling = \"full_factorial\"\n[set]\nsimulation.duration = \"0.1 s\"\n\
+const STUDY: &str = "case = \"vdrun_toe_0_psi_0\"\nsampling = \"full_factorial\"\n[set]\nsimulation.duration \
+                     = \"0.1 s\"\n\
                      [vary]\nfriction.column = { from = 0.4, to = 0.2, count = 3 }\n";
 
 /// A folder with a case, a study, a track, a run file, a result and a study's folder.

@@ -289,8 +289,8 @@ fn track_show_tells_chord_offsets() {
     assert_eq!(refused.code, Some(2), "{}", refused.err);
 }
 
-/// A run that is saved on its way and goes on has the rows of the whole run, digit by digit; a state of another
-/// case is refused.
+/// A run that is saved on its way and goes on has the rows of the whole run, digit by digit; a state of
+/// another case is refused.
 #[test]
 fn reproducible_a_run_goes_on_from_its_saved_state() {
     let folder = tempfile::tempdir().unwrap();

@@ -72,8 +72,8 @@ fn reproduction_kalkers_coefficients_to_the_digits_of_the_table() {
     assert!((between - 3.734).abs() < 1e-3, "{between}");
 }
 
-/// |Fx| / (μN) over longitudinal creepage: CONTACT's exact theory (example `tractcurv`), and FASTSIM with 30 × 30
-/// cells, Polach, Shen-Hedrick-Elkins in another program.
+/// Ratio |Fx| / (μN) over longitudinal creepage: CONTACT's exact theory (example `tractcurv`), and FASTSIM
+/// with 30 × 30 cells, Polach, Shen-Hedrick-Elkins in another program.
 #[test]
 fn reproduction_traction_curve_of_contact() {
     let patch = traction();

@@ -135,15 +135,21 @@ pub const INSTRUCTIONS: &[&str] = &["callgrind"];
 const ABOUT: &str = "\
 # Benchmarks
 
-How long evaluations, runs, studies and steps take. `cargo xtask bench` measures everything and writes this page; its text is in `xtask/src/bench/page.rs`: edit it there.
-How we compare with other solvers: [race.md](race.md). Why the integrator is built so, with what each change gained: [decisions](decisions).
+How long evaluations, runs, studies and steps take. `cargo xtask bench` measures everything and writes this \
+page; its text is in `xtask/src/bench/page.rs`: edit it there.
+How we compare with other solvers: [race.md](race.md). Why the integrator is built so, with what each change \
+gained: [decisions](decisions).
 
 ## How to read it
 
-- Wall times depend on the machine and on what else it does: compare within one page, and trust ratios of 1.2 and more. Times of `truck`, `wedge_count` and evaluations of the half-truck are CPU times.
+- Wall times depend on the machine and on what else it does: compare within one page, and trust ratios of \
+1.2 and more. Times of `truck`, `wedge_count` and evaluations of the half-truck are CPU times.
 - All runs use one core.
-- A tolerance bounds the error estimate of a step: with Rodas5P in all states and energies, with ESDIRK3 and TR-BDF2 in displacements alone. At 1e-6 branch means of yawed runs are within 0.2 % of those at 1e-9. Runs without yaw are chaotic in detail: their means scatter.
-- The same with another method or tolerance: `cargo run --release -p benchmarks --bin thesis_runs -- METHOD TOLERANCE NAME-PART`.
+- A tolerance bounds the error estimate of a step: with Rodas5P in all states and energies, with ESDIRK3 and \
+TR-BDF2 in displacements alone. At 1e-6 branch means of yawed runs are within 0.2 % of those at 1e-9. Runs \
+without yaw are chaotic in detail: their means scatter.
+- The same with another method or tolerance: `cargo run --release -p benchmarks --bin thesis_runs -- METHOD \
+TOLERANCE NAME-PART`.
 ";
 
 /// What other commands measure.
@@ -152,8 +158,10 @@ const OTHERS: &str = "
 
 | what | command |
 |---|---|
-| the report's page: size, time until it opens, frames a second of the 3D view; the explorer's answer to a change | `cargo xtask test --only viewer` |
-| runs, `run_many` and single steps from Python, against the command line | `python crates/wedgelab-py/benchmarks/overhead.py WEDGELAB` |
+| the report's page: size, time until it opens, frames a second of the 3D view; the explorer's answer to a \
+change | `cargo xtask test --only viewer` |
+| runs, `run_many` and single steps from Python, against the command line | `python \
+crates/wedgelab-py/benchmarks/overhead.py WEDGELAB` |
 | other solvers on the same equations | `cargo xtask race` ([race.md](race.md)) |
 ";
 

@@ -1,4 +1,5 @@
-//! The workspace has layers: a crate depends on crates of lower layers only, never on its own or a higher one.
+//! The workspace has layers: a crate depends on crates of lower layers only, never on its own or a higher
+//! one.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -187,7 +188,8 @@ mod tests {
         assert_eq!(
             found,
             [
-                "`numerics` (layer 1, foundation) depends on `quantity` (layer 1, foundation), in the same layer."
+                "`numerics` (layer 1, foundation) depends on `quantity` (layer 1, foundation), in the same \
+                 layer."
             ]
         );
         assert_eq!(

@@ -1,4 +1,5 @@
 //! Nothing in the repository points outside it: no path of one machine, no file that only its authors have.
+//! No line of a Rust source is longer than [`WIDTH`].
 
 use std::fs;
 use std::path::Path;
@@ -16,6 +17,10 @@ const FORBIDDEN: &[&str] = &[
     concat!("/", "Users/"),
     concat!("C:", "\\Users"),
 ];
+
+/// The longest line of a Rust source, characters: as in `rustfmt.toml`, which leaves comments, strings and
+/// the contents of macros alone.
+const WIDTH: usize = 110;
 
 /// Checks all text files of the repository.
 pub fn check(workspace: &Workspace) -> Outcome {
@@ -79,10 +84,16 @@ impl Search<'_> {
         }
         self.files += 1;
         let shown = file.strip_prefix(self.root).unwrap_or(file).display();
+        let rust = file.extension().is_some_and(|extension| extension == "rs");
         for (number, line) in String::from_utf8_lossy(&bytes).lines().enumerate() {
+            let place = format!("{shown}:{}", number + 1);
             if let Some(path) = offence(line) {
                 self.found
-                    .push(format!("{shown}:{}: names `{path}`: {}", number + 1, line.trim()));
+                    .push(format!("{place}: names `{path}`: {}", line.trim()));
+            }
+            if rust && too_long(line) {
+                self.found
+                    .push(format!("{place}: longer than {WIDTH} characters"));
             }
         }
         Ok(())
@@ -96,6 +107,14 @@ fn offence(line: &str) -> Option<&'static str> {
     let begins = |at: usize| !line[..at].ends_with(inside);
     let offends = |path: &&str| line.match_indices(*path).any(|(at, _)| begins(at));
     FORBIDDEN.iter().copied().find(offends)
+}
+
+/// Returns true for a line of a Rust source that is longer than [`WIDTH`] and could be shorter: rows of
+/// tables in doc comments and addresses cannot be wrapped.
+fn too_long(line: &str) -> bool {
+    let begins = line.trim_start();
+    let row = begins.starts_with("//! |") || begins.starts_with("/// |");
+    line.chars().count() > WIDTH && !row && !line.contains("://")
 }
 
 #[cfg(test)]
@@ -126,6 +145,20 @@ mod tests {
             "work/ and home/",
         ] {
             assert_eq!(offence(line), None, "{line}");
+        }
+    }
+
+    #[test]
+    fn long_lines_are_found_but_for_tables_and_addresses() {
+        let widest = "é".repeat(WIDTH);
+        assert!(!too_long(&widest));
+        assert!(too_long(&format!("{widest}.")));
+        assert!(too_long(&format!("    /// {widest}")));
+        for line in [
+            format!("    /// | a | {widest} |"),
+            format!("//! https://example.org/{widest}"),
+        ] {
+            assert!(!too_long(&line), "{line}");
         }
     }
 

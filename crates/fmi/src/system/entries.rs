@@ -245,8 +245,8 @@ pub(crate) fn internals(system: &System) -> Vec<Entry> {
         .collect()
 }
 
-/// Returns what a system accumulates, then the work of the loads. Of elements of one name the further ones get
-/// a number.
+/// Returns what a system accumulates, then the work of the loads. Of elements of one name the further ones
+/// get a number.
 pub(crate) fn accumulators(system: &System) -> Vec<Entry> {
     let mut known: BTreeMap<String, usize> = BTreeMap::new();
     let own = system.energy_terms().iter().map(move |term| {

@@ -145,7 +145,9 @@ fn nowhere() -> &'static Path {
 /// The files of a folder of the corpus.
 macro_rules! corpus {
     ($folder:literal: $($name:literal),* $(,)?) => {
-        || vec![$(include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/corpus/", $folder, "/", $name)).to_vec()),*]
+        || vec![$(
+            include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/corpus/", $folder, "/", $name)).to_vec()
+        ),*]
     };
 }
 use corpus;

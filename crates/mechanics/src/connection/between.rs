@@ -6,8 +6,8 @@
 //! layout, so that extensions are zero there. Their rates are those that an observer on body B sees.
 //!
 //! Laws see extensions and rates alone. A force f along an extension acts on the coordinates q of both bodies
-//! by virtual work, `Q = -f ∂s/∂q`, so that its power is `-f s˙` to rounding. With w the axis of an angle, `a`
-//! the arm from a body's origin to its marker, and f_j the axes of its reference frame:
+//! by virtual work, `Q = -f ∂s/∂q`, so that its power is `-f s˙` to rounding. With w the axis of an angle,
+//! `a` the arm from a body's origin to its marker, and f_j the axes of its reference frame:
 //!
 //! ```text
 //! ∂s_c/∂x_A = e_c · f_j,   ∂s_c/∂angle_A = w · (a_A × e_c)
@@ -16,8 +16,8 @@
 //! ```
 //!
 //! Their derivatives, which make the geometric stiffness, come from the same lines by dual numbers. Units: m,
-//! rad, N. Defect: `sin` of an angle does not grow beyond 90° (no wedge or warp spring comes near). Limit: the
-//! reference frames of both bodies rest.
+//! rad, N. Defect: `sin` of an angle does not grow beyond 90° (no wedge or warp spring comes near). Limit:
+//! the reference frames of both bodies rest.
 
 use std::ops::Mul;
 

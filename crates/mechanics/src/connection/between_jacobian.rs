@@ -1,9 +1,9 @@
 //! Derivatives of a connection between markers by the coordinates of its two bodies.
 //!
-//! A law gives derivatives by extensions s, their rates and its deflections ([`Local`]). With the levers
-//! `J = ∂s/∂q`, the same for the rates by the rates of coordinates, and `∂s˙/∂q` a quantity p changes by
-//! `∂p/∂q = p_s J + p_s˙ ∂s˙/∂q` and `∂p/∂q˙ = p_s˙ J`. The forces on the coordinates are `Q = -Jᵀ f`, so that
-//! `∂Q/∂q = -Jᵀ ∂f/∂q - Σ f ∂²s/∂q∂q`, the last the geometric stiffness.
+//! A law gives derivatives by extensions s, their rates and its deflections ([`Local`]). With the levers `J =
+//! ∂s/∂q`, the same for the rates by the rates of coordinates, and `∂s˙/∂q` a quantity p changes by `∂p/∂q =
+//! p_s J + p_s˙ ∂s˙/∂q` and `∂p/∂q˙ = p_s˙ J`. The forces on the coordinates are `Q = -Jᵀ f`, so that `∂Q/∂q
+//! = -Jᵀ ∂f/∂q - Σ f ∂²s/∂q∂q`, the last the geometric stiffness.
 
 use super::between::{Between, Both, Change};
 use super::jacobian::{JacobianInputs, Local, Partial};

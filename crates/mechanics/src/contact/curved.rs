@@ -1,8 +1,8 @@
 //! Points on a curved surface, four at a time: contact kinematics, and the tangent.
 //!
 //! As for the plane ([`super::tangent`]), but the normal turns with the point: with K' the curvatures at its
-//! distance, t and e the tangents, τ how these turn about the normal (see [`crate::surface`]), the point moving
-//! by δr,
+//! distance, t and e the tangents, τ how these turn about the normal (see [`crate::surface`]), the point
+//! moving by δr,
 //!
 //! ```text
 //! (k, l) = K' (t·δr, e·δr),   ω = τ·(k, l),   δn = k t + l e,   δt = -k n + ω e,   δe = -l n - ω t

@@ -5,7 +5,8 @@
 //! rate, the force on A is
 //!
 //! ```text
-//! (-k_s d_x, -k_s d_y, F(d_z)) f - c ḋ f,   F(d_z) = max(0, F0 - k d_z) [+ k_solid (d_solid - d_z) beyond solid]
+//! (-k_s d_x, -k_s d_y, F(d_z)) f - c ḋ f,
+//! F(d_z) = max(0, F0 - k d_z) [+ k_solid (d_solid - d_z) beyond solid]
 //! ```
 //!
 //! where the fading factor `f = min(1, F / (0.05 F0))` acts on shear and damping alone: a coil off its seat

@@ -18,8 +18,8 @@ use crate::contact::{CurvedMotion, PlaneMotion};
 use crate::friction::FrictionLaw;
 use crate::link::RelativeMotion;
 
-/// A point closes at this gap, m: where it is pressed in by 1e-11 in. Gaps are rounded to some 1e-14 in; and contacts
-/// a million times as stiff as usual are pressed in by more.
+/// A point closes at this gap, m: where it is pressed in by 1e-11 in. Gaps are rounded to some 1e-14 in; and
+/// contacts a million times as stiff as usual are pressed in by more.
 pub const CLOSING_GAP: f64 = -2.54e-13;
 /// A point opens at this gap, m.
 pub const OPENING_GAP: f64 = 0.0;

@@ -69,8 +69,8 @@ impl FaceState {
         load
     }
 
-    /// Returns the state of the whole face without a history: it slips where one of its points does, else sticks
-    /// where one does.
+    /// Returns the state of the whole face without a history: it slips where one of its points does, else
+    /// sticks where one does.
     #[must_use]
     pub fn contact_state(&self) -> ContactState {
         let mut pressed = self

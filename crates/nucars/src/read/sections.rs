@@ -117,8 +117,8 @@ pub fn required<'a>(
         let help = match off {
             Some(_) => "take away the `$` before the `\\`".to_owned(),
             None => format!(
-                "a line `\\{keyword}`, with the `\\` in the first column, begins it; if the file had it, it was cut \
-                 off here"
+                "a line `\\{keyword}`, with the `\\` in the first column, begins it; if the file had it, it \
+                 was cut off here"
             ),
         };
         findings.error(

@@ -45,7 +45,8 @@ pub(super) static CLAIMS: &[Claim] = &[
                larger share of the time",
         runs: [vd_out, vd_out_68, vd_out_69],
         holds: every([vd_out_68, vd_out_69], |run| all([
-            roughness(vd_out, side_frame_force, pressing_down) > 1.1 * roughness(run, side_frame_force, pressing_down),
+            roughness(vd_out, side_frame_force, pressing_down)
+                > 1.1 * roughness(run, side_frame_force, pressing_down),
             share(vd_out, column_sticks, pressing_down) > share(run, column_sticks, pressing_down),
         ])),
         but: "It is the other way round: with one coefficient for rest and sliding the stand-alone model \
@@ -63,8 +64,10 @@ pub(super) static CLAIMS: &[Claim] = &[
         runs: [vd_out, vd_out_68, vd_out_69],
         holds: all([
             ringing_frequency(vd_out, side_frame_force, early_lift_off) > 5.0 * hertz,
-            range(vd_out_68, side_frame_force, early_lift_off) < 1e-6 * peak(vd_out_68, side_frame_force, settled),
-            range(vd_out_69, side_frame_force, early_lift_off) < 1e-6 * peak(vd_out_69, side_frame_force, settled),
+            range(vd_out_68, side_frame_force, early_lift_off)
+                < 1e-6 * peak(vd_out_68, side_frame_force, settled),
+            range(vd_out_69, side_frame_force, early_lift_off)
+                < 1e-6 * peak(vd_out_69, side_frame_force, settled),
         ]),
     },
     claim! {
@@ -275,8 +278,14 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "the mean column friction of the three differs by no more than 10 %, going up and going down",
         runs: [cd_out_yaw, cd_out_yaw_68, cd_out_yaw_69],
         holds: all([
-            within(0.1, [cd_out_yaw, cd_out_yaw_68, cd_out_yaw_69].map(|run| size(run, vertical_force, going_up))),
-            within(0.1, [cd_out_yaw, cd_out_yaw_68, cd_out_yaw_69].map(|run| size(run, vertical_force, going_down))),
+            within(
+                0.1,
+                [cd_out_yaw, cd_out_yaw_68, cd_out_yaw_69].map(|run| size(run, vertical_force, going_up)),
+            ),
+            within(
+                0.1,
+                [cd_out_yaw, cd_out_yaw_68, cd_out_yaw_69].map(|run| size(run, vertical_force, going_down)),
+            ),
         ]),
         but: "As without yaw the stand-alone model's slope sticks after each reversal; besides, the lateral \
               slip of the half-truck's swing in yaw takes a part of the types' friction.",

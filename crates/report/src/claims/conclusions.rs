@@ -126,7 +126,10 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "read as: nothing is lost that is not accounted for. The relative residual of the energy \
                ledger is below 0.1 %, for each run with constant damping",
         runs: [cd_out, cd_none, cd_in, cd_out_yaw, cd_none_yaw, cd_in_yaw],
-        holds: every([cd_out, cd_none, cd_in, cd_out_yaw, cd_none_yaw, cd_in_yaw], |run| ledger_residual(run) < 1e-3),
+        holds: every(
+            [cd_out, cd_none, cd_in, cd_out_yaw, cd_none_yaw, cd_in_yaw],
+            |run| ledger_residual(run) < 1e-3,
+        ),
     },
     claim! {
         id: "7.1-stick-slip-captured",

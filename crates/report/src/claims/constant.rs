@@ -12,7 +12,10 @@ pub(super) static CLAIMS: &[Claim] = &[
         says: "The control coil moves a little, but its force changes very little.",
         test: "the coil force's range after the first half period is below 5 % of its mean, for each toe",
         runs: [cd_out, cd_none, cd_in],
-        holds: every([cd_out, cd_none, cd_in], |run| range(run, coil_force, settled) < 0.05 * mean(run, coil_force, settled)),
+        holds: every(
+            [cd_out, cd_none, cd_in],
+            |run| range(run, coil_force, settled) < 0.05 * mean(run, coil_force, settled),
+        ),
     },
     claim! {
         id: "6.1-sticks-then-slips-down",
@@ -252,7 +255,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "at the peak of the longitudinal force the bolster goes up, with more than 10 % of its peak \
                speed",
         runs: [cd_in],
-        holds: at_peak(cd_in, longitudinal_force, settled, bolster_speed) > 0.1 * peak(cd_in, bolster_speed, settled),
+        holds: at_peak(cd_in, longitudinal_force, settled, bolster_speed)
+            > 0.1 * peak(cd_in, bolster_speed, settled),
         but: "With toe in the wedge is wedged in deepest at the lower reversal, and the force has its peak \
               there; on the way up it falls.",
     },
@@ -326,7 +330,10 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "the dissipation at the reversals (bolster beyond 0.9999 A) is below 2 % of the run's \
                greatest, for each toe",
         runs: [cd_out, cd_none, cd_in],
-        holds: every([cd_out, cd_none, cd_in], |run| peak(run, dissipation, at_reversals) < 0.02 * peak(run, dissipation, settled)),
+        holds: every(
+            [cd_out, cd_none, cd_in],
+            |run| peak(run, dissipation, at_reversals) < 0.02 * peak(run, dissipation, settled),
+        ),
     },
     claim! {
         id: "6.1-dissipation-order-down",
@@ -354,7 +361,10 @@ pub(super) static CLAIMS: &[Claim] = &[
         says: "The pitch moment is larger.",
         test: "peak pitch moment > peak yaw moment, for each toe",
         runs: [cd_out, cd_none, cd_in],
-        holds: every([cd_out, cd_none, cd_in], |run| peak(run, pitch_moment, settled) > peak(run, yaw_moment, settled)),
+        holds: every(
+            [cd_out, cd_none, cd_in],
+            |run| peak(run, pitch_moment, settled) > peak(run, yaw_moment, settled),
+        ),
     },
     claim! {
         id: "6.1-uneven-forces",

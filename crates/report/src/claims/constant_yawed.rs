@@ -106,7 +106,10 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "peak vertical wedge force while the bolster starts up (below -0.95 A), of the three toe \
                cases: within 10 %",
         runs: [cd_out_yaw, cd_none_yaw, cd_in_yaw],
-        holds: within(0.1, [cd_out_yaw, cd_none_yaw, cd_in_yaw].map(|run| peak(run, vertical_force, starting_up))),
+        holds: within(
+            0.1,
+            [cd_out_yaw, cd_none_yaw, cd_in_yaw].map(|run| peak(run, vertical_force, starting_up)),
+        ),
         but: "The wedge breaks out at the friction limit, and the normal force there depends on how far it \
               was wedged in on the way down: least with toe out, where the gap opens downwards, most with \
               toe in.",
@@ -154,7 +157,9 @@ pub(super) static CLAIMS: &[Claim] = &[
         says: "Going up, toe in has the least force and toe out the greatest, with no toe between.",
         test: "mean vertical wedge force going up: toe out > no toe > toe in",
         runs: [cd_out_yaw, cd_none_yaw, cd_in_yaw],
-        holds: descending([cd_out_yaw, cd_none_yaw, cd_in_yaw].map(|run| mean(run, vertical_force, going_up))),
+        holds: descending(
+            [cd_out_yaw, cd_none_yaw, cd_in_yaw].map(|run| mean(run, vertical_force, going_up)),
+        ),
         but: "No toe comes out slightly above toe out: it has its full force from the reversal on, while \
               toe out begins low and reaches its higher limit only in the last part of the stroke. Toe in \
               is lowest, as claimed.",
@@ -167,7 +172,10 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "range of the wedge's vertical displacement while the bolster goes up: toe in > no toe > toe \
                out, each by more than 1 %",
         runs: [cd_in_yaw, cd_none_yaw, cd_out_yaw],
-        holds: descending_by(0.01, [cd_in_yaw, cd_none_yaw, cd_out_yaw].map(|run| range(run, wedge_z, upwards))),
+        holds: descending_by(
+            0.01,
+            [cd_in_yaw, cd_none_yaw, cd_out_yaw].map(|run| range(run, wedge_z, upwards)),
+        ),
         but: "The wedge follows the bolster to within the contacts' give, a few thousandths of an inch in \
               two inches, whatever the toe; and what goes up in a cycle comes down, so that no order can \
               turn round.",
@@ -179,7 +187,9 @@ pub(super) static CLAIMS: &[Claim] = &[
         says: "Going down, toe in has the largest force and toe out the least, with no toe between.",
         test: "size of the mean vertical wedge force going down: toe in > no toe > toe out",
         runs: [cd_in_yaw, cd_none_yaw, cd_out_yaw],
-        holds: descending([cd_in_yaw, cd_none_yaw, cd_out_yaw].map(|run| size(run, vertical_force, going_down))),
+        holds: descending(
+            [cd_in_yaw, cd_none_yaw, cd_out_yaw].map(|run| size(run, vertical_force, going_down)),
+        ),
         but: "No toe comes out slightly above toe in: toe in begins low at the top and builds up its force \
               only as its gap narrows, and with yaw it does so less in later cycles. Toe out is lowest, as \
               claimed.",
@@ -192,7 +202,10 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "range of the wedge's vertical displacement while the bolster goes down: toe out > no toe > \
                toe in, each by more than 1 %",
         runs: [cd_out_yaw, cd_none_yaw, cd_in_yaw],
-        holds: descending_by(0.01, [cd_out_yaw, cd_none_yaw, cd_in_yaw].map(|run| range(run, wedge_z, downwards))),
+        holds: descending_by(
+            0.01,
+            [cd_out_yaw, cd_none_yaw, cd_in_yaw].map(|run| range(run, wedge_z, downwards)),
+        ),
         but: "The wedge follows the bolster to within the contacts' give, a few thousandths of an inch in \
               two inches, whatever the toe; and what goes up in a cycle comes down, so that no order can \
               turn round.",
@@ -204,7 +217,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         says: "Going down, the longitudinal force is less with yaw than without (toe out).",
         test: "mean longitudinal force going down: with yaw < without",
         runs: [cd_out_yaw, cd_out],
-        holds: mean(cd_out_yaw, longitudinal_force, going_down) < mean(cd_out, longitudinal_force, going_down),
+        holds: mean(cd_out_yaw, longitudinal_force, going_down)
+            < mean(cd_out, longitudinal_force, going_down),
         but: "Yaw turns one side of the pocket towards the column, which presses the wedge deeper against \
               its coil: the coil carries some three percent more, and both faces carry more, going down as \
               well as going up.",
@@ -250,7 +264,8 @@ pub(super) static CLAIMS: &[Claim] = &[
                toe out > toe in",
         runs: [cd_out_yaw, cd_none_yaw, cd_in_yaw],
         holds: all([
-            peak(cd_out_yaw, longitudinal_force, at_bottom) > peak(cd_none_yaw, longitudinal_force, at_bottom),
+            peak(cd_out_yaw, longitudinal_force, at_bottom)
+                > peak(cd_none_yaw, longitudinal_force, at_bottom),
             peak(cd_out_yaw, longitudinal_force, at_bottom) > peak(cd_in_yaw, longitudinal_force, at_bottom),
         ]),
         but: "At the bottom toe out has the widest gap and the lowest force, and toe in, wedged in, the \
@@ -278,7 +293,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "at the peak of the longitudinal force the bolster goes up, with more than 10 % of its peak \
                speed",
         runs: [cd_in_yaw],
-        holds: at_peak(cd_in_yaw, longitudinal_force, settled, bolster_speed) > 0.1 * peak(cd_in_yaw, bolster_speed, settled),
+        holds: at_peak(cd_in_yaw, longitudinal_force, settled, bolster_speed)
+            > 0.1 * peak(cd_in_yaw, bolster_speed, settled),
         but: "With toe in the wedge is wedged in deepest at the lower reversal; the force has its peak in \
               the jolt with which it breaks out there, and falls on the way up.",
     },
@@ -308,8 +324,12 @@ pub(super) static CLAIMS: &[Claim] = &[
                toe out",
         runs: [cd_out_yaw, cd_none_yaw, cd_in_yaw],
         holds: all([
-            descending([cd_out_yaw, cd_none_yaw, cd_in_yaw].map(|run| mean(run, longitudinal_force, going_up))),
-            descending([cd_in_yaw, cd_none_yaw, cd_out_yaw].map(|run| mean(run, longitudinal_force, going_down))),
+            descending(
+                [cd_out_yaw, cd_none_yaw, cd_in_yaw].map(|run| mean(run, longitudinal_force, going_up)),
+            ),
+            descending(
+                [cd_in_yaw, cd_none_yaw, cd_out_yaw].map(|run| mean(run, longitudinal_force, going_down)),
+            ),
         ]),
         but: "The longitudinal force is the vertical one over the coefficient of friction: with yaw no toe \
               comes out slightly above toe out going up, and above toe in going down, because it has its \
@@ -357,7 +377,8 @@ pub(super) static CLAIMS: &[Claim] = &[
                up.",
         test: "mean number of column corners that touch going up: toe out > toe in by more than 10 %",
         runs: [cd_out_yaw, cd_in_yaw],
-        holds: mean(cd_out_yaw, corners_touching, going_up) > 1.1 * mean(cd_in_yaw, corners_touching, going_up),
+        holds: mean(cd_out_yaw, corners_touching, going_up)
+            > 1.1 * mean(cd_in_yaw, corners_touching, going_up),
         but: "Two corners touch either way: a flat face between surfaces that toe and yaw turn against it \
               rests on an edge.",
     },

@@ -102,8 +102,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         place: "section 5.1, figure 5-3, page 43",
         says: "The toe angles are so small that the vertical forces of the three toe cases differ very \
                little.",
-        test: "the mean forces on the side frame (lower stroke) of the three toe cases differ by no more than 10 % \
-               going down, and by no more than 10 % going up",
+        test: "the mean forces on the side frame (lower stroke) of the three toe cases differ by no more \
+               than 10 % going down, and by no more than 10 % going up",
         runs: [vd_out, vd_none, vd_in],
         holds: all([
             within(0.1, [vd_out, vd_none, vd_in].map(|run| size(run, side_frame_force, going_down))),
@@ -283,7 +283,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "the range of the force on the side frame while the bolster rises above 0.75 A is not more \
                than 10 % below that at the beginning of lift-off (bolster rising from 0.15 A to 0.5 A)",
         runs: [vd_out],
-        holds: range(vd_out, side_frame_force, last_ringing) > 0.9 * range(vd_out, side_frame_force, first_ringing),
+        holds: range(vd_out, side_frame_force, last_ringing)
+            > 0.9 * range(vd_out, side_frame_force, first_ringing),
         but: "The coil's damping (1 lbf·s/in) takes the ringing away with a time constant of a quarter of a \
               second, several times within one lift-off; only the friction at the side frame dissipates \
               nothing.",
@@ -358,7 +359,10 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "the peak pitch moment is below 10 % of the peak longitudinal force times half the face's \
                height, for each toe",
         runs: [vd_out, vd_none, vd_in],
-        holds: every([vd_out, vd_none, vd_in], |run| peak(run, pitch_moment, settled) < 0.1 * pitch_limit(run)),
+        holds: every(
+            [vd_out, vd_none, vd_in],
+            |run| peak(run, pitch_moment, settled) < 0.1 * pitch_limit(run),
+        ),
         but: "With toe the face rests on its upper edge (out) or lower edge (in), so that the whole \
               longitudinal force acts some three inches off the middle; the moment is as large as the face \
               can give, however simple the input.",

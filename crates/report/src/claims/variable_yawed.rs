@@ -77,7 +77,10 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "the wedge slides down for more than 50 % of the time in which the bolster is below its \
                middle and goes down",
         runs: [vd_out_yaw, vd_none_yaw, vd_in_yaw],
-        holds: every([vd_out_yaw, vd_none_yaw, vd_in_yaw], |run| share(run, sliding_down, pressing_down) > 0.5),
+        holds: every(
+            [vd_out_yaw, vd_none_yaw, vd_in_yaw],
+            |run| share(run, sliding_down, pressing_down) > 0.5,
+        ),
     },
     claim! {
         id: "5.2-stick-before-going-up",
@@ -100,12 +103,18 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: VariableYawed,
         place: "section 5.2, figure 5-11, pages 49 and 50",
         says: "With yaw the vertical forces of the toe cases differ by much.",
-        test: "the mean forces on the side frame (lower stroke) of the three toe cases differ by more than 10 %, \
-               going down or going up",
+        test: "the mean forces on the side frame (lower stroke) of the three toe cases differ by more than \
+               10 %, going down or going up",
         runs: [vd_out_yaw, vd_none_yaw, vd_in_yaw],
         holds: !all([
-            within(0.1, [vd_out_yaw, vd_none_yaw, vd_in_yaw].map(|run| size(run, side_frame_force, going_down))),
-            within(0.1, [vd_out_yaw, vd_none_yaw, vd_in_yaw].map(|run| size(run, side_frame_force, going_up))),
+            within(
+                0.1,
+                [vd_out_yaw, vd_none_yaw, vd_in_yaw].map(|run| size(run, side_frame_force, going_down)),
+            ),
+            within(
+                0.1,
+                [vd_out_yaw, vd_none_yaw, vd_in_yaw].map(|run| size(run, side_frame_force, going_up)),
+            ),
         ]),
     },
     claim! {
@@ -171,8 +180,10 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "mean longitudinal force going down: toe in > toe out, toe in > no toe",
         runs: [vd_in_yaw, vd_out_yaw, vd_none_yaw],
         holds: all([
-            mean(vd_in_yaw, longitudinal_force, going_down) > mean(vd_out_yaw, longitudinal_force, going_down),
-            mean(vd_in_yaw, longitudinal_force, going_down) > mean(vd_none_yaw, longitudinal_force, going_down),
+            mean(vd_in_yaw, longitudinal_force, going_down)
+                > mean(vd_out_yaw, longitudinal_force, going_down),
+            mean(vd_in_yaw, longitudinal_force, going_down)
+                > mean(vd_none_yaw, longitudinal_force, going_down),
         ]),
     },
     claim! {
@@ -180,7 +191,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         group: VariableYawed,
         place: "section 5.2, figures 5-11 and 5-14, page 52",
         says: "Going down, toe in has the largest vertical force.",
-        test: "size of the mean force on the side frame (lower stroke) going down: toe in > toe out, toe in > no toe",
+        test: "size of the mean force on the side frame (lower stroke) going down: toe in > toe out, toe in \
+               > no toe",
         runs: [vd_in_yaw, vd_out_yaw, vd_none_yaw],
         holds: all([
             size(vd_in_yaw, side_frame_force, going_down) > size(vd_out_yaw, side_frame_force, going_down),

@@ -100,9 +100,9 @@ pub fn over_speed(certificate: &Certificate, findings: &Findings, regime: usize)
         figure: Figure {
             title: format!("{}: over the speed", capital(&own.title)),
             caption: format!(
-                "{}. What is limited, with its limit (dotted); then the energy that the friction of all wedges \
-                 took in a run, and the share of the time after settling in which no point of a wedge's faces \
-                 slips, mean of all wedges. Limits: {}, {}.",
+                "{}. What is limited, with its limit (dotted); then the energy that the friction of all \
+                 wedges took in a run, and the share of the time after settling in which no point of a \
+                 wedge's faces slips, mean of all wedges. Limits: {}, {}.",
                 capital(&own.title),
                 certificate.limits.title,
                 certificate.limits.source

@@ -94,8 +94,8 @@ fn map(result: &RunResult, face: &FaceProperties, rectangle: &Rectangle, name: &
     ])
 }
 
-/// Lines of equal height over a face: heights at the points of its grid in shown units, from right to left and
-/// in each place from the lower edge up.
+/// Lines of equal height over a face: heights at the points of its grid in shown units, from right to left
+/// and in each place from the lower edge up.
 pub(crate) fn over_face(
     title: String,
     face: &FaceProperties,

@@ -1,7 +1,7 @@
 //! Runs over each other: loops, time histories, and of what rolls histories over the distance.
 //!
-//! Every run is drawn at its own rows, in the units of the first one. A run that lacks a column is left out of
-//! its panel, and the caption says so.
+//! Every run is drawn at its own rows, in the units of the first one. A run that lacks a column is left out
+//! of its panel, and the caption says so.
 
 use ::study::truck::WEDGE_NAMES;
 use quantity::System as Units;

@@ -136,10 +136,16 @@ fn trucks(trucks: &[TruckOutcome]) -> Markup {
                             td.number { (cell(down(outcome))) }
                             td.number { (cell(energy(outcome))) }
                             td.number {
-                                @if let Some(wedge) = summary.wedges.get(COMPONENT) { (format!("{:.1}", 100.0 * wedge.jammed)) }
+                                @if let Some(wedge) = summary.wedges.get(COMPONENT) {
+                                    (format!("{:.1}", 100.0 * wedge.jammed))
+                                }
                             }
                             td.number { (cell(normal(outcome))) }
-                            td.number { @if let Some(yaw) = mean_yaw(result) { (format!("{yaw:.1e}").replace('-', "\u{2212}")) } }
+                            td.number {
+                                @if let Some(yaw) = mean_yaw(result) {
+                                    (format!("{yaw:.1e}").replace('-', "\u{2212}"))
+                                }
+                            }
                             td.number { (format!("{:.1e}", summary.largest_relative_residual)) }
                             td.number { (summary.statistics.steps) }
                         }
@@ -149,10 +155,13 @@ fn trucks(trucks: &[TruckOutcome]) -> Markup {
         }
         @for (entry, result) in trucks {
             @if let Some(stopped) = &result.summary.stopped {
-                p.warning { (entry.name()) " stopped at " (stopped.time) " s and is incomplete: " (stopped.reason) }
+                p.warning { (entry.name()) " stopped at " (stopped.time) " s and is incomplete: \
+                                                                          " (stopped.reason) }
             }
             @let warnings = &result.summary.warnings;
-            @for warning in energy::among(warnings).chain(plausibility::among(warnings)) { p.warning { (entry.name()) ": " (warning) } }
+            @for warning in energy::among(warnings).chain(plausibility::among(warnings)) {
+                p.warning { (entry.name()) ": " (warning) }
+            }
             @if result.summary.failed.is_some() {
                 p.warning { (entry.name()) (super::FAILED) }
             }

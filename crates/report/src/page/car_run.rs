@@ -1,4 +1,5 @@
-//! The page of one run of a car: what it looks like, its limits and statistics, figures over the distance, assumptions.
+//! The page of one run of a car: what it looks like, its limits and statistics, figures over the distance,
+//! assumptions.
 
 use maud::{Markup, html};
 use study::car::summary::CarSummary;
@@ -99,7 +100,10 @@ fn statistics(summary: &CarSummary) -> Markup {
                     tbody {
                         @for (name, own) in &summary.statistics {
                             tr {
-                                th scope="row" { (name.replace('_', " ")) @if !own.remark.is_empty() { " (" (own.remark) ")" } }
+                                th scope="row" {
+                                    (name.replace('_', " "))
+                                    @if !own.remark.is_empty() { " (" (own.remark) ")" }
+                                }
                                 td.number { (cell(&own.raw)) }
                                 td.number { (cell(&own.filtered)) }
                                 td.number { (own.time.map_or("–".to_owned(), digits)) }
@@ -119,7 +123,10 @@ fn wedges(summary: &CarSummary) -> Markup {
             table {
                 tbody {
                     @for (name, own) in &summary.wedge_losses {
-                        tr { th scope="row" { (name.replace('_', " ")) } td.number { (digits(own.value)) " " (own.unit) } }
+                        tr {
+                            th scope="row" { (name.replace('_', " ")) }
+                            td.number { (digits(own.value)) " " (own.unit) }
+                        }
                     }
                 }
             }

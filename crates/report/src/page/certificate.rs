@@ -99,9 +99,16 @@ pub fn render(
             @let own = &certificate.regimes[regime];
             section {
                 h2 id={ "regime-" (own.name) } { (capital(&own.title)) }
-                p { "Regime " code { (own.name) } ", " (own.source) "." @if !own.looks_at.is_empty() { " To look at: " (own.looks_at) "." } }
+                p {
+                    "Regime " code { (own.name) } ", " (own.source) "."
+                    @if !own.looks_at.is_empty() { " To look at: " (own.looks_at) "." }
+                }
                 (shown_in(&over_speeds[regime], &over_speeds[regime].figure.to_svg(), None))
-                @for (own, drawn) in worst.iter().zip(&over_distances).filter(|(own, _)| own.regime == regime) {
+                @for (own, drawn) in worst
+                    .iter()
+                    .zip(&over_distances)
+                    .filter(|(own, _)| own.regime == regime)
+                {
                     (worst_of(certificate, findings, own, data.is_some()))
                     @for exhibit in drawn { (shown_in(exhibit, &exhibit.figure.to_svg(), None)) }
                 }
@@ -110,8 +117,8 @@ pub fn render(
         (files())
     };
     let lead = format!(
-        "{} runs of the car {}: {} regimes, {} conditions. Limits: {}, {}. Tracks of the regimes are remembered, \
-         too: check both against your edition.",
+        "{} runs of the car {}: {} regimes, {} conditions. Limits: {}, {}. Tracks of the regimes are \
+         remembered, too: check both against your edition.",
         findings.runs.len(),
         certificate.car,
         certificate.regimes.len(),
@@ -164,8 +171,10 @@ fn summary(certificate: &Certificate, findings: &Findings) -> Markup {
                     ul {
                         @for run in &unsound {
                             li {
-                                "run " (run.run) ", " (certificate.regimes[run.regime].name.replace('_', " ")) ", "
-                                (certificate.conditions[run.condition].name.replace('_', " ")) ", " (run.speed) ": "
+                                "run " (run.run) ", "
+                                (certificate.regimes[run.regime].name.replace('_', " ")) ", "
+                                (certificate.conditions[run.condition].name.replace('_', " ")) ", "
+                                (run.speed) ": "
                                 (run.status) ". " (run.note)
                             }
                         }
@@ -221,20 +230,31 @@ fn limits(
                     @for own in own {
                         @let limit = &certificate.limits.limits[own.limit];
                         tr {
-                            th scope="row" { a href={ "#regime-" (certificate.regimes[own.regime].name) } { (certificate.regimes[own.regime].name.replace('_', " ")) } }
+                            th scope="row" {
+                                a href={ "#regime-" (certificate.regimes[own.regime].name) } {
+                                    (certificate.regimes[own.regime].name.replace('_', " "))
+                                }
+                            }
                             td { (limit.quantity) @if !limit.remark.is_empty() { " (" (limit.remark) ")" } }
-                            td.number { (own.worst.as_ref().map_or("–".to_owned(), |worst| value(worst.value, &limit.unit))) }
+                            td.number {
+                                (own.worst.as_ref().map_or("–".to_owned(), |worst| {
+                                    value(worst.value, &limit.unit)
+                                }))
+                            }
                             td.number { (own.worst.as_ref().map_or("–", |worst| worst.speed.as_str())) }
                             td.number {
                                 (match limit.bound { Bound::AtMost => "≤ ", Bound::AtLeast => "≥ " })
                                 (value(limit.value, &limit.unit))
                             }
-                            td.number { (own.worst.as_ref().map_or("–".to_owned(), |worst| percent(worst.margin))) }
+                            td.number {
+                                (own.worst.as_ref().map_or("–".to_owned(), |worst| percent(worst.margin)))
+                            }
                             td { (said(own)) }
                             @if against.is_some() {
                                 @match other(own) {
                                     Some((number, margin)) => {
-                                        td.number { (value(number, &limit.unit)) } td.number { (percent(margin)) }
+                                        td.number { (value(number, &limit.unit)) }
+                                        td.number { (percent(margin)) }
                                     }
                                     None => { td.number { "–" } td.number { "–" } }
                                 }
@@ -289,7 +309,9 @@ fn conditions(certificate: &Certificate, findings: &Findings) -> Markup {
                     thead {
                         tr {
                             th scope="col" { "regime" }
-                            @for own in &certificate.conditions { th.number scope="col" { (own.name.replace('_', " ")) } }
+                            @for own in &certificate.conditions {
+                                th.number scope="col" { (own.name.replace('_', " ")) }
+                            }
                         }
                     }
                     tbody {
@@ -320,7 +342,8 @@ fn worst_of(certificate: &Certificate, findings: &Findings, own: &WorstRun, move
             @if let Some((time, what)) = &own.worst { "From " (digits(*time)) " s on: " (what) ". " }
             a href={ (own.folder) "/" (super::FILE_NAME) } { "All of this run" } "."
         }
-        @if moves && own.run.motions.is_some() { (moving_as(&summary.name, "The worst second, moving", own.regime == 0)) }
+        @if moves && own.run.motions.is_some() { (moving_as(&summary.name, "The worst second, \
+                                                                            moving", own.regime == 0)) }
         div.wide {
             table {
                 thead {
@@ -335,7 +358,9 @@ fn worst_of(certificate: &Certificate, findings: &Findings, own: &WorstRun, move
                             th scope="row" { (name.replace('_', " ")) }
                             td.number { (value(loss.value, &loss.unit)) }
                             td.number {
-                                (summary.wedge_locked.get(name).map_or("–".to_owned(), |share| format!("{:.0} % of the time", 100.0 * share)))
+                                (summary.wedge_locked.get(name).map_or("–".to_owned(), |share| {
+                                    format!("{:.0} % of the time", 100.0 * share)
+                                }))
                             }
                         }
                     }

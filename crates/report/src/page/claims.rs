@@ -17,9 +17,12 @@ pub(super) fn tables(claims: &Claims, sensitivity: Option<&Sensitivity>) -> Mark
             @if let Some(found) = sensitivity {
                 @let [always, mostly, seldom, never, open] = found.extents;
                 p {
-                    "What chapters 5 to 7 say of the stand-alone runs, in our words. Over " (found.points) " points of "
-                    a href="#open" { "what the thesis leaves open" } ", " strong { (always) } " statements hold always, "
-                    strong { (mostly) } " mostly, " strong { (seldom) } " seldom, " strong { (never) } " never, and "
+                    "What chapters 5 to 7 say of the stand-alone runs, in our words. Over \
+                     " (found.points) " points of "
+                    a href="#open" { "what the thesis leaves \
+                                      open" } ", " strong { (always) } " statements hold always, "
+                    strong { (mostly) } " mostly, "
+                    strong { (seldom) } " seldom, " strong { (never) } " never, and "
                     strong { (open) } " cannot be decided from runs. These are the verdicts. What the runs \
                                        of this report show, with one choice of all that is open, stands \
                                        beside them:"
@@ -78,7 +81,9 @@ fn table(group: Group, rows: &[&Row], sensitivity: Option<&Sensitivity>) -> Mark
                                 @if !row.code.is_empty() { br; code { (row.code) } }
                             }
                             @if let Some(found) = sensitivity {
-                                td { @if let Some(statement) = found.statement(row.id) { (extent(statement)) } }
+                                td {
+                                    @if let Some(statement) = found.statement(row.id) { (extent(statement)) }
+                                }
                             }
                             td {
                                 @for (number, value) in row.values.iter().enumerate() {

@@ -127,7 +127,8 @@ fn wedges(summary: &HalfTruckSummary) -> Markup {
         p {
             "Energy ledger: its largest residual at any output time is "
             (format!("{:.1e}", summary.largest_relative_residual))
-            " of the largest of work, losses and change of stored energy. " (summary.statistics.steps) " steps."
+            " of the largest of work, losses and change of stored energy. \
+             " (summary.statistics.steps) " steps."
         }
     }
 }

@@ -109,13 +109,16 @@ pub fn render(contents: &Contents<'_>) -> String {
     };
     let nav = html! {
             ul {
-                @if !(contents.outcomes.is_empty() && contents.beyond.is_empty()) { li { a href="#short" { "In short" } } }
+                @if !(contents.outcomes.is_empty() && contents.beyond.is_empty()) {
+                    li { a href="#short" { "In short" } }
+                }
                 @if !contents.outcomes.is_empty() { li { a href="#runs" { "Runs" } } }
                 @if !contents.claims.claims.is_empty() {
                     li { a href="#claims" { "The thesis's statements, one by one" } }
                 }
                 @if contents.sensitivity.is_some() { li { a href="#open" { "What the thesis leaves open" } } }
-                @if contents.comparison.is_some() { li { a href="#agreement" { "How far the models agree" } } }
+                @if contents.comparison.is_some() { li { a href="#agreement" { "How far the models \
+                                                                                agree" } } }
                 @for section in &open { li { a href={ "#" (anchor(&section.id)) } { (section.title) } } }
                 @if !folded.is_empty() { li { a href="#run-by-run" { "Run by run" } } }
                 @if contents.truck { li { a href=(truck::FILE_NAME) { "The three-piece truck (a page of its \

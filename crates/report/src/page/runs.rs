@@ -26,7 +26,8 @@ pub(super) fn table(outcomes: &[Outcome]) -> Markup {
             p {
                 "Each run gives the bolster a vertical motion and computes the wedge. Mean force: vertical \
                  wedge force (friction of the column on the side frame, positive up), averaged while the \
-                 bolster goes up or down over the window that is named; " (WINDOWS) ". Energy per cycle: lost in friction at the \
+                 bolster goes up or down over the window that is named; \
+                 " (WINDOWS) ". Energy per cycle: lost in friction at the \
                  side frame. Equivalent damping: that energy over π ω A². Ledger residual: the largest at \
                  any output time, over the largest of work, losses and change of stored energy; above 1e-3 \
                  a run has a warning, above 1e-2 it has failed."
@@ -43,7 +44,9 @@ pub(super) fn table(outcomes: &[Outcome]) -> Markup {
                             th.number scope="col" { "mean force, up" br; span.unit { (unit(up)) } }
                             th.number scope="col" { "mean force, down" br; span.unit { (unit(down)) } }
                             th.number scope="col" { "energy per cycle" br; span.unit { (unit(energy)) } }
-                            th.number scope="col" { "equivalent damping" br; span.unit { (unit(equivalent)) } }
+                            th.number scope="col" {
+                                "equivalent damping" br; span.unit { (unit(equivalent)) }
+                            }
                             th.number scope="col" { "ledger residual" br; span.unit { "relative" } }
                             th.number scope="col" { "steps" }
                         }
@@ -52,7 +55,9 @@ pub(super) fn table(outcomes: &[Outcome]) -> Markup {
                         @for (case, result) in outcomes {
                             @let summary = &result.summary;
                             tr {
-                                th scope="row" { a href={ "#run-" (super::anchor(&case.name)) } { (case.name) } }
+                                th scope="row" {
+                                    a href={ "#run-" (super::anchor(&case.name)) } { (case.name) }
+                                }
                                 td { (case.parameters.damping.name()) }
                                 td.plain { (toe_style(case.parameters.toe).0) }
                                 td.number { (yaw(case)) }
@@ -117,7 +122,11 @@ pub(super) fn assumptions(contents: &Contents<'_>) -> Markup {
                 h3 { "In some runs" }
                 ul {
                     @for (text, runs) in &some {
-                        li { (text) " (" @if runs.len() > 6 { (runs.len()) " runs" } @else { (runs.join(", ")) } ")" }
+                        li {
+                            (text) " ("
+                            @if runs.len() > 6 { (runs.len()) " runs" } @else { (runs.join(", ")) }
+                            ")"
+                        }
                     }
                 }
             }
@@ -131,7 +140,8 @@ pub(super) fn files(contents: &Contents<'_>) -> Markup {
         section {
             h2 id="files" { "Files" }
             p {
-                "Beside this page: " code { (FIGURES) "/" } " holds each figure as SVG and PNG; " code { "claims.json" }
+                "Beside this page: \
+                 " code { (FIGURES) "/" } " holds each figure as SVG and PNG; " code { "claims.json" }
                 " the statements and verdicts; " code { "runs/" } " the data of each run."
             }
             div.wide {

@@ -29,10 +29,12 @@ pub(super) fn section(contents: &Contents<'_>) -> Markup {
             ul.tiles {
                 @if !claims.claims.is_empty() {
                     li { a href="#claims" { strong { (claims.hold) " of " (claims.claims.len()) } }
-                        span { "statements of the thesis hold in these runs; " (claims.do_not) " do not, " (claims.undecided)
+                        span { "statements of the thesis hold in these runs; \
+                                " (claims.do_not) " do not, " (claims.undecided)
                             " cannot be decided" } }
                 }
-                li { strong { (all().count()) } span { "runs of one wedge; largest residual of an energy ledger "
+                li { strong { (all().count()) } span { "runs of one wedge; largest residual of an energy \
+                                                        ledger "
                     (format!("{worst:.0e}").replace('-', "\u{2212}")) } }
                 @for (what, value) in &numbers {
                     li { strong { (digits(value.value)) " " (value.unit) } span { (what) } }

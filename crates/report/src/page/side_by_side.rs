@@ -32,7 +32,9 @@ pub fn render(
         @if data.is_some() { (views(runs, &have_scene)) }
         section { h2 id="numbers" { "Key numbers" } (numbers(runs)) }
         @if !loops.is_empty() {
-            section { h2 id="loops" { "Loops" } @for own in loops { (shown_in(own, &own.figure.to_svg(), None)) } }
+            section {
+                h2 id="loops" { "Loops" } @for own in loops { (shown_in(own, &own.figure.to_svg(), None)) }
+            }
         }
         (limits(runs))
         @if !others.is_empty() {
@@ -114,7 +116,8 @@ fn doubts(runs: &[RunFolder]) -> Markup {
             @let (name, shared) = (&run.label, run.summary.shared());
             @if let Some(text) = run.summary.derailed() { p.warning { (name) " " (text) } }
             @if let Some(stopped) = shared.stopped() {
-                p.warning { (name) " stopped at " (digits(stopped.time)) " s and is incomplete: " (stopped.reason) }
+                p.warning { (name) " stopped at " (digits(stopped.time)) " s and is incomplete: \
+                                                                          " (stopped.reason) }
             }
             @for warning in shared.warnings() { p.warning { (name) ": " (warning) } }
             @if shared.failed().is_some() { p.warning { (name) (super::FAILED) } }
@@ -135,7 +138,8 @@ fn views(runs: &[RunFolder], have_scene: &[Option<bool>]) -> Markup {
             @for (number, (run, scene)) in runs.iter().zip(have_scene).enumerate() {
                 @match scene {
                     Some(_) => (moving_as(&run.label, &run.label, open == Some(number))),
-                    None => p { (run.label) ": no case.toml beside its result.csv tells what it looks like." },
+                    None => p { (run.label) ": no case.toml beside its result.csv tells what it looks \
+                                             like." },
                 }
             }
         }
@@ -202,7 +206,9 @@ pub(super) fn table(all: &[(&str, Vec<KeyNumber>)], units: Units) -> Markup {
                 tbody {
                     @for name in names {
                         @let own: Vec<Option<&KeyNumber>> =
-                            all.iter().map(|(_, own)| own.iter().find(|number| number.what == name)).collect();
+                            all.iter()
+                                    .map(|(_, own)| own.iter().find(|number| number.what == name))
+                                    .collect();
                         @let values: Vec<Option<SummaryValue>> =
                             own.iter().map(|one| one.map(|number| number.in_units(units))).collect();
                         @let window = own.iter().flatten().next().map_or("", |number| number.window.as_str());
@@ -213,8 +219,11 @@ pub(super) fn table(all: &[(&str, Vec<KeyNumber>)], units: Units) -> Markup {
                             td { @if same { (window) } }
                             td.unit { (unit) }
                             @for (number, (value, own)) in values.iter().zip(&own).enumerate() {
-                                td.number { (cell(value.as_ref(), values[0].as_ref().filter(|_| number > 0), unit))
-                                    @if let (false, Some(own)) = (same, own) { br; span.unit.window { (own.window) } }
+                                td.number {
+                                    (cell(value.as_ref(), values[0].as_ref().filter(|_| number > 0), unit))
+                                    @if let (false, Some(own)) = (same, own) {
+                                        br; span.unit.window { (own.window) }
+                                    }
                                 }
                             }
                         }
@@ -261,14 +270,15 @@ fn limits(runs: &[RunFolder]) -> Markup {
             section {
                 h2 id="limits" { "Limits" }
                 p {
-                    "The worst value of each kind beside limits that are remembered of AAR M-1001, chapter XI: \
-                     check them against your edition of the standard. A limit counts for the regimes named. In \
-                     brackets: margin, what is left in parts of the limit."
+                    "The worst value of each kind beside limits that are remembered of AAR M-1001, chapter \
+                     XI: check them against your edition of the standard. A limit counts for the regimes \
+                     named. In brackets: margin, what is left in parts of the limit."
                 }
                 div.wide {
                     table {
                         thead { tr {
-                            th scope="col" { "quantity" } th scope="col" { "regimes" } th.number scope="col" { "limit" }
+                            th scope="col" { "quantity" } th scope="col" { "regimes" }
+                            th.number scope="col" { "limit" }
                             @for (run, _) in &cars { th.number scope="col" { (run.label) } }
                         } }
                         tbody {
@@ -276,13 +286,19 @@ fn limits(runs: &[RunFolder]) -> Markup {
                                 tr {
                                     th scope="row" { (row.quantity) }
                                     td { (row.regimes) }
-                                    td.number { (four(row.limit)) @if !row.unit.is_empty() { " " (row.unit) } }
+                                    td.number {
+                                        (four(row.limit)) @if !row.unit.is_empty() { " " (row.unit) }
+                                    }
                                     @for (_, limits) in &cars {
                                         @match limits.iter().find(|own| own.quantity == row.quantity) {
                                             Some(own) => td.number {
                                                 (four(own.value)) " "
-                                                span.verdict.fails[own.margin < 0.0].holds[own.margin >= 0.0] {
-                                                    (format!("({:.0} %)", 100.0 * own.margin).replace('-', "\u{2212}"))
+                                                span.verdict
+                                                    .fails[own.margin < 0.0]
+                                                    .holds[own.margin >= 0.0]
+                                                {
+                                                    (format!("({:.0} %)", 100.0 * own.margin)
+                                                        .replace('-', "\u{2212}"))
                                                 }
                                             },
                                             None => td.number { "–" },
@@ -319,9 +335,10 @@ fn ledger(runs: &[RunFolder]) -> Markup {
     };
     html! {
         p {
-            "Entries at the end of each run, in " (quantity::Kind::Energy.label(units)) ". Relative residual: the largest at \
-             any output time, over the largest of work, losses and change of stored energy; above 1e-3 a run has a \
-             warning, above 1e-2 it has failed."
+            "Entries at the end of each run, in \
+             " (quantity::Kind::Energy.label(units)) ". Relative residual: the largest at \
+             any output time, over the largest of work, losses and change of stored energy; above 1e-3 a run \
+             has a warning, above 1e-2 it has failed."
         }
         div.wide {
             table {
@@ -330,14 +347,20 @@ fn ledger(runs: &[RunFolder]) -> Markup {
                     tr {
                         th scope="row" { "relative residual" }
                         @for run in runs {
-                            td.number { (format!("{:.1e}", run.summary.shared().largest_relative_residual()).replace('-', "\u{2212}")) }
+                            td.number {
+                                (format!("{:.1e}", run.summary.shared().largest_relative_residual())
+                                    .replace('-', "\u{2212}"))
+                            }
                         }
                     }
                     tr {
                         th scope="row" { "largest residual" }
                         @for run in runs {
                             @let own = run.summary.ledger();
-                            td.number { (energy(own.largest_residual)) " " span.unit { "at " (digits(own.largest_residual_time)) " s" } }
+                            td.number {
+                                (energy(own.largest_residual)) " "
+                                span.unit { "at " (digits(own.largest_residual_time)) " s" }
+                            }
                         }
                     }
                     tr {
@@ -351,7 +374,12 @@ fn ledger(runs: &[RunFolder]) -> Markup {
                         tr {
                             th scope="row" { (name.replace('_', " ")) }
                             @for run in runs {
-                                td.number { @match run.summary.ledger().entries.get(name) { Some(value) => (energy(value)), None => "–" } }
+                                td.number {
+                                    @match run.summary.ledger().entries.get(name) {
+                                        Some(value) => (energy(value)),
+                                        None => "–",
+                                    }
+                                }
                             }
                         }
                     }

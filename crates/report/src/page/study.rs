@@ -40,7 +40,8 @@ pub fn render(study: &Study, digest: &Digest) -> String {
         (factors(study))
         (failures(digest))
         (ranges(study, digest))
-        @if exhibits.is_empty() { p { "No figure can be drawn: no run has measures." } } @else { (contents(&exhibits)) }
+        @if exhibits.is_empty() { p { "No figure can be drawn: no run has \
+                                       measures." } } @else { (contents(&exhibits)) }
         @for exhibit in &exhibits {
             @let id = anchor(&exhibit.name);
             figure id=(id) {
@@ -102,7 +103,13 @@ fn factors(study: &Study) -> Markup {
         h2 { "What is varied" }
         div.wide {
             table {
-                thead { tr { th scope="col" { "parameter" } th scope="col" { "values" } th scope="col" { "column" } } }
+                thead {
+                    tr {
+                        th scope="col" { "parameter" }
+                        th scope="col" { "values" }
+                        th scope="col" { "column" }
+                    }
+                }
                 tbody {
                     @for factor in &study.factors {
                         tr {
@@ -219,10 +226,20 @@ fn files(study: &Study) -> Markup {
         }
         div.wide {
             table {
-                thead { tr { th scope="col" { "column" } th scope="col" { "unit" } th scope="col" { "what it is" } } }
+                thead {
+                    tr {
+                        th scope="col" { "column" }
+                        th scope="col" { "unit" }
+                        th scope="col" { "what it is" }
+                    }
+                }
                 tbody {
                     @for column in columns(study) {
-                        tr { th scope="row" { code { (column.name) } } td.unit { (column.unit) } td { (column.text) } }
+                        tr {
+                            th scope="row" { code { (column.name) } }
+                            td.unit { (column.unit) }
+                            td { (column.text) }
+                        }
                     }
                 }
             }

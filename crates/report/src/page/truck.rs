@@ -54,7 +54,11 @@ pub fn render(contents: &TruckContents<'_>) -> String {
             }
             @let apart: Vec<&&Check> = others.iter().filter(|check| !check.agrees).collect();
             @if !apart.is_empty() {
-                ul { @for check in apart { li { (capital(&check.what)) ": " (difference(check)) ". " (check.remark) } } }
+                ul {
+                    @for check in apart {
+                        li { (capital(&check.what)) ": " (difference(check)) ". " (check.remark) }
+                    }
+                }
             }
             p { (sentence(&findings.sensitivities)) }
         }
@@ -239,7 +243,9 @@ fn energies(rigs: &[TruckResult]) -> Markup {
                         tr {
                             th scope="col" { "rig" }
                             @for wedge in WEDGE_NAMES {
-                                th.number scope="col" { (wedge.replace('_', " ")) br; span.unit { "column, slope" } }
+                                th.number scope="col" {
+                                    (wedge.replace('_', " ")) br; span.unit { "column, slope" }
+                                }
                             }
                             th.number scope="col" { "all elements" }
                         }
@@ -250,9 +256,14 @@ fn energies(rigs: &[TruckResult]) -> Markup {
                             @let losses = &summary.cycles.losses;
                             @if !losses.is_empty() {
                                 tr {
-                                    th scope="row" { a href={ "#run-" (anchor(&summary.name)) } { (summary.name) } }
+                                    th scope="row" {
+                                        a href={ "#run-" (anchor(&summary.name)) } { (summary.name) }
+                                    }
                                     @for wedge in WEDGE_NAMES {
-                                        td.number { (cell(loss(summary, wedge, "column"))) ", " (cell(loss(summary, wedge, "slope"))) }
+                                        td.number {
+                                            (cell(loss(summary, wedge, "column"))) ", "
+                                            (cell(loss(summary, wedge, "slope")))
+                                        }
                                     }
                                     td.number { (cell(Some(losses.values().map(|loss| loss.value).sum()))) }
                                 }
@@ -276,16 +287,20 @@ fn runs(contents: &TruckContents<'_>) -> Markup {
             @for run in contents.rigs {
                 @let summary = &run.summary;
                 (doubts(summary))
-                details id={ "run-" (anchor(&summary.name)) } data-run=[contents.interactive.map(|_| summary.name.as_str())] {
+                details id={ "run-" (anchor(&summary.name)) }
+                    data-run=[contents.interactive.map(|_| summary.name.as_str())] {
                     summary { (summary.name) ": " (summary.title) }
                     p {
                         "Ledger residual " (format!("{:.1e}", summary.ledger.largest_relative_residual)) ", "
                         (summary.statistics.steps) " steps. Files: "
-                        @for name in run_files::NAMES { a href={ "runs/" (summary.name) "/" (name) } { (name) } " " }
+                        @for name in run_files::NAMES {
+                            a href={ "runs/" (summary.name) "/" (name) } { (name) } " "
+                        }
                     }
                 }
             }
-            p { "Rigs that reach lands, gibs, solid coils, pocket sides and adapter stops: " code { "wedgelab run NAME" } ", each with a \
+            p { "Rigs that reach lands, gibs, solid coils, pocket sides and adapter stops: \
+                 " code { "wedgelab run NAME" } ", each with a \
                 page of its own." }
         }
     }

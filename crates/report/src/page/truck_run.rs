@@ -59,9 +59,9 @@ fn losses(energy: &EnergySummary, loss: &SummaryValue) -> Markup {
     let large = |value: f64| value >= 1e-3 * loss.value;
     html! {
         p {
-            "Mean of " (energy.cycles) " whole cycles: lost by face and element, of each the share of contact \
-             states and of the four parts of the stroke of what moves (rising or falling, in its upper or \
-             lower half)."
+            "Mean of " (energy.cycles) " whole cycles: lost by face and element, of each the share of \
+             contact states and of the four parts of the stroke of what moves (rising or falling, in its \
+             upper or lower half)."
             @if let Some(own) = &energy.equivalent {
                 " Equivalent damping of all that is lost: " (format!("{:.1} ", own.damping.value))
                 (own.damping.unit)
@@ -150,7 +150,8 @@ fn wedges(summary: &TruckSummary) -> Markup {
         p {
             "Energy ledger: its largest residual at any output time is "
             (format!("{:.1e}", summary.ledger.largest_relative_residual))
-            " of the largest of work, losses and change of stored energy. " (summary.statistics.steps) " steps."
+            " of the largest of work, losses and change of stored energy. \
+             " (summary.statistics.steps) " steps."
         }
     }
 }

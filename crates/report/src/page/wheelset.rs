@@ -38,7 +38,9 @@ pub fn render(
         section {
             h2 { "Given" }
             table {
-                tbody { @for (name, value) in &summary.given { tr { th scope="row" { (name) } td { (value) } } } }
+                tbody {
+                    @for (name, value) in &summary.given { tr { th scope="row" { (name) } td { (value) } } }
+                }
             }
         }
         section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
@@ -108,7 +110,8 @@ fn numbers(summary: &WheelsetSummary) -> Markup {
         p {
             "Energy ledger: its largest residual at any output time is "
             (format!("{:.1e}", summary.ledger.largest_relative_residual))
-            " of the largest of work, losses and change of stored energy. " (summary.statistics.steps) " steps."
+            " of the largest of work, losses and change of stored energy. \
+             " (summary.statistics.steps) " steps."
         }
     }
 }

@@ -102,8 +102,8 @@ impl RunFolderError {
             },
             advice: match same {
                 Some((_, "run")) => format!(
-                    "another version of the program wrote it: `wedgelab run {folder}/case.toml --out {folder} \
-                     --force` runs the case again with this one"
+                    "another version of the program wrote it: `wedgelab run {folder}/case.toml --out \
+                     {folder} --force` runs the case again with this one"
                 ),
                 Some((_, command)) => format!(
                     "another version of the program wrote it: run the case again with `wedgelab {command}`"

@@ -118,7 +118,8 @@ pub enum TableError {
         file: PathBuf,
     },
     /// The last line ends too early.
-    #[error("`{}`, line {line}: the last line has {found} of {expected} numbers: the file is cut off", .file.display())]
+    #[error("`{}`, line {line}: the last line has {found} of {expected} numbers: the file is cut \
+             off", .file.display())]
     #[diagnostic(help("write or copy it again, or remove its last line"))]
     Truncated {
         /// The file.
@@ -144,7 +145,8 @@ pub enum TableError {
         expected: usize,
     },
     /// A cell that is no finite number.
-    #[error("`{}`, line {line}, column {column} (`{name}`): \"{text}\" is not a finite number", .file.display())]
+    #[error("`{}`, line {line}, column {column} (`{name}`): \"{text}\" is not a finite \
+             number", .file.display())]
     #[diagnostic(help("every cell below the names is a number such as -12.5 or 1.5e-3"))]
     NotANumber {
         /// The file.
@@ -159,7 +161,8 @@ pub enum TableError {
         text: String,
     },
     /// Time stands still or runs back.
-    #[error("`{}`, line {line}, column {column} (`{name}`): the time {time} s follows {before} s", .file.display())]
+    #[error("`{}`, line {line}, column {column} (`{name}`): the time {time} s follows {before} \
+             s", .file.display())]
     #[diagnostic(help(
         "times increase from line to line: sort the lines, or remove those that repeat a time"
     ))]

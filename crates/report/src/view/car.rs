@@ -3,8 +3,8 @@
 //!
 //! Trucks are as in a truck's run ([`super::truck`]), wheels, patches and rails as in a wheelset's
 //! ([`super::rolling`]), each with the names of its columns. How far the body reaches is for the eye; a part
-//! of the lading is a block whose center of gravity, length and width are those of the case, the latter by its
-//! moments of inertia.
+//! of the lading is a block whose center of gravity, length and width are those of the case, the latter by
+//! its moments of inertia.
 
 use car::{Mass, Parameters, Wheels};
 use study::car::CarCase;

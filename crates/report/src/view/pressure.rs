@@ -20,8 +20,8 @@ pub struct ScenePressure {
 }
 
 impl ScenePressure {
-    /// Returns a face of points with the columns of their pressures, in any order; `None` if they are no grid of
-    /// more than four. Places across are told apart by y, in which a face is straight.
+    /// Returns a face of points with the columns of their pressures, in any order; `None` if they are no grid
+    /// of more than four. Places across are told apart by y, in which a face is straight.
     #[must_use]
     pub fn new(name: &str, body: &str, mut points: Vec<([f64; 3], String)>) -> Option<Self> {
         points.sort_by(|([_, y, z], _), ([_, v, w], _)| y.total_cmp(v).then(z.total_cmp(w)));

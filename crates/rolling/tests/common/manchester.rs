@@ -36,8 +36,8 @@ const PRIMARY: ([f64; 3], [f64; 3], [f64; 2]) = ([31_391e3, 3884e3, 1220e3], [0.
 const SECONDARY: ([f64; 3], [f64; 3], [f64; 2]) = ([160e3, 160e3, 430e3], [0.0, 32e3, 20e3], [1.0, 0.83]);
 /// Roll bar of a bogie, N·m/rad.
 const ROLL_BAR: f64 = 940e3;
-/// Half distance of the contacts (m), creep coefficients (N), stiffnesses that carry a wheelset (N/m, N·m/rad):
-/// guesses.
+/// Half distance of the contacts (m), creep coefficients (N), stiffnesses that carry a wheelset (N/m,
+/// N·m/rad): guesses.
 const HALF: f64 = 0.75;
 const CREEP: [f64; 2] = [10e6, 9e6];
 const SUPPORT: [f64; 2] = [1e9, 1e9];
@@ -91,8 +91,8 @@ fn springs() -> Vec<Spring> {
     own
 }
 
-/// The vehicle on the core: on linear wheels of a conicity at a speed (m/s), or its wheelsets held. No gravity:
-/// springs have no preload.
+/// The vehicle on the core: on linear wheels of a conicity at a speed (m/s), or its wheelsets held. No
+/// gravity: springs have no preload.
 fn on_the_core(running: Option<(f64, f64)>) -> (System, Vec<f64>) {
     let mut bodies = vec![Body::prescribed("ground", Frame::fixed([0.0; 3], [0.0; 3]))];
     let middle = 50.0;
@@ -188,8 +188,8 @@ fn on_the_core(running: Option<(f64, f64)>) -> (System, Vec<f64>) {
     (system, x)
 }
 
-/// Mass, damping and stiffness matrix of the vehicle by itself: six small displacements and rotations (about x,
-/// y, z) of each part, from the extensions of the springs; with linear wheels where it runs.
+/// Mass, damping and stiffness matrix of the vehicle by itself: six small displacements and rotations (about
+/// x, y, z) of each part, from the extensions of the springs; with linear wheels where it runs.
 struct Matrices {
     mass: DVector<f64>,
     damping: DMatrix<f64>,

@@ -168,8 +168,8 @@ pub fn bisection([mut low, mut high]: [f64; 2], rising: impl Fn(f64) -> f64) -> 
     0.5 * (low + high)
 }
 
-/// A wheelset with cones on crowns of a radius (m) under a load alone, with linear creep, on straight track at 2 m/s;
-/// and its wavelength by Klingel's formula, m.
+/// A wheelset with cones on crowns of a radius (m) under a load alone, with linear creep, on straight track
+/// at 2 m/s; and its wavelength by Klingel's formula, m.
 pub fn coned_wheelset(slope: f64, crown: f64) -> (Setup, f64) {
     let law = ContactLaw {
         creep: CreepLaw::Linear,

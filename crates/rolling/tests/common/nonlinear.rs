@@ -50,8 +50,8 @@ pub fn amplitude(speed: f64, start: f64, duration: f64) -> f64 {
     largest
 }
 
-/// The speed (m/s) at which the growth of runs from 0.1 mm is zero, from runs 1 % below and above the critical
-/// speed by linearization (m/s, rad/s).
+/// The speed (m/s) at which the growth of runs from 0.1 mm is zero, from runs 1 % below and above the
+/// critical speed by linearization (m/s, rad/s).
 pub fn by_steps([speed, turning]: [f64; 2]) -> f64 {
     let frequency = turning / std::f64::consts::TAU;
     let growth = [0.99, 1.01].map(|factor| growth_by_steps(&suspended(factor * speed), frequency));

@@ -22,8 +22,10 @@ use common::{
 const HEAD: &str = "\
 # Validation: wheelsets on track
 
-Each number of the crate `rolling`, through its elements on the multibody core, beside its source's. This page is written
-by `cargo run --release -p rolling --example wheelset_validation`, and a test computes it anew and compares; the tests of the crate
+Each number of the crate `rolling`, through its elements on the multibody core, beside its source's. This \
+page is written
+by `cargo run --release -p rolling --example wheelset_validation`, and a test computes it anew and compares; \
+the tests of the crate
 hold the same numbers to the limits that are stated here. Contact and creep alone: [wheel and
 rail](validation-wheelrail.md).
 ";
@@ -107,12 +109,12 @@ fn within(found: f64, source: f64, share: f64) -> String {
 
 fn manchester(out: &mut String) {
     *out += "## Manchester vehicle 1\n\n\
-             Vehicle 1 of the Manchester benchmarks (Iwnicki 1998) as data on the same core: body, two bogies, \
-             four wheelsets, linear springs and\ndampers, no wedges. Masses, springs and dampers are \
+             Vehicle 1 of the Manchester benchmarks (Iwnicki 1998) as data on the same core: body, two \
+             bogies, four wheelsets, linear springs and\ndampers, no wedges. Masses, springs and dampers are \
              published; heights of the centers of gravity (body 1.8 m, bogies 0.6 m), lateral\nplaces of the \
-             springs (1 m) and the height of the secondary ones (0.83 m) are guesses. Each spring acts at one \
-             height, without\npreload; bump stops and rods are left out. Beside it mass, damping and stiffness \
-             matrices by themselves, from the extensions of\nthe springs.\n\n\
+             springs (1 m) and the height of the secondary ones (0.83 m) are guesses. Each spring acts at \
+             one height, without\npreload; bump stops and rods are left out. Beside it mass, damping and \
+             stiffness matrices by themselves, from the extensions of\nthe springs.\n\n\
              Natural frequencies on wheelsets that are held, to lie within 0.001 %:\n\n\
              | what moves most | here, Hz | by itself |  |\n|---|---|---|---|\n";
     for own in manchester::natural() {
@@ -165,8 +167,8 @@ fn nonlinear(out: &mut String) {
         };
         let _ = writeln!(out, "| {factor} | {start} | {told} |");
     }
-    *out += "\nThe flanges have a clearance of 13.9 mm: above the critical speed the motion grows up to them; \
-             at nine tenths of it dies even\nfrom there.\n";
+    *out += "\nThe flanges have a clearance of 13.9 mm: above the critical speed the motion grows up to \
+             them; at nine tenths of it dies even\nfrom there.\n";
 }
 
 fn klingel(out: &mut String) {

@@ -56,9 +56,9 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
     let massless = massless.filter(|own| own.kind == WedgeKind::Massless).count();
     if massless > 0 {
         list.push(format!(
-            "{massless} of 8 wedges have no mass: the industry's elements, which do not lock in warp{}. Their \
-             slope friction acts against the wedge's slip on the slope (over 1 mm/s), so that it feeds no \
-             energy.",
+            "{massless} of 8 wedges have no mass: the industry's elements, which do not lock in warp{}. \
+             Their slope friction acts against the wedge's slip on the slope (over 1 mm/s), so that it feeds \
+             no energy.",
             match p.trucks.iter().any(|own| own.warp_spring.is_some()) {
                 true => "; an empirical warp spring stands for it",
                 false => " (warp_spring.kind = \"nothing\")",

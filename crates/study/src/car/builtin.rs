@@ -1,5 +1,5 @@
-//! The built-in cars, after the [regimes](Regime) by which freight cars are assessed. Every one is the text of
-//! a case file.
+//! The built-in cars, after the [regimes](Regime) by which freight cars are assessed. Every one is the text
+//! of a case file.
 
 use std::sync::LazyLock;
 

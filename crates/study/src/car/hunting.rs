@@ -118,8 +118,8 @@ pub enum HuntingError {
     LinearWheels,
     /// The settings make no ramp.
     #[error(
-        "speeds from {low} to {high} m/s in {ramp} s with a threshold of {threshold} m make no ramp: all must \
-         be positive, and speeds must rise"
+        "speeds from {low} to {high} m/s in {ramp} s with a threshold of {threshold} m make no ramp: all \
+         must be positive, and speeds must rise"
     )]
     Settings {
         /// The lowest, m/s.

@@ -157,8 +157,8 @@ impl Limit {
         value / self.si
     }
 
-    /// Returns it beside the worst of the statistics of a run, whose numbers are in these units, and when that
-    /// begins, s; `None` if the run has none of its kind.
+    /// Returns it beside the worst of the statistics of a run, whose numbers are in these units, and when
+    /// that begins, s; `None` if the run has none of its kind.
     #[must_use]
     pub fn check(
         &self,

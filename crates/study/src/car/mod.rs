@@ -1,9 +1,9 @@
 //! Freight cars on track: cases, runs, statistics, results.
 //!
 //! [`CarCase`] is what a user writes, completed and in SI; [`regime`] has the tracks and speeds of the field,
-//! [`builtin`] cases on them; [`statistics`] says what rules for the assessment of cars ask, [`limits`] beside
-//! what they allow; [`run`] records a run, [`motions`] what a picture of it needs; [`stability`] linearizes;
-//! [`hunting`] ramps the speed.
+//! [`builtin`] cases on them; [`statistics`] says what rules for the assessment of cars ask, [`limits`]
+//! beside what they allow; [`run`] records a run, [`motions`] what a picture of it needs; [`stability`]
+//! linearizes; [`hunting`] ramps the speed.
 
 mod assumptions;
 pub mod builtin;

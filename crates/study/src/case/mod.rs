@@ -86,8 +86,8 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Returns the integrator's options. Methods that damp end their steps at every row at least, so that rows are
-    /// resolved.
+    /// Returns the integrator's options. Methods that damp end their steps at every row at least, so that
+    /// rows are resolved.
     pub fn options(&self) -> Options {
         Options {
             relative_tolerance: self.relative_tolerance,

@@ -140,8 +140,8 @@ pub struct WedgeSummary {
     /// Equivalent viscous damping of that energy, W/(π ω A²) with ω and A of the vertical input.
     #[serde(default)]
     pub equivalent_damping: Option<SummaryValue>,
-    /// The window of the means below ([`window_of`](crate::metrics::window_of)): `mid stroke`, `lower stroke`;
-    /// empty if the input does not cycle.
+    /// The window of the means below ([`window_of`](crate::metrics::window_of)): `mid stroke`, `lower
+    /// stroke`; empty if the input does not cycle.
     #[serde(default)]
     pub window: String,
     /// Mean of the column's friction on the side frame (positive up) over the window where the input goes up.

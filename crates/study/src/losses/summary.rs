@@ -15,8 +15,8 @@ use crate::summary::SummaryValue;
 /// The contact states, by number.
 pub const STATES: [&str; 3] = ["open", "stick", "slip"];
 
-/// Where the energy of a cycle comes from and where it goes, as means over whole cycles; or that of a whole run
-/// along a distance.
+/// Where the energy of a cycle comes from and where it goes, as means over whole cycles; or that of a whole
+/// run along a distance.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergySummary {
     /// Why there are no energies; empty where there are.

@@ -25,8 +25,8 @@ const OF_WEDGES: [OfWedge; 5] = [
     (
         "mean_column_friction_up",
         Kind::Force,
-        "column friction on the side frame, positive up; mean while the input rises, at mid stroke with constant \
-         damping, in the lower stroke with variable damping",
+        "column friction on the side frame, positive up; mean while the input rises, at mid stroke with \
+         constant damping, in the lower stroke with variable damping",
         |wedge| value(wedge.up.as_ref()),
     ),
     (

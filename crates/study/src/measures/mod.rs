@@ -134,8 +134,8 @@ const WEDGE: [(&str, Kind, &str); COUNT] = [
     (
         "mean_vertical_wedge_force_up",
         Kind::Force,
-        "column friction on the side frame, positive up; mean while the bolster rises, at mid stroke with constant \
-         damping, in the lower stroke with variable damping",
+        "column friction on the side frame, positive up; mean while the bolster rises, at mid stroke with \
+         constant damping, in the lower stroke with variable damping",
     ),
     (
         "mean_vertical_wedge_force_down",
@@ -145,8 +145,8 @@ const WEDGE: [(&str, Kind, &str); COUNT] = [
     (
         "mean_vertical_force_on_side_frame_up",
         Kind::Force,
-        "the same friction with the spring force of a coil on the side frame; mean while the bolster rises, in the \
-         same window",
+        "the same friction with the spring force of a coil on the side frame; mean while the bolster rises, \
+         in the same window",
     ),
     (
         "mean_vertical_force_on_side_frame_down",

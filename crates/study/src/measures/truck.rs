@@ -46,7 +46,8 @@ const OF_ALL: [(&str, Kind, &str, bool); 12] = [
     (
         "damping_ratio",
         Kind::Dimensionless,
-        "of bounce: loss per cycle over 4 pi times the largest energy in a spring of the equivalent stiffness",
+        "of bounce: loss per cycle over 4 pi times the largest energy in a spring of the equivalent \
+         stiffness",
         false,
     ),
     (

@@ -1,8 +1,8 @@
 //! Reading a case key by key: what is left out has a default, and everything is written down as it is read.
 //!
 //! One line for each key says its name, what it measures, its range, its default and what it means. From
-//! these lines come the values, the complete, commented case file and the fields of the explorer. Cases of trucks and
-//! of cars are read so.
+//! these lines come the values, the complete, commented case file and the fields of the explorer. Cases of
+//! trucks and of cars are read so.
 
 mod keys;
 mod motions;

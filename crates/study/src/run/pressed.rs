@@ -32,8 +32,8 @@ pub(super) fn warning(
     if count < 3 {
         let [up, across] = wanted(4 * SPACINGS + 1);
         return Some(format!(
-            "the {name} face is curved {way} but has {count} points there, at its edges: take more, for example \
-             {name}_face.grid = [{up}, {across}]"
+            "the {name} face is curved {way} but has {count} points there, at its edges: take more, for \
+             example {name}_face.grid = [{up}, {across}]"
         ));
     }
     let (pressed, points) = (pressed(face, grid, profile.direction, columns, values)?, count);

@@ -248,7 +248,8 @@ fn events(run: &Run<Case>) -> Events {
         unresolved: statistics.events_unresolved,
         motion_breaks: statistics.restarts,
         thresholds: vec![
-            "a corner closes where it is pressed in by 1e-11 in (2.54e-13 m), and opens where its normal force ends"
+            "a corner closes where it is pressed in by 1e-11 in (2.54e-13 m), and opens where its normal \
+             force ends"
                 .to_owned(),
             "tanh: slip begins at |v| = 2 v0 (96 % of the friction limit), stick at |v| = v0 (76 %)"
                 .to_owned(),

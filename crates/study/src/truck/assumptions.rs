@@ -21,9 +21,9 @@ pub(crate) fn of_kinds(wedges: &[Wedge]) -> Vec<String> {
     }
     if wedges.iter().any(|wedge| wedge.kind == WedgeKind::Split) {
         list.push(
-            "Split wedges: each half has half of the stiffness, bristles and control coil of a whole wedge; a \
-             coil under both is two half coils at split.coil_distance from the middle. The friction and the \
-             gap between the halves, and their angle, are guesses."
+            "Split wedges: each half has half of the stiffness, bristles and control coil of a whole wedge; \
+             a coil under both is two half coils at split.coil_distance from the middle. The friction and \
+             the gap between the halves, and their angle, are guesses."
                 .to_owned(),
         );
     }

@@ -293,8 +293,8 @@ fn extremes(damping: &'static str) -> Vec<Rig> {
     };
     let ramp = |amplitude: &str, start: &str, duration: &str| {
         format!(
-            "{{ shape = \"ramp\", amplitude = \"{amplitude}\", start = \"{start} s\", duration = \"{duration} s\", \
-             profile = \"half_cosine\" }}"
+            "{{ shape = \"ramp\", amplitude = \"{amplitude}\", start = \"{start} s\", duration = \
+             \"{duration} s\", profile = \"half_cosine\" }}"
         )
     };
     let bottomed = vec![ramp("-1.8 in", "0.2", "1"), ramp("1.8 in", "1.7", "1")];
@@ -385,9 +385,9 @@ static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
             name: "truck_extreme",
             title: "Loads and motions beyond what a truck is made for",
             look_at: "Bottomed nests carry 1,000 kip more for each inch, warp locks the nests until the load \
-                      exceeds their friction, a lifted car strikes its coils at √(2gh), ten times the load sinks \
-                      to where solid coils carry it. Each run ends with a closed ledger; what is implausible is \
-                      said in its warnings.",
+                      exceeds their friction, a lifted car strikes its coils at √(2gh), ten times the load \
+                      sinks to where solid coils carry it. Each run ends with a closed ledger; what is \
+                      implausible is said in its warnings.",
             cases: all(extremes, false),
         },
     ]

@@ -92,10 +92,10 @@ pub(super) fn of<'c>(run: &Run<TruckCase>, column: &impl Fn(&str) -> &'c [f64]) 
     }
 }
 
-/// Returns the cycle of the bolster's vertical motion (where side frames or wheelsets are what moves: relative
-/// to the mean of the side frames), and stiffness and damping of the first harmonic of the nests' force. The
-/// amplitude is that of the prescribed motion, if it is one sine or triangle, else that of the first harmonic.
-/// `None` if there is no such motion.
+/// Returns the cycle of the bolster's vertical motion (where side frames or wheelsets are what moves:
+/// relative to the mean of the side frames), and stiffness and damping of the first harmonic of the nests'
+/// force. The amplitude is that of the prescribed motion, if it is one sine or triangle, else that of the
+/// first harmonic. `None` if there is no such motion.
 fn bounce<'c>(
     case: &TruckCase,
     window: &Window,

@@ -78,8 +78,8 @@ pub struct Cycles {
 }
 
 impl Cycles {
-    /// Returns what friction takes at a wedge's face (`column` or `slope`) in a cycle, output units, whether the
-    /// wedge is a body, two halves, or has no mass.
+    /// Returns what friction takes at a wedge's face (`column` or `slope`) in a cycle, output units, whether
+    /// the wedge is a body, two halves, or has no mass.
     #[must_use]
     pub fn loss_at(&self, wedge: &str, face: &str) -> Option<f64> {
         let [outboard, inboard] = HALVES.map(|half| format!("{wedge}_{half}_{face}_friction_loss"));

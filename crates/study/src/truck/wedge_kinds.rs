@@ -28,7 +28,8 @@ impl Draft {
         if wedge.slope_across.abs() >= most {
             let [found, most] = [wedge.slope_across, most].map(f64::to_degrees);
             let message = format!(
-                "`{key}` is {found:.4} deg; a wedge of this height, width and angle runs out to an edge at {most:.1} deg"
+                "`{key}` is {found:.4} deg; a wedge of this height, width and angle runs out to an edge at \
+                 {most:.1} deg"
             );
             let help = format!(
                 "write an angle between -{most:.1} deg and {most:.1} deg, or make the wedge narrower"
@@ -56,8 +57,8 @@ impl Draft {
         }
         let split = &mut self.wedge.split;
         let angle = (Kind::Angle, ACROSS, Reach::Signed(0.2));
-        let comment = "of the plane between the halves with the vertical; positive: the outboard half leans over \
-                       the inboard one";
+        let comment = "of the plane between the halves with the vertical; positive: the outboard half leans \
+                       over the inboard one";
         r.quantity("angle", angle, &mut split.angle, comment);
         r.quantity(
             "gap",
@@ -82,8 +83,8 @@ impl Draft {
             &mut split.outboard_share,
             comment,
         );
-        let comment = "from the wedge's middle to where each half of the control coil presses; a quarter of the \
-                       width: a coil under each half; 2/pi of its mean radius: one coil under both";
+        let comment = "from the wedge's middle to where each half of the control coil presses; a quarter of \
+                       the width: a coil under each half; 2/pi of its mean radius: one coil under both";
         r.quantity("coil_distance", CLEARANCE, &mut split.coil_distance, comment);
     }
 
@@ -104,7 +105,8 @@ impl Draft {
         );
         if angle.abs() >= most {
             let message = format!(
-                "`{section}.angle` is {angle:.4} deg; halves of this height and width run out to an edge at {most:.1} deg"
+                "`{section}.angle` is {angle:.4} deg; halves of this height and width run out to an edge at \
+                 {most:.1} deg"
             );
             let help = format!("write an angle between -{most:.1} deg and {most:.1} deg");
             r.problem(
@@ -117,8 +119,8 @@ impl Draft {
         let lifted = sine * libm::tan(wedge.split.angle).abs();
         if sine < 0.0 && angle.abs() < most && libm::sin(wedge.angle) * cosine + lifted <= 0.0 {
             let message = format!(
-                "`{section}.angle` is {angle:.4} deg: halves that a slope_across of {:.4} deg presses together \
-                 climb on such a plane, whatever the coil's load",
+                "`{section}.angle` is {angle:.4} deg: halves that a slope_across of {:.4} deg presses \
+                 together climb on such a plane, whatever the coil's load",
                 wedge.slope_across.to_degrees()
             );
             let help = "write a smaller angle of one of the two";
@@ -140,10 +142,11 @@ impl Draft {
             .any(|inertia| inertia <= 0.0)
         {
             let message = format!(
-                "`{path}inertia` is too small for two halves of this weight a quarter of the width from its middle"
+                "`{path}inertia` is too small for two halves of this weight a quarter of the width from its \
+                 middle"
             );
-            let help = "roll and yaw must be more than what the halves have by their distance, weight times width \
-                        squared over 16; a prism's has its width squared over 12";
+            let help = "roll and yaw must be more than what the halves have by their distance, weight times \
+                        width squared over 16; a prism's has its width squared over 12";
             let problem = Problem::new(message).label("too small").help(help);
             r.problem(&format!("{path}inertia"), problem);
         }

@@ -203,8 +203,8 @@ impl Draft {
             ("massless", WedgeKind::Massless),
             ("split", WedgeKind::Split),
         ];
-        let comment = "\"body\": a rigid body with faces in contact; \"massless\": the industry's quasi-static \
-                       element; \"split\": two halves beside each other";
+        let comment = "\"body\": a rigid body with faces in contact; \"massless\": the industry's \
+                       quasi-static element; \"split\": two halves beside each other";
         r.choice("kind", KINDS, &mut wedge.kind, comment);
         let angle = (Kind::Angle, ANGLE, ANGLES);
         r.quantity(

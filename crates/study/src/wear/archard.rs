@@ -1,15 +1,15 @@
 //! Archard's law of wear: the worn volume is `V = K ∫ N |v| dt / H`.
 //!
-//! Source: Archard, J. F. (1953), Contact and rubbing of flat surfaces, Journal of Applied Physics 24, 981-988:
-//! worn volume in proportion to load and sliding distance, in inverse proportion to the hardness; at a place of
-//! the face the depth grows by `K p |v| / H` with the pressure p.
+//! Source: Archard, J. F. (1953), Contact and rubbing of flat surfaces, Journal of Applied Physics 24,
+//! 981-988: worn volume in proportion to load and sliding distance, in inverse proportion to the hardness; at
+//! a place of the face the depth grows by `K p |v| / H` with the pressure p.
 //!
 //! Units: K has none, H is the hardness of the softer partner in Pa, N |v| dt in J, V in m³.
 //!
 //! Defects: K is a number of the pair, its lubrication and its temperature, known to an order of magnitude;
-//! the law has no running-in, no oxides, no transition from mild to severe wear. |v| is the speed of the point
-//! over the surface, so that with bristles what deflects them counts as sliding, and with tanh the creep of a
-//! contact that holds.
+//! the law has no running-in, no oxides, no transition from mild to severe wear. |v| is the speed of the
+//! point over the surface, so that with bristles what deflects them counts as sliding, and with tanh the
+//! creep of a contact that holds.
 
 /// The parameters of Archard's law.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,9 @@
 //! What wears off a counterface: the work of all points, laid down where each of them is at the time.
 //!
 //! A point of the wedge stands for the part of the face that is nearest to it (a cell, cut at the face's
-//! edges). What it does in an instant is spread evenly over this cell where it is on the counterface then, and
-//! collected at the nodes of an even lattice by hat functions, which sum to one everywhere: nothing is lost,
-//! and the center of what is laid down stays. The lattice is at least twice as fine as the grid.
+//! edges). What it does in an instant is spread evenly over this cell where it is on the counterface then,
+//! and collected at the nodes of an even lattice by hat functions, which sum to one everywhere: nothing is
+//! lost, and the center of what is laid down stays. The lattice is at least twice as fine as the grid.
 //!
 //! At last the nodes become a map over what has been touched, from edge to edge, where end nodes have half a
 //! cell as those of the trapezoidal rule: its volume is the volume that was laid down, and a counterface over

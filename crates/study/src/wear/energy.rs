@@ -1,7 +1,7 @@
 //! Wear by dissipated energy: the worn volume is `V = α E` with the energy E lost in friction.
 //!
-//! Source: Fouvry, S., Kapsa, Ph., Vincent, L. (1996), Quantification of fretting damage, Wear 200, 186-205. With
-//! one coefficient of friction μ it is Archard's law with `α = K / (μ H)`.
+//! Source: Fouvry, S., Kapsa, Ph., Vincent, L. (1996), Quantification of fretting damage, Wear 200, 186-205.
+//! With one coefficient of friction μ it is Archard's law with `α = K / (μ H)`.
 //!
 //! Units: α in m³/J, E in J, V in m³.
 //!

@@ -1,9 +1,9 @@
 //! Wear of a wedge's faces over many cycles of its motion.
 //!
-//! A cycle is run, the law of wear says what volume it takes at each contact point, and the depths of the faces
-//! (`wedge_wear`) grow by that many times as many cycles as a step has; then the next run shows what the worn
-//! wedge does. The volume that a point stands for is its depth times its part of the face, so that the sum over
-//! the map is the sum over the points, on every grid.
+//! A cycle is run, the law of wear says what volume it takes at each contact point, and the depths of the
+//! faces (`wedge_wear`) grow by that many times as many cycles as a step has; then the next run shows what
+//! the worn wedge does. The volume that a point stands for is its depth times its part of the face, so that
+//! the sum over the map is the sum over the points, on every grid.
 //!
 //! Steps are explicit. A place that is worn deeper by its elastic penetration is no longer pressed: a step
 //! that wears more than twice that overshoots, and high and low places would change about from step to step.
@@ -170,8 +170,8 @@ pub struct WearHistory {
     pub stopped: Option<WearStop>,
 }
 
-/// Advances the wear of a wedge. `go_on` is asked after each step of a run, with the part of all cycles done and
-/// the time that the run has reached. States computed before a stop are kept.
+/// Advances the wear of a wedge. `go_on` is asked after each step of a run, with the part of all cycles done
+/// and the time that the run has reached. States computed before a stop are kept.
 ///
 /// # Errors
 /// There is not even the state at the start, or the steps would be too many.
@@ -364,7 +364,8 @@ fn worn(
     Case::from_document(&document).map_err(|error| WearError::Case(Box::new(error)))
 }
 
-/// Returns these depths at the points of both faces as maps; none where there is nothing worn and no map before.
+/// Returns these depths at the points of both faces as maps; none where there is nothing worn and no map
+/// before.
 #[must_use]
 pub fn maps(case: &Case, depths: &[Vec<f64>; 2]) -> [Option<DepthMap>; 2] {
     let (rectangles, faces) = (case.parameters.rectangles(), faces(case));

@@ -36,8 +36,8 @@ const MODELS: [(&str, &str, Cases); 3] = [
     ),
     (
         "A car on track",
-        "`model = \"car\"`. The keys of trucks are those of a truck, below `truck.` for both, `front_truck.` and \
-         `rear_truck.` for one, without its motions, loads and rigs.",
+        "`model = \"car\"`. The keys of trucks are those of a truck, below `truck.` for both, `front_truck.` \
+         and `rear_truck.` for one, without its motions, loads and rigs.",
         &[
             ("car_tangent_loaded", &[]),
             ("car_tangent_empty", &[]),

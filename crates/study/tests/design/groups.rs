@@ -19,7 +19,8 @@ friction = {{ column = 0.2, slope = 0.1 }}
 #[test]
 fn analytic_a_name_sets_what_its_group_says() {
     let study = study(&grouped(
-        "state = [\"given\", \"rough\", \"smooth\"]\nfriction.reference_speed = [\"0.001 in/s\", \"0.002 in/s\"]",
+        "state = [\"given\", \"rough\", \"smooth\"]\nfriction.reference_speed = [\"0.001 in/s\", \"0.002 \
+         in/s\"]",
     ));
     assert_eq!(study.count(), 6);
     let friction = |number: u64| {

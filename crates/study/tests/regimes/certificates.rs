@@ -173,7 +173,8 @@ fn refused(text: &str, message: &str, help: &str) {
 #[test]
 fn input_limits_that_are_missing_or_contradict_each_other() {
     let head = "title = \"ours\"\nsource = \"a letter\"\n";
-    let one = "[[limits]]\nname = \"a\"\nquantity = \"roll\"\nmeasure = \"body_roll_peak_to_peak\"\nregimes = \"all\"\n";
+    let one = "[[limits]]\nname = \"a\"\nquantity = \"roll\"\nmeasure = \"body_roll_peak_to_peak\"\nregimes \
+               = \"all\"\n";
     let good = format!("{head}{one}at_most = \"6 deg\"\n");
     assert_eq!(LimitSet::parse("ours.toml", &good).unwrap().limits.len(), 1);
     refused(head, "`limits` is missing", "[[limits]]");

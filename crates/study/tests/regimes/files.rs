@@ -213,8 +213,8 @@ fn input_mistakes_are_shown_where_they_are() {
     }
 }
 
-/// A file is tried on a car: a track that is too short and a key that no case has are shown in the file. Files
-/// that the track names are found from anywhere.
+/// A file is tried on a car: a track that is too short and a key that no case has are shown in the file.
+/// Files that the track names are found from anywhere.
 #[test]
 fn input_files_are_tried_on_a_car() {
     let folder = tempfile::tempdir().unwrap();

@@ -122,8 +122,8 @@ fn analytic_bounce_is_largest_where_joints_meet_its_frequency() {
 }
 
 /// Held at a speed, the disturbed empty car on roller side bearings comes to rest at 40 mph and hunts from
-/// flange to flange at 80 mph (the field tells hunting from 50 to 55 mph on); on constant contact side bearings
-/// it comes to rest at 80 mph too.
+/// flange to flange at 80 mph (the field tells hunting from 50 to 55 mph on); on constant contact side
+/// bearings it comes to rest at 80 mph too.
 #[test]
 fn limits_the_empty_car_on_rollers_hunts_at_speeds_of_the_field() {
     let swing = |speed: f64, bearing: &str| {

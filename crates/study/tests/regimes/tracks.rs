@@ -9,7 +9,8 @@ use super::case;
 const FOOT: f64 = 0.3048;
 const INCH: f64 = 0.0254;
 
-/// The irregularities of a regime's track foot by foot, in: of the left and the right rail, to the left and up.
+/// The irregularities of a regime's track foot by foot, in: of the left and the right rail, to the left and
+/// up.
 fn foot_by_foot(regime: &str) -> Vec<[[f64; 2]; 2]> {
     let own = case(
         regime,

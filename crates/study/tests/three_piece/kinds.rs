@@ -98,8 +98,8 @@ fn analytic_every_corner_of_a_half_has_its_name() {
     assert!(names.contains("leading_left_split_lower_toe_state"));
 }
 
-/// Warp against a wedge in one piece (the numbers of `docs/truck.md`): an angle across is stiffer at first, as no
-/// clearance is; halves turn with their columns, and lock later.
+/// Warp against a wedge in one piece (the numbers of `docs/truck.md`): an angle across is stiffer at first,
+/// as no clearance is; halves turn with their columns, and lock later.
 #[test]
 fn reproduction_halves_lock_later_in_warp_than_a_wedge_in_one_piece() {
     let stiffness = |name: &str| {

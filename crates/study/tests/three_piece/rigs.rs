@@ -7,8 +7,8 @@ use study::truck::{WEDGE_NAMES, builtin};
 
 use super::common::{INCH, KIP_INCH, POUND_FORCE, at, case, column, run};
 
-/// The energy ledger of every built-in truck over its first seconds closes below 1e-5, and no run but those at
-/// extreme loads has anything to warn of but contacts that are pressed in where a nest locks.
+/// The energy ledger of every built-in truck over its first seconds closes below 1e-5, and no run but those
+/// at extreme loads has anything to warn of but contacts that are pressed in where a nest locks.
 #[test]
 fn energy_of_every_rig_is_accounted_for() {
     assert_eq!(builtin::names().count(), 54);

@@ -4,8 +4,8 @@
 //! them: exact at the nodes, no deeper and no shallower between them than at the nodes around, and its volume
 //! is that of the trapezoidal rule. Beyond its edges it goes on as at the edge. Units: m.
 //!
-//! On the wedge it moves the contact points of a face and needs no slope. A counterface, over which points slide,
-//! needs continuous curvature: it is the spline surface through the nodes ([`DepthMap::surface`]).
+//! On the wedge it moves the contact points of a face and needs no slope. A counterface, over which points
+//! slide, needs continuous curvature: it is the spline surface through the nodes ([`DepthMap::surface`]).
 
 use mechanics::depth_surface::DepthSurface;
 use mechanics::spline::SplineError;
@@ -138,8 +138,8 @@ impl DepthMap {
         below + (above - below) * u
     }
 
-    /// Returns the smooth surface through the nodes, as a counterface needs it; `reversed` says whether the axes
-    /// z and y of its marker point down and to the right.
+    /// Returns the smooth surface through the nodes, as a counterface needs it; `reversed` says whether the
+    /// axes z and y of its marker point down and to the right.
     ///
     /// # Errors
     /// Fewer than four places up or across, or places so close to each other that curvatures overflow.

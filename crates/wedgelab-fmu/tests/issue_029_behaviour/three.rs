@@ -155,7 +155,9 @@ fn rows(names: Names) -> Vec<Row> {
         row!(fmi3GetDirectionalDerivative:
             "good" => |c| fmi3GetDirectionalDerivative(c, &output, 1, &input, 1, &1.0, 1, &mut 0.0, 1),
             "! unknown" => |c| fmi3GetDirectionalDerivative(c, &NOBODY, 1, &input, 1, &1.0, 1, &mut 0.0, 1),
-            "! seeds" => |c| fmi3GetDirectionalDerivative(c, &output, 1, &input, 1, [1.0; 2].as_ptr(), 2, &mut 0.0, 1),
+            "! seeds" => |c| {
+                fmi3GetDirectionalDerivative(c, &output, 1, &input, 1, [1.0; 2].as_ptr(), 2, &mut 0.0, 1)
+            },
             "! room" => |c| fmi3GetDirectionalDerivative(c, &output, 1, &input, 1, &1.0, 1, null_mut(), 0),
             "! null" => |c| fmi3GetDirectionalDerivative(c, null(), 1, &input, 1, &1.0, 1, &mut 0.0, 1)),
         row!(fmi3DoStep:
@@ -260,8 +262,9 @@ macro_rules! none_of {
 }
 
 fn types_rows(input: u32) -> Vec<Row> {
-    let mut rows = none_of!(input: fmi3GetFloat32, fmi3SetFloat32, fmi3GetInt8, fmi3SetInt8, fmi3GetUInt8, fmi3SetUInt8,
-        fmi3GetInt16, fmi3SetInt16, fmi3GetUInt16, fmi3SetUInt16, fmi3GetUInt32, fmi3SetUInt32, fmi3GetInt64, fmi3SetInt64,
+    let mut rows = none_of!(input:
+        fmi3GetFloat32, fmi3SetFloat32, fmi3GetInt8, fmi3SetInt8, fmi3GetUInt8, fmi3SetUInt8, fmi3GetInt16,
+        fmi3SetInt16, fmi3GetUInt16, fmi3SetUInt16, fmi3GetUInt32, fmi3SetUInt32, fmi3GetInt64, fmi3SetInt64,
         fmi3GetUInt64, fmi3SetUInt64, fmi3GetString, fmi3SetString);
     rows.extend([
         row!(fmi3GetBinary: "! one" => |c| fmi3GetBinary(c, &input, 1, &mut 0, &mut null(), 1)),
@@ -294,7 +297,8 @@ fn other_rows(input: u32, output: u32) -> Vec<Row> {
         row!(fmi3SetShiftFraction: "! one" => |c| fmi3SetShiftFraction(c, &input, 1, &0, &0)),
         row!(fmi3EvaluateDiscreteStates: "good" => |c| fmi3EvaluateDiscreteStates(c)),
         row!(fmi3EnterStepMode: "! any" => |c| fmi3EnterStepMode(c)),
-        row!(fmi3GetOutputDerivatives: "! one" => |c| fmi3GetOutputDerivatives(c, &output, 1, &1, &mut 0.0, 1)),
+        row!(fmi3GetOutputDerivatives:
+            "! one" => |c| fmi3GetOutputDerivatives(c, &output, 1, &1, &mut 0.0, 1)),
         row!(fmi3ActivateModelPartition: "! any" => |c| fmi3ActivateModelPartition(c, 0, 0.0)),
     ]
 }

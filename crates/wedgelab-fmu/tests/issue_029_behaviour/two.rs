@@ -169,11 +169,13 @@ fn rows(names: Names) -> Vec<Row> {
             "nothing" => |c| fmi2SetString(c, null(), 0, null()),
             "! one" => |c| fmi2SetString(c, &input, 1, &c"".as_ptr())),
         row!(fmi2GetDirectionalDerivative:
-            "good" => |c| fmi2GetDirectionalDerivative(c, &output, 1, &input, 1, &1.0, &mut 0.0),
-            "! unknown" => |c| fmi2GetDirectionalDerivative(c, &NOBODY, 1, &input, 1, &1.0, &mut 0.0),
-            "! known" => |c| fmi2GetDirectionalDerivative(c, &output, 1, &mass, 1, &1.0, &mut 0.0),
-            "! null" => |c| fmi2GetDirectionalDerivative(c, &output, 1, &input, 1, null(), &mut 0.0),
-            "! too many" => |c| fmi2GetDirectionalDerivative(c, &output, FAR_TOO_MANY, &input, 1, &1.0, &mut 0.0)),
+        "good" => |c| fmi2GetDirectionalDerivative(c, &output, 1, &input, 1, &1.0, &mut 0.0),
+        "! unknown" => |c| fmi2GetDirectionalDerivative(c, &NOBODY, 1, &input, 1, &1.0, &mut 0.0),
+        "! known" => |c| fmi2GetDirectionalDerivative(c, &output, 1, &mass, 1, &1.0, &mut 0.0),
+        "! null" => |c| fmi2GetDirectionalDerivative(c, &output, 1, &input, 1, null(), &mut 0.0),
+        "! too many" => |c| {
+            fmi2GetDirectionalDerivative(c, &output, FAR_TOO_MANY, &input, 1, &1.0, &mut 0.0)
+        }),
     ];
     rows.extend(states_rows());
     rows.extend(co_simulation_rows(names));
@@ -184,7 +186,12 @@ fn rows(names: Names) -> Vec<Row> {
 fn states_rows() -> Vec<Row> {
     vec![
         row!(fmi2GetFMUstate:
-            "good" => |c| { let mut state = null_mut(); let status = fmi2GetFMUstate(c, &mut state); fmi2FreeFMUstate(c, &mut state); status },
+            "good" => |c| {
+                let mut state = null_mut();
+                let status = fmi2GetFMUstate(c, &mut state);
+                fmi2FreeFMUstate(c, &mut state);
+                status
+            },
             "! null" => |c| fmi2GetFMUstate(c, null_mut()),
             "! freed" => |c| { let mut state = freed(c); fmi2GetFMUstate(c, &mut state) },
             "! none" => |c| fmi2GetFMUstate(c, &mut c.wrapping_byte_add(8))),
@@ -206,7 +213,9 @@ fn states_rows() -> Vec<Row> {
             "! short" => |c| with_state(c, |state| fmi2SerializeFMUstate(c, state, [0; 8].as_mut_ptr(), 8)),
             "! null state" => |c| fmi2SerializeFMUstate(c, null_mut(), [0; 8].as_mut_ptr(), 8),
             "! null bytes" => |c| with_state(c, |state| fmi2SerializeFMUstate(c, state, null_mut(), 1 << 20)),
-            "! too many" => |c| with_state(c, |state| fmi2SerializeFMUstate(c, state, [0; 8].as_mut_ptr(), FAR_TOO_MANY)),
+            "! too many" => |c| with_state(c, |state| {
+                fmi2SerializeFMUstate(c, state, [0; 8].as_mut_ptr(), FAR_TOO_MANY)
+            }),
             "! freed" => |c| fmi2SerializeFMUstate(c, freed(c), [0; 8].as_mut_ptr(), 8)),
         row!(fmi2DeSerializeFMUstate:
             "! none" => |c| fmi2DeSerializeFMUstate(c, c"{}".as_ptr(), 2, &mut null_mut()),

@@ -54,7 +54,12 @@ pub struct Common {
     #[arg(long, value_name = "FROM..TO", num_args = 1..)]
     speeds: Vec<String>,
     /// Number of speeds from the first to the last
-    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u32).range(2..=100))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 6,
+        value_parser = clap::value_parser!(u32).range(2..=100),
+    )]
     steps: u32,
     /// Conditions by name (as_given, new, worn, ...), or a file of your own [default: as the case says]
     #[arg(long, value_name = "CONDITION", num_args = 0..)]

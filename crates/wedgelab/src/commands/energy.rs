@@ -35,9 +35,9 @@ const SMALL: f64 = 1e-3;
 /// Runs a case of a wedge or a truck in which something moves as a sine or a triangle, and tells the energy
 /// of a cycle (the mean of its whole cycles): what is put in, what is lost by face and element, by corner or
 /// point, by contact state, by part of the stroke, and the equivalent viscous damping. Of a car it tells the
-/// energy of the whole run: what is lost in each kind of face and element and by each of these, by the distance
-/// too, as the mean resistance to the motion. With --out the numbers are written as energy.json, the flow of
-/// energy as power_flow.svg and power_flow.png.
+/// energy of the whole run: what is lost in each kind of face and element and by each of these, by the
+/// distance too, as the mean resistance to the motion. With --out the numbers are written as energy.json, the
+/// flow of energy as power_flow.svg and power_flow.png.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -139,8 +139,8 @@ fn energy_of<C: RunFiles>(
     {
         let time = SixDigits(stopped.time);
         let message = format!("the run {} was interrupted at {time} s", summary.name());
-        let advice = "nothing is written, for energies of a cycle are told of whole runs; a simulation.duration of \
-                      two periods is enough";
+        let advice = "nothing is written, for energies of a cycle are told of whole runs; a \
+                      simulation.duration of two periods is enough";
         return Err(Failure::Interrupted(Message::new(message, advice).into()));
     }
     if let Some(failure) = unsound_unwritten::<C>(summary) {
@@ -251,15 +251,15 @@ fn write(energy: &EnergySummary, units: Units, out: &mut impl Write) -> io::Resu
     if run {
         return writeln!(
             out,
-            "\nShares of elements are of the loss in all elements of their kind. The resistance is the energy by \
-             the distance: the mean\nforce that makes up for it. What wheels lose is creep and the damping of their \
-             contacts."
+            "\nShares of elements are of the loss in all elements of their kind. The resistance is the \
+             energy by the distance: the mean\nforce that makes up for it. What wheels lose is creep and the \
+             damping of their contacts."
         );
     }
     writeln!(
         out,
-        "\nShares of states, parts of the stroke and points are of the loss in their row. The powers of the points, integrated \
-         step by\nstep, differ from the ledger by at most {:.1e} of all that is lost.",
+        "\nShares of states, parts of the stroke and points are of the loss in their row. The powers of the \
+         points, integrated step by\nstep, differ from the ledger by at most {:.1e} of all that is lost.",
         energy.largest_correction
     )
 }

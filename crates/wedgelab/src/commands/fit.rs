@@ -54,7 +54,8 @@ Examples:
   wedgelab fit loop.csv my.toml --free friction.column=0.2..0.6
   wedgelab fit loop.csv rig_constant --free friction.column=0.2..0.6 friction.slope=0.2..0.6 --confidence 0.99
   wedgelab fit loop.csv my.toml --follow --free 'control_coil.stiffness=1500 lbf/in..2500 lbf/in'
-  wedgelab fit loop.csv half_truck.run --column wedge_127_column_friction --free wedges.column_friction=0.2..0.6
+  wedgelab fit loop.csv half_truck.run --column wedge_127_column_friction --free \
+wedges.column_friction=0.2..0.6
 
 Preload is control_coil.free_length or control_coil.nominal_length.")]
 pub struct Arguments {

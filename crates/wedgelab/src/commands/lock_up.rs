@@ -19,10 +19,10 @@ use crate::progress::Steady;
 /// Where a wedge locks up, over two of its parameters: jam margins and what runs find
 ///
 /// At each point of a map over two of angle, friction, toe, crown and yaw, takes the lock-up margin of the
-/// massless wedge (the angle at which the faces close on the wedge, less the friction angles of both), and runs
-/// a rig: the bolster presses the wedge against the column. Where the margin is not positive the wedge locks
-/// and its normal forces grow against the stiffness of the contacts; else it slides out of the way. Writes
-/// lock_up.csv, lock_up.svg and lock_up.png.
+/// massless wedge (the angle at which the faces close on the wedge, less the friction angles of both), and
+/// runs a rig: the bolster presses the wedge against the column. Where the margin is not positive the wedge
+/// locks and its normal forces grow against the stiffness of the contacts; else it slides out of the way.
+/// Writes lock_up.csv, lock_up.svg and lock_up.png.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -151,8 +151,8 @@ fn tell(found: &LockUpMap, out: &mut dyn Write) -> io::Result<()> {
     let others = found.cells.len() - locks - slides;
     writeln!(
         out,
-        "{} points: {locks} rigs lock up, {slides} slide, {others} tell nothing. The lock-up margin goes from \
-         {least:.2} to {most:.2} deg.",
+        "{} points: {locks} rigs lock up, {slides} slide, {others} tell nothing. The lock-up margin goes \
+         from {least:.2} to {most:.2} deg.",
         found.cells.len()
     )?;
     if wrong == 0 {

@@ -12,8 +12,8 @@ use crate::folders;
 
 /// Write the manual pages of all commands
 ///
-/// Writes a page a command, wedgelab.1, wedgelab-run.1, ..., into a folder: `man -l wedgelab-run.1` shows one,
-/// and a folder man1 of the MANPATH makes `man wedgelab-run` find it.
+/// Writes a page a command, wedgelab.1, wedgelab-run.1, ..., into a folder: `man -l wedgelab-run.1` shows
+/// one, and a folder man1 of the MANPATH makes `man wedgelab-run` find it.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

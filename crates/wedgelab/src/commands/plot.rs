@@ -27,8 +27,9 @@ use crate::select::read_table;
 ///
 /// With --psd it draws the one-sided power spectral density of a column by Welch's method (segments that
 /// overlap by half, less their means, under Hann's window), in decibels over one unit of the column, squared,
-/// per Hz: its integral over the frequency is the variance. Into a file ending in .csv the densities themselves
-/// are written. Rows must be evenly apart in time; what is faster than half their rate is taken for slower.
+/// per Hz: its integral over the frequency is the variance. Into a file ending in .csv the densities
+/// themselves are written. Rows must be evenly apart in time; what is faster than half their rate is taken
+/// for slower.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -134,8 +135,8 @@ fn density(arguments: &Arguments, table: &Table, name: &str) -> Result<ExitCode,
     let rms = spectrum.variance().sqrt();
     writeln!(
         io::stdout().lock(),
-        "Power spectral density of {}, {}, from {} segments of {} rows, lines {} Hz apart up to {} Hz. Root mean square \
-         about the mean: {} {unit}; most of it at {} Hz.\nWritten: {}.",
+        "Power spectral density of {}, {}, from {} segments of {} rows, lines {} Hz apart up to {} Hz. Root \
+         mean square about the mean: {} {unit}; most of it at {} Hz.\nWritten: {}.",
         column.name,
         plot::density_unit(unit),
         spectrum.segments,

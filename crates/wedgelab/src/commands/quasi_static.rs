@@ -33,13 +33,31 @@ pub struct Arguments {
     #[arg(long, default_value = "0 deg", value_parser = toe, allow_hyphen_values = true)]
     toe: Toe,
     /// Coefficient of friction at the column
-    #[arg(long, value_name = "MU", default_value = "0.4", value_parser = friction, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "MU",
+        default_value = "0.4",
+        value_parser = friction,
+        allow_hyphen_values = true,
+    )]
     mu_column: f64,
     /// Coefficient of friction at the slope
-    #[arg(long, value_name = "MU", default_value = "0.4", value_parser = friction, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "MU",
+        default_value = "0.4",
+        value_parser = friction,
+        allow_hyphen_values = true,
+    )]
     mu_slope: f64,
     /// Force of the control coil, upwards on the wedge
-    #[arg(long, value_name = "FORCE", default_value = "3000 lbf", value_parser = force, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "FORCE",
+        default_value = "3000 lbf",
+        value_parser = force,
+        allow_hyphen_values = true,
+    )]
     coil_force: Quantity,
     /// Units of the output
     #[arg(long, default_value = "us")]

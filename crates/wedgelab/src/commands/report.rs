@@ -29,7 +29,8 @@ Examples:
   wedgelab report vdrun_toe_0_psi_0 softer --out both
   wedgelab report reproduction/runs/truck_vertical_*
 
-What a run looks like is taken from its own index.html, if it has one, else made of result.csv and case.toml; then the
+What a run looks like is taken from its own index.html, if it has one, else made of result.csv and \
+case.toml; then the
 corners of a truck's wedges and the bodies of a car are not seen.")]
 pub struct Arguments {
     /// Folders of runs; the first one is what the others are compared with

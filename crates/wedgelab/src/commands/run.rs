@@ -43,8 +43,8 @@ use crate::table::Table;
 /// named as the case; of a truck also index.html, where it is seen moving in 3D with its loops and wedges, of
 /// a car on its track with limits, statistics and figures over the distance.
 ///
-/// A run with --save or --continue writes the same files but index.html. Its rows have the same bits as those of
-/// the whole run.
+/// A run with --save or --continue writes the same files but index.html. Its rows have the same bits as those
+/// of the whole run.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -295,8 +295,10 @@ const NO_STATISTICS: &str = "No statistics: the run does not reach beyond start.
 
 /// What the columns of a car's table are.
 const CAR_NOTE: &str = "\
-Worst value of each kind, of filtered forces and accelerations, beside limits that are remembered of AAR M-1001, chapter XI: check
-them against your edition. A limit counts for its regimes only (summary.json names them). Margin: what is left, in parts of it.";
+Worst value of each kind, of filtered forces and accelerations, beside limits that are remembered of AAR \
+M-1001, chapter XI: check
+them against your edition. A limit counts for its regimes only (summary.json names them). Margin: what is \
+left, in parts of it.";
 
 /// The table of a car's limits.
 fn car_table(summary: &CarSummary) -> Table {
@@ -328,7 +330,8 @@ fn car_table(summary: &CarSummary) -> Table {
 
 /// What the columns of a truck's table are.
 const TRUCK_NOTE: &str = "\
-Column normal force: of each wedge, its least and largest at any output time. Energy per cycle: lost in friction at column and
+Column normal force: of each wedge, its least and largest at any output time. Energy per cycle: lost in \
+friction at column and
 slope, over whole cycles of the first periodic motion after the first one.";
 
 /// The table of a truck's wedges.

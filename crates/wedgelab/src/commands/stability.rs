@@ -30,8 +30,8 @@ use crate::table::Table;
 /// stability.svg and stability.png.
 ///
 /// With --nonlinear it also runs the car at falling and at rising speed: where hunting dies after a lateral
-/// start at the highest speed, and where small dips of the rails begin to grow into hunting. Writes hunting.csv
-/// (amplitudes over speed), hunting.json, hunting.svg and hunting.png.
+/// start at the highest speed, and where small dips of the rails begin to grow into hunting. Writes
+/// hunting.csv (amplitudes over speed), hunting.json, hunting.svg and hunting.png.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -46,13 +46,24 @@ pub struct Arguments {
     #[arg(long, value_name = "FROM..TO", default_value = "30 mph..80 mph", value_parser = range)]
     speeds: [f64; 2],
     /// Number of speeds, at least 2
-    #[arg(long, value_name = "N", default_value_t = 11, value_parser = clap::value_parser!(u32).range(2..=1000))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 11,
+        value_parser = clap::value_parser!(u32).range(2..=1000),
+    )]
     steps: u32,
     /// Run the car at falling and at rising speed too, to see where it hunts
     #[arg(long)]
     nonlinear: bool,
     /// How long the speed falls, and rises; slower is more exact
-    #[arg(long, value_name = "TIME", default_value = "90 s", value_parser = ramp_time, requires = "nonlinear")]
+    #[arg(
+        long,
+        value_name = "TIME",
+        default_value = "90 s",
+        value_parser = ramp_time,
+        requires = "nonlinear",
+    )]
     ramp_time: f64,
     /// Lateral amplitude of a wheelset from which on it hunts
     #[arg(long, value_name = "LENGTH", default_value = "0.05 in", value_parser = threshold,

@@ -20,20 +20,21 @@ use crate::progress::Progress;
 
 /// Wear of a wedge's faces over many cycles
 ///
-/// Runs a case of a single wedge, takes what its last whole cycle does at each contact point, lets the depths of
-/// the wedge's faces grow by a law of wear over many cycles, and runs the worn wedge again, step by step. Writes
-/// wear.csv (volumes, losses, forces, rise over the cycles), wear_points.csv (depth and pressure of every point
-/// at every step), column_wear.csv and slope_wear.csv (what wedge_wear takes), worn.toml (the worn case),
-/// wear.svg, wear.png and wear.txt (the result in words). With --counterface column and pocket are worn too, where
-/// the wedge slides over them: column_counterface_wear.csv, slope_counterface_wear.csv (what counterface_wear
-/// takes).
+/// Runs a case of a single wedge, takes what its last whole cycle does at each contact point, lets the depths
+/// of the wedge's faces grow by a law of wear over many cycles, and runs the worn wedge again, step by step.
+/// Writes wear.csv (volumes, losses, forces, rise over the cycles), wear_points.csv (depth and pressure of
+/// every point at every step), column_wear.csv and slope_wear.csv (what wedge_wear takes), worn.toml (the
+/// worn case), wear.svg, wear.png and wear.txt (the result in words). With --counterface column and pocket
+/// are worn too, where the wedge slides over them: column_counterface_wear.csv, slope_counterface_wear.csv
+/// (what counterface_wear takes).
 ///
 /// The laws' default numbers are guesses, known to an order of magnitude at best.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
   wedgelab wear vdrun_toe_0_psi_0 --cycles 100000
-  wedgelab wear my.toml --cycles 1e6 --steps 20 --coefficient 3e-5 --hardness '2000 MPa' --set 'column_face.grid=[5, 5]'
+  wedgelab wear my.toml --cycles 1e6 --steps 20 --coefficient 3e-5 --hardness '2000 MPa' --set \
+'column_face.grid=[5, 5]'
   wedgelab wear my.toml --cycles 1e6 --law energy --coefficient 2e-14
   wedgelab wear my.toml --cycles 1e6 --counterface 0.5 --set 'column_face.grid=[5, 5]'")]
 pub struct Arguments {
@@ -43,10 +44,20 @@ pub struct Arguments {
     #[arg(long, value_name = "N", value_parser = cycles, allow_hyphen_values = true)]
     cycles: f64,
     /// Steps at least; steps that would wear a point by more than half of its penetration are divided
-    #[arg(long, value_name = "M", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(
+        long,
+        value_name = "M",
+        default_value_t = 10,
+        value_parser = clap::value_parser!(u32).range(1..=10_000),
+    )]
     steps: u32,
     /// Steps at most
-    #[arg(long, value_name = "M", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(
+        long,
+        value_name = "M",
+        default_value_t = 200,
+        value_parser = clap::value_parser!(u32).range(1..=10_000),
+    )]
     most_steps: u32,
     /// Law of wear
     #[arg(long, value_enum, default_value_t = Law::Archard)]
@@ -59,7 +70,13 @@ pub struct Arguments {
     #[arg(long, value_name = "PRESSURE", value_parser = hardness)]
     hardness: Option<Quantity>,
     /// What column and pocket lose, by what the wedge's faces lose: the ratio of their coefficients of wear
-    #[arg(long, value_name = "RATIO", value_parser = ratio, allow_hyphen_values = true, default_value_t = 0.0)]
+    #[arg(
+        long,
+        value_name = "RATIO",
+        value_parser = ratio,
+        allow_hyphen_values = true,
+        default_value_t = 0.0,
+    )]
     counterface: f64,
     /// Set one value over those of the case; VALUE is TOML (quotes around text may be left out)
     #[arg(long, value_name = "PATH.KEY=VALUE")]
@@ -188,7 +205,8 @@ fn nothing(name: &str, stop: WearStop) -> Failure {
 fn advice(error: &WearError) -> &'static str {
     match error {
         WearError::NoCycle => {
-            "give bolster.vertical one sine or triangle, and simulation.duration one and a half of its periods"
+            "give bolster.vertical one sine or triangle, and simulation.duration one and a half of its \
+             periods"
         }
         WearError::TooManySteps { .. } => {
             "give fewer --cycles or a smaller --coefficient, or more --most-steps"

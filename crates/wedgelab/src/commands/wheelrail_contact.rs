@@ -26,15 +26,19 @@ const FRAME: &str = "CONTACT's: x forward, y to the right, z down, from the midd
 
 /// Prints them with the long help of the command.
 const EXAMPLES: &str = "\
-Frame: x forward, y to the right, z down (that of the program CONTACT; everything else in wedgelab has y to the left and
-z up). Forward rolling is a negative pitch rate. Forces act on the rail. Each wheel carries the load at a height of its
-own. Where two areas of contact grow together they are given as one patch with a share and as two with the rest; forces
+Frame: x forward, y to the right, z down (that of the program CONTACT; everything else in wedgelab has y to \
+the left and
+z up). Forward rolling is a negative pitch rate. Forces act on the rail. Each wheel carries the load at a \
+height of its
+own. Where two areas of contact grow together they are given as one patch with a share and as two with the \
+rest; forces
 contain the share.
 
 Examples:
   wedgelab wheelrail contact aar_1b 136re --lateral \"0.25 in\" --load \"33 kip\" --speed \"40 mph\"
   wedgelab wheelrail contact MBench_S1002_v3.prw MBench_UIC60_v3.prr --gauge \"1435 mm\" --lateral \"3 mm\" \\
-    --yaw \"0.0072 rad\" --roll \"-0.0001803 rad\" --load \"10 kN\" --speed \"2 m/s\" --pitch-rate \"-4.3451503 rad/s\" \\
+    --yaw \"0.0072 rad\" --roll \"-0.0001803 rad\" --load \"10 kN\" --speed \"2 m/s\" --pitch-rate \
+\"-4.3451503 rad/s\" \\
     --friction 0.3 --creep fastsim --json";
 
 /// Arguments of the command.
@@ -44,19 +48,43 @@ pub struct Arguments {
     #[command(flatten)]
     pair: Pair,
     /// Lateral place of the wheelset, to the right
-    #[arg(long, value_name = "LENGTH", default_value = "0 mm", value_parser = of_length, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        default_value = "0 mm",
+        value_parser = of_length,
+        allow_hyphen_values = true,
+    )]
     lateral: Quantity,
     /// Yaw, to the right (about z, down)
-    #[arg(long, value_name = "ANGLE", default_value = "0 rad", value_parser = of_angle, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "ANGLE",
+        default_value = "0 rad",
+        value_parser = of_angle,
+        allow_hyphen_values = true,
+    )]
     yaw: Quantity,
     /// Roll, right side down (about x, forward)
-    #[arg(long, value_name = "ANGLE", default_value = "0 rad", value_parser = of_angle, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "ANGLE",
+        default_value = "0 rad",
+        value_parser = of_angle,
+        allow_hyphen_values = true,
+    )]
     roll: Quantity,
     /// Vertical load of each wheel
     #[arg(long, value_name = "FORCE", value_parser = of_force, allow_hyphen_values = true)]
     load: Quantity,
     /// Forward speed
-    #[arg(long, value_name = "SPEED", default_value = "2 m/s", value_parser = of_speed, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "SPEED",
+        default_value = "2 m/s",
+        value_parser = of_speed,
+        allow_hyphen_values = true,
+    )]
     speed: Quantity,
     /// Pitch rate: negative where the wheelset rolls forward [default: the speed over the nominal radius]
     #[arg(long, value_name = "RATE", value_parser = of_rate, allow_hyphen_values = true)]
@@ -73,7 +101,12 @@ pub struct Arguments {
     #[arg(long, value_name = "LAW", value_enum, default_value_t = Creep::Polach)]
     creep: Creep,
     /// Cells and strips of FASTSIM
-    #[arg(long, value_name = "NUMBER", default_value_t = 50, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        default_value_t = 50,
+        value_parser = clap::value_parser!(u16).range(1..=1000),
+    )]
     cells: u16,
     /// Shear modulus of both bodies
     #[arg(long, value_name = "MODULUS", default_value = "82 GPa", value_parser = of_modulus)]

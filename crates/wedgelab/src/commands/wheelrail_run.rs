@@ -31,14 +31,18 @@ use crate::table::Table;
 
 /// Prints them with the long help of the command.
 const EXAMPLES: &str = "\
-Axes: x along the track, y to the left, z up. The carriage follows the track: lateral and yaw springs to its direction, a
-load square to it, a drive that holds the speed. A wheel on the tip of its flange or off its rail has derailed: the run
+Axes: x along the track, y to the left, z up. The carriage follows the track: lateral and yaw springs to its \
+direction, a
+load square to it, a drive that holds the speed. A wheel on the tip of its flange or off its rail has \
+derailed: the run
 ends there, and place and time are its result.
 
 Examples:
   wedgelab wheelrail run aar_1b 136re my_track.toml --speed \"60 mph\"
-  wedgelab wheelrail run worn.csv 136re curve.toml --speed \"30 mph\" --yaw-stiffness \"20 MN m/rad\" --out worn
-  wedgelab wheelrail run cone_1:20 136re straight.toml --speed \"5 m/s\" --lateral \"2 mm\" --lateral-stiffness \"0 N/m\" \\
+  wedgelab wheelrail run worn.csv 136re curve.toml --speed \"30 mph\" --yaw-stiffness \"20 MN m/rad\" --out \
+worn
+  wedgelab wheelrail run cone_1:20 136re straight.toml --speed \"5 m/s\" --lateral \"2 mm\" \
+--lateral-stiffness \"0 N/m\" \\
     --yaw-stiffness \"0 N m/rad\"";
 
 /// Steel.
@@ -89,7 +93,12 @@ pub struct Arguments {
     #[arg(long, value_name = "LAW", value_enum, default_value_t = Creep::Polach)]
     creep: Creep,
     /// Cells and strips of FASTSIM
-    #[arg(long, value_name = "NUMBER", default_value_t = 21, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        default_value_t = 21,
+        value_parser = clap::value_parser!(u16).range(1..=1000),
+    )]
     cells: u16,
     /// How contact is found: search, or tables made beforehand, which are faster on treads, not on flanges
     #[arg(long, value_enum, default_value_t = How::Search)]
@@ -98,10 +107,22 @@ pub struct Arguments {
     #[arg(long, value_name = "LENGTH", default_value = "2 m", value_parser = of_length)]
     start: Quantity,
     /// Lateral place at which it begins, to the left
-    #[arg(long, value_name = "LENGTH", default_value = "0 mm", value_parser = of_length, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        default_value = "0 mm",
+        value_parser = of_length,
+        allow_hyphen_values = true,
+    )]
     lateral: Quantity,
     /// Yaw with which it begins, to the left
-    #[arg(long, value_name = "ANGLE", default_value = "0 rad", value_parser = of_angle, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "ANGLE",
+        default_value = "0 rad",
+        value_parser = of_angle,
+        allow_hyphen_values = true,
+    )]
     yaw: Quantity,
     /// How long the run is [default: to the end of the track]
     #[arg(long, value_name = "TIME", value_parser = of_time)]

@@ -43,7 +43,8 @@ fn issue_036_a_browser_is_called_with_a_file_that_leads_to_the_page() {
     let (browser, called) = (path.join("browser"), path.join("called"));
     // Notes with what it was called, with which rights of the file, and what stands in it.
     let script = format!(
-        "#!/bin/sh\n{{ echo \"$1\"; stat -c %a \"$1\" 2>/dev/null || stat -f %Lp \"$1\"; cat \"$1\"; }} > {0}.part\nmv {0}.part {0}\n",
+        "#!/bin/sh\n{{ echo \"$1\"; stat -c %a \"$1\" 2>/dev/null || stat -f %Lp \"$1\"; cat \"$1\"; }} > \
+         {0}.part\nmv {0}.part {0}\n",
         called.display()
     );
     fs::write(&browser, script).unwrap();

@@ -92,8 +92,8 @@ pub fn aar_1b() -> Result<Profile, ProfileError> {
     aar_1b_with_tread(20.0)
 }
 
-/// Returns the same wheel with a tread of 1:`run` in place of 1:20, so that a wheelset on round crowns has the
-/// conicity 1/`run` on its treads, with the flange of the AAR-1B.
+/// Returns the same wheel with a tread of 1:`run` in place of 1:20, so that a wheelset on round crowns has
+/// the conicity 1/`run` on its treads, with the flange of the AAR-1B.
 ///
 /// # Errors
 /// The run is below 10: a steeper tread leaves the flange no straight face.

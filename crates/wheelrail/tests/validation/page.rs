@@ -18,8 +18,10 @@ const POISSON: f64 = 0.28;
 const HEAD: &str = "\
 # Validation: wheel and rail
 
-Each number of the crate `wheelrail` beside its source's. This page is written by `cargo run --release -p wheelrail
---example validation`, and a test computes it anew and compares; the tests of the crate hold the same numbers to the
+Each number of the crate `wheelrail` beside its source's. This page is written by `cargo run --release -p \
+wheelrail
+--example validation`, and a test computes it anew and compares; the tests of the crate hold the same \
+numbers to the
 limits that are stated here. [Theory](wheelrail-theory.md) has the equations.
 ";
 

@@ -159,7 +159,10 @@ fn twist_and_roll() -> Group {
 damping = "{damping}"
 free_coordinates = ["x", "y", "z", "roll", "pitch", "yaw"]
 {COMMON}[bolster]
-vertical = [{{ shape = "sine", amplitude = "0.681 in", frequency = "0.5641 Hz", phase = "90 deg" }}, "{middle}"]
+vertical = [
+    {{ shape = "sine", amplitude = "0.681 in", frequency = "0.5641 Hz", phase = "90 deg" }},
+    "{middle}",
+]
 roll = {{ shape = "sine", amplitude = "1 deg", frequency = "0.5641 Hz", phase = "90 deg" }}
 [simulation]
 duration = "6.3 s"
@@ -278,7 +281,8 @@ fn lock_up() -> Group {
         BuiltIn::new(
             format!("lock_up_friction_{friction}"),
             format!(
-                "constant damping, bolster pressed in by 0.03 in, then forced down, then up; friction {friction}"
+                "constant damping, bolster pressed in by 0.03 in, then forced down, then up; friction \
+                 {friction}"
             ),
             &format!(
                 r#"
@@ -299,9 +303,10 @@ start = "equilibrium"
     Group {
         name: "lock_up",
         title: "Lock-up and release: the bolster presses, is forced down, and rises",
-        look_at: "With friction 0.2 the pressed wedge slides down until its force is that of the quasi-static \
-                  wedge; with 0.4 it locks, and its force grows against the stiffness of the contacts. The locked \
-                  bolster moves down under a vertical force of μ N_c only, and 0.05 in upwards free it.",
+        look_at: "With friction 0.2 the pressed wedge slides down until its force is that of the \
+                  quasi-static wedge; with 0.4 it locks, and its force grows against the stiffness of the \
+                  contacts. The locked bolster moves down under a vertical force of μ N_c only, and 0.05 in \
+                  upwards free it.",
         cases: ["0.2", "0.4"].map(case).into(),
     }
 }
@@ -335,8 +340,8 @@ start = "touching"
     Group {
         name: "overturned_toe",
         title: "Overturned toe: the column leans in by more than the wedge's angle",
-        look_at: "Nothing holds the wedge: the coil throws it out, and what the coil had stored is found in its \
-                  height and speed. The run says so in its warnings, and its ledger closes.",
+        look_at: "Nothing holds the wedge: the coil throws it out, and what the coil had stored is found in \
+                  its height and speed. The run says so in its warnings, and its ledger closes.",
         cases: vec![case],
     }
 }

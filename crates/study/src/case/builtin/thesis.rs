@@ -1,7 +1,8 @@
 //! The twelve runs of the thesis's table 4-1.
 //!
-//! Their names say the direction of the toe in words. The thesis's files have a sign instead, in which -0.2 is
-//! toe *out*; eq. 5-1 has it the other way round. This file is the one place where its names are translated.
+//! Their names say the direction of the toe in words. The thesis's files have a sign instead, in which -0.2
+//! is toe *out*; eq. 5-1 has it the other way round. This file is the one place where its names are
+//! translated.
 
 use std::borrow::Cow;
 

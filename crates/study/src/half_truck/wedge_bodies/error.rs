@@ -55,7 +55,8 @@ pub enum WedgeBodyError {
         connection: u32,
     },
     /// A value that no body can have.
-    #[error("{what} of connection {connection} is {}; for a wedge body it must {must}", Number(rounded(*value)))]
+    #[error("{what} of connection {connection} is {}; for a wedge body it must \
+             {must}", Number(rounded(*value)))]
     Value {
         /// The connection's number.
         connection: u32,

@@ -46,8 +46,8 @@ Examples:
   wedgelab explore car_pitch_and_bounce_loaded
   wedgelab explore cdrun_toe_0_psi_0.012 --port 8080")]
 pub struct Arguments {
-    /// Case file of a wedge, of a truck or of a car, or, if there is no such file, the name of a built-in case
-    /// [default: vdrun_toe_0_psi_0]
+    /// Case file of a wedge, of a truck or of a car, or, if there is no such file, the name of a built-in
+    /// case [default: vdrun_toe_0_psi_0]
     case: Option<PathBuf>,
     /// Port to listen at; 0: any that is free
     #[arg(long, value_name = "PORT", default_value_t = 0)]

@@ -52,8 +52,10 @@ Examples:
   wedgelab nucars run yaw.run --data results.dat --yaw drop
   wedgelab nucars run half_truck.run --option branch=\"0.1 in/s\" --option gap_tension=allowed --out other
   wedgelab nucars run nucars_69_constant_toe_out_yaw
-  wedgelab nucars run nucars_69_constant_toe_out --wedges bodies --option wedge_contact_stiffness=\"1e6 lbf/in\" --out bodies
-  wedgelab nucars run half_truck.run --set wedges.column_friction=0.3 --set 'body.2.mass=\"2000 lb\"' --out softer
+  wedgelab nucars run nucars_69_constant_toe_out --wedges bodies --option wedge_contact_stiffness=\"1e6 \
+lbf/in\" --out bodies
+  wedgelab nucars run half_truck.run --set wedges.column_friction=0.3 --set 'body.2.mass=\"2000 lb\"' --out \
+softer
 
 Exit codes: 0 done; 1 the run could not finish or files could not be written; 2 the input is wrong;
 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM: what was computed is written.")]
@@ -79,7 +81,13 @@ pub struct Arguments {
     #[arg(long)]
     all_outputs: bool,
     /// Time between two rows
-    #[arg(long, value_name = "TIME", default_value = "0.01 s", value_parser = time, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "TIME",
+        default_value = "0.01 s",
+        value_parser = time,
+        allow_hyphen_values = true,
+    )]
     interval: Quantity,
     /// How the bolster's yaw is reached
     #[arg(long, value_name = "HOW")]
@@ -369,9 +377,12 @@ fn list() -> Result<ExitCode, Failure> {
 
 /// What the columns of the table are.
 const TABLE_NOTE: &str = "\
-Mean force: column friction on the side frame, positive up, averaged while the input goes up or down, over the output times after
-the first half period in the window: mid stroke (constant damping), the input faster than 0.9 of its peak speed; lower stroke
-(variable damping), faster than 0.25 of it, and lower than 0.3 of its amplitude. Energy per cycle: lost in friction at the column.
+Mean force: column friction on the side frame, positive up, averaged while the input goes up or down, over \
+the output times after
+the first half period in the window: mid stroke (constant damping), the input faster than 0.9 of its peak \
+speed; lower stroke
+(variable damping), faster than 0.25 of it, and lower than 0.3 of its amplitude. Energy per cycle: lost in \
+friction at the column.
 Jammed: share of the output times without steady sliding, held by the limit alone.";
 
 /// The table of wedges.
