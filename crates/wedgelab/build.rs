@@ -27,8 +27,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// An empty file where there is none: `cargo check` and `cargo clippy` make no library. Where it is made,
-/// that is before the program is compiled, of which it is a dependency, and it takes the place of this file.
+/// Makes an empty file where there is none: `cargo check` and `cargo clippy` make no library. Where it is
+/// made, that is before the program is compiled, of which it is a dependency, and it takes the place of this
+/// file.
 fn stand_in(library: &PathBuf) -> io::Result<()> {
     match OpenOptions::new().write(true).create_new(true).open(library) {
         Err(error) if error.kind() != ErrorKind::AlreadyExists => Err(error),

@@ -67,7 +67,7 @@ fn everything(workspace: &Workspace) -> Result<(), String> {
     Ok(())
 }
 
-/// What a section's program prints; none if it is not installed.
+/// Returns the output of a section's program; none if it is not installed.
 fn measured(workspace: &Workspace, program: &[&str]) -> Result<Option<String>, String> {
     let binary = |name: &str| workspace.target.join("release").join(name);
     let (name, arguments) = match program {
@@ -84,7 +84,7 @@ fn measured(workspace: &Workspace, program: &[&str]) -> Result<Option<String>, S
     Ok(Some(lines.collect::<Vec<_>>().join("\n")))
 }
 
-/// What a command prints.
+/// Returns the output of a command.
 fn stdout(command: &mut Command) -> Result<String, String> {
     let output = command.output();
     let output =
@@ -122,7 +122,7 @@ fn counts(workspace: &Workspace) -> Result<Option<String>, String> {
     Ok(Some(text))
 }
 
-/// The instructions that a command under callgrind reports.
+/// Returns the instructions that a command under callgrind reports.
 fn instructions(command: &mut Command) -> Result<f64, String> {
     let output = command
         .output()
@@ -137,7 +137,7 @@ fn instructions(command: &mut Command) -> Result<f64, String> {
     count.ok_or_else(|| format!("valgrind reported no count:\n{text}"))
 }
 
-/// The arguments for cargo: all crates, unless some are chosen.
+/// Returns the arguments for cargo: all crates, unless some are chosen.
 fn call(arguments: &[String]) -> Vec<&str> {
     let chosen = arguments
         .iter()

@@ -22,8 +22,8 @@ pub fn run(workspace: &Workspace, arguments: &[String]) -> ExitCode {
     }
 }
 
-/// The check: a minute over all readers, the same inputs every time. In the release profile: what is tested
-/// is what users run, and the tests have compiled it.
+/// Runs the check: a minute over all readers, the same inputs every time. In the release profile: what is
+/// tested is what users run, and the tests have compiled it.
 ///
 /// # Errors
 /// Something was found.

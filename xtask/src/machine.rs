@@ -33,14 +33,14 @@ impl Machine {
     }
 }
 
-/// The processor's name in what Linux says of it.
+/// Returns the processor's name in what Linux says of it.
 fn processor(text: &str) -> Option<String> {
     let line = text.lines().find(|line| line.starts_with("model name"))?;
     let (_, name) = line.split_once(':')?;
     Some(name.trim().to_owned())
 }
 
-/// The date of a day since 1970-01-01, in the Gregorian calendar.
+/// Returns the date of a day since 1970-01-01, in the Gregorian calendar.
 fn date(mut days: u64) -> String {
     let leap = |year: u64| year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
     let mut year = 1970;

@@ -61,7 +61,7 @@ impl Workspace {
     }
 }
 
-/// The command as one would type it; an absolute program path is cut to its last part.
+/// Returns the command as one would type it; an absolute program path is cut to its last part.
 fn line(command: &Command) -> String {
     let program = Path::new(command.get_program());
     let program = program.file_name().unwrap_or(program.as_os_str());
@@ -91,7 +91,7 @@ pub fn run(command: &mut Command) -> Result<(), String> {
     }
 }
 
-/// What a command prints to its standard output, or nothing when it fails.
+/// Returns the standard output of a command, or nothing when it fails.
 pub fn output(command: &mut Command) -> Option<String> {
     let output = command.stderr(Stdio::null()).output().ok()?;
     output

@@ -244,7 +244,7 @@ fn parse(arguments: &[String]) -> Result<Request, String> {
     Ok(Request::Run { only, fail_fast })
 }
 
-/// The checks asked for, in their own order, each once; without names all but those on request.
+/// Returns the checks asked for, in their own order, each once; without names all but those on request.
 fn select(only: &[String]) -> Vec<&'static Check> {
     let wanted = |check: &&Check| match only {
         [] => !check.on_request,
@@ -325,7 +325,7 @@ fn run_checks(checks: &[&Check], fail_fast: bool, workspace: &Workspace) -> Vec<
     results
 }
 
-/// Whether nothing failed and nothing was left out.
+/// Returns whether nothing failed and nothing was left out.
 fn passed(results: &[Line]) -> bool {
     results.iter().all(|line| matches!(line.result, Some((_, Ok(_)))))
 }

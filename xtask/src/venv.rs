@@ -9,8 +9,8 @@ use crate::shell;
 /// The file in an environment that says what was installed into it.
 const STAMP: &str = "installed-requirements.txt";
 
-/// The Python of an environment that holds what a requirements file names: `<root>/tools/<name>`, where
-/// `root` is the folder that cargo builds into ([`crate::shell::Workspace::target`]).
+/// Returns the Python of an environment that holds what a requirements file names: `<root>/tools/<name>`,
+/// where `root` is the folder that cargo builds into ([`crate::shell::Workspace::target`]).
 ///
 /// The environment is made (network, `python3` with `venv`) when it is not there or was made from another
 /// text.
@@ -58,13 +58,13 @@ fn make(folder: &Path, program: &Path, requirements: &Path) -> Result<(), String
     shell::run(Command::new(program).args(pip).arg(requirements))
 }
 
-/// Whether the environment is finished and holds what is wanted.
+/// Returns whether the environment is finished and holds what is wanted.
 fn is_made(folder: &Path, wanted: &str) -> bool {
     let same = fs::read_to_string(folder.join(STAMP)).is_ok_and(|installed| installed == wanted);
     same && program(folder).is_file()
 }
 
-/// The Python of an environment.
+/// Returns the Python of an environment.
 fn program(folder: &Path) -> PathBuf {
     if cfg!(windows) {
         folder.join("Scripts").join("python.exe")

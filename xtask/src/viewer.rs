@@ -42,7 +42,7 @@ pub fn run(workspace: &Workspace, arguments: &[String]) -> ExitCode {
     }
 }
 
-/// The viewer's folder.
+/// Returns the viewer's folder.
 pub fn folder(workspace: &Workspace) -> PathBuf {
     workspace.root.join("viewer")
 }
@@ -76,7 +76,7 @@ pub fn bundle(workspace: &Workspace) -> Result<(), String> {
     shell::run(&mut node(workspace, ["scripts/bundle.mjs"]))
 }
 
-/// Whether both files are there and hold the same.
+/// Returns whether both files are there and hold the same.
 fn same(a: &Path, b: &Path) -> bool {
     match (fs::read(a), fs::read(b)) {
         (Ok(a), Ok(b)) => a == b,

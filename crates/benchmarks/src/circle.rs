@@ -43,7 +43,7 @@ const ROTATIONAL_DAMPING: f64 = 2e4;
 /// Time of one circle, s.
 pub const CIRCLE: f64 = TAU / HEADING_RATE;
 
-/// The lateral force in the steady state, N: `m ω² (R + d)`, where it stretches the bushing by d.
+/// Returns the lateral force in the steady state, N: `m ω² (R + d)`, where it stretches the bushing by d.
 #[must_use]
 pub fn steady_force() -> f64 {
     let inertia = MASS * HEADING_RATE * HEADING_RATE;
@@ -62,7 +62,7 @@ pub enum Order {
 }
 
 impl Order {
-    /// The axes, first to last.
+    /// Returns the axes, first to last.
     fn axes(self) -> [usize; 3] {
         match self {
             Self::PitchYawRoll => [1, 2, 0],
@@ -71,7 +71,7 @@ impl Order {
         }
     }
 
-    /// Whether pitch is a spin, which the bushing leaves free.
+    /// Returns whether pitch is a spin, which the bushing leaves free.
     fn spins(self) -> bool {
         self == Self::YawRollPitch
     }
@@ -104,7 +104,7 @@ pub struct Bushing<S> {
     work: S,
 }
 
-/// The states of [`Carried`] in a vector of them.
+/// Returns the states of [`Carried`] in a vector of them.
 ///
 /// # Panics
 /// If there are fewer.
@@ -204,7 +204,7 @@ impl Carried {
         }
     }
 
-    /// What the bushing does to the body.
+    /// Returns the wrench of the bushing on the body.
     #[must_use]
     pub fn loads(&self, time: f64, x: &[f64; STATES]) -> Bushing<f64> {
         self.bushing(time, x, &self.pose(x))
@@ -233,7 +233,7 @@ impl Carried {
         }
     }
 
-    /// The right-hand side.
+    /// Returns the right-hand side.
     pub fn rates<S: Real>(&self, time: S, x: &[S; STATES]) -> [S; STATES] {
         let pose = self.pose(x);
         let bushing = self.bushing(time, x, &pose);
@@ -289,7 +289,7 @@ impl Carried {
         (matrix, by_time)
     }
 
-    /// The problem for the integrator; the spin's angle is not error controlled where it is free.
+    /// Returns the problem for the integrator; the spin's angle is not error controlled where it is free.
     #[must_use]
     pub fn problem(self) -> FunctionProblem<'static> {
         let mut scales = vec![
@@ -347,7 +347,7 @@ pub enum Coordinates {
     Relative,
 }
 
-/// The same body, held by six coils, as a system of the core, and its state at the start; body 1.
+/// Returns the same body, held by six coils, as a system of the core, and its state at the start; body 1.
 ///
 /// # Errors
 /// It makes no system, which would be a defect.

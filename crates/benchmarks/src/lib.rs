@@ -19,7 +19,7 @@ use study::half_truck::catalog;
 use wedge::parameters::Damping;
 use wedge::{BuildError, Wedge, thesis};
 
-/// Returns how a benchmark ends, after its error, if it has one, is told.
+/// Returns the exit code of a benchmark, and prints its error, if it has one.
 pub fn exit(done: Result<(), String>) -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -30,7 +30,8 @@ pub fn exit(done: Result<(), String>) -> ExitCode {
     }
 }
 
-/// A wedge in the middle of a branch, pressed into both faces and sliding, toe out and yawed, and its state.
+/// Returns a wedge in the middle of a branch, pressed into both faces and sliding, toe out and yawed, and its
+/// state.
 ///
 /// # Errors
 /// The thesis's parameters make no wedge, which would be a defect.
@@ -43,8 +44,8 @@ pub fn sliding_wedge(damping: Damping) -> Result<(Wedge, Vec<f64>), BuildError> 
     Ok((wedge, x))
 }
 
-/// A half-truck of the catalog ([`catalog::entries`]) with its bolster going down and its wedges sliding, and
-/// its state.
+/// Returns a half-truck of the catalog ([`catalog::entries`]) with its bolster going down and its wedges
+/// sliding, and its state.
 ///
 /// # Errors
 /// There is no such run, or it makes no system.
@@ -105,7 +106,7 @@ pub fn costs<P: Problem>(problem: &mut P, time: f64, x: &[f64], shift: f64, call
     [rates, jacobian, factor, solve]
 }
 
-/// The least CPU time of nine rounds, µs a call.
+/// Returns the least CPU time of nine rounds, µs a call.
 fn least(calls: usize, mut call: impl FnMut()) -> f64 {
     let rounds = (0..9).map(|_| {
         let begun = cpu_seconds();

@@ -69,8 +69,8 @@ impl WedgePose {
     }
 }
 
-/// A system of `count` wedges of the thesis, variable damping, toe out, whose bolsters (or their supports)
-/// move down and up.
+/// Returns a system of `count` wedges of the thesis, variable damping, toe out, whose bolsters (or their
+/// supports) move down and up.
 ///
 /// # Errors
 /// They make no system, which would be a defect.
@@ -193,7 +193,7 @@ fn empty(one: &Wedge) -> Model {
     }
 }
 
-/// As the thesis's bolsters move, but downwards first, which presses the wedges.
+/// Returns the motion of the thesis's bolsters, but downwards first, which presses the wedges.
 fn downwards() -> Motion {
     Motion::Sine {
         amplitude: -0.0254,
@@ -202,7 +202,7 @@ fn downwards() -> Motion {
     }
 }
 
-/// A body between two wedges, with the coordinates of a wedge.
+/// Returns a body between two wedges, with the coordinates of a wedge.
 fn free_body(name: &str, origin: [f64; 3]) -> Body {
     Body {
         name: name.to_owned(),

@@ -16,7 +16,7 @@ fn after(body: Carried, end: f64) -> [f64; STATES] {
     states(integrator.x())
 }
 
-/// A wheelset that rolls, at the start of the circle where the track has this heading.
+/// Returns a wheelset that rolls, at the start of the circle where the track has this heading.
 fn wheelset(heading: f64) -> Carried {
     Carried {
         order: Order::YawRollPitch,

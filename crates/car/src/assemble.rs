@@ -170,7 +170,7 @@ impl Car {
     }
 }
 
-/// How patches are found at the left and the right wheel; none of linear wheels.
+/// Returns the searches for patches at the left and the right wheel; none of linear wheels.
 fn searches(wheels: &Wheels) -> Result<Vec<Search>, BuildError> {
     let Wheels::OnRails(wheels) = wheels else {
         return Ok(Vec::new());
@@ -374,7 +374,7 @@ fn with_half_body(own: &truck::Parameters, carried: &Carried) -> truck::Paramete
     own
 }
 
-/// The body with its lading.
+/// Returns the body with its lading.
 fn car_body(carried: &Carried) -> Body {
     let [x, y, z] = carried.inertia;
     let mut body = Body::free("car_body", carried.mass, [x, z, y], [0.0; 6]);

@@ -173,7 +173,7 @@ impl Car {
         body.rotation.times(nominal.transpose())
     }
 
-    /// A vector in the track's own axes.
+    /// Returns a vector in the track's own axes.
     pub(crate) fn own(&self, vector: Vector<f64>) -> Vector<f64> {
         self.axes.apply_transposed(vector)
     }

@@ -9,7 +9,7 @@ use integrate::Method;
 use truck::{WedgeKind, empirical_warp};
 use wheelrail::track::{CurveElements, Segment};
 
-/// The force of all wheels on the rails along the track's plane, positive to the left, N.
+/// Returns the force of all wheels on the rails along the track's plane, positive to the left, N.
 fn lateral(loads: &Loads) -> f64 {
     loads
         .wheels
@@ -18,7 +18,7 @@ fn lateral(loads: &Loads) -> f64 {
         .sum()
 }
 
-/// The mean of the last four seconds, some periods of what is left of the car's swaying.
+/// Returns the mean of the last four seconds, some periods of what is left of the car's swaying.
 fn late(ran: &Ran, of: impl Fn(&Loads) -> f64) -> f64 {
     let late = ran.loads.iter().rev().take(80);
     late.map(|(_, own)| of(own)).sum::<f64>() / 80.0
@@ -118,7 +118,7 @@ fn limits_forces_of_massless_wedges_do_not_know_the_heading() {
     same(&ran);
 }
 
-/// A car with the industry's wedges and the warp springs of a new truck, in a curve.
+/// Returns a car with the industry's wedges and the warp springs of a new truck, in a curve.
 fn industry(degree: f64, cant: f64, speed: f64) -> Parameters {
     let mut parameters = massless(loaded(curve(degree, 1.0, cant, 200.0), speed));
     for own in &mut parameters.trucks {

@@ -18,8 +18,9 @@ const RADIUS: f64 = 18.0 * INCH;
 /// Stiffness of a nest across, N/m.
 const NEST: f64 = 17_800.0 * POUND_FORCE / INCH;
 
-/// The empty car on linear wheels that do not roll about x, reduced: center plates turn freely, adapters
-/// are pins, nothing damps, wedges do nothing but for an empirical warp stiffness of the truck (N·m/rad).
+/// Returns the empty car on linear wheels that do not roll about x, reduced: center plates turn freely,
+/// adapters are pins, nothing damps, wedges do nothing but for an empirical warp stiffness of the truck
+/// (N·m/rad).
 fn reduced(conicity: f64, warp: Option<f64>) -> Parameters {
     let mut parameters = empty(tangent(300.0), 10.0);
     parameters.support = None;

@@ -7,7 +7,7 @@ use car::{Car, Loads, Mass, Parameters};
 use common::{POUND_FORCE, at_start, empty, loaded, run, tangent};
 use mechanics::vector::Vector;
 
-/// The vertical force of all wheels, N.
+/// Returns the vertical force of all wheels, N.
 fn sum(loads: &Loads) -> f64 {
     loads.wheels.iter().flatten().map(|wheel| wheel.vertical).sum()
 }

@@ -42,7 +42,7 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// A real number.
+    /// Returns a real number.
     #[must_use]
     pub fn real(
         name: impl Into<String>,
@@ -63,7 +63,7 @@ impl Entry {
         }
     }
 
-    /// An integer between two values.
+    /// Returns an integer between two values.
     #[must_use]
     pub fn integer(name: &str, start: Option<i32>, reach: [i32; 2], text: impl Into<String>) -> Self {
         Self {
@@ -73,7 +73,7 @@ impl Entry {
         }
     }
 
-    /// A truth value.
+    /// Returns a truth value.
     #[must_use]
     pub fn boolean(name: &str, start: bool, text: impl Into<String>) -> Self {
         Self {
@@ -147,14 +147,14 @@ pub(crate) struct ElementTime {
 }
 
 impl ElementTime {
-    /// What it must be at a time of the experiment.
+    /// Returns the phase in which it must be at a time of the experiment.
     pub fn of(&self, time: f64) -> f64 {
         time - self.zero
     }
 }
 
 impl ElementState {
-    /// Its time, in an experiment with this start.
+    /// Returns its time, in an experiment with this start.
     pub(crate) fn time(&self, start: f64) -> ElementTime {
         let (own, zero) = match self {
             Self::Wedge(state) => match &**state {
@@ -181,7 +181,7 @@ pub struct Slopes {
 /// An element at work, from the initialization on. Lists have the lengths and orders of [`Entries`]; SI
 /// units.
 pub trait Element: Send {
-    /// The continuous states.
+    /// Returns the continuous states.
     fn states(&self) -> &[f64];
     /// Sets time and continuous states (model exchange).
     ///
@@ -203,14 +203,14 @@ pub trait Element: Send {
     /// # Errors
     /// The integration cannot go on.
     fn step(&mut self, end: &[f64], time: f64) -> Result<(), Error>;
-    /// The rates of the states.
+    /// Writes the rates of the states.
     ///
     /// # Errors
     /// `out` has another length.
     fn rates(&mut self, out: &mut [f64]) -> Result<(), Error>;
     /// The event indicators: never exactly zero.
     fn indicators(&mut self, out: &mut [f64]);
-    /// The contact states.
+    /// Returns the contact states.
     fn modes(&self) -> &[u8];
     /// Brings the contact states up to date.
     fn update_modes(&mut self) -> bool;
@@ -218,7 +218,7 @@ pub trait Element: Send {
     fn next_time_event(&mut self) -> Option<f64> {
         None
     }
-    /// The outputs.
+    /// Writes the outputs.
     ///
     /// # Errors
     /// Never, with an element that was built here.
@@ -230,7 +230,7 @@ pub trait Element: Send {
     /// # Errors
     /// Lists of other lengths.
     fn jacobian_vector_product(&mut self, states: &[f64], inputs: &[f64]) -> Result<Slopes, Error>;
-    /// Its state, to go on from with the same bits.
+    /// Returns its state, to go on from with the same bits.
     fn save(&self) -> ElementState;
     /// Goes back to a saved state.
     ///

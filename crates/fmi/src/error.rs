@@ -36,7 +36,7 @@ impl Category {
         Category::Events,
     ];
 
-    /// Its name in the description.
+    /// Returns its name in the description.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -47,7 +47,7 @@ impl Category {
         }
     }
 
-    /// What it is about.
+    /// Returns the message.
     #[must_use]
     pub fn text(self) -> &'static str {
         match self {
@@ -68,7 +68,7 @@ pub struct Error {
 }
 
 impl Error {
-    /// An error of this message.
+    /// Returns an error of this message.
     #[must_use]
     pub fn new(message: impl Into<String>) -> Self {
         Self {

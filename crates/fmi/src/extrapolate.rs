@@ -22,7 +22,7 @@ pub(crate) struct Known<'k> {
     pub before: Option<(&'k [f64], f64)>,
 }
 
-/// The inputs at the end of a step of this length (s).
+/// Returns the inputs at the end of a step of this length (s).
 ///
 /// Positions go on with their rate, and with half the square of the step times the rate's derivative where
 /// that is known; rates go on with their derivative; other inputs are held, or go on with their derivative.

@@ -42,7 +42,7 @@ pub(crate) fn open(path: &Path, most: u64) -> Result<File, Error> {
     File::open(path).map_err(|error| refused(&error))
 }
 
-/// The bytes of a file, if there are at most so many.
+/// Returns the bytes of a file, if there are at most so many.
 ///
 /// # Errors
 /// As [`open`].
@@ -60,7 +60,7 @@ pub(crate) fn read(path: &Path, most: u64) -> Result<Vec<u8>, Error> {
     Ok(bytes)
 }
 
-/// The text of a file, if it has at most so many bytes.
+/// Returns the text of a file, if it has at most so many bytes.
 ///
 /// # Errors
 /// As [`open`], and what is not UTF-8.

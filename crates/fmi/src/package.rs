@@ -58,7 +58,7 @@ pub const PLATFORMS: [Platform; 5] = [
 ];
 
 impl Platform {
-    /// The one that this program runs on.
+    /// Returns the one that this program runs on.
     #[must_use]
     pub fn here() -> Option<Self> {
         let system = match std::env::consts::OS {
@@ -69,7 +69,7 @@ impl Platform {
         PLATFORMS.into_iter().find(|platform| platform.three == name)
     }
 
-    /// Whether bytes begin as a library of this platform does.
+    /// Checks whether bytes begin as a library of this platform does.
     fn check(self, library: &Library) -> Result<(), Error> {
         let (kind, beginnings): (_, &[&[u8]]) = match self.ending {
             "dll" => ("PE", &[b"MZ"]),
@@ -89,7 +89,7 @@ impl Platform {
         )))
     }
 
-    /// Its folder in an FMU of a version.
+    /// Returns its folder in an FMU of a version.
     #[must_use]
     pub fn folder(self, version: Version) -> &'static str {
         match version {
@@ -215,7 +215,7 @@ pub fn merged(parts: &[PathBuf]) -> Result<(Vec<u8>, usize), Error> {
     Ok((pack(&files)?, count))
 }
 
-/// The files in an FMU, which must have no more bytes than these in all.
+/// Returns the files in an FMU, which must have no more bytes than these in all.
 fn unpack(path: &Path, most: u64) -> Result<Vec<(String, Vec<u8>)>, Error> {
     let failed = |error: &dyn std::fmt::Display| Error::new(format!("{} is no FMU: {error}", path.display()));
     let file = limits::open(path, limits::FMU_FILE)?;
@@ -288,7 +288,7 @@ pub(crate) fn pack(files: &[(String, Vec<u8>)]) -> Result<Vec<u8>, Error> {
     Ok(archive.into_inner())
 }
 
-/// The page that documents an FMU.
+/// Returns the page that documents an FMU.
 fn page(description: &Description) -> String {
     let escape = |text: &str| {
         text.replace('&', "&amp;")

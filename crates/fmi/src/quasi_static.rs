@@ -50,7 +50,7 @@ fn unit(kind: Kind) -> Option<Unit> {
     Some(Unit::Of(kind))
 }
 
-/// All quantities of the quasi-static wedge of a case.
+/// Returns all quantities of the quasi-static wedge of a case.
 ///
 /// # Errors
 /// The wedge jams.
@@ -172,7 +172,7 @@ pub fn entries(case: &Case) -> Result<Entries, Error> {
     Ok(entries)
 }
 
-/// Whether a parameter of the wedge means anything without mass and elasticity.
+/// Returns whether a parameter of the wedge means anything without mass and elasticity.
 fn is_used(name: &str) -> bool {
     [
         "wedge_angle",
@@ -191,7 +191,7 @@ fn is_used(name: &str) -> bool {
     .contains(&name)
 }
 
-/// The readings that are outputs, in their order.
+/// Returns the readings that are outputs, in their order.
 fn outputs_of<S: Real>(reading: &PlaneReading<S>) -> [S; 10] {
     let [bx, bz] = reading.on_bolster;
     let [sx, sz] = reading.on_side_frame;
@@ -212,7 +212,7 @@ fn outputs_of<S: Real>(reading: &PlaneReading<S>) -> [S; 10] {
 }
 
 impl QuasiStaticElement {
-    /// The quasi-static wedge of a case under these settings, at its start.
+    /// Returns the quasi-static wedge of a case under these settings, at its start.
     ///
     /// # Errors
     /// Values outside their reach, or the wedge jams.
@@ -249,7 +249,7 @@ impl QuasiStaticElement {
         Ok(element)
     }
 
-    /// Whether the wedge slides both ways, whatever part of the friction is mobilized.
+    /// Checks whether the wedge slides both ways, whatever part of the friction is mobilized.
     fn check_slides(&self) -> Result<(), Error> {
         let wedge = wedge::quasi_static::massless(&self.parameters);
         for mobilized in [-1.0, 0.0, 1.0] {

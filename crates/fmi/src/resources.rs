@@ -16,7 +16,7 @@ pub const CASE: &str = "case.toml";
 /// The file with the name of the model.
 pub const MODEL: &str = "model.txt";
 
-/// What an unpacked FMU is made of.
+/// Reads the source of an unpacked FMU.
 ///
 /// # Errors
 /// The folder is not one of an FMU of this program, or its case or run is damaged.
@@ -55,8 +55,8 @@ pub fn read(folder: &Path) -> Result<Source, Error> {
     Source::of_case(model, case).ok_or_else(unknown)
 }
 
-/// The folder that an URI of FMI 2.0 names: `file:///folder`, `file:/folder`, `file://localhost/folder`; a
-/// plain path is taken too.
+/// Returns the folder that an URI of FMI 2.0 names: `file:///folder`, `file:/folder`,
+/// `file://localhost/folder`; a plain path is taken too.
 ///
 /// # Errors
 /// The URI is of another scheme or host.

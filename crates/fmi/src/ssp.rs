@@ -170,7 +170,7 @@ fn structure(truck: &Description, wedge: &Description, connections: &[Connection
     xml.finish()
 }
 
-/// A component with the connectors that are connected.
+/// Writes a component with the connectors that are connected.
 fn component(
     xml: &mut Xml,
     name: &str,

@@ -42,7 +42,7 @@ impl Unit {
         Unit::Of(Kind::Dimensionless),
     ];
 
-    /// Its name; a pure number has none.
+    /// Returns its name; a pure number has none.
     #[must_use]
     pub fn name(self) -> Option<&'static str> {
         let Unit::Of(kind) = self else {
@@ -69,7 +69,7 @@ impl Unit {
         })
     }
 
-    /// Its exponents of base units.
+    /// Returns its exponents of base units.
     #[must_use]
     pub fn dimension(self) -> Dimension {
         match self {
@@ -78,7 +78,7 @@ impl Unit {
         }
     }
 
-    /// Its exponents of base units that are not zero, as descriptions name them.
+    /// Returns its exponents of base units that are not zero, as descriptions name them.
     #[must_use]
     pub fn base(self) -> Vec<(&'static str, String)> {
         let dimension = self.dimension();
@@ -95,7 +95,7 @@ impl Unit {
             .collect()
     }
 
-    /// What it is shown in, if not in itself.
+    /// Returns the unit in which values are displayed, if that is another one.
     #[must_use]
     pub fn display(self) -> Option<Display> {
         let Unit::Of(kind) = self else { return None };
@@ -124,7 +124,7 @@ impl Unit {
         })
     }
 
-    /// The unit of the rate of a state in this unit.
+    /// Returns the unit of the rate of a state in this unit.
     #[must_use]
     pub fn rate(self) -> Self {
         match self {

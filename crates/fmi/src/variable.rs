@@ -18,7 +18,7 @@ pub enum Causality {
 }
 
 impl Causality {
-    /// Its name in descriptions.
+    /// Returns its name in descriptions.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -45,7 +45,7 @@ pub enum Variability {
 }
 
 impl Variability {
-    /// Its name in descriptions.
+    /// Returns its name in descriptions.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -119,7 +119,7 @@ pub struct Variable {
 }
 
 impl Variable {
-    /// Whether its value at the start is calculated, not given.
+    /// Returns whether its value at the start is calculated, not given.
     #[must_use]
     pub fn is_calculated(&self) -> bool {
         matches!(self.start, Start::Float(None) | Start::Integer(None))

@@ -24,13 +24,13 @@ fn case() -> Case {
     builtin::case("cdrun_toe_out_0.2_psi_0.012").unwrap()
 }
 
-/// What a model is made of here.
+/// Returns the source of a model.
 fn source(model: FmuModel) -> Source {
     let half_truck = || HalfTruck::built_in("nucars_69_constant_toe_out", &Settings::default()).unwrap();
     Source::of_case(model, case()).unwrap_or_else(|| Source::HalfTruck(Box::new(half_truck())))
 }
 
-/// An instance on its way.
+/// Returns an instance on its way.
 fn under_way(model: FmuModel, interface: Interface) -> Instance {
     let mut instance = Instance::of("wedge", None, source(model), Version::Two, interface).unwrap();
     instance.set_experiment(0.5, Some(100.0), Some(1e-6)).unwrap();
@@ -61,7 +61,7 @@ fn go_on(instance: &mut Instance, steps: u32, length: f64) -> Result<(), fmi::Er
     Ok(())
 }
 
-/// Whether an instance answers, after a step if it makes steps.
+/// Checks whether an instance answers, after a step if it makes steps.
 fn use_it(instance: &mut Instance) -> Result<(), fmi::Error> {
     let references: Vec<u32> = instance
         .description()
@@ -225,7 +225,7 @@ fn issue_029_steps_that_are_lost_against_the_time_are_refused() {
     instance.do_step(time, 1e-4).unwrap();
 }
 
-/// The folder `resources` of an FMU.
+/// Returns the folder `resources` of an FMU.
 fn resources_of(folder: &Path) -> PathBuf {
     let description = Description::new(&Source::Wedge(Box::new(case()))).unwrap();
     fs::write(folder.join(resources::CASE), description.file.1).unwrap();

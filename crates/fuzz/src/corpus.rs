@@ -26,7 +26,7 @@ pub fn write(readers: &[&Reader], folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// One piece a line, in quotes, every byte by its number.
+/// Returns one piece a line, in quotes, every byte by its number.
 fn dictionary(pieces: &[&[u8]]) -> String {
     let mut text = String::new();
     for piece in pieces {

@@ -47,7 +47,7 @@ pub fn add(groups: &mut Groups, mut finding: Finding) {
     }
 }
 
-/// A text with all numbers alike, and not too long: what is left of a message to tell mistakes apart.
+/// Returns a text with all numbers alike, and not too long: what is left of a message to tell mistakes apart.
 #[must_use]
 pub fn without_numbers(text: &str) -> String {
     const MOST: usize = 120;
@@ -63,7 +63,7 @@ pub fn without_numbers(text: &str) -> String {
     plain
 }
 
-/// The beginning of a text that may be long.
+/// Returns the beginning of a text that may be long.
 #[must_use]
 pub fn beginning(text: &str) -> String {
     const MOST: usize = 600;

@@ -32,13 +32,13 @@ impl Inputs {
         self.material.own.len() as u64
     }
 
-    /// The input of this number: first the corpus as it is, then mutations of it.
+    /// Returns the input of this number: first the corpus as it is, then mutations of it.
     #[must_use]
     pub fn input(&self, seed: u64, number: u64) -> Vec<u8> {
         self.made(seed, number).0
     }
 
-    /// The kinds of mutation that the input of this number went through.
+    /// Returns the kinds of mutation that the input of this number went through.
     #[must_use]
     pub fn mutations(&self, seed: u64, number: u64) -> Vec<Mutation> {
         self.made(seed, number).1

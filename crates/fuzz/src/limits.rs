@@ -5,10 +5,10 @@ use std::time::Duration;
 /// Bytes of the longest input that is made.
 pub const LONGEST_INPUT: usize = 1 << 20;
 
-/// Bytes of the longest text in which a refusal may be told.
+/// Bytes of the longest text of a refusal.
 pub const LONGEST_MESSAGE: usize = 64 << 10;
 
-/// How many mistakes of one input may be told at most; `None`: any number.
+/// How many mistakes of one input may be printed at most; `None`: any number.
 pub const MOST_MISTAKES: Option<usize> = Some(input::limits::MISTAKES);
 
 /// Whether numbers that a comparison gives must be finite.

@@ -4,10 +4,10 @@
 
 /// A line on the standard output. If nobody reads there is nothing to be done.
 macro_rules! say {
-    ($($told:tt)*) => {{
+    ($($message:tt)*) => {{
         let _ = std::io::Write::write_fmt(
             &mut std::io::stdout(),
-            format_args!("{}\n", format_args!($($told)*)),
+            format_args!("{}\n", format_args!($($message)*)),
         );
     }};
 }

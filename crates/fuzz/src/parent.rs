@@ -167,7 +167,7 @@ pub struct Worker {
 }
 
 impl Worker {
-    /// One of a reader, with its files in a folder.
+    /// Starts a worker of a reader, with its files in a folder.
     pub fn start(reader: &Reader, folder: &Path) -> Self {
         let command = std::env::current_exe().map(|program| {
             let mut command = Command::new(program);
@@ -191,7 +191,7 @@ impl Worker {
         self
     }
 
-    /// Which inputs it reads.
+    /// Returns the numbers of the inputs that it reads.
     #[must_use]
     pub fn numbers(self, seed: u64, from: u64, until: u64) -> Self {
         self.with("--seed", &seed.to_string())
@@ -254,7 +254,7 @@ impl Worker {
     }
 }
 
-/// What is said of an input that ended the process.
+/// Returns the description of an input that ended the process.
 fn broke(status: ExitStatus, said: &str) -> End {
     let first = said.lines().next().unwrap_or("nothing was said");
     // Names of threads and processes differ.

@@ -11,7 +11,7 @@ use fuzz::readers::{self, Reader};
 
 use crate::folder::Folder;
 use crate::parent::{End, Worker};
-use crate::worker::TOLD;
+use crate::worker::MESSAGES;
 
 /// An input: reader, seed, number.
 #[derive(Clone, Debug)]
@@ -101,8 +101,8 @@ fn run(reader: &Reader, input: &[u8], patience: Duration) -> io::Result<(Option<
                 "refused"
             };
             let time = ended.tally.slowest as f64 / 1e6;
-            let told = fs::read_to_string(folder.path().join(TOLD)).unwrap_or_default();
-            (None, format!("{end} in {time:.1} ms\n{told}"))
+            let messages = fs::read_to_string(folder.path().join(MESSAGES)).unwrap_or_default();
+            (None, format!("{end} in {time:.1} ms\n{messages}"))
         }
     })
 }
@@ -134,7 +134,7 @@ fn shortened(
     Ok(input)
 }
 
-/// The beginning and the end of an input, with what is no plain letter escaped.
+/// Returns the beginning and the end of an input, with what is no plain letter escaped.
 fn shown(input: &[u8]) -> String {
     const MOST: usize = 1500;
     let plain = |bytes: &[u8]| {

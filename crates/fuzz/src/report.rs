@@ -1,4 +1,4 @@
-//! What is told at the end.
+//! The report at the end.
 
 use std::fmt::Write;
 use std::fs;
@@ -43,7 +43,7 @@ pub fn print(results: &[ReaderResult]) {
     say!("\n{}", table(results));
 }
 
-/// The table.
+/// Returns the table.
 fn table(results: &[ReaderResult]) -> String {
     let head = [
         "reader",

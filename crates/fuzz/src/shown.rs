@@ -10,15 +10,15 @@ use miette::{
 use crate::limits::{LONGEST_MESSAGE, MOST_MISTAKES};
 
 thread_local! {
-    /// What was told, where somebody listens.
-    static TOLD: RefCell<Option<Vec<String>>> = const { RefCell::new(None) };
+    /// The messages of this thread, where somebody listens.
+    static MESSAGES: RefCell<Option<Vec<String>>> = const { RefCell::new(None) };
     /// As into a file or a pipe.
     static PLAIN: MietteHandler = options().color(false).wrap_lines(false).build();
     /// As on a terminal.
     static TERMINAL: MietteHandler = options().color(true).unicode(true).width(80).build();
 }
 
-/// What the command line sets in every case.
+/// Returns the options that the command line always sets.
 fn options() -> MietteHandlerOpts {
     MietteHandlerOpts::new()
         .context_lines(1)
@@ -35,26 +35,26 @@ impl fmt::Debug for Shown<'_> {
     }
 }
 
-/// From now on what is told on this thread is kept for [`heard`].
+/// From now on the messages of this thread are kept for [`heard`].
 pub fn listen() {
-    TOLD.set(Some(Vec::new()));
+    MESSAGES.set(Some(Vec::new()));
 }
 
-/// Returns what was told on this thread since [`listen`], and stops listening.
+/// Returns the messages of this thread since [`listen`], and stops listening.
 #[must_use]
 pub fn heard() -> Vec<String> {
-    TOLD.take().unwrap_or_default()
+    MESSAGES.take().unwrap_or_default()
 }
 
 fn keep(text: &str) {
-    TOLD.with_borrow_mut(|told| {
-        if let Some(told) = told {
-            told.push(text.to_owned());
+    MESSAGES.with_borrow_mut(|messages| {
+        if let Some(messages) = messages {
+            messages.push(text.to_owned());
         }
     });
 }
 
-/// How an error is printed into a file or a pipe.
+/// Returns an error as it is printed into a file or a pipe.
 #[must_use]
 pub fn plain(error: &dyn Diagnostic) -> String {
     PLAIN.with(|handler| format!("{:?}", Shown(error, handler)))
@@ -75,26 +75,26 @@ fn every_way(error: &dyn Diagnostic) -> [String; 3] {
 /// # Panics
 /// It breaks a promise.
 pub fn check(error: &dyn Diagnostic) -> usize {
-    let told = error.related().map_or(1, Iterator::count);
-    check_count(told);
+    let mistakes = error.related().map_or(1, Iterator::count);
+    check_count(mistakes);
     check_places(error);
     let texts = every_way(error);
     keep(&texts[0]);
     check_letters(&texts[0]);
-    let lengths = texts.iter().map(|text| check_length(text.len(), told, text));
+    let lengths = texts.iter().map(|text| check_length(text.len(), mistakes, text));
     lengths.max().unwrap_or(0)
 }
 
-/// As [`check`] for mistakes that are told one after the other; the texts count together. All of them are
+/// As [`check`] for mistakes that are printed one after the other; the texts count together. All of them are
 /// printed as into a file, some in every way.
 ///
 /// # Panics
 /// As [`check`].
 pub fn check_all<'e>(errors: impl Iterator<Item = &'e (dyn Diagnostic + 'e)>) -> usize {
     const EVERY_WAY: usize = 3;
-    let (mut told, mut bytes, mut longest) = (0, 0, String::new());
+    let (mut mistakes, mut bytes, mut longest) = (0, 0, String::new());
     for (place, error) in errors.enumerate() {
-        told += usize::from(error.severity() == Some(Severity::Error));
+        mistakes += usize::from(error.severity() == Some(Severity::Error));
         check_places(error);
         if place < EVERY_WAY {
             for text in every_way(error) {
@@ -109,11 +109,11 @@ pub fn check_all<'e>(errors: impl Iterator<Item = &'e (dyn Diagnostic + 'e)>) ->
             longest = text;
         }
     }
-    check_count(told);
-    check_length(bytes, told, &longest)
+    check_count(mistakes);
+    check_length(bytes, mistakes, &longest)
 }
 
-/// Checks a text that is told as it is, and returns its bytes.
+/// Checks a text that is printed as it is, and returns its bytes.
 ///
 /// # Panics
 /// It is too long.
@@ -123,17 +123,17 @@ pub fn check_text(text: &str) -> usize {
     check_length(text.len(), 1, text)
 }
 
-/// Checks how much is told, and returns it; `text` is a part of it.
-fn check_length(bytes: usize, told: usize, text: &str) -> usize {
+/// Checks the length of messages, and returns it; `text` is a part of it.
+fn check_length(bytes: usize, mistakes: usize, text: &str) -> usize {
     if bytes > LONGEST_MESSAGE {
         let begin = beginning(text);
         assert!(
-            told > 1,
+            mistakes > 1,
             "message too long: {bytes} bytes for one mistake: {begin}"
         );
         assert!(
-            told <= 1,
-            "messages too long: {bytes} bytes for {told} mistakes, one of them: {begin}"
+            mistakes <= 1,
+            "messages too long: {bytes} bytes for {mistakes} mistakes, one of them: {begin}"
         );
     }
     bytes
@@ -148,7 +148,7 @@ fn check_letters(text: &str) {
     let found = text.chars().find(hidden);
     assert!(
         found.is_none(),
-        "control character told: {found:?} in {:?}",
+        "control character printed: {found:?} in {:?}",
         beginning(text)
     );
 }
@@ -158,9 +158,9 @@ fn beginning(text: &str) -> String {
     text.chars().take(SHOWN).collect()
 }
 
-fn check_count(told: usize) {
+fn check_count(mistakes: usize) {
     if let Some(most) = MOST_MISTAKES {
-        assert!(told <= most, "too many mistakes: {told} are told");
+        assert!(mistakes <= most, "too many mistakes: {mistakes}");
     }
 }
 

@@ -25,8 +25,8 @@ pub const TALLY: &str = "tally";
 /// The file of findings, one a line.
 pub const FINDINGS: &str = "findings";
 
-/// The file of what was told of a single input.
-pub const TOLD: &str = "told";
+/// The file of the messages about a single input.
+pub const MESSAGES: &str = "messages";
 
 /// What the parent asks of a worker.
 #[derive(Debug, Args)]
@@ -87,7 +87,7 @@ fn end_with_parent() {
     });
 }
 
-/// Does it. On a thread with the stack that readers must do with.
+/// Runs the worker. On a thread with the stack that readers must do with.
 pub fn work(arguments: &Arguments) -> ExitCode {
     end_with_parent();
     end_when_patience_ends(Duration::try_from_secs_f64(arguments.patience).unwrap_or(Duration::MAX));
@@ -115,7 +115,7 @@ fn begin(arguments: &Arguments) -> io::Result<()> {
     if let Some(file) = &arguments.input {
         shown::listen();
         worker.execute(0, &std::fs::read(file)?)?;
-        std::fs::write(arguments.folder.join(TOLD), shown::heard().join("\n"))?;
+        std::fs::write(arguments.folder.join(MESSAGES), shown::heard().join("\n"))?;
         return worker.note();
     }
     let inputs = Inputs::of(reader);
@@ -213,7 +213,7 @@ impl Worker {
     }
 }
 
-/// What a clock shows, ns.
+/// Returns the reading of a clock, ns.
 fn nanoseconds(clock: ClockId) -> u64 {
     let time = clock_gettime(clock);
     let part = |number: i64| u64::try_from(number).unwrap_or_default();
@@ -238,7 +238,7 @@ fn last_panic() -> Panic {
 fn note_panic(info: &PanicHookInfo<'_>) {
     let place = info.location().map_or_else(String::new, ToString::to_string);
     let message = info.payload_as_str().unwrap_or("no message");
-    // A broken promise is told by the words before the colon; a mistake of the code by its place.
+    // A broken promise is known by the words before the colon; a mistake of the code by its place.
     let own = place.contains("crates/fuzz/");
     let kind = if own {
         message.split(':').next().unwrap_or_default()
@@ -254,7 +254,7 @@ fn note_panic(info: &PanicHookInfo<'_>) {
     });
 }
 
-/// A place without the folders in front of the crate.
+/// Returns a place without the folders in front of the crate.
 fn shorter(place: &str) -> &str {
     let marks = ["crates/", "registry/src/", "library/"];
     let found = marks.iter().find_map(|mark| place.find(mark));

@@ -66,7 +66,7 @@ fn whatever_breaks_is_found_and_found_again() {
 }
 
 #[test]
-fn what_is_sound_is_told_so() {
+fn what_is_sound_is_called_sound() {
     let (code, text) = fuzz(&["--repeat", "broken:1:0"]);
     assert_eq!(code, Some(0), "{text}");
     assert!(text.contains("accepted"), "{text}");

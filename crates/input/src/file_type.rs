@@ -157,7 +157,7 @@ impl FileType {
     }
 }
 
-/// A line such as `\BODY DATA`.
+/// Returns true for a line such as `\BODY DATA`.
 fn is_nucars_keyword(line: &str) -> bool {
     let word = line
         .strip_prefix('\\')
@@ -165,7 +165,7 @@ fn is_nucars_keyword(line: &str) -> bool {
     word.is_some_and(|word| word.starts_with(|letter: char| letter.is_ascii_alphabetic()))
 }
 
-/// A case or a study, by the sections and keys that only one of them has.
+/// Returns a case or a study, by the sections and keys that only one of them has.
 fn toml_type<'t>(lines: impl Iterator<Item = &'t str>) -> Option<FileType> {
     const CASE: [&str; 8] = [
         "[wedge]",

@@ -59,7 +59,7 @@ pub const FMU_VALUES: usize = 1 << 20;
 /// With 133 columns they take 430 MB in memory and about 1 GB as CSV.
 pub const OUTPUT_ROWS: u64 = 400_000;
 
-/// Most mistakes told of one file; the others are counted.
+/// Most mistakes reported of one file; the others are counted.
 pub const MISTAKES: usize = 20;
 
 /// Longest message or advice, in bytes; a longer one is cut.

@@ -30,7 +30,7 @@ pub fn bounded(message: String) -> String {
     cut.chars().map(printable).collect()
 }
 
-/// Whether a character is a control character, or turns the direction of writing.
+/// Returns whether a character is a control character, or turns the direction of writing.
 pub(crate) fn is_hidden(letter: char) -> bool {
     letter.is_control()
         || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')

@@ -21,7 +21,7 @@ pub struct Text {
 }
 
 impl Text {
-    /// A text and the name that messages give it: a file as the user named it, or `--set`.
+    /// Returns a text and the name that messages give it: a file as the user named it, or `--set`.
     #[must_use]
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         Self {
@@ -67,8 +67,8 @@ impl Text {
         (start, end - start).into()
     }
 
-    /// The text as it may be shown: control characters and those that turn the direction of writing replaced,
-    /// byte by byte, so that places stay.
+    /// Returns the text as it may be shown: control characters and those that turn the direction of writing
+    /// replaced, byte by byte, so that places stay.
     fn printable(&self) -> &str {
         let printable = self.printable.get_or_init(|| {
             let hidden = |letter: char| is_hidden(letter) && !matches!(letter, '\n' | '\t');
@@ -88,7 +88,7 @@ impl Text {
         printable.as_deref().unwrap_or(&self.text)
     }
 
-    /// Where lines start, in bytes.
+    /// Returns the starts of lines, in bytes.
     fn lines(&self) -> &[usize] {
         self.lines.get_or_init(|| {
             let ends = self.text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
@@ -96,7 +96,7 @@ impl Text {
         })
     }
 
-    /// The line of a byte, from 0, and where it starts.
+    /// Returns the line of a byte, from 0, and where it starts.
     fn line_of(&self, byte: usize) -> (usize, usize) {
         let line = self
             .lines()

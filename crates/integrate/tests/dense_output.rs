@@ -8,12 +8,12 @@ const FRICTION: f64 = 0.5;
 /// The reference speed of friction, m/s.
 const REFERENCE: f64 = 2.5e-5;
 
-/// The force that pulls, in units of the weight: it swings, and friction always holds it.
+/// Returns the force that pulls, in units of the weight: it swings, and friction always holds it.
 fn pull(time: f64) -> f64 {
     0.4 * libm::sin(7.0 * time) + 0.05 * libm::sin(31.0 * time)
 }
 
-/// A mass on a surface with friction by tanh: place, speed.
+/// Returns a mass on a surface with friction by tanh: place, speed.
 fn sticking() -> FunctionProblem<'static> {
     FunctionProblem::new(
         vec![1e-3, 1e-3],
@@ -32,8 +32,8 @@ fn sticking() -> FunctionProblem<'static> {
     })
 }
 
-/// The largest difference of friction and pull, in units of the weight, at four times within each step, and
-/// the number of steps: interpolated (corrected), and by the plain dense output.
+/// Returns the largest difference of friction and pull, in units of the weight, at four times within each
+/// step, and the number of steps: interpolated (corrected), and by the plain dense output.
 fn largest_error(tolerance: f64) -> ([f64; 2], u64) {
     let options = Options {
         relative_tolerance: tolerance,

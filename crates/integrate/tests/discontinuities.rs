@@ -177,7 +177,7 @@ fn a_saved_state_continues_with_the_same_bits_also_before_a_discontinuity() {
     assert!(resumed > 40 && whole.statistics().discontinuities_predicted > 2);
 }
 
-/// The largest error of a single step, in tolerances: each is made again at a tolerance of 1e-12.
+/// Returns the largest error of a single step, in tolerances: each is made again at a tolerance of 1e-12.
 fn worst_step(problem: fn() -> FunctionProblem<'static>, tolerance: f64) -> (f64, u64) {
     let options = |tolerance| options(Method::Rodas5P, tolerance);
     let mut integrator = Integrator::new(problem(), options(tolerance), 0.0, &[0.0, 0.0]).unwrap();

@@ -115,7 +115,7 @@ fn convergence_coefficients_of_esdirk3_fulfil_their_conditions() {
     }
 }
 
-/// A mass on a stiff spring whose support moves as sin t: x'' = -ω² (x - sin t).
+/// Returns a mass on a stiff spring whose support moves as sin t: x'' = -ω² (x - sin t).
 fn carried(omega: f64) -> FunctionProblem<'static> {
     FunctionProblem::new(
         vec![1.0, 1.0],
@@ -274,7 +274,7 @@ fn limits_output_times_end_the_steps_of_esdirk_methods() {
     }
 }
 
-/// A right-hand side that points back to zero from both sides.
+/// Returns a right-hand side that points back to zero from both sides.
 fn points_back(speed: f64) -> FunctionProblem<'static> {
     let slope = move |x: f64| if x > 0.0 { -speed } else { speed };
     FunctionProblem::new(

@@ -119,7 +119,7 @@ impl Problem for Waves {
 
 const END: f64 = 20.0;
 
-/// All changes, and what was computed.
+/// Returns all changes, and what was computed.
 fn run(count: usize, grouped: bool) -> (Vec<Event>, Waves) {
     let options = Options {
         fixed_step: Some(0.05),

@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-/// All text of a module: its file, or the files of its folder.
+/// Returns all text of a module: its file, or the files of its folder.
 fn text(source: &Path, module: &str) -> String {
     let file = source.join(format!("{module}.rs"));
     if file.exists() {
@@ -17,7 +17,7 @@ fn text(source: &Path, module: &str) -> String {
         .collect()
 }
 
-/// The modules of the crate that a text uses.
+/// Returns the modules of the crate that a text uses.
 fn used(text: &str) -> Vec<String> {
     let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
     let uses = code.flat_map(|line| line.split("crate::").skip(1).map(str::to_owned));

@@ -11,7 +11,7 @@ use std::time::Instant;
 use integrate::{Integrator, Method, Options, Problem};
 use mechanics::system::{Held, StaticFriction, System};
 
-/// The best of several rounds, microseconds a call.
+/// Returns the best of several rounds, microseconds a call.
 fn measure(mut call: impl FnMut()) -> f64 {
     const CALLS: u32 = 2000;
     let rounds = (0..9).map(|_| {

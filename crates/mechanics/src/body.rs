@@ -181,7 +181,7 @@ pub struct Kinematics<S> {
 }
 
 impl<S: Number> Kinematics<S> {
-    /// From all six coordinates and their rates.
+    /// Makes it from all six coordinates and their rates.
     #[inline(always)]
     #[must_use]
     pub fn new(coordinates: [S; 6], speeds: [S; 6], rolls: bool) -> Self {

@@ -412,7 +412,7 @@ pub(crate) fn resolve<S: Number>(axes: &[[S; 3]; 3], vector: Vector<S>) -> [S; 3
     axes.map(|[a, b, c]| x * a + y * b + z * c)
 }
 
-/// The vector in marker axes with these components.
+/// Returns the vector in marker axes with these components.
 #[inline(always)]
 pub(crate) fn compose<S: Number>(axes: &[[S; 3]; 3], [n, a, b]: [S; 3]) -> Vector<S> {
     let [own, t, e] = axes;

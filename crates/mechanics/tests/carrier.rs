@@ -14,9 +14,9 @@ use mechanics::surface::Plane;
 use mechanics::system::{Model, ModelError, System};
 use mechanics::vector::Vector;
 
-/// A rotor (body 0) that spins about its x axis on springs to the ground (1); on its carrier (3) rests a
-/// frame (2) by two points with friction and a spring; the rotor's own springs to the ground stand on the
-/// carrier, too.
+/// Returns a rotor (body 0) that spins about its x axis on springs to the ground (1); on its carrier (3)
+/// rests a frame (2) by two points with friction and a spring; the rotor's own springs to the ground stand on
+/// the carrier, too.
 fn model(spin: f64) -> Model {
     let mut rotor = Body::free("rotor", 100.0, [8.0, 5.0, 5.0], [0.1, -0.2, 0.05, 0.3, 0.4, 0.06]);
     rotor.frame = Frame::fixed([0.5, 0.0, 0.2], [0.2, -0.4, 0.3]);
@@ -73,7 +73,7 @@ fn model(spin: f64) -> Model {
     model
 }
 
-/// A state in motion, with the last angle (rad) of the rotor and its rate (rad/s).
+/// Returns a state in motion, with the last angle (rad) of the rotor and its rate (rad/s).
 fn state(system: &System, spin: f64, rate: f64) -> Vec<f64> {
     let mut x = system.initial_state();
     let layout = system.layout();

@@ -25,14 +25,14 @@ struct Bushing {
     damping: f64,
     /// Torsional stiffness and damping by those of displacements, m².
     torsion: f64,
-    told: f64,
+    reported: f64,
 }
 
 const BUSHING: Bushing = Bushing {
     stiffness: 3e4,
     damping: 80.0,
     torsion: 0.04,
-    told: 1.0,
+    reported: 1.0,
 };
 
 impl Element for Bushing {
@@ -51,7 +51,7 @@ impl Element for Bushing {
     }
     fn energy(&self, motion: &RelativeMotion<f64>) -> f64 {
         let (d, r) = (motion.position, motion.small_rotations());
-        0.5 * self.told * self.stiffness * (d.dot::<f64, f64>(d) + self.torsion * r.dot::<f64, f64>(r))
+        0.5 * self.reported * self.stiffness * (d.dot::<f64, f64>(d) + self.torsion * r.dot::<f64, f64>(r))
     }
 }
 
@@ -105,7 +105,8 @@ fn moving(random: &mut Random) -> Frame {
     frame
 }
 
-/// Two free bodies and a prescribed one, bushings between all of them, a coil; frames at rest or moving.
+/// Returns two free bodies and a prescribed one, bushings between all of them, a coil; frames at rest or
+/// moving.
 fn chain(random: &mut Random, frames: [Frame; 2]) -> System {
     let [first, second] = frames;
     let bodies = vec![
@@ -237,7 +238,7 @@ fn run(system: &System, end: f64) -> (f64, f64) {
 #[test]
 fn energy_an_element_that_is_left_out_of_the_ledger_is_noticed() {
     let frame = Frame::fixed([0.0; 3], [0.0; 3]);
-    for told in [1.0, 0.9] {
+    for reported in [1.0, 0.9] {
         let mut random = Random(11);
         let driver = Body::prescribed("driver", moving(&mut random));
         let (one, two) = (
@@ -248,7 +249,7 @@ fn energy_an_element_that_is_left_out_of_the_ledger_is_noticed() {
         // Without torsion: beyond small rotations it has no energy of its own.
         let bushing = Bushing {
             torsion: 0.0,
-            told,
+            reported,
             ..BUSHING
         };
         let mut marker = || Marker::new(random.vector(0.2), random.vector(0.2));
@@ -256,7 +257,7 @@ fn energy_an_element_that_is_left_out_of_the_ledger_is_noticed() {
             model.add(bushing.clone(), (a, marker()), (b, marker()));
         }
         let (residual, losses) = run(&System::new(model).unwrap(), 0.5);
-        if told == 1.0 {
+        if reported == 1.0 {
             assert!(residual < 1e-5 * losses, "{residual:e} of {losses}");
         } else {
             assert!(residual > 1e-3 * losses, "{residual:e} of {losses}");
@@ -327,7 +328,7 @@ fn limits_a_linearized_body_is_a_finite_one_at_small_angles() {
         stiffness,
         damping: 0.0,
         torsion: 0.0,
-        told: 1.0,
+        reported: 1.0,
     };
     let mut linear = Model::new(
         vec![

@@ -142,8 +142,8 @@ const BRISTLE: FrictionLaw = FrictionLaw::Bristle {
     damping: 300.0,
 };
 
-/// A body that falls on a face (damped or not), moves on it, and hangs on a damped coil with a guiding
-/// couple.
+/// Returns a body that falls on a face (damped or not), moves on it, and hangs on a damped coil with a
+/// guiding couple.
 fn dropped(law: FrictionLaw, damping: f64, frame: Frame) -> Model {
     let one = body(
         "b",
@@ -212,7 +212,7 @@ fn ledgers(model: &Model, tolerance: f64) -> (Ledger, Ledger, f64) {
     (start, end, size)
 }
 
-/// Both laws on a base at rest, one that moves, one that also turns; whether it moves.
+/// Returns both laws on a base at rest, one that moves, one that also turns; whether it moves.
 fn cases(damping: f64) -> Vec<(Model, bool)> {
     let mut out = Vec::new();
     for law in [TANH, BRISTLE] {

@@ -26,7 +26,7 @@ fn n(value: f64) -> N {
     out[0] = value;
     N(out)
 }
-/// The unit with this bit, times a number.
+/// Returns the unit with this bit, times a number.
 fn unit(bit: usize) -> N {
     let mut out = [0.0; 8];
     out[bit] = 1.0;
@@ -59,8 +59,8 @@ impl Mul for N {
     }
 }
 impl N {
-    /// A function by its value and three derivatives at the plain part (the fourth power of the rest is
-    /// zero).
+    /// Returns a function by its value and three derivatives at the plain part (the fourth power of the rest
+    /// is zero).
     fn chain(self, f: [f64; 4]) -> N {
         let mut rest = self;
         rest.0[0] = 0.0;
@@ -79,7 +79,7 @@ impl N {
         let (x, r) = (self.0[0], self.0[0].sqrt());
         self.chain([r, 0.5 / r, -0.25 / (r * x), 0.375 / (r * x * x)])
     }
-    /// What multiplies e3.
+    /// Returns the coefficient of e3.
     fn rate(self) -> N {
         N(std::array::from_fn(|k| if k < 4 { self.0[k + 4] } else { 0.0 }))
     }
@@ -196,7 +196,7 @@ impl Mechanism<'_> {
             .collect()
     }
 
-    /// The left side of Lagrange's equations.
+    /// Returns the left side of Lagrange's equations.
     fn lagrange(&self, time: f64, q: &[f64], u: &[f64], a: &[f64]) -> Vec<f64> {
         (0..q.len())
             .map(|i| {

@@ -26,7 +26,7 @@ const BRISTLE: FrictionLaw = FrictionLaw::Bristle {
     damping: 60.0,
 };
 
-/// What must not change within a difference: on which piece every law is.
+/// Returns the smooth branches, which must not change within a difference: on which piece every law is.
 fn pieces(system: &mut System, time: f64, x: &[f64]) -> Vec<i64> {
     let observation = system.observe(time, x);
     let mut out = Vec::new();
@@ -52,7 +52,7 @@ fn norm(v: &[f64]) -> f64 {
     v.iter().fold(0.0, |m, v| m.max(v.abs()))
 }
 
-/// The inverse, by Gauss-Jordan elimination with row exchange.
+/// Returns the inverse, by Gauss-Jordan elimination with row exchange.
 fn inverse(mut a: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let n = a.len();
     let mut b: Vec<Vec<f64>> = (0..n)
@@ -95,7 +95,7 @@ struct Counts {
     bounds: Vec<f64>,
 }
 
-/// The matrix by differences: `rows[i][j] = ∂f_i/∂x_j`.
+/// Returns the matrix by differences: `rows[i][j] = ∂f_i/∂x_j`.
 fn by_differences(system: &mut System, time: f64, x: &[f64], h: f64) -> Vec<Vec<f64>> {
     let n = x.len();
     let mut rows = vec![vec![0.0; n]; n];
@@ -274,7 +274,7 @@ fn sine(amplitude: f64, angular_frequency: f64, phase: f64) -> Motion {
     }
 }
 
-/// One motion of every shape; those about axes turn the frame.
+/// Returns one motion of every shape; those about axes turn the frame.
 fn shapes(turning: bool) -> [Motion; 6] {
     let times: Vec<f64> = (0..12).map(|i| 0.4 * f64::from(i) - 1.0).collect();
     let values = times.iter().map(|t| 0.1 * libm::sin(1.3 * t)).collect();
@@ -324,7 +324,7 @@ fn table() -> CoilLaw {
     CoilLaw::Table(Characteristic::new(vec![[-0.3, -20.0], [0.0, 10.0], [0.2, 60.0], [0.3, 150.0]]).unwrap())
 }
 
-/// One free body on a prescribed one: a face (damped or not), coils with both lines of action.
+/// Returns one free body on a prescribed one: a face (damped or not), coils with both lines of action.
 fn one_on_prescribed(free: [bool; 6], law: FrictionLaw, damping: f64, frame: Frame, held: [f64; 6]) -> Model {
     let mut one = body("b", 2.0, [0.3, 0.5, 0.7], [-0.1, 0.05, 0.1], free, held);
     one.frame = Frame::fixed([0.02, 0.03, 0.0], [0.1, 0.05, -0.1]);
@@ -441,7 +441,7 @@ fn on_a_base_at_rest() {
     assert!(counts.open > 5 && counts.closed > 5);
 }
 
-/// Two free bodies, faces and coils in both directions, all on a prescribed base.
+/// Returns two free bodies, faces and coils in both directions, all on a prescribed base.
 fn two_free(free: [[bool; 6]; 2], frames: [Frame; 2]) -> Model {
     let [frame_a, frame_b] = frames;
     let mut a = body("a", 2.0, [0.3, 0.5, 0.7], [-0.1, 0.05, 0.1], free[0], [0.0; 6]);
@@ -558,7 +558,8 @@ fn a_fast_turning_body_without_elements() {
     compare(&model, 32, 10, [0.6, 6.0, 0.0]);
 }
 
-/// A crown and a hollow, along either tangent, a table of one cubic, and surfaces worn over both tangents.
+/// Returns a crown and a hollow, along either tangent, a table of one cubic, and surfaces worn over both
+/// tangents.
 fn curved() -> [Shape; 6] {
     let table = Spline::new(vec![-3.0, -1.0, 1.0, 3.0], vec![0.5, 0.1, 0.05, 0.6]).unwrap();
     let arc = |curvature: f64| Profile::Arc { curvature };

@@ -24,8 +24,8 @@ const STIFFNESS: f64 = 4000.0;
 const LIMIT: f64 = 29.43;
 const RELEASED: f64 = 0.2;
 
-/// A mass (x and z free) that lies on a plane by its weight, on a coil along x that is without force at
-/// x = 0.
+/// Returns a mass (x and z free) that lies on a plane by its weight, on a coil along x that is without force
+/// at x = 0.
 fn sliding_mass(law: FrictionLaw) -> System {
     let (gravity, normal) = (9.81, 1e6);
     let sunk = -MASS * gravity / normal;
@@ -258,7 +258,8 @@ fn no_equilibrium_in_free_fall() {
 
 // Momentum
 
-/// Two bodies that float, without gravity, with faces, friction, contact damping and coils between them.
+/// Returns two bodies that float, without gravity, with faces, friction, contact damping and coils between
+/// them.
 fn floating(law: FrictionLaw, damping: f64) -> Model {
     let a = body("a", 2.0, [0.03, 0.05, 0.07], [-0.02, 0.01, 0.03], ALL, [0.0; 6]);
     let mut b = body("b", 3.0, [0.04, 0.03, 0.06], [0.03, 0.02, -0.01], ALL, [0.0; 6]);
@@ -416,7 +417,7 @@ fn floating_bodies_keep_their_momentum() {
 
 // The same bits
 
-/// A body with bristles on a base whose motions have breaks.
+/// Returns a body with bristles on a base whose motions have breaks.
 fn shaken() -> System {
     let mut frame = Frame::fixed([0.0; 3], [0.0; 3]);
     frame.motions[0] = Motion::Triangle {

@@ -29,7 +29,7 @@ const CORNERS: [[f64; 3]; 5] = [
     [0.0, 0.0, 0.0],
 ];
 
-/// Two free bodies one upon the other on a base that moves, and turns if it is to.
+/// Returns two free bodies one upon the other on a base that moves, and turns if it is to.
 fn tower(turns: bool, law: FrictionLaw) -> Model {
     let sine = |amplitude, angular_frequency| Motion::Sine {
         amplitude,
@@ -72,7 +72,7 @@ fn tower(turns: bool, law: FrictionLaw) -> Model {
     model
 }
 
-/// A body on a base that moves without turning: all that is known of such an element is used.
+/// Returns a body on a base that moves without turning: all that is known of such an element is used.
 fn plain(law: FrictionLaw) -> Model {
     let mut model = tower(false, law);
     model.bodies[1].free = [false; 6];
@@ -90,7 +90,7 @@ fn models() -> Vec<System> {
         .collect()
 }
 
-/// A state near the start: some points closed, some open.
+/// Returns a state near the start: some points closed, some open.
 fn state(system: &System, random: &mut Random) -> Vec<f64> {
     let mut x = system.initial_state();
     let layout = system.layout();

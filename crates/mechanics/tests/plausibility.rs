@@ -27,7 +27,7 @@ const MASS: f64 = 25.0;
 /// Rows are so far apart, s.
 const INTERVAL: f64 = 0.01;
 
-/// A box whose lower face (x by y: [`LENGTH`] by [`WIDTH`]) just touches a floor.
+/// Returns a box whose lower face (x by y: [`LENGTH`] by [`WIDTH`]) just touches a floor.
 fn box_on_floor(friction: f64) -> Model {
     let (a, b) = (0.5 * LENGTH, 0.5 * WIDTH);
     let corners = [[-a, -b, 0.0], [a, -b, 0.0], [-a, b, 0.0], [a, b, 0.0]];
@@ -45,15 +45,15 @@ fn system(model: Model) -> System {
     System::new(model).unwrap()
 }
 
-/// The state with these coordinates of the first free body (x, y, z, roll, pitch, yaw).
+/// Returns the state with these coordinates of the first free body (x, y, z, roll, pitch, yaw).
 fn state(system: &System, coordinates: [f64; 6]) -> Vec<f64> {
     let mut x = system.initial_state();
     x[..6].copy_from_slice(&coordinates);
     x
 }
 
-/// What is found if a system starts as it is and then takes these places at times of 0.01 s, 0.02 s and so
-/// on.
+/// Returns the findings if a system starts as it is and then takes these places at times of 0.01 s, 0.02 s
+/// and so on.
 fn found(system: &mut System, places: &[[f64; 6]]) -> Vec<Finding> {
     let start = system.initial_state();
     let mut observation = Plausibility::new(system, 0.0, &start);
@@ -64,8 +64,8 @@ fn found(system: &mut System, places: &[[f64; 6]]) -> Vec<Finding> {
     observation.findings(system, &EnergyBalance::new(0.0), INTERVAL)
 }
 
-/// A place just below a limit says nothing, one just above it is the one finding, with the time and the
-/// value.
+/// Checks that a place just below a limit gives no finding, and one just above it gives one, and returns its
+/// time and value.
 fn at_the_limit(model: &Model, place: impl Fn(f64) -> [f64; 6], limit: f64, kind: FindingKind) {
     let mut system = system(model.clone());
     let below = found(&mut system, &[place(0.999 * limit), place(0.0)]);

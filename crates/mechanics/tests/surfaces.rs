@@ -47,7 +47,7 @@ fn shaped(profile: Profile, direction: Direction) -> Interface {
     }
 }
 
-/// A free body with points (body axes) over a surface whose normal points up at the origin.
+/// Returns a free body with points (body axes) over a surface whose normal points up at the origin.
 fn over(points: &[[f64; 3]], interface: Interface, law: FrictionLaw, initial: [f64; 6]) -> Model {
     let block = body("block", 2.0, [0.3, 0.4, 0.5], [0.0; 3], common::ALL, initial);
     let mut model = model(vec![ground(), block], [0.0, 0.0, -10.0]);
@@ -194,7 +194,7 @@ const RADIUS: f64 = 1.0;
 /// Stiffness of the strip, N/m, and its half width, m.
 const STRIP: (f64, f64) = (1e7, 0.3);
 
-/// The force of a flat strip with so many points of the trapezoidal rule on a cylinder, pressed in by
+/// Returns the force of a flat strip with so many points of the trapezoidal rule on a cylinder, pressed in by
 /// `depth`, its middle shifted and turned as a body that rolls: vertical force, and its place across the
 /// strip.
 fn pressed(count: usize, depth: f64, shift: f64) -> [f64; 2] {
@@ -226,7 +226,8 @@ fn pressed(count: usize, depth: f64, shift: f64) -> [f64; 2] {
     [force, moment / force]
 }
 
-/// The closed form: k ∫ (R - ρ)(R - d)/ρ dy with ρ² = (R - d)² + y² over the pressed part of the strip.
+/// Returns the closed form: k ∫ (R - ρ)(R - d)/ρ dy with ρ² = (R - d)² + y² over the pressed part of the
+/// strip.
 fn closed_form(depth: f64) -> f64 {
     let (stiffness, half) = STRIP;
     let low = RADIUS - depth;
@@ -297,7 +298,7 @@ fn convergence_the_place_of_contact_stays_while_the_strip_slides() {
     }
 }
 
-/// A block slides and rocks over a crown, pressed on by a coil.
+/// Returns a block that slides and rocks over a crown, pressed on by a coil.
 fn rocking(interface: Interface, law: FrictionLaw) -> Model {
     let points: Vec<[f64; 3]> = (0..15)
         .map(|i| [0.1 * f64::from(i % 5) - 0.2, 0.1 * f64::from(i / 5) - 0.1, -0.1])
@@ -421,7 +422,7 @@ const BELT: f64 = 0.1;
 const REST: f64 = 0.5;
 const RATIO: f64 = 0.6;
 
-/// The periods of a mass on a belt that a spring holds, from one beginning of a slip to the next.
+/// Returns the periods of a mass on a belt that a spring holds, from one beginning of a slip to the next.
 fn periods(law: FrictionLaw, stribeck_speed: f64) -> Vec<f64> {
     let mut belt = ground();
     belt.frame.motions[0] = Motion::line(0.0, [0.0, BELT]);

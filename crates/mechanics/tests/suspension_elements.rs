@@ -185,7 +185,7 @@ fn energy_rate_and_loss_of_each_law_make_its_power() {
     check(&rim(), &mut random, 0.02);
 }
 
-/// Two free bodies, every element between them at turned markers.
+/// Returns two free bodies, every element between them at turned markers.
 fn pair(random: &mut Random) -> System {
     let body = |name, at| Body::free(name, 20.0, [0.3, 0.5, 0.4], at);
     let first = [0.0, 0.0, 0.3, 0.01, -0.02, 0.03];

@@ -34,12 +34,12 @@ static FILES: [(&str, &str); 16] = files![
     "sngl_trk_69.dat",
 ];
 
-/// The names of the files.
+/// Returns the names of the files.
 pub fn names() -> impl ExactSizeIterator<Item = &'static str> {
     FILES.iter().map(|(name, _)| *name)
 }
 
-/// The text of the file of this name.
+/// Returns the text of the file of this name.
 pub fn text(name: &str) -> Option<&'static str> {
     FILES
         .iter()
@@ -47,7 +47,7 @@ pub fn text(name: &str) -> Option<&'static str> {
         .map(|(_, text)| *text)
 }
 
-/// The file of this name, ready to be read.
+/// Returns the file of this name, ready to be read.
 pub fn source(name: &str) -> Option<Arc<SourceText>> {
     // Only files of 4 GiB are refused.
     SourceText::from_text(name, text(name)?).ok()

@@ -40,7 +40,7 @@ impl Diagnostic for LoadError {
     }
 }
 
-/// The file a user named: as spelt, or with other capitals.
+/// Returns the file a user named: as spelt, or with other capitals.
 ///
 /// # Errors
 /// There is none.
@@ -68,7 +68,7 @@ const NUCARS_FILE: Expected = Expected {
     most: limits::TEXT_FILE,
 };
 
-/// The text of a file that is there.
+/// Returns the text of a file that is there.
 ///
 /// # Errors
 /// It cannot be read, is something else, or too large.
@@ -82,7 +82,7 @@ fn too_long(error: &SourceError) -> LoadError {
     LoadError::new(error.to_string(), "cut it into several files")
 }
 
-/// The kind of a file, by its ending or its keywords.
+/// Returns the kind of a file, by its ending or its keywords.
 ///
 /// # Errors
 /// It is none of ours.
@@ -120,7 +120,7 @@ impl Instead {
         (name, path.as_deref())
     }
 
-    /// The options that are given, as typed.
+    /// Returns the options that are given, as typed.
     #[must_use]
     pub fn given(&self) -> Vec<String> {
         let kinds = [FileKind::System, FileKind::Data, FileKind::Input].map(|kind| self.of(kind));
@@ -205,7 +205,8 @@ impl Files {
         }
     }
 
-    /// Which files belong together: those of each run, and otherwise the only ones of their kinds.
+    /// Returns the sets of files that belong together: those of each run, and otherwise the only ones of
+    /// their kinds.
     ///
     /// # Errors
     /// A file that is given instead cannot be read.
@@ -240,7 +241,7 @@ impl Files {
         Ok(sets)
     }
 
-    /// The file of this kind that a run names, or an option instead.
+    /// Returns the file of this kind that a run names, or an option instead.
     fn of_run(&mut self, run: usize, kind: FileKind, instead: &Instead) -> Result<Option<usize>, LoadError> {
         let (option, path) = instead.of(kind);
         if let Some(path) = path {
@@ -291,7 +292,7 @@ impl Files {
         }
     }
 
-    /// All files with what was found in them.
+    /// Returns all files with what was found in them.
     #[must_use]
     pub fn all(&self) -> Vec<(FileKind, &PathBuf, &Findings)> {
         let all = self
@@ -342,48 +343,48 @@ impl RunFiles {
         Ok(Self { files, set })
     }
 
-    /// The run file.
+    /// Returns the run file.
     #[must_use]
     pub fn run(&self) -> Option<&RunFile> {
         Some(&self.files.runs[self.set.run?].read.tree)
     }
 
-    /// Its system file.
+    /// Returns its system file.
     #[must_use]
     pub fn system(&self) -> Option<&SystemFile> {
         Some(&self.files.systems[self.set.system?].read.tree)
     }
 
-    /// Its data file.
+    /// Returns its data file.
     #[must_use]
     pub fn data(&self) -> Option<&DataFile> {
         Some(&self.files.data[self.set.data?].read.tree)
     }
 
-    /// Its input file.
+    /// Returns its input file.
     #[must_use]
     pub fn input(&self) -> Option<&InputFile> {
         Some(&self.files.inputs[self.set.input?].read.tree)
     }
 
-    /// What was found in each of them.
+    /// Returns the findings in each file.
     pub fn findings(&self) -> impl Iterator<Item = &Findings> {
         self.files.all().into_iter().map(|(_, _, findings)| findings)
     }
 
-    /// Whether the run cannot be made: a file has errors, or there is no system.
+    /// Returns whether the run cannot be made: a file has errors, or there is no system.
     #[must_use]
     pub fn has_errors(&self) -> bool {
         self.findings().any(Findings::has_errors) || self.run().is_none() || self.system().is_none()
     }
 
-    /// How many findings of this severity there are.
+    /// Returns the number of findings of this severity.
     #[must_use]
     pub fn count(&self, severity: Severity) -> usize {
         self.findings().map(|findings| findings.count(severity)).sum()
     }
 
-    /// The texts of all of them.
+    /// Returns the texts of all of them.
     #[must_use]
     pub fn texts(&self) -> Texts {
         fn text<T>(list: &[Entry<T>], index: Option<usize>) -> Option<Text> {
@@ -401,7 +402,7 @@ impl RunFiles {
         }
     }
 
-    /// The files of these texts, which may lie nowhere.
+    /// Returns the files of these texts, which may lie nowhere.
     ///
     /// # Errors
     /// A text is too long.

@@ -28,8 +28,8 @@ fn place(folder: &Path) -> String {
     }
 }
 
-/// The file of this name in or below a folder. `\` is taken as `/`; if there is none spelt so, one that
-/// differs in capitals only will do.
+/// Returns the file of this name in or below a folder. `\` is taken as `/`; if there is none spelt so, one
+/// that differs in capitals only will do.
 ///
 /// # Errors
 /// There is none; with the nearest name.

@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use crate::source::{SourceLocation, SourceText, Span};
 
-/// How bad it is.
+/// The severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
     /// Worth knowing; nothing to do.
@@ -72,22 +72,22 @@ impl Finding {
         self
     }
 
-    /// How bad it is.
+    /// Returns the severity.
     pub fn severity(&self) -> Severity {
         self.severity
     }
 
-    /// A short name for this kind of finding, in lower case with hyphens, such as `count`.
+    /// Returns a short name for this kind of finding, in lower case with hyphens, such as `count`.
     pub fn code_name(&self) -> &'static str {
         self.code
     }
 
-    /// What was found and what was expected.
+    /// Returns the message: what was found and what was expected.
     pub fn message(&self) -> &str {
         &self.message
     }
 
-    /// What to write instead, or why it matters.
+    /// Returns the advice: what to write instead, or why it matters.
     pub fn advice(&self) -> Option<&str> {
         (!self.help.is_empty()).then_some(self.help.as_str())
     }
@@ -162,12 +162,12 @@ impl Findings {
         self.found[Severity::Error as usize] += 1;
     }
 
-    /// Whether no more errors are kept.
+    /// Returns whether no more errors are kept.
     pub(crate) fn is_full(&self) -> bool {
         self.is_full_of(Severity::Error)
     }
 
-    /// Whether no more of this severity are kept.
+    /// Returns whether no more of this severity are kept.
     pub(crate) fn is_full_of(&self, severity: Severity) -> bool {
         self.found[severity as usize] >= limits::MISTAKES
     }
@@ -254,29 +254,29 @@ impl Findings {
         self
     }
 
-    /// The findings; of each severity the first [`limits::MISTAKES`] are kept.
+    /// Returns the findings; of each severity the first [`limits::MISTAKES`] are kept.
     pub fn list(&self) -> &[Finding] {
         &self.list
     }
 
-    /// How many of a severity are in the list.
+    /// Returns the number of findings of a severity in the list.
     fn kept(&self, severity: Severity) -> usize {
         let own = |finding: &&Finding| finding.severity == severity;
         self.list.iter().filter(own).count()
     }
 
-    /// How many more there are of each severity than the list has: notes, warnings, errors.
+    /// Returns the number of findings of each severity beyond those in the list: notes, warnings, errors.
     pub fn not_kept(&self) -> [usize; 3] {
         let severities = [Severity::Note, Severity::Warning, Severity::Error];
         severities.map(|severity| self.count(severity) - self.kept(severity))
     }
 
-    /// How many of this severity there are.
+    /// Returns the number of findings of this severity.
     pub fn count(&self, severity: Severity) -> usize {
         self.found[severity as usize]
     }
 
-    /// Whether the file cannot be used.
+    /// Returns whether the file cannot be used.
     pub fn has_errors(&self) -> bool {
         self.count(Severity::Error) > 0
     }
@@ -307,7 +307,7 @@ impl FileErrors {
         })
     }
 
-    /// The errors.
+    /// Returns the errors.
     pub fn errors(&self) -> &[Finding] {
         &self.errors
     }

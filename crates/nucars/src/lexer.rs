@@ -42,7 +42,8 @@ fn is_blank(byte: u8) -> bool {
 }
 
 impl<'a> Cursor<'a> {
-    /// A cursor over a piece of a text; begins in the middle of a line unless `at` is the start of one.
+    /// Returns a cursor over a piece of a text; begins in the middle of a line unless `at` is the start of
+    /// one.
     pub fn new(text: &'a str, at: usize, end: usize) -> Self {
         Cursor {
             text: text.as_bytes(),
@@ -60,7 +61,7 @@ impl<'a> Cursor<'a> {
         self.end - self.at
     }
 
-    /// Where it ends, as an empty piece at the end of what was taken.
+    /// Returns its end, as an empty piece behind the tokens taken.
     pub fn here(&self) -> Span {
         Span::new(self.at, self.at)
     }
@@ -70,7 +71,7 @@ impl<'a> Cursor<'a> {
         ahead.next()
     }
 
-    /// The next token, across lines.
+    /// Returns the next token, across lines.
     #[allow(clippy::should_implement_trait)]
     pub fn next(&mut self) -> Option<Token> {
         while self.at < self.end {
@@ -88,7 +89,7 @@ impl<'a> Cursor<'a> {
         None
     }
 
-    /// The next token if it is in the same line.
+    /// Returns the next token if it is in the same line.
     pub fn next_in_line(&mut self) -> Option<Token> {
         let mut ahead = *self;
         let token = ahead.next().filter(|token| !token.begins_line)?;
@@ -96,7 +97,7 @@ impl<'a> Cursor<'a> {
         Some(token)
     }
 
-    /// How many tokens the line has from here on, or `most + 1` if they are more than `most`.
+    /// Returns the number of tokens of the line from here on, or `most + 1` if they are more than `most`.
     pub fn tokens_in_line(&self, most: usize) -> usize {
         let mut ahead = *self;
         let Some(_) = ahead.next() else { return 0 };
@@ -169,7 +170,7 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// The text between the quotation marks.
+/// Returns the text between the quotation marks.
 pub fn unquote(text: &str) -> String {
     let Some(quote) = text.chars().next() else {
         return String::new();

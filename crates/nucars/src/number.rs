@@ -2,7 +2,7 @@
 
 use crate::tree::{Component, Dof, DofKind};
 
-/// A real number: `32`, `1.0E6`, `1.D0`, `-15e3`, `.5`, `1.5+3` (exponent without letter). `None` for
+/// Returns a real number: `32`, `1.0E6`, `1.D0`, `-15e3`, `.5`, `1.5+3` (exponent without letter). `None` for
 /// anything else, for numbers beyond double precision, and for `inf` and `nan`.
 pub fn real(text: &str) -> Option<f64> {
     let bytes = text.as_bytes();
@@ -46,14 +46,14 @@ fn has_bare_exponent(bytes: &[u8]) -> bool {
     bytes.windows(2).any(digit_before)
 }
 
-/// A whole number from 0 on.
+/// Returns a whole number from 0 on.
 pub fn whole(text: &str) -> Option<u32> {
     let digits = text.strip_prefix('+').unwrap_or(text);
     let all = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
     if all { digits.parse().ok() } else { None }
 }
 
-/// A truth value: `.T.`, `.F.`, `.true.`, `T`, `false`, in any case.
+/// Returns a truth value: `.T.`, `.F.`, `.true.`, `T`, `false`, in any case.
 pub fn logical(text: &str) -> Option<bool> {
     let bare = text.strip_prefix('.').unwrap_or(text);
     let bare = bare.strip_suffix('.').unwrap_or(bare);
@@ -66,7 +66,7 @@ pub fn logical(text: &str) -> Option<bool> {
     }
 }
 
-/// A degree of freedom: `1` to `9`, or `7.01` for the first mode of kind 7.
+/// Returns a degree of freedom: `1` to `9`, or `7.01` for the first mode of kind 7.
 pub fn dof(text: &str) -> Option<Dof> {
     let (kind, mode) = match text.split_once('.') {
         None | Some((_, "")) => (text.trim_end_matches('.'), 0),
@@ -80,7 +80,8 @@ pub fn dof(text: &str) -> Option<Dof> {
     (mode == 0 || kind.is_flexible()).then_some(Dof { kind, mode })
 }
 
-/// A component of a connection, `127.1`: connection and position in its list of degrees of freedom, from 1.
+/// Returns a component of a connection, `127.1`: connection and position in its list of degrees of freedom,
+/// from 1.
 pub fn component(text: &str) -> Option<Component> {
     let (connection, position) = text.split_once('.')?;
     Some(Component {

@@ -38,7 +38,7 @@ impl Table {
     }
 }
 
-/// All tables of a system; those without rows are left out.
+/// Returns all tables of a system; those without rows are left out.
 pub fn system(file: &SystemFile) -> Vec<Table> {
     let mut tables = vec![bodies(file), input_bodies(file), connections(file)];
     tables.extend(characteristics(file));
@@ -161,7 +161,7 @@ fn names(dofs: &[Spanned<crate::tree::Dof>]) -> String {
     dofs.iter().map(name).collect::<Vec<_>>().join(", ")
 }
 
-/// A number of a function, or a dash for none.
+/// Returns a number of a function, or a dash for none.
 fn function(number: Spanned<u32>) -> String {
     match *number {
         0 => "-".to_owned(),
@@ -393,7 +393,7 @@ fn characteristics(file: &SystemFile) -> Vec<Table> {
     vec![limits, gaps, viscous, surfaces, wedges, wedges_3d, unused]
 }
 
-/// What the values of each function are, by what uses it.
+/// Returns the units of the values of each function, by the elements that use it.
 fn units(file: &SystemFile) -> BTreeMap<u32, BTreeSet<&'static str>> {
     let mut turning: BTreeMap<u32, BTreeSet<bool>> = BTreeMap::new();
     for connection in &file.connections {

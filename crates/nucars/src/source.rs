@@ -27,7 +27,7 @@ impl Span {
         }
     }
 
-    /// From the start of this piece to the end of the other one.
+    /// Returns the piece from the start of this one to the end of the other one.
     pub fn to(self, other: Span) -> Span {
         Span {
             start: self.start,
@@ -35,7 +35,7 @@ impl Span {
         }
     }
 
-    /// As a range of indices.
+    /// Returns the piece as a range of indices.
     pub fn range(self) -> Range<usize> {
         self.start as usize..self.end as usize
     }
@@ -54,7 +54,7 @@ pub struct Spanned<T> {
 }
 
 impl<T> Spanned<T> {
-    /// A value at a place.
+    /// Returns a value at a place.
     pub fn new(value: T, span: Span) -> Self {
         Spanned { value, span }
     }
@@ -75,7 +75,7 @@ impl<T> Deref for Spanned<T> {
 }
 
 impl<T> From<T> for Spanned<T> {
-    /// A value that was not read from a text.
+    /// Returns a value that was not read from a text.
     fn from(value: T) -> Self {
         Spanned::new(value, Span::default())
     }
@@ -116,8 +116,8 @@ pub struct SourceText {
 }
 
 impl SourceText {
-    /// The text of a file: UTF-8, with or without byte order mark, UTF-16 with one, or else Latin-1. Lines
-    /// end with `\n`, `\r\n` or `\r`.
+    /// Returns the text of a file: UTF-8, with or without byte order mark, UTF-16 with one, or else Latin-1.
+    /// Lines end with `\n`, `\r\n` or `\r`.
     ///
     /// # Errors
     /// It, or one of its lines, is longer than [`input::limits`] allow.
@@ -145,7 +145,7 @@ impl SourceText {
         }))
     }
 
-    /// A text that is not from a file.
+    /// Returns a text that is not from a file.
     ///
     /// # Errors
     /// As [`SourceText::from_bytes`].
@@ -153,22 +153,22 @@ impl SourceText {
         SourceText::from_bytes(name, text.into().into_bytes())
     }
 
-    /// The file as the user named it.
+    /// Returns the file as the user named it.
     pub fn name(&self) -> &str {
         self.text.name()
     }
 
-    /// The text, without byte order mark.
+    /// Returns the text, without byte order mark.
     pub fn text(&self) -> &str {
         self.text.text()
     }
 
-    /// Whether the file is no UTF-8 and was taken as Latin-1.
+    /// Returns whether the file is no UTF-8 and was taken as Latin-1.
     pub fn is_latin1(&self) -> bool {
         self.latin1
     }
 
-    /// The text of a piece; empty if it is not one of this text.
+    /// Returns the text of a piece; empty if it is not one of this text.
     pub fn slice(&self, span: Span) -> &str {
         self.text.slice(span.range())
     }
@@ -178,13 +178,13 @@ impl SourceText {
         self.text.line_and_column(byte as usize)
     }
 
-    /// The part of a piece that a message marks.
+    /// Returns the part of a piece that a message marks.
     pub(crate) fn mark(&self, span: Span) -> SourceSpan {
         self.text.mark(span.range())
     }
 }
 
-/// The text of UTF-16 with a byte order mark.
+/// Returns the text of UTF-16 with a byte order mark.
 fn utf16(bytes: &[u8]) -> Option<String> {
     let unit: fn([u8; 2]) -> u16 = match bytes {
         [0xff, 0xfe, ..] => u16::from_le_bytes,
@@ -216,7 +216,7 @@ pub struct SourceLocation {
 }
 
 impl SourceLocation {
-    /// The text of the piece.
+    /// Returns the text of the piece.
     pub fn text(&self) -> &str {
         self.source.slice(self.span)
     }

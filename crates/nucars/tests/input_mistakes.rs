@@ -348,7 +348,7 @@ fn mistakes_in_inputs_runs_and_data_are_found() {
 }
 
 #[test]
-fn hidden_and_foreign_sections_are_told() {
+fn hidden_and_foreign_sections_are_reported() {
     let moved = text(CONSTANT).replace("\\PWL DATA", " \\PWL DATA");
     let findings = system(&moved).findings;
     assert!(
@@ -383,7 +383,7 @@ fn hidden_and_foreign_sections_are_told() {
 }
 
 #[test]
-fn text_within_the_records_is_told() {
+fn text_within_the_records_is_reported() {
     // A line that lost its comment mark ends the list of functions.
     let changed = text(CONSTANT).replace("! Yaw, with stop\n  22", "Yaw, with stop\n  22");
     let findings = system(&changed).findings;

@@ -21,7 +21,7 @@ fn input() -> InputFile {
     read_input(&source("bolst_displ_input3.inp")).strict().unwrap()
 }
 
-/// The system after the values have been set.
+/// Returns the system after the values have been set.
 fn after(values: &[(&str, &str)]) -> SystemFile {
     let (mut system, mut input) = (system(), input());
     for (path, value) in values {

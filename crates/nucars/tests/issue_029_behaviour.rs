@@ -41,7 +41,7 @@ fn issue_029_a_mistake_far_right_in_its_line() {
 }
 
 #[test]
-fn issue_029_at_most_20_mistakes_are_told_and_the_others_counted() {
+fn issue_029_at_most_20_mistakes_are_reported_and_the_others_counted() {
     let lines: String = (1..=500)
         .map(|number| format!(" {number} 'body' x y z\n"))
         .collect();

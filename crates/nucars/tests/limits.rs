@@ -12,7 +12,7 @@ use nucars::{builtin, check};
 
 const SYSTEM: &str = "Bolst_wedge_sf_68_constant.sys";
 
-/// A system with records added to one section until it has so many bytes, and how many they are.
+/// Returns a system with records added to one section until it has so many bytes, and how many they are.
 fn large(section: &str, bytes: usize) -> (String, usize) {
     let text = builtin::text(SYSTEM).unwrap();
     let mut out = String::with_capacity(bytes + text.len());

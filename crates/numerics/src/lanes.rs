@@ -225,7 +225,7 @@ impl Number for Lanes {
     fn tanh_ratio(self) -> Self {
         self.tanh_ratio_with::<false>().0
     }
-    /// The bits that `libm` gives: by its polynomials where all are small, by itself elsewhere.
+    /// Returns the bits that `libm` gives: by its polynomials where all are small, by itself elsewhere.
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         let x = self;
@@ -278,7 +278,7 @@ mod tests {
     use super::*;
     use crate::scalar::{Dual, choose};
 
-    /// A law with branches, over every operation.
+    /// Returns a law with branches, over every operation.
     fn law<S: Number>(x: S, y: S) -> S {
         let r = (x * x + y * y + 0.1).sqrt();
         let inside = choose(x.below(S::Plain::zero()), || x.by(r.plain()) * 2.0, || y / r - x);

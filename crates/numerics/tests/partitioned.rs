@@ -15,8 +15,8 @@ fn numbers(mut seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-/// A structured matrix filled with numbers, the whole of `shift I - J` with the rows of the speeds multiplied
-/// with M, and M.
+/// Returns a structured matrix filled with numbers, the whole of `shift I - J` with the rows of the speeds
+/// multiplied with M, and M.
 fn filled(
     structure: &Structure,
     shift: f64,

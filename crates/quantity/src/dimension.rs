@@ -23,7 +23,7 @@ impl Dimension {
     /// No dimension at all: a pure number.
     pub const NONE: Dimension = Dimension::new(0, 0, 0, 0);
 
-    /// The dimension with these exponents of mass, length, time and angle.
+    /// Returns the dimension with these exponents of mass, length, time and angle.
     pub const fn new(mass: i8, length: i8, time: i8, angle: i8) -> Self {
         Dimension {
             mass,
@@ -45,7 +45,7 @@ impl Dimension {
         })
     }
 
-    /// The same dimension without its angle.
+    /// Returns the same dimension without its angle.
     pub const fn without_angle(self) -> Self {
         Dimension::new(self.mass, self.length, self.time, 0)
     }

@@ -83,7 +83,7 @@ fn expected_clause(expected: Option<Kind>) -> String {
 }
 
 impl UnitError {
-    /// Where the mistake is: a range of bytes of the text that was read.
+    /// Returns the place of the mistake: a range of bytes of the text that was read.
     pub fn span(&self) -> Range<usize> {
         match self {
             UnitError::Empty { .. } => 0..0,
@@ -96,7 +96,7 @@ impl UnitError {
         }
     }
 
-    /// What to write instead.
+    /// Returns the advice: what to write instead.
     pub fn help(&self) -> String {
         match self {
             UnitError::Empty { expected } => example("1", *expected),

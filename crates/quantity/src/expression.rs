@@ -42,12 +42,12 @@ impl Unit {
         parser.expression()
     }
 
-    /// One of these, in SI units.
+    /// Returns the factor of one of these to SI units.
     pub const fn factor(self) -> f64 {
         self.factor
     }
 
-    /// What it measures.
+    /// Returns the dimension.
     pub const fn dimension(self) -> Dimension {
         self.dimension
     }
@@ -164,7 +164,7 @@ impl Parser<'_> {
         }
     }
 
-    /// One unit with its power, a product in brackets, or the `1` of `1/s`.
+    /// Reads one unit with its power, a product in brackets, or the `1` of `1/s`.
     fn factor(&mut self, sign: i8, may_be_one: bool, product: Product) -> Result<Product, UnitError> {
         let start = self.at;
         match self.peek() {
@@ -206,7 +206,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A power from 1 to 9 or -9 to -1, as `^2`, `^-1`, `²` or `³`; without one, 1.
+    /// Returns a power from 1 to 9 or -9 to -1, as `^2`, `^-1`, `²` or `³`; without one, 1.
     fn power(&mut self) -> Result<i8, UnitError> {
         let start = self.at;
         match self.peek() {

@@ -16,7 +16,7 @@ pub enum System {
 }
 
 impl System {
-    /// The name in case files: `us` or `si`.
+    /// Returns the name in case files: `us` or `si`.
     pub const fn name(self) -> &'static str {
         match self {
             System::Us => "us",
@@ -47,7 +47,7 @@ pub enum Kind {
     Frequency,
     /// An acceleration.
     Acceleration,
-    /// An acceleration that people and ladings feel, told in parts of gravity's.
+    /// An acceleration of people and ladings, given in parts of gravity's.
     RideAcceleration,
     /// A force.
     Force,
@@ -113,7 +113,7 @@ impl Kind {
         Kind::RideAcceleration,
     ];
 
-    /// What a unit of this dimension measures, in words with an article: `a length`.
+    /// Returns the quantity that a unit of this dimension measures, in words with an article: `a length`.
     pub(crate) fn describe(dimension: Dimension) -> String {
         match dimension {
             d if d == Kind::Moment.dimension() => "a moment or an energy".into(),
@@ -125,12 +125,12 @@ impl Kind {
         }
     }
 
-    /// Its dimension.
+    /// Returns its dimension.
     pub fn dimension(self) -> Dimension {
         self.facts().dimension
     }
 
-    /// Whether a quantity of this dimension can stand for it. Rotational damping may be written
+    /// Returns whether a quantity of this dimension can stand for it. Rotational damping may be written
     /// per radian or not: `lbf in s`, `lbf in s/rad`.
     pub fn accepts(self, dimension: Dimension) -> bool {
         let own = self.dimension();
@@ -138,28 +138,28 @@ impl Kind {
             || (self == Kind::RotationalDamping && dimension.angle == -1 && dimension.without_angle() == own)
     }
 
-    /// Its name in words, with an article: `a force`.
+    /// Returns its name in words, with an article: `a force`.
     pub fn name(self) -> &'static str {
         self.facts().name
     }
 
-    /// A unit it is usually written in, as text a [`crate::Quantity`] reads: `lbf`; empty for
+    /// Returns a unit it is usually written in, as text a [`crate::Quantity`] reads: `lbf`; empty for
     /// pure numbers.
     pub fn unit(self, system: System) -> &'static str {
         self.facts().unit[system as usize]
     }
 
-    /// The ending of a column's name: `lbf_in`, `N_m`; empty for pure numbers.
+    /// Returns the ending of a column's name: `lbf_in`, `N_m`; empty for pure numbers.
     pub fn suffix(self, system: System) -> &'static str {
         self.facts().suffix[system as usize]
     }
 
-    /// The unit as an axis shows it: `lbf·in/s`, `W`; empty for pure numbers.
+    /// Returns the unit as an axis shows it: `lbf·in/s`, `W`; empty for pure numbers.
     pub fn label(self, system: System) -> &'static str {
         self.facts().label[system as usize]
     }
 
-    /// The factor that makes a value of this system from an SI value.
+    /// Returns the factor that makes a value of this system from an SI value.
     pub fn from_si(self, system: System) -> f64 {
         match system {
             System::Si => 1.0,

@@ -1,6 +1,6 @@
 //! "Did you mean ...?"
 
-/// The candidate nearest to what was typed, if one is near enough to be worth naming.
+/// Returns the candidate nearest to what was typed, if one is near enough to be worth naming.
 ///
 /// Nearness counts inserted, left-out, changed and swapped letters, whatever their case; up to
 /// two in five may differ. If there is none, the shortest that begins with three or more letters typed.

@@ -40,7 +40,7 @@ impl Quantity {
         Ok(quantity)
     }
 
-    /// A quantity from a number and the text of its unit.
+    /// Returns a quantity from a number and the text of its unit.
     ///
     /// # Errors
     /// As [`Quantity::parse`]; places count from the start of the text this prints.
@@ -48,7 +48,7 @@ impl Quantity {
         Self::parse(&format!("{} {}", Number(value), unit.trim()))
     }
 
-    /// Whether it measures `kind`.
+    /// Checks whether it measures `kind`.
     ///
     /// # Errors
     /// [`UnitError::WrongDimension`] if it does not.
@@ -65,32 +65,32 @@ impl Quantity {
         })
     }
 
-    /// The number as typed, in its own unit.
+    /// Returns the number as typed, in its own unit.
     pub fn value(&self) -> f64 {
         self.value
     }
 
-    /// The unit.
+    /// Returns the unit.
     pub fn unit(&self) -> Unit {
         self.unit
     }
 
-    /// The unit's text as typed.
+    /// Returns the unit's text as typed.
     pub fn unit_text(&self) -> &str {
         self.text[self.unit_start..].trim()
     }
 
-    /// What was typed.
+    /// Returns the text as typed.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// What it measures.
+    /// Returns the dimension.
     pub fn dimension(&self) -> Dimension {
         self.unit.dimension()
     }
 
-    /// The value in SI: one multiplication by the unit's factor.
+    /// Returns the value in SI: one multiplication by the unit's factor.
     pub fn to_si(&self) -> f64 {
         self.value * self.unit.factor()
     }
@@ -142,7 +142,7 @@ impl Quantity {
     }
 }
 
-/// The length in bytes of the number a text begins with: `[+-] digits [. digits] [e [+-] digits]`.
+/// Returns the length in bytes of the number a text begins with: `[+-] digits [. digits] [e [+-] digits]`.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits = |mut at: usize| {
@@ -173,7 +173,7 @@ fn number_length(text: &str) -> usize {
     end
 }
 
-/// What is wrong with the number in `text[start..end]`, judged also by what follows it.
+/// Returns the error of the number in `text[start..end]`, judged also by what follows it.
 fn bad_number(text: &str, start: usize, end: usize, expected: Option<Kind>) -> Option<UnitError> {
     let rest = &text[end..];
     let word = rest.split(char::is_whitespace).next().unwrap_or("");

@@ -124,7 +124,7 @@ pub(crate) static SYNONYMS: &[(&str, &str)] = &[
     ("pli", "lbf/in"),
 ];
 
-/// The unit of this name.
+/// Returns the unit of this name.
 pub(crate) fn find(name: &str) -> Option<&'static Named> {
     UNITS.iter().find(|unit| unit.name == name)
 }

@@ -187,14 +187,14 @@ pub const SOLVERS: &[Solver] = &[
 /// What holds for all solvers.
 pub const COMMON_OPTIONS: &str = SAME;
 
-/// The solver of this name in programs and tables.
+/// Returns the solver of this name in programs and tables.
 #[must_use]
 pub fn solver(name: &str) -> Option<&'static Solver> {
     SOLVERS.iter().find(|solver| solver.name == name)
 }
 
 impl Solver {
-    /// Whether it can take part in a problem, and its tool is there.
+    /// Returns whether it can take part in a problem, and its tool is there.
     #[must_use]
     pub fn takes_part(&self, tools: &Tools, case: &str) -> bool {
         match self.program {
@@ -207,7 +207,7 @@ impl Solver {
         }
     }
 
-    /// The command of one run.
+    /// Returns the command of one run.
     #[must_use]
     pub fn command(
         &self,

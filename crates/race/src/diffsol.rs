@@ -34,7 +34,7 @@ struct StoredStates {
     matrix: Vec<f64>,
 }
 
-/// One integration up to `rows` rows; the states of the rows reached. `fresh`: a new Jacobian and
+/// Integrates up to `rows` rows; the states of the rows reached. `fresh`: a new Jacobian and
 /// factorization each step.
 ///
 /// # Errors

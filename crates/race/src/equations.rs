@@ -33,7 +33,7 @@ pub struct Equations {
 }
 
 impl Equations {
-    /// The equations of a problem of this name.
+    /// Returns the equations of a problem of this name.
     ///
     /// # Errors
     /// There is no such problem.
@@ -42,7 +42,7 @@ impl Equations {
         Ok(Self::new(problem.system, &problem.start))
     }
 
-    /// The equations of a system that starts in this state.
+    /// Returns the equations of a system that starts in this state.
     #[must_use]
     pub fn new(mut system: System, start: &[f64]) -> Self {
         let layout = system.layout();
@@ -80,13 +80,13 @@ impl Equations {
         self.mechanical + 1
     }
 
-    /// The state at the start, SI.
+    /// Returns the state at the start, SI.
     #[must_use]
     pub fn start(&self) -> &[f64] {
         &self.start
     }
 
-    /// The error scale of each state: a solver's absolute tolerance is the tolerance times it.
+    /// Returns the error scale of each state: a solver's absolute tolerance is the tolerance times it.
     #[must_use]
     pub fn scales(&self) -> &[f64] {
         &self.scales
@@ -98,7 +98,7 @@ impl Equations {
         z[self.mechanical] = full[self.loss];
     }
 
-    /// The system's own state out of the reduced one, other quadratures zero.
+    /// Returns the system's own state out of the reduced one, other quadratures zero.
     #[must_use]
     pub fn complete(&self, z: &[f64]) -> Vec<f64> {
         let mut full = vec![0.0; self.x.len()];
@@ -107,7 +107,7 @@ impl Equations {
         full
     }
 
-    /// The system, to observe what a state says.
+    /// Returns the system, to observe what a state says.
     pub fn system(&mut self) -> &mut System {
         &mut self.system
     }
@@ -121,7 +121,7 @@ impl Equations {
         dz[self.mechanical] = self.dx[self.loss];
     }
 
-    /// The Jacobian matrix of the rates by the state, column by column.
+    /// Writes the Jacobian matrix of the rates by the state, column by column.
     ///
     /// It is the matrix that our own integrator factors, read out through the same interface: the columns of
     /// `(σ - J)⁻¹` are solutions for unit vectors, and its inverse is `σ - J`. Whatever structure the matrix

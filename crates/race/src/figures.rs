@@ -56,7 +56,7 @@ fn panel(one: &Standing) -> Panel {
     }
 }
 
-/// The figures by name: yawed and unyawed thesis cases, the others, and the short spans.
+/// Returns the figures by name: yawed and unyawed thesis cases, the others, and the short spans.
 #[must_use]
 pub fn figures(standings: &[Standing]) -> Vec<(&'static str, Figure)> {
     let full = standings.iter().map(|one| one.span).fold(0.0, f64::max);

@@ -46,7 +46,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// One run of a solver that is compiled in.
+/// Runs a solver that is compiled in.
 fn solve(solver: &str, words: &[&str]) -> Result<(), String> {
     let [case, tolerance, limit, file, rest @ ..] = words else {
         return Err(USAGE.to_owned());
@@ -77,7 +77,7 @@ fn solve(solver: &str, words: &[&str]) -> Result<(), String> {
     Ok(())
 }
 
-/// A case for a driver that has the equations in its own language.
+/// Writes a case for a driver that has the equations in its own language.
 fn wedge(case: &str) -> Result<(), String> {
     let case = WedgeCase::named(case)?;
     let line = serde_json::to_string(&case).map_err(|error| error.to_string())?;
@@ -89,13 +89,13 @@ fn number(word: &str) -> Result<f64, String> {
     word.parse::<f64>().map_err(|_| format!("`{word}` is no number"))
 }
 
-/// A number of starts.
+/// Returns a number of starts.
 fn whole(word: &str) -> Result<u32, String> {
     let number = word.parse().ok().filter(|number| *number > 0);
     number.ok_or_else(|| format!("--starts {word}: expected 1, 2, 3, ..."))
 }
 
-/// The whole race.
+/// Runs the whole race.
 fn all(words: &[&str]) -> Result<(), String> {
     let mut options = std::collections::BTreeMap::new();
     for pair in words.chunks(2) {

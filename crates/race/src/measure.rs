@@ -58,13 +58,13 @@ impl Judge {
         })
     }
 
-    /// The problem.
+    /// Returns the problem.
     #[must_use]
     pub fn problem(&self) -> &Problem {
         &self.problem
     }
 
-    /// What the states of the first rows say; none if means are asked of a part of the run.
+    /// Returns the quantities of the states of the first rows; none if means are asked of a part of the run.
     #[must_use]
     pub fn quantities(&mut self, states: &[f64], rows: usize) -> Option<Quantities> {
         let n = self.equations.dimension();
@@ -122,7 +122,7 @@ impl Judge {
 }
 
 impl Quantities {
-    /// How far these quantities are from those of a reference, relative to the reference.
+    /// Returns the error of these quantities, relative to those of a reference.
     ///
     /// Series: root mean square of the difference over that of the reference, the greatest of the series.
     /// Means: the greatest of the differences of the branch means over the larger branch mean, and of the
@@ -157,7 +157,7 @@ impl Quantities {
     }
 }
 
-/// The greater of two errors; what is not a number is infinite.
+/// Returns the greater of two errors; what is not a number is infinite.
 fn worse(a: f64, b: f64) -> f64 {
     if b.is_finite() { a.max(b) } else { f64::INFINITY }
 }

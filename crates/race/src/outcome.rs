@@ -32,7 +32,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// The mean of times and counts over this run and others of the same solver.
+    /// Returns the mean of times and counts over this run and others of the same solver.
     #[must_use]
     pub fn mean_with(&self, others: &[&Self]) -> Self {
         let number = others.len() as u64 + 1;

@@ -8,7 +8,7 @@ use crate::equations::Equations;
 use crate::outcome::Outcome;
 use crate::problem::Problem;
 
-/// One integration up to `rows` rows, contact modes `recorded` or not; the states of the rows reached.
+/// Integrates up to `rows` rows, contact states `recorded` or not; the states of the rows reached.
 ///
 /// # Errors
 /// The problem does not exist, or the integrator refuses the start.

@@ -75,7 +75,7 @@ pub struct Measured {
 }
 
 impl Results {
-    /// The results of one race over all cases and solvers.
+    /// Returns the results of one race over all cases and solvers.
     #[must_use]
     pub fn of(standings: &[Standing], measured: Measured) -> Self {
         let race = Race {
@@ -113,7 +113,7 @@ impl Results {
         Ok(found)
     }
 
-    /// The results as stored.
+    /// Returns the results as stored.
     ///
     /// # Errors
     /// Never, with results that were made here.
@@ -122,7 +122,7 @@ impl Results {
         Ok(text + "\n")
     }
 
-    /// The page.
+    /// Returns the page.
     #[must_use]
     pub fn page(&self) -> String {
         let mut text = format!("{ABOUT}\n## In short\n\n{}", summary(&self.races));
@@ -272,7 +272,7 @@ const FIGURES: &str = "
 Octave](figures/race_short.svg)
 ";
 
-/// A cell of the table of ratios, `219.4 (at 3e-2) to 219.4`, as its least and its greatest ratio.
+/// Returns a cell of the table of ratios, `219.4 (at 3e-2) to 219.4`, as its least and its greatest ratio.
 fn ratio(cell: &str) -> Option<(f64, f64)> {
     let (least, rest) = cell.split_once(" (at ")?;
     let (_, most) = rest.split_once(") to ")?;
@@ -354,7 +354,7 @@ fn failed(failures: &Table) -> String {
     format!("### Runs that did not come to their end\n\nAll other runs did.\n\n{table}")
 }
 
-/// The options of every solver.
+/// Returns the options of every solver.
 fn options() -> String {
     let mut text = format!(
         "All: {COMMON_OPTIONS}; reference: {} at {}.\n\n| solver | options beyond its defaults |\n\

@@ -80,7 +80,7 @@ pub enum ProblemError {
     },
 }
 
-/// The names of all problems: the thesis's twelve cases, the planar wedge, the stick test.
+/// Returns the names of all problems: the thesis's twelve cases, the planar wedge, the stick test.
 #[must_use]
 pub fn names() -> Vec<String> {
     let others = [
@@ -95,14 +95,14 @@ pub fn names() -> Vec<String> {
         .collect()
 }
 
-/// Whether this is one of the thesis's cases with a yawed bolster.
+/// Returns whether this is one of the thesis's cases with a yawed bolster.
 #[must_use]
 pub fn is_yawed(name: &str) -> bool {
     builtin::thesis_names().any(|known| known == name) && !name.ends_with("psi_0")
 }
 
-/// The name of a case from another start than its own, which is number 0: `vdrun_toe_0_psi_0@2` begins with
-/// the wedge 2 steps of [`START_STEP`] lower. Drivers in other languages hand such a name on.
+/// Returns the name of a case from another start than its own, which is number 0: `vdrun_toe_0_psi_0@2`
+/// begins with the wedge 2 steps of [`START_STEP`] lower. Drivers in other languages hand such a name on.
 #[must_use]
 pub fn with_start(case: &str, start: u32) -> String {
     match start {
@@ -111,7 +111,7 @@ pub fn with_start(case: &str, start: u32) -> String {
     }
 }
 
-/// The case and the number of its start in a name.
+/// Returns the case and the number of its start in a name.
 #[must_use]
 pub fn start_of(name: &str) -> (&str, u32) {
     let parts = name.split_once(START_MARK);
@@ -121,7 +121,7 @@ pub fn start_of(name: &str) -> (&str, u32) {
 }
 
 impl Problem {
-    /// The problem of this name, which may ask for another start ([`with_start`]).
+    /// Returns the problem of this name, which may ask for another start ([`with_start`]).
     ///
     /// # Errors
     /// There is none, or it makes no system, or it has no wedge to start elsewhere.
@@ -211,8 +211,9 @@ impl Problem {
         })
     }
 
-    /// A mass of 10 kg that slides along x on a plane, pressed by its weight, friction 0.3, on a spring of
-    /// 4000 N/m, released at 0.2 m. Its height is held at the depth at which the plane carries its weight.
+    /// Returns a mass of 10 kg that slides along x on a plane, pressed by its weight, friction 0.3, on a
+    /// spring of 4000 N/m, released at 0.2 m. Its height is held at the depth at which the plane carries its
+    /// weight.
     fn stick(name: &str, law: FrictionLaw) -> Result<Self, String> {
         let (mass, gravity, normal) = (10.0, 9.81, 1e6);
         let sunk = -mass * gravity / normal;

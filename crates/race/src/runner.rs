@@ -113,7 +113,7 @@ impl Plan {
         Ok(entries)
     }
 
-    /// The runs of a solver from so many starts.
+    /// Returns the runs of a solver from so many starts.
     fn tolerances(
         &self,
         tools: &Tools,
@@ -157,7 +157,7 @@ impl Plan {
         Ok(entries)
     }
 
-    /// One run, or what is kept of it.
+    /// Makes one run, or returns its stored outcome.
     fn one(
         &self,
         tools: &Tools,
@@ -215,7 +215,7 @@ fn name(case: &str, solver: &str, tolerance: &str, rows: usize) -> String {
     format!("{case}__{}__{tolerance}__{rows}", solver.replace(' ', "_"))
 }
 
-/// Where the states of a run are.
+/// Returns the path of the states of a run.
 #[must_use]
 pub fn states_file(folder: &Path, case: &str, solver: &str, tolerance: &str, rows: usize) -> PathBuf {
     let name = name(case, solver, tolerance, rows);

@@ -26,7 +26,7 @@ pub struct Judgement {
 }
 
 impl Judgement {
-    /// Whether it came to its end.
+    /// Returns whether it came to its end.
     #[must_use]
     pub fn finished(&self) -> bool {
         self.entry.outcome.failure.is_empty() && self.error.is_some()
@@ -78,7 +78,8 @@ pub fn judge(folder: &Path, entries: &[Entry]) -> Result<Vec<Standing>, String> 
     Ok(standings)
 }
 
-/// What the same case says from several starts, the first its own. A run counts that came through from each.
+/// Returns the means of the same case over several starts, the first its own. A run counts that came through
+/// from each.
 #[must_use]
 pub fn over_starts(each: Vec<Standing>) -> Option<Standing> {
     let starts = each.len();
@@ -175,7 +176,7 @@ fn standing(folder: &Path, case: &str, group: &[&Entry]) -> Result<Standing, Str
 }
 
 impl Standing {
-    /// The solvers that have runs, in the order of the runs.
+    /// Returns the solvers that have runs, in the order of the runs.
     #[must_use]
     pub fn solvers(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
@@ -187,8 +188,8 @@ impl Standing {
         names
     }
 
-    /// The cheapest finished run of the named solvers whose error is not above `level` (or the floor, if that
-    /// is higher).
+    /// Returns the cheapest finished run of the named solvers whose error is not above `level` (or the floor,
+    /// if that is higher).
     #[must_use]
     pub fn cheapest(&self, names: &[&str], level: f64) -> Option<&Judgement> {
         let level = level.max(self.floor);
@@ -199,7 +200,7 @@ impl Standing {
             .min_by(|a, b| a.entry.outcome.cpu.total_cmp(&b.entry.outcome.cpu))
     }
 
-    /// The levels that this standing can tell apart: those above the floor, and the floor itself.
+    /// Returns the levels that this standing can tell apart: those above the floor, and the floor itself.
     #[must_use]
     pub fn levels(&self) -> Vec<f64> {
         let mut levels: Vec<f64> = LEVELS.into_iter().filter(|level| *level > self.floor).collect();
@@ -209,8 +210,8 @@ impl Standing {
         levels
     }
 
-    /// How many times longer `others` take than `ours` at equal error: each at its best tolerance; level by
-    /// level where both come.
+    /// Returns the ratio of the times of `others` to those of `ours` at equal error: each at its best
+    /// tolerance; level by level where both come.
     #[must_use]
     pub fn ratios(&self, others: &[&str], ours: &[&str]) -> Vec<(f64, f64)> {
         let levels = self.levels().into_iter();

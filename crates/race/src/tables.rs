@@ -58,7 +58,7 @@ impl Table {
 }
 
 impl fmt::Display for Table {
-    /// As Markdown.
+    /// Writes it as Markdown.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "| {} |", self.head.join(" | "))?;
         writeln!(f, "|{}", "---|".repeat(self.head.len()))?;
@@ -68,7 +68,7 @@ impl fmt::Display for Table {
     }
 }
 
-/// What this program and everything in it that is Rust was compiled for.
+/// Returns the processor features that this program and all Rust in it were compiled for.
 #[must_use]
 pub fn processors() -> &'static str {
     if cfg!(target_feature = "avx2") {
@@ -78,7 +78,7 @@ pub fn processors() -> &'static str {
     }
 }
 
-/// A time in words.
+/// Returns a time in words.
 fn seconds(value: f64) -> String {
     if value < 1.0 {
         format!("{:.1} ms", value * 1e3)
@@ -87,7 +87,7 @@ fn seconds(value: f64) -> String {
     }
 }
 
-/// A count; some drivers do not count everything.
+/// Returns a count; some drivers do not count everything.
 fn count_text(count: u64) -> String {
     if count == 0 {
         "-".to_owned()
@@ -100,8 +100,8 @@ fn power(value: f64) -> String {
     format!("{value:.0e}")
 }
 
-/// How many times faster ours is, case by case and solver by solver: the least and the middle of all error
-/// levels.
+/// Returns the table of ratios of times to ours, case by case and solver by solver: the least and the middle
+/// of all error levels.
 #[must_use]
 pub fn ratios(standings: &[Standing]) -> Table {
     let full = standings.iter().map(|one| one.span).fold(0.0, f64::max);
@@ -147,7 +147,7 @@ pub fn ratios(standings: &[Standing]) -> Table {
     table
 }
 
-/// The least ratio with its level, and the greatest.
+/// Returns the least ratio with its level, and the greatest.
 fn cell(ratios: &[(f64, f64)]) -> String {
     let least = ratios.iter().min_by(|a, b| a.1.total_cmp(&b.1));
     let most = ratios.iter().map(|(_, ratio)| *ratio).fold(0.0, f64::max);
@@ -260,7 +260,7 @@ pub fn failures(standings: &[Standing]) -> Table {
     table
 }
 
-/// All runs of a case: the cheapest of each solver at each level, and its failures.
+/// Returns all runs of a case: the cheapest of each solver at each level, and its failures.
 #[must_use]
 pub fn standing(one: &Standing) -> String {
     let mut text = format!(
@@ -315,7 +315,7 @@ pub fn standing(one: &Standing) -> String {
     text
 }
 
-/// All runs of all cases.
+/// Returns all runs of all cases.
 #[must_use]
 pub fn everything(standings: &[Standing]) -> String {
     let mut text = String::from("# All runs of the race\n");

@@ -21,7 +21,7 @@ pub struct WedgeCase {
 }
 
 impl WedgeCase {
-    /// The case of this name.
+    /// Returns the case of this name.
     ///
     /// # Errors
     /// There is no such problem, or it is no wedge.

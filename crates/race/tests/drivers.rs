@@ -13,7 +13,7 @@ use race::own;
 
 const CASE: &str = "cdrun_toe_out_0.2_psi_0.012";
 
-/// The driver's report and states of the first rows.
+/// Returns the driver's report and states of the first rows.
 fn cvode(command: &mut Command, tolerance: &str, rows: usize) -> (Outcome, Vec<f64>) {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("states.f64");

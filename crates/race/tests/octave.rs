@@ -22,7 +22,7 @@ fn drivers() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("drivers")
 }
 
-/// What one Octave prints that runs this driver.
+/// Returns the output of an Octave that runs this driver.
 fn octave(driver: &str, arguments: &[&str]) -> String {
     let program = std::env::var("WEDGELAB_OCTAVE").unwrap_or_else(|_| "octave-cli".to_owned());
     let output = Command::new(program)

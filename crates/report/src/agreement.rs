@@ -42,8 +42,8 @@ pub const COMPONENT: &str = "127";
 /// A run of the half-truck.
 pub type TruckOutcome = (Entry, HalfTruckResult);
 
-/// A column of the half-truck's table under the name of the stand-alone wedge's column that stands for the
-/// same; any other name is the half-truck's own.
+/// Returns a column of the half-truck's table under the name of the stand-alone wedge's column that stands
+/// for the same; any other name is the half-truck's own.
 #[must_use]
 pub fn truck_column<'r>(result: &'r HalfTruckResult, name: &str) -> Option<&'r [f64]> {
     let wedge = |what: &str| result.column(&format!("wedge_{COMPONENT}_{what}"));
@@ -111,13 +111,13 @@ pub struct Numbers {
 }
 
 impl Numbers {
-    /// The four numbers in order: up, down, energy, area.
+    /// Returns the four numbers in order: up, down, energy, area.
     #[must_use]
     pub fn values(&self) -> [f64; 4] {
         [self.up, self.down, self.energy, self.area]
     }
 
-    /// How much more they are than another model's, over that one's: 0.01 is one per cent more.
+    /// Returns their relative differences from another model's: 0.01 is one per cent more.
     #[must_use]
     pub fn over(&self, other: &Self) -> [f64; 4] {
         let (own, other) = (self.values(), other.values());
@@ -170,8 +170,8 @@ pub(crate) struct Set<'o> {
     pub trucks: Vec<&'o TruckOutcome>,
 }
 
-/// The sets that these runs allow: those with a stand-alone run and at least one of the half-truck, all
-/// complete.
+/// Returns the sets that these runs allow: those with a stand-alone run and at least one of the half-truck,
+/// all complete.
 pub(crate) fn sets<'o>(outcomes: &'o [Outcome], trucks: &'o [TruckOutcome]) -> Vec<Set<'o>> {
     let mut sets = Vec::new();
     for damping in [Damping::Variable, Damping::Constant] {
@@ -214,7 +214,7 @@ pub(crate) fn sets<'o>(outcomes: &'o [Outcome], trucks: &'o [TruckOutcome]) -> V
     sets
 }
 
-/// All comparisons that these runs allow.
+/// Returns all comparisons that these runs allow.
 #[must_use]
 pub fn groups(outcomes: &[Outcome], trucks: &[TruckOutcome]) -> Vec<Group> {
     sets(outcomes, trucks).iter().filter_map(group).collect()
@@ -294,7 +294,7 @@ fn truck(case: &Case, entry: &Entry, result: &HalfTruckResult, cycle: &Cycle) ->
     })
 }
 
-/// The closed form, at the times of a run.
+/// Returns the closed form, at the times of a run.
 fn closed(case: &Case, times: &[f64], cycle: &Cycle) -> Option<Numbers> {
     let parameters = &case.parameters;
     let (mut sums, mut counts) = ([0.0; 2], [0_usize; 2]);
@@ -321,8 +321,8 @@ fn closed(case: &Case, times: &[f64], cycle: &Cycle) -> Option<Numbers> {
     })
 }
 
-/// What the quasi-static wedge loses at the column while the bolster goes from one height to another and
-/// back, J.
+/// Returns the energy that the quasi-static wedge loses at the column while the bolster goes from one height
+/// to another and back, J.
 fn element_energy(parameters: &Parameters, low: f64, high: f64) -> Option<f64> {
     // The forces are straight lines with at most one kink: the midpoint rule is good to 1e-6.
     const PIECES: u32 = 4000;
@@ -336,7 +336,7 @@ fn element_energy(parameters: &Parameters, low: f64, high: f64) -> Option<f64> {
     Some(energy)
 }
 
-/// A type's wedge as closed-form parameters: without weight, and without an angle for type 6.8.
+/// Returns a type's wedge as closed-form parameters: without weight, and without an angle for type 6.8.
 fn element(case: &Case, wedges: WedgeType) -> Parameters {
     let mut parameters = case.parameters.clone();
     parameters.gravity = 0.0;

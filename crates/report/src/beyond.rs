@@ -41,7 +41,7 @@ pub const GROUPS: [&str; 9] = [
     "overturned_toe",
 ];
 
-/// Whether a figure of a group may need this column: the others need not be kept.
+/// Returns whether a figure of a group may need this column: the others need not be kept.
 #[must_use]
 pub fn needs(column: &str) -> bool {
     const ALSO: [&str; 4] = [
@@ -56,8 +56,8 @@ pub fn needs(column: &str) -> bool {
     ALSO.contains(&column) || begins && !column.ends_with("_rate")
 }
 
-/// The figure of a group from its runs (those that there are); `None` for a group without a figure, or
-/// without runs. All runs should have the same output units: those of the first are used.
+/// Returns the figure of a group from its runs (those that there are); `None` for a group without a figure,
+/// or without runs. All runs should have the same output units: those of the first are used.
 #[must_use]
 pub fn figure(group: &str, runs: &[Ran]) -> Option<Figure> {
     let units = runs.first()?.1.summary.units;
@@ -224,7 +224,7 @@ fn sweep(runs: &[Ran], units: Units) -> Vec<Panel> {
     panels
 }
 
-/// Two columns over time, a panel each, a curve a damping.
+/// Returns two columns over time, a panel each, a curve a damping.
 fn histories(runs: &[Ran], units: Units, columns: [(&str, &str); 2]) -> Vec<Panel> {
     let of = |(name, label): (&str, &str)| -> Option<Panel> {
         let mut kind = None;
@@ -383,7 +383,7 @@ fn lock_up(runs: &[Ran], units: Units) -> Vec<Panel> {
     ]
 }
 
-/// A column over the bolster's vertical displacement, without the first half period.
+/// Returns a column over the bolster's vertical displacement, without the first half period.
 fn cycles(case: &Case, result: &RunResult, name: &str, units: Units) -> Option<Vec<(f64, f64)>> {
     let start = 0.5 * Cycle::of(&case.parameters)?.period();
     let kind = result.columns.iter().find(|column| column.name == name)?.kind;
@@ -401,7 +401,7 @@ fn cycles(case: &Case, result: &RunResult, name: &str, units: Units) -> Option<V
     )
 }
 
-/// The quasi-static wedge's forces over the bolster's stroke: straight lines.
+/// Returns the quasi-static wedge's forces over the bolster's stroke: straight lines.
 fn branches(parameters: &Parameters, units: Units) -> Vec<Curve> {
     let Some(cycle) = Cycle::of(parameters) else {
         return Vec::new();
@@ -430,7 +430,7 @@ fn force_panel(damping: Damping, units: Units, curves: Vec<Curve>) -> Panel {
     )
 }
 
-/// The period of the bolster's yaw, s.
+/// Returns the period of the bolster's yaw, s.
 fn motion_period(case: &Case) -> Option<f64> {
     match &case.parameters.bolster.coordinates[5] {
         mechanics::motion::Motion::Sine {
@@ -449,7 +449,7 @@ fn amplitude_name(amplitude: f64, units: Units) -> String {
     format!("{value} {}", Kind::Length.label(units))
 }
 
-// Everything that the drawing layer is told passes through these three.
+// All data for the drawing layer pass through these three.
 
 fn curve(label: &str, (colour, line): (Colour, Line), points: impl IntoIterator<Item = (f64, f64)>) -> Curve {
     Curve {

@@ -76,7 +76,7 @@ pub fn write(
     })
 }
 
-/// The columns of the table.
+/// Returns the columns of the table.
 fn columns() -> Vec<ParquetColumn> {
     let speed = Kind::TravelSpeed;
     let unit = speed.label(Units::Us);
@@ -119,7 +119,7 @@ fn columns() -> Vec<ParquetColumn> {
     ]
 }
 
-/// The rows of the table: each run beside each limit of its regime, or alone if there is none.
+/// Returns the rows of the table: each run beside each limit of its regime, or alone if there is none.
 fn rows<'c>(certificate: &'c Certificate, findings: &'c Findings) -> impl Iterator<Item = Vec<Cell<'c>>> {
     let text = |own: &'c str| match own {
         "" => Cell::Missing,
@@ -185,10 +185,10 @@ fn table_as_csv(certificate: &Certificate, findings: &Findings, out: &mut dyn Wr
     Ok(())
 }
 
-/// All that a certificate says.
+/// Returns all that a certificate says.
 fn document(certificate: &Certificate, findings: &Findings) -> serde_json::Value {
     let limits = &certificate.limits;
-    let told = findings.verdicts.iter().map(|own| {
+    let verdicts = findings.verdicts.iter().map(|own| {
         let limit = &limits.limits[own.limit];
         json!({
             "regime": certificate.regimes[own.regime].name,
@@ -225,7 +225,7 @@ fn document(certificate: &Certificate, findings: &Findings) -> serde_json::Value
         "limits": { "name": limits.name, "title": limits.title, "source": limits.source },
         "regimes": regimes.collect::<Vec<_>>(),
         "conditions": conditions.collect::<Vec<_>>(),
-        "verdicts": told.collect::<Vec<_>>(),
+        "verdicts": verdicts.collect::<Vec<_>>(),
         "runs": runs.collect::<Vec<_>>(),
     })
 }

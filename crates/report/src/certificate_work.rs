@@ -89,7 +89,7 @@ fn worst_runs(
     Ok(found)
 }
 
-/// One of them; `None` if it was stopped, or is no run any more.
+/// Makes one of the runs; `None` if it was stopped, or is no run any more.
 fn one(
     certificate: &Certificate,
     regime: usize,

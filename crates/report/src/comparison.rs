@@ -80,7 +80,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Whether none of its numbers has overflowed.
+    /// Returns whether none of its numbers has overflowed.
     fn is_finite(&self) -> bool {
         let numbers = [
             self.largest,
@@ -174,7 +174,7 @@ impl Comparison {
         })
     }
 
-    /// The figures with their file names: one a column, over time, and the hysteresis loops.
+    /// Returns the figures with their file names: one a column, over time, and the hysteresis loops.
     ///
     /// # Errors
     /// A column is missing: the entries are not those that were compared.
@@ -333,7 +333,7 @@ fn common_span(entries: &[Entry]) -> Result<(f64, f64), ComparisonError> {
     })
 }
 
-/// What is said about spans, units and times that are not the same.
+/// Returns remarks about spans, units and times that are not the same.
 fn differing(first: &Entry, others: &[Entry], times: &[f64], span: (f64, f64)) -> Vec<String> {
     let mut notes = Vec::new();
     let all = std::iter::once(first).chain(others);
@@ -383,7 +383,7 @@ fn words_of(units: Units) -> &'static str {
     }
 }
 
-/// A column's values in these units at these times, all of them within the table's span.
+/// Returns a column's values in these units at these times, all of them within the table's span.
 fn sampled(table: &Table, column: &TableColumn, units: Units, times: &[f64]) -> Vec<f64> {
     let own = table.times();
     let values = column.in_units(units);

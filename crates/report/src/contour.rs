@@ -14,7 +14,7 @@ pub struct Grid<'g> {
 
 type Point = (f64, f64);
 
-/// The lines at this height, straight between the edges of cells.
+/// Returns the lines at this height, straight between the edges of cells.
 #[must_use]
 pub fn lines(grid: &Grid<'_>, level: f64) -> Vec<Vec<Point>> {
     let columns = grid.y.len();
@@ -47,7 +47,8 @@ pub fn lines(grid: &Grid<'_>, level: f64) -> Vec<Vec<Point>> {
     joined(pieces)
 }
 
-/// Where the height passes the level between two corners; the same bits whichever comes first.
+/// Returns the point where the height passes the level between two corners; the same bits whichever comes
+/// first.
 fn crossing(a: (f64, f64, f64), b: (f64, f64, f64), level: f64) -> Option<Point> {
     if (a.2 >= level) == (b.2 >= level) {
         return None;

@@ -57,7 +57,7 @@ pub fn write_columns(
     Ok(())
 }
 
-/// An SI value as files have it.
+/// Returns an SI value as files have it.
 #[must_use]
 pub fn converted(si: f64, kind: Kind, units: Units) -> f64 {
     si * kind.from_si(units)

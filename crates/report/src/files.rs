@@ -112,7 +112,7 @@ impl Folder {
         Ok(folder)
     }
 
-    /// The folder.
+    /// Returns the folder.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path

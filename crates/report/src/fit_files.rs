@@ -77,7 +77,7 @@ pub fn write(fit: &Fit, shown: &Shown<'_>, mut out: impl Write) -> io::Result<()
     out.write_all(b"\n")
 }
 
-/// The loop measured and fitted, and the differences over time.
+/// Returns the loop measured and fitted, and the differences over time.
 #[must_use]
 pub fn figure(fit: &Fit, shown: &Shown<'_>) -> Figure {
     let (kind, units) = (shown.kind, shown.units);

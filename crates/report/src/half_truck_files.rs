@@ -51,7 +51,7 @@ pub struct ScriptArray {
 }
 
 impl ScriptArray {
-    /// The array of a run; `None` without wedges of type 6.8 or 6.9.
+    /// Returns the array of a run; `None` without wedges of type 6.8 or 6.9.
     #[must_use]
     pub fn of(case: &HalfTruckCase) -> Option<Self> {
         let place = *case.wedges().first()?;
@@ -94,7 +94,7 @@ impl ScriptArray {
         Some(Self { name, columns })
     }
 
-    /// Its values, with a row each `interval` seconds.
+    /// Returns its values, with a row each `interval` seconds.
     fn values(&self, result: &HalfTruckResult, interval: f64) -> io::Result<Vec<Vec<f64>>> {
         let missing = |name: &str| io::Error::other(format!("the result has no column `{name}`"));
         let times = result.column("time").ok_or_else(|| missing("time"))?;
@@ -115,7 +115,7 @@ impl ScriptArray {
     }
 }
 
-/// The value at a time, linear between rows; at a row's time (but for rounding) that row's.
+/// Returns the value at a time, linear between rows; at a row's time (but for rounding) that row's.
 fn sample(times: &[f64], values: &[f64], time: f64) -> f64 {
     let after = times.partition_point(|own| *own < time);
     let near = |index: usize| {

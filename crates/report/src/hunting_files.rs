@@ -25,7 +25,7 @@ pub const NAMES: [&str; 4] = [TABLE, NUMBERS, FIGURE, PICTURE];
 /// The schema of [`NUMBERS`].
 pub const SCHEMA: &str = "wedgelab.car_hunting/1";
 
-/// The ramps with their names.
+/// Returns the ramps with their names.
 fn ramps(found: &Hunting) -> Vec<(&'static str, &Ramp)> {
     let mut own = vec![("falling", &found.falling)];
     own.extend(found.rising.as_ref().map(|ramp| ("rising", ramp)));
@@ -106,7 +106,7 @@ fn outcome(ramp: &Ramp, units: Units) -> Outcome {
     }
 }
 
-/// The critical speeds (m/s) by linearization, friction stuck and absent.
+/// Returns the critical speeds (m/s) by linearization, friction stuck and absent.
 fn linear(stability: &Stability) -> [Option<f64>; 2] {
     FRICTION.map(|(friction, _)| {
         let own = stability.branches.iter().find(|own| own.friction == friction)?;
@@ -151,8 +151,8 @@ pub fn write_numbers(
     write_json(&document, out)
 }
 
-/// The figure: the largest lateral amplitude of the wheelsets, and the body's lateral acceleration, over
-/// speed.
+/// Returns the figure: the largest lateral amplitude of the wheelsets, and the body's lateral acceleration,
+/// over speed.
 #[must_use]
 pub fn figure(case: &str, found: &Hunting, stability: &Stability, units: Units) -> Figure {
     let speed = |si: f64| si * Kind::TravelSpeed.from_si(units);

@@ -82,7 +82,7 @@ pub fn write_table(map: &LockUpMap, units: Units, out: &mut dyn Write) -> io::Re
     Ok(())
 }
 
-/// The figure: the margin with what the rigs found, and the column's force over the load.
+/// Returns the figure: the margin with what the rigs found, and the column's force over the load.
 #[must_use]
 pub fn figure(case: &Case, map: &LockUpMap, units: Units) -> Figure {
     let axes = map.spans.map(|span| span.axis);
@@ -247,7 +247,7 @@ fn broken(lines: Vec<Vec<(f64, f64)>>) -> Vec<(f64, f64)> {
     points
 }
 
-/// A cross where a rig locked, a bar where it slid, a small stroke upwards where it is not known.
+/// Returns a cross where a rig locked, a bar where it slid, a small stroke upwards where it is not known.
 fn signs(map: &LockUpMap, values: &[Vec<f64>; 2]) -> Vec<Curve> {
     let size = values.each_ref().map(|values| {
         let ends = values.first().zip(values.last());

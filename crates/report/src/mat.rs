@@ -121,7 +121,7 @@ pub fn write_truck(result: &TruckResult, out: &mut dyn Write) -> io::Result<()> 
     write_all(result, [&own.name, &own.title, &own.program], out)
 }
 
-/// The same of a car's run.
+/// Writes the same of a car's run.
 ///
 /// # Errors
 /// The writer's.

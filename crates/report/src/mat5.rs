@@ -71,7 +71,7 @@ pub fn text(name: &str, text: &str, out: &mut dyn Write) -> io::Result<()> {
     array(name, CLASS_CHAR, [1, length], (UINT16, 2, bytes), out)
 }
 
-/// One variable: its flags, dimensions, name and data, given as data type, bytes a value, and bytes.
+/// Returns one variable: its flags, dimensions, name and data, given as data type, bytes a value, and bytes.
 fn array(
     name: &str,
     class: u32,

@@ -13,12 +13,12 @@ pub(crate) struct Axes {
     pub curves: Vec<(String, Vec<(f64, f64)>)>,
 }
 
-/// The name of a column with its unit, as an axis shows it: `wedge x (in)`.
+/// Returns the name of a column with its unit, as an axis shows it: `wedge x (in)`.
 pub(crate) fn axis(column: &TableColumn, units: Units) -> String {
     figures::axis(&words(&column.name), column.kind, units)
 }
 
-/// Whether a column (SI) changes by more than rounding: what stands still has no loop.
+/// Returns whether a column (SI) changes by more than rounding: what stands still has no loop.
 pub(crate) fn moves(kind: Kind, values: &[f64]) -> bool {
     let least = match kind {
         // A micrometre or a microradian; a hundredth of a newton or newton metre.
@@ -29,12 +29,12 @@ pub(crate) fn moves(kind: Kind, values: &[f64]) -> bool {
     values.iter().any(|value| (value - first).abs() > least)
 }
 
-/// A column's name in words.
+/// Returns a column's name in words.
 pub(crate) fn words(name: &str) -> String {
     name.replace('_', " ")
 }
 
-/// A figure of these axes; curves of the same name look the same everywhere.
+/// Returns a figure of these axes; curves of the same name look the same everywhere.
 pub(crate) fn figure(title: String, caption: String, axes: Vec<Axes>) -> Figure {
     let mut names: Vec<String> = Vec::new();
     for (name, _) in axes.iter().flat_map(|axes| &axes.curves) {

@@ -79,7 +79,7 @@ pub struct TableWriter<W: Write + Send> {
 }
 
 impl<W: Write + Send> TableWriter<W> {
-    /// A table of these columns; `metadata` are further keys with their values.
+    /// Returns a table of these columns; `metadata` are further keys with their values.
     ///
     /// # Errors
     /// It cannot be written.

@@ -11,7 +11,7 @@ use crate::overlay::{self, Axes};
 use crate::parquet::Cell;
 use crate::table::{Table, TableColumn, TableError};
 
-/// The figure of the columns `ys` over the column `x`, in the table's units; one panel a unit.
+/// Returns the figure of the columns `ys` over the column `x`, in the table's units; one panel a unit.
 ///
 /// # Errors
 /// One of the columns is not in the table.
@@ -61,7 +61,7 @@ pub fn figure(table: &Table, label: &str, x: &str, ys: &[String]) -> Result<Figu
     Ok(overlay::figure(label.to_owned(), caption, axes.collect()))
 }
 
-/// The unit of a power spectral density of values in a unit.
+/// Returns the unit of a power spectral density of values in a unit.
 #[must_use]
 pub fn density_unit(unit: &str) -> String {
     match unit {
@@ -71,7 +71,7 @@ pub fn density_unit(unit: &str) -> String {
     }
 }
 
-/// The power spectral density of a column, in the column's units, in decibels over one unit.
+/// Returns the power spectral density of a column, in the column's units, in decibels over one unit.
 #[must_use]
 pub fn density_figure(table: &Table, label: &str, column: &TableColumn, spectrum: &Spectrum) -> Figure {
     let words = overlay::words(&column.name);
@@ -124,8 +124,8 @@ pub fn write_density(
     Ok(())
 }
 
-/// A column's name as the name of a file, without ending: of others' names only letters, digits, `_` and `-`
-/// are kept.
+/// Returns a column's name as the name of a file, without ending: of others' names only letters, digits, `_`
+/// and `-` are kept.
 #[must_use]
 pub fn file_name(column: &str) -> String {
     let plain = |sign: char| sign.is_alphanumeric() || matches!(sign, '_' | '-');
@@ -133,7 +133,7 @@ pub fn file_name(column: &str) -> String {
     signs.map(|sign| if plain(sign) { sign } else { '_' }).collect()
 }
 
-/// A kind's name without its article.
+/// Returns a kind's name without its article.
 fn bare(name: &str) -> &str {
     name.split_once(' ').map_or(name, |(_, bare)| bare)
 }

@@ -33,7 +33,7 @@ pub trait RunFiles: RunCase<Output = RunResult<Self::Summary>> {
     /// The files of a run.
     const FILES: &'static [&'static str];
 
-    /// The files that [`RunFiles::write`] writes of this case.
+    /// Returns the files that [`RunFiles::write`] writes of this case.
     fn names(&self) -> Vec<&'static str> {
         Self::FILES.to_vec()
     }

@@ -28,7 +28,7 @@ pub struct Plan {
     pub group: String,
 }
 
-/// The sections of the report on these runs of the thesis's kind.
+/// Returns the sections of the report on these runs of the thesis's kind.
 #[must_use]
 pub fn thesis(outcomes: &[Outcome]) -> Vec<Plan> {
     let mut plans = vec![Plan {
@@ -71,7 +71,7 @@ pub fn thesis(outcomes: &[Outcome]) -> Vec<Plan> {
     plans
 }
 
-/// The sections of the cases beyond the thesis, one a group, each with what to look at.
+/// Returns the sections of the cases beyond the thesis, one a group, each with what to look at.
 #[must_use]
 pub fn beyond(outcomes: &[Outcome]) -> Vec<Plan> {
     let group_of = |outcome: &Outcome| builtin::group_of(&outcome.0.name).map(|group| group.name);
@@ -100,7 +100,8 @@ pub fn beyond(outcomes: &[Outcome]) -> Vec<Plan> {
     plans
 }
 
-/// The sections of runs that are only seen moving: those beyond the thesis, and those of the half-truck.
+/// Returns the sections of runs that are only seen moving: those beyond the thesis, and those of the
+/// half-truck.
 #[must_use]
 pub fn moving(others: &[Outcome], trucks: &[TruckOutcome]) -> Vec<Plan> {
     let plan = |name: &str, title: &str, group: &str| Plan {
@@ -126,8 +127,8 @@ pub fn moving(others: &[Outcome], trucks: &[TruckOutcome]) -> Vec<Plan> {
     others.chain(trucks).collect()
 }
 
-/// The section that compares these runs with those of the half-truck; `None` where there are none to be
-/// compared.
+/// Returns the section that compares these runs with those of the half-truck; `None` where there are none to
+/// be compared.
 #[must_use]
 pub fn comparison(outcomes: &[Outcome], trucks: &[TruckOutcome]) -> Option<Plan> {
     let exhibits = figures::comparison::exhibits(outcomes, trucks);
@@ -144,7 +145,7 @@ pub fn comparison(outcomes: &[Outcome], trucks: &[TruckOutcome]) -> Option<Plan>
     })
 }
 
-/// The section of the statements over the contact stiffness.
+/// Returns the section of the statements over the contact stiffness.
 #[must_use]
 pub fn sensitivity(found: &Sensitivity) -> Option<Plan> {
     let exhibits = figures::sensitivity::exhibits(found);
@@ -180,7 +181,7 @@ fn intro(damping: Damping, yawed: bool) -> &'static str {
     }
 }
 
-/// A section's figures as drawn.
+/// Returns a section's figures as drawn.
 #[must_use]
 pub fn drawn(plan: &Plan, svgs: impl IntoIterator<Item = String>) -> Section {
     Section {

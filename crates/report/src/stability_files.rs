@@ -23,7 +23,7 @@ pub const NAMES: [&str; 4] = [TABLE, NUMBERS, FIGURE, PICTURE];
 /// The schema of [`NUMBERS`].
 pub const SCHEMA: &str = "wedgelab.car_stability/1";
 
-/// A branch's name.
+/// Returns a branch's name.
 fn name(branch: &Branch) -> &'static str {
     let found = FRICTION.iter().find(|(own, _)| *own == branch.friction);
     found.map_or("", |(_, name)| name)
@@ -114,7 +114,7 @@ fn first(branch: &Branch, of: impl Fn(&Mode) -> f64) -> Vec<Option<f64>> {
     branch.modes.iter().map(|modes| modes.first().map(&of)).collect()
 }
 
-/// The figure: growth and frequency of the vibration that grows most, over speed.
+/// Returns the figure: growth and frequency of the vibration that grows most, over speed.
 #[must_use]
 pub fn figure(case: &str, found: &Stability, units: Units) -> Figure {
     let panel = |title: &str, y: &str, of: fn(&Mode) -> f64| Panel {

@@ -106,7 +106,7 @@ impl Axis {
         }
     }
 
-    /// Whether it has no place.
+    /// Returns whether it has no place.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -119,7 +119,7 @@ impl Axis {
         }
     }
 
-    /// The middles of the places, in the parameter's unit; `None` for texts.
+    /// Returns the middles of the places, in the parameter's unit; `None` for texts.
     #[must_use]
     pub fn middles(&self) -> Option<Vec<f64>> {
         match self {
@@ -198,7 +198,7 @@ impl Gathered {
         }
     }
 
-    /// The mean; `NaN` of nothing.
+    /// Returns the mean; `NaN` of nothing.
     #[must_use]
     pub fn mean(&self) -> f64 {
         self.sum / self.count as f64
@@ -281,7 +281,7 @@ impl Jam {
     }
 }
 
-/// The factor that varies this path.
+/// Returns the factor that varies this path.
 fn factor_of(study: &Study, path: &str) -> Option<usize> {
     let mut factors = study.factors.iter();
     factors.position(|factor| factor.paths.iter().any(|own| own == path))

@@ -144,7 +144,7 @@ impl StudyFolder {
         })
     }
 
-    /// The folder.
+    /// Returns the folder.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
@@ -162,7 +162,7 @@ impl StudyFolder {
         self.count.div_ceil(self.part_size)
     }
 
-    /// The numbers of the variants of a part.
+    /// Returns the numbers of the variants of a part.
     #[must_use]
     pub fn numbers(&self, part: u64) -> std::ops::Range<u64> {
         let start = part * self.part_size;
@@ -173,7 +173,7 @@ impl StudyFolder {
         self.path.join(PARTS).join(format!("part-{part:06}"))
     }
 
-    /// What a part holds so far.
+    /// Returns the contents of a part so far.
     ///
     /// # Errors
     /// It cannot be read, has records of another study, or two that contradict each other.
@@ -211,7 +211,7 @@ impl StudyFolder {
         })
     }
 
-    /// The numbers of a part's variants that have no record yet.
+    /// Returns the numbers of a part's variants that have no record yet.
     ///
     /// # Errors
     /// As [`StudyFolder::part`].
@@ -356,7 +356,7 @@ fn refuse_foreign(path: &Path) -> Result<(), StudyFolderError> {
     }
 }
 
-/// The system's error, without the library's words around it.
+/// Returns the system's error, without the library's words around it.
 fn plain(error: ParquetError) -> io::Error {
     match error {
         ParquetError::External(reason) => io::Error::other(reason),
@@ -371,8 +371,8 @@ fn write_error(file: &Path, reason: io::Error) -> StudyFolderError {
     })
 }
 
-/// The name of a factor's column, with its unit: `wedge.angle_deg`. Of a toe it says the direction in which
-/// it is positive: `side_frame.toe_out_deg`.
+/// Returns the name of a factor's column, with its unit: `wedge.angle_deg`. Of a toe it says the direction in
+/// which it is positive: `side_frame.toe_out_deg`.
 #[must_use]
 pub fn factor_column(factor: &Factor) -> String {
     let suffix = factor
@@ -396,7 +396,7 @@ pub fn factor_column(factor: &Factor) -> String {
     }
 }
 
-/// The columns of a study's table.
+/// Returns the columns of a study's table.
 #[must_use]
 pub fn columns(study: &Study) -> Vec<ParquetColumn> {
     let column = |name: String, unit: &str, text: String, content| ParquetColumn {

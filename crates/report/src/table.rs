@@ -45,13 +45,13 @@ pub struct TableColumn {
 }
 
 impl TableColumn {
-    /// The values in SI units.
+    /// Returns the values in SI units.
     #[must_use]
     pub fn si(&self) -> Vec<f64> {
         self.in_units(Units::Si)
     }
 
-    /// The values in a system of units; in its own, the same bits as written.
+    /// Returns the values in a system of units; in its own, the same bits as written.
     #[must_use]
     pub fn in_units(&self, units: Units) -> Vec<f64> {
         if units == self.units {
@@ -118,20 +118,20 @@ impl Table {
         rows.finish().ok_or_else(|| TableError::foreign(file, "empty"))?
     }
 
-    /// All columns, in the order of the file.
+    /// Returns all columns, in the order of the file.
     #[must_use]
     pub fn columns(&self) -> &[TableColumn] {
         &self.columns
     }
 
-    /// The times, s.
+    /// Returns the times, s.
     #[must_use]
     pub fn times(&self) -> &[f64] {
         // Seconds in every system of units.
         &self.columns[self.time].written
     }
 
-    /// The column with this name, written with or without unit.
+    /// Returns the column with this name, written with or without unit.
     ///
     /// # Errors
     /// There is none; the error names those that are near.
@@ -171,7 +171,7 @@ impl Table {
         last - first
     }
 
-    /// The column with this name, if there is one.
+    /// Returns the column with this name, if there is one.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<&TableColumn> {
         let full = |column: &TableColumn, units| match column.kind.suffix(units) {
@@ -266,7 +266,7 @@ impl Rows<'_> {
         Ok(())
     }
 
-    /// The table; `None` if there was not even a line of names.
+    /// Returns the table; `None` if there was not even a line of names.
     fn finish(self) -> Option<Result<Table, TableError>> {
         let (header, _) = self.header?;
         let file = self.file.to_owned();
@@ -298,8 +298,8 @@ impl Rows<'_> {
     }
 }
 
-/// The line of a record. The reader's own count stands before the remarks and empty lines in front of the
-/// record.
+/// Returns the line of a record. The reader's own count stands before the remarks and empty lines in front of
+/// the record.
 fn line_of(text: &str, place: &::csv::Position) -> u64 {
     let rest = usize::try_from(place.byte())
         .ok()
@@ -309,7 +309,7 @@ fn line_of(text: &str, place: &::csv::Position) -> u64 {
     place.line() + skipped.count() as u64
 }
 
-/// The text of a file, unless it is something else.
+/// Returns the text of a file, unless it is something else.
 fn text_of<'b>(file: &Path, bytes: &'b [u8]) -> Result<&'b str, TableError> {
     let foreign = |what| TableError::foreign(file, what);
     if let Some(found) = FileType::of(bytes).filter(|found| *found != FileType::Results) {
@@ -334,7 +334,7 @@ fn text_of<'b>(file: &Path, bytes: &'b [u8]) -> Result<&'b str, TableError> {
     }
 }
 
-/// The file of a result.
+/// Returns the file of a result.
 fn locate(path: &Path) -> Result<PathBuf, TableError> {
     if path.is_dir() {
         let file = path.join(crate::csv::FILE_NAME);
@@ -372,7 +372,7 @@ fn locate(path: &Path) -> Result<PathBuf, TableError> {
     })
 }
 
-/// The first folders with results in a folder, or in its folder `runs`.
+/// Returns the first folders with results in a folder, or in its folder `runs`.
 fn results_below(folder: &Path) -> Vec<String> {
     const MOST: usize = 3;
     let mut found = Vec::new();
@@ -387,7 +387,7 @@ fn results_below(folder: &Path) -> Vec<String> {
     found
 }
 
-/// The names in a folder, sorted; none if it cannot be read.
+/// Returns the names in a folder, sorted; none if it cannot be read.
 fn names_in(folder: &Path) -> Vec<String> {
     let Ok(entries) = fs::read_dir(folder) else {
         return Vec::new();

@@ -51,8 +51,8 @@ pub fn thin(points: &[(f64, f64)], columns: u32) -> Vec<(f64, f64)> {
     kept
 }
 
-/// The part of a curve whose abscissae lie in a window; where it crosses the window's edges it is cut by a
-/// straight line, and where it leaves the window it is interrupted.
+/// Returns the part of a curve whose abscissae lie in a window; where it crosses the window's edges it is cut
+/// by a straight line, and where it leaves the window it is interrupted.
 #[must_use]
 pub fn window(points: &[(f64, f64)], (left, right): (f64, f64)) -> Vec<(f64, f64)> {
     const GAP: (f64, f64) = (f64::NAN, f64::NAN);

@@ -40,7 +40,7 @@ pub struct Given {
     pub hardness: bool,
 }
 
-/// A volume in shown units, and their name.
+/// Returns a volume in shown units, and their name.
 #[must_use]
 pub fn volume(si: f64, units: Units) -> (f64, &'static str) {
     let length = Kind::Length.from_si(units);
@@ -104,7 +104,7 @@ fn numbers(counterfaces: bool) -> Vec<Number> {
     all
 }
 
-/// The largest depth of a counterface, m; zero where it is not worn.
+/// Returns the largest depth of a counterface, m; zero where it is not worn.
 fn deepest_of_counterface(state: &WearState, face: usize) -> f64 {
     let map = state.counterfaces.as_ref().and_then(|own| own[face].map.as_ref());
     let depths = map.into_iter().flat_map(DepthMap::points);

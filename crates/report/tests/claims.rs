@@ -10,7 +10,7 @@ use study::case::{Case, builtin};
 use study::result::RunResult;
 use study::run::Run;
 
-/// The twelve runs, made once, two at a time.
+/// Returns the twelve runs, made once, two at a time.
 fn twelve() -> &'static [(Case, RunResult)] {
     static TWELVE: OnceLock<Vec<(Case, RunResult)>> = OnceLock::new();
     TWELVE.get_or_init(|| runs(&[]))
@@ -44,7 +44,7 @@ fn evidence(runs: &[(Case, RunResult)]) -> Evidence<'_> {
     Evidence::new(runs.iter().map(|(case, result)| (case, result)))
 }
 
-/// The rows of the twelve runs.
+/// Returns the rows of the twelve runs.
 fn rows() -> &'static [Row] {
     static ROWS: OnceLock<Vec<Row>> = OnceLock::new();
     ROWS.get_or_init(|| evaluate(&evidence(twelve())))

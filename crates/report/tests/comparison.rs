@@ -20,7 +20,7 @@ use wedge::parameters::Damping;
 const POUND: f64 = 4.448_221_615_260_5;
 const INCH: f64 = 0.0254;
 
-/// The four stand-alone runs with toe out, and the half-truck's that go with them.
+/// Returns the four stand-alone runs with toe out, and the half-truck's that go with them.
 fn runs() -> &'static (Vec<Outcome>, Vec<TruckOutcome>) {
     static RUNS: OnceLock<(Vec<Outcome>, Vec<TruckOutcome>)> = OnceLock::new();
     RUNS.get_or_init(|| {

@@ -46,7 +46,7 @@ fn exhibit(name: &str) -> Exhibit {
         .unwrap()
 }
 
-/// The columns of a run's CSV file, read back without our own code.
+/// Returns the columns of a run's CSV file, read back without our own code.
 fn table(outcome: &Outcome) -> HashMap<String, Vec<f64>> {
     let mut bytes = Vec::new();
     csv::write(&outcome.1, &mut bytes).unwrap();

@@ -36,7 +36,7 @@ fn bits(values: &[f64]) -> Vec<u64> {
     values.iter().map(|value| value.to_bits()).collect()
 }
 
-/// The message and the advice.
+/// Returns the message and the advice.
 #[track_caller]
 fn refused(text: &str) -> (TableError, String) {
     let error = parse(text).unwrap_err();

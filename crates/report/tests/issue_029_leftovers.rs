@@ -26,7 +26,7 @@ fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// A hidden folder with half a file in it, and with a lock if wanted.
+/// Returns a hidden folder with half a file in it, and with a lock if wanted.
 fn hidden(folder: &Path, name: &str, with_lock: bool) -> Option<File> {
     let hidden = folder.join(name);
     fs::create_dir_all(hidden.join("result")).unwrap();

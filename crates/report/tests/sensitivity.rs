@@ -125,7 +125,7 @@ fn found(required: usize, others: usize) -> Found {
     }
 }
 
-/// The fifth that the rule chooses, if so many required and other statements hold at a fifth.
+/// Returns the fifth that the rule chooses, if so many required and other statements hold at a fifth.
 fn chosen(of: impl Fn(usize, u64) -> (usize, usize)) -> usize {
     let space = Space::default();
     let mut points = BTreeMap::new();

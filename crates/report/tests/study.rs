@@ -17,7 +17,7 @@ const STUDY: &str = "case = \"cdrun_toe_out_0.2_psi_0.012\"\nsampling = \"full_f
     friction.column = { from = 0.1, to = 0.6, count = 6, also = [\"friction.slope\"] }\n\
     side_frame.toe = [\"0.2 deg in\", \"0.2 deg out\"]\n";
 
-/// The maps of a study whose runs have this ratio of forces while the bolster falls.
+/// Returns the maps of a study whose runs have this ratio of forces while the bolster falls.
 fn maps_of(text: &str, ratio: impl Fn(u64) -> f64) -> Vec<Exhibit> {
     let study = Study::parse("some.toml", text, Path::new("")).unwrap();
     let mut digest = Digest::new(&study);

@@ -10,7 +10,7 @@ use report::three_piece::{Basis, Findings, Rigs, shown, variants};
 use study::run::Run;
 use study::truck::builtin;
 
-/// The runs that the report needs, once.
+/// Returns the runs that the report needs, once.
 fn rigs() -> &'static Rigs {
     static RIGS: OnceLock<Rigs> = OnceLock::new();
     RIGS.get_or_init(|| {
@@ -52,7 +52,7 @@ fn analytic_all_closed_forms_and_the_independent_calculation_agree() {
 /// With much toe slopes slide and the massless wedge's branches are reached; with little toe, and without,
 /// they are not, and the page says so.
 #[test]
-fn limits_the_massless_wedge_is_told_where_it_agrees_and_where_not() {
+fn limits_the_massless_wedge_is_reported_where_it_agrees_and_where_not() {
     let of = |what: &str| {
         let found = findings().checks.iter().find(|check| check.what == what);
         found.unwrap_or_else(|| panic!("no check `{what}`"))
@@ -96,7 +96,7 @@ fn limits_stiffness_moves_what_locks() {
 
 /// A run that is missing, or was stopped, is not told of; a wrong number is told as one.
 #[test]
-fn input_what_is_wrong_or_missing_is_told() {
+fn input_what_is_wrong_or_missing_is_reported() {
     assert!(
         Findings::of(&Rigs::default())
             .checks

@@ -17,7 +17,7 @@ use study::half_truck::catalog;
 use study::half_truck::{HalfTruckResult, run as run_truck};
 use study::run::Run;
 
-/// A run to its end, which figures need, or a short one.
+/// Runs a case to its end, which figures need, or for a short time.
 fn outcome(name: &str, set: &[&str]) -> Outcome {
     let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
     let case = builtin::case_with(name, &set).unwrap();
@@ -30,7 +30,7 @@ fn full(outcomes: &[Outcome]) -> Vec<Recording> {
     outcomes.iter().map(record).collect()
 }
 
-/// The document as another program reads it.
+/// Returns the document as another program reads it.
 fn document(outcomes: &[Outcome]) -> Value {
     let plans = sections::thesis(outcomes);
     let exhibits: Vec<_> = plans.iter().flat_map(|plan| &plan.exhibits).collect();
@@ -98,7 +98,7 @@ fn summed(step: f64, bytes: &[u8]) -> Vec<f32> {
     values
 }
 
-/// A run's columns, constant ones filled up.
+/// Returns a run's columns, constant ones filled up.
 fn columns(document: &Value, run: &Value) -> BTreeMap<String, Vec<f64>> {
     let rows = list(document, &run["time"]).len();
     let object = run["columns"].as_object().unwrap();
@@ -320,7 +320,7 @@ fn the_page_takes_viewer_and_data_or_does_without() {
     assert_eq!(outcomes[0].1.summary.units, Units::Us);
 }
 
-/// A half-truck's run of two seconds.
+/// Returns a half-truck's run of two seconds.
 fn truck(name: &str, detail: Detail) -> (Value, HalfTruckResult) {
     let entry = catalog::entry(name).unwrap();
     let case = entry.case(&nucars::truck::Choices::default(), 2.0).unwrap();

@@ -21,7 +21,7 @@ const CURVE: &str = "model = \"car\"\nstart.settle = \"0 s\"\nspeed.value = \"28
                      [[track.segments]]\ncurve = \"500 ft\"\ndegree = \"7.5 deg\"\ndirection = \"left\"\n\
                      superelevation = \"4 in\"\n";
 
-/// The run, made once.
+/// Returns the run, made once.
 fn ran() -> &'static CarRun {
     static RUN: LazyLock<CarRun> = LazyLock::new(|| {
         let case = CarCase::parse("curve.toml", CURVE, Tables::nowhere(), &[]).unwrap();
@@ -37,7 +37,7 @@ fn ran() -> &'static CarRun {
     &RUN
 }
 
-/// All columns, of the table and of the motions.
+/// Returns all columns, of the table and of the motions.
 fn columns(run: &CarRun) -> BTreeMap<&str, &[f64]> {
     let motions = run.motions.as_ref().unwrap();
     let own = run.result.columns.iter().zip(&run.result.values);

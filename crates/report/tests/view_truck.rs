@@ -31,7 +31,7 @@ fn ran(name: &str, set: &[&str]) -> TruckRun {
     }
 }
 
-/// All columns, of the table and of the corners.
+/// Returns all columns, of the table and of the corners.
 fn columns(run: &TruckRun) -> BTreeMap<&str, &[f64]> {
     let contacts = run.contacts.as_ref().unwrap();
     let own = run.result.columns.iter().zip(&run.result.values);
@@ -168,19 +168,19 @@ fn a_half_trucks_wedge_bodies_have_the_gaps_and_forces_of_the_run() {
                     .sum()
             };
             for wedge in ["wedge_127", "wedge_130"] {
-                let told = |what: &str| columns[format!("{wedge}_{what}").as_str()][row];
+                let result = |what: &str| columns[format!("{wedge}_{what}").as_str()][row];
                 for (corners, table) in [
                     (
                         sum(&format!("{wedge}_column"), "normal_force"),
-                        told("column_normal_force"),
+                        result("column_normal_force"),
                     ),
                     (
                         sum(&format!("{wedge}_slope"), "normal_force"),
-                        told("slope_normal_force"),
+                        result("slope_normal_force"),
                     ),
                     (
                         -sum(&format!("{wedge}_column"), "friction_force_z"),
-                        told("column_friction"),
+                        result("column_friction"),
                     ),
                 ] {
                     assert!(
@@ -237,12 +237,12 @@ fn the_corners_add_up_to_the_faces() {
                     corners.iter().map(|own| columns[what(own).as_str()][row]).sum()
                 };
                 let normal = sum(&|own| own.normal_force.clone());
-                let told = columns[format!("{wedge}_{face}_normal").as_str()][row];
-                assert!((normal - told).abs() < 1e-9 * largest, "{stem} row {row}");
+                let result = columns[format!("{wedge}_{face}_normal").as_str()][row];
+                assert!((normal - result).abs() < 1e-9 * largest, "{stem} row {row}");
                 if face == "column" {
                     let friction = sum(&|own| own.friction[2].clone());
-                    let told = columns[format!("{wedge}_column_friction_z").as_str()][row];
-                    assert!((friction + told).abs() < 1e-9 * largest, "{stem} row {row}");
+                    let result = columns[format!("{wedge}_column_friction_z").as_str()][row];
+                    assert!((friction + result).abs() < 1e-9 * largest, "{stem} row {row}");
                 }
             }
             for corner in corners {

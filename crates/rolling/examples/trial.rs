@@ -264,7 +264,7 @@ fn runs() -> Result<(), Failure> {
     Ok(())
 }
 
-/// The shortest time of a call, s: the best of 50 batches, since the machine may be shared.
+/// Returns the shortest time of a call, s: the best of 50 batches, since the machine may be shared.
 fn best(mut call: impl FnMut(u32)) -> f64 {
     let batch = 200;
     let mut shortest = f64::INFINITY;
@@ -278,7 +278,7 @@ fn best(mut call: impl FnMut(u32)) -> f64 {
     shortest
 }
 
-/// What an evaluation costs, by the search and by tables.
+/// Prints the cost of an evaluation, by the search and by tables.
 fn costs() -> Result<(), Failure> {
     for table in [false, true] {
         let setup = setup(rough(6)?, false, table)?;

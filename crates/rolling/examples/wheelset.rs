@@ -96,7 +96,7 @@ fn setup(
     })
 }
 
-/// The fastest growing vibration between two frequencies (rad/s): growth and frequency, 1/s.
+/// Returns the fastest growing vibration between two frequencies (rad/s): growth and frequency, 1/s.
 fn least_damped(setup: &Setup, range: [f64; 2]) -> Result<[f64; 2], Failure> {
     let mut rig = Rig::new(
         setup,

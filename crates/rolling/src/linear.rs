@@ -72,7 +72,7 @@ impl LinearOnTrack {
         }
     }
 
-    /// How far the springs that carry it are deflected, up and in roll.
+    /// Returns the deflections of the springs that carry it, up and in roll.
     #[inline(always)]
     fn deflections<S: Real>(&self, seen: &Seen<S>) -> [S; 2] {
         let geometry = &self.wheelset.geometry;

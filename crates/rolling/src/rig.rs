@@ -273,12 +273,12 @@ impl Rig {
         }
     }
 
-    /// A vector in the axes of the track.
+    /// Returns a vector in the axes of the track.
     pub(crate) fn in_track(&self, vector: Vector<f64>) -> Vector<f64> {
         self.axes.apply_transposed::<f64, f64>(vector)
     }
 
-    /// Both wheels with their motions on their rails; none of linear wheels.
+    /// Returns both wheels with their motions on their rails; none of linear wheels.
     pub(crate) fn motions(&self, seen: &Observation) -> Option<[(&WheelOnRail, RelativeMotion<f64>); 2]> {
         let ([left, right], half) = self.wheels.as_ref()?;
         let of = |index: usize, left: f64| {
@@ -292,7 +292,7 @@ impl Rig {
 /// Largest roll at the start, rad.
 const LARGEST_ROLL: f64 = 0.02;
 
-/// A zero of a falling function within a range.
+/// Returns a zero of a falling function within a range.
 fn bisect([mut low, mut high]: [f64; 2], falling: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
@@ -333,7 +333,7 @@ fn still(wheels: &[WheelOnRail; 2], half: f64) -> impl Fn(Vector<f64>, Matrix<f6
     }
 }
 
-/// The wheels of a setup, and half the distance of their tape circles.
+/// Returns the wheels of a setup, and half the distance of their tape circles.
 fn on_rails(setup: &Setup) -> Option<([WheelOnRail; 2], f64)> {
     let Wheels::OnRails {
         search: [left, right],

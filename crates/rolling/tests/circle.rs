@@ -19,7 +19,7 @@ use rolling::wheelset::coordinate;
 use wheelrail::contact::{ContactLaw, CreepLaw, LinearWheelset, Side};
 use wheelrail::track::{CurveElements, Line, RailLines, Segment};
 
-/// A circle of 10 deg of curve, to the left, and its radius.
+/// Returns a circle of 10 deg of curve, to the left, and its radius.
 fn circle() -> (CurveElements, f64) {
     let curve = CurveElements::of_degree(10.0_f64.to_radians(), 0.0);
     (curve, 1.0 / curve.curvature)
@@ -51,7 +51,7 @@ fn left_wheel(setup: &Setup) -> WheelOnRail {
     }
 }
 
-/// A wheel's motion at a distance, in the section's axes: place, yaw, roll, spin, velocities.
+/// Returns a wheel's motion at a distance, in the section's axes: place, yaw, roll, spin, velocities.
 fn motion(
     lines: &RailLines,
     distance: f64,

@@ -13,7 +13,7 @@ use wheelrail::contact::{ContactLaw, CreepLaw, Side};
 use wheelrail::creep::fastsim::Grid;
 use wheelrail::track::Segment;
 
-/// Where a falling function is zero.
+/// Returns the zero of a falling function.
 fn zero([mut low, mut high]: [f64; 2], falling: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..25 {
         let middle = 0.5 * (low + high);
@@ -26,8 +26,8 @@ fn zero([mut low, mut high]: [f64; 2], falling: impl Fn(f64) -> f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// The largest ratio of lateral to vertical force on the way over the flange, of a left wheel under a load
-/// (N) at an angle of attack (rad) whose axle turns freely; and the tangent of the contact angle there.
+/// Returns the largest ratio of lateral to vertical force on the way over the flange, of a left wheel under a
+/// load (N) at an angle of attack (rad) whose axle turns freely; and the tangent of the contact angle there.
 fn largest_ratio(law: ContactLaw, attack: f64, load: f64) -> [f64; 2] {
     let wheels = freight();
     let half = 0.5 * wheels.1;

@@ -13,7 +13,8 @@ use wheelrail::track::{CurveElements, Segment};
 
 const SPEED: f64 = 20.0;
 
-/// A curve to the left of a radius (m), from its beginning on; soft yaw springs, so that the wheelset swings.
+/// Returns a curve to the left of a radius (m), from its beginning on; soft yaw springs, so that the wheelset
+/// swings.
 fn curve(radius: f64, sprung: bool) -> Setup {
     let elements = CurveElements {
         curvature: 1.0 / radius,
@@ -31,7 +32,7 @@ fn curve(radius: f64, sprung: bool) -> Setup {
     setup
 }
 
-/// The least damped vibration between 1 and 60 rad/s.
+/// Returns the least damped vibration between 1 and 60 rad/s.
 fn least(found: &[[f64; 2]]) -> [f64; 2] {
     *found
         .iter()

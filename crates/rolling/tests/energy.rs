@@ -40,7 +40,7 @@ fn run(
     (stored, seen, rig)
 }
 
-/// The sum of the quadratures of elements whose name begins so, of a kind, J.
+/// Returns the sum of the quadratures of elements whose name begins so, of a kind, J.
 fn sum(rig: &Rig, seen: &Observation, element: &str, kind: &str) -> f64 {
     let terms = rig.system.energy_terms().iter().zip(&seen.quadratures);
     terms

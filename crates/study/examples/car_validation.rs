@@ -86,7 +86,7 @@ fn run(name: &str, overrides: &[String]) -> Result<CarResult, Failure> {
     }
 }
 
-/// A car of this lading in a regime.
+/// Returns a car of this lading in a regime.
 fn in_regime(name: &str, lading: &str, speed: f64, overrides: &[&str]) -> Result<CarCase, Failure> {
     let regime = Regime::named(name).ok_or_else(|| format!("there is no regime {name}"))?;
     let mut settings = regime.settings(&Quantity::parse(&format!("{speed} mph"))?)?;
@@ -105,7 +105,7 @@ fn run_in(name: &str, lading: &str, speed: f64, overrides: &[&str]) -> Result<Ca
     }
 }
 
-/// A statistic, filtered if it is: an acceleration in g, a load in percent.
+/// Returns a statistic, filtered if it is: an acceleration in g, a load in percent.
 fn statistic(result: &CarResult, name: &str) -> Result<f64, Failure> {
     let own = result.summary.statistics.get(name);
     let own = own.and_then(|own| own.filtered.as_ref().or(own.raw.as_ref()));
@@ -339,7 +339,7 @@ fn bounce() -> Result<String, Failure> {
     Ok(out)
 }
 
-/// The mean of the last second.
+/// Returns the mean of the last second.
 fn late(values: &[f64]) -> f64 {
     let own = &values[values.len().saturating_sub(200)..];
     own.iter().sum::<f64>() / own.len() as f64
@@ -476,7 +476,7 @@ fn stillness() -> Result<String, Failure> {
         for axle in 1..=4 {
             lateral = lateral.max(most(&format!("axle_{axle}_lateral"))?);
         }
-        let told = |own: f64| {
+        let degrees_or = |own: f64| {
             if own < 1e-6 {
                 "below 1e-6".to_owned()
             } else {
@@ -485,8 +485,8 @@ fn stillness() -> Result<String, Failure> {
         };
         Ok(format!(
             "| {lading} | {speed:.0} | {} | {} |\n",
-            told(lateral),
-            told(most("body_roll")?)
+            degrees_or(lateral),
+            degrees_or(most("body_roll")?)
         ))
     })?;
     out.extend(lines);

@@ -75,7 +75,7 @@ impl AnyCase {
         })
     }
 
-    /// The built-in case of this name, of a wedge, a truck or a car; `None` if there is none.
+    /// Returns the built-in case of this name, of a wedge, a truck or a car; `None` if there is none.
     ///
     /// # Errors
     /// An override is wrong.

@@ -10,7 +10,7 @@ use wedge::parameters::{Damping, FaceFriction, STANDARD_GRAVITY, Start, Wear};
 const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
 
-/// The assumptions behind a run.
+/// Returns the assumptions behind a run.
 #[must_use]
 pub fn of(wedge: &Wedge) -> Vec<String> {
     let p = &wedge.parameters;

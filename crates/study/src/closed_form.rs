@@ -13,7 +13,7 @@ use wedge::parameters::{Damping, Parameters};
 
 use crate::metrics::{Cycle, FirstHarmonic};
 
-/// The quasi-static wedge of these parameters.
+/// Returns the quasi-static wedge of these parameters.
 #[must_use]
 pub fn wedge(parameters: &Parameters) -> QuasiStaticWedge {
     QuasiStaticWedge {
@@ -30,7 +30,7 @@ pub fn wedge(parameters: &Parameters) -> QuasiStaticWedge {
     }
 }
 
-/// The bolster's yaw against the side frame at time zero, rad.
+/// Returns the bolster's yaw against the side frame at time zero, rad.
 #[must_use]
 pub fn yaw(parameters: &Parameters) -> f64 {
     let [bolster, side_frame] = [&parameters.bolster, &parameters.side_frame]
@@ -38,9 +38,9 @@ pub fn yaw(parameters: &Parameters) -> f64 {
     bolster - side_frame
 }
 
-/// The coil's force less the wedge's weight, N, with the bolster at this height (m from nominal): the wedge
-/// moves by `z sin θ / sin(θ + φ)` along z, and its wear lifts it. Zero where a coil that cannot pull hangs
-/// free, or the weight exceeds it: the bolster has lifted off.
+/// Returns the coil's force less the wedge's weight, N, with the bolster at this height (m from nominal): the
+/// wedge moves by `z sin θ / sin(θ + φ)` along z, and its wear lifts it. Zero where a coil that cannot pull
+/// hangs free, or the weight exceeds it: the bolster has lifted off.
 #[must_use]
 pub fn load(parameters: &Parameters, bolster: f64) -> f64 {
     let coil = &parameters.coil;
@@ -59,8 +59,8 @@ pub fn load(parameters: &Parameters, bolster: f64) -> f64 {
     (force - parameters.wedge.mass * parameters.gravity).max(0.0)
 }
 
-/// The vertical wedge force, N: the column's friction on the side frame, positive up, with the bolster at
-/// this height (m) and moving this way; `None` where the wedge jams.
+/// Returns the vertical wedge force, N: the column's friction on the side frame, positive up, with the
+/// bolster at this height (m) and moving this way; `None` where the wedge jams.
 #[must_use]
 pub fn vertical_wedge_force(parameters: &Parameters, bolster: f64, direction: Direction) -> Option<f64> {
     let wedge = wedge(parameters);
@@ -68,7 +68,7 @@ pub fn vertical_wedge_force(parameters: &Parameters, bolster: f64, direction: Di
     Some(-direction.sign() * slide.column_friction * libm::cos(parameters.toe))
 }
 
-/// The vertical force of wedge and coil on the bolster, N, positive up; `None` where the wedge jams.
+/// Returns the vertical force of wedge and coil on the bolster, N, positive up; `None` where the wedge jams.
 #[must_use]
 pub fn force_on_bolster(parameters: &Parameters, bolster: f64, direction: Direction) -> Option<f64> {
     let wedge = wedge(parameters);
@@ -119,8 +119,9 @@ pub fn energy_per_cycle(parameters: &Parameters) -> Option<f64> {
     Some(2.0 * cycle.amplitude * (force(Direction::Up)? - force(Direction::Down)?))
 }
 
-/// The largest restoring moment of one wedge in warp, N·m, under this normal force at the column (N): it
-/// bears on one edge, half the wedge's width from its middle, `N_c h3/2`. A nest of two wedges has `N_c h3`.
+/// Returns the largest restoring moment of one wedge in warp, N·m, under this normal force at the column (N):
+/// it bears on one edge, half the wedge's width from its middle, `N_c h3/2`. A nest of two wedges has `N_c
+/// h3`.
 #[must_use]
 pub fn edge_loading_limit(parameters: &Parameters, column_normal: f64) -> f64 {
     0.5 * parameters.wedge.width * column_normal

@@ -25,8 +25,8 @@ pub struct CycleShare {
     pub wear_power: [f64; FACES.len()],
 }
 
-/// The whole cycles of a run, from its start; empty if the bolster does not cycle or the table lacks a
-/// column.
+/// Returns the whole cycles of a run, from its start; empty if the bolster does not cycle or the table lacks
+/// a column.
 #[must_use]
 pub fn shares(result: &RunResult, cycle: &Cycle) -> Vec<CycleShare> {
     collect(result, cycle).unwrap_or_default()
@@ -69,7 +69,7 @@ fn collect(result: &RunResult, cycle: &Cycle) -> Option<Vec<CycleShare>> {
     Some(shares)
 }
 
-/// The contact states of the points of a face: of the grid, if there is one, else of the corners.
+/// Returns the contact states of the points of a face: of the grid, if there is one, else of the corners.
 fn states<'r>(result: &'r RunResult, face: &str) -> Vec<&'r [f64]> {
     let of = |points: &str| {
         let beginning = format!("{face}_{points}");
@@ -84,7 +84,7 @@ fn states<'r>(result: &'r RunResult, face: &str) -> Vec<&'r [f64]> {
     }
 }
 
-/// The value at `time`, straight between rows, and that of the nearest end outside.
+/// Returns the value at `time`, straight between rows, and that of the nearest end outside.
 fn interpolate(times: &[f64], values: &[f64], time: f64) -> f64 {
     let after = times.partition_point(|row| *row < time);
     if after == 0 {

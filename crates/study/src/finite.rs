@@ -7,7 +7,7 @@ use crate::summary::SummaryValue;
 /// Largest size, SI, of a number that counts as finite: in other units it must not overflow either.
 const LARGEST: f64 = 1e300;
 
-/// Whether a number can be computed with and written in any unit.
+/// Returns whether a number can be computed with and written in any unit.
 pub(crate) fn is_finite(value: f64) -> bool {
     value.abs() <= LARGEST
 }

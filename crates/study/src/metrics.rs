@@ -17,7 +17,7 @@ pub const WINDOWS: &str = "mid stroke (constant damping): the bolster is faster 
                            lower than 0.3 of its amplitude below its middle; both at the output times after \
                            the first half period";
 
-/// The name of the window of the branch means of a damping, see [`WINDOWS`] and [`Cycle::branch`].
+/// Returns the name of the window of the branch means of a damping, see [`WINDOWS`] and [`Cycle::branch`].
 #[must_use]
 pub fn window_of(damping: Damping) -> &'static str {
     match damping {
@@ -40,7 +40,7 @@ pub struct Cycle {
 }
 
 impl Cycle {
-    /// The cycle of a sine about zero; amplitude in m, angular frequency in rad/s.
+    /// Returns the cycle of a sine about zero; amplitude in m, angular frequency in rad/s.
     #[must_use]
     pub fn sine(amplitude: f64, angular_frequency: f64) -> Self {
         Self {
@@ -51,13 +51,13 @@ impl Cycle {
         }
     }
 
-    /// The cycle of the bolster's vertical motion, if it is one sine or triangle (plus constants).
+    /// Returns the cycle of the bolster's vertical motion, if it is one sine or triangle (plus constants).
     #[must_use]
     pub fn of(parameters: &Parameters) -> Option<Self> {
         Self::of_motion(&parameters.bolster.coordinates[2])
     }
 
-    /// The cycle of a motion, if it is one sine or triangle (plus constants).
+    /// Returns the cycle of a motion, if it is one sine or triangle (plus constants).
     #[must_use]
     pub fn of_motion(motion: &Motion) -> Option<Self> {
         fn find(motion: &Motion) -> Option<Cycle> {
@@ -105,8 +105,8 @@ impl Cycle {
         energy / (std::f64::consts::PI * self.angular_frequency * self.amplitude * self.amplitude)
     }
 
-    /// The beginning of the first counted cycle and the end of the last one, s; `None` if there is no whole
-    /// cycle.
+    /// Returns the beginning of the first counted cycle and the end of the last one, s; `None` if there is no
+    /// whole cycle.
     #[must_use]
     pub fn window(&self, duration: f64) -> Option<(f64, f64, u32)> {
         let (start, period) = (0.5 * self.period(), self.period());
@@ -114,7 +114,7 @@ impl Cycle {
         (cycles >= 1.0).then(|| (start, (start + cycles * period).min(duration), cycles as u32))
     }
 
-    /// The branch that an output time counts for: `Some(true)` up, `Some(false)` down.
+    /// Returns the branch that an output time counts for: `Some(true)` up, `Some(false)` down.
     #[must_use]
     pub fn branch(&self, damping: Damping, time: f64, position: f64, speed: f64) -> Option<bool> {
         let counts = time > 0.5 * self.period()
@@ -142,7 +142,7 @@ pub struct Extremes {
 }
 
 impl Extremes {
-    /// The extremes of `values` over `times`; `None` without values.
+    /// Returns the extremes of `values` over `times`; `None` without values.
     #[must_use]
     pub fn of(times: &[f64], values: &[f64]) -> Option<Self> {
         let (first, time) = (*values.first()?, *times.first()?);

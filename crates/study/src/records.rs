@@ -48,7 +48,7 @@ pub enum Status {
 }
 
 impl Status {
-    /// Its name in tables.
+    /// Returns its name in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -85,7 +85,7 @@ pub fn run(study: &Study, number: u64) -> Record {
     caught(number, || compute(study, number))
 }
 
-/// A panic, which is a mistake of ours, as a record.
+/// Returns a panic, which is a mistake of ours, as a record.
 fn caught(number: u64, compute: impl FnOnce() -> Record) -> Record {
     catch_unwind(AssertUnwindSafe(compute)).unwrap_or_else(|panic| {
         let text = panic.downcast_ref::<&str>().copied();
@@ -110,7 +110,7 @@ fn compute(study: &Study, number: u64) -> Record {
     record(study.measures(), number, case.and_then(|case| case.judge()))
 }
 
-/// What became of a variant as its record.
+/// Returns the outcome of a variant as its record.
 fn record(definitions: &Definitions, number: u64, outcome: Result<Judged, Unmeasured>) -> Record {
     let (status, reason, measures) = match outcome {
         Ok(Judged { measures, nonsense }) => match definitions.not_finite(&measures) {

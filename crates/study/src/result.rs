@@ -32,7 +32,7 @@ impl<S> RunResult<S> {
         self.values.retain(|_| kept.next().is_some_and(|keep| *keep));
     }
 
-    /// The values (SI) of the column with this name (without unit).
+    /// Returns the values (SI) of the column with this name (without unit).
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&[f64]> {
         let index = self.columns.iter().position(|column| column.name == name)?;

@@ -22,7 +22,7 @@ impl Rows {
         Self { count, end, interval }
     }
 
-    /// The time of a row, s; the last one is the end.
+    /// Returns the time of a row, s; the last one is the end.
     pub fn time(&self, row: u64) -> f64 {
         if row + 1 == self.count {
             self.end
@@ -31,7 +31,7 @@ impl Rows {
         }
     }
 
-    /// Where an integrator's next step is to end at the latest, s, if this row is the next one.
+    /// Returns the latest end of an integrator's next step, s, if this row is the next one.
     pub fn limit<P: Problem>(&self, next: u64, integrator: &Integrator<P>) -> f64 {
         integrator.step_limit(self.time(next), self.end)
     }

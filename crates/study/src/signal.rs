@@ -195,7 +195,7 @@ pub fn percentile(values: &[f64], share: f64) -> Option<f64> {
 }
 
 /// Returns the largest standard deviation of the values within stretches of this length; of all rows where
-/// there are fewer, whose length is then told. `None` without values.
+/// there are fewer, whose length is then returned. `None` without values.
 #[must_use]
 pub fn largest_deviation(places: &[f64], values: &[f64], length: f64) -> Option<Found> {
     largest(places, values, length, true)

@@ -31,7 +31,7 @@ pub struct SummaryValue {
 }
 
 impl SummaryValue {
-    /// An SI value in output units.
+    /// Returns an SI value in output units.
     #[must_use]
     pub fn new(si: f64, kind: Kind, units: Units) -> Self {
         Self {

@@ -28,7 +28,7 @@ fn run(name: &str, set: &[&str]) -> RunResult {
     result
 }
 
-/// The value of a column at a time, in a unit; rows are 0.01 s apart.
+/// Returns the value of a column at a time, in a unit; rows are 0.01 s apart.
 fn at(result: &RunResult, name: &str, unit: f64, time: f64) -> f64 {
     column(result, name, unit)[(time / 0.01).round() as usize]
 }
@@ -237,8 +237,8 @@ const DAMPINGS: [Nest; 2] = [
     ),
 ];
 
-/// The force of a coil pressed by `travel` from the nominal layout, lbf: 250,000 lbf/in beyond its solid
-/// travel.
+/// Returns the force of a coil pressed by `travel` from the nominal layout, lbf: 250,000 lbf/in beyond its
+/// solid travel.
 fn coil_force([preload, stiffness, solid]: [f64; 3], travel: f64) -> f64 {
     preload + stiffness * travel + 250_000.0 * (travel - solid).max(0.0)
 }

@@ -8,7 +8,7 @@ use integrate::Method;
 use runs::{averages, run_all};
 use study::case::{Case, builtin};
 
-/// A case with another tolerance, output interval and duration.
+/// Returns a case with another tolerance, output interval and duration.
 fn case(name: &str, tolerance: f64, interval: f64, duration: f64) -> Case {
     let mut case = builtin::case(name).unwrap();
     case.simulation.relative_tolerance = tolerance;

@@ -46,7 +46,8 @@ fn all_cases_beyond_the_thesis_close_their_ledgers() {
     }
 }
 
-/// The relative residual from the columns of a table (SI) alone: the entries of its ledger by their names.
+/// Returns the relative residual from the columns of a table (SI) alone: the entries of its ledger by their
+/// names.
 fn by_hand(column: impl Fn(&str) -> Vec<f64>, work: &str, losses: &[&str], stored: &[&str]) -> f64 {
     let last = |name: &str| column(name).last().copied().unwrap();
     let most = |values: Vec<f64>| values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
@@ -143,11 +144,11 @@ fn energy_loose_tolerances_warn_and_fail_with_all_rows() {
         let summary = &result.summary;
         let residual = summary.ledger.largest_relative_residual;
         assert_eq!(Verdict::of(residual), verdict, "{tolerance}: {residual}");
-        let told: Vec<&str> = energy::among(&summary.warnings).collect();
-        assert_eq!(told.is_empty(), verdict == Verdict::Closed, "{told:?}");
+        let warnings: Vec<&str> = energy::among(&summary.warnings).collect();
+        assert_eq!(warnings.is_empty(), verdict == Verdict::Closed, "{warnings:?}");
         assert_eq!(summary.failed.is_some(), verdict == Verdict::Failed);
         assert!(summary.complete && summary.rows == 1001 && result.rows() == 1001);
-        for text in told {
+        for text in warnings {
             for part in [
                 &*format!("{residual:.2e}"),
                 " s;",

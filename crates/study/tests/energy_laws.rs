@@ -14,8 +14,8 @@ use study::truck;
 const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
 
-/// The energies of a built-in wedge with values set over it, SI, and the closed form of what its column loses
-/// each cycle, J.
+/// Returns the energies of a built-in wedge with values set over it, SI, and the closed form of what its
+/// column loses each cycle, J.
 fn wedge(name: &str, set: &[&str]) -> (EnergySummary, Option<f64>) {
     let common = ["simulation.output_units=si", "simulation.duration=1.6 s"];
     let set: Vec<String> = common.iter().chain(set).map(|text| (*text).to_owned()).collect();

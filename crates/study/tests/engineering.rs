@@ -6,7 +6,7 @@ use study::case::{Case, builtin};
 use study::design::ENGINEERING;
 use study::measures::{Measures, measure, of_wedges};
 
-/// The measures of cases, first by the default method, then at engineering accuracy.
+/// Returns the measures of cases, first by the default method, then at engineering accuracy.
 fn both(names: &[&str], tolerance: &str) -> Vec<[Measures; 2]> {
     let close = [format!("simulation.relative_tolerance={tolerance}")];
     let engineering = ENGINEERING.map(str::to_owned);
@@ -30,7 +30,7 @@ const BRANCH_FORCES: [&str; 4] = [
     "mean_longitudinal_wedge_force_down",
 ];
 
-/// How far a measure is off, relative to itself.
+/// Returns the relative error of a metric.
 fn off([close, engineering]: &[Measures; 2], name: &str) -> f64 {
     let of = |own: &Measures| of_wedges().get(own, name).unwrap();
     (of(engineering) / of(close) - 1.0).abs()

@@ -52,7 +52,7 @@ fn processor_time() -> Option<Duration> {
     Some(Duration::from_nanos(nanoseconds))
 }
 
-/// The settings of case `number` of a Latin hypercube.
+/// Returns the settings of case `number` of a Latin hypercube.
 fn settings(cube: &LatinHypercube, number: u64) -> Vec<String> {
     let at = |dimension: usize| cube.coordinate(number, dimension);
     let linear = |dimension: usize, low: f64, high: f64| low + (high - low) * at(dimension);
@@ -128,7 +128,7 @@ fn compute_all(cube: &LatinHypercube, count: u64) -> Vec<Outcome> {
     outcomes
 }
 
-/// Why a result is nonsense, by its columns alone.
+/// Returns the reason why a result is nonsense, by its columns alone.
 fn nonsense(result: &RunResult) -> Option<String> {
     let largest = |name: &str, unit: f64| {
         let values = column(result, name, unit);

@@ -27,8 +27,8 @@ impl Noise {
     }
 }
 
-/// A load that a spring makes, and friction on it, elastic at the reversals: a loop over one cycle as wedges
-/// have it, in closed form. The mean of the branches tells the load, their distance the friction.
+/// Returns a load that a spring makes, and friction on it, elastic at the reversals: a loop over one cycle as
+/// wedges have it, in closed form. The mean of the branches tells the load, their distance the friction.
 fn loop_of(friction: f64, stiffness: f64, preload: f64) -> Vec<f64> {
     (0..200)
         .map(|row| {

@@ -18,12 +18,12 @@ const ALONG: [&str; 6] = ["x", "y", "z", "longitudinal", "lateral", "vertical"];
 const ABOUT: [&str; 3] = ["roll", "pitch", "yaw"];
 const BODIES: [&str; 3] = ["wedge", "bolster", "side_frame"];
 
-/// The texts between backticks.
+/// Returns the texts between backticks.
 fn quoted(cell: &str) -> Vec<&str> {
     cell.split('`').skip(1).step_by(2).collect()
 }
 
-/// The cells of the rows of the table that begins with this header.
+/// Returns the cells of the rows of the table that begins with this header.
 fn table(header: &str) -> Vec<Vec<&'static str>> {
     let start = PAGE
         .find(header)
@@ -36,7 +36,7 @@ fn table(header: &str) -> Vec<Vec<&'static str>> {
         .collect()
 }
 
-/// The names that a pattern stands for, but for its numbers: `{a,b}` is one of them.
+/// Returns the names that a pattern stands for, but for its numbers: `{a,b}` is one of them.
 fn alternatives(pattern: &str) -> Vec<String> {
     let Some((before, rest)) = pattern.split_once('{') else {
         return vec![pattern.to_owned()];
@@ -52,7 +52,7 @@ fn is_number(part: &str) -> bool {
     !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit())
 }
 
-/// Whether a name is that of a pattern, whose parts N and K are numbers.
+/// Returns whether a name is that of a pattern, whose parts N and K are numbers.
 fn is_like(name: &str, pattern: &str) -> bool {
     let (parts, wanted): (Vec<&str>, Vec<&str>) = (name.split('_').collect(), pattern.split('_').collect());
     parts.len() == wanted.len()
@@ -103,7 +103,8 @@ impl Rule {
         }
     }
 
-    /// Whether parts joined by `_` are objects, positions and numbers, of which the first is an object.
+    /// Returns whether parts joined by `_` are objects, positions and numbers, of which the first is an
+    /// object.
     fn is_object(&self, text: &str) -> bool {
         if text.is_empty() {
             return true;
@@ -117,7 +118,7 @@ impl Rule {
         })
     }
 
-    /// The units (US, SI) of a name without unit; `None` if the name does not follow the rule.
+    /// Returns the units (US, SI) of a name without unit; `None` if the name does not follow the rule.
     fn units(&self, name: &str) -> Option<[String; 2]> {
         if name == "time" {
             return Some(["s"; 2].map(str::to_owned));
@@ -152,7 +153,7 @@ impl Rule {
     }
 }
 
-/// The columns of both dampings, and of faces with grids of points.
+/// Returns the columns of both dampings, and of faces with grids of points.
 fn wedge_columns() -> Vec<Column> {
     [
         ("vdrun_toe_out_0.2_psi_0.012", "[2, 2]"),
@@ -166,7 +167,7 @@ fn wedge_columns() -> Vec<Column> {
     .collect()
 }
 
-/// The columns of half-trucks with all that their data files ask for.
+/// Returns the columns of half-trucks with all that their data files ask for.
 fn truck_columns() -> Vec<Column> {
     let massless =
         ["nucars_68_variable_toe_out", "nucars_69_constant_toe_out"].map(|name| (name, "massless"));

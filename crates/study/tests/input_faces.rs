@@ -95,8 +95,8 @@ fn input_faces_of_trucks_are_the_same() {
 }
 
 #[test]
-fn input_mistakes_in_faces_are_told() {
-    for (text, told) in [
+fn input_mistakes_in_faces_are_reported() {
+    for (text, expected) in [
         ("[column_face]\ngrid = [1, 5]", "two whole numbers from 2 to 100"),
         ("[column_face]\ngrid = 5", "two whole numbers from 2 to 100"),
         (
@@ -175,7 +175,7 @@ fn input_mistakes_in_faces_are_told() {
             ("wedge", read(text).unwrap_err().to_string()),
             ("truck", read_truck(text).unwrap_err().to_string()),
         ] {
-            assert!(error.contains(told), "{model}, {text}: {error}");
+            assert!(error.contains(expected), "{model}, {text}: {error}");
         }
     }
     let massless = "[wedge]\nkind = \"massless\"\n[slope_face]\ngrid = [3, 3]";
@@ -200,7 +200,7 @@ fn input_maps_of_wear_come_from_files() {
     let embedded = case.document.clone().with_tables_embedded().to_toml();
     let again = Case::parse("again.toml", &embedded, Tables::nowhere(), &[]).unwrap();
     assert_eq!(again.parameters, case.parameters);
-    for (csv, told) in [
+    for (csv, expected) in [
         (good.replace("2\n", "nan\n"), "not a finite number"),
         (good.replace("[mm]", "[s]"), "[s]"),
         (good.replace(", depth [mm]", ""), "three columns are expected"),
@@ -212,7 +212,7 @@ fn input_maps_of_wear_come_from_files() {
         (good.replace("9, 9, 3\n", "8, 9, 3\n"), "make no rectangle"),
     ] {
         let error = read(&csv).unwrap_err().to_string();
-        assert!(error.contains(told), "{csv}: {error}");
+        assert!(error.contains(expected), "{csv}: {error}");
     }
 }
 
@@ -253,7 +253,7 @@ fn analytic_a_run_with_refined_faces_has_their_pressures() {
 
 /// Curved faces with too few points where they are pressed are told, with a grid that has enough.
 #[test]
-fn limits_too_few_points_on_a_curved_face_are_told() {
+fn limits_too_few_points_on_a_curved_face_are_reported() {
     let warned = |grid: &str, surface: &str| -> Vec<String> {
         let text = format!(
             "[slope_face]\ngrid = {grid}\nwedge_surface = {surface}\n[simulation]\nduration = \"0.3 \

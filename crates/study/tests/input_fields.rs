@@ -14,7 +14,7 @@ fn fields(case: &Case) -> Vec<Field> {
         .collect()
 }
 
-/// As the explorer writes it.
+/// Returns it as the explorer writes it.
 fn set(field: &Field) -> String {
     match &field.input {
         Input::Text => format!("{}={:?}", field.path, field.text),

@@ -114,7 +114,7 @@ fn tables_in_the_case() {
     );
 }
 
-/// A case with a table in a CSV file of this text.
+/// Returns a case with a table in a CSV file of this text.
 fn with_csv(csv: &str) -> Result<Case, CaseError> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("motion.csv"), csv).unwrap();

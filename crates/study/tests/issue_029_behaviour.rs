@@ -22,7 +22,7 @@ fn set(path: &str) -> Result<Case, CaseError> {
     case_with(NAME, &["simulation.duration=0.05 s".to_owned(), path.to_owned()])
 }
 
-/// As the program shows it.
+/// Returns it as the program shows it.
 fn shown(error: &dyn Diagnostic) -> String {
     let mut text = String::new();
     let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor()).with_context_lines(1);
@@ -93,7 +93,7 @@ fn issue_029_a_mistake_far_right_in_its_line() {
 
 /// Messages reached 5.2 MB.
 #[test]
-fn issue_029_at_most_20_mistakes_are_told_and_the_others_counted() {
+fn issue_029_at_most_20_mistakes_are_reported_and_the_others_counted() {
     let many: String = (0..5000).map(|number| format!("key_{number} = 1\n")).collect();
     let error = wrong(&many);
     assert_eq!((error.problems().len(), error.more()), (20, 4980));

@@ -178,7 +178,7 @@ fn issue_029_members_of_a_run_that_led_astray_are_refused_by_name() {
     assert_eq!(member, "start_energy");
 }
 
-/// A wedge on its way, its bolster rising.
+/// Returns a wedge on its way, its bolster rising.
 fn driven(coil: CoilInput) -> SteppedWedge {
     let mut wedge = SteppedWedge::new(&case(&[])).unwrap();
     wedge.set_coil(coil).unwrap();

@@ -10,7 +10,7 @@ use study::case::{Case, CaseError, Tables};
 const SECRET: &str = "hunter2";
 const TABLE: &str = "time [s], travel [in]\n0, 0\n3, 1\n6, 0\n1000, 0\n";
 
-/// A folder with a case's folder in it, and files in both.
+/// Returns a folder with a case's folder in it, and files in both.
 fn folders() -> tempfile::TempDir {
     let root = tempfile::tempdir().unwrap();
     let case = root.path().join("case");
@@ -22,7 +22,7 @@ fn folders() -> tempfile::TempDir {
     root
 }
 
-/// The case with the bolster's vertical motion from this file.
+/// Returns the case with the bolster's vertical motion from this file.
 fn with_file(tables: Tables<'_>, file: &str) -> Result<Case, CaseError> {
     let file = file.replace('\\', "/");
     let set = format!("bolster.vertical={{ shape = \"table\", file = \"{file}\" }}");
@@ -110,7 +110,7 @@ fn issue_029_messages_do_not_quote_files() {
     let case = root.path().join("case");
     let head = "time [s], travel [in]\n";
     let long = format!("7.{}", "7".repeat(50));
-    for (text, told) in [
+    for (text, refused) in [
         (format!("{SECRET}\n"), "line 1, column 1: name [unit] is expected"),
         (
             format!("root:x:0:0:{SECRET}:/root:/bin/bash"),
@@ -157,15 +157,15 @@ fn issue_029_messages_do_not_quote_files() {
         let problem = &error.problems()[0];
         assert_eq!(error.problems().len(), 1, "{error:?}");
         let message = problem.message();
-        assert!(message.contains(told), "{text:?}: {message}");
+        assert!(message.contains(refused), "{text:?}: {message}");
         assert!(message.contains("`bolster.vertical"), "{message}");
         let all = format!("{message} {:?} {:?}", problem.advice(), problem.marked_text());
         for secret in [SECRET, "root", "777", "7.77"] {
-            assert!(!all.contains(secret), "{secret} is told: {all}");
+            assert!(!all.contains(secret), "{secret} is shown: {all}");
         }
         // Who may read every file is told what is in it.
-        let told = with_file(Tables::anywhere(&case), "secret.csv").unwrap_err();
-        assert!(!told.problems()[0].message().contains("line 1,"), "{told}");
+        let refused = with_file(Tables::anywhere(&case), "secret.csv").unwrap_err();
+        assert!(!refused.problems()[0].message().contains("line 1,"), "{refused}");
     }
 }
 

@@ -5,13 +5,13 @@ use study::case::{Case, builtin};
 use study::result::RunResult;
 use study::run::Run;
 
-/// A run, cut short.
+/// Returns a run, cut short.
 fn run(name: &str, duration: &str) -> RunResult {
     let case: Case = builtin::case_with(name, &[format!("simulation.duration={duration:?}")]).unwrap();
     Run::new(&case).unwrap().finish(|_| ())
 }
 
-/// The columns of normal force and contact state of each corner.
+/// Returns the columns of normal force and contact state of each corner.
 fn corners(result: &RunResult) -> Vec<(String, Vec<f64>, Vec<f64>)> {
     let columns = result.columns.iter().map(|column| column.name.as_str());
     let named = |name: String| result.column(&name).unwrap().to_vec();

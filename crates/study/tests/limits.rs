@@ -24,7 +24,7 @@ fn run(name: &str) -> RunResult {
     result
 }
 
-/// The moment about the column's middle over the edge-loading limit N_c h3/2 of the same instant.
+/// Returns the moment about the column's middle over the edge-loading limit N_c h3/2 of the same instant.
 fn shares(result: &RunResult) -> Vec<f64> {
     let moment = column(result, "net_moment_on_side_frame_z", LBF_IN);
     let normal = column(result, "longitudinal_wedge_force", LBF);

@@ -13,7 +13,7 @@ use study::records::{self, Status};
 use study::result::RunResult;
 use study::run::{Counts, Run, RunError, RunState};
 
-/// The run of a thesis's case, not yawed, with settings.
+/// Returns the run of a thesis's case, not yawed, with settings.
 fn case(damping: &str, settings: &[&str]) -> Case {
     let settings: Vec<String> = settings.iter().map(|text| (*text).to_owned()).collect();
     builtin::case_with(&format!("{damping}_toe_0_psi_0"), &settings).unwrap()

@@ -76,7 +76,7 @@ prop_compose! {
     }
 }
 
-/// The relative residual of the ledger.
+/// Returns the relative residual of the ledger.
 fn residual(result: &RunResult) -> f64 {
     result.summary.ledger.largest_relative_residual
 }

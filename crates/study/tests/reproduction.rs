@@ -135,7 +135,7 @@ fn envelopes() {
     }
 }
 
-/// How many of the column's corners are closed, by row.
+/// Returns the number of the column's corners that are closed, by row.
 fn closed(result: &RunResult, face: &str) -> Vec<usize> {
     let corners = ["lower_right", "lower_left", "upper_right", "upper_left"]
         .map(|corner| result.column(&format!("{face}_{corner}_state")).unwrap());

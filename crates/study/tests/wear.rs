@@ -19,7 +19,7 @@ const ARCHARD: Archard = Archard {
     hardness: Archard::HARDNESS,
 };
 
-/// A case of the thesis's wedge that lasts one and a half cycles.
+/// Returns a case of the thesis's wedge that lasts one and a half cycles.
 fn read(damping: &str, text: &str) -> Case {
     let text = format!(
         "name = \"worn\"\n[wedge]\ndamping = \"{damping}\"\n[simulation]\nduration = \"4.72 s\"\nstart = \

@@ -11,7 +11,7 @@ use crate::split::{HALVES, WAYS};
 use crate::wedge_mount::wedge_body;
 use crate::{PLACES, WEDGE_NAMES};
 
-/// A body at a place: with free coordinates, or with a prescribed motion.
+/// Returns a body at a place: with free coordinates, or with a prescribed motion.
 fn rigid(
     name: &str,
     body: &RigidBody,
@@ -29,7 +29,7 @@ fn rigid(
     rigid
 }
 
-/// A body with a prescribed motion, its center of gravity at a place.
+/// Returns a body with a prescribed motion, its center of gravity at a place.
 fn prescribed(name: &str, motion: &NeighbourMotion, place: [f64; 3]) -> Body {
     let mut frame = Frame::fixed(motion.center.unwrap_or(place), [0.0; 3]);
     frame.motions.clone_from(&motion.coordinates);

@@ -228,7 +228,8 @@ impl MountedTruck {
         loads
     }
 
-    /// What a wedge in one piece, or a half, does: a body of the truck, its first face, its nominal place.
+    /// Returns the loads of a wedge in one piece, or of a half: a body of the truck, its first face, its
+    /// nominal place.
     fn one_piece(&self, body: usize, first: usize, place: Vector<f64>, view: &View<'_>) -> WedgeLoads {
         let [column, slope] = [first, first + 1].map(|face| &view.seen.faces[face]);
         let center = view.body(body).center_of_gravity;
@@ -242,7 +243,7 @@ impl MountedTruck {
         }
     }
 
-    /// What both halves of a split wedge do.
+    /// Returns the loads of both halves of a split wedge.
     fn split(&self, number: usize, first: usize, view: &View<'_>) -> WedgeLoads {
         let [_, way] = PLACES[number];
         let halves = [0, 1].map(|half| {
@@ -269,7 +270,7 @@ impl MountedTruck {
         }
     }
 
-    /// What a wedge without mass does, and where it is.
+    /// Returns the loads of a wedge without mass, and its place.
     fn massless_wedge(&self, number: usize, state: &ConnectionState, view: &View<'_>) -> WedgeLoads {
         let Some(inside) = state.wedge else {
             return WedgeLoads::default();

@@ -64,7 +64,7 @@ impl MountedTruck {
         whole.chain(inboard).collect()
     }
 
-    /// The faces of a wedge without mass.
+    /// Returns the faces of a wedge without mass.
     fn massless(&self, number: usize, connection: usize, view: &View<'_>) -> [FaceForce; 2] {
         let connection = &view.seen.connections[connection];
         let inside = connection.wedge.unwrap_or_default();

@@ -34,7 +34,7 @@ pub struct MountedTruck {
     pub(crate) angles: [f64; 4],
 }
 
-/// Where the axes are in which the loads of a truck are told: origin (m) at the truck's center at the top
+/// The axes in which the loads of a truck are given: origin (m) at the truck's center at the top
 /// of rail, and the rotation from axes forward, left, up to fixed axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TruckFrame {
@@ -75,7 +75,7 @@ impl MountedTruck {
         }
     }
 
-    /// A truck that stands alone, at the origin.
+    /// Returns a truck that stands alone, at the origin.
     pub(crate) fn alone(parameters: &Parameters, mount: Mount, added: Added) -> Self {
         Self::new(parameters, mount, added, [fixed([0.0; 3]); NUMBERS])
     }

@@ -241,8 +241,8 @@ pub(crate) fn attach(model: &mut Model, wedge: &Wedge, at: &SplitMount<'_>) -> V
     all
 }
 
-/// The plane between the halves: a plane of the inboard half, which the corners of the outboard half's inner
-/// side touch. It has the stiffness of a half's face.
+/// Returns the plane between the halves: a plane of the inboard half, which the corners of the outboard
+/// half's inner side touch. It has the stiffness of a half's face.
 fn between(
     model: &Model,
     wedge: &Wedge,

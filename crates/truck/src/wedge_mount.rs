@@ -92,7 +92,7 @@ pub(crate) struct Lies {
 }
 
 impl Lies {
-    /// A wedge that has its pocket for itself.
+    /// Returns a wedge that has its pocket for itself.
     fn alone(wedge: &Wedge, at: &WedgeMount<'_>) -> Self {
         Self {
             pushed: outboard(at.center[1]),
@@ -112,7 +112,7 @@ pub(crate) fn attach(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> V
     attach_lying(model, wedge, at, &Lies::alone(wedge, at))
 }
 
-/// The same of a wedge that lies in its pocket as said.
+/// Returns the same of a wedge that lies in its pocket as said.
 pub(crate) fn attach_lying(
     model: &mut Model,
     wedge: &Wedge,
@@ -267,8 +267,8 @@ fn thesis_coil(model: &mut Model, at: &WedgeMount<'_>, seat: usize, to_center: [
     model.coils.push((at.body, seat, marker, law));
 }
 
-/// The points of a wedge's face, with the lower and the upper edge's x from the center of gravity in the
-/// wedge's own axes; `faces_backward` is that of the vertical face.
+/// Returns the points of a wedge's face, with the lower and the upper edge's x from the center of gravity in
+/// the wedge's own axes; `faces_backward` is that of the vertical face.
 fn contact_points(
     wedge: &Wedge,
     face: &FaceProperties,

@@ -8,7 +8,7 @@ use mechanics::system::{Held, StaticFriction};
 use truck::{BOLSTER, Bolster, Lading, Parameters, Truck};
 use wedge::parameters::Damping;
 
-/// A truck without friction under its half car.
+/// Returns a truck without friction under its half car.
 fn half_car(damping: Damping) -> Parameters {
     Parameters {
         bolster: Bolster::with_half_car(Lading::Loaded),

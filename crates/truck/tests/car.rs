@@ -50,8 +50,8 @@ fn loaded_car(with_wedges: bool) -> (f64, f64, [f64; 3]) {
     (mass, height, moments)
 }
 
-/// The loaded car on two trucks without friction, side frames fixed; body 0 is the car. Wedges are bodies, or
-/// rigid with the bolster, without contacts.
+/// Returns the loaded car on two trucks without friction, side frames fixed; body 0 is the car. Wedges are
+/// bodies, or rigid with the bolster, without contacts.
 fn car(damping: Damping, wedges_move: bool) -> System {
     let mut parameters = Parameters {
         wheelsets: None,

@@ -39,7 +39,7 @@ fn analytic_plate_and_side_bearings_carry_the_body() {
     }
 }
 
-/// The bolster turns or rolls (coordinate 5 or 3) by `angle` (rad) within a second.
+/// Returns a truck whose bolster turns or rolls (coordinate 5 or 3) by `angle` (rad) within a second.
 fn turned(coordinate: usize, angle: f64, bearings: SideBearings, free: [bool; 6]) -> Ran {
     let mut parameters = parameters(bearings);
     parameters.bolster.motion.coordinates[coordinate] = Motion::Ramp {

@@ -11,7 +11,7 @@ use truck::{Bolster, Lading, Parameters, Truck};
 use wedge::face::{FaceDirection, FaceProfile, FaceProperties, Grid, Pad};
 use wedge::parameters::{Damping, Start};
 
-/// A table of depths that is deeper at one end.
+/// Returns a table of depths that is deeper at one end.
 fn sloping(direction: FaceDirection) -> FaceProfile {
     let places = [-7.0, -2.0, 2.0, 7.0].map(|place| place * INCH);
     let depths = [0.03, 0.004, 0.001, 0.006].map(|depth| depth * INCH);

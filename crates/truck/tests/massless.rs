@@ -41,7 +41,7 @@ fn law(parameters: &Parameters) -> QuasiStaticWedge {
     }
 }
 
-/// The force of a control coil that is longer by so much than in the nominal layout.
+/// Returns the force of a control coil that is longer by so much than in the nominal layout.
 fn coil_force(parameters: &Parameters, extension: f64) -> f64 {
     match &parameters.wedges[0].control_coil {
         ControlCoil::Shear(coil) => coil.preload - coil.stiffness * extension,
@@ -291,8 +291,8 @@ fn analytic_a_load_on_the_half_car() {
     assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
 }
 
-/// The truck with massless wedges again, of bodies with linearized kinematics and of connections alone, as
-/// the industry's programs have it.
+/// Returns the truck with massless wedges again, of bodies with linearized kinematics and of connections
+/// alone, as the industry's programs have it.
 fn linearized(parameters: &Parameters) -> System {
     let truck = Truck::new(parameters).unwrap();
     let mut bodies: Vec<Body> = truck.system.bodies().to_vec();

@@ -13,7 +13,7 @@ use wedge::parameters::Damping;
 const ACROSS: f64 = 8.0 * std::f64::consts::PI / 180.0;
 const INNER: f64 = 15.0 * std::f64::consts::PI / 180.0;
 
-/// A truck whose wedges are split.
+/// Returns a truck whose wedges are split.
 fn split(damping: Damping, across: f64, inner: f64) -> Parameters {
     let mut parameters = Parameters::new(damping);
     for wedge in &mut parameters.wedges {
@@ -24,7 +24,8 @@ fn split(damping: Damping, across: f64, inner: f64) -> Parameters {
     parameters
 }
 
-/// The same without friction, its side frames held, in pockets without play, on faces that hardly give.
+/// Returns the same without friction, its side frames held, in pockets without play, on faces that hardly
+/// give.
 fn frictionless(across: f64, inner: f64, share: f64) -> Parameters {
     let mut parameters = split(Damping::Variable, across, inner).with_wedge_friction(0.0);
     for side_frame in &mut parameters.side_frames {
@@ -60,7 +61,7 @@ fn at_rest(parameters: &Parameters) -> Loads {
     truck.loads(&seen)
 }
 
-/// What a half's part of the coil carries, less its weight, N.
+/// Returns the force of a half's part of the coil less its weight, N.
 fn carried(parameters: &Parameters, half: usize, z: f64) -> f64 {
     let wedge = &parameters.wedges[0];
     let share = [wedge.split.outboard_share, 1.0 - wedge.split.outboard_share][half];

@@ -11,7 +11,7 @@ use wedge::{COLUMN, SLOPE, WEDGE, Wedge, thesis};
 const BOTH: [Damping; 2] = [Damping::Variable, Damping::Constant];
 const WEARS: [(f64, f64); 4] = [(0.2, 0.0), (0.0, 0.2), (0.1, 0.3), (0.3, 0.3)];
 
-/// A planar wedge at rest under a held bolster, the column and slope worn (in).
+/// Returns a planar wedge at rest under a held bolster, the column and slope worn (in).
 fn worn(damping: Damping, toe: f64, (column, slope): (f64, f64)) -> Parameters {
     let mut parameters = thesis::parameters(damping, toe, 0.0);
     parameters.wear = Wear {

@@ -20,7 +20,7 @@ type Row = [f64; 6];
 const INTERVAL: f64 = 0.05;
 const UNTIL: f64 = 0.6;
 
-/// The independent code's rows.
+/// Returns the independent code's rows.
 fn independent(plain: &Plain, tolerance: f64) -> Vec<Row> {
     let rates = |t: f64, x: &[f64], y: &mut [f64]| {
         let (q, u) = (std::array::from_fn(|i| x[i]), std::array::from_fn(|i| x[4 + i]));

@@ -111,7 +111,8 @@ fn analytic_points_of_a_crown_lie_on_its_arc() {
     }
 }
 
-/// A map over the whole face of a thesis wedge, of depths by the shares up and across (both from 0 to 1).
+/// Returns a map over the whole face of a thesis wedge, of depths by the shares up and across (both from 0 to
+/// 1).
 fn map(parameters: &Parameters, number: usize, depth: impl Fn(f64, f64) -> f64) -> DepthMap {
     let rectangle = parameters.rectangles()[number];
     let shares = [0.0, 0.3, 0.5, 1.0];

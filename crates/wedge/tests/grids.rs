@@ -7,7 +7,7 @@ use wedge::outputs::{FACES, Outputs, PointNames};
 use wedge::parameters::Damping;
 use wedge::{Parameters, Start, Wedge, thesis};
 
-/// A wedge with yaw and toe between its neighbors, settled, with n × n points on both faces.
+/// Returns a wedge with yaw and toe between its neighbors, settled, with n × n points on both faces.
 fn settled(up: usize, across: usize) -> Parameters {
     let mut parameters = thesis::parameters(Damping::Constant, 0.002, 0.004);
     parameters.start = Start::Equilibrium;

@@ -66,8 +66,8 @@ fn a_run_that_cannot_go_on_stops_at_once() {
     assert!(integrator.statistics().rejected() < 5_000);
 }
 
-/// How far steps of at least this length are off on the way from a start to `end`: their number, and the
-/// worst error in tolerances, each against a run at 1e-9 over the same step.
+/// Returns the errors of steps of at least this length on the way from a start to `end`: their number, and
+/// the worst error in tolerances, each against a run at 1e-9 over the same step.
 fn errors_of_steps(
     system: &System,
     (time, start): (f64, &[f64]),

@@ -300,8 +300,8 @@ fn without_yaw_there_is_no_yaw_moment_and_no_lateral_force() {
     assert!(most / LBF > 10.0);
 }
 
-/// The column alone holds the wedge's weight: pressed on by a shifted side frame, on a coil that is hardly
-/// there.
+/// Returns a wedge whose weight the column alone holds: pressed on by a shifted side frame, on a coil that is
+/// hardly there.
 fn hanging(law: FrictionLaw, load: f64) -> Parameters {
     let mut parameters = thesis::parameters(Damping::Variable, 0.0, 0.0);
     parameters.wedge.free = free(&["z"]);

@@ -25,7 +25,7 @@ fn discontinuities(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
     [&functions.values[..], functions.slips.as_flattened()].concat()
 }
 
-/// As numbers: zero may have another sign, and what is not a number is as good as another.
+/// Returns the bits as numbers: zero may have another sign, and what is not a number is as good as another.
 fn equal(a: f64, b: f64) -> bool {
     a == b || a.is_nan() && b.is_nan()
 }
@@ -51,7 +51,7 @@ fn margins(system: &mut System, time: f64, x: &[f64], contact_states: &[u8]) -> 
     (margins, next)
 }
 
-/// The signs of all groups, one after the other.
+/// Returns the signs of all groups, one after the other.
 fn face_signs(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
     let mut variables = vec![f64::NAN; system.structure().event_variables()];
     for (number, group) in system.structure().event_groups.into_iter().enumerate() {
@@ -60,7 +60,7 @@ fn face_signs(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
     variables
 }
 
-/// All that an integrator may ask for at a place, one question after the other.
+/// Returns all that an integrator may ask for at a place, one question after the other.
 fn ask(system: &mut System, question: usize, time: f64, x: &[f64], contact_states: &[u8]) -> Vec<f64> {
     let n = x.len();
     let mut dx = vec![0.0; n];

@@ -12,7 +12,7 @@ use mechanics::friction::FrictionLaw;
 use wedge::parameters::{Damping, Parameters};
 use wedge::{Wedge, thesis};
 
-/// The same wedge for the program, SI.
+/// Returns the same wedge for the program, SI.
 fn parameters(p: &Plain) -> Parameters {
     let damping = if p.variable {
         Damping::Variable
@@ -47,7 +47,7 @@ fn parameters(p: &Plain) -> Parameters {
     s
 }
 
-/// From (x, z, pitch, yaw) and rates in inches to the program's state.
+/// Returns the program's state from (x, z, pitch, yaw) and rates in inches.
 fn state(wedge: &Wedge, q: &[f64; 4], u: &[f64; 4]) -> Vec<f64> {
     let mut x = wedge.initial_state.clone();
     for (i, unit) in [INCH, INCH, 1.0, 1.0].into_iter().enumerate() {
@@ -56,8 +56,8 @@ fn state(wedge: &Wedge, q: &[f64; 4], u: &[f64; 4]) -> Vec<f64> {
     x
 }
 
-/// A random state near the nominal position: corners from open to a tenth of an inch deep, speeds from far
-/// below the reference speed to inches a second.
+/// Returns a random state near the nominal position: corners from open to a tenth of an inch deep, speeds
+/// from far below the reference speed to inches a second.
 fn random_state(random: &mut Random, fast: bool) -> (f64, [f64; 4], [f64; 4]) {
     let t = random.between(0.0, 3.2);
     let q = [

@@ -25,7 +25,7 @@ fn parameters(damping: Damping) -> Parameters {
     parameters
 }
 
-/// The system of one wedge and its image.
+/// Returns the system of one wedge and its image.
 fn doubled(one: &Wedge) -> System {
     let system = &one.system;
     let half_turn = mechanics::orientation::fixed([0.0, 0.0, PI]);
@@ -83,9 +83,9 @@ fn doubled(one: &Wedge) -> System {
     .unwrap()
 }
 
-/// What one wedge of a system does, in its own frame (the second is looked at from the other side):
-/// coordinates, then for each corner the gap, the normal force and the friction force, then the coil. m, rad,
-/// N.
+/// Returns the observation of one wedge of a system, in its own frame (the second is looked at from the other
+/// side): coordinates, then for each corner the gap, the normal force and the friction force, then the coil.
+/// m, rad, N.
 fn seen_by(observation: &Observation, number: usize) -> Vec<f64> {
     let (body, side) = if number == 0 { (WEDGE, 1.0) } else { (3, -1.0) };
     let own = |f: &Vector<f64>| [side * f.0[0], side * f.0[1], f.0[2]];

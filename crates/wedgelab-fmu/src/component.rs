@@ -48,7 +48,7 @@ pub(crate) struct Component {
     pub logging: bool,
     /// Which categories are logged.
     pub categories: [bool; Category::ALL.len()],
-    /// What a call could not answer, to be told.
+    /// The question that a call could not answer, to be logged.
     unanswered: Option<String>,
     /// A call has panicked: what is inside may be inconsistent.
     pub broken: bool,
@@ -109,7 +109,7 @@ impl Component {
         Ok(())
     }
 
-    /// The answer to a question to which there is none, and why there is none.
+    /// Returns the answer to a question to which there is none, and why there is none.
     pub fn discard(&mut self, why: &str) -> Result<Status, Error> {
         self.unanswered = Some(why.to_owned());
         Ok(DISCARD)
@@ -122,7 +122,7 @@ impl Component {
     }
 }
 
-/// What was thrown, in words.
+/// Returns the message of a panic.
 fn words(panic: &(dyn Any + Send)) -> String {
     let text = panic
         .downcast_ref::<&str>()
@@ -139,7 +139,7 @@ pub(crate) fn guard(run: impl FnOnce()) {
     drop(catch_unwind(AssertUnwindSafe(run)));
 }
 
-/// A message of what was refused, with the name of the function that was called.
+/// Returns a message of what was refused, with the name of the function that was called.
 fn refusal(function: &str, severity: Severity, why: &str) -> Message {
     let category = match severity {
         Severity::Discard => Category::Discard,
@@ -252,7 +252,7 @@ pub(crate) unsafe fn call(
 /// Importers may have room for a thousand bytes only: the rest of longer texts is left out.
 const LONGEST_TEXT: usize = 960;
 
-/// A text as C takes it: without zero bytes, and not longer than importers can bear.
+/// Returns a text as C takes it: without zero bytes, and not longer than importers can bear.
 fn text_of(text: &str) -> CString {
     let mut text = text.replace('\0', "");
     if text.len() > LONGEST_TEXT {
@@ -361,7 +361,7 @@ mod tests {
 
     /// Neither out of a call nor out of the making of an instance.
     #[test]
-    fn issue_029_panics_do_not_leave_the_library_and_are_told() {
+    fn issue_029_panics_do_not_leave_the_library_and_are_reported() {
         let case = builtin::case("cdrun_toe_0_psi_0").unwrap();
         let make = |name: &str| {
             Instance::of_case(

@@ -16,7 +16,7 @@ pub(crate) enum Kind {
 
 static ALIVE: RwLock<BTreeMap<usize, Kind>> = RwLock::new(BTreeMap::new());
 
-/// A pointer for something that C keeps.
+/// Returns a pointer for something that C keeps.
 pub(crate) fn hand_out<T>(thing: T, kind: Kind) -> *mut c_void {
     let pointer: *mut c_void = Box::into_raw(Box::new(thing)).cast();
     let mut alive = ALIVE.write().unwrap_or_else(PoisonError::into_inner);
@@ -24,8 +24,8 @@ pub(crate) fn hand_out<T>(thing: T, kind: Kind) -> *mut c_void {
     pointer
 }
 
-/// Whether a pointer comes from [`hand_out`] for this kind and has not been taken back. (Another thing of
-/// this kind may have come to lie where a freed one was.)
+/// Returns whether a pointer comes from [`hand_out`] for this kind and has not been taken back. (Another
+/// thing of this kind may have come to lie where a freed one was.)
 pub(crate) fn is_alive(pointer: *const c_void, kind: Kind) -> bool {
     let alive = ALIVE.read().unwrap_or_else(PoisonError::into_inner);
     alive.get(&(pointer as usize)) == Some(&kind)

@@ -5,7 +5,7 @@
 //! turns what comes out into a status and messages for the importer's log. Null pointers, unknown references
 //! and calls out of order are errors; a panic does not leave the library: it becomes an error, and the
 //! instance refuses everything after it. Whatever is refused (`Error`, `Discard`, an instance that cannot be
-//! made) is told to the importer's logger with the name of the function, if there is a logger, also while
+//! made) is sent to the importer's logger with the name of the function, if there is a logger, also while
 //! logging is switched off. Without an instance (null, or freed) there is none: then the status is all.
 //!
 //! The functions of both versions lie in one library, whose names do not collide. Their signatures are those

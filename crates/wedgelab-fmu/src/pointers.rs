@@ -4,14 +4,14 @@ use std::ffi::{CStr, c_char};
 
 use fmi::{Error, limits};
 
-/// Why a pointer that is null, or cannot be, is refused.
+/// Returns the error of a pointer that is null, or cannot be one.
 pub(crate) fn missing(what: &str) -> Error {
     Error::new(format!(
         "the pointer to {what} is null (or not aligned): give the address of as many of them as the call says"
     ))
 }
 
-/// Whether a call may be about so many values. (More than half of the address space are none at all.)
+/// Checks whether a call may be about so many values. (More than half of the address space are none at all.)
 fn check_count<T>(count: usize, what: &str) -> Result<(), Error> {
     let most = if size_of::<T>() == 1 {
         limits::RECORD_FILE as usize
@@ -26,7 +26,7 @@ fn check_count<T>(count: usize, what: &str) -> Result<(), Error> {
     )))
 }
 
-/// What C means by a pointer and a count.
+/// Returns the slice that C means by a pointer and a count.
 ///
 /// # Safety
 /// A pointer that is not null points to so many values, which nobody changes while the slice lives.
@@ -42,7 +42,7 @@ pub(crate) unsafe fn slice<'a, T>(pointer: *const T, count: usize, what: &str) -
     Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
 }
 
-/// The same to be written to.
+/// Returns the same to be written to.
 ///
 /// # Safety
 /// A pointer that is not null points to so many values, which nobody else uses while the slice lives.
@@ -75,7 +75,7 @@ pub(crate) unsafe fn put<T>(pointer: *mut T, value: T, what: &str) -> Result<(),
     Ok(())
 }
 
-/// A string from C.
+/// Returns a string from C.
 ///
 /// # Safety
 /// A pointer that is not null points to a string that ends with a zero byte and lives as long as the

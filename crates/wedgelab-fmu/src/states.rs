@@ -12,7 +12,7 @@ use crate::pointers::{missing, put, slice, slice_mut};
 /// A saved state behind a pointer.
 type SavedState = Saved;
 
-/// Why a pointer that leads to no saved state is refused.
+/// Returns the error of a pointer that leads to no saved state.
 fn no_state(what: &str) -> Error {
     Error::new(format!(
         "the pointer to {what} leads to no state that is alive: it was freed, or comes from elsewhere; set \
@@ -41,7 +41,7 @@ pub(crate) unsafe fn save(component: &Component, target: *mut *mut c_void) -> Re
     Ok(OK)
 }
 
-/// The saved state behind a pointer.
+/// Returns the saved state behind a pointer.
 ///
 /// # Safety
 /// Nobody writes to the state or frees it while the reference lives.

@@ -26,7 +26,7 @@ pub struct NativeCase {
 }
 
 impl NativeCase {
-    /// Of a case of lower layers.
+    /// Makes it of a case of lower layers.
     pub fn new(case: Case) -> Self {
         Self { case: Arc::new(case) }
     }
@@ -101,14 +101,14 @@ impl NativeCase {
         over(py, Some(("case.toml", &text)), Path::new(""), given)
     }
 
-    /// The whole case as a commented case file, tables embedded.
+    /// Returns the whole case as a commented case file, tables embedded.
     fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
         guarded(py, || {
             Ok(self.case.document.clone().with_tables_embedded().to_toml())
         })
     }
 
-    /// The whole case as nested dicts.
+    /// Returns the whole case as nested dicts.
     fn document<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let text = self.to_toml(py)?;
         let table: Table = text
@@ -139,7 +139,7 @@ impl NativeCase {
         self.case.simulation.duration
     }
 
-    /// What a run rests on.
+    /// Returns the assumptions of a run.
     fn assumptions(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         guarded(py, || {
             let wedge = Wedge::new(self.case.parameters.clone());
@@ -162,7 +162,7 @@ impl NativeCase {
         run_one(py, &*self.case, origin, columns.as_deref(), progress)
     }
 
-    /// The result that was taken apart by `NativeResult.parts`.
+    /// Returns the result that was taken apart by `NativeResult.parts`.
     fn result_of_parts(
         &self,
         py: Python<'_>,
@@ -178,7 +178,7 @@ type Named = (&'static str, &'static str);
 /// A group of built-in cases: name, title, what to look at, its cases.
 type GroupOfCases = (&'static str, &'static str, &'static str, Vec<Named>);
 
-/// The groups of built-in cases: name, title, what to look at, and the names and titles of its cases.
+/// Returns the groups of built-in cases: name, title, what to look at, and the names and titles of its cases.
 #[pyfunction]
 pub fn built_in_groups() -> Vec<GroupOfCases> {
     let cases = |group: &'static builtin::Group| {

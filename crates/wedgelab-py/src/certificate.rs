@@ -49,13 +49,13 @@ impl NativeCertificate {
         })
     }
 
-    /// The car's name.
+    /// Returns the car's name.
     #[getter]
     fn car(&self) -> &str {
         &self.certificate.car
     }
 
-    /// Its runs.
+    /// Returns its runs.
     fn study(&self) -> NativeStudy {
         NativeStudy::new(self.certificate.study.clone())
     }

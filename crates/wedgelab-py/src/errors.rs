@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyList;
 use study::case::{CaseError, Problem};
 
-/// An exception of `wedgelab.errors` with these arguments of its class.
+/// Returns an exception of `wedgelab.errors` with these arguments of its class.
 pub fn raise<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCallArgs<'py>) -> PyErr {
     let made = py
         .import("wedgelab.errors")
@@ -22,7 +22,7 @@ pub fn raise<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCa
     }
 }
 
-/// What the command line shows of an error: message, marked text, help. Without colours.
+/// Returns the text that the command line shows of an error: message, marked text, help. Without colours.
 pub fn shown(diagnostic: &dyn Diagnostic) -> String {
     let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor())
         .with_context_lines(1)
@@ -55,7 +55,7 @@ const ADVICE: [(&str, &str); 9] = [
     ("--yaw drop or --yaw drive", "yaw=\"drop\" or yaw=\"drive\""),
 ];
 
-/// A text with advice for Python.
+/// Returns a text with advice for Python.
 pub fn in_python(text: &str) -> String {
     let mut text = text.to_owned();
     for (typed, called) in ADVICE {
@@ -64,12 +64,12 @@ pub fn in_python(text: &str) -> String {
     text
 }
 
-/// The label of a diagnostic's first place.
+/// Returns the label of a diagnostic's first place.
 fn label(diagnostic: &dyn Diagnostic) -> Option<String> {
     diagnostic.labels()?.next()?.label().map(str::to_owned)
 }
 
-/// A problem as `wedgelab.errors.Problem`.
+/// Returns a problem as `wedgelab.errors.Problem`.
 fn problem<'py>(py: Python<'py>, problem: &Problem) -> PyResult<Bound<'py, PyAny>> {
     let class = py.import("wedgelab.errors")?.getattr("Problem")?;
     let (line, column) = problem.line_and_column().unzip();
@@ -84,7 +84,7 @@ fn problem<'py>(py: Python<'py>, problem: &Problem) -> PyResult<Bound<'py, PyAny
     ))
 }
 
-/// A finding as `wedgelab.errors.Finding`.
+/// Returns a finding as `wedgelab.errors.Finding`.
 pub fn finding<'py>(py: Python<'py>, finding: &Finding) -> PyResult<Bound<'py, PyAny>> {
     let class = py.import("wedgelab.errors")?.getattr("Finding")?;
     let place = finding.place();
@@ -103,7 +103,7 @@ pub fn finding<'py>(py: Python<'py>, finding: &Finding) -> PyResult<Bound<'py, P
     ))
 }
 
-/// A list of findings.
+/// Returns a list of findings.
 pub fn findings<'py, 'f>(
     py: Python<'py>,
     list: impl IntoIterator<Item = &'f Finding>,
@@ -126,7 +126,7 @@ pub fn case_message(py: Python<'_>, message: &str, help: &str) -> PyErr {
     simple(py, "CaseError", message, help)
 }
 
-/// An exception of this class with a message and a help.
+/// Returns an exception of this class with a message and a help.
 pub fn simple(py: Python<'_>, class: &str, message: &str, help: &str) -> PyErr {
     let note = match help {
         "" => String::new(),
@@ -151,7 +151,7 @@ pub fn unit_error(py: Python<'_>, text: &str, error: &UnitError) -> PyErr {
     raise(py, "UnitError", (error.to_string(), shown))
 }
 
-/// Does something that calls into lower layers; a panic there, which is a mistake of ours, becomes
+/// Calls a function of lower layers; a panic there, which is a mistake of ours, becomes
 /// `wedgelab.InternalError`.
 pub fn guarded<T>(py: Python<'_>, work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
     match catch_unwind(AssertUnwindSafe(work)) {
@@ -160,7 +160,7 @@ pub fn guarded<T>(py: Python<'_>, work: impl FnOnce() -> PyResult<T>) -> PyResul
     }
 }
 
-/// What a panic says.
+/// Returns the message of a panic.
 pub fn panic_text(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned())

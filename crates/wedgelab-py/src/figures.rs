@@ -77,7 +77,7 @@ fn exhibits<'py>(py: Python<'py>, exhibits: &[Exhibit]) -> PyResult<Bound<'py, P
     PyList::new(py, dicts.collect::<PyResult<Vec<_>>>()?)
 }
 
-/// The report's figures of one run.
+/// Returns the report's figures of one run.
 #[pyfunction]
 pub fn run_figures<'py>(py: Python<'py>, result: PyRef<'py, NativeResult>) -> PyResult<Bound<'py, PyList>> {
     guarded(py, || {
@@ -88,7 +88,7 @@ pub fn run_figures<'py>(py: Python<'py>, result: PyRef<'py, NativeResult>) -> Py
     })
 }
 
-/// All figures that the report has of these results together.
+/// Returns all figures that the report has of these results together.
 #[pyfunction]
 pub fn report_figures<'py>(
     py: Python<'py>,

@@ -70,7 +70,7 @@ fn make(py: Python<'_>, source: Source) -> PyResult<NativeHalfTruckCase> {
     })
 }
 
-/// A study's half-truck with these values set over it.
+/// Returns a study's half-truck with these values set over it.
 pub fn of_source(py: Python<'_>, source: &CaseSource, set: Vec<String>) -> PyResult<NativeHalfTruckCase> {
     let settings = Settings {
         set,
@@ -133,7 +133,7 @@ fn of_files(py: Python<'_>, path: &Path, files: &RunFiles, settings: &Settings) 
 
 #[pymethods]
 impl NativeHalfTruckCase {
-    /// From a run file, or the name of a built-in run.
+    /// Reads a run file, or takes the built-in run of this name.
     #[classmethod]
     #[pyo3(signature = (
         path, system, data, input, yaw, options, duration, interval, start, all_outputs, units, tolerance, set
@@ -223,7 +223,7 @@ impl NativeHalfTruckCase {
             let path = find(&path).map_err(|error| load_error(py, &error))?;
             let instead = Instead { system, data, input };
             let files = RunFiles::read(&path, &instead).map_err(|error| load_error(py, &error))?;
-            // Before they are written down: what is missing is told with its place.
+            // Before they are written down: missing files are reported with their places.
             of_files(py, &path, &files, &settings)?;
             let texts = Box::new(files.texts());
             make(
@@ -237,7 +237,7 @@ impl NativeHalfTruckCase {
         })
     }
 
-    /// The reverse of `saved`.
+    /// Returns the reverse of `saved`.
     #[staticmethod]
     fn load(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
         guarded(py, || {
@@ -249,7 +249,7 @@ impl NativeHalfTruckCase {
         })
     }
 
-    /// All that is needed to make the case again, the texts of its files included.
+    /// Returns all that is needed to make the case again, the texts of its files included.
     fn saved<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let bytes = rmp_serde::to_vec_named(&self.source);
         let bytes = bytes.map_err(|error| refused(py, &error.to_string(), ""))?;

@@ -149,14 +149,14 @@ fn all(
 
 /// Until all workers have ended: passes on how many runs are done, and hears signals.
 fn listen(finished: &mpsc::Receiver<()>, progress: Option<&Py<PyAny>>) -> PyResult<()> {
-    let (mut count, mut told) = (0_usize, 0_usize);
+    let (mut count, mut reported) = (0_usize, 0_usize);
     loop {
         let ended = match finished.recv_timeout(INTERVAL) {
             Ok(()) => {
                 count += 1;
                 // Many short runs: take all that have ended.
                 count += finished.try_iter().count();
-                // So that they are not told one by one.
+                // So that they are not reported one by one.
                 thread::sleep(Duration::from_millis(2));
                 false
             }
@@ -165,8 +165,8 @@ fn listen(finished: &mpsc::Receiver<()>, progress: Option<&Py<PyAny>>) -> PyResu
         };
         Python::attach(|py| {
             py.check_signals()?;
-            if let Some(progress) = progress.filter(|_| count > told || ended) {
-                told = count;
+            if let Some(progress) = progress.filter(|_| count > reported || ended) {
+                reported = count;
                 progress.call1(py, (count,))?;
             }
             PyResult::Ok(())

@@ -16,7 +16,7 @@ use crate::outcome::{NativeResult, Origin};
 use crate::run::{Progress, run_one};
 use crate::values;
 
-/// A case, from values over a text.
+/// Returns a case, from values over a text.
 fn over<C: Send>(
     py: Python<'_>,
     given: &Bound<'_, PyDict>,
@@ -40,7 +40,7 @@ macro_rules! model_case {
         }
 
         impl $native {
-            /// Of a case of lower layers.
+            /// Makes it of a case of lower layers.
             pub fn new(case: $case) -> Self {
                 Self {
                     case: Arc::new(case),
@@ -95,12 +95,12 @@ macro_rules! model_case {
                 .map(Self::new)
             }
 
-            /// The whole case as a commented case file, tables embedded.
+            /// Returns the whole case as a commented case file, tables embedded.
             fn to_toml(&self) -> &str {
                 self.case.to_toml_embedded()
             }
 
-            /// The whole case as nested dicts.
+            /// Returns the whole case as nested dicts.
             fn document<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
                 let table: Table = self
                     .case
@@ -146,7 +146,7 @@ macro_rules! model_case {
                 run_one(py, &*self.case, origin, columns.as_deref(), progress)
             }
 
-            /// The result that was taken apart by `NativeResult.parts`.
+            /// Returns the result that was taken apart by `NativeResult.parts`.
             fn result_of_parts(
                 &self,
                 py: Python<'_>,

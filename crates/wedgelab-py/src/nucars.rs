@@ -54,7 +54,7 @@ impl NativeFile {
         &self.title
     }
 
-    /// As it was read.
+    /// Returns the text as it was read.
     #[getter]
     fn text(&self) -> &str {
         &self.text

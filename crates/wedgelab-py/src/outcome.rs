@@ -100,7 +100,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// Of a run.
+    /// Makes it of a run.
     pub fn of_run<S: Into<AnySummary>>(result: RunResult<S>) -> Self {
         Self {
             columns: result.columns,
@@ -156,7 +156,7 @@ pub struct NativeResult {
 }
 
 impl NativeResult {
-    /// Of a case and what came out of it.
+    /// Makes it of a case and its outcome.
     pub fn new(origin: Origin, table: Table) -> Self {
         Self { origin, table }
     }
@@ -174,7 +174,7 @@ impl NativeResult {
         Some(((**case).clone(), self.result(&**summary)))
     }
 
-    /// The half-truck's result as lower layers have it; `None` for others.
+    /// Returns the half-truck's result as lower layers have it; `None` for others.
     pub fn half_truck(&self) -> Option<HalfTruckResult> {
         let AnySummary::HalfTruck(summary) = &self.table.summary else {
             return None;
@@ -182,7 +182,7 @@ impl NativeResult {
         Some(self.result(&**summary))
     }
 
-    /// The table with its summary.
+    /// Returns the table with its summary.
     fn result<S: Clone>(&self, summary: &S) -> RunResult<S> {
         RunResult {
             columns: self.table.columns.clone(),
@@ -191,7 +191,7 @@ impl NativeResult {
         }
     }
 
-    /// The reverse of [`NativeResult::parts`].
+    /// Returns the reverse of [`NativeResult::parts`].
     pub fn of_parts(
         py: Python<'_>,
         origin: Origin,
@@ -253,7 +253,7 @@ impl NativeResult {
         PyList::new(py, columns.collect::<Vec<_>>())
     }
 
-    /// The values of a column, times a factor.
+    /// Returns the values of a column, times a factor.
     fn values<'py>(
         &self,
         py: Python<'py>,
@@ -279,7 +279,7 @@ impl NativeResult {
         self.units_of().name()
     }
 
-    /// The case of a wedge's run.
+    /// Returns the case of a wedge's run.
     #[getter]
     fn case(&self) -> Option<NativeCase> {
         let Origin::Wedge(case) = &self.origin else {
@@ -289,7 +289,7 @@ impl NativeResult {
         Some(NativeCase { case })
     }
 
-    /// The case of a truck's run.
+    /// Returns the case of a truck's run.
     #[getter]
     fn truck_case(&self) -> Option<NativeTruckCase> {
         let Origin::Truck(case) = &self.origin else {
@@ -299,7 +299,7 @@ impl NativeResult {
         Some(NativeTruckCase { case })
     }
 
-    /// The case of a car's run.
+    /// Returns the case of a car's run.
     #[getter]
     fn car_case(&self) -> Option<NativeCarCase> {
         let Origin::Car(case) = &self.origin else {
@@ -309,7 +309,7 @@ impl NativeResult {
         Some(NativeCarCase { case })
     }
 
-    /// What was run: `wedge`, `half_truck`, `truck` or `car`.
+    /// Returns the model that was run: `wedge`, `half_truck`, `truck` or `car`.
     #[getter]
     fn model(&self) -> &'static str {
         match self.origin {
@@ -320,34 +320,34 @@ impl NativeResult {
         }
     }
 
-    /// Why and when it stopped, if it is not complete.
+    /// Returns the reason and time of its stop, if it is not complete.
     #[getter]
     fn stopped(&self) -> Option<(f64, String)> {
         let stopped = self.table.summary.get().stopped();
         stopped.map(|stopped| (stopped.time, stopped.reason.clone()))
     }
 
-    /// Why it has failed although it came to its end: its energy ledger does not close.
+    /// Returns the reason why it has failed although it came to its end: its energy ledger does not close.
     #[getter]
     fn failed(&self) -> Option<String> {
         self.table.summary.get().failed().map(str::to_owned)
     }
 
-    /// The warnings about its energy ledger.
+    /// Returns the warnings about its energy ledger.
     #[getter]
     fn energy_warnings(&self) -> Vec<String> {
         let warnings = self.table.summary.get().warnings();
         study::energy::among(warnings).map(str::to_owned).collect()
     }
 
-    /// The warnings about what is implausible in it.
+    /// Returns the warnings about what is implausible in it.
     #[getter]
     fn implausible(&self) -> Vec<String> {
         let warnings = self.table.summary.get().warnings();
         study::plausibility::among(warnings).map(str::to_owned).collect()
     }
 
-    /// The summary as nested dicts, as in `summary.json`.
+    /// Returns the summary as nested dicts, as in `summary.json`.
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let value = match &self.table.summary {
             AnySummary::Wedge(summary) => serde_json::to_value(summary),
@@ -376,7 +376,7 @@ impl NativeResult {
         Ok((PyBytes::new(py, &header), values))
     }
 
-    /// The half-truck's result that was taken apart.
+    /// Returns the half-truck's result that was taken apart.
     #[staticmethod]
     fn half_truck_of_parts(
         py: Python<'_>,

@@ -15,7 +15,7 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// As typed.
+    /// Returns the text as typed.
     pub fn text(&self) -> &str {
         self.inner.text()
     }
@@ -114,13 +114,13 @@ impl Quantity {
     }
 }
 
-/// The kind of this name, as in `mass`, `angular_speed`.
+/// Returns the kind of this name, as in `mass`, `angular_speed`.
 fn kind(name: &str) -> Option<Kind> {
     let quoted = serde_json::Value::String(name.to_owned());
     serde_json::from_value(quoted).ok()
 }
 
-/// A text, a quantity or a number (SI) that stands for this kind, in SI.
+/// Returns a text, a quantity or a number (SI) that stands for this kind, in SI.
 #[pyfunction]
 pub fn to_si(value: &Bound<'_, PyAny>, kind_name: &str) -> PyResult<f64> {
     let py = value.py();

@@ -11,7 +11,7 @@ use study::run::{Run, RunCase, RunError};
 use crate::errors::{internal, panic_text, simple};
 use crate::outcome::{AnySummary, NativeResult, Origin, Table};
 
-/// How often Python is asked for signals and told of progress.
+/// The interval of asking Python for signals and of reporting progress.
 const INTERVAL: Duration = Duration::from_millis(50);
 /// How many steps are made before the clock is read.
 const STEPS: u32 = 64;
@@ -66,7 +66,7 @@ impl Progress {
         }
     }
 
-    /// Why the run had to end.
+    /// Returns the reason why the run had to end.
     pub fn into_error(self) -> Option<PyErr> {
         self.error
     }
@@ -82,7 +82,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// As an exception.
+    /// Returns it as an exception.
     pub fn error(&self, py: Python<'_>, name: &str) -> PyErr {
         match self {
             Self::Begin(reason) => simple(

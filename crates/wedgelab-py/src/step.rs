@@ -33,7 +33,8 @@ fn refused(py: Python<'_>, error: &SteppingError) -> PyErr {
     simple(py, "StepError", &error.to_string(), help)
 }
 
-/// From where a neighbour is to where it shall be: without rates, the mean rates on the way.
+/// Returns the place of a neighbor from its present one and the one given: without rates, the mean rates on
+/// the way.
 fn place(from: &NeighbourState, position: Six, rate: Option<Six>, duration: f64) -> NeighbourState {
     match rate {
         Some(rate) => NeighbourState { position, rate },
@@ -65,8 +66,8 @@ impl NativeWedge {
         })
     }
 
-    /// One step. A neighbour without a position stays where it is; without rates, they are the mean rates on
-    /// the way.
+    /// Makes one step. A neighbour without a position stays where it is; without rates, they are the mean
+    /// rates on the way.
     #[pyo3(signature = (duration, bolster, bolster_rate, side_frame, side_frame_rate))]
     fn step(
         &mut self,
@@ -139,14 +140,14 @@ impl NativeWedge {
         columns.map(|column| column.name.clone()).collect()
     }
 
-    /// The row that a run would write now, SI.
+    /// Returns the row that a run would write now, SI.
     fn row<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let wedge = &mut self.wedge;
         let row = guarded(py, || Ok(wedge.row()))?;
         Ok(PyArray1::from_vec(py, row))
     }
 
-    /// The coil's force from the case, from a stiffness (N/m), or given (N).
+    /// Sets the coil's force from the case, from a stiffness (N/m), or given (N).
     #[pyo3(signature = (stiffness, force))]
     fn set_coil(&mut self, py: Python<'_>, stiffness: Option<f64>, force: Option<f64>) -> PyResult<()> {
         let coil = match (stiffness, force) {
@@ -172,7 +173,7 @@ impl NativeWedge {
         })
     }
 
-    /// All that is needed to go on with the same bits.
+    /// Returns all that is needed to go on with the same bits.
     fn save<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let bytes = guarded(py, || {
             self.wedge.state().to_bytes().map_err(|error| refused(py, &error))

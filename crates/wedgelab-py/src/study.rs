@@ -23,7 +23,7 @@ use crate::model_case::NativeCarCase;
 use crate::model_case::NativeTruckCase;
 use crate::outcome::from_saved;
 
-/// How often Python is asked for signals and told of progress.
+/// The interval of asking Python for signals and of reporting progress.
 const INTERVAL: Duration = Duration::from_millis(50);
 
 /// `wedgelab.StudyError`.
@@ -51,7 +51,7 @@ type NamedColumn = (String, String, String, &'static str);
 
 #[pymethods]
 impl NativeStudy {
-    /// Of a study file.
+    /// Makes it of a study file.
     #[classmethod]
     fn read(class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
         let py = class.py();
@@ -61,7 +61,7 @@ impl NativeStudy {
         })
     }
 
-    /// The reverse of `saved`.
+    /// Returns the reverse of `saved`.
     #[staticmethod]
     fn load(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
         guarded(py, || {
@@ -76,7 +76,7 @@ impl NativeStudy {
         })
     }
 
-    /// All that is needed to make the study again, the texts of its case included.
+    /// Returns all that is needed to make the study again, the texts of its case included.
     fn saved<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let bytes = rmp_serde::to_vec_named(self.study.source());
         let bytes = bytes.map_err(|error| internal(py, &error.to_string()))?;
@@ -98,13 +98,13 @@ impl NativeStudy {
         self.study.count()
     }
 
-    /// Whether it has so many runs that the user must say that they are meant.
+    /// Returns whether it has so many runs that the user must say that they are meant.
     #[getter]
     fn is_large(&self) -> bool {
         self.study.count() > MANY
     }
 
-    /// The table's columns.
+    /// Returns the table's columns.
     fn columns(&self, py: Python<'_>) -> PyResult<Vec<NamedColumn>> {
         guarded(py, || {
             let columns = columns(&self.study).into_iter();
@@ -121,7 +121,7 @@ impl NativeStudy {
         })
     }
 
-    /// The paths that are varied.
+    /// Returns the paths that are varied.
     fn parameters(&self) -> Vec<Vec<String>> {
         self.study
             .factors
@@ -130,7 +130,7 @@ impl NativeStudy {
             .collect()
     }
 
-    /// The values of the variant of this number, below `count`, as a case file shows them.
+    /// Returns the values of the variant of this number, below `count`, as a case file shows them.
     fn values(&self, py: Python<'_>, number: u64) -> PyResult<Vec<(String, String)>> {
         guarded(py, || {
             let pairs = self.study.factors.iter().zip(self.study.values(number));
@@ -140,7 +140,7 @@ impl NativeStudy {
         })
     }
 
-    /// The case of the variant of this number, below `count`: a wedge's, or a half-truck's.
+    /// Returns the case of the variant of this number, below `count`: a wedge's, or a half-truck's.
     fn case(&self, py: Python<'_>, number: u64) -> PyResult<Py<PyAny>> {
         guarded(py, || {
             let case = self.study.case(number).map_err(|error| case_error(py, &error))?;
@@ -179,7 +179,7 @@ impl NativeStudyFolder {
         held.ok_or_else(|| internal(py, "the folder of the study was closed"))
     }
 
-    /// Does something with the folder without the interpreter lock.
+    /// Calls a function with the folder without the interpreter lock.
     fn with<T: Send>(
         &self,
         py: Python<'_>,
@@ -216,13 +216,13 @@ impl NativeStudyFolder {
         Ok(self.held(py)?.parts())
     }
 
-    /// How many runs are kept, and how many bytes were cut off or damaged.
+    /// Returns the number of runs kept, and of bytes that were cut off or damaged.
     fn begun(&self, py: Python<'_>) -> PyResult<(u64, usize)> {
         let begun = self.with(py, study_work::begun)?;
         Ok((begun.runs, begun.lost))
     }
 
-    /// The numbers of the runs of a part that are not there yet.
+    /// Returns the numbers of the runs of a part that are not there yet.
     fn missing(&self, py: Python<'_>, part: u64) -> PyResult<Vec<u64>> {
         self.with(py, |folder| folder.missing(part))
     }
@@ -293,7 +293,7 @@ fn listen<T>(
     count: &AtomicU64,
     progress: Option<&Py<PyAny>>,
 ) -> PyResult<()> {
-    let mut told = 0;
+    let mut reported = 0;
     // Short at first, for short studies.
     let mut pause = Duration::from_millis(1);
     loop {
@@ -305,8 +305,8 @@ fn listen<T>(
         let now = count.load(Ordering::Relaxed);
         Python::attach(|py| {
             py.check_signals()?;
-            if let Some(progress) = progress.filter(|_| now > told) {
-                told = now;
+            if let Some(progress) = progress.filter(|_| now > reported) {
+                reported = now;
                 progress.call1(py, (now,))?;
             }
             PyResult::Ok(())

@@ -8,7 +8,8 @@ use toml::{Table, Value};
 use crate::errors::case_message;
 use crate::quantity::Quantity;
 
-/// A mapping as TOML; keys with the value `None` are left out. `path` is where it stands, for messages.
+/// Returns a mapping as TOML; keys with the value `None` are left out. `path` is where it stands, for
+/// messages.
 pub fn table(mapping: &Bound<'_, PyAny>, path: &str) -> PyResult<Table> {
     nested_table(mapping, path, 0)
 }
@@ -49,7 +50,7 @@ fn nested_table(mapping: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResul
     Ok(table)
 }
 
-/// A value as TOML, `depth` values below the outermost: a list may hold itself.
+/// Returns a value as TOML, `depth` values below the outermost: a list may hold itself.
 fn of(value: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Value> {
     if depth > limits::NESTING {
         return Err(case_message(

@@ -230,8 +230,8 @@ impl NativeWheelset {
         })
     }
 
-    /// The loaded wheels of one side. Arrays of one length in; out: numbers of patches (entry, patch, number)
-    /// as one flat array, numbers of wheels (entry, number), and the seats' names.
+    /// Returns the loaded wheels of one side. Arrays of one length in; out: numbers of patches (entry, patch,
+    /// number) as one flat array, numbers of wheels (entry, number), and the seats' names.
     #[allow(clippy::too_many_arguments)]
     fn contact<'py>(
         &self,
@@ -416,7 +416,7 @@ impl NativeTrack {
         self.file.track.center_line.length()
     }
 
-    /// What the track is at distances (m), a flat array (entry, number).
+    /// Returns the track at distances (m), a flat array (entry, number).
     fn sample<'py>(&self, py: Python<'py>, distances: Given<'py>) -> PyResult<Array<'py>> {
         let distances = distances.as_slice()?;
         let values: Vec<f64> = guarded(py, || {

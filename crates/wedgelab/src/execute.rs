@@ -80,7 +80,7 @@ fn compute_by<C: RunCase, T>(
     Ok((Done { result, wall }, taken))
 }
 
-/// A run that has begun; where nothing can be computed at all, the input is at fault.
+/// Returns a run that has begun; where nothing can be computed at all, the input is at fault.
 pub fn begun<C: RunCase>(case: &C, run: Result<Run<C>, RunError>) -> Result<Run<C>, Message> {
     run.map_err(|error| {
         let message = format!("the run {} cannot begin: {error}", case.name());
@@ -148,7 +148,7 @@ pub fn execute_whole<C: RunFiles>(
     Ok(Some(done))
 }
 
-/// Why a run is incomplete or has failed, for its user; `None` if it is sound.
+/// Returns the message of a run that is incomplete or has failed; `None` if it is sound.
 pub fn unsound<C: RunFiles>(summary: &C::Summary, folder: &Path) -> Option<Failure> {
     if let Some(stopped) = summary.stopped() {
         return Some(stopped_run(summary.name(), stopped, folder, C::WHAT_TO_TRY));
@@ -157,7 +157,8 @@ pub fn unsound<C: RunFiles>(summary: &C::Summary, folder: &Path) -> Option<Failu
     Some(failed_run(summary.name(), reason, folder))
 }
 
-/// Why a run of which nothing is written is incomplete or has failed, for its user; `None` if it is sound.
+/// Returns the message of a run that is incomplete or has failed and of which nothing is written; `None` if
+/// it is sound.
 pub fn unsound_unwritten<C: RunFiles>(summary: &C::Summary) -> Option<Failure> {
     let name = summary.name();
     let nothing = "nothing of it is written";
@@ -172,7 +173,7 @@ pub fn unsound_unwritten<C: RunFiles>(summary: &C::Summary) -> Option<Failure> {
     Some(Failure::Failed(Message::new(message, advice).into()))
 }
 
-/// A run that came to its end but failed, and whose files are written.
+/// Returns a run that came to its end but failed, and whose files are written.
 fn failed_run(name: &str, reason: &str, folder: &Path) -> Failure {
     let message = failed_message(name, reason);
     let kept = format!(
@@ -182,7 +183,7 @@ fn failed_run(name: &str, reason: &str, folder: &Path) -> Failure {
     Failure::Failed(Message::new(message, kept).into())
 }
 
-/// A run that stopped and whose files are written; `suspects` says what to try if it could not go on.
+/// Returns a run that stopped and whose files are written; `suspects` says what to try if it could not go on.
 fn stopped_run(name: &str, stopped: &Stopped, folder: &Path, suspects: &str) -> Failure {
     let message = stopped_message(name, stopped);
     let kept = format!(
@@ -208,12 +209,12 @@ fn failed_message(name: &str, reason: &str) -> String {
     format!("the run {name} has failed: {reason}")
 }
 
-/// What is kept of a run, and what to try if it could not go on.
+/// Returns the message about the files of a run, with advice if it could not go on.
 fn with_suspects(kept: &str, suspects: &str) -> String {
     [kept, suspects].join(if suspects.is_empty() { "" } else { "; " })
 }
 
-/// How many runs at a time: as given, or as many as there are processors.
+/// Returns the number of runs at a time: as given, or as many as there are processors.
 pub fn jobs(given: Option<u16>) -> usize {
     given.map_or_else(
         || std::thread::available_parallelism().map_or(1, usize::from),
@@ -221,7 +222,7 @@ pub fn jobs(given: Option<u16>) -> usize {
     )
 }
 
-/// The table of runs; all of them in the same units.
+/// Returns the table of runs; all of them in the same units.
 pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone) -> Table {
     let unit = |of: fn(&Summary) -> Option<&SummaryValue>| {
         let found = runs.clone().into_iter().find_map(|(summary, _)| of(summary));

@@ -110,7 +110,7 @@ pub struct Message {
 }
 
 impl Message {
-    /// What is wrong, and what to do.
+    /// Makes it of what is wrong, and what to do.
     pub fn new(message: impl Into<String>, advice: impl Into<String>) -> Self {
         Self {
             message: message.into(),

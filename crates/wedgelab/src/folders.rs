@@ -6,8 +6,8 @@ use report::files::{self, Folder};
 
 use crate::failure::{Failure, say};
 
-/// A folder for these files, as [`Folder::check`] has it; tells what killed runs had left beside it and is
-/// removed.
+/// Returns a folder for these files, as [`Folder::check`] has it; tells what killed runs had left beside it
+/// and is removed.
 pub fn check(path: impl Into<PathBuf>, names: &[&str], force: bool) -> Result<Folder, Failure> {
     let folder = Folder::check(path, names, force).map_err(|error| Failure::Input(error.into()))?;
     tell_removed(&files::remove_left_over([&folder]));

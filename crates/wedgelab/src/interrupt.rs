@@ -1,4 +1,4 @@
-//! What commands do when they are told to end: by SIGINT (Ctrl-C), SIGTERM or SIGHUP, on Windows by Ctrl-C.
+//! How commands end when a signal asks for it: by SIGINT (Ctrl-C), SIGTERM or SIGHUP, on Windows by Ctrl-C.
 //!
 //! A command that writes calls [`listen`] before it does anything. From then on a signal ends the program at
 //! once, without leaving a hidden folder, unless the command has said by [`stops`] that it ends by itself
@@ -64,17 +64,17 @@ fn set(stop: Option<&str>, kept: Option<&str>) {
     };
 }
 
-/// Whether the command is to end by itself, for those who look at it themselves.
+/// Returns whether the command is to end by itself, for those who look at it themselves.
 pub fn flag() -> &'static AtomicBool {
     &WANTED
 }
 
-/// Whether the command is to end by itself.
+/// Returns whether the command is to end by itself.
 pub fn wanted() -> bool {
     WANTED.load(Ordering::Relaxed)
 }
 
-/// What a run is told after each step.
+/// Returns whether a run goes on after a step.
 pub fn go_on() -> ControlFlow<String> {
     if wanted() {
         ControlFlow::Break(REASON.to_owned())
@@ -83,12 +83,12 @@ pub fn go_on() -> ControlFlow<String> {
     }
 }
 
-/// Whether this is why a run stopped.
+/// Returns whether this is why a run stopped.
 pub fn is_reason(stopped: Option<&Stopped>) -> bool {
     stopped.is_some_and(|stopped| stopped.reason == REASON)
 }
 
-/// The exit code of the signal that came, if one did.
+/// Returns the exit code of the signal that came, if one did.
 pub fn code() -> Option<u8> {
     Some(CODE.load(Ordering::Relaxed)).filter(|code| *code != 0)
 }
@@ -125,13 +125,13 @@ fn answer(code: u8) {
         return;
     }
     let abandoned = abandon();
-    say(&told(answer.kept.as_deref(), &abandoned));
+    say(&message(answer.kept.as_deref(), &abandoned));
     // Nothing is written until then: `abandoned` lives, and so does the lock on the answer.
     std::process::exit(i32::from(code));
 }
 
-/// What a program says that ends at once.
-fn told(kept: Option<&str>, abandoned: &Abandoned) -> String {
+/// Returns the message of a program that ends at once.
+fn message(kept: Option<&str>, abandoned: &Abandoned) -> String {
     match (kept, abandoned.placed()) {
         (Some(kept), _) => format!("{REASON}: {kept}"),
         (None, Some(folder)) => format!(
@@ -170,7 +170,7 @@ mod signals {
             }
         }
 
-        /// The exit code of the next signal.
+        /// Returns the exit code of the next signal.
         pub async fn next(&mut self) -> u8 {
             let kind = tokio::select! {
                 () = received(&mut self.interrupt) => SignalKind::interrupt(),
@@ -191,7 +191,7 @@ mod signals {
         }
     }
 
-    /// Whether this program ignores a signal.
+    /// Returns whether this program ignores a signal.
     #[allow(unsafe_code)]
     fn is_ignored(signal: i32) -> bool {
         let mut action = MaybeUninit::<libc::sigaction>::zeroed();
@@ -217,7 +217,7 @@ mod signals {
             Self
         }
 
-        /// The exit code of the next signal.
+        /// Returns the exit code of the next signal.
         pub async fn next(&mut self) -> u8 {
             if tokio::signal::ctrl_c().await.is_err() {
                 std::future::pending::<()>().await;

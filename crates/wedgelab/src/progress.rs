@@ -21,7 +21,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// The progress of this many runs.
+    /// Returns the progress of this many runs.
     pub fn new(runs: usize, quiet: bool) -> Self {
         let bar = (!quiet && io::stderr().is_terminal()).then(|| {
             let bar = ProgressBar::new(runs as u64 * PARTS);
@@ -39,7 +39,7 @@ impl Progress {
         }
     }
 
-    /// What one run reports to while it goes on.
+    /// Returns the callback to which one run reports its progress.
     pub fn of_run(&self, duration: f64) -> impl FnMut(f64) {
         let mut reached = 0;
         move |time| {
@@ -82,11 +82,11 @@ pub struct Steady {
     all: u64,
     before: u64,
     start: Instant,
-    told: Mutex<(u64, Instant)>,
+    printed: Mutex<(u64, Instant)>,
 }
 
 impl Steady {
-    /// The progress of `all` things (`runs`), of which some were there before.
+    /// Returns the progress of `all` things (`runs`), of which some were there before.
     pub fn new(what: &'static str, all: u64, before: u64, quiet: bool) -> Self {
         let bar = (!quiet && io::stderr().is_terminal()).then(|| {
             let bar = ProgressBar::new(all);
@@ -110,21 +110,21 @@ impl Steady {
             all,
             before,
             start,
-            told: Mutex::new((0, start)),
+            printed: Mutex::new((0, start)),
         }
     }
 
     /// One more is done.
     pub fn done(&self) {
-        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
-        told.0 += 1;
+        let mut printed = self.printed.lock().unwrap_or_else(PoisonError::into_inner);
+        printed.0 += 1;
         if let Some(bar) = &self.bar {
-            bar.set_position(self.before + told.0);
-        } else if !self.quiet && told.1.elapsed() >= PAUSE {
-            told.1 = Instant::now();
+            bar.set_position(self.before + printed.0);
+        } else if !self.quiet && printed.1.elapsed() >= PAUSE {
+            printed.1 = Instant::now();
             let what = self.what;
-            let rate = told.0 as f64 / self.start.elapsed().as_secs_f64();
-            let done = self.before + told.0;
+            let rate = printed.0 as f64 / self.start.elapsed().as_secs_f64();
+            let done = self.before + printed.0;
             let left = (self.all - done) as f64 / rate;
             let rate = match rate {
                 rate if rate < 1.0 => format!("{rate:.2}"),
@@ -139,16 +139,19 @@ impl Steady {
         }
     }
 
-    /// All are done; gives the number of those done since the beginning.
+    /// Ends the progress and returns the number of runs done since the beginning.
     pub fn finish(self) -> u64 {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
-        self.told.into_inner().unwrap_or_else(PoisonError::into_inner).0
+        self.printed
+            .into_inner()
+            .unwrap_or_else(PoisonError::into_inner)
+            .0
     }
 }
 
-/// A time for people.
+/// Returns a time for people.
 fn shown(seconds: f64) -> String {
     match seconds {
         s if s < 90.0 => format!("{s:.0} s"),

@@ -70,7 +70,7 @@ pub struct Saved {
     pub path: PathBuf,
 }
 
-/// Whether this is why a run stopped.
+/// Returns whether this is why a run stopped.
 pub fn is_reason(reason: &str) -> bool {
     reason == REASON
 }

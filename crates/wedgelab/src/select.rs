@@ -10,8 +10,8 @@ use study::half_truck::catalog;
 use crate::commands::run::built_in_names;
 use crate::failure::{Failure, Message};
 
-/// Says which command runs the built-in case or half-truck of this name, to the user of one that does not
-/// take it; `None` if nothing has this name.
+/// Returns the command that runs the built-in case or half-truck of this name, to the user of one that does
+/// not take it; `None` if nothing has this name.
 pub fn built_in_elsewhere(path: &Path) -> Option<Message> {
     let name = &*builtin::own_name(path.to_str()?);
     let (what, command) = match built_in_names().any(|own| own == name) {
@@ -105,7 +105,7 @@ fn matching(text: &str, names: &[&str]) -> Result<Vec<usize>, Message> {
     }
 }
 
-/// The names to choose from, as many as can be read.
+/// Returns the names to choose from, as many as can be read.
 fn several(names: &[&str]) -> String {
     const MOST: usize = 12;
     let shown = names[..names.len().min(MOST)].join(", ");
@@ -115,7 +115,7 @@ fn several(names: &[&str]) -> String {
     }
 }
 
-/// Whether a name fits a pattern in which `*` is any text and `?` any sign.
+/// Returns whether a name fits a pattern in which `*` is any text and `?` any sign.
 fn fits(pattern: &[u8], name: &[u8]) -> bool {
     match (pattern, name) {
         ([], []) => true,

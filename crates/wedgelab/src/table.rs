@@ -10,7 +10,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table with the names and units of its columns; the first `left` ones are words.
+    /// Returns a table with the names and units of its columns; the first `left` ones are words.
     pub fn new(left: usize, head: &[(&str, &str)]) -> Self {
         let line = |of: fn(&(&str, &str)) -> String| head.iter().map(of).collect();
         Self {

@@ -181,7 +181,7 @@ fn limits_a_car_on_rollers_hunts_once_disturbed() {
 
 /// Where the energy of a run went: told, as JSON, and written with its figure.
 #[test]
-fn energy_of_a_run_is_told_and_written() {
+fn energy_of_a_run_is_reported_and_written() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     let settings = ["simulation.duration=0.5 s", "start.settle=0 s"];
@@ -192,7 +192,7 @@ fn energy_of_a_run_is_told_and_written() {
         assert_eq!(done.code, Some(0), "{}", done.err);
         done.out
     };
-    let told = energy(&["--out", "told"]);
+    let stdout = energy(&["--out", "told"]);
     for part in [
         "Energy of a run: the whole run, 0.000 s to 0.500 s",
         "drive work",
@@ -200,7 +200,7 @@ fn energy_of_a_run_is_told_and_written() {
         "wheel 1 left",
         "energy.json, power_flow.svg, power_flow.png",
     ] {
-        assert!(told.contains(part), "{told} without {part}");
+        assert!(stdout.contains(part), "{stdout} without {part}");
     }
     let printed: serde_json::Value = serde_json::from_str(&energy(&["--json"])).unwrap();
     let written = fs::read_to_string(at.join("told/energy.json")).unwrap();

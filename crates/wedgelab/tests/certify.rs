@@ -113,10 +113,10 @@ fn limits_a_certificate_goes_on_after_kills_and_does_not_depend_on_jobs() {
 
     // Other limits over the same runs: nothing is computed again but the worst run.
     let table = fs::read(at.join("two/table.parquet")).unwrap();
-    let told = done(at, &certify("two", "high.toml", &["--json", "--against", "one"]));
-    let told: Value = serde_json::from_str(&told).unwrap();
+    let compared = done(at, &certify("two", "high.toml", &["--json", "--against", "one"]));
+    let compared: Value = serde_json::from_str(&compared).unwrap();
     assert_eq!(
-        (&told["before"], &told["exceeded"]),
+        (&compared["before"], &compared["exceeded"]),
         (&Value::from(4), &Value::from(2))
     );
     assert_eq!(fs::read(at.join("two/table.parquet")).unwrap(), table);

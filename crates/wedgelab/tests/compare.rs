@@ -38,7 +38,7 @@ fn temporary() -> TempDir {
     tempfile::tempdir().unwrap()
 }
 
-/// A CSV file's columns, as texts.
+/// Returns a CSV file's columns, as texts.
 fn columns(file: &Path) -> BTreeMap<String, Vec<String>> {
     let text = fs::read_to_string(file).unwrap();
     let mut lines = text
@@ -62,7 +62,7 @@ fn numbers(file: &Path, name: &str) -> Vec<f64> {
         .collect()
 }
 
-/// A number in the table of differences.
+/// Returns a number in the table of differences.
 fn difference(folder: &Path, column: &str, result: &str, what: &str) -> f64 {
     let table = columns(&folder.join("differences.csv"));
     let row = (0..table["column"].len())

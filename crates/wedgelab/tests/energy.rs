@@ -10,7 +10,7 @@ use std::path::Path;
 
 use common::wedgelab;
 
-/// A run of ten seconds with a method that damps, at a tolerance that is too loose for its ledger.
+/// Returns a run of ten seconds with a method that damps, at a tolerance that is too loose for its ledger.
 fn loose<'a>(tolerance: &'a str, out: &'a str) -> [&'a str; 9] {
     let [method, name] = ["simulation.method=tr-bdf2", "vdrun_toe_0_psi_0.012"];
     [
@@ -95,7 +95,7 @@ fn energy_rows_of_a_study_are_marked_and_keep_their_values() {
 /// `wedgelab energy` tells the balance and every division, and writes what it has told; without a cycle it
 /// says why.
 #[test]
-fn energy_of_a_cycle_is_told_and_written() {
+fn energy_of_a_cycle_is_reported_and_written() {
     let folder = tempfile::tempdir().unwrap();
     let set = "bolster.vertical={ shape = \"sine\", amplitude = \"0.5 in\", frequency = \"2 Hz\" }";
     let short = "simulation.duration=1.3 s";
@@ -115,21 +115,21 @@ fn energy_of_a_cycle_is_told_and_written() {
     ] {
         assert!(done.out.contains(part), "{} without {part}", done.out);
     }
-    let told = folder.path().join("told");
+    let written = folder.path().join("told");
     let energy: serde_json::Value =
-        serde_json::from_str(&fs::read_to_string(told.join("energy.json")).unwrap()).unwrap();
+        serde_json::from_str(&fs::read_to_string(written.join("energy.json")).unwrap()).unwrap();
     let value = |of: &serde_json::Value| of["value"].as_f64().unwrap();
     let column = &energy["losses"]["column_friction_loss"];
     let points: f64 = column["by_point"].as_object().unwrap().values().map(value).sum();
     let total = value(&column["total"]);
     assert!(total > 0.0 && (points - total).abs() < 1e-12 * total);
-    let svg = fs::read_to_string(told.join("power_flow.svg")).unwrap();
+    let svg = fs::read_to_string(written.join("power_flow.svg")).unwrap();
     assert!(
         svg.contains(">column friction<") && svg.contains("lbf·in, 100.0 %"),
         "{svg}"
     );
     assert!(
-        fs::read(told.join("power_flow.png"))
+        fs::read(written.join("power_flow.png"))
             .unwrap()
             .starts_with(b"\x89PNG")
     );

@@ -35,7 +35,7 @@ fn export(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
     )
 }
 
-/// A folder with the printed files, and something that begins as a library.
+/// Returns a folder with the printed files, and something that begins as a library.
 fn folder() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for name in builtin::names() {

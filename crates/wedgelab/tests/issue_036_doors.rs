@@ -13,7 +13,7 @@ const STUDY: &str = "case = \"vdrun_toe_0_psi_0\"\nsampling = \"full_factorial\"
                      = \"0.1 s\"\n\
                      [vary]\nfriction.column = { from = 0.4, to = 0.2, count = 3 }\n";
 
-/// A folder with a case, a study, a track, a run file, a result and a study's folder.
+/// Returns a folder with a case, a study, a track, a run file, a result and a study's folder.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();

@@ -37,7 +37,7 @@ fn wedgelab(folder: &Path, arguments: &[&str]) -> Output {
     output
 }
 
-/// A folder with the printed files, some of them changed.
+/// Returns a folder with the printed files, some of them changed.
 fn folder(changes: &[(&str, &str, &str)]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for name in builtin::names() {
@@ -164,7 +164,7 @@ fn the_only_files_of_their_kinds_belong_together() {
 }
 
 #[test]
-fn all_mistakes_are_told_at_once() {
+fn all_mistakes_are_reported_at_once() {
     let changes = [
         (CONSTANT, "319.175", "heavy"),
         (CONSTANT, "\n50\n", "\n51\n"),
@@ -355,7 +355,7 @@ fn a_run_file_is_run() {
 }
 
 #[test]
-fn a_yaw_that_is_not_reached_is_told_and_can_be_reached() {
+fn a_yaw_that_is_not_reached_is_reported_and_can_be_reached() {
     let folder = folder(&[(YAW_RUN, "0.01 20.0 0.1", "0.01 2.0 0.1")]);
     let files = [
         "--data",

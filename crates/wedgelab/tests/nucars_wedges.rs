@@ -50,9 +50,9 @@ fn wedges_become_bodies() {
     };
     let massless = run(&["--wedges", "massless", "--out", "massless"]);
     assert!(!massless.contains("Wedges as bodies"), "{massless}");
-    let told = run(&["--wedges", "bodies", "--out", "bodies"]);
+    let stdout = run(&["--wedges", "bodies", "--out", "bodies"]);
     contains(
-        &told,
+        &stdout,
         &[
             "Wedges as bodies:",
             "wedges of connections 127, 128, 129, 130: from the files: 37.5 deg, a column inclined by 0.2 \

@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 
 use tempfile::TempDir;
 
-/// The folder of a whole reproduction.
+/// Returns the folder of a whole reproduction.
 fn reproduction() -> &'static Path {
     static FOLDER: OnceLock<TempDir> = OnceLock::new();
     FOLDER
@@ -36,12 +36,12 @@ fn page() -> String {
     fs::read_to_string(reproduction().join("index.html")).unwrap()
 }
 
-/// The page of the three-piece truck.
+/// Returns the page of the three-piece truck.
 fn truck_page() -> String {
     fs::read_to_string(reproduction().join("truck.html")).unwrap()
 }
 
-/// The values of an attribute.
+/// Returns the values of an attribute.
 fn values<'p>(page: &'p str, attribute: &str) -> Vec<&'p str> {
     let start = format!(" {attribute}=\"");
     page.split(start.as_str())
@@ -71,8 +71,8 @@ fn links_lead_somewhere(page: &str, least: usize) {
     }
 }
 
-/// The page without what stands in its scripts, which name addresses in their licences and messages. That
-/// they fetch nothing is watched in a browser (`cargo xtask test --only viewer`).
+/// Returns the page without what stands in its scripts, which name addresses in their licences and messages.
+/// That they fetch nothing is watched in a browser (`cargo xtask test --only viewer`).
 fn markup() -> String {
     let page = page();
     let mut pieces = page.split("<script");
@@ -142,7 +142,7 @@ fn the_trucks_page_tells_the_numbers_of_its_file() {
     assert_eq!(found["sensitivities"].as_array().unwrap().len(), 10);
 }
 
-/// Whether a picture is more than a blank page: a blank one of this size packs into a few kilobytes.
+/// Returns whether a picture is more than a blank page: a blank one of this size packs into a few kilobytes.
 fn has_ink(png: &[u8]) -> bool {
     png.len() > 8_000
 }
@@ -155,10 +155,10 @@ fn a_static_page_says_what_it_lacks() {
         .arg(folder.path())
         .output()
         .unwrap();
-    let told = String::from_utf8(output.stdout).unwrap();
+    let stdout = String::from_utf8(output.stdout).unwrap();
     let page = fs::read_to_string(folder.path().join("index.html")).unwrap();
     // Built with the viewer or without it, page and message agree.
     let interactive = page.contains("id=\"wedgelab-view\"");
     assert_eq!(interactive, report::page::Viewer::embedded().is_some());
-    assert_eq!(told.contains("cargo xtask viewer"), !interactive, "{told}");
+    assert_eq!(stdout.contains("cargo xtask viewer"), !interactive, "{stdout}");
 }

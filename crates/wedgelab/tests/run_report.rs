@@ -33,13 +33,14 @@ fn json(file: &Path) -> Value {
     serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap()
 }
 
-/// The data of a page's interactive part, if this program was built with it.
+/// Returns the data of a page's interactive part, if this program was built with it.
 fn view(page: &str) -> Option<Value> {
     let (_, rest) = page.split_once("id=\"wedgelab-view\">")?;
     Some(serde_json::from_str(rest.split_once("</script>")?.0).unwrap())
 }
 
-/// The numbers in the row of a page's table that begins with these words, without what stands in brackets.
+/// Returns the numbers in the row of a page's table that begins with these words, without what stands in
+/// brackets.
 fn row(page: &str, words: &str) -> Vec<f64> {
     let start = page
         .find(&format!("<th scope=\"row\">{words}</th>"))
@@ -127,14 +128,14 @@ fn wedges_stand_side_by_side_with_the_numbers_of_their_summaries() {
         assert_eq!(numbers.len(), 2, "{words}");
         near(numbers[0], own[0]);
         near(numbers[1], own[1] / factor);
-        let told = &answer["runs"][1]["numbers"];
-        let told = told
+        let numbers = &answer["runs"][1]["numbers"];
+        let numbers = numbers
             .as_array()
             .unwrap()
             .iter()
             .find(|number| number["what"] == words);
         assert_eq!(
-            told.unwrap()["value"],
+            numbers.unwrap()["value"],
             *summaries[1].pointer(path).unwrap(),
             "as written"
         );
@@ -253,7 +254,7 @@ fn trucks_and_cars_are_read_with_what_their_pages_keep() {
 }
 
 #[test]
-fn input_what_is_no_run_is_told_with_the_command_that_takes_it() {
+fn input_what_is_no_run_is_reported_with_the_command_that_takes_it() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     run(at, WEDGE, "1", &[], "one");

@@ -21,7 +21,7 @@ fn wear<'a>(case: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     [&["wear", case], SHORT.as_slice(), more].concat()
 }
 
-/// The rows of a CSV file by the names of their columns.
+/// Returns the rows of a CSV file by the names of their columns.
 fn column(path: &Path, name: &str) -> Vec<f64> {
     let text = fs::read_to_string(path).unwrap();
     let mut lines = text.lines();
@@ -41,9 +41,9 @@ fn input_wear_writes_its_course_and_a_case_to_go_on_with() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     let more = ["--cycles", "4000", "--steps", "2", "--out", "first"];
-    let told = done(at, &wear("cdrun_toe_0_psi_0", &more));
-    assert!(told.contains("K = 1e-4 (a guess)"), "{told}");
-    assert!(told.contains("order of magnitude"), "{told}");
+    let stdout = done(at, &wear("cdrun_toe_0_psi_0", &more));
+    assert!(stdout.contains("K = 1e-4 (a guess)"), "{stdout}");
+    assert!(stdout.contains("order of magnitude"), "{stdout}");
     let course = at.join("first/wear.csv");
     assert_eq!(column(&course, "cycles"), [0.0, 2000.0, 4000.0]);
     let volumes = column(&course, "column_volume_in3");
@@ -82,8 +82,11 @@ fn input_wear_writes_its_course_and_a_case_to_go_on_with() {
         "--hardness",
         "2000 MPa",
     ];
-    let told = done(at, &wear("first/worn.toml", &more));
-    assert!(told.contains("(given)") && !told.contains("guess"), "{told}");
+    let stdout = done(at, &wear("first/worn.toml", &more));
+    assert!(
+        stdout.contains("(given)") && !stdout.contains("guess"),
+        "{stdout}"
+    );
     let deepest = |path: &str| column(&at.join(path), "column_deepest_in");
     let (before, after) = (deepest("first/wear.csv"), deepest("second/wear.csv"));
     assert!((after[0] - before[2]).abs() < 1e-9 * before[2]);
@@ -98,13 +101,13 @@ fn input_wear_writes_its_course_and_a_case_to_go_on_with() {
 }
 
 #[test]
-fn input_mistakes_with_wear_are_told() {
+fn input_mistakes_with_wear_are_reported() {
     let folder = tempfile::tempdir().unwrap();
-    let refused = |case: &str, more: &[&str], told: &str| {
+    let refused = |case: &str, more: &[&str], expected: &str| {
         let output = wedgelab(folder.path(), &wear(case, more));
         assert_eq!(output.code, Some(2), "{more:?}: {}", output.err);
         let err: String = output.err.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(err.contains(told), "{more:?}: {err}");
+        assert!(err.contains(expected), "{more:?}: {err}");
     };
     let case = "cdrun_toe_0_psi_0";
     refused(case, &[], "--cycles");

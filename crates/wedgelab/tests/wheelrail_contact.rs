@@ -36,7 +36,7 @@ fn answer(arguments: &[&str]) -> Value {
     serde_json::from_str(&out).unwrap()
 }
 
-/// The benchmark at a lateral shift (mm, to the right), with roll (rad) and pitch rate (rad/s).
+/// Returns the benchmark at a lateral shift (mm, to the right), with roll (rad) and pitch rate (rad/s).
 fn manchester(shift: f64, roll: f64, pitch_rate: f64, creep: &str) -> Value {
     answer(&[
         "MBench_S1002_v3.prw",
@@ -63,7 +63,7 @@ fn manchester(shift: f64, roll: f64, pitch_rate: f64, creep: &str) -> Value {
     ])
 }
 
-/// A key's values of all patches of a wheel.
+/// Returns a key's values of all patches of a wheel.
 fn all(answer: &Value, side: &str, key: &str) -> Vec<f64> {
     let patches = answer[side].as_array().unwrap();
     patches.iter().map(|patch| patch[key].as_f64().unwrap()).collect()
@@ -204,7 +204,7 @@ fn limits_laws_agree_at_small_creepages_and_saturate() {
 
 /// Wheels that have climbed or left their rail are results that say so.
 #[test]
-fn limits_derailed_wheels_are_told_with_their_places() {
+fn limits_derailed_wheels_are_reported_with_their_places() {
     let at = |lateral: &str, json: bool| {
         let arguments = ["aar_1b", "136re", "--load", "33 kip", "--lateral", lateral];
         let json: &[&str] = if json { &["--json"] } else { &[] };
@@ -241,7 +241,7 @@ fn limits_derailed_wheels_are_told_with_their_places() {
 
 /// What is wrong is refused with what to do; the frame stands in the help and in the answer.
 #[test]
-fn input_mistakes_are_refused_and_the_frame_is_told() {
+fn input_mistakes_are_refused_and_the_frame_is_reported() {
     for (arguments, texts) in [
         (&["--load", "10 mm"][..], &["this is a length", "N"][..]),
         (&["--load", "-10 kN"], &["load", "positive"]),

@@ -269,7 +269,8 @@ impl RigidWheelset {
         })
     }
 
-    /// The forces on a wheel (x forward, y to the left, z up) at a height of the wheelset's center (m).
+    /// Returns the forces on a wheel (x forward, y to the left, z up) at a height of the wheelset's center
+    /// (m).
     fn pressed(&self, side: Side, attitude: &Attitude, height: f64, law: &ContactLaw) -> Pressed {
         let index = usize::from(side == Side::Right);
         let sign = if side == Side::Left { 1.0 } else { -1.0 };

@@ -97,8 +97,8 @@ fn analytic_a_yawed_cone_touches_ahead_or_behind() {
     }
 }
 
-/// The largest overlap of the whole surface of a yawed and rolled wheel with the rail, on a grid of its
-/// profile and its circumference: no silhouette, no search.
+/// Returns the largest overlap of the whole surface of a yawed and rolled wheel with the rail, on a grid of
+/// its profile and its circumference: no silhouette, no search.
 fn brute_force(wheel: &Profile, rail: &Profile, [y, z, yaw, roll]: [f64; 4]) -> f64 {
     let rail: Vec<[f64; 2]> = rail
         .curve()

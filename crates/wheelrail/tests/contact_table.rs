@@ -36,7 +36,7 @@ fn height(pair: &ContactPair, lateral: f64, yaw: f64, roll: f64, overlap: f64) -
     trial + pair.touch(&pose).unwrap().overlap - overlap
 }
 
-/// The patch with the largest load.
+/// Returns the patch with the largest load.
 fn largest(finder: &impl FindPatches, pose: &WheelPose<f64>) -> ContactPatch<f64> {
     let load = |patch: &ContactPatch<f64>| patch.share * patch.ellipse.stiffness * patch.approach.powf(1.5);
     let mut best: Option<ContactPatch<f64>> = None;

@@ -23,7 +23,7 @@ fn patch(axes: [f64; 2], load: f64, friction: f64) -> Patch<f64> {
     }
 }
 
-/// The patch of CONTACT's example `tractcurv`.
+/// Returns the patch of CONTACT's example `tractcurv`.
 fn traction() -> Patch<f64> {
     patch([6.305e-3, 12.611e-3], 106.7e3, 0.33)
 }
@@ -130,8 +130,8 @@ fn reproduction_lateral_creepage_with_spin_of_contact() {
     assert!((cubic.y / -13_082.0 - 1.0).abs() < 0.01, "{}", cubic.y);
 }
 
-/// The power that forces and spin moment take over the reference speed, and the sum of the sizes of its
-/// parts.
+/// Returns the power that forces and spin moment take over the reference speed, and the sum of the sizes of
+/// its parts.
 fn dissipation(law: Law, patch: &Patch<f64>, c: &Creepage<f64>) -> [f64; 2] {
     let found = law(patch, c);
     let parts = [

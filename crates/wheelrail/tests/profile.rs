@@ -319,7 +319,7 @@ fn input_simpack_keys_are_applied() {
 
 /// Every mistake names file and line, and a remedy.
 #[test]
-fn input_mistakes_in_files_are_told_with_place_and_remedy() {
+fn input_mistakes_in_files_are_reported_with_place_and_remedy() {
     for (text, found, remedy) in [
         ("", "rail.csv, line 1: there is no header", "y [mm]"),
         (

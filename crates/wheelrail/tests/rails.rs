@@ -47,7 +47,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|i| a[i] * b[i]).sum()
 }
 
-/// The point with these coordinates in a section.
+/// Returns the point with these coordinates in a section.
 fn point(section: &Section<f64>, own: [f64; 3]) -> [f64; 3] {
     let arm = section.fixed(own);
     [0, 1, 2].map(|i| section.origin[i] + arm[i])

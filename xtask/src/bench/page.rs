@@ -165,7 +165,7 @@ crates/wedgelab-py/benchmarks/overhead.py WEDGELAB` |
 | other solvers on the same equations | `cargo xtask race` ([race.md](race.md)) |
 ";
 
-/// The page.
+/// Returns the page.
 pub fn page(machine: &Machine, load: Option<&str>, printed: &[Printed]) -> String {
     let Machine {
         processor,
@@ -203,7 +203,7 @@ pub fn page(machine: &Machine, load: Option<&str>, printed: &[Printed]) -> Strin
     text
 }
 
-/// The rows of the table of what matters most.
+/// Returns the rows of the table of what matters most.
 fn summary<'p>(found: impl Fn(&str) -> &'p str) -> String {
     let [one, runs, esdirk3, _, studies, half_truck, steps, ..] =
         SECTIONS.map(|section| found(section.heading));
@@ -260,7 +260,7 @@ fn summary<'p>(found: impl Fn(&str) -> &'p str) -> String {
     rows
 }
 
-/// The least and the greatest of some values.
+/// Returns the least and the greatest of some values.
 fn range(values: impl Iterator<Item = f64>, unit: &str) -> Option<String> {
     let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| {
         (least.min(value), most.max(value))
@@ -268,7 +268,7 @@ fn range(values: impl Iterator<Item = f64>, unit: &str) -> Option<String> {
     (least <= most).then(|| format!("{least:.0} to {most:.0} {unit}"))
 }
 
-/// The times that `cargo bench` prints as `test NAME ... bench: 1,234 ns/iter (+/- 5)`, a line each.
+/// Returns the times that `cargo bench` prints as `test NAME ... bench: 1,234 ns/iter (+/- 5)`, a line each.
 pub fn evaluations(text: &str) -> String {
     let mut lines = String::new();
     for line in text.lines() {

@@ -32,7 +32,7 @@ pub struct Tools {
 }
 
 impl Tools {
-    /// As the race takes them.
+    /// Returns the arguments as the race takes them.
     pub fn arguments(&self) -> Vec<OsString> {
         let mut list = Vec::new();
         let mut add = |name: &str, path: &Path| {
@@ -78,7 +78,7 @@ pub fn prepare(workspace: &Workspace, octave: bool) -> Result<Tools, String> {
     })
 }
 
-/// The driver of CVODE alone; the race's library is built already.
+/// Returns the driver of CVODE alone; the race's library is built already.
 pub fn cvode(workspace: &Workspace) -> Result<PathBuf, String> {
     let driver = folder(workspace)?.join("cvode");
     compile_cvode(workspace, &workspace.target.join("release"), &driver)?;
@@ -89,7 +89,7 @@ fn drivers(workspace: &Workspace) -> PathBuf {
     workspace.root.join("crates").join("race").join("drivers")
 }
 
-/// Where compiled drivers go.
+/// Returns the folder of compiled drivers.
 fn folder(workspace: &Workspace) -> Result<PathBuf, String> {
     let folder = workspace.target.join("race-drivers");
     match std::fs::create_dir_all(&folder) {

@@ -63,7 +63,7 @@ fn is_ours(program: &PathBuf) -> bool {
     shell::output(Command::new(program).arg("--version")).is_some_and(|text| is_version(&text))
 }
 
-/// Whether this is what our version answers to `--version`.
+/// Returns whether this is what our version answers to `--version`.
 fn is_version(answer: &str) -> bool {
     answer.split_whitespace().nth(1) == Some(VERSION)
 }

@@ -54,7 +54,7 @@ fn layer(name: &str) -> Option<usize> {
     LAYERS.iter().position(|(_, crates)| crates.contains(&name))
 }
 
-/// What is wrong with this crate, a sentence each.
+/// Returns the violations of this crate, a sentence each.
 fn violations(member: &Member) -> Vec<String> {
     let name = &member.name;
     let Some(own) = layer(name) else {
@@ -99,8 +99,8 @@ fn read(root: &Path) -> Result<Vec<Member>, String> {
     Ok(members)
 }
 
-/// The folders a pattern of `workspace.members` stands for: itself, or with `/*` at its end all packages in
-/// it.
+/// Returns the folders a pattern of `workspace.members` stands for: itself, or with `/*` at its end all
+/// packages in it.
 fn folders(root: &Path, pattern: &str) -> Result<Vec<PathBuf>, String> {
     let Some(parent) = pattern.strip_suffix("/*") else {
         return Ok(vec![root.join(pattern)]);
@@ -145,7 +145,8 @@ fn member(manifest: &Table, shared: &Table) -> Option<Member> {
     Some(Member { name, depends_on })
 }
 
-/// The package behind a dependency's key, which `package = "..."` may rename, here or in the workspace.
+/// Returns the package behind a dependency's key, which `package = "..."` may rename, here or in the
+/// workspace.
 fn package<'a>(key: &'a str, value: &'a Value, shared: &'a Table) -> &'a str {
     let inherited = value.get("workspace").and_then(Value::as_bool) == Some(true);
     let value = if inherited {
@@ -160,7 +161,7 @@ fn package<'a>(key: &'a str, value: &'a Value, shared: &'a Table) -> &'a str {
 mod tests {
     use super::*;
 
-    /// What is wrong with the crate of this manifest, in a workspace with these shared dependencies.
+    /// Returns the violations of the crate of this manifest, in a workspace with these shared dependencies.
     fn wrong(manifest: &str, shared: &str) -> Vec<String> {
         let manifest: Table = manifest.parse().expect("a manifest");
         let shared: Table = shared.parse().expect("dependencies");

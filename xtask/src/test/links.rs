@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn broken_links_are_told() {
+    fn broken_links_are_reported() {
         let page = Workspace::find().root.join("README.md");
         assert!(follow(&page, "# Here\n", "#here").is_ok());
         assert!(follow(&page, "# Here\n", "#there").is_err());

@@ -33,7 +33,7 @@ pub fn check(workspace: &Workspace) -> Outcome {
     Ok(version(&octave))
 }
 
-/// An Octave that can draw.
+/// Returns an Octave that can draw.
 fn octave() -> Result<String, String> {
     let program = env::var("WEDGELAB_OCTAVE").unwrap_or_else(|_| "octave-cli".to_owned());
     if draws(&program) {
@@ -64,7 +64,7 @@ fn advice() -> String {
     )
 }
 
-/// The version, as the first line of `--version` has it.
+/// Returns the version, as the first line of `--version` has it.
 fn version(octave: &str) -> Option<String> {
     let text = shell::output(Command::new(octave).arg("--version"))?;
     text.lines().next().map(str::to_owned)

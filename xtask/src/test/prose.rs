@@ -41,7 +41,7 @@ pub fn check(workspace: &Workspace) -> Outcome {
     }
 }
 
-/// The plain folder and file names in `.gitignore`; patterns are left aside.
+/// Returns the plain folder and file names in `.gitignore`; patterns are left aside.
 fn ignored(gitignore: &str) -> Vec<String> {
     let names = gitignore.lines().map(|line| line.trim().trim_matches('/'));
     let plain = names.filter(|name| !name.is_empty() && !name.contains(['#', '*', '!', '/', '?', '[']));
@@ -100,7 +100,7 @@ impl Search<'_> {
     }
 }
 
-/// The forbidden path in a line, if there is one. What stands within a longer path or address
+/// Returns the forbidden path in a line, if there is one. What stands within a longer path or address
 /// (`example.org/home/`) is none.
 fn offence(line: &str) -> Option<&'static str> {
     let inside = |before: char| before.is_alphanumeric() || matches!(before, '_' | '-' | '.' | '}' | ')');

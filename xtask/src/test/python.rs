@@ -56,7 +56,7 @@ fn install(workspace: &Workspace, python: &Path) -> Result<(), String> {
     shell::run(&mut command)
 }
 
-/// The search path with the programs of the environment in front.
+/// Returns the search path with the programs of the environment in front.
 pub fn path_with(python: &Path) -> Result<std::ffi::OsString, String> {
     let own = python.parent().map(Path::to_path_buf).into_iter();
     let all = std::env::var_os("PATH").unwrap_or_default();

@@ -59,7 +59,7 @@ pub fn check(workspace: &Workspace) -> Outcome {
     Ok(shell::output(Command::new(&chromium).arg("--version")))
 }
 
-/// The path of a Chromium, which is installed if there is none.
+/// Returns the path of a Chromium, which is installed if there is none.
 fn chromium() -> Result<String, String> {
     if let Ok(named) = env::var("WEDGELAB_CHROMIUM") {
         return Ok(named);
@@ -72,7 +72,7 @@ fn chromium() -> Result<String, String> {
     found().ok_or_else(advice)
 }
 
-/// The first Chromium on the path that starts.
+/// Returns the first Chromium on the path that starts.
 fn found() -> Option<String> {
     let folders = env::var_os("PATH")?;
     let mut paths = env::split_paths(&folders).flat_map(|folder| NAMES.map(|name| folder.join(name)));

@@ -69,7 +69,8 @@ fn line<P: Problem>(name: &str, run: &Integrator<P>, force: f64, residual: f64) 
     );
 }
 
-/// How far a lateral force is off at a time, relative to that of the steady state; zero in the first quarter.
+/// Returns the deviation of a lateral force at a time, relative to that of the steady state; zero in the
+/// first quarter.
 fn deviation(time: f64, force: f64) -> f64 {
     if time < 0.25 * CIRCLE {
         return 0.0;

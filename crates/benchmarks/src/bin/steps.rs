@@ -30,7 +30,7 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// The mean cost of a step, µs, with or without reading all outputs after it.
+/// Returns the mean cost of a step, µs, with or without reading all outputs after it.
 fn measure(name: &str, step: f64, read: bool) -> Result<f64, Box<dyn std::error::Error>> {
     let case = builtin::case(name)?;
     let duration = case.simulation.duration;

@@ -12,7 +12,8 @@ use std::time::Instant;
 use study::case::{Case, builtin};
 use study::measures::{Measures, measure, of_wedges};
 
-/// The measures that are compared: means over branches, energies, equivalent stiffness and damping.
+/// Returns true for the metrics that are compared: means over branches, energies, equivalent stiffness and
+/// damping.
 fn compared(name: &str) -> bool {
     name.starts_with("mean_vertical_wedge")
         || name.starts_with("mean_long")
@@ -75,7 +76,7 @@ fn rate() -> Result<(), String> {
     variants(&set, repeats)
 }
 
-/// The rate of variants.
+/// Measures the rate of variants.
 fn variants(set: &[String], repeats: u32) -> Result<(), String> {
     let mut cases = Vec::new();
     for name in builtin::thesis_names().filter(|name| name.ends_with("psi_0.012")) {

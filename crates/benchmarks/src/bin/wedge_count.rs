@@ -53,7 +53,7 @@ fn one(arrangement: &str, count: &str, number: &str, recorded: bool) -> Result<(
     advance(&mut begin(&system, recorded)?, number)
 }
 
-/// The costs of all systems up to this number of wedges.
+/// Prints the costs of all systems up to this number of wedges.
 fn table(most: usize) -> Result<(), String> {
     println!(
         "CPU times, µs, each divided by the number of wedges; events: changes of contact modes a step and \
@@ -84,7 +84,7 @@ fn table(most: usize) -> Result<(), String> {
     Ok(())
 }
 
-/// The costs of one system.
+/// Returns the costs of one system.
 fn measure(count: usize, arrangement: Arrangement) -> Result<String, String> {
     let mut system = wedges(count, arrangement)?;
     let (mut recorded, mut bare) = (f64::INFINITY, f64::INFINITY);
@@ -108,7 +108,7 @@ fn measure(count: usize, arrangement: Arrangement) -> Result<String, String> {
     ))
 }
 
-/// The mean cost of a step, µs, the number of events, and the state at the end.
+/// Returns the mean cost of a step, µs, the number of events, and the state at the end.
 fn steps(system: &System, recorded: bool) -> Result<(f64, u64, Vec<f64>), String> {
     let mut integrator = begin(system, recorded)?;
     let begun = cpu_seconds();

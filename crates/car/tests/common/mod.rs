@@ -22,8 +22,8 @@ pub fn tangent(length: f64) -> Track {
     track(&[Segment::Tangent(length)])
 }
 
-/// A curve of a degree, to the left or to the right, with a superelevation (m) of its outer rail, behind 30
-/// m of tangent and a spiral of 60 m.
+/// Returns a curve of a degree, to the left or to the right, with a superelevation (m) of its outer rail,
+/// behind 30 m of tangent and a spiral of 60 m.
 pub fn curve(degree: f64, turn: f64, superelevation: f64, length: f64) -> Track {
     let own = CurveElements::of_degree(degree.to_radians(), superelevation);
     let own = CurveElements {
@@ -45,7 +45,7 @@ pub fn empty(track: Track, speed: f64) -> Parameters {
     Parameters::new(Lading::Empty, track, speed).unwrap()
 }
 
-/// The same car with the industry's wedges, which have no mass.
+/// Returns the same car with the industry's wedges, which have no mass.
 pub fn massless(mut parameters: Parameters) -> Parameters {
     for wedge in parameters.trucks.iter_mut().flat_map(|own| &mut own.wedges) {
         wedge.kind = WedgeKind::Massless;
@@ -108,7 +108,7 @@ pub fn run_by(method: Method, parameters: &Parameters, duration: f64, every: f64
     }
 }
 
-/// The loads at the start.
+/// Returns the loads at the start.
 pub fn at_start(car: &Car) -> Loads {
     let mut system = car.system.clone();
     let mut rates = vec![0.0; car.initial_state.len()];

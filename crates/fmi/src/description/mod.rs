@@ -39,7 +39,7 @@ pub enum FmuModel {
 }
 
 impl FmuModel {
-    /// Its name: of the model, and of the library in an FMU.
+    /// Returns its name: of the model, and of the library in an FMU.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -52,13 +52,13 @@ impl FmuModel {
         }
     }
 
-    /// Whether it gives directional derivatives.
+    /// Returns whether it gives directional derivatives.
     #[must_use]
     pub fn has_derivatives(self) -> bool {
         matches!(self, Self::Wedge | Self::QuasiStatic)
     }
 
-    /// What it is, in one line.
+    /// The description, one line.
     fn text(self) -> &'static str {
         match self {
             Self::Wedge => {
@@ -88,7 +88,7 @@ impl FmuModel {
         }
     }
 
-    /// Its frames and signs, in a few sentences.
+    /// Returns its frames and signs, in a few sentences.
     pub(crate) fn conventions(self) -> &'static str {
         match self {
             Self::Wedge | Self::QuasiStatic => {
@@ -120,7 +120,7 @@ impl FmuModel {
         }
     }
 
-    /// The model of this name.
+    /// Returns the model of this name.
     #[must_use]
     pub fn of(name: &str) -> Option<Self> {
         let all = [
@@ -142,7 +142,7 @@ pub struct Description {
     pub model: FmuModel,
     /// The name of the case or run.
     pub case: String,
-    /// What it is, in one line.
+    /// The description, one line.
     pub text: String,
     /// The variables; each value reference is a place in this list.
     pub variables: Vec<Variable>,
@@ -189,13 +189,13 @@ impl Description {
         })
     }
 
-    /// The variable with a reference.
+    /// Returns the variable with a reference.
     #[must_use]
     pub fn variable(&self, reference: u32) -> Option<&Variable> {
         self.variables.get(reference as usize)
     }
 
-    /// The reference of what stands behind a variable.
+    /// Returns the reference of what stands behind a variable.
     #[must_use]
     pub fn reference(&self, role: Role) -> Option<u32> {
         self.variables
@@ -204,7 +204,7 @@ impl Description {
             .map(|variable| variable.reference)
     }
 
-    /// The token that ties the description to what the library computes: a hash of the case, of all
+    /// Returns the token that ties the description to what the library computes: a hash of the case, of all
     /// variables, of the library's version and of the version of the standard, written as a GUID.
     #[must_use]
     pub fn token(&self, version: Version) -> String {
@@ -229,7 +229,7 @@ impl Description {
         format!("{{{}}}", parts.join("-"))
     }
 
-    /// The text of `modelDescription.xml`.
+    /// Returns the text of `modelDescription.xml`.
     ///
     /// # Errors
     /// The text cannot be written: a name or text holds what XML cannot.

@@ -25,12 +25,12 @@ impl Xml {
         Ok(Self { writer })
     }
 
-    /// An element without content.
+    /// Writes an element without content.
     pub fn empty(&mut self, name: &str, attributes: &[(&str, String)]) -> Result<(), Error> {
         self.event(Event::Empty(start(name, attributes)))
     }
 
-    /// An element around others.
+    /// Writes an element around others.
     pub fn element(
         &mut self,
         name: &str,
@@ -52,7 +52,7 @@ impl Xml {
         self.writer.write_event(event).map_err(failed)
     }
 
-    /// The units, the same in both versions.
+    /// Writes the units, the same in both versions.
     pub fn units(&mut self) -> Result<(), Error> {
         self.element("UnitDefinitions", &[], |xml| {
             for unit in Unit::ALL {
@@ -88,7 +88,7 @@ fn failed(error: std::io::Error) -> Error {
     Error::new(format!("the model description cannot be written: {error}"))
 }
 
-/// A number that reads back to the last bit.
+/// Returns a number that reads back to the last bit.
 pub(crate) fn number(value: f64) -> String {
     format!("{value:?}")
 }

@@ -57,7 +57,7 @@ impl Instance {
         Ok(variable)
     }
 
-    /// The value of a real variable.
+    /// Returns the value of a real variable.
     ///
     /// # Errors
     /// There is no such variable, or no element starts from the values set so far.
@@ -105,7 +105,7 @@ impl Instance {
         }
     }
 
-    /// The value of an integer variable.
+    /// Returns the value of an integer variable.
     ///
     /// # Errors
     /// There is no such variable, or no element starts from the values set so far.
@@ -120,7 +120,7 @@ impl Instance {
         }
     }
 
-    /// The value of a Boolean variable.
+    /// Returns the value of a Boolean variable.
     ///
     /// # Errors
     /// There is no such variable.
@@ -131,7 +131,7 @@ impl Instance {
         }
     }
 
-    /// Whether a variable may be set now.
+    /// Checks whether a variable may be set now.
     fn check_settable(&self, variable: &Variable) -> Result<(), Error> {
         let refused = |why: &str| {
             Err(Error::new(format!(
@@ -156,7 +156,8 @@ impl Instance {
         }
     }
 
-    /// Whether a real variable can be set to a value now, as far as that can be said without setting it.
+    /// Checks whether a real variable can be set to a value now, as far as that can be said without setting
+    /// it.
     ///
     /// # Errors
     /// There is no such variable, it cannot be set now, or the value is not finite.
@@ -235,7 +236,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Whether an integer variable can be set to a value now.
+    /// Checks whether an integer variable can be set to a value now.
     ///
     /// # Errors
     /// There is no such variable, it cannot be set now, or the value is outside its reach.
@@ -243,7 +244,7 @@ impl Instance {
         self.may_set_option(reference, value, Type::Integer)
     }
 
-    /// Whether a Boolean variable can be set now.
+    /// Checks whether a Boolean variable can be set now.
     ///
     /// # Errors
     /// There is no such variable, or it cannot be set now.
@@ -295,8 +296,8 @@ impl Instance {
         Ok(())
     }
 
-    /// The derivatives of unknowns (outputs and rates of states) along a direction of knowns (inputs and
-    /// states).
+    /// Writes the derivatives of unknowns (outputs and rates of states) along a direction of knowns (inputs
+    /// and states).
     ///
     /// # Errors
     /// A variable is no unknown or known, lists of different lengths, or called too early.

@@ -92,7 +92,7 @@ impl std::fmt::Debug for Instance {
 }
 
 impl Instance {
-    /// An instance of the FMU whose `resources` lie in a folder.
+    /// Returns an instance of the FMU whose `resources` lie in a folder.
     ///
     /// # Errors
     /// The folder is not that of an FMU of this program, the token is not that of its description, or the
@@ -108,7 +108,7 @@ impl Instance {
         Self::of(name, Some(token), resources::read(folder)?, version, interface)
     }
 
-    /// An instance of a model that is made of a case; the token is compared if there is one.
+    /// Returns an instance of a model that is made of a case; the token is compared if there is one.
     ///
     /// # Errors
     /// The case makes no such model, or the token is another one.
@@ -125,7 +125,7 @@ impl Instance {
         Self::of(name, token, source, version, interface)
     }
 
-    /// An instance of what is made of a source; the token is compared if there is one.
+    /// Returns an instance of what is made of a source; the token is compared if there is one.
     ///
     /// # Errors
     /// Nothing can be made of the source, or the token is another one.
@@ -169,27 +169,27 @@ impl Instance {
         })
     }
 
-    /// Its name.
+    /// Returns its name.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
-    /// What it shows.
+    /// Returns the description of the model.
     #[must_use]
     pub fn description(&self) -> &Description {
         &self.description
     }
-    /// How it is used.
+    /// Returns the interface by which it is used.
     #[must_use]
     pub fn interface(&self) -> Interface {
         self.interface
     }
-    /// The version of the standard that it is used by.
+    /// Returns the version of the standard that it is used by.
     #[must_use]
     pub fn version(&self) -> Version {
         self.version
     }
-    /// Where it stands.
+    /// Returns the phase of its life cycle.
     #[must_use]
     pub fn phase(&self) -> Phase {
         self.phase
@@ -284,7 +284,7 @@ impl Instance {
         self.stale = false;
     }
 
-    /// The element under the values set so far.
+    /// Returns the element under the values set so far.
     fn build(&mut self) -> Result<&mut Box<dyn Element>, Error> {
         if self.element.is_none() {
             let setting = Setting {
@@ -304,7 +304,7 @@ impl Instance {
             .ok_or_else(|| Error::new("the element is missing"))
     }
 
-    /// The element, knowing all inputs that have been set.
+    /// Returns the element, knowing all inputs that have been set.
     fn fresh(&mut self) -> Result<&mut Box<dyn Element>, Error> {
         if self.stale && self.interface == Interface::ModelExchange {
             let inputs = self.values.inputs.clone();
@@ -329,7 +329,7 @@ impl Instance {
     }
 }
 
-/// Whether times and tolerance can be those of an experiment.
+/// Checks whether times and tolerance can be those of an experiment.
 fn check_experiment(start: f64, stop: Option<f64>, tolerance: Option<f64>) -> Result<(), Error> {
     if !start.is_finite() {
         return Err(Error::new(format!(

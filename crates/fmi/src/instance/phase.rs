@@ -25,7 +25,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// Its name, as the standard has it.
+    /// Returns its name, as the standard has it.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -46,7 +46,7 @@ impl Phase {
 }
 
 impl Instance {
-    /// Whether a call is in order.
+    /// Checks whether a call is in order.
     pub(super) fn require(&self, what: &str, phases: &[Phase]) -> Result<(), Error> {
         if phases.contains(&self.phase) {
             return Ok(());

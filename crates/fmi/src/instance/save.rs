@@ -37,7 +37,7 @@ pub struct Saved {
 }
 
 impl Saved {
-    /// As bytes: JSON, whose numbers read back to the last bit.
+    /// Returns the state as bytes: JSON, whose numbers read back to the last bit.
     ///
     /// # Errors
     /// Never, with what an instance has given.
@@ -63,7 +63,7 @@ impl Saved {
 }
 
 impl Instance {
-    /// Its state.
+    /// Returns its state.
     #[must_use]
     pub fn save(&self) -> Saved {
         Saved {
@@ -146,7 +146,7 @@ impl Instance {
         Ok(())
     }
 
-    /// An instance beside this one, with the values of a saved one and no element yet.
+    /// Returns an instance beside this one, with the values of a saved one and no element yet.
     fn twin(&self, saved: &Saved) -> Self {
         let mut values = self.values.clone();
         values.parameters.clone_from(&saved.parameters);

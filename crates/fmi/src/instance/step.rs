@@ -173,7 +173,7 @@ impl Instance {
         })
     }
 
-    /// A step of the importer's integrator is complete.
+    /// Completes a step of the importer's integrator.
     ///
     /// # Errors
     /// Called out of order.

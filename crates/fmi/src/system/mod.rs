@@ -136,7 +136,7 @@ impl SystemElement {
         })
     }
 
-    /// The dimension of the system.
+    /// Returns the dimension of the system.
     fn dimension(&self) -> usize {
         self.plant.system.layout().len()
     }

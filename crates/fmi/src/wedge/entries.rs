@@ -49,13 +49,13 @@ const COLUMNS: [&str; 15] = [
     "ledger_residual",
 ];
 
-/// Whether a column of a run's table becomes a variable.
+/// Returns whether a column of a run's table becomes a variable.
 fn is_column(name: &str) -> bool {
     let corner = ["column_", "slope_"].iter().any(|face| name.starts_with(face));
     COLUMNS.contains(&name) || corner && !name.ends_with("_state")
 }
 
-/// The numbers of the columns that become variables.
+/// Returns the numbers of the columns that become variables.
 pub(crate) fn column_numbers(equations: &Equations) -> Vec<usize> {
     let columns = equations.columns().iter().enumerate();
     columns
@@ -64,7 +64,7 @@ pub(crate) fn column_numbers(equations: &Equations) -> Vec<usize> {
         .collect()
 }
 
-/// How well the energy ledger closes.
+/// Returns the relative residual of the energy ledger.
 pub(crate) fn relative_residual() -> Entry {
     Entry::real(
         "ledger_relative_residual",
@@ -75,7 +75,7 @@ pub(crate) fn relative_residual() -> Entry {
     )
 }
 
-/// All quantities of the wedge of a case.
+/// Returns all quantities of the wedge of a case.
 ///
 /// # Errors
 /// The case makes no wedge.

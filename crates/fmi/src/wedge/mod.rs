@@ -18,7 +18,7 @@ use entries::{COIL_FORCE, COIL_STIFFNESS, neighbours};
 /// Tolerances that an importer may ask for.
 const TOLERANCES: [f64; 2] = [1e-12, 1e-3];
 
-/// All quantities of the wedge of a case.
+/// Returns all quantities of the wedge of a case.
 ///
 /// # Errors
 /// The case makes no wedge.
@@ -84,7 +84,7 @@ fn coil(mode: i32, inputs: &[f64]) -> CoilInput {
 }
 
 impl WedgeElement {
-    /// The wedge of a case under these settings, at its start.
+    /// Returns the wedge of a case under these settings, at its start.
     ///
     /// # Errors
     /// Values outside their reach, or with which the number of states would be another one.

@@ -222,7 +222,7 @@ fn present(parameters: &Parameters) -> impl Iterator<Item = (&'static Access, f6
         .filter_map(|access| Some((access, (access.get)(parameters)?)))
 }
 
-/// The parameters of a wedge that there are, with their values.
+/// Returns the parameters of a wedge that there are, with their values.
 pub(crate) fn entries(parameters: &Parameters) -> Vec<Entry> {
     present(parameters)
         .map(|(access, value)| {
@@ -233,7 +233,8 @@ pub(crate) fn entries(parameters: &Parameters) -> Vec<Entry> {
         .collect()
 }
 
-/// The parameters with other values, in the order of [`entries`]. What was not touched keeps its bits.
+/// Returns the parameters with other values, in the order of [`entries`]. What was not touched keeps its
+/// bits.
 pub(crate) fn apply(parameters: &Parameters, values: &[f64]) -> Parameters {
     let mut changed = parameters.clone();
     for ((access, before), value) in present(parameters).zip(values) {
@@ -244,7 +245,7 @@ pub(crate) fn apply(parameters: &Parameters, values: &[f64]) -> Parameters {
     changed
 }
 
-/// The place of a parameter in the list.
+/// Returns the place of a parameter in the list.
 pub(crate) fn place(parameters: &Parameters, name: &str) -> Option<usize> {
     present(parameters).position(|(access, _)| access.name == name)
 }

@@ -58,7 +58,7 @@ impl Part {
         all.find(|variable| variable.name == name).unwrap().reference
     }
 
-    /// The place in the model of the body with this number in the files.
+    /// Returns the place in the model of the body with this number in the files.
     fn number_of_body(&self, number: u32) -> usize {
         self.bodies.iter().position(|own| *own == number).unwrap()
     }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::{Random, copies, insert};
 
-/// The lines, each with its ending.
+/// Returns the lines, each with its ending.
 fn lines(bytes: &[u8]) -> Vec<Range<usize>> {
     let mut start = 0;
     let pieces = bytes.split_inclusive(|byte| *byte == b'\n');

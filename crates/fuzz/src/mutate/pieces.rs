@@ -7,7 +7,7 @@ use super::{Random, copies, insert};
 /// A range is this long at most, if it is not one of those that may be of any length.
 const SHORT: usize = 40;
 
-/// A range, mostly a short one.
+/// Returns a range, mostly a short one.
 pub fn range(bytes: &[u8], random: &mut Random) -> Range<usize> {
     let start = random.below(bytes.len());
     let rest = bytes.len() - start;

@@ -26,7 +26,7 @@ impl Random {
         self.0.next_u64()
     }
 
-    /// A number from zero and below `most`; zero, if that is zero.
+    /// Returns a number from zero and below `most`; zero, if that is zero.
     pub fn below(&mut self, most: usize) -> usize {
         let product = u128::from(self.any()) * most as u128;
         (product >> 64) as usize
@@ -37,12 +37,12 @@ impl Random {
         self.below(times) == 0
     }
 
-    /// One of these, if there are any.
+    /// Returns one of these, if there are any.
     pub fn pick<'a, T>(&mut self, list: &'a [T]) -> Option<&'a T> {
         list.get(self.below(list.len()))
     }
 
-    /// How often something is repeated: mostly a few times, now and then a hundred thousand times.
+    /// Returns a number of repetitions: mostly a few times, now and then a hundred thousand times.
     pub fn many(&mut self) -> usize {
         let most = match self.below(40) {
             0 => 100_000,

@@ -83,7 +83,7 @@ fn case_corpus() -> Vec<Vec<u8>> {
     some.map(|(_, text)| text.as_bytes().to_vec()).collect()
 }
 
-/// What a reading of a case gives.
+/// Returns the outcome of reading a case.
 pub(super) fn outcome(read: Result<Case, CaseError>) -> Outcome {
     match read {
         Ok(case) => {
@@ -138,7 +138,7 @@ fn check_written(case: &Case) {
     }
 }
 
-/// All messages of an error.
+/// Returns all messages of an error.
 pub(super) fn messages(error: &CaseError) -> String {
     let messages: Vec<&str> = error.problems().iter().map(|problem| problem.message()).collect();
     messages.join("; ")

@@ -60,9 +60,9 @@ fn read(input: &[u8]) -> Outcome {
     if fs::write(&path, input).is_err() {
         return Outcome::NO_TEXT;
     }
-    let told = read_text(&path, &CASE);
+    let text = read_text(&path, &CASE);
     let foreign = FileType::of(input).is_some_and(|found| found != FileType::Case);
-    match told {
+    match text {
         Ok(text) => {
             assert!(!foreign, "wrong kind read: {:?}", FileType::of(input));
             assert!(text.len() <= input.len(), "more read: {} bytes", text.len());

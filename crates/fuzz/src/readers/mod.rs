@@ -63,7 +63,7 @@ pub const ALL: [Reader; 27] = [
     beginnings::BEGINNINGS,
 ];
 
-/// The reader of this name; `broken` is one that breaks, for trying out the program.
+/// Returns the reader of this name; `broken` is one that breaks, for trying out the program.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static Reader> {
     static READERS: [Reader; ALL.len()] = ALL;
@@ -107,22 +107,22 @@ impl Outcome {
 
     /// Refused with this error.
     fn refused(error: &dyn Diagnostic) -> Self {
-        Self::told(shown::check(error))
+        Self::of_message(shown::check(error))
     }
 
     /// Refused with this text.
     fn refused_with(text: &str) -> Self {
-        Self::told(shown::check_text(text))
+        Self::of_message(shown::check_text(text))
     }
 
-    fn told(message: usize) -> Self {
+    fn of_message(message: usize) -> Self {
         Self {
             accepted: false,
             message,
         }
     }
 
-    /// Both of two readings of one input: accepted if one is.
+    /// Returns both of two readings of one input: accepted if one is.
     fn or(self, other: Self) -> Self {
         Self {
             accepted: self.accepted || other.accepted,
@@ -131,13 +131,13 @@ impl Outcome {
     }
 }
 
-/// What was accepted is refused once it is written.
+/// Returns the finding that an accepted input is refused once it is written.
 #[allow(clippy::panic)]
 fn refused_as_written(error: &dyn std::fmt::Display) -> ! {
     panic!("refused as written: {error}");
 }
 
-/// A folder that is not there, so that inputs find no files.
+/// Returns a folder that is not there, so that inputs find no files.
 fn nowhere() -> &'static Path {
     Path::new("no-such-folder")
 }

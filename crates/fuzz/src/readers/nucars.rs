@@ -76,7 +76,7 @@ const DICTIONARY: &[&[u8]] = &[
     b"\\END\n",
 ];
 
-/// The built-in files of a kind.
+/// Returns the built-in files of a kind.
 fn of_kind(kind: FileKind) -> Vec<Vec<u8>> {
     let texts = builtin::names().filter(|name| {
         let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
@@ -127,12 +127,12 @@ fn file(input: &[u8], kind: FileKind) -> Outcome {
     };
     Outcome {
         accepted: !all.has_errors(),
-        message: told(&all),
+        message: message_bytes(&all),
     }
 }
 
 /// Checks the findings of a file as the program tells them, and returns the bytes of all of them.
-fn told(findings: &Findings) -> usize {
+fn message_bytes(findings: &Findings) -> usize {
     for finding in findings.list() {
         let place = finding.place();
         assert!(
@@ -185,7 +185,7 @@ fn system(mut read: Read<SystemFile>, with: &Partners) -> Findings {
     }
     read.add(check::system(&read));
     read.add(check::system_with_input(&read, &with.input.tree));
-    told(&check::data_of_system(&with.data, &read.tree));
+    message_bytes(&check::data_of_system(&with.data, &read.tree));
     if !read.findings.has_errors() {
         build(Files {
             system: &read.tree,
@@ -203,8 +203,8 @@ fn input_file(mut read: Read<InputFile>, with: &Partners) -> Findings {
         check_again(&read.tree, again.map(|source| read_input(&source)));
     }
     read.add(check::input(&read));
-    told(&check::system_with_input(&with.system, &read.tree));
-    told(&check::run_with_input(&with.run, &read.tree));
+    message_bytes(&check::system_with_input(&with.system, &read.tree));
+    message_bytes(&check::run_with_input(&with.run, &read.tree));
     if !read.findings.has_errors() {
         build(Files {
             system: &with.system.tree,
@@ -223,7 +223,7 @@ fn data(mut read: Read<DataFile>, with: &Partners) -> Findings {
     }
     read.add(check::data(&read));
     let together = check::data_of_system(&read, &with.system.tree);
-    told(&together);
+    message_bytes(&together);
     if !read.findings.has_errors() && !together.has_errors() {
         build(Files {
             system: &with.system.tree,

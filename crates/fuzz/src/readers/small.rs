@@ -86,7 +86,7 @@ pub const OPTIONS: Reader = Reader {
     read: option,
 };
 
-/// One entry a line.
+/// Returns one entry a line.
 fn lines(text: &[u8]) -> Vec<Vec<u8>> {
     let lines = text.split(|byte| *byte == b'\n');
     lines

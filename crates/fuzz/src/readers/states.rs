@@ -189,7 +189,7 @@ const MODELS: [(FmuModel, Version, Interface); 5] = [
 static HALF_TRUCK: LazyLock<Option<HalfTruck>> =
     LazyLock::new(|| HalfTruck::built_in("nucars_69_constant_toe_out", &Settings::default()).ok());
 
-/// A new instance.
+/// Returns a new instance.
 fn new_instance(place: usize) -> Option<Instance> {
     let (model, version, interface) = MODELS[place];
     let source = match model {
@@ -199,7 +199,7 @@ fn new_instance(place: usize) -> Option<Instance> {
     Instance::of("fuzz", None, source, version, interface).ok()
 }
 
-/// One that has begun.
+/// Returns an instance after its first steps.
 fn begun(place: usize) -> Option<Instance> {
     let mut instance = new_instance(place)?;
     instance.set_experiment(0.0, None, None).ok()?;
@@ -274,7 +274,7 @@ fn restore(mut instance: Instance, saved: &Saved) -> Outcome {
     all
 }
 
-/// A step, or what a solver of the caller's asks for.
+/// Makes a step, or the calls of an importer's solver.
 fn go_on(instance: &mut Instance) -> Result<(), String> {
     let text = |error: fmi::Error| error.to_string();
     let time = instance.time();

@@ -135,7 +135,7 @@ static SMALL: LazyLock<Option<Study>> = LazyLock::new(|| {
     Study::parse("study.toml", text, nowhere()).ok()
 });
 
-/// What its folder holds.
+/// Returns the manifest of its folder.
 fn manifest() -> Vec<u8> {
     let description = SMALL.as_ref().map(Study::description);
     serde_json::to_vec_pretty(&description).unwrap_or_default()
@@ -158,7 +158,7 @@ fn manifest_file(input: &[u8]) -> Outcome {
     }
 }
 
-/// A folder with points, and what it holds with a few.
+/// Returns a folder with points, and what it holds with a few.
 fn point_corpus() -> Vec<Vec<u8>> {
     let space = Space::default();
     let found = Found {

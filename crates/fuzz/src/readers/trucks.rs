@@ -272,10 +272,10 @@ fn measured(input: &[u8]) -> Outcome {
         }
         Ok(Outcome::ACCEPTED)
     };
-    let told = |error: wheelrail::track::MeasuredError| {
+    let refused = |error: wheelrail::track::MeasuredError| {
         Outcome::refused_with(&format!("{error}; {}", error.remedy()))
     };
-    read(true).or_else(|_| read(false)).unwrap_or_else(told)
+    read(true).or_else(|_| read(false)).unwrap_or_else(refused)
 }
 
 fn profile_corpus() -> Vec<Vec<u8>> {

@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 
-/// What members are replaced by.
+/// Returns the values that replace members.
 pub fn nasty_values() -> Vec<Value> {
     vec![
         json!(0),
@@ -32,7 +32,7 @@ fn nested(depth: usize) -> Value {
     (0..depth).fold(json!([]), |inner, _| json!([inner]))
 }
 
-/// The places of all members, as JSON pointers; of lists those of some entries.
+/// Returns the places of all members, as JSON pointers; of lists those of some entries.
 pub fn members(value: &Value) -> Vec<String> {
     let mut found = Vec::new();
     collect(value, "", &mut found);

@@ -178,7 +178,7 @@ pub fn hires() -> FunctionProblem<'static> {
 /// Reference speed of the friction of [`stick_slip`], m/s.
 pub const STICK_SLIP_SPEED: f64 = 1e-5;
 
-/// A mass of 1 kg under friction of 10 N on a spring of 2000 N/m whose end moves as 0.02 sin 5t.
+/// Returns a mass of 1 kg under friction of 10 N on a spring of 2000 N/m whose end moves as 0.02 sin 5t.
 pub fn stick_slip() -> FunctionProblem<'static> {
     FunctionProblem::new(
         vec![1.0, 1.0],
@@ -231,7 +231,7 @@ pub struct BouncingBall {
 }
 
 impl BouncingBall {
-    /// The discrete state is 1 in contact.
+    /// Returns the problem; its discrete state is 1 in contact.
     pub fn problem(self) -> FunctionProblem<'static> {
         let Self { gravity, omega, .. } = self;
         let stiffness = omega * omega;
@@ -292,8 +292,8 @@ impl BouncingBall {
 /// Reference speed of the friction of [`shaken`], m/s.
 pub const SHAKEN_SPEED: f64 = 1e-5;
 
-/// A mass shaken across a rough floor, `v' = 3 sin 5t - tanh(v/v0)`, and the energy lost. It reverses 12
-/// times in 8 s.
+/// Returns a mass shaken across a rough floor, `v' = 3 sin 5t - tanh(v/v0)`, and the energy lost. It reverses
+/// 12 times in 8 s.
 pub fn shaken() -> FunctionProblem<'static> {
     FunctionProblem::new(
         vec![1.0, 1.0],

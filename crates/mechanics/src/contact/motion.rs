@@ -84,7 +84,7 @@ impl PlaneMotion {
 impl FaceMotion for PlaneMotion {
     const CURVED: bool = false;
 
-    /// The gap rate only with contact damping.
+    /// Returns the contact kinematics, the gap rate with contact damping only.
     #[inline(always)]
     fn kinematics(&self, block: &PointBlock, _: Option<&mut Bend<Lanes>>) -> PointKinematics<Lanes> {
         let (position, damped) = (block.position, block.properties.damped);

@@ -57,7 +57,7 @@ pub(super) fn add_block(
 }
 
 impl FreeBody {
-    /// Where the row of a free coordinate stands in [`Rows`].
+    /// Returns the index of the row of a free coordinate in [`Rows`].
     #[inline(always)]
     pub(super) fn row(&self, index: usize) -> (usize, usize) {
         if index < self.translations {
@@ -387,7 +387,7 @@ impl Powers {
         }
     }
 
-    /// By coordinates and by rates, for the power with this number.
+    /// Returns the derivatives by coordinates and by rates of the power with this number.
     #[inline(always)]
     pub fn of(&self, power: usize) -> [&[f64; 6]; 2] {
         [&self.0[0][power], &self.0[1][power]]

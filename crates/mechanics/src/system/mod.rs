@@ -364,7 +364,8 @@ impl System {
 }
 
 impl Problem for System {
-    /// A discrete state is the contact mode of a point, or of a connection with friction.
+    /// Returns the structure; a discrete state is the contact state of a point, or of a connection with
+    /// friction.
     ///
     /// Event variables: gap (m) and load of each point: the gaps of a face's points, their loads, and so on
     /// face by face; then of each connection with friction what presses it (N) and the load of its

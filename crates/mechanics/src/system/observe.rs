@@ -129,7 +129,7 @@ pub struct Energies {
 }
 
 impl Energies {
-    /// All of it.
+    /// Returns all of it.
     #[must_use]
     pub fn total(&self) -> f64 {
         self.kinetic + self.gravity + self.coil + self.contact + self.bristle + self.spring + self.element

@@ -17,14 +17,14 @@ pub const LBF_PER_INCH: f64 = LBF / INCH;
 pub const LBF_INCH: f64 = LBF * INCH;
 pub const ALL: [bool; 6] = [true; 6];
 
-/// A curve from points in inches and pounds, mirrored if it begins at the origin.
+/// Returns a curve from points in inches and pounds, mirrored if it begins at the origin.
 pub fn curve(points: &[[f64; 2]]) -> Curve {
     let points = points.iter().map(|p| [p[0] * INCH, p[1] * LBF]).collect();
     Curve::mirrored_from_origin(points).unwrap()
 }
 
-/// A wedge with the published numbers: 32 degrees and 3000 lbf/in on the side frame, or 37.5 degrees and
-/// 3702.2 lbf in the bolster.
+/// Returns a wedge with the published numbers: 32 degrees and 3000 lbf/in on the side frame, or 37.5 degrees
+/// and 3702.2 lbf in the bolster.
 pub fn wedge(constant: bool, column: ColumnFace) -> Wedge {
     let plain = matches!(column, ColumnFace::Plain { .. });
     let (angle, coil, preload) = match (constant, plain) {
@@ -48,7 +48,7 @@ pub fn wedge(constant: bool, column: ColumnFace) -> Wedge {
     }
 }
 
-/// A straight column with this toe (degrees, positive out).
+/// Returns a straight column with this toe (degrees, positive out).
 pub fn straight(toe: f64, direction: f64) -> ColumnFace {
     ColumnFace::Profile {
         depth: Curve::linear(-f64::to_radians(toe).tan()),
@@ -76,7 +76,7 @@ pub const LEFT: usize = 1;
 pub const RIGHT: usize = 2;
 pub const GROUND: usize = 3;
 
-/// The half-truck; its bolster is moved up and down by an inch at 2 rad/s.
+/// Returns the half-truck; its bolster is moved up and down by an inch at 2 rad/s.
 pub fn model(constant: bool, spatial: bool) -> Model {
     let at = |x: f64, y: f64, z: f64| [x * INCH, y * INCH, z * INCH];
     let mass = LBF / INCH;

@@ -17,7 +17,7 @@ pub fn close(value: f64, expected: f64, tolerance: f64) {
     );
 }
 
-/// A column without profile.
+/// Returns a column without profile.
 pub fn plain(toe_out: bool) -> ColumnFace {
     ColumnFace::Plain { toe_out }
 }

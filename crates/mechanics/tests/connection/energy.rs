@@ -12,7 +12,7 @@ use mechanics::system::{EnergyTermKind, Model, System};
 use crate::half_truck::{self, ALL, INCH, LBF_PER_INCH, curve, straight, vertical, wedge};
 use crate::models::{connection, model, observation, run};
 
-/// The ledger's residual over the work done by the inputs (in and out), and the run's end.
+/// Returns the ledger's residual over the work done by the inputs (in and out), and the run's end.
 fn residual(system: &System, tolerance: f64, end: f64) -> (f64, mechanics::system::Observation) {
     let x = system.initial_state();
     let start = system.clone().observe(0.0, &x).energies.total();
@@ -22,7 +22,8 @@ fn residual(system: &System, tolerance: f64, end: f64) -> (f64, mechanics::syste
     (observation.residual(start) / size, observation)
 }
 
-/// A body on springs and two wedges with a toe, excited through a spring; bearings with friction below.
+/// Returns a body on springs and two wedges with a toe, excited through a spring; bearings with friction
+/// below.
 fn body_on_wedges(constant: bool, toe: f64, options: Options) -> Model {
     let motion = Motion::Sine {
         amplitude: INCH,

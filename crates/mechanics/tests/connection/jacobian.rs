@@ -19,8 +19,8 @@ fn norm(v: &[f64]) -> f64 {
     v.iter().fold(0.0, |m, v| m.max(v.abs()))
 }
 
-/// Two bodies (one of them not free in all coordinates), one that moves, the ground, and every law between
-/// them, in numbers near one.
+/// Returns two bodies (one of them not free in all coordinates), one that moves, the ground, and every law
+/// between them, in numbers near one.
 fn everything(options: Options, accumulator: Accumulator) -> Model {
     let mut motions: [Motion; 6] = std::array::from_fn(|k| Motion::Sine {
         amplitude: 0.1 + 0.02 * k as f64,
@@ -99,7 +99,8 @@ fn everything(options: Options, accumulator: Accumulator) -> Model {
     model
 }
 
-/// What must not change within a difference: on which piece every law is. Second differences find a kink.
+/// Returns the smooth branch that every law is on, which must not change within a difference. Second
+/// differences find a kink.
 fn kinked(column: &[[f64; 5]], h: f64) -> bool {
     column.iter().any(|values| {
         let size = norm(values).max(1.0);
@@ -112,7 +113,7 @@ fn kinked(column: &[[f64; 5]], h: f64) -> bool {
     })
 }
 
-/// The derivative of all rates by one argument, by a formula of fourth order; none at a kink.
+/// Returns the derivative of all rates by one argument, by a formula of fourth order; none at a kink.
 fn difference(h: f64, mut f: impl FnMut(f64) -> Vec<f64>) -> Option<Vec<f64>> {
     let samples = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| f(k * h));
     let n = samples[0].len();

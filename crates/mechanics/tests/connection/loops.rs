@@ -11,7 +11,8 @@ use crate::analytic::{close, plain};
 use crate::half_truck::{INCH, LBF_INCH, LBF_PER_INCH, straight, wedge};
 use crate::models::{observation, prescribed, run, wedge_at};
 
-/// One cycle of an inch up and down, the element alone: work of the motion, and the column's share, lbf·in.
+/// Returns the energy of one cycle of an inch up and down, the element alone: work of the motion, and the
+/// column's share, lbf·in.
 fn loop_energy(law: Wedge, tolerance: f64) -> [f64; 2] {
     let omega = 2.0;
     let motion = Motion::Sine {
@@ -41,7 +42,7 @@ fn loop_energy(law: Wedge, tolerance: f64) -> [f64; 2] {
     [0, 1].map(|k| (b[k] - a[k]) / LBF_INCH)
 }
 
-/// A wedge whose accumulator hardly deflects and hardly damps.
+/// Returns a wedge whose accumulator hardly deflects and hardly damps.
 fn rigid(constant: bool, column: ColumnFace) -> Wedge {
     let mut law = wedge(constant, column);
     law.accumulator = Accumulator::Bristle {

@@ -30,7 +30,7 @@ fn curve(points: &[[f64; 2]]) -> Curve {
     Curve::mirrored_from_origin(points.to_vec()).unwrap()
 }
 
-/// One law of each kind, in numbers near one.
+/// Returns one law of each kind, in numbers near one.
 fn laws(accumulator: Accumulator) -> Vec<Law> {
     let spring = SpringDamper {
         spring: Some(curve(&[[0.0, 0.0], [0.3, 20.0], [0.5, 90.0]])),
@@ -76,7 +76,7 @@ fn wedge(accumulator: Accumulator) -> Wedge {
     }
 }
 
-/// A marker on a body at a point of the layout, along the fixed axes.
+/// Returns a marker on a body at a point of the layout, along the fixed axes.
 fn marker(body: &Body, point: [f64; 3]) -> Marker {
     let axes = fixed(body.frame.orientation).transpose();
     let arm = Vector(point) - Vector(body.frame.origin);
@@ -93,7 +93,7 @@ fn between(bodies: &[Body], [a, b]: [usize; 2], point: [f64; 3], law: Law) -> Co
     }
 }
 
-/// A body whose reference frame is turned, not free in all coordinates.
+/// Returns a body whose reference frame is turned, not free in all coordinates.
 fn turned(name: &str, origin: [f64; 3], orientation: [f64; 3], mass: f64, free: [bool; 6]) -> Body {
     Body {
         frame: Frame::fixed(origin, orientation),
@@ -147,8 +147,8 @@ fn analytic_derivatives_agree_with_differences_at_large_angles() {
     }
 }
 
-/// A body with frames as those of a car's bodies: axes forward, up, right, so that the heading is the first
-/// angle.
+/// Returns a body with frames as those of a car's bodies: axes forward, up, right, so that the heading is the
+/// first angle.
 fn pair() -> (Vec<Body>, Vec<Connection>) {
     let upright = [FRAC_PI_2, 0.0, 0.0];
     let bodies = vec![

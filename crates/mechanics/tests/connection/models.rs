@@ -28,12 +28,12 @@ pub fn model(bodies: Vec<Body>, connections: Vec<Connection>) -> Model {
     }
 }
 
-/// A spring on one coordinate.
+/// Returns a spring on one coordinate.
 pub fn one(coordinate: usize, law: SpringDamper) -> Law {
     Law::Springs(vec![(coordinate, law)])
 }
 
-/// One law between a free unit body (A) and the ground (B), at the body's center.
+/// Returns one law between a free unit body (A) and the ground (B), at the body's center.
 pub fn against_ground(law: Law, options: Options) -> System {
     let body = Body::linearized("body", [0.0; 3], ALL, 1.0, [1.0; 3]);
     let mut model = model(vec![body, Body::ground()], vec![connection(0, 1, [0.0; 3], law)]);
@@ -41,7 +41,7 @@ pub fn against_ground(law: Law, options: Options) -> System {
     System::new(model).unwrap()
 }
 
-/// What a law does at displacements and velocities of its body A (x, y, z).
+/// Returns the forces of a law at displacements and velocities of its body A (x, y, z).
 pub fn at(system: &mut System, position: [f64; 3], velocity: [f64; 3]) -> Observation {
     at_deflection(system, position, velocity, [0.0; 2])
 }
@@ -69,7 +69,7 @@ pub fn wedge_at(wedge: &Wedge, options: &Options, z: f64, velocity: f64) -> Wedg
         .unwrap()
 }
 
-/// A law between a body that is moved up and down (A) and one so heavy that it stays (B).
+/// Returns a law between a body that is moved up and down (A) and one so heavy that it stays (B).
 pub fn prescribed(law: Law, motion: Motion) -> System {
     let mover = Body::linearized_prescribed("mover", [0.0; 3], vertical(motion));
     let heavy = Body::linearized(
@@ -96,13 +96,13 @@ pub fn run(system: &System, method: Method, tolerance: f64, x: &[f64], end: f64)
     integrator
 }
 
-/// What is seen at the end of a run.
+/// Returns the observation at the end of a run.
 pub fn observation(integrator: &Integrator<System>) -> Observation {
     let mut twin = integrator.problem().clone();
     twin.observe(integrator.time(), integrator.x())
 }
 
-/// The right-hand side.
+/// Returns the right-hand side.
 pub fn rates(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
     let mut dx = vec![0.0; x.len()];
     system.derivative(time, x, &mut dx);

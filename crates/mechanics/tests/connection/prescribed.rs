@@ -22,7 +22,7 @@ fn sine() -> Motion {
     }
 }
 
-/// A body on a spring with a damper, on a body that moves up and down.
+/// Returns a body on a spring with a damper, on a body that moves up and down.
 fn on_a_mover(motion: Motion) -> Model {
     let bodies = vec![
         Body::linearized("body", [0.0; 3], ALL, 100.0, [10.0; 3]),

@@ -22,7 +22,7 @@ pub struct Balance {
     pub carried: f64,
 }
 
-/// The balance of all bodies with a vertical degree of freedom.
+/// Returns the balance of all bodies with a vertical degree of freedom.
 pub fn vertical_balance(file: &SystemFile) -> Vec<Balance> {
     let functions: HashMap<u32, &PiecewiseLinear> = file
         .piecewise_linear
@@ -57,8 +57,8 @@ pub fn vertical_balance(file: &SystemFile) -> Vec<Balance> {
         .collect()
 }
 
-/// The vertical force with which a connection draws A down and B up at stroke 0; what pushes them apart is
-/// negative.
+/// Returns the vertical force with which a connection draws A down and B up at stroke 0; what pushes them
+/// apart is negative.
 fn pull(element: &Element, laws: &HashMap<u32, &Law>, functions: &HashMap<u32, &PiecewiseLinear>) -> f64 {
     let at_rest = |function: u32| {
         functions

@@ -114,7 +114,7 @@ impl<'a> Known<'a> {
         }
     }
 
-    /// The degrees of freedom of this line that are not there.
+    /// Returns the degrees of freedom of this line that are not there.
     fn missing<'b>(&self, line: &'b BodyDofs) -> Vec<&'b Spanned<Dof>> {
         let coordinates = self.bodies.get(&*line.body);
         line.dofs
@@ -148,7 +148,7 @@ impl<'a> Known<'a> {
         }
     }
 
-    /// The direction of a component, if it is there.
+    /// Returns the direction of a component, if it is there.
     fn component(&self, component: Spanned<Component>, findings: &mut Findings) -> Option<Dof> {
         if self.system.lost.connections || findings.is_full() {
             return None;

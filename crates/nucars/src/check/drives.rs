@@ -36,7 +36,7 @@ struct Spring<'a> {
     place: Span,
 }
 
-/// All turns that are commanded through springs, by body and axis.
+/// Returns all turns that are commanded through springs, by body and axis.
 pub fn drives(file: &SystemFile) -> Vec<Drive> {
     let inputs: HashSet<u32> = file.input_bodies.iter().map(|body| *body.id).collect();
     let functions: HashMap<u32, &PiecewiseLinear> = file
@@ -99,7 +99,7 @@ pub fn drives(file: &SystemFile) -> Vec<Drive> {
     found
 }
 
-/// The displacements that oppose a turn, each with the coordinate that is its lever.
+/// Returns the displacements that oppose a turn, each with the coordinate that is its lever.
 fn levers(axis: DofKind) -> [(DofKind, usize); 2] {
     match axis {
         DofKind::Roll => [(DofKind::Y, 2), (DofKind::Z, 1)],

@@ -67,7 +67,7 @@ fn repeated<K: Copy + Eq + Hash + std::fmt::Display>(
     }
 }
 
-/// The first numbers of a list, for messages.
+/// Returns the first numbers of a list, for messages.
 fn some_of(numbers: impl Iterator<Item = u32>) -> String {
     const MOST: usize = 20;
     let mut numbers: Vec<u32> = numbers.collect();
@@ -83,7 +83,7 @@ fn some_of(numbers: impl Iterator<Item = u32>) -> String {
     if more { list + ", ..." } else { list }
 }
 
-/// A number as in a table: four to six digits.
+/// Returns a number as in a table: four to six digits.
 pub(crate) fn shown(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 {

@@ -93,7 +93,7 @@ pub fn run_with_input(read: &Read<RunFile>, input: &InputFile) -> Findings {
 }
 
 impl RunFile {
-    /// The name it gives to its file of this kind.
+    /// Returns the name it gives to its file of this kind.
     pub fn names(&self, kind: FileKind) -> Option<&Spanned<String>> {
         match kind {
             FileKind::System => self.system.as_ref(),
@@ -104,7 +104,7 @@ impl RunFile {
     }
 }
 
-/// The mistake of a run that names a file which is not there; `option` names it instead.
+/// Returns the mistake of a run that names a file which is not there; `option` names it instead.
 pub fn run_without_file(read: &Read<RunFile>, kind: FileKind, missing: &NotFound, option: &str) -> Findings {
     let mut findings = Findings::new(&read.source);
     if let Some(name) = read.tree.names(kind) {

@@ -155,7 +155,7 @@ fn disagrees(findings: &mut Findings, count: Spanned<u32>, found: usize, what: &
     findings.add(Severity::Error, "count", count.span, message, dress);
 }
 
-/// Whether the next line begins with a number.
+/// Returns whether the next line begins with a number.
 fn begins_number(fields: &Fields<'_, '_>) -> bool {
     let token = fields.cursor.peek();
     token.is_some_and(|token| token.kind == TokenKind::Word && number::real(fields.text_of(token)).is_some())

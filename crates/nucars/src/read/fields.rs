@@ -57,7 +57,7 @@ impl<'a, 'f> Fields<'a, 'f> {
         }
     }
 
-    /// The whole file.
+    /// Returns the whole file.
     pub fn text(&self) -> &'a str {
         self.text
     }
@@ -71,7 +71,7 @@ impl<'a, 'f> Fields<'a, 'f> {
         self.end = span;
     }
 
-    /// The line of a byte, from 1.
+    /// Returns the line of a byte, from 1.
     pub fn cursor_line(&self, byte: u32) -> usize {
         self.findings.source().line_and_column(byte).0
     }
@@ -95,7 +95,7 @@ impl<'a, 'f> Fields<'a, 'f> {
         self.id = Some(id);
     }
 
-    /// What the record is called in messages.
+    /// Returns the record's name in messages.
     fn name(&self) -> String {
         match (self.id, self.index) {
             (Some(id), _) => format!("{} {id}", self.record),
@@ -109,12 +109,12 @@ impl<'a, 'f> Fields<'a, 'f> {
         self.lacking = self.lacking.saturating_add(values as usize);
     }
 
-    /// From the first value of the record to the last.
+    /// Returns the span from the first value of the record to the last.
     pub fn span(&self) -> Span {
         self.start.unwrap_or(self.end).to(self.end)
     }
 
-    /// Whether a value of the record was wrong and stands for another.
+    /// Returns whether a value of the record was wrong and stands for another.
     pub fn is_bad(&self) -> bool {
         self.bad
     }
@@ -124,7 +124,7 @@ impl<'a, 'f> Fields<'a, 'f> {
         self.findings.add(Severity::Error, code, span, message, dress);
     }
 
-    /// The token that is the next value.
+    /// Returns the token that is the next value.
     fn take(&mut self, what: &str) -> Result<Token, Stop> {
         self.ahead = self.cursor;
         let Some(token) = self.ahead.next() else {
@@ -185,8 +185,8 @@ impl<'a, 'f> Fields<'a, 'f> {
         self.lacking = self.lacking.saturating_sub(1);
     }
 
-    /// The next value as `read` understands it. A word it does not understand is a mistake and stands for
-    /// `instead`; a quoted text ends the record.
+    /// Returns the next value as `read` understands it. A word it does not understand is a mistake and stands
+    /// for `instead`; a quoted text ends the record.
     fn value<T>(
         &mut self,
         what: &str,
@@ -239,17 +239,17 @@ impl<'a, 'f> Fields<'a, 'f> {
         }
     }
 
-    /// A number.
+    /// Returns a number.
     pub fn number(&mut self, what: &str) -> Result<Spanned<f64>, Stop> {
         self.value(what, "a number such as 12, 1.5, 1.0E6 or 1.D0", 0.0, number::real)
     }
 
-    /// A whole number.
+    /// Returns a whole number.
     pub fn whole(&mut self, what: &str) -> Result<Spanned<u32>, Stop> {
         self.value(what, "a whole number such as 12", 0, number::whole)
     }
 
-    /// A whole number that must be understood, because others depend on it.
+    /// Returns a whole number that must be understood, because others depend on it.
     pub fn key(&mut self, what: &str) -> Result<Spanned<u32>, Stop> {
         let was_bad = std::mem::replace(&mut self.bad, false);
         let value = self.whole(what)?;
@@ -260,12 +260,12 @@ impl<'a, 'f> Fields<'a, 'f> {
         Ok(value)
     }
 
-    /// A truth value.
+    /// Returns a truth value.
     pub fn logical(&mut self, what: &str) -> Result<Spanned<bool>, Stop> {
         self.value(what, "`.T.` or `.F.`", false, number::logical)
     }
 
-    /// A degree of freedom.
+    /// Returns a degree of freedom.
     pub fn dof(&mut self, what: &str) -> Result<Spanned<Dof>, Stop> {
         self.value(
             what,
@@ -296,7 +296,7 @@ impl<'a, 'f> Fields<'a, 'f> {
         ])
     }
 
-    /// A text in quotation marks.
+    /// Returns a text in quotation marks.
     pub fn quoted(&mut self, what: &str) -> Result<Spanned<String>, Stop> {
         let token = self.take(what)?;
         let text = self.text_of(token);
@@ -343,7 +343,7 @@ impl<'a, 'f> Fields<'a, 'f> {
         }
     }
 
-    /// What is left of the record's last line: numbers there are a mistake or superfluous, words are a
+    /// Reads the rest of the record's last line: numbers there are a mistake or superfluous, words are a
     /// remark.
     pub fn end_of_record(&mut self, severity: Severity, help: &str) -> bool {
         let Some(token) = self.cursor.peek().filter(|token| !token.begins_line) else {
@@ -382,7 +382,7 @@ impl<'a, 'f> Fields<'a, 'f> {
     }
 }
 
-/// The beginning of a text, for messages.
+/// Returns the beginning of a text, for messages.
 pub fn short(text: &str) -> String {
     const LONGEST: usize = 40;
     let mut letters = text
@@ -396,7 +396,7 @@ pub fn short(text: &str) -> String {
     }
 }
 
-/// A line such as `12 'name' ...`.
+/// Returns true for a line such as `12 'name' ...`.
 pub fn begins_named(cursor: &mut Cursor<'_>, text: &str) -> bool {
     let number = cursor
         .next()
@@ -407,7 +407,8 @@ pub fn begins_named(cursor: &mut Cursor<'_>, text: &str) -> bool {
             .is_some_and(|token| token.kind == TokenKind::Quoted)
 }
 
-/// A line such as `12 3 ...`, with at least `least` values, the first two whole numbers from 1 on.
+/// Returns true for a line such as `12 3 ...`, with at least `least` values, the first two whole numbers from
+/// 1 on.
 pub fn begins_numbered(cursor: &mut Cursor<'_>, text: &str, least: usize) -> bool {
     let enough = cursor.tokens_in_line(least) >= least;
     let whole = |token: Option<Token>| {

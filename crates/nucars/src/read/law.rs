@@ -33,7 +33,7 @@ impl Form {
         }
     }
 
-    /// How many values follow the number.
+    /// Returns the number of values that follow the record's number.
     fn values(self) -> usize {
         match self {
             Form::Limits | Form::Gap => 4,
@@ -45,7 +45,7 @@ impl Form {
     }
 }
 
-/// The form of each characteristic that is used, by the greater number of uses.
+/// Returns the form of each characteristic that is used, by the greater number of uses.
 pub fn forms(connections: &[Connection]) -> HashMap<u32, Form> {
     let mut uses: HashMap<u32, Vec<(Form, u32)>> = HashMap::new();
     for connection in connections {
@@ -71,7 +71,7 @@ pub fn forms(connections: &[Connection]) -> HashMap<u32, Form> {
         .collect()
 }
 
-/// A record of `\CHARACTERISTIC DATA`.
+/// Returns a record of `\CHARACTERISTIC DATA`.
 pub fn characteristic(
     fields: &mut Fields<'_, '_>,
     forms: &HashMap<u32, Form>,
@@ -176,7 +176,7 @@ fn law(fields: &mut Fields<'_, '_>, form: Form) -> Result<Law, Stop> {
     })
 }
 
-/// The rest of the line of a characteristic that no connection uses.
+/// Returns the rest of the line of a characteristic that no connection uses.
 fn unused(fields: &mut Fields<'_, '_>) -> Law {
     let mut values = Vec::new();
     while let Some(token) = fields.cursor.peek().filter(|token| !token.begins_line) {
@@ -192,14 +192,14 @@ fn unused(fields: &mut Fields<'_, '_>) -> Law {
     Law::Unused { values }
 }
 
-/// A record of `\PWL DATA`.
+/// Returns a record of `\PWL DATA`.
 pub fn piecewise_linear(fields: &mut Fields<'_, '_>) -> Result<PiecewiseLinear, Stop> {
     fields.begin("function", 0, 2);
     let id = fields.key("number")?;
     fields.identify(*id);
     let count = fields.key("number of points")?;
     let points = *count;
-    // The wrong count is told from the missing values by `Wrap::Counted`.
+    // The wrong count is distinguished from missing values by `Wrap::Counted`.
     fields.expect_more(points.saturating_mul(2));
     // A file can claim any number of points.
     let room = (points as usize).min(4096).min(fields.cursor.remaining());

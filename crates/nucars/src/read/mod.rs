@@ -1,6 +1,6 @@
 //! Reading files into trees.
 //!
-//! Reading is lenient: a mistake costs its record at most, and the rest is read; all mistakes are told, each
+//! Reading is lenient: a mistake costs its record at most, and the rest is read; all mistakes are reported, each
 //! at its place. [`Read::strict`] gives the tree only if there are none.
 
 mod data;
@@ -35,7 +35,7 @@ pub struct Read<T> {
 }
 
 impl<T> Read<T> {
-    /// The tree, if the file was read without errors.
+    /// Returns the tree, if the file was read without errors.
     ///
     /// # Errors
     /// All errors of the file.
@@ -64,7 +64,7 @@ impl FileKind {
     /// All of them.
     pub const ALL: [FileKind; 4] = [FileKind::System, FileKind::Input, FileKind::Data, FileKind::Run];
 
-    /// Its ending, in capitals.
+    /// Returns its ending, in capitals.
     pub fn ending(self) -> &'static str {
         match self {
             FileKind::System => "SYS",
@@ -74,7 +74,7 @@ impl FileKind {
         }
     }
 
-    /// Its sections, without `\`.
+    /// Returns its sections, without `\`.
     pub fn keywords(self) -> &'static [&'static str] {
         match self {
             FileKind::System => system::KEYWORDS,
@@ -84,7 +84,7 @@ impl FileKind {
         }
     }
 
-    /// The kind by the ending of the name, or else by the first section that belongs to one kind.
+    /// Returns the kind by the ending of the name, or else by the first section that belongs to one kind.
     pub fn of(source: &SourceText) -> Option<Self> {
         let ending = source.name().rsplit_once('.').map_or("", |(_, ending)| ending);
         let by_name = FileKind::ALL

@@ -62,8 +62,8 @@ pub fn split(source: &SourceText) -> Vec<Section> {
     sections
 }
 
-/// The keyword whose `\` is at `start`, and where its section begins: at a value in its line, or with the
-/// next line.
+/// Returns the keyword whose `\` is at `start`, and where its section begins: at a value in its line, or with
+/// the next line.
 fn keyword(text: &str, start: usize, end: usize) -> (Spanned<String>, usize) {
     let line = &text[start + 1..end];
     let values = |(_, letter): &(usize, char)| matches!(letter, '\'' | '"' | '0'..='9' | '+' | '.' | '!');
@@ -83,7 +83,7 @@ fn keyword(text: &str, start: usize, end: usize) -> (Spanned<String>, usize) {
     (Spanned::new(words.join(" "), Span::new(start, shown_end)), body)
 }
 
-/// The first section with this keyword that is not switched off; others with it are mistakes.
+/// Returns the first section with this keyword that is not switched off; others with it are mistakes.
 pub fn only<'a>(sections: &'a [Section], keyword: &str, findings: &mut Findings) -> Option<&'a Section> {
     let mut found = sections
         .iter()
@@ -100,7 +100,7 @@ pub fn only<'a>(sections: &'a [Section], keyword: &str, findings: &mut Findings)
     first
 }
 
-/// The first section with this keyword, which the file must have.
+/// Returns the first section with this keyword, which the file must have.
 pub fn required<'a>(
     sections: &'a [Section],
     keyword: &str,
@@ -226,7 +226,7 @@ pub fn look_for_hidden(source: &SourceText, sections: &[Section], kind: FileKind
     }
 }
 
-/// The lines of a piece without comments and blank ones.
+/// Returns the lines of a piece without comments and blank ones.
 pub fn lines(source: &SourceText, span: Span) -> Vec<Spanned<String>> {
     let mut at = span.start as usize;
     let mut found = Vec::new();
@@ -241,7 +241,7 @@ pub fn lines(source: &SourceText, span: Span) -> Vec<Spanned<String>> {
     found
 }
 
-/// The title section: its first line is the title, the others are notes.
+/// Returns the title section: its first line is the title, the others are notes.
 pub fn title(sections: &[Section], keyword: &str, source: &SourceText, findings: &mut Findings) -> Title {
     let Some(section) = only(sections, keyword, findings) else {
         if sections.is_empty() {

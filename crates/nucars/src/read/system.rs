@@ -85,7 +85,7 @@ pub fn read_system(source: &Arc<SourceText>) -> Read<SystemFile> {
     }
 }
 
-/// A count and so many records that begin with a number and a name; whether one was lost.
+/// Returns a count and so many records that begin with a number and a name; whether one was lost.
 fn counted<T>(
     mut fields: Fields<'_, '_>,
     one: &'static str,
@@ -173,7 +173,7 @@ fn counted<T>(
     (list, lost)
 }
 
-/// Whether what begins here is meant to be a record: a number, or a text in quotation marks.
+/// Returns whether what begins here is meant to be a record: a number, or a text in quotation marks.
 fn begins_like_a_record(fields: &Fields<'_, '_>, at: u32) -> bool {
     let rest = fields.text().get(at as usize..).unwrap_or("");
     rest.starts_with(|letter: char| letter.is_ascii_digit() || letter == '\'')

@@ -16,7 +16,7 @@ pub struct DataFile {
 }
 
 impl DataFile {
-    /// What is asked for and not switched off.
+    /// Returns the requests that are not switched off.
     pub fn active(&self) -> impl Iterator<Item = &DataSection> {
         self.sections.iter().filter(|section| !section.off)
     }
@@ -75,7 +75,7 @@ pub enum DataRequest {
 }
 
 impl DataRequest {
-    /// The keyword without `\`.
+    /// Returns the keyword without `\`.
     pub fn keyword(&self) -> &'static str {
         match self {
             DataRequest::Equilibrium => "EQUILIBRIUM",
@@ -107,7 +107,7 @@ pub enum DofQuantity {
 }
 
 impl DofQuantity {
-    /// The section's keyword without `\`.
+    /// Returns the section's keyword without `\`.
     pub fn keyword(self) -> &'static str {
         match self {
             DofQuantity::Displacement => "DOF DISPLACEMENT",
@@ -130,7 +130,7 @@ pub enum ElementQuantity {
 }
 
 impl ElementQuantity {
-    /// The section's keyword without `\`.
+    /// Returns the section's keyword without `\`.
     pub fn keyword(self) -> &'static str {
         match self {
             ElementQuantity::Force => "CONNECTION FORCE",
@@ -187,7 +187,7 @@ pub enum Terms {
 }
 
 impl Terms {
-    /// The kind as in the file.
+    /// Returns the kind as in the file.
     pub fn kind(&self) -> u32 {
         match self {
             Terms::Components(_) => 1,

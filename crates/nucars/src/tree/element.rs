@@ -195,7 +195,7 @@ pub enum Value {
 }
 
 impl Law {
-    /// Whether a connection of this type can use it.
+    /// Returns whether a connection of this type can use it.
     pub fn serves(&self, element: &Element) -> bool {
         match self {
             Law::Limits { .. } => {
@@ -214,7 +214,7 @@ impl Law {
         }
     }
 
-    /// The types of connections that can use it, as in the file.
+    /// Returns the types of connections that can use it, as in the file.
     pub fn types(&self) -> &'static str {
         match self {
             Law::Limits { .. } => "1, 1.1 or 1.3",
@@ -228,7 +228,7 @@ impl Law {
         }
     }
 
-    /// The piecewise linear functions it uses, without zeros.
+    /// Returns the piecewise linear functions it uses, without zeros.
     pub fn functions(&self) -> impl Iterator<Item = Spanned<u32>> {
         let pair = match self {
             Law::Limits {

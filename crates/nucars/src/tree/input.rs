@@ -16,7 +16,7 @@ pub struct InputFile {
 }
 
 impl InputFile {
-    /// The history with this number.
+    /// Returns the history with this number.
     pub fn history(&self, number: u32) -> Option<&History> {
         self.histories.iter().find(|history| *history.number == number)
     }
@@ -63,17 +63,17 @@ impl Shape {
     /// All of them, by their codes 0 to 4.
     pub const ALL: [Shape; 5] = [Shape::Null, Shape::Cusp, Shape::Bend, Shape::Sin, Shape::Ssin];
 
-    /// The shape with this code.
+    /// Returns the shape with this code.
     pub fn from_code(code: u32) -> Option<Self> {
         Shape::ALL.get(usize::try_from(code).ok()?).copied()
     }
 
-    /// Its code.
+    /// Returns its code.
     pub fn code(self) -> u32 {
         self as u32
     }
 
-    /// Its name.
+    /// Returns its name.
     pub fn name(self) -> &'static str {
         ["NULL", "CUSP", "BEND", "SIN", "SSIN"][self as usize]
     }

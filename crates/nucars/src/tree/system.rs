@@ -36,29 +36,29 @@ pub(crate) struct Lost {
 }
 
 impl SystemFile {
-    /// The body with this number; the first one if there are several.
+    /// Returns the body with this number; the first one if there are several.
     pub fn body(&self, id: u32) -> Option<&Body> {
         self.bodies.iter().find(|body| *body.id == id)
     }
 
-    /// The input body with this number.
+    /// Returns the input body with this number.
     pub fn input_body(&self, id: u32) -> Option<&InputBody> {
         self.input_bodies.iter().find(|body| *body.id == id)
     }
 
-    /// The connection with this number.
+    /// Returns the connection with this number.
     pub fn connection(&self, id: u32) -> Option<&Connection> {
         self.connections.iter().find(|connection| *connection.id == id)
     }
 
-    /// The characteristic with this number.
+    /// Returns the characteristic with this number.
     pub fn characteristic(&self, id: u32) -> Option<&Characteristic> {
         self.characteristics
             .iter()
             .find(|characteristic| *characteristic.id == id)
     }
 
-    /// The piecewise linear function with this number.
+    /// Returns the piecewise linear function with this number.
     pub fn function(&self, id: u32) -> Option<&PiecewiseLinear> {
         self.piecewise_linear.iter().find(|function| *function.id == id)
     }
@@ -101,33 +101,33 @@ impl DofKind {
         DofKind::FlexZ,
     ];
 
-    /// The kind with this code, 1 to 9.
+    /// Returns the kind with this code, 1 to 9.
     pub fn from_code(code: u32) -> Option<Self> {
         let index = usize::try_from(code).ok()?.checked_sub(1)?;
         DofKind::ALL.get(index).copied()
     }
 
-    /// Its code, 1 to 9.
+    /// Returns its code, 1 to 9.
     pub fn code(self) -> u32 {
         self as u32 + 1
     }
 
-    /// Its short name.
+    /// Returns its short name.
     pub fn name(self) -> &'static str {
         ["x", "y", "z", "roll", "pitch", "yaw", "eps x", "eps y", "eps z"][self as usize]
     }
 
-    /// A displacement in x, y or z; the others are turns or modes.
+    /// Returns true for a displacement in x, y or z; the others are rotations or modes.
     pub fn is_translation(self) -> bool {
         self <= DofKind::Z
     }
 
-    /// A turn about x, y or z.
+    /// Returns true for a rotation about x, y or z.
     pub fn is_rotation(self) -> bool {
         (DofKind::Roll..=DofKind::Yaw).contains(&self)
     }
 
-    /// A mode of a flexible body.
+    /// Returns true for a mode of a flexible body.
     pub fn is_flexible(self) -> bool {
         self >= DofKind::FlexX
     }
@@ -149,7 +149,7 @@ impl From<DofKind> for Dof {
 }
 
 impl fmt::Display for Dof {
-    /// As in the file.
+    /// Writes the value as in the file.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.mode {
             0 => write!(out, "{}", self.kind.code()),
@@ -241,7 +241,7 @@ pub enum Element {
 }
 
 impl Element {
-    /// The type as in the file.
+    /// Returns the type as in the file.
     pub fn code(&self) -> &'static str {
         match self {
             Element::Parallel(_) => "1",
@@ -256,7 +256,7 @@ impl Element {
         }
     }
 
-    /// What it is.
+    /// Returns the name of the type.
     pub fn name(&self) -> &'static str {
         match self {
             Element::Parallel(_) => "spring and damper",
@@ -271,7 +271,7 @@ impl Element {
         }
     }
 
-    /// Its directions in the order of the file: component `.1` is the first.
+    /// Returns its directions in the order of the file: component `.1` is the first.
     pub fn dofs(&self) -> &[Spanned<Dof>] {
         match self {
             Element::Parallel(element) | Element::Gap(element) => std::slice::from_ref(&element.dof),
@@ -283,7 +283,7 @@ impl Element {
         }
     }
 
-    /// Its characteristics: one for each direction (types 1, 1.1, 1.2, 1.3), or one for all.
+    /// Returns its characteristics: one for each direction (types 1, 1.1, 1.2, 1.3), or one for all.
     pub fn characteristics(&self) -> &[Spanned<u32>] {
         match self {
             Element::Parallel(element) | Element::Gap(element) => {
@@ -314,21 +314,21 @@ pub struct PiecewiseLinear {
 }
 
 impl PiecewiseLinear {
-    /// Whether it is mirrored, f(-s) = -f(s): its first point is (0, 0). A first abscissa of 0 alone does not
-    /// do it.
+    /// Returns whether it is mirrored, f(-s) = -f(s): its first point is (0, 0). A first abscissa of 0 alone
+    /// does not do it.
     pub fn is_mirrored(&self) -> bool {
         let zero = |list: &[Spanned<f64>]| list.first().is_some_and(|first| **first == 0.0);
         zero(&self.ordinates) && zero(&self.abscissae)
     }
 
-    /// The points (abscissa, ordinate).
+    /// Returns the points (abscissa, ordinate).
     pub fn points(&self) -> impl DoubleEndedIterator<Item = (f64, f64)> + ExactSizeIterator + '_ {
         let pairs = self.abscissae.iter().zip(&self.ordinates);
         pairs.map(|(abscissa, ordinate)| (**abscissa, **ordinate))
     }
 
-    /// The value at an argument: linear between the points, the outermost slopes go on outside, mirrored if
-    /// [`is_mirrored`](Self::is_mirrored). 0 without points; a single point is a constant.
+    /// Returns the value at an argument: linear between the points, the outermost slopes go on outside,
+    /// mirrored if [`is_mirrored`](Self::is_mirrored). 0 without points; a single point is a constant.
     pub fn value(&self, at: f64) -> f64 {
         if at < 0.0 && self.is_mirrored() {
             return -self.value(-at);
@@ -346,7 +346,7 @@ impl PiecewiseLinear {
         y + self.slope_between(low, high) * (at - x)
     }
 
-    /// The slope right of an argument. 0 where there is none.
+    /// Returns the slope right of an argument. 0 where there is none.
     pub fn slope(&self, at: f64) -> f64 {
         if at < 0.0 && self.is_mirrored() {
             return self.slope(-at);

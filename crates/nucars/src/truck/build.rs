@@ -81,10 +81,10 @@ pub struct Truck {
 }
 
 impl Truck {
-    /// The model of a system file; without an input file its input bodies rest.
+    /// Returns the model of a system file; without an input file its input bodies rest.
     ///
     /// # Errors
-    /// [`BuildError`]: what a check of the files would have told with its place.
+    /// [`BuildError`]: an error that a check of the files would have reported with its place.
     pub fn new(
         system: &SystemFile,
         input: Option<&InputFile>,
@@ -145,13 +145,13 @@ impl Truck {
         })
     }
 
-    /// The place in the model of the body with this number in the file.
+    /// Returns the place in the model of the body with this number in the file.
     #[must_use]
     pub fn body(&self, number: u32) -> Option<usize> {
         self.bodies.iter().position(|body| *body == number)
     }
 
-    /// The place in the model of the connection with this number in the file.
+    /// Returns the place in the model of the connection with this number in the file.
     #[must_use]
     pub fn connection(&self, number: u32) -> Option<usize> {
         self.connections
@@ -159,7 +159,7 @@ impl Truck {
             .position(|connection| *connection == number)
     }
 
-    /// The places of the friction wedges in the model.
+    /// Returns the places of the friction wedges in the model.
     pub fn wedges(&self) -> impl Iterator<Item = usize> + '_ {
         let all = self.model.connections.iter().enumerate();
         all.filter_map(|(place, connection)| matches!(connection.law, Law::Wedge(_)).then_some(place))
@@ -170,7 +170,7 @@ fn point(position: &[Spanned<f64>; 3]) -> [f64; 3] {
     [0, 1, 2].map(|k| *position[k] * INCH)
 }
 
-/// The coordinate (0 to 5) of a degree of freedom.
+/// Returns the coordinate (0 to 5) of a degree of freedom.
 fn coordinate(dof: Dof, by: &str) -> Result<usize, BuildError> {
     if dof.kind.is_flexible() {
         return Err(BuildError::Flexible {
@@ -247,7 +247,7 @@ impl Laws<'_> {
         Ok(&found.law)
     }
 
-    /// A function with its abscissae and ordinates times factors; none if its number is 0.
+    /// Returns a function with its abscissae and ordinates times factors; none if its number is 0.
     fn curve(&self, number: u32, (x, y): (f64, f64)) -> Result<Option<Curve>, BuildError> {
         if number == 0 {
             return Ok(None);
@@ -364,8 +364,8 @@ impl Laws<'_> {
         }))
     }
 
-    /// A wedge whose toe is only a direction. Without a function for its coil the coil's force is constant:
-    /// it stands in the bolster.
+    /// Returns a wedge whose toe is only a direction. Without a function for its coil the coil's force is
+    /// constant: it stands in the bolster.
     fn plain_wedge(
         &self,
         coil: u32,
@@ -391,7 +391,7 @@ impl Laws<'_> {
         })
     }
 
-    /// The force of a coil over its stroke; zero without a function.
+    /// Returns the force of a coil over its stroke; zero without a function.
     fn coil(&self, number: u32) -> Result<Curve, BuildError> {
         let curve = self.curve(number, (INCH, POUND))?;
         Ok(curve.unwrap_or_else(|| Curve::constant(0.0)))
@@ -482,7 +482,7 @@ impl Laws<'_> {
         }
     }
 
-    /// The depth of a column face over the vertical stroke, both lengths. A face is never mirrored.
+    /// Returns the depth of a column face over the vertical stroke, both lengths. A face is never mirrored.
     fn profile(&self, number: u32) -> Result<Curve, BuildError> {
         if number == 0 {
             return Ok(Curve::constant(0.0));

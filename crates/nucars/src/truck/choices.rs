@@ -29,7 +29,7 @@ pub enum Yaw {
 }
 
 impl Yaw {
-    /// Its name, as in options.
+    /// Returns its name, as in options.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -88,7 +88,7 @@ pub struct Choices {
 }
 
 impl Choices {
-    /// The choices in words, with the decisions that are no option.
+    /// Returns the choices in words, with the decisions that are no option.
     #[must_use]
     pub fn describe(&self) -> Vec<String> {
         let mut lines = vec![

@@ -7,7 +7,7 @@ use super::choices::{Bend, Choices};
 use super::units::FOOT;
 use crate::tree::{Argument, History, Segment, Shape};
 
-/// The motion of a history in the file's units times `factor`, `delay` seconds late.
+/// Returns the motion of a history in the file's units times `factor`, `delay` seconds late.
 pub(super) fn motion(
     history: &History,
     choices: &Choices,
@@ -41,7 +41,7 @@ pub(super) fn motion(
     })
 }
 
-/// The motion of a segment, its time counted from its start, in the file's units of amplitude.
+/// Returns the motion of a segment, its time counted from its start, in the file's units of amplitude.
 fn shape(segment: &Segment, choices: &Choices, scale: f64, length: f64) -> Motion {
     let [c1, c2] = [*segment.coefficients[0], *segment.coefficients[1]];
     let amplitude = *segment.amplitude;
@@ -91,7 +91,7 @@ fn sine(amplitude: f64, angular_frequency: f64) -> Motion {
     }
 }
 
-/// A rise that is held, again and again from zero if the spacing is shorter than the segment.
+/// Returns a rise that is held, again and again from zero if the spacing is shorter than the segment.
 fn bend(profile: Bend, amplitude: f64, rise: f64, spacing: f64, length: f64) -> Motion {
     const MOST: f64 = 10_000.0;
     let one = Motion::Ramp {

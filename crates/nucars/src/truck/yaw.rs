@@ -34,12 +34,12 @@ pub fn intended_yaw(model: &mut Model, inputs: Range<usize>, yaw: Yaw) -> Vec<us
     }
 }
 
-/// Whether a body is an input body: prescribed, and not at the origin.
+/// Returns whether a body is an input body: prescribed, and not at the origin.
 fn drives(model: &Model, inputs: &Range<usize>, body: usize) -> bool {
     inputs.contains(&body) && model.bodies[body].frame.origin != [0.0; 3]
 }
 
-/// Whether a body is yawed by a history.
+/// Returns whether a body is yawed by a history.
 fn is_yawed(model: &Model, body: usize) -> bool {
     !model.bodies[body].frame.motions[5].is_constant()
 }

@@ -10,12 +10,12 @@ use crate::tree::{
     Argument, DataFile, DataRequest, DataSection, InputFile, RawSection, RunFile, SystemFile, Terms, Title,
 };
 
-/// A system file's text.
+/// Returns a system file's text.
 pub fn write_system(file: &SystemFile) -> String {
     system::write(file)
 }
 
-/// An input file's text.
+/// Returns an input file's text.
 pub fn write_input(file: &InputFile) -> String {
     let mut out = Out::default();
     out.title("INPUT TITLE", &file.title);
@@ -46,7 +46,7 @@ pub fn write_input(file: &InputFile) -> String {
     out.0
 }
 
-/// A run file's text.
+/// Returns a run file's text.
 pub fn write_run(file: &RunFile) -> String {
     let mut out = Out::default();
     out.title("RUN TITLE", &file.title);
@@ -77,7 +77,7 @@ pub fn write_run(file: &RunFile) -> String {
     out.0
 }
 
-/// A data file's text.
+/// Returns a data file's text.
 pub fn write_data(file: &DataFile) -> String {
     let mut out = Out::default();
     for section in &file.sections {
@@ -186,7 +186,7 @@ fn reals(values: &[Spanned<f64>]) -> String {
         .collect()
 }
 
-/// A number that reads as the same bits, as short as can be, with a point.
+/// Returns a number that reads as the same bits, as short as can be, with a point.
 fn real(value: f64) -> String {
     let text = format!("{value:?}");
     match text.split_once('e') {

@@ -18,7 +18,7 @@ pub fn text(name: &str) -> &'static str {
     builtin::text(name).unwrap()
 }
 
-/// All findings of a system file's text.
+/// Returns all findings of a system file's text.
 pub fn system(text: &str) -> Read<SystemFile> {
     let read = read_system(&SourceText::from_text("a.sys", text).unwrap());
     let more = check::system(&read);
@@ -58,7 +58,7 @@ pub fn list(findings: &Findings) -> String {
     findings.list().iter().map(line).collect()
 }
 
-/// The codes of findings of this severity, in order and each once.
+/// Returns the codes of findings of this severity, in order and each once.
 pub fn codes(findings: &Findings, severity: Severity) -> Vec<&'static str> {
     let own = findings
         .list()
@@ -70,7 +70,7 @@ pub fn codes(findings: &Findings, severity: Severity) -> Vec<&'static str> {
     codes
 }
 
-/// Whether one finding has this severity, this line of the text, and all these words.
+/// Returns whether one finding has this severity, this line of the text, and all these words.
 pub fn has(findings: &Findings, severity: Severity, line: usize, words: &[&str]) -> bool {
     findings.list().iter().any(|finding| {
         let all = format!("{finding} {}", finding.advice().unwrap_or(""));

@@ -41,7 +41,7 @@ impl Component for f64 {
     fn tanh_ratio_and_slope(self) -> (f64, f64) {
         tanh_ratio(self)
     }
-    /// Two derivatives at a time.
+    /// Returns two derivatives at a time.
     #[inline(always)]
     fn combine<const N: usize>(a: &[f64; N], s: f64, b: &[f64; N], t: f64) -> [f64; N] {
         let (s, t) = (f64x2::splat(s), f64x2::splat(t));
@@ -283,7 +283,7 @@ impl<S: Component, const N: usize> SubAssign for DualOf<S, N> {
 mod tests {
     use super::*;
 
-    /// A function that uses every operation.
+    /// Returns a function that uses every operation.
     fn f<S: Real>(x: S, y: S) -> S {
         let (s, c) = (x * y).sin_cos();
         let r = (x * x + y * y + 0.1).sqrt();

@@ -76,9 +76,9 @@ pub trait Number:
     /// The same without derivatives.
     type Plain: Number<Plain = Self::Plain, Mask = Self::Mask>;
 
-    /// The value without derivatives.
+    /// Returns the value without derivatives.
     fn plain(self) -> Self::Plain;
-    /// A value as a number whose derivatives are zero.
+    /// Returns a value as a number whose derivatives are zero.
     #[must_use]
     fn lift(value: Self::Plain) -> Self;
     /// This number times one without derivatives.
@@ -88,10 +88,10 @@ pub trait Number:
     fn below(self, bound: Self::Plain) -> Self::Mask;
     /// Returns whether the value is at most a bound.
     fn at_most(self, bound: Self::Plain) -> Self::Mask;
-    /// A function given by its value and its derivative at [`Number::plain`].
+    /// Returns a function given by its value and its derivative at [`Number::plain`].
     #[must_use]
     fn chain(self, value: Self::Plain, slope: Self::Plain) -> Self;
-    /// The square root; its derivative at zero is infinite.
+    /// Returns the square root; its derivative at zero is infinite.
     #[must_use]
     fn sqrt(self) -> Self;
     /// `tanh(sqrt(s)) / sqrt(s)` for `s ≥ 0`: smooth, also at `s = 0`, where it is 1.
@@ -111,26 +111,26 @@ pub trait Number:
 
 /// A real number, possibly with derivatives.
 pub trait Real: Number<Plain = f64, Mask = bool> {
-    /// The value without derivatives.
+    /// Returns the value without derivatives.
     #[inline(always)]
     fn value(self) -> f64 {
         self.plain()
     }
-    /// The reciprocal.
+    /// Returns the reciprocal.
     #[inline(always)]
     #[must_use]
     fn recip(self) -> Self {
         let r = 1.0 / self.value();
         self.chain(r, -r * r)
     }
-    /// The hyperbolic tangent.
+    /// Returns the hyperbolic tangent.
     #[inline(always)]
     #[must_use]
     fn tanh(self) -> Self {
         let t = tanh(self.value());
         self.chain(t, 1.0 - t * t)
     }
-    /// The exponential.
+    /// Returns the exponential.
     #[inline(always)]
     #[must_use]
     fn exp(self) -> Self {
@@ -152,7 +152,7 @@ fn tanh(x: f64) -> f64 {
 /// Below this, `tanh(√s)/√s` comes from its series.
 pub(crate) const SERIES: f64 = 1e-3;
 
-/// The series of `tanh(√s)/√s` and of its slope: 1 - s/3 + 2 s²/15 - 17 s³/315 + 62 s⁴/2835 - ...
+/// Returns the series of `tanh(√s)/√s` and of its slope: 1 - s/3 + 2 s²/15 - 17 s³/315 + 62 s⁴/2835 - ...
 #[inline(always)]
 pub(crate) fn series<S: Number>(s: S) -> (S, S) {
     (
@@ -248,7 +248,7 @@ impl Number for f64 {
             tanh(x) / x
         }
     }
-    /// The bits that `libm` gives, without its call where the angle is small.
+    /// Returns the bits that `libm` gives, without its call where the angle is small.
     #[inline(always)]
     fn sin_cos(self) -> (f64, f64) {
         if self.abs() <= EIGHTH_TURN {

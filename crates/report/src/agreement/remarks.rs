@@ -8,7 +8,7 @@ use wedge::parameters::Damping;
 use super::{ComparedModel, Group, Stroke};
 use crate::figures::digits;
 
-/// The sentences.
+/// Returns the sentences.
 pub(super) fn of(group: &Group, units: Units) -> Vec<String> {
     let mut remarks = Vec::new();
     remarks.push(slope(group).to_owned());
@@ -37,7 +37,7 @@ pub(super) fn of(group: &Group, units: Units) -> Vec<String> {
     remarks
 }
 
-/// Why the stand-alone model differs from all quasi-static ones.
+/// Returns the sentence on why the stand-alone model differs from all quasi-static ones.
 fn slope(group: &Group) -> &'static str {
     match (group.damping, group.yawed) {
         (Damping::Constant, _) => {
@@ -60,7 +60,7 @@ fn slope(group: &Group) -> &'static str {
     }
 }
 
-/// What becomes of a type's loop in the half-truck.
+/// Returns the sentence on a type's loop in the half-truck.
 fn loops(group: &Group, stroke: &Stroke, units: Units) -> String {
     let energy = |value: f64| {
         let value = value * Kind::Energy.from_si(units);
@@ -92,7 +92,7 @@ fn loops(group: &Group, stroke: &Stroke, units: Units) -> String {
     )
 }
 
-/// Where the stroke is lost or gained.
+/// Returns the sentence on stroke lost or gained.
 fn springs(group: &Group, stroke: &Stroke, units: Units) -> String {
     let length = |value: f64| {
         let value = value * Kind::Length.from_si(units);
@@ -113,7 +113,7 @@ fn springs(group: &Group, stroke: &Stroke, units: Units) -> String {
     }
 }
 
-/// What yaw does.
+/// Returns the sentence on the effect of yaw.
 fn yaw(group: &Group) -> Vec<String> {
     let mut texts = vec![
         "Yawed as intended, the half-truck's bolster is held in yaw by its springs and wedges alone and \
@@ -137,7 +137,7 @@ fn yaw(group: &Group) -> Vec<String> {
     texts
 }
 
-/// A share in per cent, with its sign.
+/// Returns a share in per cent, with its sign.
 pub(crate) fn percent(share: f64) -> String {
     let sign = if share < 0.0 { "\u{2212}" } else { "+" };
     format!("{sign}{:.1} %", 100.0 * share.abs())

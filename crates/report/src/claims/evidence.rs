@@ -38,7 +38,7 @@ pub struct RunId {
 }
 
 impl RunId {
-    /// What a case is, by its parameters.
+    /// Returns the kind of a case, by its parameters.
     #[must_use]
     pub fn of(case: &Case) -> Self {
         let parameters = &case.parameters;
@@ -55,7 +55,8 @@ impl RunId {
 }
 
 impl RunId {
-    /// What a half-truck's run is to be compared with; `None` for yaw as printed, which is no yaw.
+    /// Returns the kind of case that a half-truck's run is compared with; `None` for yaw as printed, which is
+    /// no yaw.
     #[must_use]
     pub fn of_truck(entry: &Entry) -> Option<Self> {
         Some(Self {
@@ -166,8 +167,9 @@ impl<'a> Evidence<'a> {
         }
     }
 
-    /// The same with runs of the half-truck; those with yaw as printed are not looked at. A run of the
-    /// half-truck is compared with the stand-alone run of its damping, toe and yaw, which tells the cycle.
+    /// Returns the same with runs of the half-truck; those with yaw as printed are not looked at. A run of
+    /// the half-truck is compared with the stand-alone run of its damping, toe and yaw, which tells the
+    /// cycle.
     #[must_use]
     pub fn with_trucks(mut self, trucks: impl IntoIterator<Item = (&'a Entry, &'a HalfTruckResult)>) -> Self {
         let known = trucks
@@ -177,7 +179,8 @@ impl<'a> Evidence<'a> {
         self
     }
 
-    /// The same with the places of two runs exchanged: what would be found if one were taken for the other.
+    /// Returns the same with the places of two runs exchanged: what would be found if one were taken for the
+    /// other.
     #[must_use]
     pub fn exchanged(mut self, one: RunId, other: RunId) -> Self {
         let (first, second) = (self.runs.remove(&one), self.runs.remove(&other));
@@ -195,7 +198,7 @@ impl<'a> Evidence<'a> {
             .map_or(Units::Us, |(_, result)| result.summary.units)
     }
 
-    /// A run that is there, complete, and moves in cycles.
+    /// Returns a run that is there, complete, and moves in cycles.
     fn find(&self, source: EvidenceSource) -> Result<Seen<'a>, String> {
         let Some((case, result)) = self.runs.get(&source.run) else {
             return Err(format!("the run \"{}\" was not made", source.run));
@@ -256,8 +259,8 @@ impl<'a> TableOf<'a> {
         }
     }
 
-    /// A column, SI. The leading left wedge of a half-truck has the column's names where it has what they
-    /// stand for.
+    /// Returns a column, SI. The leading left wedge of a half-truck has the column's names where it has what
+    /// they stand for.
     fn column(self, name: &str) -> Option<&'a [f64]> {
         match self {
             Self::Alone(result) => result.column(name),
@@ -301,7 +304,7 @@ pub(super) struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    /// What it is, in words.
+    /// Returns its name in words.
     pub(super) fn name(self) -> String {
         self.seen.source.to_string()
     }
@@ -336,7 +339,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Whether the run's table has a column.
+    /// Returns whether the run's table has a column.
     pub(super) fn has(self, name: &str) -> bool {
         self.seen.table.column(name).is_some()
     }
@@ -345,7 +348,7 @@ impl<'a> View<'a> {
         self.seen.cycle
     }
 
-    /// A column, SI; without it the claim cannot be decided.
+    /// Returns a column, SI; without it the claim cannot be decided.
     pub(super) fn column(self, name: &str) -> &'a [f64] {
         self.seen.table.column(name).unwrap_or_else(|| {
             self.missing(format!("there is no column {name}"));
@@ -412,7 +415,7 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// The finding of a claim that the runs cannot decide.
+    /// Returns the finding of a claim that the runs cannot decide.
     #[must_use]
     pub fn undecided(why: impl Into<String>) -> Self {
         Self {

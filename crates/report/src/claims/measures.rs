@@ -92,7 +92,8 @@ pub(super) fn roughness(run: View<'_>, quantity: Quantity, when: When) -> f64 {
     noted(run, "roughness of ", quantity, when, average(&bends))
 }
 
-/// How many peaks a curve has: rises after which it falls again by more than 2 % of its greatest size.
+/// Returns the number of peaks of a curve: rises after which it falls again by more than 2 % of its greatest
+/// size.
 pub(super) fn peaks(run: View<'_>, quantity: Quantity, when: When) -> f64 {
     let values = chosen(run, quantity, when);
     let most = values.iter().fold(f64::NAN, |most, value| value.abs().max(most));
@@ -130,7 +131,7 @@ pub(super) fn share(run: View<'_>, so: When, when: When) -> f64 {
     run.note(label, average(&marks), Kind::Dimensionless)
 }
 
-/// What another quantity is where one has its peak.
+/// Returns the value of another quantity where one has its peak.
 pub(super) fn at_peak(run: View<'_>, quantity: Quantity, when: When, other: Quantity) -> f64 {
     let values = chosen(run, quantity, when);
     let others = chosen(run, other, when);
@@ -154,7 +155,7 @@ pub(super) fn at_peak(run: View<'_>, quantity: Quantity, when: When, other: Quan
     run.note(label, value, other.kind)
 }
 
-/// Whether something is so where a quantity has its peak: 1 or 0.
+/// Returns whether something is so where a quantity has its peak: 1 or 0.
 pub(super) fn so_at_peak(run: View<'_>, quantity: Quantity, when: When, so: When) -> bool {
     let values = chosen(run, quantity, when);
     let marks: Vec<bool> = (so.rows)(run)
@@ -264,7 +265,7 @@ pub(super) fn natural_frequency(run: View<'_>) -> f64 {
     run.note(label, value, Kind::Frequency)
 }
 
-/// The first of some times (s) at which something is so.
+/// Returns the first of some times (s) at which something is so.
 pub(super) fn first_time(run: View<'_>, so: When, when: When) -> f64 {
     let rows = (so.rows)(run).into_iter().zip((when.rows)(run));
     let value = run
@@ -280,13 +281,13 @@ pub(super) fn first_time(run: View<'_>, so: When, when: When) -> f64 {
     )
 }
 
-/// The largest pitch moment that the face's normal forces could give with all of them at one edge: peak
-/// longitudinal force times half the face's height.
+/// Returns the largest pitch moment that the face's normal forces could give with all of them at one edge:
+/// peak longitudinal force times half the face's height.
 pub(super) fn pitch_limit(run: View<'_>) -> f64 {
     edge_moment(run, "height", run.case().parameters.wedge.height)
 }
 
-/// The largest yaw moment: peak longitudinal force times half the face's width.
+/// Returns the largest yaw moment: peak longitudinal force times half the face's width.
 pub(super) fn yaw_limit(run: View<'_>) -> f64 {
     edge_moment(run, "width", run.case().parameters.wedge.width)
 }
@@ -313,7 +314,8 @@ pub(super) fn ledger_residual(run: View<'_>) -> f64 {
     run.note(label, value, Kind::Dimensionless)
 }
 
-/// How alike two runs' curves are: the correlation of a quantity's values at the rows that both have.
+/// Returns the correlation of two runs' curves: the correlation of a quantity's values at the rows that both
+/// have.
 pub(super) fn correlation(one: View<'_>, other: View<'_>, quantity: Quantity, when: When) -> f64 {
     let times = |run: View<'_>| -> Vec<f64> {
         let rows = (when.rows)(run).into_iter();
@@ -353,13 +355,13 @@ pub(super) fn correlation(one: View<'_>, other: View<'_>, quantity: Quantity, wh
     one.note(label, value, Kind::Dimensionless)
 }
 
-/// Whether a run's table lacks what the stand-alone wedge has in this column.
+/// Returns whether a run's table lacks what the stand-alone wedge has in this column.
 pub(super) fn lacks(run: View<'_>, column: &str) -> bool {
     let label = format!("columns {column}, {}", run.name());
     run.note(label, f64::from(u8::from(run.has(column))), Kind::Count) == 0.0
 }
 
-/// All of them; all are evaluated, so that all values are shown.
+/// Returns whether all are true; all are evaluated, so that all values are shown.
 pub(super) fn all<const N: usize>(parts: [bool; N]) -> bool {
     parts.iter().all(|part| *part)
 }
@@ -379,7 +381,7 @@ pub(super) fn descending_by<const N: usize>(share: f64, values: [f64; N]) -> boo
     values.windows(2).all(|pair| pair[0] * (1.0 - share) > pair[1])
 }
 
-/// The least and the greatest differ by no more than this share of the greatest.
+/// Returns whether the least and the greatest differ by no more than this share of the greatest.
 pub(super) fn within<const N: usize>(share: f64, values: [f64; N]) -> bool {
     let (least, most) = least_and_greatest(&values.map(f64::abs));
     most - least <= share * most

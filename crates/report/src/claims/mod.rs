@@ -82,7 +82,7 @@ impl Group {
         Self::Comparison,
     ];
 
-    /// A heading.
+    /// Returns a heading.
     #[must_use]
     pub fn title(self) -> &'static str {
         match self {
@@ -209,7 +209,7 @@ pub const REQUIRED: [&str; 13] = [
     "7.1-no-lateral-force",
 ];
 
-/// All claims, in the order of the thesis.
+/// Returns all claims, in the order of the thesis.
 pub fn claims() -> impl Iterator<Item = &'static Claim> {
     [
         variable::CLAIMS,
@@ -227,8 +227,8 @@ pub fn claims() -> impl Iterator<Item = &'static Claim> {
 const NOT_LOOKED_INTO: &str =
     "Why is not known: with the thesis's twelve runs as this program makes them it holds.";
 
-/// All claims with their verdicts, in the order of the thesis. Runs that are missing or incomplete leave the
-/// claims that need them undecided.
+/// Returns all claims with their verdicts, in the order of the thesis. Runs that are missing or incomplete
+/// leave the claims that need them undecided.
 #[must_use]
 pub fn evaluate(evidence: &Evidence<'_>) -> Vec<Row> {
     let units = evidence.units();
@@ -262,13 +262,15 @@ pub fn evaluate(evidence: &Evidence<'_>) -> Vec<Row> {
         .collect()
 }
 
-/// Whether claims are decided from this run of the half-truck: toe out, without yaw or yawed as intended.
+/// Returns whether claims are decided from this run of the half-truck: toe out, without yaw or yawed as
+/// intended.
 #[must_use]
 pub fn needs_truck(entry: &Entry) -> bool {
     entry.toe == ToeCase::Out && entry.yaw != YawCase::Printed
 }
 
-/// The verdicts on all claims, in the order of the thesis: what [`evaluate`] finds, without its words.
+/// Returns the verdicts on all claims, in the order of the thesis: what [`evaluate`] finds, without its
+/// words.
 #[must_use]
 pub fn verdicts(evidence: &Evidence<'_>) -> Vec<Verdict> {
     claims().map(|claim| (claim.evaluate)(evidence).verdict).collect()

@@ -1,7 +1,7 @@
 //! The words of predicates: quantities, and times at which they are looked at.
 //!
 //! All times are after the first half period of the bolster's motion, in which the wedge settles, unless a
-//! word says otherwise. They are told by the bolster's phase: its displacement over its amplitude, its speed
+//! word says otherwise. They are known by the bolster's phase: its displacement over its amplitude, its speed
 //! over its peak.
 
 #![allow(non_upper_case_globals)] // They are written as words in predicates.
@@ -139,7 +139,7 @@ fn gap(run: View<'_>, name: &str) -> Vec<f64> {
     run.column(name).iter().map(|gap| gap.max(0.0)).collect()
 }
 
-/// How many corners of a face are open, stick and slip, made into something.
+/// Returns a function of the numbers of a face's corners that are open, stick and slip.
 fn corners<T>(run: View<'_>, face: &str, make: fn(usize, usize, usize) -> T) -> Vec<T> {
     let states = CORNERS.map(|corner| run.column(&format!("{face}_{corner}_state")));
     let rows = states.iter().map(|states| states.len()).min().unwrap_or(0);

@@ -5,7 +5,7 @@ use quantity::nearest;
 use super::{ComparisonError, Entry, MAIN};
 use crate::table::TableColumn;
 
-/// The columns to compare, without units.
+/// Returns the columns to compare, without units.
 pub(super) fn choose(
     first: &Entry,
     others: &[Entry],
@@ -72,7 +72,7 @@ pub(super) fn choose(
     Ok(main)
 }
 
-/// The error, with names that may be meant to be the same.
+/// Returns the error, with names that may be meant to be the same.
 fn nothing_in_common(first: &Entry, other: &Entry, own: &[&TableColumn]) -> ComparisonError {
     const MOST: usize = 3;
     let theirs = || {

@@ -66,7 +66,7 @@ pub(super) fn energies(entries: &[Entry], units: Units, notes: &mut Vec<String>)
     energies
 }
 
-/// The summary beside a `result.csv`, if there is one.
+/// Returns the summary beside a `result.csv`, if there is one.
 fn summary_beside(file: &Path) -> Result<Option<SummaryPart>, String> {
     if file.file_name().is_none_or(|name| name != csv::FILE_NAME) {
         return Ok(None);
@@ -80,7 +80,7 @@ fn summary_beside(file: &Path) -> Result<Option<SummaryPart>, String> {
     }
 }
 
-/// An energy in these units.
+/// Returns an energy in these units.
 fn energy(measure: &SummaryValue, units: Units) -> Option<f64> {
     let own = [Units::Us, Units::Si]
         .into_iter()

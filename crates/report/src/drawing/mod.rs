@@ -30,7 +30,7 @@ pub enum Colour {
 }
 
 impl Colour {
-    /// As SVG writes it.
+    /// Returns the color as SVG writes it.
     #[must_use]
     pub fn hex(self) -> &'static str {
         match self {
@@ -74,7 +74,7 @@ const STYLES: [(Colour, Line); 8] = [
     (Colour::Grey, Line::Dotted),
 ];
 
-/// A colour and a line for the curve of this number, unlike those of the seven others around it.
+/// Returns a colour and a line for the curve of this number, unlike those of the seven others around it.
 #[must_use]
 pub fn distinct(number: usize) -> (Colour, Line) {
     STYLES[number % STYLES.len()]
@@ -142,14 +142,14 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// The figure as an SVG document.
+    /// Returns the figure as an SVG document.
     #[must_use]
     pub fn to_svg(&self) -> String {
         let svg = paint::svg(&paint::scene(self));
         describe(&svg, &self.title, &self.caption)
     }
 
-    /// The drawing with names that begin with `name`, so that several stand in one document.
+    /// Returns the drawing with names that begin with `name`, so that several stand in one document.
     #[must_use]
     pub fn named(svg: &str, name: &str) -> String {
         svg.replace(
@@ -162,7 +162,7 @@ impl Figure {
         )
     }
 
-    /// The figure as a PNG picture.
+    /// Returns the figure as a PNG picture.
     ///
     /// # Errors
     /// What the picture's encoder says.
@@ -170,7 +170,7 @@ impl Figure {
         paint::png(paint::scene(self))
     }
 
-    /// The names in the legend with their styles, in the order in which they first appear.
+    /// Returns the names in the legend with their styles, in the order in which they first appear.
     fn legend(&self) -> Vec<&Curve> {
         let mut entries: Vec<&Curve> = Vec::new();
         for curve in self.panels.iter().flat_map(|panel| &panel.curves) {
@@ -181,8 +181,8 @@ impl Figure {
         entries
     }
 
-    /// The grid: for each panel its row, first cell, and number of cells; then the numbers of rows and
-    /// columns.
+    /// Returns the grid: for each panel its row, first cell, and number of cells; then the numbers of rows
+    /// and columns.
     #[must_use]
     pub fn grid(&self) -> (Vec<(usize, usize, usize)>, usize, usize) {
         let span = |panel: &Panel| panel.span.max(1);

@@ -45,20 +45,20 @@ impl Line {
         }
     }
 
-    /// Its width in pixels.
+    /// Returns its width in pixels.
     #[must_use]
     pub fn width(self) -> f64 {
         if self == Self::Bar { BAR } else { STROKE }
     }
 }
 
-/// A drawing as an SVG document.
+/// Returns a drawing as an SVG document.
 pub(super) fn svg(scene: &Scene) -> String {
     renumbered(&SvgBackend::new().render_scene(scene))
 }
 
-/// The library counts clip paths through all drawings of a program; here they are counted in each drawing, so
-/// that the same figure gives the same text.
+/// Renumbers clip paths. The library counts them through all drawings of a program; here they are counted in
+/// each drawing, so that the same figure gives the same text.
 fn renumbered(svg: &str) -> String {
     const THEIRS: &str = "kuva-clip-";
     let mut numbers: Vec<&str> = Vec::new();
@@ -77,7 +77,7 @@ fn renumbered(svg: &str) -> String {
     out
 }
 
-/// A drawing as a PNG picture.
+/// Returns a drawing as a PNG picture.
 pub(super) fn png(mut scene: Scene) -> Result<Vec<u8>, String> {
     // The picture's painter begins a new dash at each point of a curve, which makes dashed curves solid.
     let elements = std::mem::take(&mut scene.elements);
@@ -128,7 +128,7 @@ pub(super) fn png(mut scene: Scene) -> Result<Vec<u8>, String> {
         .render_scene(&scene)
 }
 
-/// The drawn pieces of a dashed line: `pattern` holds the lengths of dashes and gaps by turns.
+/// Returns the drawn pieces of a dashed line: `pattern` holds the lengths of dashes and gaps by turns.
 fn dashed(points: &[(f64, f64)], pattern: &[f64]) -> Vec<Vec<(f64, f64)>> {
     if pattern.is_empty() || pattern.iter().any(|length| *length <= 0.0) {
         return vec![points.to_vec()];
@@ -164,7 +164,7 @@ fn dashed(points: &[(f64, f64)], pattern: &[f64]) -> Vec<Vec<(f64, f64)>> {
     pieces
 }
 
-/// The whole drawing.
+/// Returns the whole drawing.
 pub(super) fn scene(figure: &Figure) -> Scene {
     if let Some(flow) = &figure.flow {
         return flow.scene(&figure.title);
@@ -215,7 +215,7 @@ pub(super) fn scene(figure: &Figure) -> Scene {
     scene
 }
 
-/// The size at which a title fits into a width, pixels.
+/// Returns the size at which a title fits into a width, pixels.
 pub(super) fn title_size(title: &str, width: f64) -> u32 {
     let letters = title.chars().count().max(1) as f64;
     ((width / (0.56 * letters)) as u32).clamp(11, TITLE_SIZE)
@@ -268,7 +268,7 @@ fn y_scale(panels: &[&Panel]) -> Scale {
     Scale::around(visible)
 }
 
-/// The panel's curves, cut to its window, thinned, and split where they are interrupted.
+/// Returns the panel's curves, cut to its window, thinned, and split where they are interrupted.
 fn panel_plots(panel: &Panel, range: (f64, f64), columns: u32) -> Vec<Plot> {
     let mut plots = Vec::new();
     for curve in &panel.curves {

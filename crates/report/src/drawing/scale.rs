@@ -15,7 +15,7 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// The range that holds these values with a little air.
+    /// Returns the range that holds these values with a little air.
     pub fn around(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = values
             .filter(|value| value.is_finite())
@@ -44,7 +44,7 @@ impl Scale {
         }
     }
 
-    /// One row for each of `count` names, the first one on top.
+    /// Makes one row for each of `count` names, the first one on top.
     pub fn of_names(count: usize) -> Self {
         Self {
             low: -0.5,
@@ -53,7 +53,7 @@ impl Scale {
         }
     }
 
-    /// As many decimals as the step needs, with a true minus sign.
+    /// Returns a number with as many decimals as the step needs, with a true minus sign.
     pub fn format(&self) -> TickFormat {
         let most = self.low.abs().max(self.high.abs());
         if !(1e-3..1e6).contains(&most) {
@@ -71,7 +71,7 @@ impl Scale {
     }
 }
 
-/// The smallest of 1, 2, 2.5, 5 times a power of ten that is not below `least`.
+/// Returns the smallest of 1, 2, 2.5, 5 times a power of ten that is not below `least`.
 fn round_step(least: f64) -> f64 {
     let power = 10f64.powf(least.log10().floor());
     [1.0, 2.0, 2.5, 5.0, 10.0]

@@ -27,7 +27,7 @@ impl CarRun {
         self.result.summary.units
     }
 
-    /// A column over the distance, in output units; empty if it is not there.
+    /// Returns a column over the distance, in output units; empty if it is not there.
     fn over_distance(&self, name: &str) -> Vec<(f64, f64)> {
         let units = self.units();
         let kind = |name: &str| {
@@ -48,7 +48,7 @@ impl CarRun {
             .collect()
     }
 
-    /// A panel of these columns: labels and names.
+    /// Returns a panel of these columns: labels and names.
     fn panel(&self, title: &str, y: (&str, Kind), columns: &[(String, String)]) -> Panel {
         let units = self.units();
         let curves = columns.iter().enumerate().map(|(number, (label, name))| {
@@ -69,7 +69,7 @@ impl CarRun {
         }
     }
 
-    /// The filtered column if there is one, else the raw one.
+    /// Returns the filtered column if there is one, else the raw one.
     fn best(&self, name: &str) -> String {
         let filtered = format!("{name}_filtered");
         match self.result.column(&filtered) {
@@ -93,7 +93,7 @@ fn wheels(run: &CarRun, truck: usize, what: &str) -> Vec<(String, String)> {
         .collect()
 }
 
-/// The figures of a run.
+/// Returns the figures of a run.
 #[must_use]
 pub fn exhibits(run: &CarRun) -> Vec<Exhibit> {
     let name = run.case.name.as_str();

@@ -7,7 +7,7 @@ use super::{Exhibit, axis, capital};
 use crate::certificate_files::Findings;
 use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
 
-/// The figure of a regime over the speed: a panel for each of its limits, then the wedges.
+/// Returns the figure of a regime over the speed: a panel for each of its limits, then the wedges.
 #[must_use]
 pub fn over_speed(certificate: &Certificate, findings: &Findings, regime: usize) -> Exhibit {
     let own = &certificate.regimes[regime];

@@ -92,7 +92,7 @@ const FIRST_ROW: [f64; 4] = [0.0, 0.04, 0.0, 0.0];
 /// Where the thesis's curves of the whole run begin, s.
 const START: [f64; 4] = [0.0, 0.0, 0.5, 0.5];
 
-/// How curves of a type look.
+/// Returns the style of the curves of a type.
 fn style(wedges: WedgeType) -> (&'static str, Colour, Line) {
     match wedges {
         WedgeType::Spatial => ("our reading of type 6.9", Colour::Vermillion, Line::DashDot),
@@ -105,7 +105,7 @@ const ALONE: (&str, Colour, Line) = ("stand-alone model", Colour::Blue, Line::So
 const BRANCH_POINTS: u32 = 100;
 const EQUATION: (&str, Colour, Line) = ("eq. 5-1", Colour::Green, Line::Dotted);
 
-/// The figures that these runs allow.
+/// Returns the figures that these runs allow.
 #[must_use]
 pub fn exhibits(outcomes: &[Outcome], trucks: &[TruckOutcome]) -> Vec<Exhibit> {
     let mut exhibits = Vec::new();
@@ -155,7 +155,7 @@ impl<'o> Sheet<'o> {
         )
     }
 
-    /// One column over another for all models; then eq. 5-1.
+    /// Returns one column over another for all models; then eq. 5-1.
     fn curves(&self, x: &str, quantity: &Quantity) -> Vec<Curve> {
         let mut curves = vec![curve(&self.set.alone.1, x, quantity.column, ALONE)];
         for (entry, result) in self.set.trucks.iter().copied() {
@@ -290,7 +290,7 @@ impl<'o> Sheet<'o> {
         }
     }
 
-    /// What the curves are.
+    /// Returns the labels of the curves.
     fn labels(&self, quantity: &Quantity, over_time: bool) -> String {
         let mut text = " Types 6.8 and 6.9 are our reading of them, in the half-truck: no output of the \
                         comparison program is known."

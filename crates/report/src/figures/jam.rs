@@ -16,8 +16,8 @@ const RATIOS: [f64; 8] = [0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 30.0];
 /// Points of the closed form along each axis.
 const POINTS: usize = 161;
 
-/// A map for runs with toe in, and one for those with toe out or none, as far as there are any: the toe
-/// decides which way the slope's friction acts, and with it whether the wedge can jam.
+/// Returns a map for runs with toe in, and one for those with toe out or none, as far as there are any: the
+/// toe decides which way the slope's friction acts, and with it whether the wedge can jam.
 #[must_use]
 pub fn maps(study: &Study, digest: &Digest) -> Vec<Exhibit> {
     let Some(jam) = &digest.jam else {
@@ -161,7 +161,7 @@ fn between(values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// The column's normal force along the track over the load; `NaN` where the wedge jams.
+/// Returns the column's normal force along the track over the load; `NaN` where the wedge jams.
 fn ratio(wedge: &QuasiStaticWedge, direction: Direction) -> f64 {
     let slide = wedge.slide(direction, wedge.branch(direction), 1.0);
     slide.map_or(f64::NAN, |slide| slide.column_normal * libm::cos(wedge.toe))

@@ -51,7 +51,7 @@ pub struct Exhibit {
     pub figure: Figure,
 }
 
-/// The bolster's constant yaw, rad; 0 if it moves.
+/// Returns the bolster's constant yaw, rad; 0 if it moves.
 #[must_use]
 pub fn yaw(case: &Case) -> f64 {
     match &case.parameters.bolster.coordinates[5] {
@@ -60,7 +60,7 @@ pub fn yaw(case: &Case) -> f64 {
     }
 }
 
-/// How curves of this toe angle (rad, positive out) look, so that they look the same in all figures.
+/// Returns the style of curves of this toe angle (rad, positive out), the same in all figures.
 #[must_use]
 pub fn toe_style(toe: f64) -> (String, Colour, Line) {
     let degrees = (toe.to_degrees().abs() * 1e6).round() / 1e6;
@@ -73,7 +73,7 @@ pub fn toe_style(toe: f64) -> (String, Colour, Line) {
     }
 }
 
-/// The points of one column over another, in the result's units.
+/// Returns the points of one column over another, in the result's units.
 #[must_use]
 pub fn points<S: RunSummary>(result: &RunResult<S>, x: &str, y: &str) -> Vec<(f64, f64)> {
     let (Some((x, x_kind)), Some((y, y_kind))) = (column(result, x), column(result, y)) else {
@@ -86,13 +86,13 @@ pub fn points<S: RunSummary>(result: &RunResult<S>, x: &str, y: &str) -> Vec<(f6
         .collect()
 }
 
-/// A column's values (SI) and kind.
+/// Returns a column's values (SI) and kind.
 fn column<'r, S>(result: &'r RunResult<S>, name: &str) -> Option<(&'r [f64], Kind)> {
     let index = result.columns.iter().position(|column| column.name == name)?;
     Some((&result.values[index], result.columns[index].kind))
 }
 
-/// A curve of one column over another; none if a column is missing.
+/// Returns a curve of one column over another; none if a column is missing.
 #[must_use]
 pub fn curve<S: RunSummary>(
     result: &RunResult<S>,
@@ -108,7 +108,7 @@ pub fn curve<S: RunSummary>(
     }
 }
 
-/// A name with its unit, as axes have it.
+/// Returns a name with its unit, as axes have it.
 #[must_use]
 pub fn axis(name: &str, kind: Kind, units: Units) -> String {
     match kind.label(units) {
@@ -117,7 +117,7 @@ pub fn axis(name: &str, kind: Kind, units: Units) -> String {
     }
 }
 
-/// A title behind a name.
+/// Returns a title behind a name.
 pub(crate) fn lowered(title: &str) -> String {
     let mut letters = title.chars();
     letters.next().map_or(String::new(), |first| {
@@ -125,7 +125,7 @@ pub(crate) fn lowered(title: &str) -> String {
     })
 }
 
-/// A word with its first letter made large.
+/// Returns a word with its first letter made large.
 pub(crate) fn capital(text: &str) -> String {
     let mut letters = text.chars();
     match letters.next() {
@@ -134,7 +134,7 @@ pub(crate) fn capital(text: &str) -> String {
     }
 }
 
-/// A number for a caption: three or four significant digits, a true minus sign.
+/// Returns a number for a caption: three or four significant digits, a true minus sign.
 pub(crate) fn digits(value: f64) -> String {
     let size = value.abs();
     let decimals = match size {

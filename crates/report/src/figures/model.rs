@@ -9,7 +9,7 @@ use super::{Exhibit, Outcome, axis, curve, digits, toe_style, yaw};
 use crate::csv::converted;
 use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
 
-/// The figures that these runs allow.
+/// Returns the figures that these runs allow.
 #[must_use]
 pub fn exhibits(outcomes: &[Outcome]) -> Vec<Exhibit> {
     let mut exhibits = Vec::new();
@@ -122,8 +122,8 @@ fn friction_law(outcomes: &[Outcome]) -> Option<Exhibit> {
     })
 }
 
-/// The bristle law under a slow triangular motion, with the default stiffness and damping of a face and a
-/// limit of 1000 lbf.
+/// Returns the bristle law under a slow triangular motion, with the default stiffness and damping of a face
+/// and a limit of 1000 lbf.
 fn bristle_loop(units: Units) -> Vec<(f64, f64)> {
     const INCH: f64 = 0.0254;
     const POUND_FORCE: f64 = 4.448_221_615_260_5;

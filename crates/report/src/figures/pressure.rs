@@ -15,7 +15,7 @@ use crate::drawing::{Colour, Curve, Figure, Line, Panel};
 /// Lines of equal pressure in a map.
 const LEVELS: usize = 6;
 
-/// The map of each face with a grid; `None` if there is none.
+/// Returns the map of each face with a grid; `None` if there is none.
 pub(super) fn exhibit((case, result): &Outcome) -> Option<Exhibit> {
     Some(Exhibit {
         name: format!("{}_pressure", case.name),
@@ -24,7 +24,7 @@ pub(super) fn exhibit((case, result): &Outcome) -> Option<Exhibit> {
     })
 }
 
-/// The same as a figure.
+/// Returns the same as a figure.
 #[must_use]
 pub fn figure(case: &Case, result: &RunResult) -> Option<Figure> {
     let parameters = &case.parameters;
@@ -50,7 +50,7 @@ pub fn figure(case: &Case, result: &RunResult) -> Option<Figure> {
     })
 }
 
-/// The pressures of a face: at the time of the greatest one, and on average.
+/// Returns the pressures of a face: at the time of the greatest one, and on average.
 fn map(result: &RunResult, face: &FaceProperties, rectangle: &Rectangle, name: &str) -> Option<[Panel; 2]> {
     let units = result.summary.units;
     let times = result.column("time")?;

@@ -10,7 +10,7 @@ use super::{Exhibit, Outcome, axis, column, curve, digits, lowered, points, powe
 use crate::csv::converted;
 use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
 
-/// The figures of one run.
+/// Returns the figures of one run.
 #[must_use]
 pub fn exhibits(outcome: &Outcome) -> Vec<Exhibit> {
     let (case, result) = outcome;
@@ -92,7 +92,7 @@ fn ledger(name: &str, result: &RunResult) -> Exhibit {
     )
 }
 
-/// A strip of bars for each pair of corner and surface.
+/// Returns a strip of bars for each pair of corner and surface.
 fn contact_states(name: &str, result: &RunResult) -> Exhibit {
     const STATES: [(&str, Colour); 3] = [
         ("open", Colour::Sky),
@@ -216,8 +216,8 @@ fn corner_forces(name: &str, result: &RunResult) -> Exhibit {
     )
 }
 
-/// Where the corners' forces are shown from, s: after the release from the start, if that is larger than all
-/// that follows.
+/// Returns the time from which the corners' forces are shown, s: after the release from the start, if that is
+/// larger than all that follows.
 fn release(result: &RunResult) -> f64 {
     const RELEASE: f64 = 0.1;
     let before = largest_normal(result, |time| time < RELEASE);
@@ -229,7 +229,7 @@ fn release(result: &RunResult) -> f64 {
     }
 }
 
-/// The largest normal force (N) of any corner in a part of the run.
+/// Returns the largest normal force (N) of any corner in a part of the run.
 fn largest_normal(result: &RunResult, part: impl Fn(f64) -> bool) -> f64 {
     let times = result.column("time").unwrap_or_default();
     let names = FACES.iter().flat_map(|face| {
@@ -249,7 +249,7 @@ fn largest_normal(result: &RunResult, part: impl Fn(f64) -> bool) -> f64 {
     largest
 }
 
-/// The size of a corner's friction force over time.
+/// Returns the size of a corner's friction force over time.
 fn friction(result: &RunResult, stem: &str) -> Vec<(f64, f64)> {
     let parts = ["x", "y", "z"].map(|axis| points(result, "time", &format!("{stem}_friction_force_{axis}")));
     let [x, y, z] = &parts;

@@ -4,7 +4,7 @@ use super::Exhibit;
 use crate::drawing::{Colour, Curve, Figure, Line, Panel};
 use crate::sensitivity::{Alone, Mean, Part, Sensitivity};
 
-/// The figure; nothing without the stiffnesses that are run alone.
+/// Returns the figure; nothing without the stiffnesses that are run alone.
 #[must_use]
 pub fn exhibits(found: &Sensitivity) -> Vec<Exhibit> {
     let stiffness = &found.stiffness;

@@ -43,7 +43,7 @@ impl Wanted {
     }
 }
 
-/// The figures of these runs over each other, in the units of the first.
+/// Returns the figures of these runs over each other, in the units of the first.
 #[must_use]
 pub fn exhibits(runs: &[RunFolder]) -> Vec<Exhibit> {
     let Some(units) = runs.first().map(RunFolder::units) else {
@@ -61,7 +61,7 @@ pub fn exhibits(runs: &[RunFolder]) -> Vec<Exhibit> {
     drawn.collect()
 }
 
-/// The figure; `None` where no run has anything of it.
+/// Returns the figure; `None` where no run has anything of it.
 fn exhibit(wanted: &Wanted, runs: &[RunFolder], units: Units) -> Option<Exhibit> {
     let mut panels = Vec::new();
     let mut drawn = vec![false; runs.len()];
@@ -126,7 +126,7 @@ fn look(number: usize) -> (Colour, Line) {
     }
 }
 
-/// The filtered column if there is one, else the raw one.
+/// Returns the filtered column if there is one, else the raw one.
 fn best<'r>(run: &'r RunFolder, name: &str) -> Option<&'r TableColumn> {
     let filtered = format!("{name}_filtered");
     let columns = run.table.columns();

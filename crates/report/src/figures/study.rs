@@ -40,7 +40,7 @@ const LEVELS: usize = 7;
 /// Marks are kept this part of the frame away from it.
 const NEAR_FRAME: f64 = 0.06;
 
-/// All figures that the study allows.
+/// Returns all figures that the study allows.
 #[must_use]
 pub fn exhibits(study: &Study, digest: &Digest) -> Vec<Exhibit> {
     let mut exhibits: Vec<Exhibit> = drawn(study, &EFFECTS)
@@ -67,7 +67,7 @@ fn measure<'s>(study: &'s Study, name: &str) -> Option<(usize, &'s Measure)> {
     Some((place, &study.measures()[place]))
 }
 
-/// A factor's name with its unit.
+/// Returns a factor's name with its unit.
 pub(super) fn factor_axis(study: &Study, number: usize) -> String {
     let factor = &study.factors[number];
     let name = factor.paths.join(", ");
@@ -81,7 +81,7 @@ fn file_name(text: &str) -> String {
     text.replace(['.', ' '], "_")
 }
 
-/// How one measure depends on each parameter, the others being averaged.
+/// Returns the dependence of one metric on each parameter, the others being averaged.
 #[must_use]
 pub fn main_effects(study: &Study, digest: &Digest, name: &str) -> Option<Exhibit> {
     let (place, measure) = measure(study, name)?;

@@ -155,13 +155,13 @@ const PHASES: [&str; 2] = [
      and the wedge sticks, (4) it slips down",
 ];
 
-/// The windows of a group of runs: variable damping without and with yaw, constant damping without and with
-/// yaw.
+/// Returns the windows of a group of runs: variable damping without and with yaw, constant damping without
+/// and with yaw.
 pub(super) fn windows(number: usize) -> &'static Windows {
     &WINDOWS[number]
 }
 
-/// What the beginning of the curves holds that is not drawn.
+/// Returns the remark about the beginning of the curves that is not drawn.
 pub(super) fn cut_text(curves: &[Curve], start: f64, kind: Kind, units: Units) -> String {
     let before = curves.iter().flat_map(|curve| {
         let points = curve.points.iter();
@@ -203,8 +203,8 @@ pub struct Chapter {
     pub exhibits: Vec<Exhibit>,
 }
 
-/// All figures that these runs allow. Figure 6-14, which needs runs without and with yaw, stands at the end
-/// of constant damping with yaw.
+/// Returns all figures that these runs allow. Figure 6-14, which needs runs without and with yaw, stands at
+/// the end of constant damping with yaw.
 #[must_use]
 pub fn chapters(outcomes: &[Outcome]) -> Vec<Chapter> {
     let mut chapters: Vec<Chapter> = groups(outcomes).iter().map(Group::chapter).collect();
@@ -366,7 +366,7 @@ impl Group<'_> {
         }
     }
 
-    /// The numbers of the phases at the curve of toe out, or at the first one.
+    /// Returns the numbers of the phases at the curve of toe out, or at the first one.
     fn marks(&self, curves: &[Curve], shift: impl Fn(f64) -> f64, (left, right): (f64, f64)) -> Vec<Mark> {
         let chosen = self.runs.iter().position(|(case, _)| case.parameters.toe > 0.0);
         let Some(curve) = curves.get(chosen.unwrap_or(0)) else {
@@ -391,7 +391,7 @@ impl Group<'_> {
         marks
     }
 
-    /// The loop over the wedge's displacement, as in the thesis, and over the bolster's.
+    /// Returns the loop over the wedge's displacement, as in the thesis, and over the bolster's.
     fn over_displacement(&self, quantity: &Quantity) -> Option<Exhibit> {
         let thesis = quantity.loops?[self.number];
         let windows = &WINDOWS[self.number];

@@ -26,20 +26,20 @@ pub struct TruckRun {
 }
 
 impl TruckRun {
-    /// What its warp says, if it warps.
+    /// Returns the sentence about its warp, if it warps.
     #[must_use]
     pub fn warp(&self) -> Option<WarpCurve> {
         WarpCurve::of(&self.case, &self.result)
     }
 
-    /// Its vertical or roll loop, if it has one.
+    /// Returns its vertical or roll loop, if it has one.
     #[must_use]
     pub fn hysteresis(&self) -> Option<LoopCurve> {
         LoopCurve::of(&self.case, &self.result)
     }
 }
 
-/// The figures of a run.
+/// Returns the figures of a run.
 #[must_use]
 pub fn exhibits(run: &TruckRun) -> Vec<Exhibit> {
     let name = run.case.name.as_str();
@@ -232,8 +232,8 @@ fn ledger(run: &TruckRun) -> Figure {
     }
 }
 
-/// The figures of all rigs together, for the report: vertical and roll loops, warp loops, states of the
-/// wedges.
+/// Returns the figures of all rigs together, for the report: vertical and roll loops, warp loops, states of
+/// the wedges.
 #[must_use]
 pub fn of_rigs(runs: &[TruckRun], worn: Option<&TruckRun>) -> Vec<Exhibit> {
     let exhibit = |name: &str, title: &str, figure: Figure| Exhibit {

@@ -20,7 +20,7 @@ fn distance(si: f64, units: Units) -> f64 {
     }
 }
 
-/// The label of the axis of distances.
+/// Returns the label of the axis of distances.
 fn along(units: Units) -> String {
     match units {
         Units::Us => "distance (ft)".to_owned(),
@@ -57,7 +57,7 @@ fn panel(result: &WheelsetResult, title: &str, label: &str, kind: Kind, columns:
     }
 }
 
-/// The figures.
+/// Returns the figures.
 #[must_use]
 pub fn exhibits(case: &WheelsetCase, result: &WheelsetResult) -> Vec<Exhibit> {
     let name = case.wheelset.name.as_str();

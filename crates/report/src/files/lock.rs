@@ -18,7 +18,7 @@ impl Locked {
         file.try_lock().map(|()| Self(file))
     }
 
-    /// The file, to be written to.
+    /// Returns the file, to be written to.
     pub fn file(&mut self) -> &mut File {
         &mut self.0
     }

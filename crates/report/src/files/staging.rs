@@ -196,8 +196,8 @@ pub fn remove_left_over<'f>(folders: impl IntoIterator<Item = &'f Folder>) -> Ve
     removed
 }
 
-/// Whether a name is one of those that hidden folders have, or the files of earlier versions, which end with
-/// `.tmp`.
+/// Returns whether a name is one of those that hidden folders have, or the files of earlier versions, which
+/// end with `.tmp`.
 fn is_hidden(name: &str) -> bool {
     let random = name.strip_prefix(PREFIX);
     let random = random.map(|rest| rest.strip_suffix(".tmp").unwrap_or(rest));

@@ -29,7 +29,7 @@ const ABOUT: &str = "The thesis compares its wedge with types 6.8 and 6.9 of the
                      four wedges, of which the leading left one (connection 127) is looked at. All with toe \
                      out.";
 
-/// The section; nothing without half-trucks.
+/// Returns the section; nothing without half-trucks.
 pub(super) fn section(comparison: &Comparison<'_>) -> Markup {
     html! {
         section {

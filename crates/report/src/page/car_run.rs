@@ -10,7 +10,7 @@ use crate::figures::car::{CarRun, exhibits};
 use crate::figures::digits;
 use crate::view::run::{Detail, Recording};
 
-/// The page as HTML; it needs nothing else to be shown.
+/// Returns the page as HTML; it needs nothing else to be shown.
 ///
 /// # Errors
 /// What the writer of JSON says.
@@ -31,8 +31,14 @@ pub fn render(run: &CarRun, viewer: Option<Viewer>) -> Result<String, serde_json
         section { h2 { "Wedges" } (wedges(summary)) }
         section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
     };
-    let told = (summary.title.as_str(), summary.program.as_str());
-    Ok(run_page(summary, told, "a freight car on track", &main, data))
+    let title_and_program = (summary.title.as_str(), summary.program.as_str());
+    Ok(run_page(
+        summary,
+        title_and_program,
+        "a freight car on track",
+        &main,
+        data,
+    ))
 }
 
 fn doubts(summary: &CarSummary) -> Markup {

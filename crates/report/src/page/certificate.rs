@@ -54,7 +54,7 @@ pub struct Against {
     pub others: Vec<Other>,
 }
 
-/// The page as HTML; it needs nothing else to be shown.
+/// Returns the page as HTML; it needs nothing else to be shown.
 ///
 /// # Errors
 /// What the writer of JSON says.
@@ -131,7 +131,7 @@ pub fn render(
     Ok(document(&heading, &lead, None, &main, interactive))
 }
 
-/// The rows of a run around its worst second.
+/// Returns the rows of a run around its worst second.
 fn second(own: &WorstRun) -> Recording {
     let run = &own.run;
     let (mut result, mut motions) = (run.result.clone(), run.motions.clone());
@@ -267,7 +267,7 @@ fn limits(
     }
 }
 
-/// A verdict in words.
+/// Returns a verdict in words.
 fn said(own: &Verdict) -> Markup {
     html! {
         @match own.word() {
@@ -279,7 +279,7 @@ fn said(own: &Verdict) -> Markup {
     }
 }
 
-/// The least margin by regime and condition.
+/// Returns the least margin by regime and condition.
 fn conditions(certificate: &Certificate, findings: &Findings) -> Markup {
     let least = |regime: usize, condition: usize| {
         let own = findings
@@ -330,7 +330,7 @@ fn conditions(certificate: &Certificate, findings: &Findings) -> Markup {
     }
 }
 
-/// The worst run of a regime: what is worst, its wedges, where its files are.
+/// Returns the worst run of a regime: what is worst, its wedges, where its files are.
 fn worst_of(certificate: &Certificate, findings: &Findings, own: &WorstRun, moves: bool) -> Markup {
     let Some(run) = worst_run(&findings.runs, own.regime) else {
         return html! {};

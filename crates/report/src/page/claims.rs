@@ -6,7 +6,7 @@ use super::sensitivity::extent;
 use crate::claims::{Claims, Group, Row, Shown, Verdict};
 use crate::sensitivity::Sensitivity;
 
-/// The tables, one a group; nothing without claims.
+/// Returns the tables, one a group; nothing without claims.
 pub(super) fn tables(claims: &Claims, sensitivity: Option<&Sensitivity>) -> Markup {
     if claims.claims.is_empty() {
         return html! {};
@@ -111,7 +111,7 @@ fn class(verdict: Verdict) -> &'static str {
     }
 }
 
-/// A value with its unit, to four digits.
+/// Returns a value with its unit, to four digits.
 fn shown(value: &Shown) -> String {
     let number = crate::figures::digits(value.measure.value);
     match value.measure.unit.as_str() {

@@ -4,8 +4,8 @@ use maud::{Markup, PreEscaped, html};
 
 use super::anchor;
 
-/// The main part with a name on each heading of the second order, and the links to these; no links to fewer
-/// than three.
+/// Returns the main part with a name on each heading of the second order, and the links to these; no links to
+/// fewer than three.
 pub(super) fn of(main: &str) -> (String, Option<Markup>) {
     let mut named = String::with_capacity(main.len());
     let mut links: Vec<(String, &str)> = Vec::new();
@@ -41,7 +41,7 @@ pub(super) fn of(main: &str) -> (String, Option<Markup>) {
     (named, list)
 }
 
-/// A name that no heading before has.
+/// Returns a name that no heading before has.
 fn free(name: &str, links: &[(String, &str)]) -> String {
     let mut own = name.to_owned();
     while links.iter().any(|(other, _)| *other == own) {

@@ -23,7 +23,7 @@ pub struct Explorer {
 }
 
 impl Explorer {
-    /// The page that this program holds, if it does.
+    /// Returns the page that this program holds, if it does.
     #[must_use]
     pub fn embedded() -> Option<Self> {
         (!SCRIPT.is_empty()).then_some(Self {
@@ -32,7 +32,7 @@ impl Explorer {
         })
     }
 
-    /// The page as HTML; it asks for `/explorer.js` and `/explorer.css`.
+    /// Returns the page as HTML; it asks for `/explorer.js` and `/explorer.css`.
     #[must_use]
     pub fn page(self) -> String {
         let page = html! {

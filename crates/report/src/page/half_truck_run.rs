@@ -11,7 +11,8 @@ use crate::drawing::{Figure, Panel, distinct};
 use crate::figures::{Exhibit, axis, curve};
 use crate::view::run::{Detail, Recording};
 
-/// The page as HTML; it needs nothing else to be shown. `contacts` are the corners of wedges that are bodies.
+/// Returns the page as HTML; it needs nothing else to be shown. `contacts` are the corners of wedges that are
+/// bodies.
 ///
 /// # Errors
 /// What the writer of JSON says.
@@ -88,7 +89,7 @@ fn loops(case: &HalfTruckCase, result: &HalfTruckResult) -> Exhibit {
     }
 }
 
-/// The table of a run's wedges.
+/// Returns the table of a run's wedges.
 fn wedges(summary: &HalfTruckSummary) -> Markup {
     let [force, energy] = [Kind::Force, Kind::Energy].map(|kind| kind.label(summary.units));
     let cell = |value: &Option<SummaryValue>| {

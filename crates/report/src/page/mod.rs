@@ -90,7 +90,7 @@ pub struct Contents<'c> {
     pub truck: bool,
 }
 
-/// The page as HTML.
+/// Returns the page as HTML.
 #[must_use]
 pub fn render(contents: &Contents<'_>) -> String {
     let program = contents
@@ -184,7 +184,7 @@ fn shown(drawn: &Drawn) -> Markup {
     shown_in(&drawn.exhibit, &drawn.svg, Some(FIGURES))
 }
 
-/// A figure; `folder` is where its files are, if it has any.
+/// Returns a figure; `folder` is where its files are, if it has any.
 fn shown_in(exhibit: &Exhibit, svg: &str, folder: Option<&str>) -> Markup {
     let name = exhibit.name.as_str();
     html! {
@@ -206,7 +206,7 @@ fn shown_in(exhibit: &Exhibit, svg: &str, folder: Option<&str>) -> Markup {
 /// What is said of a run that has failed, behind its name.
 const FAILED: &str = " has failed: do not use its numbers";
 
-/// What makes the numbers of a run doubtful.
+/// Returns the list of what makes the numbers of a run doubtful.
 fn doubts(summary: &impl RunSummary) -> Markup {
     let name = summary.name();
     html! {
@@ -218,7 +218,7 @@ fn doubts(summary: &impl RunSummary) -> Markup {
     }
 }
 
-/// The interactive part of a page with one run: the viewer, and its data as JSON.
+/// Returns the interactive part of a page with one run: the viewer, and its data as JSON.
 fn interactive(
     viewer: Option<Viewer>,
     units: Units,
@@ -232,7 +232,8 @@ fn interactive(
     Ok(Some((viewer, view)))
 }
 
-/// The page of one run of a case with title and program, headed by the title or its name; `what` is run.
+/// Returns the page of one run of a case with title and program, headed by the title or its name; `what` is
+/// run.
 fn run_page(
     summary: &impl RunSummary,
     (title, program): (&str, &str),
@@ -247,22 +248,22 @@ fn run_page(
     document(&heading, &lead, None, main, data)
 }
 
-/// The part of the page of one run in which it is seen moving.
+/// Returns the part of the page of one run in which it is seen moving.
 fn moving(name: &str) -> Markup {
     html! {
         section { h2 id="moving" { "Moving" } (moving_as(name, name, true)) }
     }
 }
 
-/// The fold in which a run is seen moving, open or not.
+/// Returns the fold in which a run is seen moving, open or not.
 fn moving_as(name: &str, title: &str, open: bool) -> Markup {
     html! {
         details id={ "run-" (anchor(name)) } data-run=(name) open[open] { summary { (title) } }
     }
 }
 
-/// A page with its heading, what stands below it, a list of links to its parts (none: to its headings), and
-/// its interactive part if there is one.
+/// Returns a page with its heading, what stands below it, a list of links to its parts (none: to its
+/// headings), and its interactive part if there is one.
 fn document(
     heading: &str,
     lead: &impl Render,
@@ -303,15 +304,15 @@ fn document(
     page.into_string()
 }
 
-/// A name as the target of links: letters, digits and `-`, all else is `_`.
+/// Returns a name as the target of links: letters, digits and `-`, all else is `_`.
 fn anchor(name: &str) -> String {
     let plain = |sign: char| sign.is_ascii_alphanumeric() || sign == '-';
     let signs = name.chars();
     signs.map(|sign| if plain(sign) { sign } else { '_' }).collect()
 }
 
-/// A drawing as part of the page: a picture with a name, scaled to the page's width. Its description stands
-/// in the caption, so that it is not told twice.
+/// Returns a drawing as part of the page: a picture with a name, scaled to the page's width. Its description
+/// stands in the caption, so that it is not said twice.
 fn inline(svg: &str, title: &str) -> String {
     let attribute = |name: &str| {
         let start = svg.find(&format!(" {name}=\""))? + name.len() + 3;
@@ -333,7 +334,7 @@ fn inline(svg: &str, title: &str) -> String {
     without(&svg, "<!--", "-->\n")
 }
 
-/// The text without the first piece from `start` to `end`.
+/// Returns the text without the first piece from `start` to `end`.
 fn without(text: &str, start: &str, end: &str) -> String {
     let Some(from) = text.find(start) else {
         return text.to_owned();

@@ -8,7 +8,7 @@ use super::{Contents, FIGURES};
 use crate::figures::{Outcome, toe_style, yaw};
 use crate::run_files;
 
-/// The table of runs.
+/// Returns the table of runs.
 pub(super) fn table(outcomes: &[Outcome]) -> Markup {
     let unit = |of: fn(&Summary) -> Option<&SummaryValue>| {
         let found = outcomes.iter().find_map(|(_, result)| of(&result.summary));
@@ -94,7 +94,7 @@ fn equivalent(summary: &Summary) -> Option<&SummaryValue> {
     summary.averages.equivalent_damping.as_ref()
 }
 
-/// The assumptions: those of all runs, then those of some.
+/// Returns the assumptions: those of all runs, then those of some.
 pub(super) fn assumptions(contents: &Contents<'_>) -> Markup {
     let outcomes: Vec<&Outcome> = contents.outcomes.iter().chain(contents.beyond).collect();
     let mut texts: Vec<(&str, Vec<&str>)> = Vec::new();
@@ -134,7 +134,7 @@ pub(super) fn assumptions(contents: &Contents<'_>) -> Markup {
     }
 }
 
-/// Where the data are.
+/// Returns the paragraph about the data's files.
 pub(super) fn files(contents: &Contents<'_>) -> Markup {
     html! {
         section {

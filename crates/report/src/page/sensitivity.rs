@@ -6,7 +6,7 @@ use crate::claims::{Group, REQUIRED};
 use crate::figures::capital;
 use crate::sensitivity::{AXES, Extent, Mean, Sensitivity, Side, Split, Statement, Tally};
 
-/// A share in per cent; what is not all is never shown as all.
+/// Returns a share in per cent; what is not all is never shown as all.
 fn percent(share: f64) -> String {
     let rounded = (100.0 * share).round();
     let least = if share > 0.0 { 1.0 } else { 0.0 };
@@ -14,7 +14,7 @@ fn percent(share: f64) -> String {
     format!("{} %", rounded.clamp(least, most))
 }
 
-/// Where a statement holds, in a few words.
+/// Returns the extent in which a statement holds, in a few words.
 pub(super) fn extent(statement: &Statement) -> Markup {
     words(statement.extent, statement.tally, statement.decides.as_ref())
 }
@@ -31,14 +31,15 @@ fn words(extent: Extent, tally: Tally, split: Option<&Split>) -> Markup {
     }
 }
 
-/// What decides: `contact stiffness decides: above 7.9e5 lbf/in 98 %, below 7.9e5 lbf/in 20 %`.
+/// Returns the cut that decides: `contact stiffness decides: above 7.9e5 lbf/in 98 %, below 7.9e5 lbf/in 20
+/// %`.
 fn decides(split: &Split) -> String {
     let side = |side: &Side| format!("{} {}", side.name, percent(side.share));
     let [one, other] = &split.sides;
     format!("{} decides: {}, {}", split.parameter, side(one), side(other))
 }
 
-/// What was done.
+/// Returns the paragraph about the method.
 fn about(found: &Sensitivity) -> String {
     format!(
         "The thesis does not say how stiff the contacts are, where the coil's force acts, and more. The \
@@ -67,7 +68,7 @@ const FRICTION: &str = "The same points once more with another reference speed, 
                         of tanh: how many statements hold at a point, on average, and how many hold at half \
                         of the points with one friction and not with the other.";
 
-/// The rule for the stiffness.
+/// Returns the rule for the stiffness.
 fn rule(found: &Sensitivity) -> String {
     format!(
         "Required are {} statements (orders by toe without yaw, lift-off and its silence, stick at the \
@@ -82,7 +83,7 @@ fn rule(found: &Sensitivity) -> String {
     )
 }
 
-/// The section; the verdicts stand with the statements.
+/// Returns the section; the verdicts stand with the statements.
 pub(super) fn section(found: &Sensitivity) -> Markup {
     html! {
         section {
@@ -167,7 +168,7 @@ fn groups(found: &Sensitivity) -> Markup {
     }
 }
 
-/// The axes of the thesis's figures.
+/// Returns the axes of the thesis's figures.
 fn axes(found: &Sensitivity) -> Markup {
     html! {
         h3 { "The axes of the thesis's figures" }

@@ -11,7 +11,7 @@ use crate::run_folder::branch_window;
 /// The run that is seen first where it is there: it lifts off, so that everything there is happens in it.
 const FIRST: &str = "vdrun_toe_0_psi_0.012";
 
-/// The section; nothing without runs.
+/// Returns the section; nothing without runs.
 pub(super) fn section(contents: &Contents<'_>) -> Markup {
     let all = || contents.outcomes.iter().chain(contents.beyond);
     let named = all().find(|(case, _)| case.name == FIRST);

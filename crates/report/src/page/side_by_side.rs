@@ -11,8 +11,8 @@ use crate::figures::{Exhibit, capital, digits};
 use crate::run_folder::{AnySummary, KeyNumber, RunFolder, Seen};
 use crate::view::View;
 
-/// The page as HTML, which needs nothing else to be shown; `links` are the addresses of the runs' folders
-/// from the page.
+/// Returns the page as HTML, which needs nothing else to be shown; `links` are the addresses of the runs'
+/// folders from the page.
 ///
 /// # Errors
 /// What the writer of JSON says.
@@ -69,7 +69,7 @@ fn has_cars(runs: &[RunFolder]) -> bool {
     runs.iter().any(rolls)
 }
 
-/// The interactive part with its data.
+/// Returns the interactive part with its data.
 fn data(
     viewer: Option<Viewer>,
     runs: &[RunFolder],
@@ -109,7 +109,7 @@ fn lead(runs: &[RunFolder]) -> Markup {
     }
 }
 
-/// What makes numbers doubtful, and what does not fit together.
+/// Returns the list of what makes numbers doubtful, and of what does not fit together.
 fn doubts(runs: &[RunFolder]) -> Markup {
     html! {
         @for run in runs {
@@ -126,7 +126,7 @@ fn doubts(runs: &[RunFolder]) -> Markup {
     }
 }
 
-/// The runs as they move; the first that has a 3D view is open.
+/// Returns the runs as they move; the first that has a 3D view is open.
 fn views(runs: &[RunFolder], have_scene: &[Option<bool>]) -> Markup {
     let open = have_scene
         .iter()
@@ -138,7 +138,7 @@ fn views(runs: &[RunFolder], have_scene: &[Option<bool>]) -> Markup {
             @for (number, (run, scene)) in runs.iter().zip(have_scene).enumerate() {
                 @match scene {
                     Some(_) => (moving_as(&run.label, &run.label, open == Some(number))),
-                    None => p { (run.label) ": no case.toml beside its result.csv tells what it looks \
+                    None => p { (run.label) ": no case.toml beside its result.csv says what it looks \
                                              like." },
                 }
             }
@@ -146,12 +146,12 @@ fn views(runs: &[RunFolder], have_scene: &[Option<bool>]) -> Markup {
     }
 }
 
-/// The heads of the columns of runs.
+/// Returns the heads of the columns of runs.
 fn heads(runs: &[RunFolder]) -> Markup {
     html! { @for run in runs { th.number scope="col" { (run.label) } } }
 }
 
-/// A number to four digits.
+/// Returns a number to four digits.
 fn four(value: f64) -> String {
     let size = value.abs();
     let text = if size == 0.0 {
@@ -165,7 +165,7 @@ fn four(value: f64) -> String {
     text.replace('-', "\u{2212}")
 }
 
-/// How much more than the first, in brackets.
+/// Returns the difference from the first, in brackets.
 fn over(value: f64, first: f64) -> Option<String> {
     let part = 100.0 * (value - first) / first.abs();
     part.is_finite()
@@ -188,7 +188,7 @@ fn numbers(runs: &[RunFolder]) -> Markup {
     }
 }
 
-/// The key numbers of runs with their names, in these units.
+/// Returns the key numbers of runs with their names, in these units.
 pub(super) fn table(all: &[(&str, Vec<KeyNumber>)], units: Units) -> Markup {
     let mut names: Vec<&str> = Vec::new();
     for number in all.iter().flat_map(|(_, numbers)| numbers) {
@@ -234,7 +234,7 @@ pub(super) fn table(all: &[(&str, Vec<KeyNumber>)], units: Units) -> Markup {
     }
 }
 
-/// A number, with its unit where that is not the row's, and its difference from the first.
+/// Returns a number, with its unit where that is not the row's, and its difference from the first.
 fn cell(value: Option<&SummaryValue>, first: Option<&SummaryValue>, unit: &str) -> Markup {
     let Some(value) = value else {
         return html! { "–" };

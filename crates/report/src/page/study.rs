@@ -27,7 +27,7 @@ pub fn write(study: &Study, digest: &Digest, folder: &Path) -> Result<(), FileEr
         .write(|files| files.add(FILE_NAME, |out| out.write_all(page.as_bytes())))
 }
 
-/// The page as HTML; it needs nothing else to be shown.
+/// Returns the page as HTML; it needs nothing else to be shown.
 #[must_use]
 pub fn render(study: &Study, digest: &Digest) -> String {
     let heading = if study.title.is_empty() {

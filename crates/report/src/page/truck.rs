@@ -27,7 +27,7 @@ pub struct TruckContents<'c> {
     pub interactive: Option<(Viewer, &'c str)>,
 }
 
-/// The page as HTML.
+/// Returns the page as HTML.
 #[must_use]
 pub fn render(contents: &TruckContents<'_>) -> String {
     let findings = contents.findings;
@@ -89,7 +89,7 @@ fn percent(value: f64) -> String {
     }
 }
 
-/// By how much more than expected was found.
+/// Returns the difference from the expected value, in words.
 fn difference(check: &Check) -> String {
     if check.expected == [0.0; 2] {
         return format!("{:.1e}", check.difference);
@@ -164,7 +164,7 @@ fn checks(basis: Basis, all: &[Check]) -> Markup {
     }
 }
 
-/// Where answers hang on stiffnesses that are decided, and by how much.
+/// Returns the sentence on results that depend on stiffnesses that are decided, and by how much.
 fn sentence(all: &[Sensitivity]) -> String {
     let most = |of: fn(&Sensitivity) -> f64| all.iter().max_by(|a, b| of(a).abs().total_cmp(&of(b).abs()));
     match (most(|own| own.contacts), most(|own| own.bristles)) {
@@ -276,7 +276,7 @@ fn energies(rigs: &[TruckResult]) -> Markup {
     }
 }
 
-/// The rigs: open one to see it move.
+/// Returns the rigs: open one to see it move.
 fn runs(contents: &TruckContents<'_>) -> Markup {
     html! {
         section {

@@ -14,7 +14,7 @@ use crate::figures::truck::{TruckRun, exhibits};
 use crate::run_folder::KeyNumber;
 use crate::view::run::{Detail, Recording};
 
-/// The page as HTML; it needs nothing else to be shown.
+/// Returns the page as HTML; it needs nothing else to be shown.
 ///
 /// # Errors
 /// What the writer of JSON says.
@@ -51,7 +51,7 @@ pub fn render(run: &TruckRun, viewer: Option<Viewer>) -> Result<String, serde_js
     ))
 }
 
-/// The table of what is lost in a cycle, without what is less than a thousandth of it.
+/// Returns the table of what is lost in a cycle, without what is less than a thousandth of it.
 fn losses(energy: &EnergySummary, loss: &SummaryValue) -> Markup {
     let share = |own: Option<&SummaryValue>, of: f64| {
         own.map_or("–".to_owned(), |own| format!("{:.1}", 100.0 * own.value / of))
@@ -106,12 +106,12 @@ fn losses(energy: &EnergySummary, loss: &SummaryValue) -> Markup {
     }
 }
 
-/// The energy (output units) that the friction of a wedge's face takes in a cycle.
+/// Returns the energy (output units) that the friction of a wedge's face takes in a cycle.
 pub(super) fn loss(summary: &TruckSummary, wedge: &str, face: &str) -> Option<f64> {
     summary.cycles.loss_at(wedge, face)
 }
 
-/// The table of a run's wedges.
+/// Returns the table of a run's wedges.
 fn wedges(summary: &TruckSummary) -> Markup {
     let [force, energy] = [Kind::Force, Kind::Energy].map(|kind| kind.label(summary.units));
     let cell = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.1}"));

@@ -20,7 +20,7 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    /// The interactive part that this program holds, if it does.
+    /// Returns the interactive part that this program holds, if it does.
     #[must_use]
     pub fn embedded() -> Option<Self> {
         (!SCRIPT.is_empty()).then_some(Self {

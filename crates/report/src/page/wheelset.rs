@@ -10,7 +10,7 @@ use super::{Viewer, document, interactive, moving, shown_in};
 use crate::figures::wheelset::exhibits;
 use crate::view::run::{Detail, Recording};
 
-/// The page as HTML; it needs nothing else to be shown.
+/// Returns the page as HTML; it needs nothing else to be shown.
 ///
 /// # Errors
 /// What the writer of JSON says.
@@ -50,7 +50,7 @@ pub fn render(
     Ok(document(&heading, &lead, None, &main, data))
 }
 
-/// Where it derailed, and what makes its numbers doubtful.
+/// Returns the place of derailment, and what makes its numbers doubtful.
 fn state(summary: &WheelsetSummary) -> Markup {
     html! {
         @if let Some(derailment) = &summary.derailment { p.warning { "Derailed: " (derailment.words()) "." } }

@@ -82,19 +82,19 @@ impl AnySummary {
         })
     }
 
-    /// What the summaries of all models have.
+    /// Returns the part that the summaries of all models have.
     #[must_use]
     pub fn shared(&self) -> &dyn RunSummary {
         each!(self, summary => summary.as_ref())
     }
 
-    /// The schema that it names.
+    /// Returns the schema that it names.
     #[must_use]
     pub fn schema(&self) -> &str {
         each!(self, summary => &summary.schema)
     }
 
-    /// What it is a run of, with its article.
+    /// Returns the name of the model, with its article.
     #[must_use]
     pub fn what(&self) -> &'static str {
         match self {
@@ -106,7 +106,7 @@ impl AnySummary {
         }
     }
 
-    /// The case's title; may be empty.
+    /// Returns the case's title; may be empty.
     #[must_use]
     pub fn title(&self) -> &str {
         match self {
@@ -118,25 +118,25 @@ impl AnySummary {
         }
     }
 
-    /// The program that wrote it, with its version.
+    /// Returns the program that wrote it, with its version.
     #[must_use]
     pub fn program(&self) -> &str {
         each!(self, summary => &summary.program)
     }
 
-    /// The number of rows of its table.
+    /// Returns the number of rows of its table.
     #[must_use]
     pub fn rows(&self) -> usize {
         each!(self, summary => summary.rows)
     }
 
-    /// What its numbers rest on.
+    /// Returns the assumptions.
     #[must_use]
     pub fn assumptions(&self) -> &[String] {
         each!(self, summary => &summary.assumptions)
     }
 
-    /// Its energy ledger.
+    /// Returns its energy ledger.
     #[must_use]
     pub fn ledger(&self) -> Ledger<'_> {
         match self {
@@ -152,7 +152,7 @@ impl AnySummary {
         }
     }
 
-    /// The steps of the integrator, and its relative tolerance.
+    /// Returns the steps of the integrator, and its relative tolerance.
     #[must_use]
     pub fn solver(&self) -> (u64, f64) {
         match self {
@@ -164,7 +164,7 @@ impl AnySummary {
         }
     }
 
-    /// Where a wheel left its rail, in words, if one did.
+    /// Returns the place where a wheel left its rail, in words, if one did.
     #[must_use]
     pub fn derailed(&self) -> Option<String> {
         match self {

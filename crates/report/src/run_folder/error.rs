@@ -71,7 +71,7 @@ pub enum RunFolderError {
 }
 
 impl RunFolderError {
-    /// A summary that does not follow its schema.
+    /// Returns a summary that does not follow its schema.
     pub(super) fn damaged(file: &Path, error: &serde_json::Error) -> Self {
         let text = error.to_string();
         let reason = text
@@ -85,7 +85,7 @@ impl RunFolderError {
         }
     }
 
-    /// A summary of another schema.
+    /// Returns a summary of another schema.
     pub(super) fn schema(file: &Path, found: &str) -> Self {
         let stem = |schema: &str| schema.split('/').next().unwrap_or_default().to_owned();
         let folder = file.parent().unwrap_or(Path::new(".")).display();
@@ -114,7 +114,7 @@ impl RunFolderError {
     }
 }
 
-/// The folder of a run that is meant: itself, or that of its `result.csv` or `summary.json`.
+/// Returns the folder of a run that is meant: itself, or that of its `result.csv` or `summary.json`.
 pub(super) fn folder_of(path: &Path) -> Result<PathBuf, RunFolderError> {
     let no_run = |what: &'static str, advice: String| RunFolderError::NoRun {
         path: path.to_owned(),

@@ -40,7 +40,7 @@ impl KeyNumber {
         }
     }
 
-    /// A number of a unit that stays as it is.
+    /// Returns a number of a unit that stays as it is.
     fn plain(what: impl Into<String>, window: impl Into<String>, value: f64, unit: &str) -> Self {
         Self {
             what: what.into(),
@@ -59,7 +59,7 @@ impl KeyNumber {
         of_truck(summary)
     }
 
-    /// The number in these units, as far as it can be converted.
+    /// Returns the number in these units, as far as it can be converted.
     #[must_use]
     pub fn in_units(&self, units: Units) -> SummaryValue {
         let own = |kind: Kind| {
@@ -78,7 +78,7 @@ impl KeyNumber {
 }
 
 impl RunFolder {
-    /// The numbers that people compare first.
+    /// Returns the numbers that people compare first.
     #[must_use]
     pub fn key_numbers(&self) -> Vec<KeyNumber> {
         let case = self.case.as_ref().and_then(AnyCase::wedge);
@@ -92,7 +92,7 @@ impl RunFolder {
     }
 }
 
-/// The output times that means of a branch are over, in words; without a damping those of both.
+/// Returns the output times that means of a branch are over, in words; without a damping those of both.
 #[must_use]
 pub fn branch_window(damping: Option<Damping>) -> &'static str {
     match damping {

@@ -126,14 +126,14 @@ impl RunFolder {
         })
     }
 
-    /// The units of its numbers.
+    /// Returns the units of its numbers.
     #[must_use]
     pub fn units(&self) -> Units {
         self.summary.shared().units()
     }
 
-    /// Its 3D view and plots: those that its own page keeps, or made from its table and its case; `None`
-    /// where neither is there.
+    /// Returns its 3D view and plots: those that its own page keeps, or made from its table and its case;
+    /// `None` where neither is there.
     #[must_use]
     pub fn seen(&self) -> Option<Seen> {
         if let Some(kept) = self.kept() {
@@ -157,7 +157,7 @@ impl RunFolder {
         Some(Seen::Made(Box::new(made.named(&self.label))))
     }
 
-    /// What its own page keeps, if it is a page of this run.
+    /// Returns the data of its own page, if that is a page of this run.
     fn kept(&self) -> Option<KeptView> {
         let kept = KeptView::read(&self.folder.join(page::FILE_NAME), self.summary.shared().name())?;
         // It may be the page of another run, over which this one was written: a page keeps every n-th row.
@@ -171,7 +171,7 @@ impl RunFolder {
         (stride > 0 && [1, last].into_iter().all(same)).then(|| kept.named(&self.label))
     }
 
-    /// The run of a truck, without the corners of its wedges, which its table has not.
+    /// Returns the run of a truck, without the corners of its wedges, which its table has not.
     #[must_use]
     pub fn truck(&self) -> Option<TruckRun> {
         match (&self.summary, self.case.as_ref()?) {
@@ -184,7 +184,7 @@ impl RunFolder {
         }
     }
 
-    /// The run of a car, without the motions of its bodies, which its table has not.
+    /// Returns the run of a car, without the motions of its bodies, which its table has not.
     #[must_use]
     pub fn car(&self) -> Option<CarRun> {
         match (&self.summary, self.case.as_ref()?) {
@@ -197,7 +197,7 @@ impl RunFolder {
         }
     }
 
-    /// The result as it came out of the run: what stands in the table, SI, without texts of columns.
+    /// Returns the result as it came out of the run: what stands in the table, SI, without texts of columns.
     fn result<S>(&self, summary: S) -> RunResult<S> {
         let columns = self.table.columns();
         RunResult {

@@ -59,7 +59,8 @@ pub const AXES: [Axis; 4] = [
 ];
 
 impl Axis {
-    /// Whether the runs that it draws stay within it; `false` if one of them is missing or not complete.
+    /// Returns whether the runs that it draws stay within it; `false` if one of them is missing or not
+    /// complete.
     fn holds(&self, runs: &[(Case, RunResult)]) -> bool {
         let toes = [Toe::Out, Toe::None, Toe::In].into_iter();
         let all = toes.flat_map(|toe| {
@@ -83,7 +84,7 @@ impl Axis {
     }
 }
 
-/// Whether these runs stay within each of the axes.
+/// Returns whether these runs stay within each of the axes.
 pub(super) fn within(runs: &[(Case, RunResult)]) -> Vec<bool> {
     AXES.iter().map(|axis| axis.holds(runs)).collect()
 }

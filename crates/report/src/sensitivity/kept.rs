@@ -169,7 +169,7 @@ impl Kept {
         missing.copied().collect()
     }
 
-    /// What was found before at a place.
+    /// Returns the stored outcome at a place.
     #[must_use]
     pub fn found(&self, place: Place) -> Option<&Found> {
         self.found.get(&place.key())
@@ -208,7 +208,7 @@ fn reason(error: ReadError) -> io::Error {
     }
 }
 
-/// A line's point with what was found; `None` if it is cut off or damaged.
+/// Returns a line's point with what was found; `None` if it is cut off or damaged.
 fn point(line: &[u8], space: &Space) -> Option<(String, Found)> {
     let line: Line = serde_json::from_slice(line).ok()?;
     let verdicts: Vec<Verdict> = line.verdicts.chars().map(verdict).collect::<Option<_>>()?;
@@ -225,7 +225,7 @@ fn point(line: &[u8], space: &Space) -> Option<(String, Found)> {
     ))
 }
 
-/// What decides what is found at a point, as text.
+/// Returns the text that decides the outcome at a point.
 fn describe(space: &Space) -> String {
     #[derive(Serialize)]
     struct Description<'d> {

@@ -44,7 +44,7 @@ impl Extent {
         Self::CannotBeDecided,
     ];
 
-    /// Of so many points that decide, those at which a statement holds.
+    /// Makes it of the number of points that decide, and of those at which a statement holds.
     #[must_use]
     pub fn of(holds: usize, decided: usize) -> Self {
         match (holds, decided) {
@@ -86,7 +86,7 @@ impl Tally {
         })
     }
 
-    /// The share of those that decide; NaN without any.
+    /// Returns the share of those that decide; NaN without any.
     #[must_use]
     pub fn share(self) -> f64 {
         self.holds as f64 / self.decided as f64
@@ -192,7 +192,7 @@ pub struct Sensitivity {
 }
 
 impl Sensitivity {
-    /// What these points say, of which the first `points` of the space count.
+    /// Returns the outcome of these points, of which the first `points` of the space count.
     #[must_use]
     pub fn of(space: &Space, points: u64, found: &BTreeMap<Place, Found>) -> Self {
         let verdict = |place: Place, statement: usize| {
@@ -278,13 +278,13 @@ impl Sensitivity {
         }
     }
 
-    /// What is said of a statement.
+    /// Returns the outcome of a statement.
     #[must_use]
     pub fn statement(&self, id: &str) -> Option<&Statement> {
         self.statements.iter().find(|statement| statement.id == id)
     }
 
-    /// What other frictions do to all statements together; nothing without points of them.
+    /// Returns the effect of other frictions on all statements together; nothing without points of them.
     #[must_use]
     pub fn frictions(&self) -> Vec<OfFriction> {
         let of = |(index, friction): (usize, &OtherFriction)| {

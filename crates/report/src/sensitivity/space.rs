@@ -48,7 +48,7 @@ pub(super) enum Cut {
 }
 
 impl OpenParameter {
-    /// The cuts that are tried: a range at its quarters, choices one against the others.
+    /// Returns the cuts that are tried: a range at its quarters, choices one against the others.
     pub(super) fn cuts(&self) -> Vec<Cut> {
         match &self.factor.levels {
             Levels::Range { .. } => [0.25, 0.5, 0.75].map(Cut::Below).to_vec(),
@@ -57,7 +57,7 @@ impl OpenParameter {
         }
     }
 
-    /// Whether a coordinate is on the first side of a cut.
+    /// Returns whether a coordinate is on the first side of a cut.
     pub(super) fn is_first(&self, cut: Cut, coordinate: f64) -> bool {
         match cut {
             Cut::Below(limit) => coordinate < limit,
@@ -70,7 +70,7 @@ impl OpenParameter {
         ((coordinate * count as f64) as usize).min(count.saturating_sub(1))
     }
 
-    /// What the sides of a cut are called.
+    /// Returns the names of the sides of a cut.
     pub(super) fn sides(&self, cut: Cut) -> [String; 2] {
         match cut {
             Cut::Below(limit) => {
@@ -87,7 +87,7 @@ impl OpenParameter {
         }
     }
 
-    /// Its values in words.
+    /// Returns its values in words.
     #[must_use]
     pub fn range(&self) -> String {
         match &self.factor.levels {
@@ -101,7 +101,7 @@ impl OpenParameter {
     }
 }
 
-/// A value to two digits, with its unit.
+/// Returns a value to two digits, with its unit.
 fn shown(value: &Value) -> String {
     match value {
         Value::Number { value, unit } => {
@@ -129,7 +129,7 @@ fn choices(
     }
 }
 
-/// What the thesis leaves open.
+/// Returns the parameters that the thesis leaves open.
 #[must_use]
 pub fn open_parameters() -> Vec<OpenParameter> {
     vec![
@@ -264,7 +264,7 @@ impl Default for Space {
 }
 
 impl Space {
-    /// The points with so many in the space.
+    /// Returns the points with so many in the space.
     #[must_use]
     pub fn places(&self, points: u64) -> Vec<Place> {
         let others = 0..points.div_ceil(OTHER_FRICTION);
@@ -288,7 +288,7 @@ impl Space {
             .collect()
     }
 
-    /// The contact stiffness at a place, lbf/in a corner; `None` where all is as decided.
+    /// Returns the contact stiffness at a place, lbf/in a corner; `None` where all is as decided.
     #[must_use]
     pub fn stiffness(&self, place: Place) -> Option<f64> {
         match place {
@@ -301,7 +301,7 @@ impl Space {
         }
     }
 
-    /// What is set there, as `--set` takes it.
+    /// Returns the settings there, as `--set` takes them.
     #[must_use]
     pub fn set(&self, place: Place) -> Vec<String> {
         let of_point = |point: u64| {
@@ -336,7 +336,7 @@ impl Space {
 }
 
 impl Place {
-    /// Its name in files.
+    /// Returns its name in files.
     #[must_use]
     pub fn key(self) -> String {
         match self {
@@ -347,7 +347,7 @@ impl Place {
         }
     }
 
-    /// The place of this name.
+    /// Returns the place of this name.
     #[must_use]
     pub fn of_key(key: &str) -> Option<Self> {
         let words: Vec<&str> = key.split(' ').collect();

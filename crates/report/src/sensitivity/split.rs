@@ -46,8 +46,9 @@ pub struct Split {
     pub explains: f64,
 }
 
-/// The cut that decides; `None` if the statement holds at all or at no points, or no cut explains more than
-/// chance. `holds` has for each point that decides the statement its number and whether it holds there.
+/// Returns the cut that decides; `None` if the statement holds at all or at no points, or no cut explains
+/// more than chance. `holds` has for each point that decides the statement its number and whether it holds
+/// there.
 #[must_use]
 pub fn deciding(space: &Space, holds: &[(u64, bool)]) -> Option<Split> {
     let all = holds.len() as f64;

@@ -33,7 +33,7 @@ pub struct Mean {
 }
 
 impl Mean {
-    /// Of some values; `None` below two of them.
+    /// Makes it of some values; `None` below two of them.
     fn of(values: &[f64]) -> Option<Self> {
         let count = values.len() as f64;
         if count < 2.0 {
@@ -45,7 +45,7 @@ impl Mean {
         Some(Self { mean, error })
     }
 
-    /// Whether it is greater than another by more than two standard errors of the difference.
+    /// Returns whether it is greater than another by more than two standard errors of the difference.
     fn exceeds(self, other: Self) -> bool {
         self.mean - other.mean > 2.0 * self.error.hypot(other.error)
     }
@@ -88,7 +88,7 @@ pub struct OfStiffness {
     pub chosen: Option<usize>,
 }
 
-/// The part that the rule chooses.
+/// Returns the part that the rule chooses.
 fn choose(parts: &[Part]) -> Option<usize> {
     let middle = parts.get(MIDDLE)?;
     let is_better = |one: &Part, other: &Part| {
@@ -111,7 +111,7 @@ fn choose(parts: &[Part]) -> Option<usize> {
     Some(best.map_or(MIDDLE, |(number, _)| number))
 }
 
-/// What these points say.
+/// Returns the outcome of these points.
 pub(super) fn of_stiffness(space: &Space, points: Range<u64>, found: &BTreeMap<Place, Found>) -> OfStiffness {
     let required: Vec<bool> = claims().map(|claim| REQUIRED.contains(&claim.id)).collect();
     let counts = |found: &Found| {

@@ -114,7 +114,7 @@ pub enum StudyFolderError {
 }
 
 impl StudyFolderError {
-    /// What went wrong while something was made from runs that are all kept.
+    /// Returns the error of making something from runs that are all kept.
     #[must_use]
     pub fn after_all_runs(error: FileError) -> Self {
         match error {
@@ -173,7 +173,7 @@ pub(super) fn compare(folder: &Path, file: &Path, found: &str, wanted: &str) -> 
     })
 }
 
-/// The first lines of the case that differ.
+/// Returns the first lines of the case that differ.
 fn changed_lines(found: &Value, wanted: &Value) -> String {
     let text = |value: &Value| {
         let text = value.get("case").and_then(Value::as_str);

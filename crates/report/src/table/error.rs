@@ -194,7 +194,7 @@ pub enum TableError {
 }
 
 impl TableError {
-    /// A file that holds something else.
+    /// Returns a file that holds something else.
     pub(super) fn foreign(file: &Path, what: &'static str) -> Self {
         Self::Foreign {
             file: file.to_owned(),
@@ -205,7 +205,7 @@ impl TableError {
         }
     }
 
-    /// The table of a study, which has no times.
+    /// Returns the table of a study, which has no times.
     pub(super) fn of_study(file: &Path) -> Self {
         Self::Foreign {
             file: file.to_owned(),
@@ -215,7 +215,7 @@ impl TableError {
         }
     }
 
-    /// A file of another type.
+    /// Returns a file of another type.
     pub(super) fn of_type(file: &Path, found: FileType) -> Self {
         Self::Foreign {
             file: file.to_owned(),
@@ -224,7 +224,7 @@ impl TableError {
         }
     }
 
-    /// A file that was not read.
+    /// Returns a file that was not read.
     pub(super) fn of_file(file: &Path, error: ReadError) -> Self {
         match error.reason {
             Reason::WrongType(found) => Self::of_type(file, found),

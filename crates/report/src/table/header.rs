@@ -101,7 +101,7 @@ pub(super) fn read(place: &HeaderLocation<'_>, cells: &[&str]) -> Result<Header,
     Ok(Header { names, units, time })
 }
 
-/// The system of units of all names; an error if there are two.
+/// Returns the system of units of all names; an error if there are two.
 fn mixture<'n>(
     place: &HeaderLocation<'_>,
     names: impl Iterator<Item = &'n Name> + Clone,
@@ -120,7 +120,7 @@ fn mixture<'n>(
     }
 }
 
-/// The columns that our results have, by name without unit.
+/// Returns the columns that our results have, by name without unit.
 fn known() -> BTreeMap<String, Kind> {
     // Their names and kinds are the same for every wedge.
     let outputs = Outputs::new(&wedge::thesis::parameters(Damping::Variable, 0.0, 0.0));

@@ -26,14 +26,14 @@ pub enum Basis {
 }
 
 impl Basis {
-    /// All of them, in the order in which they are told.
+    /// All of them, in the order of the page.
     pub const ALL: [Self; 3] = [
         Self::ClosedForm,
         Self::MasslessWedge,
         Self::IndependentCalculation,
     ];
 
-    /// Its heading.
+    /// Returns its heading.
     #[must_use]
     pub fn heading(self) -> &'static str {
         match self {
@@ -104,12 +104,12 @@ impl Found {
     }
 }
 
-/// One number as a range.
+/// Returns one number as a range.
 fn exactly(value: f64) -> [f64; 2] {
     [value; 2]
 }
 
-/// All checks whose runs are there.
+/// Returns all checks whose runs are there.
 #[must_use]
 pub fn checks(rigs: &Rigs) -> Vec<Check> {
     let mut found = Found {
@@ -215,7 +215,7 @@ fn rest(found: &mut Found, rigs: &Rigs) {
     );
 }
 
-/// The frequency (Hz) of the vibration in which the bolster moves most.
+/// Returns the frequency (Hz) of the vibration in which the bolster moves most.
 fn bounce(parameters: &Parameters) -> Option<f64> {
     let mut truck = Truck::new(parameters).ok()?;
     let x = truck.system.initial_state();
@@ -229,7 +229,7 @@ fn bounce(parameters: &Parameters) -> Option<f64> {
     Some(most.frequency)
 }
 
-/// The lower frequency (Hz) of two masses: the car on its coils, the side frames on their adapters.
+/// Returns the lower frequency (Hz) of two masses: the car on its coils, the side frames on their adapters.
 fn two_masses(parameters: &Parameters) -> Option<f64> {
     let [upper, lower] = masses(parameters);
     let coils = parameters.load_stiffness();
@@ -340,7 +340,7 @@ fn plate_and_ledger(found: &mut Found, rigs: &Rigs) {
         .all()
         .map(|(_, result)| result.summary.ledger.largest_relative_residual);
     found.add(
-        "largest residual of the energy ledger of any run told here",
+        "largest residual of the energy ledger of any run reported here",
         residuals.reduce(f64::max),
         exactly(0.0),
         ("-", 1e-5),
@@ -367,8 +367,8 @@ fn plate_and_ledger(found: &mut Found, rigs: &Rigs) {
     }
 }
 
-/// The values of a column where the bolster passes its middle height in the last cycle: going up, going down
-/// (SI).
+/// Returns the values of a column where the bolster passes its middle height in the last cycle: going up,
+/// going down (SI).
 fn in_the_middle(result: &TruckResult, name: &str, period: f64) -> Option<[f64; 2]> {
     let (times, z, values) = (
         result.column("time")?,

@@ -36,7 +36,7 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// What these runs say. A check whose runs are missing is left out.
+    /// Returns the findings of these runs. A check whose runs are missing is left out.
     #[must_use]
     pub fn of(rigs: &Rigs) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! The runs that are told of: the rigs of loaded and empty trucks, which the page shows, and variants for
+//! The runs of the report: the rigs of loaded and empty trucks, which the page shows, and variants for
 //! comparison.
 
 use std::collections::BTreeMap;
@@ -14,7 +14,7 @@ pub(super) const INCH: f64 = 0.0254;
 /// kip·in, in N·m.
 pub(super) const KIP_INCH: f64 = 1e3 * POUND * INCH;
 
-/// The names of the rigs that the page shows: those of the loaded and of the empty truck.
+/// Returns the names of the rigs that the page shows: those of the loaded and of the empty truck.
 #[must_use]
 pub fn shown() -> Vec<&'static str> {
     let groups = builtin::groups().iter();
@@ -53,7 +53,7 @@ pub(super) const STIFFENED: [(&str, &str); 2] = [
 /// The rig that warps the truck by its axles.
 const AXLES: &str = "truck_warp_axles_constant_rising";
 
-/// The runs for comparison.
+/// Returns the runs for comparison.
 ///
 /// # Errors
 /// A value is refused: the built-in cases have changed.
@@ -137,7 +137,7 @@ impl Rigs {
         self.runs.insert(key.to_owned(), (case, result));
     }
 
-    /// A run with its case, if it came to its end.
+    /// Returns a run with its case, if it came to its end.
     #[must_use]
     pub fn get(&self, key: &str) -> Option<(&TruckCase, &TruckResult)> {
         let (case, result) = self.runs.get(key)?;
@@ -145,13 +145,13 @@ impl Rigs {
         sound.then_some((case, result))
     }
 
-    /// All runs with their keys.
+    /// Returns all runs with their keys.
     pub fn all(&self) -> impl Iterator<Item = (&str, &TruckResult)> {
         self.runs.iter().map(|(key, (_, result))| (key.as_str(), result))
     }
 }
 
-/// The value of a column (SI) in the row nearest to a time (s).
+/// Returns the value of a column (SI) in the row nearest to a time (s).
 pub(super) fn at(result: &TruckResult, name: &str, time: f64) -> Option<f64> {
     let times = result.column("time")?;
     let after = times.partition_point(|own| *own < time);

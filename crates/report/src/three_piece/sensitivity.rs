@@ -26,12 +26,12 @@ pub struct Sensitivity {
 /// What a rig is asked for.
 type Answer = (&'static str, &'static str, fn(&TruckResult) -> Option<f64>);
 
-/// The warp moment where 20 mrad are reached first, kip·in.
+/// Returns the warp moment where 20 mrad are reached first, kip·in.
 fn warp_moment(result: &TruckResult) -> Option<f64> {
     Some(at(result, "warp_moment", 4.5)?.abs() / KIP_INCH)
 }
 
-/// The largest normal force of any column, lbf.
+/// Returns the largest normal force of any column, lbf.
 fn normal(result: &TruckResult) -> Option<f64> {
     let all = WEDGE_NAMES.iter().filter_map(|wedge| {
         let values = result.column(&format!("{wedge}_column_normal"))?;
@@ -40,7 +40,7 @@ fn normal(result: &TruckResult) -> Option<f64> {
     all.reduce(f64::max).map(|force| force / POUND)
 }
 
-/// What a cycle loses, in·lbf.
+/// Returns the loss of a cycle, in·lbf.
 fn loss(result: &TruckResult) -> Option<f64> {
     let losses = &result.summary.cycles.losses;
     let units = result.summary.units;
@@ -55,7 +55,7 @@ const WARP: [Answer; 3] = [
     ("energy lost in a cycle", "in·lbf", loss),
 ];
 
-/// All of them; those whose runs are missing are left out.
+/// Returns all of them; those whose runs are missing are left out.
 #[must_use]
 pub fn sensitivities(rigs: &Rigs) -> Vec<Sensitivity> {
     let mut found = Vec::new();

@@ -33,7 +33,7 @@ const EDGE: f64 = 0.3;
 /// Names of the sides.
 const SIDES: [&str; 2] = ["left", "right"];
 
-/// The scene; none if there are no profiles to draw.
+/// Returns the scene; none if there are no profiles to draw.
 #[must_use]
 pub fn scene(case: &CarCase, result: &CarResult) -> Option<Scene> {
     let own = &case.parameters;
@@ -100,7 +100,7 @@ fn tape_distance(own: &Parameters) -> f64 {
     }
 }
 
-/// A point and the radius about it, from a direction.
+/// Returns a point and the radius about it, from a direction.
 fn near(name: &str, from: [f64; 3], at: [f64; 3], reach: f64, arrow: f64) -> Look {
     Look {
         at: Some((at, reach)),
@@ -252,7 +252,7 @@ fn add_truck(scene: &mut Scene, parameters: &truck::Parameters, prefix: &str) {
     scene.contacts.append(&mut own.contacts);
 }
 
-/// What its plots may show.
+/// Returns the quantities that its plots may show.
 #[must_use]
 pub fn plots(result: &CarResult) -> Vec<Plot> {
     let named = |title: &str, curves: Vec<(String, String)>| Plot {

@@ -80,12 +80,12 @@ pub(super) struct DrawnWedge {
 }
 
 impl DrawnWedge {
-    /// The name of the solid of its column.
+    /// Returns the name of the solid of its column.
     pub fn column(&self) -> String {
         format!("column_{}", self.key)
     }
 
-    /// The prism, its slope inclined across and its sides leaning.
+    /// Returns the prism, its slope inclined across and its sides leaning.
     fn solid(&self) -> Solid {
         let [height, width] = self.size;
         let (ahead, half, length) = (self.ahead, 0.5 * height, self.length());
@@ -120,14 +120,14 @@ impl DrawnWedge {
         self.size[0] * sine / cosine
     }
 
-    /// The slope's normal towards the wedge, axes of the bolster.
+    /// Returns the slope's normal towards the wedge, axes of the bolster.
     pub fn slope_normal(&self) -> [f64; 3] {
         let (sine, cosine) = libm::sincos(self.angle);
         let (tilt, level) = libm::sincos(self.across);
         [self.ahead * cosine * level, tilt, -sine * level]
     }
 
-    /// The middle of the slope, from the middle of the vertical face, m.
+    /// Returns the middle of the slope, from the middle of the vertical face, m.
     pub fn middle_of_slope(&self) -> [f64; 3] {
         [-0.5 * self.ahead * self.length(), 0.0, 0.0]
     }
@@ -168,7 +168,7 @@ pub(super) fn less(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 impl Carriage {
-    /// The scene, with these contacts; none without wedges.
+    /// Returns the scene, with these contacts; none without wedges.
     pub fn scene(&self, contacts: Vec<SceneContact>) -> Option<Scene> {
         let first = self.wedges.first()?;
         let [height, width] = first.size;
@@ -409,7 +409,7 @@ impl Carriage {
     }
 }
 
-/// A beam across the track, whose sides are the slopes.
+/// Returns a beam across the track, whose sides are the slopes.
 fn bolster_solid(part: &Part, own: &[&DrawnWedge], (bottom, height, width): (f64, f64, f64)) -> Solid {
     let center = part.center;
     let side = |ahead: bool| -> Option<[[f64; 2]; 2]> {

@@ -72,7 +72,7 @@ pub struct ChartCurve {
 }
 
 impl Chart {
-    /// The figure, whose numbers are in `units`.
+    /// Returns the figure, whose numbers are in `units`.
     #[must_use]
     pub fn new(figure: &Figure, units: Units, data: &mut Data) -> Self {
         let panels = figure.panels.iter().map(|panel| self::panel(panel, units, data));

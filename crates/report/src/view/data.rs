@@ -80,15 +80,15 @@ impl Data {
         place
     }
 
-    /// The lists.
+    /// Returns the lists.
     #[must_use]
     pub fn into_lists(self) -> Vec<List> {
         self.lists
     }
 }
 
-/// A step, a power of two so that numbers that hardly differ give the same bytes, and the second differences.
-/// Whole numbers keep their values.
+/// Returns a step, a power of two so that numbers that hardly differ give the same bytes, and the second
+/// differences. Whole numbers keep their values.
 fn rounded(values: &[f64]) -> (f64, Vec<u8>) {
     let most = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
     let whole = most <= STEPS && values.iter().all(|value| value.fract() == 0.0);
@@ -117,7 +117,7 @@ fn rounded(values: &[f64]) -> (f64, Vec<u8>) {
 mod tests {
     use super::*;
 
-    /// As a reader does it.
+    /// Reads it as a reader does.
     fn read(step: f64, bytes: &[u8]) -> Vec<f64> {
         let (mut values, mut last, mut slope) = (Vec::new(), 0_i64, 0_i64);
         let mut rest = bytes.iter();

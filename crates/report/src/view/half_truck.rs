@@ -48,7 +48,7 @@ impl Seen {
     }
 }
 
-/// All wedges, by their places.
+/// Returns all wedges, by their places.
 fn wedges(case: &HalfTruckCase) -> Vec<Seen> {
     let truck = &case.truck;
     let all = case.wedges();
@@ -177,7 +177,7 @@ fn body_id(truck: &Truck, body: usize) -> String {
     format!("body_{}", truck.bodies[body])
 }
 
-/// The scene; none without wedges.
+/// Returns the scene; none without wedges.
 #[must_use]
 pub fn scene(case: &HalfTruckCase) -> Option<Scene> {
     let truck = &case.truck;
@@ -342,7 +342,7 @@ fn distinct(all: impl Iterator<Item = usize>) -> Vec<usize> {
     found
 }
 
-/// What its plots may show.
+/// Returns the quantities that its plots may show.
 #[must_use]
 pub fn plots(case: &HalfTruckCase, result: &HalfTruckResult) -> Vec<Plot> {
     let truck = &case.truck;

@@ -31,8 +31,8 @@ pub struct KeptView {
 }
 
 impl KeptView {
-    /// The view of the run `name` in a page; `None` where there is no such page or run, or it is of another
-    /// version.
+    /// Returns the view of the run `name` in a page; `None` where there is no such page or run, or it is of
+    /// another version.
     #[must_use]
     pub fn read(page: &Path, name: &str) -> Option<Self> {
         Self::of_page(&read_text(page, &PAGE).ok()?, name)
@@ -62,32 +62,32 @@ impl KeptView {
         whole.then_some(Self { run, lists })
     }
 
-    /// The same under another name.
+    /// Returns the same under another name.
     #[must_use]
     pub fn named(mut self, name: &str) -> Self {
         self.run["name"] = name.into();
         self
     }
 
-    /// Its title.
+    /// Returns its title.
     #[must_use]
     pub fn title(&self) -> &str {
         self.run["title"].as_str().unwrap_or_default()
     }
 
-    /// Its name.
+    /// Returns its name.
     #[must_use]
     pub fn name(&self) -> &str {
         self.run["name"].as_str().unwrap_or_default()
     }
 
-    /// Whether it has a 3D view.
+    /// Returns whether it has a 3D view.
     #[must_use]
     pub fn has_scene(&self) -> bool {
         self.run["scene"].is_object()
     }
 
-    /// Its output times, s; empty where they are damaged.
+    /// Returns its output times, s; empty where they are damaged.
     #[must_use]
     pub fn times(&self) -> Vec<f32> {
         let place = self.run["time"]

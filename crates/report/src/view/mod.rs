@@ -64,7 +64,7 @@ pub struct View {
 }
 
 impl View {
-    /// The document of these runs and figures, whose numbers are in `units`, which are shown first.
+    /// Returns the document of these runs and figures, whose numbers are in `units`, which are shown first.
     #[must_use]
     pub fn new<'e>(
         units: Units,
@@ -96,7 +96,7 @@ impl View {
         }
     }
 
-    /// The document as JSON that may stand in a `script` element: no `<` in it.
+    /// Returns the document as JSON that may stand in a `script` element: no `<` in it.
     ///
     /// # Errors
     /// What the writer of JSON says.
@@ -104,7 +104,7 @@ impl View {
         Ok(escaped(&serde_json::to_string(self)?))
     }
 
-    /// The same with runs that come from other pages.
+    /// Returns the same with runs that come from other pages.
     ///
     /// # Errors
     /// What the writer of JSON says.
@@ -124,7 +124,7 @@ fn escaped(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
 
-/// A kind's name in the document.
+/// Returns a kind's name in the document.
 #[must_use]
 pub fn kind_name(kind: Kind) -> String {
     match serde_json::to_value(kind) {

@@ -81,7 +81,7 @@ pub fn track(lines: &RailLines, rail: &Profile, offsets: [f64; 2], [from, to]: [
     }
 }
 
-/// The section of a rail: its head, below it web and foot; anticlockwise seen from behind.
+/// Returns the section of a rail: its head, below it web and foot; anticlockwise seen from behind.
 fn section(head: &[[f64; 2]], top: f64) -> Vec<[f64; 2]> {
     let [height, web, foot, edge] = RAIL;
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);

@@ -99,7 +99,7 @@ pub struct Recording {
 type Table<'t> = Vec<(&'t Column, &'t [f64])>;
 
 impl Recording {
-    /// Of a stand-alone wedge.
+    /// Makes the view of a stand-alone wedge.
     #[must_use]
     pub fn of_wedge((case, result): &Outcome, detail: Detail) -> Self {
         let table = table(&result.columns, &result.values);
@@ -107,7 +107,7 @@ impl Recording {
         Self::new((&case.name, &case.title), &table, plots(), scene, detail)
     }
 
-    /// Of a three-piece truck, with the corners of its wedges if the run took them along.
+    /// Makes the view of a three-piece truck, with the corners of its wedges if the run took them along.
     #[must_use]
     pub fn of_three_piece_truck(
         case: &TruckCase,
@@ -126,8 +126,8 @@ impl Recording {
         Self::new((&case.name, &case.title), &all, plots, scene, detail)
     }
 
-    /// Of a car on track, with the motions of its bodies if the run took them along; without them it has no
-    /// scene.
+    /// Makes the view of a car on track, with the motions of its bodies if the run took them along; without
+    /// them it has no scene.
     #[must_use]
     pub fn of_car(case: &CarCase, result: &CarResult, motions: Option<&MotionTable>, detail: Detail) -> Self {
         let mut all = table(&result.columns, &result.values);
@@ -136,7 +136,7 @@ impl Recording {
         Self::new((&case.name, &case.title), &all, car::plots(result), scene, detail)
     }
 
-    /// Of a wheelset on a track.
+    /// Makes the view of a wheelset on a track.
     #[must_use]
     pub fn of_wheelset(case: &WheelsetCase, result: &WheelsetResult, detail: Detail) -> Self {
         let table = table(&result.columns, &result.values);
@@ -145,7 +145,8 @@ impl Recording {
         Self::new((name, title), &table, wheelset::plots(), Some(scene), detail)
     }
 
-    /// Of a half-truck, with the corners of its wedges if they are bodies and the run took them along.
+    /// Makes the view of a half-truck, with the corners of its wedges if they are bodies and the run took
+    /// them along.
     #[must_use]
     pub fn of_truck(
         case: &HalfTruckCase,
@@ -226,32 +227,32 @@ impl Recording {
         Self { view, data }
     }
 
-    /// The same under another name.
+    /// Returns the same under another name.
     #[must_use]
     pub fn named(mut self, name: &str) -> Self {
         name.clone_into(&mut self.view.name);
         self
     }
 
-    /// Its name.
+    /// Returns its name.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.view.name
     }
 
-    /// Its title.
+    /// Returns its title.
     #[must_use]
     pub fn title(&self) -> &str {
         &self.view.title
     }
 
-    /// Whether it has a 3D view.
+    /// Returns whether it has a 3D view.
     #[must_use]
     pub fn has_scene(&self) -> bool {
         self.view.scene.is_some()
     }
 
-    /// The view, its lists put to the others.
+    /// Returns the view, its lists put to the others.
     pub(super) fn into_view(self, data: &mut Data) -> RunView {
         let Self { mut view, data: own } = self;
         let places = data.absorb(own);
@@ -273,8 +274,8 @@ fn table<'t>(columns: &'t [Column], values: &'t [Vec<f64>]) -> Table<'t> {
     columns.iter().zip(values).collect()
 }
 
-/// The loops that a run has: of pairs of columns that hold force over travel or moment over angle, of all
-/// models, those that both move. `plotted` are the columns of its plots, which tell the names of wedges.
+/// Returns the loops that a run has: of pairs of columns that hold force over travel or moment over angle, of
+/// all models, those that both move. `plotted` are the columns of its plots, which tell the names of wedges.
 fn loops<'p>(plotted: impl Iterator<Item = &'p (String, String)>, moves: impl Fn(&str) -> bool) -> Vec<Loop> {
     let made = |title: &str, curves: Vec<[&str; 3]>| Loop {
         title: title.to_owned(),
@@ -369,7 +370,7 @@ fn column(column: &Column, values: &[f64], precision: Precision, data: &mut Data
 }
 
 impl Plot {
-    /// Of these columns with the names of their curves.
+    /// Makes the axes of these columns with the names of their curves.
     pub(super) fn new<'p>(title: &str, curves: impl IntoIterator<Item = (&'p str, &'p str)>) -> Self {
         Self {
             title: title.to_owned(),

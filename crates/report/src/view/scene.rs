@@ -71,7 +71,7 @@ pub struct Look {
 }
 
 impl Look {
-    /// A view of everything.
+    /// Returns a view of everything.
     pub(super) fn all(name: &str, from: [f64; 3]) -> Self {
         Self {
             name: name.to_owned(),
@@ -262,7 +262,7 @@ pub struct SceneContact {
 }
 
 impl Scene {
-    /// The columns that it needs.
+    /// Returns the columns that it needs.
     pub fn columns(&self) -> impl Iterator<Item = &String> {
         let bodies = self
             .bodies
@@ -329,7 +329,7 @@ impl Solid {
     }
 }
 
-/// The scene of a stand-alone wedge; none if the parameters make no wedge.
+/// Returns the scene of a stand-alone wedge; none if the parameters make no wedge.
 #[must_use]
 pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene> {
     let wedge = Wedge::new(parameters.clone()).ok()?;
@@ -531,8 +531,8 @@ fn looks() -> Vec<Look> {
     ]
 }
 
-/// A convex outline in the plane of x and z, anticlockwise with x to the right and z up, drawn out to both
-/// sides along y.
+/// Returns a convex outline in the plane of x and z, anticlockwise with x to the right and z up, drawn out to
+/// both sides along y.
 pub(super) fn extruded(
     (id, name, role, body): (&str, &str, Role, &str),
     outline: &[[f64; 2]],

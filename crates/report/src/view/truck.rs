@@ -39,17 +39,17 @@ fn columns_of(name: &str) -> [Option<String>; 6] {
     COORDINATES.map(|what| Some(format!("{name}_{what}")))
 }
 
-/// A body's center of gravity in the nominal position, m.
+/// Returns a body's center of gravity in the nominal position, m.
 fn nominal(body: &Body) -> [f64; 3] {
     std::array::from_fn(|k| body.frame.origin[k] + body.center_of_gravity[k])
 }
 
-/// A name as people say it.
+/// Returns a name as people say it.
 fn words(name: &str) -> String {
     name.replace('_', " ")
 }
 
-/// What is drawn of a truck but its wheels and what it carries. Names of bodies and columns begin with
+/// Returns the solids of a truck without its wheels and load. Names of bodies and columns begin with
 /// `prefix`; bolster and wedges have these columns of travel.
 pub(super) fn carriage(parameters: &Parameters, prefix: &str, travel: &[Option<String>; 3]) -> Carriage {
     let bodies = ::truck::bodies(parameters, [0.0; 3]);
@@ -133,7 +133,7 @@ pub(super) fn carriage(parameters: &Parameters, prefix: &str, travel: &[Option<S
     }
 }
 
-/// The scene; none if the case makes no truck.
+/// Returns the scene; none if the case makes no truck.
 #[must_use]
 pub fn scene(case: &TruckCase) -> Option<Scene> {
     let parameters = &case.parameters;
@@ -189,7 +189,7 @@ pub fn scene(case: &TruckCase) -> Option<Scene> {
     Some(scene)
 }
 
-/// A prism about y: a cylinder as drawn.
+/// Returns a prism about y: a cylinder as drawn.
 fn cylinder(id: &str, body: &str, radius: f64, y: f64, width: f64) -> Solid {
     const SIDES: u32 = 16;
     let outline: Vec<[f64; 2]> = (0..SIDES)
@@ -217,7 +217,7 @@ fn wheelset(id: &str) -> Solid {
     }
 }
 
-/// The floor of a car above the truck; its body's center of gravity is at `center` (m).
+/// Returns the floor of a car above the truck; its body's center of gravity is at `center` (m).
 fn floor(body: &str, name: &str, center: [f64; 3]) -> Solid {
     let [height, length, width, thick] = FLOOR;
     Solid {
@@ -233,7 +233,7 @@ fn floor(body: &str, name: &str, center: [f64; 3]) -> Solid {
     }
 }
 
-/// What its plots may show.
+/// Returns the quantities that its plots may show.
 #[must_use]
 pub fn plots(result: &TruckResult) -> Vec<Plot> {
     let labels = WEDGE_NAMES.map(words);

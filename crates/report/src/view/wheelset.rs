@@ -15,7 +15,7 @@ const ARROW: f64 = 0.35;
 /// Name of the wheelset's body.
 const ID: &str = "wheelset";
 
-/// The scene.
+/// Returns the scene.
 #[must_use]
 pub fn scene(case: &WheelsetCase, result: &WheelsetResult) -> Scene {
     let own = &case.wheelset;
@@ -65,7 +65,7 @@ pub fn scene(case: &WheelsetCase, result: &WheelsetResult) -> Scene {
     scene
 }
 
-/// What its plots may show.
+/// Returns the quantities that its plots may show.
 #[must_use]
 pub fn plots() -> Vec<Plot> {
     let both = |title: &str, what: &str| {

@@ -113,7 +113,7 @@ fn bogie(speed: f64) -> (System, Vec<f64>) {
     (system, x)
 }
 
-/// The least damped vibration between 1 and 10 Hz.
+/// Returns the least damped vibration between 1 and 10 Hz.
 pub fn least(speed: f64) -> [f64; 2] {
     let (mut system, x) = bogie(speed);
     let found = system.eigenvalues(0.0, &x, 20.0).unwrap();

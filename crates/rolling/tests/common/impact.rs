@@ -113,8 +113,8 @@ pub fn closed_forms(velocity: f64, hertz: f64) -> [f64; 2] {
 /// Damping with which P2 is looked at, s/m: the contact's vibration is over when it comes.
 const DAMPED: f64 = 6.0;
 
-/// The peaks P1 (without damping of the contact) and P2 (with it), N above the static load, of a wheel that
-/// meets its rail at a velocity (m/s): by the elements, by two masses, by closed forms.
+/// Returns the peaks P1 (without damping of the contact) and P2 (with it), N above the static load, of a
+/// wheel that meets its rail at a velocity (m/s): by the elements, by two masses, by closed forms.
 pub fn meeting(velocity: f64) -> [[f64; 2]; 3] {
     let [mut found, mut masses] = [[0.0; 2]; 2];
     let mut hertz = 0.0;
@@ -150,7 +150,7 @@ pub fn meeting(velocity: f64) -> [[f64; 2]; 3] {
     [found, masses, closed_forms(velocity, hertz)]
 }
 
-/// The second peak (N above the static load) at a dipped joint with slopes ±α, at a speed (m/s).
+/// Returns the second peak (N above the static load) at a dipped joint with slopes ±α, at a speed (m/s).
 pub fn joint(angle: f64, speed: f64) -> f64 {
     let (spacing, start) = (40.0, 60.0);
     let joint = Placed {

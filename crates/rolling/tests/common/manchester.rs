@@ -91,8 +91,8 @@ fn springs() -> Vec<Spring> {
     own
 }
 
-/// The vehicle on the core: on linear wheels of a conicity at a speed (m/s), or its wheelsets held. No
-/// gravity: springs have no preload.
+/// Returns the vehicle on the core: on linear wheels of a conicity at a speed (m/s), or its wheelsets held.
+/// No gravity: springs have no preload.
 fn on_the_core(running: Option<(f64, f64)>) -> (System, Vec<f64>) {
     let mut bodies = vec![Body::prescribed("ground", Frame::fixed([0.0; 3], [0.0; 3]))];
     let middle = 50.0;
@@ -277,7 +277,7 @@ pub struct Natural {
     pub expected: f64,
 }
 
-/// All natural frequencies on wheelsets that are held, rising.
+/// Returns all natural frequencies on wheelsets that are held, rising.
 pub fn natural() -> Vec<Natural> {
     let (mut system, x) = on_the_core(None);
     let found = system.vibrations(0.0, &x, Held::All).unwrap();
@@ -321,14 +321,14 @@ pub fn bounce() -> f64 {
     square.sqrt() / TAU
 }
 
-/// The least damped vibration of 0.3 to 15 Hz at a speed (m/s): growth (1/s) and frequency (Hz).
+/// Returns the least damped vibration of 0.3 to 15 Hz at a speed (m/s): growth (1/s) and frequency (Hz).
 pub fn least_on_the_core(conicity: f64, speed: f64) -> [f64; 2] {
     let (mut system, x) = on_the_core(Some((conicity, speed)));
     let found = system.eigenvalues(0.0, &x, 20.0).unwrap();
     least(found.into_iter())
 }
 
-/// The same by itself.
+/// Returns the same by itself.
 pub fn least_by_itself(conicity: f64, speed: f64) -> [f64; 2] {
     let own = by_itself(Some((conicity, speed)));
     let n = own.mass.len();

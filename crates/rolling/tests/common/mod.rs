@@ -159,7 +159,7 @@ pub fn linear(
     }
 }
 
-/// Where a rising function is zero between two numbers, to 1e-7.
+/// Returns the zero of a rising function between two numbers, to 1e-7.
 pub fn bisection([mut low, mut high]: [f64; 2], rising: impl Fn(f64) -> f64) -> f64 {
     while high - low > 1e-7 {
         let middle = 0.5 * (low + high);
@@ -168,8 +168,8 @@ pub fn bisection([mut low, mut high]: [f64; 2], rising: impl Fn(f64) -> f64) -> 
     0.5 * (low + high)
 }
 
-/// A wheelset with cones on crowns of a radius (m) under a load alone, with linear creep, on straight track
-/// at 2 m/s; and its wavelength by Klingel's formula, m.
+/// Returns a wheelset with cones on crowns of a radius (m) under a load alone, with linear creep, on straight
+/// track at 2 m/s; and its wavelength by Klingel's formula, m.
 pub fn coned_wheelset(slope: f64, crown: f64) -> (Setup, f64) {
     let law = ContactLaw {
         creep: CreepLaw::Linear,

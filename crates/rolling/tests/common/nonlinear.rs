@@ -8,7 +8,8 @@ use wheelrail::track::Segment;
 use super::suspended::{growth_by_steps, hunting};
 use super::{POLACH, bisection, freight, on_rails, track};
 
-/// A wheelset of an empty car on lateral and yaw springs, on nominal wheels and rails, at a speed (m/s).
+/// Returns a wheelset of an empty car on lateral and yaw springs, on nominal wheels and rails, at a speed
+/// (m/s).
 pub fn suspended(speed: f64) -> Setup {
     let line = track(&[Segment::Tangent(100.0 + 20.0 * speed)], Vec::new());
     let mut setup = on_rails(&freight(), line, POLACH, speed);
@@ -25,7 +26,8 @@ pub fn critical() -> [f64; 2] {
     [found, at(found)[1]]
 }
 
-/// The lateral amplitude (m) in the last two seconds of a run at a speed (m/s) from a lateral start (m).
+/// Returns the lateral amplitude (m) in the last two seconds of a run at a speed (m/s) from a lateral start
+/// (m).
 pub fn amplitude(speed: f64, start: f64, duration: f64) -> f64 {
     let setup = suspended(speed);
     let start = Start {
@@ -50,7 +52,7 @@ pub fn amplitude(speed: f64, start: f64, duration: f64) -> f64 {
     largest
 }
 
-/// The speed (m/s) at which the growth of runs from 0.1 mm is zero, from runs 1 % below and above the
+/// Returns the speed (m/s) at which the growth of runs from 0.1 mm is zero, from runs 1 % below and above the
 /// critical speed by linearization (m/s, rad/s).
 pub fn by_steps([speed, turning]: [f64; 2]) -> f64 {
     let frequency = turning / std::f64::consts::TAU;

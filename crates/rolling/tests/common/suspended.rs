@@ -13,7 +13,7 @@ pub const START: Start = Start {
     yaw: 0.0,
 };
 
-/// The least damped vibration whose frequency lies in a range (rad/s): real and imaginary part.
+/// Returns the least damped vibration whose frequency lies in a range (rad/s): real and imaginary part.
 pub fn hunting(setup: &Setup, range: [f64; 2], shift: f64) -> [f64; 2] {
     let mut rig = Rig::new(setup, START).unwrap();
     let start = rig.start.clone();

@@ -30,7 +30,7 @@ hold the same numbers to the limits that are stated here. Contact and creep alon
 rail](validation-wheelrail.md).
 ";
 
-/// The page.
+/// Returns the page.
 pub fn page() -> String {
     let mut out = HEAD.to_owned();
     for part in [
@@ -99,7 +99,7 @@ fn cooperrider(out: &mut String) {
     );
 }
 
-/// Says whether two numbers agree within a share, below which their difference is that of rounding.
+/// Returns whether two numbers agree within a share, below which their difference is that of rounding.
 fn within(found: f64, source: f64, share: f64) -> String {
     match (found / source - 1.0).abs() < share {
         true => format!("below {} %", 100.0 * share),
@@ -160,12 +160,12 @@ fn nonlinear(out: &mut String) {
     );
     for (factor, start) in [(0.9, 0.5), (0.9, 12.0), (1.1, 0.5)] {
         let found = 1e3 * limits::amplitude(factor * speed, 1e-3 * start, 8.0);
-        let told = if found < 0.5 {
+        let outcome = if found < 0.5 {
             "below 0.5".to_owned()
         } else {
             format!("{found:.1}")
         };
-        let _ = writeln!(out, "| {factor} | {start} | {told} |");
+        let _ = writeln!(out, "| {factor} | {start} | {outcome} |");
     }
     *out += "\nThe flanges have a clearance of 13.9 mm: above the critical speed the motion grows up to \
              them; at nine tenths of it dies even\nfrom there.\n";

@@ -32,13 +32,13 @@ direction = \"lateral\"
 seed = 3
 ";
 
-/// The track of a regime, as a line of a case.
+/// Returns the track of a regime, as a line of a case.
 fn track_of(regime: &str) -> String {
     let track = Regime::named(regime).map_or("{}", |own| &own.track);
     format!("track = {track}\n")
 }
 
-/// A car in a regime at the speed with this place among the regime's own.
+/// Returns a car in a regime at the speed with this place among the regime's own.
 fn in_regime(name: &str, lading: &str, place: usize) -> Option<BuiltIn> {
     let regime = Regime::named(name)?;
     let speed: &Quantity = regime.speeds.get(place)?;
@@ -189,17 +189,17 @@ start.axle_shift = \"0.4 in\"";
     ]
 });
 
-/// The groups.
+/// Returns the groups.
 pub fn groups() -> &'static [Group] {
     &GROUPS
 }
 
-/// The names of all built-in cars.
+/// Returns the names of all built-in cars.
 pub fn names() -> impl Iterator<Item = &'static str> {
     names_in(groups())
 }
 
-/// The built-in car of this name, with `--set` overrides (`path.key=value`).
+/// Returns the built-in car of this name, with `--set` overrides (`path.key=value`).
 ///
 /// # Errors
 /// There is none of this name, or an override is wrong.
@@ -207,7 +207,7 @@ pub fn case_with(name: &str, overrides: &[String]) -> Result<CarCase, CaseError>
     CarCase::parse(&format!("{name}.toml"), text(name)?, Tables::nowhere(), overrides)
 }
 
-/// The case file of the built-in car of this name.
+/// Returns the case file of the built-in car of this name.
 ///
 /// # Errors
 /// There is none of this name; the help names the nearest.

@@ -88,7 +88,7 @@ pub struct Assessed {
 }
 
 impl Assessed {
-    /// Whether a limit is kept.
+    /// Returns whether a limit is kept.
     #[must_use]
     pub fn keeps(&self, check: &Check) -> Option<bool> {
         match self.derailed {
@@ -314,7 +314,7 @@ pub fn worst_run(runs: &[Assessed], regime: usize) -> Option<&Assessed> {
     })
 }
 
-/// The first regime that is there twice.
+/// Returns the first regime that is there twice.
 fn repeated(regimes: &[Regime]) -> Option<&str> {
     let names = regimes.iter().map(|own| own.name.as_str()).enumerate();
     let mut twice = names.filter(|(place, name)| regimes[..*place].iter().any(|own| own.name == *name));

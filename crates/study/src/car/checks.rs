@@ -208,7 +208,8 @@ fn way(r: &mut Reader<'_>, parameters: &Parameters, simulation: &Simulation) {
     }
 }
 
-/// Where the track first bends, or its first superelevation begins; its length if nowhere.
+/// Returns the distance at which the track first bends, or its first superelevation begins; its length if
+/// nowhere.
 fn straight_until(line: &CenterLine) -> f64 {
     let steps = (line.length() / FOOT).ceil() as usize;
     let bends = |distance: f64| {
@@ -221,7 +222,7 @@ fn straight_until(line: &CenterLine) -> f64 {
     first.unwrap_or(line.length())
 }
 
-/// How far the car comes in a time (s) at the speeds that its drive asks for, m.
+/// Returns the distance that the car covers in a time (s) at the speeds that its drive asks for, m.
 fn way_of(parameters: &Parameters, duration: f64) -> f64 {
     const STEPS: usize = 2000;
     let (start, step) = (parameters.start.distance, duration / STEPS as f64);
@@ -238,7 +239,7 @@ fn way_of(parameters: &Parameters, duration: f64) -> f64 {
     }
 }
 
-/// A speed (m/s) at a distance (m) or time (s), straight between pairs.
+/// Returns a speed (m/s) at a distance (m) or time (s), straight between pairs.
 pub(super) fn speed_at(speeds: &[[f64; 2]], distance: f64) -> f64 {
     let Some(after) = speeds.iter().position(|[own, _]| *own > distance) else {
         return speeds.last().map_or(0.0, |[_, speed]| *speed);

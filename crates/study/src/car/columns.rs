@@ -425,15 +425,15 @@ impl Columns {
     }
 }
 
-/// The names that the faces of a wedge (`truck_1_leading_left`) may have.
+/// Returns the names that the faces of a wedge (`truck_1_leading_left`) may have.
 fn faces_of_wedge(stem: &str) -> Vec<String> {
     let whole = ["column", "slope", "split"].map(|face| format!("{stem}_{face}"));
     let halves = HALVES.map(|half| ["column", "slope"].map(|face| format!("{stem}_{half}_{face}")));
     whole.into_iter().chain(halves.into_iter().flatten()).collect()
 }
 
-/// The places among the contact states of the points of a wedge's faces, by the wedge's name; none of a
-/// massless wedge.
+/// Returns the places among the contact states of the points of a wedge's faces, by the wedge's name; none of
+/// a massless wedge.
 pub(super) fn points_of_wedges(system: &System) -> Vec<(String, Vec<usize>)> {
     let names = (1..=2).flat_map(|truck| WEDGE_NAMES.map(|wedge| format!("truck_{truck}_{wedge}")));
     let points = names.map(|stem| {
@@ -452,7 +452,7 @@ pub(super) fn points_of_wedges(system: &System) -> Vec<(String, Vec<usize>)> {
     points.filter(|(_, own)| !own.is_empty()).collect()
 }
 
-/// The places among the energy terms of what a wedge of a truck (1 front, 2 rear) loses in friction.
+/// Returns the places among the energy terms of what a wedge of a truck (1 front, 2 rear) loses in friction.
 pub(super) fn losses_of_wedge(system: &System, truck: usize, wedge: &str) -> Vec<usize> {
     let stem = format!("truck_{truck}_{wedge}");
     let faces = faces_of_wedge(&stem);

@@ -70,7 +70,7 @@ impl Point {
     }
 }
 
-/// Where hunting ends or begins among the speeds of a ramp.
+/// The speed at which hunting ends or begins among the speeds of a ramp.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Boundary {
     /// At this speed, m/s.
@@ -88,7 +88,7 @@ pub enum Boundary {
 pub struct Ramp {
     /// Amplitudes, in order of time.
     pub points: Vec<Point>,
-    /// Where hunting ends (falling) or begins (rising).
+    /// The speed at which hunting ends (falling) or begins (rising).
     pub boundary: Boundary,
     /// What makes its numbers doubtful: warnings of the run, a derailment.
     pub warnings: Vec<String>,
@@ -174,7 +174,7 @@ impl Settings {
     }
 }
 
-/// Returns over which speeds a car hunts. `go_on` is told the share that is done; where it breaks, with a
+/// Returns over which speeds a car hunts. `go_on` receives the share that is done; where it breaks, with a
 /// reason, what was computed comes back as incomplete.
 ///
 /// # Errors
@@ -243,7 +243,7 @@ fn one(
     Ok((ramp, !interrupted))
 }
 
-/// The same car on a track for a ramp.
+/// Returns the same car on a track for a ramp.
 fn parameters(own: &Parameters, settings: &Settings, falls: bool) -> Option<Parameters> {
     let mut own = own.clone();
     let [low, high] = settings.speeds;
@@ -286,7 +286,7 @@ fn parameters(own: &Parameters, settings: &Settings, falls: bool) -> Option<Para
     Some(own)
 }
 
-/// The amplitudes in the windows that are whole and end after the hold.
+/// Returns the amplitudes in the windows that are whole and end after the hold.
 fn points(result: &CarResult) -> Vec<Point> {
     let column = |name: &str| result.column(name).unwrap_or_default();
     let (times, speeds) = (column("time"), column("speed"));
@@ -321,7 +321,8 @@ fn points(result: &CarResult) -> Vec<Point> {
         .collect()
 }
 
-/// Where hunting ends (falling: the last window above the threshold) or begins (rising: the first one).
+/// Returns the speed at which hunting ends (falling: the last window above the threshold) or begins (rising:
+/// the first one).
 fn boundary(points: &[Point], threshold: f64, falls: bool) -> Boundary {
     let hunts = |point: &Point| point.amplitude() >= threshold;
     let (edge, other) = if falls {

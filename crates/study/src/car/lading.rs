@@ -36,7 +36,7 @@ pub(super) fn kind(r: &mut Reader<'_>) -> LadingKind {
 }
 
 impl LadingKind {
-    /// The lading for which a car of this kind is built.
+    /// Returns the lading for which a car of this kind is built.
     pub(super) fn usual(self) -> Lading {
         match self {
             Self::Loaded | Self::Masses => Lading::Loaded,

@@ -131,7 +131,7 @@ pub struct LimitCheck {
 }
 
 impl Limit {
-    /// Whether it is set for a regime.
+    /// Returns whether it is set for a regime.
     #[must_use]
     pub fn is_for(&self, regime: &str) -> bool {
         let regimes = self.regimes.as_ref();
@@ -351,7 +351,7 @@ fn value(
     if measure.kind != Kind::Dimensionless {
         let quantity = own.quantity(key, measure.kind, Range::Positive, problems)?;
         let si = Quantity::new(1.0, quantity.unit_text()).ok()?.to_si();
-        // Accelerations of a ride are told in g, which case files call g0.
+        // Accelerations of a ride are given in g, which case files call g0.
         let unit = match quantity.unit_text() {
             "g0" => "g",
             unit => unit,

@@ -318,7 +318,7 @@ fn read(tree: &Table, source: &str, text: &str, problems: &mut Problems) -> Opti
 /// A speed as typed, and where it stands.
 type Speed<'t> = (Quantity, &'t Node);
 
-/// A list of speeds in rising order, at least one.
+/// Returns a list of speeds in rising order, at least one.
 fn speeds<'t>(top: &Section<'t>, key: &str, problems: &mut Problems) -> Option<Vec<Speed<'t>>> {
     let help = format!("write for example {key} = [\"10 mph\", \"70 mph\"]");
     let node = top.require(key, &help, problems)?;
@@ -365,7 +365,7 @@ fn speeds<'t>(top: &Section<'t>, key: &str, problems: &mut Problems) -> Option<V
     Some(read)
 }
 
-/// The least and the greatest speed.
+/// Returns the least and the greatest speed.
 fn ends(top: &Section<'_>, speeds: Vec<Speed<'_>>, problems: &mut Problems) -> Option<[Quantity; 2]> {
     let count = speeds.len();
     let ends: Result<[Speed<'_>; 2], _> = speeds.try_into();
@@ -384,7 +384,7 @@ fn ends(top: &Section<'_>, speeds: Vec<Speed<'_>>, problems: &mut Problems) -> O
     }
 }
 
-/// The keys of the case below `[set]`.
+/// Returns the keys of the case below `[set]`.
 fn set(top: &Section<'_>, problems: &mut Problems) -> Option<Vec<String>> {
     if top.table.entry("set").is_none() {
         return Some(Vec::new());
@@ -401,7 +401,7 @@ fn set(top: &Section<'_>, problems: &mut Problems) -> Option<Vec<String>> {
     Some(settings)
 }
 
-/// The place of the key at exactly this path.
+/// Returns the place of the key at exactly this path.
 fn place_at<'t>(table: &'t Table, path: &str) -> Option<&'t TomlLocation> {
     match path.split_once('.') {
         Some((first, rest)) => place_at(table.table(first)?, rest),
@@ -421,7 +421,7 @@ fn assignments(table: &Table, before: &str, out: &mut Vec<String>) {
     }
 }
 
-/// The track, as TOML in one value; files are named by their whole paths.
+/// Returns the track, as TOML in one value; files are named by their whole paths.
 fn track(top: &Section<'_>, source: &str, problems: &mut Problems) -> Option<String> {
     let help = "write [track] on a line of its own, and below it the keys of a track file";
     top.require("track", help, problems)?;

@@ -268,10 +268,10 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
             .iter()
             .map(|own| format!("derailed at {:.3} s: {}", own.time, own.what)),
     );
-    let told = statistics_of(&run, &columns, &values);
-    warnings.extend(told.remarks.iter().cloned());
+    let statistics = statistics_of(&run, &columns, &values);
+    warnings.extend(statistics.remarks.iter().cloned());
     if run.case.rules.filtered_columns {
-        filtered(&run, &told, &mut columns, &mut values);
+        filtered(&run, &statistics, &mut columns, &mut values);
     }
     let column = |name: &str| found(&columns, &values, name);
     let time = column("time");
@@ -322,8 +322,8 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         distance,
         speed,
         static_loads,
-        limits: limits::of(&told.values, units),
-        statistics: told.values,
+        limits: limits::of(&statistics.values, units),
+        statistics: statistics.values,
         wedge_losses,
         wedge_locked,
         energy,
@@ -350,7 +350,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     }
 }
 
-/// The values of a column; empty if there is none of this name.
+/// Returns the values of a column; empty if there is none of this name.
 fn found<'v>(columns: &[Column], values: &'v [Vec<f64>], name: &str) -> &'v [f64] {
     let place = columns.iter().position(|column| column.name == name);
     place.map_or(&[][..], |place| values[place].as_slice())
@@ -370,18 +370,23 @@ fn statistics_of(run: &Run<CarCase>, columns: &[Column], values: &[Vec<f64>]) ->
         static_loads: run.recorder.table.static_loads(),
         in_curve: &in_curve,
     };
-    let mut told = Statistics::of(&histories, &run.case.rules, run.case.simulation.output_units);
+    let mut statistics = Statistics::of(&histories, &run.case.rules, run.case.simulation.output_units);
     if let Some(time) = run.recorder.continued {
-        told.remarks.push(format!(
+        statistics.remarks.push(format!(
             "the run went on from a state saved at {time} s: rows before it are neither in its table nor in \
              its statistics"
         ));
     }
-    told
+    statistics
 }
 
 /// Appends filtered columns.
-fn filtered(run: &Run<CarCase>, told: &Statistics, columns: &mut Vec<Column>, values: &mut Vec<Vec<f64>>) {
+fn filtered(
+    run: &Run<CarCase>,
+    statistics: &Statistics,
+    columns: &mut Vec<Column>,
+    values: &mut Vec<Vec<f64>>,
+) {
     let rows = values.first().map_or(0, Vec::len);
     let rules = &run.case.rules;
     let mut append = |of: &str, own: Vec<f64>, cutoff: f64| {
@@ -396,7 +401,7 @@ fn filtered(run: &Run<CarCase>, told: &Statistics, columns: &mut Vec<Column>, va
         values.push(own);
     };
     let whole = |name: &str| -> Option<Vec<f64>> {
-        let own = told.filtered.iter().find(|own| own.of == name)?;
+        let own = statistics.filtered.iter().find(|own| own.of == name)?;
         let mut values = own.values.clone();
         // A last row that is nearer than the others has the value before it.
         let last = values.last().copied().unwrap_or_default();
@@ -428,7 +433,7 @@ fn filtered(run: &Run<CarCase>, told: &Statistics, columns: &mut Vec<Column>, va
     }
 }
 
-/// Where the energy of the run went until it reached a distance along the track (m).
+/// Returns the losses of the run until it reached a distance along the track (m).
 fn whole_run(run: &mut Run<CarCase>, reached: Option<f64>) -> EnergySummary {
     let units = run.case.simulation.output_units;
     let car = run.recorder.table.car();
@@ -443,7 +448,7 @@ fn whole_run(run: &mut Run<CarCase>, reached: Option<f64>) -> EnergySummary {
     EnergySummary::of_whole_run(&mut run.system, ends, reached.unwrap_or(from) - from, units)
 }
 
-/// What the friction of each wedge took by the end.
+/// Returns the loss in friction of each wedge by the end.
 fn losses(run: &mut Run<CarCase>) -> BTreeMap<String, SummaryValue> {
     let units = run.case.simulation.output_units;
     let seen = run.system.observe(run.integrator.time(), run.integrator.x());

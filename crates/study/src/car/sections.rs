@@ -322,7 +322,7 @@ fn output(r: &mut Reader<'_>, rules: &mut Rules) {
         &mut rules.side_distance,
         "L/V of a truck's side over this distance",
     );
-    let comment = "share of wheel L/V and axle sums in curves that lies below the value told";
+    let comment = "share of wheel L/V and axle sums in curves that lies below the value reported";
     let range = Range::Between(0.0, 1.0, "between 0 and 1");
     r.number(
         "percentile",
@@ -391,7 +391,7 @@ fn simulation(r: &mut Reader<'_>) -> Simulation {
 }
 
 impl LadingKind {
-    /// The key that decides it, for messages.
+    /// Returns the key that decides it, for messages.
     pub(super) fn key(self) -> &'static str {
         match self {
             Self::Masses => "lading.masses",

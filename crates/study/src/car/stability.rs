@@ -45,7 +45,7 @@ pub struct Stability {
 pub const FRICTION: [(FrictionState, &str); 2] =
     [(FrictionState::Stuck, "stuck"), (FrictionState::Absent, "absent")];
 
-/// Returns the vibrations at these speeds (m/s, rising), and the critical speeds. `go_on` is told the share
+/// Returns the vibrations at these speeds (m/s, rising), and the critical speeds. `go_on` receives the share
 /// that is done.
 ///
 /// # Errors
@@ -119,7 +119,7 @@ fn vibrations(modes: Vec<Mode>) -> Vec<Mode> {
     own
 }
 
-/// The first speed from which on a vibration grows.
+/// Returns the first speed from which on a vibration grows.
 fn critical(
     car: &Parameters,
     speeds: &[f64],

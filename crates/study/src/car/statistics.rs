@@ -16,7 +16,7 @@
 //!
 //! Raw: from the rows. Filtered: wheel forces and accelerations through a low-pass filter
 //! ([`crate::signal::LowPass`]), ratios of filtered forces. Before the settling time nothing counts. A ratio
-//! is zero where a wheel carries less than a hundredth of its static load: what is told there is the least
+//! is zero where a wheel carries less than a hundredth of its static load: the value there is the least
 //! wheel load.
 
 use std::collections::BTreeMap;
@@ -44,7 +44,7 @@ pub struct Rules {
     pub hold_distance: f64,
     /// Distance of a truck side's L/V, m.
     pub side_distance: f64,
-    /// Share of the rows in curves below the value told.
+    /// Share of the rows in curves below the value reported.
     pub percentile: f64,
     /// Cutoff of the filter of accelerations, Hz.
     pub acceleration_filter: f64,
@@ -219,7 +219,7 @@ impl Statistics {
 }
 
 impl Taker<'_, '_> {
-    /// A column, raw and filtered; the filtered one is kept.
+    /// Returns a column, raw and filtered; the filtered one is kept.
     fn pair(&mut self, name: &str, filter: Option<&LowPass>) -> Pair {
         let (from, to) = self.range;
         let values = (self.histories.column)(name);
@@ -446,8 +446,8 @@ fn whole(rows: Rows<'_>) -> impl Fn(&[f64]) -> Option<Found> {
     }
 }
 
-/// The largest value that lasts over a distance, with its time. Where the car stands or goes back there is
-/// none.
+/// Returns the largest value that lasts over a distance, with its time. Where the car stands or goes back
+/// there is none.
 fn over_distance(rows: Rows<'_>, values: &[f64], distance: f64) -> Option<Found> {
     if rows.distance.windows(2).any(|pair| pair[1] <= pair[0]) {
         return None;
@@ -455,7 +455,7 @@ fn over_distance(rows: Rows<'_>, values: &[f64], distance: f64) -> Option<Found>
     Some(timed(rows, sustained(rows.distance, values, distance)?))
 }
 
-/// What was found at a distance, told at its time.
+/// Returns a value at a distance with its time.
 fn timed(rows: Rows<'_>, found: Found) -> Found {
     let row = rows.distance.partition_point(|own| *own < found.start);
     Found {

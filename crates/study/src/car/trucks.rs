@@ -24,7 +24,7 @@ pub(super) fn complete(tree: &mut Table, problems: &mut Problems) {
     let own: Vec<Option<Table>> = EACH.iter().map(|name| tree.table(name).cloned()).collect();
     let shared = match tree.entry(BOTH).map(|entry| &entry.node.value) {
         Some(Value::Table(shared)) => shared.clone(),
-        // What is no table is told by the reader.
+        // The reader reports what is no table.
         Some(_) => return,
         None => Table::default(),
     };
@@ -98,7 +98,7 @@ pub(super) fn trucks(r: &mut Reader<'_>, lading: Lading) -> [Parameters; 2] {
     ]
 }
 
-/// One truck, or both.
+/// Reads one truck, or both.
 fn truck(r: &mut Reader<'_>, name: &'static str, about: &str, lading: Lading) -> Parameters {
     r.within(name);
     r.section("", about);

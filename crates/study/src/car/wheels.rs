@@ -299,7 +299,7 @@ fn linear_wheels(r: &mut Reader<'_>, radius: f64, axle_load: f64) -> Wheels {
     }
 }
 
-/// A text, such as the name of a profile.
+/// Returns a text, such as the name of a profile.
 fn text(r: &mut Reader<'_>, key: &'static str, default: &str, comment: &str) -> String {
     let read = |section: &crate::case::section::Section<'_>,
                 problems: &mut crate::case::problem::Problems| {
@@ -308,7 +308,7 @@ fn text(r: &mut Reader<'_>, key: &'static str, default: &str, comment: &str) -> 
     r.other(key, comment, default.to_owned(), read, |text| Written::text(text))
 }
 
-/// A nominal profile, or one from a file.
+/// Returns a nominal profile, or one from a file.
 fn profile(r: &mut Reader<'_>, path: &str, name: &str, kind: Kind, deviation: f64) -> Option<Profile> {
     let nominal = match (kind, name) {
         (Kind::Wheel, "aar_1b") => Some(nominal::aar_1b()),
@@ -373,7 +373,7 @@ fn wrong(r: &mut Reader<'_>, path: &str, error: &ProfileError) {
     r.problem(path, problem.label("this profile").help(error.remedy()));
 }
 
-/// A slope as a ratio (`1:20`) or a number.
+/// Returns a slope as a ratio (`1:20`) or a number.
 fn slope(text: &str) -> Option<f64> {
     let number = |text: &str| text.trim().parse::<f64>().ok();
     let value = match text.split_once(':') {

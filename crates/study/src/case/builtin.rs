@@ -46,7 +46,7 @@ impl BuiltIn {
         Self { name, title, text }
     }
 
-    /// Its case file.
+    /// Returns its case file.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
@@ -62,12 +62,12 @@ static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
 static CASES: LazyLock<Vec<&'static BuiltIn>> =
     LazyLock::new(|| GROUPS.iter().flat_map(|group| &group.cases).collect());
 
-/// The groups, the thesis's runs first.
+/// Returns the groups, the thesis's runs first.
 pub fn groups() -> &'static [Group] {
     &GROUPS
 }
 
-/// The group of this name.
+/// Returns the group of this name.
 pub fn group(name: &str) -> Option<&'static Group> {
     groups().iter().find(|group| group.name == name)
 }
@@ -78,19 +78,19 @@ pub fn own_name(name: &str) -> Cow<'_, str> {
     thesis::own_name(name)
 }
 
-/// The group that a built-in case belongs to.
+/// Returns the group that a built-in case belongs to.
 pub fn group_of(case: &str) -> Option<&'static Group> {
     groups()
         .iter()
         .find(|group| group.cases.iter().any(|one| one.name == case))
 }
 
-/// The names of all built-in cases, the thesis's first.
+/// Returns the names of all built-in cases, the thesis's first.
 pub fn names() -> impl ExactSizeIterator<Item = &'static str> {
     CASES.iter().map(|case| case.name.as_str())
 }
 
-/// The names of the thesis's twelve runs, variable damping first.
+/// Returns the names of the thesis's twelve runs, variable damping first.
 pub fn thesis_names() -> impl ExactSizeIterator<Item = &'static str> {
     let thesis = group(thesis::NAME).map_or(&[][..], |group| &group.cases);
     thesis.iter().map(|case| case.name.as_str())
@@ -101,7 +101,7 @@ pub fn list() -> impl ExactSizeIterator<Item = (&'static str, &'static str)> {
     CASES.iter().map(|case| (case.name.as_str(), case.title.as_str()))
 }
 
-/// The built-in case of this name.
+/// Returns the built-in case of this name.
 ///
 /// # Errors
 /// There is none of this name; the help names the nearest, or the thesis's.
@@ -109,7 +109,7 @@ pub fn case(name: &str) -> Result<Case, CaseError> {
     case_with(name, &[])
 }
 
-/// The built-in case of this name with `--set` overrides (`path.key=value`).
+/// Returns the built-in case of this name with `--set` overrides (`path.key=value`).
 ///
 /// # Errors
 /// There is none of this name, or an override is wrong.
@@ -118,7 +118,7 @@ pub fn case_with(name: &str, overrides: &[String]) -> Result<Case, CaseError> {
     Case::parse(&format!("{name}.toml"), text(&name)?, Path::new(""), overrides)
 }
 
-/// The case file of the built-in case of this name.
+/// Returns the case file of the built-in case of this name.
 ///
 /// # Errors
 /// There is none of this name; the help names the nearest, or the thesis's.
@@ -142,7 +142,7 @@ pub fn text(name: &str) -> Result<&'static str, CaseError> {
         .into())
 }
 
-/// Says of which model a built-in case is that was asked of another.
+/// Returns the model of a built-in case that was asked of another.
 fn of_another_model(name: &str) -> Option<Problem> {
     let (what, class) = if names().any(|own| own == name) {
         ("wedge", "Case")

@@ -89,7 +89,7 @@ free_length = "7.25 in"
 nominal_length = "5.379257200606367 in"
 "#;
 
-/// The values that complete a case of this damping.
+/// Returns the values that complete a case of this damping.
 pub(super) fn tree(damping: Damping) -> Result<Table, Problems> {
     let own = match damping {
         Damping::Variable => VARIABLE,

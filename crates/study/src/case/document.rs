@@ -55,7 +55,7 @@ impl CaseDocument {
         "simulation",
     ];
 
-    /// The rows of all its tables.
+    /// Returns the rows of all its tables.
     pub(super) fn table_rows(&self) -> usize {
         let coil = match &self.control_coil.force {
             CoilForce::Table(table) => table.rows.len(),
@@ -170,7 +170,7 @@ pub struct Toe {
 }
 
 impl Toe {
-    /// The angle in rad, positive for toe out (eq. 5-1 of the thesis).
+    /// Returns the angle in rad, positive for toe out (eq. 5-1 of the thesis).
     pub fn to_si(&self) -> f64 {
         match self.direction {
             Some(ToeDirection::In) => -self.angle.to_si(),
@@ -178,7 +178,7 @@ impl Toe {
         }
     }
 
-    /// As written in a case file: `0.2 deg out`.
+    /// Returns it as written in a case file: `0.2 deg out`.
     pub fn text(&self) -> String {
         match self.direction {
             Some(ToeDirection::In) => format!("{} in", self.angle),
@@ -198,7 +198,7 @@ pub enum ToeDirection {
 }
 
 impl ToeDirection {
-    /// Its name in case files.
+    /// Returns its name in case files.
     pub fn name(self) -> &'static str {
         match self {
             ToeDirection::In => "in",
@@ -257,7 +257,7 @@ macro_rules! named {
         impl $name {
             pub(crate) const NAMES: Names<Self> = &[$(($text, Self::$variant)),+];
 
-            /// Its name in case files.
+            /// Returns its name in case files.
             pub fn name(self) -> &'static str {
                 name_of(Self::NAMES, &self)
             }

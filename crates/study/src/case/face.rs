@@ -219,7 +219,7 @@ impl FaceSection {
         })
     }
 
-    /// The files of its tables.
+    /// Returns the files of its tables.
     pub(crate) fn files_mut(&mut self) -> impl Iterator<Item = &mut Option<String>> {
         let surfaces = [&mut self.wedge_surface, &mut self.counterface];
         let tables = surfaces.into_iter().filter_map(Surface::table_mut);

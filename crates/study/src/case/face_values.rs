@@ -70,7 +70,7 @@ enum Shape {
     Table,
 }
 
-/// The table that stands in a node, as a section of its own.
+/// Returns the table that stands in a node, as a section of its own.
 fn section_of<'n>(node: &'n Node, path: &str, table: &'n Table) -> Section<'n> {
     Section {
         path: path.to_owned(),
@@ -174,7 +174,7 @@ impl Surface {
         })
     }
 
-    /// Its table, if it has one.
+    /// Returns its table, if it has one.
     pub(super) fn table_mut(&mut self) -> Option<&mut QuantityTable> {
         match self {
             Self::Table { table, .. } => Some(table),
@@ -182,7 +182,7 @@ impl Surface {
         }
     }
 
-    /// The rows of its table.
+    /// Returns the rows of its table.
     pub(super) fn rows(&self) -> usize {
         match self {
             Self::Table { table, .. } => table.rows.len(),
@@ -293,7 +293,7 @@ impl PadSection {
     }
 }
 
-/// A quantity as TOML, in the units of a system or as typed.
+/// Returns a quantity as TOML, in the units of a system or as typed.
 fn text(quantity: &Quantity, kind: Kind, system: Option<System>) -> String {
     match system {
         Some(system) => super::field::quoted(in_system(quantity, kind, system).text()),
@@ -328,7 +328,7 @@ pub(super) fn grid(node: &Node, path: &str, problems: &mut Problems) -> Option<G
     None
 }
 
-/// A map of friction: rows of factors.
+/// Returns a map of friction: rows of factors.
 pub(super) fn map(node: &Node, path: &str, problems: &mut Problems) -> Option<FrictionMap> {
     let row = |node: &Node| -> Option<Vec<f64>> {
         let Value::List(items) = &node.value else {
@@ -363,7 +363,7 @@ pub(super) fn map(node: &Node, path: &str, problems: &mut Problems) -> Option<Fr
     None
 }
 
-/// A map as it is written, if there is one.
+/// Returns a map as it is written, if there is one.
 pub(super) fn map_written(map: &FrictionMap) -> Option<Written> {
     let row = |row: &Vec<f64>| {
         let factors: Vec<String> = row.iter().map(|factor| format!("{factor:?}")).collect();
@@ -373,7 +373,7 @@ pub(super) fn map_written(map: &FrictionMap) -> Option<Written> {
     (!map.is_empty()).then(|| Written::toml(format!("[{}]", rows.join(", "))))
 }
 
-/// A map of depths as it is written.
+/// Returns a map of depths as it is written.
 pub(super) fn depths_written(table: &QuantityTable<3>) -> Written {
     let table = table.clone();
     Written::toml_in_units(|system| match (&table.file, system) {

@@ -144,7 +144,7 @@ impl Measured {
         own
     }
 
-    /// The same in a unit of a system, if that is another one; `size` is that of the unit as typed.
+    /// Returns the same in a unit of a system, if that is another one; `size` is that of the unit as typed.
     fn other(&self, quantity: &Quantity, size: f64, system: System) -> Option<InUnits> {
         let other = in_system(quantity, self.kind, system);
         let one = Quantity::new(1.0, other.unit_text()).ok()?.to_si();
@@ -200,7 +200,7 @@ impl Written {
         }
     }
 
-    /// A pure number: the shortest decimal that reads back to the same bits.
+    /// Returns a pure number: the shortest decimal that reads back to the same bits.
     pub fn number(number: f64, reach: Reach) -> Self {
         Self {
             toml: format!("{number:?}"),
@@ -263,7 +263,7 @@ impl Written {
         }
     }
 
-    /// What a user types for it: quantities and names without quotes.
+    /// Returns the text that a user types for it: quantities and names without quotes.
     pub fn typed(&self) -> String {
         match &self.input {
             Input::Number(_) | Input::Choice { .. } | Input::Text => {
@@ -274,7 +274,7 @@ impl Written {
     }
 }
 
-/// A text as TOML.
+/// Returns a text as TOML.
 pub(crate) fn quoted(text: &str) -> String {
     toml::Value::from(text).to_string()
 }

@@ -251,7 +251,7 @@ pub(crate) const CASE_FILE: Expected = Expected {
     most: limits::TEXT_FILE,
 };
 
-/// The text of a case file.
+/// Returns the text of a case file.
 ///
 /// # Errors
 /// There is no such file, or it cannot be read, or it is not text, something else than a case, or too large.

@@ -231,13 +231,13 @@ fn read_known_shape(
 }
 
 impl Motion {
-    /// As written in a case file, without the key; its values measure `kind`. In the units of a system, or as
-    /// typed.
+    /// Returns it as written in a case file, without the key; its values measure `kind`. In the units of a
+    /// system, or as typed.
     pub(crate) fn to_toml_in(&self, kind: Kind, system: Option<System>) -> String {
         system.map_or_else(|| self.to_toml(), |system| self.in_system(kind, system).to_toml())
     }
 
-    /// The same motion, its quantities in the units of a system.
+    /// Returns the same motion, its quantities in the units of a system.
     fn in_system(&self, kind: Kind, system: System) -> Self {
         let mut own = self.clone();
         match &mut own {
@@ -257,7 +257,7 @@ impl Motion {
         own
     }
 
-    /// As written in a case file, without the key.
+    /// Returns it as written in a case file, without the key.
     pub(super) fn to_toml(&self) -> String {
         let text = |quantity: &Quantity| toml::Value::from(quantity.text()).to_string();
         let shape = |shape: &str, values: &[(&str, String)]| {
@@ -330,7 +330,7 @@ impl Motion {
         }
     }
 
-    /// The quantities of its shape, by their keys; none of a held value, a table, or a sum.
+    /// Returns the quantities of its shape, by their keys; none of a held value, a table, or a sum.
     pub(super) fn parts(&self) -> Vec<(&'static str, &Quantity)> {
         match self {
             Motion::Sine {
@@ -371,7 +371,7 @@ impl Motion {
         }
     }
 
-    /// The tables in it, to be changed.
+    /// Returns the tables in it, to be changed.
     pub(crate) fn tables_mut(&mut self) -> Vec<&mut QuantityTable> {
         match self {
             Motion::Table(table) => vec![table],
@@ -381,7 +381,7 @@ impl Motion {
         }
     }
 
-    /// The tables in it.
+    /// Returns the tables in it.
     pub(crate) fn tables(&self) -> Vec<&QuantityTable> {
         match self {
             Motion::Table(table) => vec![table],

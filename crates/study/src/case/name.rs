@@ -10,7 +10,7 @@ const RESERVED: [&str; 4] = ["con", "prn", "aux", "nul"];
 /// The longest name.
 const LONGEST: usize = 100;
 
-/// The name of a case that has none: that of its file, if it can be a folder's.
+/// Returns the name of a case that has none: that of its file, if it can be a folder's.
 pub(crate) fn of_source(source: &str) -> &str {
     let stem = Path::new(source).file_stem().and_then(|stem| stem.to_str());
     stem.filter(|stem| problem(stem).is_none()).unwrap_or("case")
@@ -28,7 +28,7 @@ pub(crate) fn read(top: &Section<'_>, default: &str, problems: &mut Problems) ->
     valid.then(|| text.to_owned())
 }
 
-/// Why a name cannot be a folder's on every system; still without a place.
+/// Returns the reason why a name cannot be a folder's on every system; still without a place.
 pub(crate) fn problem(name: &str) -> Option<Problem> {
     let stem = name.split('.').next().unwrap_or("").trim_end().to_lowercase();
     let port = |prefix: &str| {

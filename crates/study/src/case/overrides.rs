@@ -19,7 +19,7 @@ pub(crate) fn apply(tree: &mut Table, overrides: &[String]) -> Problems {
     problems
 }
 
-/// An override as a line of TOML.
+/// Returns an override as a line of TOML.
 pub(crate) fn to_toml(text: &str) -> Result<String, Problems> {
     let (tables, entry) = parse(text)?;
     let keys = tables.iter().chain([&entry]).map(|own| own.key.as_str());
@@ -27,7 +27,7 @@ pub(crate) fn to_toml(text: &str) -> Result<String, Problems> {
     Ok(format!("{path} = {}", entry.node.value.to_toml()))
 }
 
-/// The tables on the way, and the last key with its value.
+/// Returns the tables on the way, and the last key with its value.
 fn parse(text: &str) -> Result<(Vec<Entry>, Entry), Problems> {
     let source = TomlSource::new(SOURCE, text);
     let whole = TomlLocation {
@@ -85,7 +85,7 @@ fn parse(text: &str) -> Result<(Vec<Entry>, Entry), Problems> {
     }
 }
 
-/// The place of the first `=` that is not inside quotes.
+/// Returns the place of the first `=` that is not inside quotes.
 fn equals_sign(text: &str) -> Option<usize> {
     let mut quote = None;
     for (at, c) in text.char_indices() {

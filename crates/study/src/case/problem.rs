@@ -19,7 +19,7 @@ impl TomlSource {
         Arc::new(Self::of(name.into(), text.into(), false))
     }
 
-    /// A text that a program made, in which bare numbers are in SI units.
+    /// Returns a text that a program made, in which bare numbers are in SI units.
     pub fn in_si(name: impl Into<String>, text: impl Into<String>) -> Arc<Self> {
         Arc::new(Self::of(name.into(), text.into(), true))
     }
@@ -31,7 +31,7 @@ impl TomlSource {
         }
     }
 
-    /// The file as the user named it, or `--set`.
+    /// Returns the file as the user named it, or `--set`.
     pub fn name(&self) -> &str {
         self.named.name()
     }
@@ -65,7 +65,7 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// A mistake at no particular place.
+    /// Returns a mistake at no particular place.
     pub(crate) fn new(message: impl Into<String>) -> Self {
         Problem {
             message: bounded(message.into()),
@@ -90,7 +90,7 @@ impl Problem {
         self
     }
 
-    /// The same mistake, shown where the text that led to it was written.
+    /// Returns the same mistake, shown where the text that led to it was written.
     pub(crate) fn moved_to(mut self, place: &TomlLocation) -> Self {
         if self.label.is_empty() {
             self.label = "this value".into();
@@ -99,8 +99,8 @@ impl Problem {
         self
     }
 
-    /// The same mistake in a file that must not be quoted: its place there and its kind, shown where the file
-    /// was named. Labels, which tell the kind, never quote a text.
+    /// Returns the same mistake in a file that must not be quoted: its place there and its kind, shown where
+    /// the file was named. Labels, which tell the kind, never quote a text.
     pub(crate) fn without_quoting(self, file: &str, path: &str, named: &TomlLocation) -> Self {
         let inside = (self.place.as_ref()).is_some_and(|place| !Arc::ptr_eq(&place.source, &named.source));
         if !inside {
@@ -119,7 +119,7 @@ impl Problem {
             )
     }
 
-    /// Whether it is the key in front of `=` that is wrong in what was given to `--set`.
+    /// Returns whether it is the key in front of `=` that is wrong in what was given to `--set`.
     pub(crate) fn is_about_key(&self) -> bool {
         let place = self.place.as_ref().filter(|_| self.set_path().is_some());
         place.is_some_and(|place| {
@@ -137,22 +137,22 @@ impl Problem {
         self.at(&TomlLocation { source, span })
     }
 
-    /// What was found and what was expected.
+    /// Returns the message: what was found and what was expected.
     pub fn message(&self) -> &str {
         &self.message
     }
 
-    /// What to write instead.
+    /// Returns the advice: what to write instead.
     pub fn advice(&self) -> Option<&str> {
         self.help.as_deref()
     }
 
-    /// The file, or `--set`.
+    /// Returns the file, or `--set`.
     pub fn source_name(&self) -> Option<&str> {
         self.place.as_ref().map(|place| place.source.name())
     }
 
-    /// The path that was set, if the mistake is in what was given to `--set`.
+    /// Returns the path that was set, if the mistake is in what was given to `--set`.
     pub fn set_path(&self) -> Option<&str> {
         let place = self.place.as_ref()?;
         let text = place.source.text();
@@ -160,7 +160,7 @@ impl Problem {
             .then(|| text.split_once('=').map_or(text, |(path, _)| path).trim())
     }
 
-    /// The text the mistake is marked at.
+    /// Returns the text the mistake is marked at.
     pub fn marked_text(&self) -> Option<&str> {
         self.place.as_ref().map(TomlLocation::text)
     }
@@ -245,7 +245,7 @@ impl Problems {
         self.more += other.more;
     }
 
-    /// How many were found.
+    /// Returns the number of problems found.
     pub fn count(&self) -> usize {
         self.kept.len() + self.more
     }
@@ -258,7 +258,7 @@ impl Problems {
         &self.kept
     }
 
-    /// The same mistakes, each changed.
+    /// Returns the same mistakes, each changed.
     pub fn map(mut self, change: impl FnMut(Problem) -> Problem) -> Self {
         self.kept = self.kept.into_iter().map(change).collect();
         self
@@ -300,18 +300,18 @@ impl CaseError {
         }
     }
 
-    /// The same of another kind of input, such as `study`.
+    /// Returns the same of another kind of input, such as `study`.
     pub(crate) fn of(mut self, subject: &'static str) -> Self {
         self.subject = subject;
         self
     }
 
-    /// The mistakes that are told; at least one, at most 20.
+    /// Returns the mistakes in the list; at least one, at most 20.
     pub fn problems(&self) -> &[Problem] {
         self.problems.kept()
     }
 
-    /// How many mistakes there are beyond those that are told.
+    /// Returns the number of mistakes beyond those in the list.
     pub fn more(&self) -> usize {
         self.problems.more
     }
@@ -335,7 +335,7 @@ impl From<Problem> for CaseError {
 }
 
 impl fmt::Display for CaseError {
-    /// The message of the only mistake, or how many there are.
+    /// Writes the message of the only mistake, or the number of mistakes.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.only() {
             Some(problem) => problem.fmt(out),

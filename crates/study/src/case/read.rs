@@ -455,7 +455,7 @@ pub(crate) fn read_toe(s: &Section<'_>, problems: &mut Problems) -> Option<Toe> 
     Some(Toe { angle, direction })
 }
 
-/// A toe that a program gives: a number in rad, positive out.
+/// Returns a toe that a program gives: a number in rad, positive out.
 fn signed_toe(angle: f64, node: &Node, path: &str, problems: &mut Problems) -> Option<Toe> {
     let mut size = node.clone();
     size.value = Value::Number(angle.abs());

@@ -22,7 +22,7 @@ pub(super) struct Unresolved {
     pub reason: String,
 }
 
-/// The physical parameters. `document` has been checked value by value.
+/// Returns the physical parameters. `document` has been checked value by value.
 pub(super) fn parameters(document: &typed::CaseDocument) -> Result<Parameters, Unresolved> {
     let parameters = Parameters {
         damping: match document.wedge.damping {
@@ -70,7 +70,7 @@ pub(super) fn parameters(document: &typed::CaseDocument) -> Result<Parameters, U
     }
 }
 
-/// How to run it.
+/// Returns the settings of the run.
 pub(super) fn simulation(section: &typed::SimulationSection) -> Simulation {
     Simulation {
         duration: section.duration.to_si(),

@@ -45,7 +45,7 @@ impl Range {
 /// Names of choices in the file, and what they mean.
 pub(crate) type Names<T> = &'static [(&'static str, T)];
 
-/// The name of a choice.
+/// Returns the name of a choice.
 pub(crate) fn name_of<T: PartialEq>(names: Names<T>, choice: &T) -> &'static str {
     names
         .iter()
@@ -71,7 +71,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// The table under a key.
+    /// Returns the table under a key.
     pub fn section(&self, key: &str, problems: &mut Problems) -> Option<Section<'a>> {
         let entry = self.table.entry(key)?;
         let Value::Table(table) = &entry.node.value else {
@@ -94,7 +94,7 @@ impl<'a> Section<'a> {
         })
     }
 
-    /// The value of a key that must be there.
+    /// Returns the value of a key that must be there.
     pub fn require(&self, key: &str, help: &str, problems: &mut Problems) -> Option<&'a Node> {
         let node = self.table.get(key);
         if node.is_none() {
@@ -210,7 +210,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// A pure number.
+    /// Returns a pure number.
     pub fn number(&self, key: &str, range: Range, example: &str, problems: &mut Problems) -> Option<f64> {
         let help = format!("write for example {key} = {example}");
         let node = self.require(key, &help, problems)?;
@@ -289,7 +289,7 @@ impl<'a> Section<'a> {
     }
 }
 
-/// One of several names.
+/// Reads one of several names.
 pub(crate) fn choice<T: Copy>(
     node: &Node,
     path: &str,
@@ -325,7 +325,7 @@ fn one_of<T>(names: Names<T>) -> String {
     format!("write one of {}", names.join(", "))
 }
 
-/// A quantity written in a node.
+/// Returns a quantity written in a node.
 pub(crate) fn quantity(
     node: &Node,
     path: &str,
@@ -381,7 +381,7 @@ pub(crate) fn quantity(
     }
 }
 
-/// The mistake of a quantity, at its place.
+/// Returns the mistake of a quantity, at its place.
 pub(crate) fn unit_problem(error: &UnitError, path: &str, kind: Kind, place: &TomlLocation) -> Problem {
     let label = match error {
         UnitError::UnknownUnit { .. } => "unknown unit".to_string(),
@@ -396,7 +396,7 @@ pub(crate) fn unit_problem(error: &UnitError, path: &str, kind: Kind, place: &To
         .help(error.help())
 }
 
-/// The part of a text in quotes that an error speaks of.
+/// Returns the part of a text in quotes that an error speaks of.
 pub(crate) fn inner_place(node: &Node, error: &UnitError) -> TomlLocation {
     let raw = node.place.text();
     let mut place = node.place.clone();
@@ -412,12 +412,12 @@ pub(crate) fn inner_place(node: &Node, error: &UnitError) -> TomlLocation {
     place
 }
 
-/// Whether a quantity is not larger than anything of its kind.
+/// Returns whether a quantity is not larger than anything of its kind.
 pub(crate) fn is_bounded(quantity: &Quantity, kind: Kind) -> bool {
     quantity.to_si().abs() <= bounds::largest(kind)
 }
 
-/// What a quantity must be that is outside its range or beyond the bound of its kind.
+/// Returns the condition on a quantity that is outside its range or beyond the bound of its kind.
 fn said(range: Range, kind: Kind, quantity: &Quantity) -> String {
     if range.holds(quantity.to_si()) {
         bounds::words(kind)
@@ -426,7 +426,7 @@ fn said(range: Range, kind: Kind, quantity: &Quantity) -> String {
     }
 }
 
-/// The problem of a quantity outside its range, still without a place.
+/// Returns the problem of a quantity outside its range, still without a place.
 pub(crate) fn out_of_range(quantity: &Quantity, path: &str, kind: Kind, range: Range) -> Option<Problem> {
     if range.holds(quantity.to_si()) && is_bounded(quantity, kind) {
         return None;
@@ -438,7 +438,7 @@ pub(crate) fn out_of_range(quantity: &Quantity, path: &str, kind: Kind, range: R
     Some(Problem::new(message).help(format!("write for example \"{}\"", example(kind))))
 }
 
-/// An example of a quantity of this kind.
+/// Returns an example of a quantity of this kind.
 pub(crate) fn example(kind: Kind) -> String {
     let number = match kind {
         Kind::Angle => "30",

@@ -61,7 +61,7 @@ impl QuantityTable {
 }
 
 impl<const N: usize> QuantityTable<N> {
-    /// The same points in the units of a system; `kinds` are those of the columns.
+    /// Returns the same points in the units of a system; `kinds` are those of the columns.
     #[must_use]
     pub(super) fn in_system(&self, kinds: [Kind; N], system: System) -> Self {
         let row = |row: &[Quantity; N]| std::array::from_fn(|i| in_system(&row[i], kinds[i], system));
@@ -71,7 +71,7 @@ impl<const N: usize> QuantityTable<N> {
         }
     }
 
-    /// The points as a list, as written in a case file.
+    /// Returns the points as a list, as written in a case file.
     pub(super) fn points_to_toml(&self) -> String {
         let text = |quantity: &Quantity| toml::Value::from(quantity.text()).to_string();
         let rows: Vec<String> = self
@@ -164,7 +164,7 @@ impl<const N: usize> Form<N> {
     }
 }
 
-/// How many values a row has, in words.
+/// Returns the number of values of a row, in words.
 fn count_in_words(count: usize) -> &'static str {
     if count == 2 { "two" } else { "three" }
 }
@@ -473,7 +473,7 @@ fn read_csv<const N: usize>(
     Some(rows)
 }
 
-/// The cells of a line and where they begin.
+/// Returns the cells of a line and where they begin.
 fn cells(line: &str, at: usize) -> impl Iterator<Item = (usize, &str)> {
     let mut start = at;
     line.split(',').map(move |cell| {

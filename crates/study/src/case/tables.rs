@@ -60,7 +60,8 @@ impl<'a> Tables<'a> {
         }
     }
 
-    /// The same access, to files beside another one: what a file names is looked for from its own folder.
+    /// Returns the same access, to files beside another one: what a file names is looked for from its own
+    /// folder.
     pub(crate) fn beside(self, folder: &Path) -> Tables<'_> {
         Tables {
             folder,
@@ -68,12 +69,12 @@ impl<'a> Tables<'a> {
         }
     }
 
-    /// Whether messages may tell what is in a table's file.
+    /// Returns whether messages may tell what is in a table's file.
     pub(crate) fn may_quote(self) -> bool {
         self.access == Access::Anywhere
     }
 
-    /// The name of a file in messages: with its folder, or, if files are restricted, as typed.
+    /// Returns the name of a file in messages: with its folder, or, if files are restricted, as typed.
     pub(crate) fn shown(self, file: &str) -> String {
         match self.access {
             Access::Anywhere => self.folder.join(file).display().to_string(),
@@ -81,7 +82,7 @@ impl<'a> Tables<'a> {
         }
     }
 
-    /// The path to read a file at.
+    /// Returns the path to read a file at.
     pub(crate) fn locate(self, file: &str) -> Result<PathBuf, Refused> {
         match self.access {
             Access::Anywhere => Ok(self.folder.join(file)),
@@ -115,7 +116,7 @@ impl<'a> Tables<'a> {
             folder => folder,
         };
         let folder = fs::canonicalize(folder).map_err(unreadable)?;
-        // Nothing outside is looked at: whether a file exists there is not told either.
+        // Nothing outside is read: messages do not say either whether a file exists there.
         let name = Path::new(file);
         let name = name.strip_prefix(&folder).unwrap_or(name);
         if !stays_inside(name) {
@@ -135,7 +136,7 @@ impl<'a> Tables<'a> {
     }
 }
 
-/// Whether a path is relative and never climbs above where it begins.
+/// Returns whether a path is relative and never climbs above where it begins.
 fn stays_inside(path: &Path) -> bool {
     let mut depth = 0_usize;
     path.components().all(|component| match component {

@@ -66,7 +66,7 @@ pub(crate) fn parse(source: &Arc<TomlSource>) -> Result<Table, Problems> {
     Err(problems)
 }
 
-/// A mistake of syntax.
+/// Returns a mistake of syntax.
 fn syntax(error: &toml::de::Error, source: &Arc<TomlSource>) -> Problem {
     let message = error.message().lines().collect::<Vec<_>>().join(", ");
     let span = error.span().unwrap_or(0..0);
@@ -127,7 +127,7 @@ fn node_of(value: &Spanned<DeValue<'_>>, source: &Arc<TomlSource>) -> Node {
 }
 
 impl Value {
-    /// What it is, in words.
+    /// Returns the type of the node, in words.
     pub fn describe(&self) -> &'static str {
         match self {
             Value::Text(_) => "text",
@@ -168,7 +168,7 @@ impl Value {
     }
 }
 
-/// A key as TOML writes it.
+/// Returns a key as TOML writes it.
 fn key(key: &str) -> String {
     let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     if !key.is_empty() && key.chars().all(bare) {
@@ -187,7 +187,7 @@ impl Table {
         self.entry(key).map(|entry| &entry.node)
     }
 
-    /// The table under a key, if it is one.
+    /// Returns the table under a key, if it is one.
     pub fn table(&self, key: &str) -> Option<&Table> {
         match &self.get(key)?.value {
             Value::Table(table) => Some(table),
@@ -195,7 +195,7 @@ impl Table {
         }
     }
 
-    /// The text under a key, if it is text.
+    /// Returns the text under a key, if it is text.
     pub fn text(&self, key: &str) -> Option<&str> {
         match &self.get(key)?.value {
             Value::Text(text) => Some(text),
@@ -214,7 +214,7 @@ impl Table {
         })
     }
 
-    /// The place of the value at a dotted path, or of the nearest table around it.
+    /// Returns the place of the value at a dotted path, or of the nearest table around it.
     pub fn place_of(&self, path: &str) -> Option<&TomlLocation> {
         let (key, rest) = path
             .split_once('.')

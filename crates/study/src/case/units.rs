@@ -11,7 +11,7 @@ const COMMON: [&str; 11] = [
     "s", "ms", "min", "h", "rad", "mrad", "deg", "°", "rev", "Hz", "rpm",
 ];
 
-/// Whether every unit in an expression belongs to a system: those of time and angle belong to both.
+/// Returns whether every unit in an expression belongs to a system: those of time and angle belong to both.
 fn belongs(expression: &str, system: System) -> bool {
     expression
         .split(|letter: char| !letter.is_alphabetic() && letter != '°')
@@ -19,9 +19,9 @@ fn belongs(expression: &str, system: System) -> bool {
         .all(|name| CUSTOMARY.contains(&name) == (system == System::Us))
 }
 
-/// The same value in a unit of a system: itself if its unit belongs to that system or to both, else in the
-/// unit that `kind` is usually written in there, with the fewest digits that give the same SI value. Where no
-/// number of that unit gives it, the nearest one.
+/// Returns the same value in a unit of a system: itself if its unit belongs to that system or to both, else
+/// in the unit that `kind` is usually written in there, with the fewest digits that give the same SI value.
+/// Where no number of that unit gives it, the nearest one.
 pub(super) fn in_system(quantity: &Quantity, kind: Kind, system: System) -> Quantity {
     if belongs(quantity.unit_text(), system) {
         return quantity.clone();

@@ -12,13 +12,13 @@ use quantity::{Kind, System};
 use std::fmt::Write;
 
 impl CaseDocument {
-    /// The whole case as TOML: every key, in groups, each with what it means, and with the reason
+    /// Returns the whole case as TOML: every key, in groups, each with what it means, and with the reason
     /// where the thesis leaves a choice. Reads back to the same document and the same SI bits.
     pub fn to_toml(&self) -> String {
         self.written().text
     }
 
-    /// The whole case as fields, in the order of [`CaseDocument::to_toml`] and with its texts.
+    /// Returns the whole case as fields, in the order of [`CaseDocument::to_toml`] and with its texts.
     pub fn fields(&self) -> Vec<FieldSection> {
         self.written().sections
     }
@@ -48,7 +48,7 @@ impl CaseDocument {
         page
     }
 
-    /// The same case with the points of tables from files written into it, so that it runs from
+    /// Returns the same case with the points of tables from files written into it, so that it runs from
     /// anywhere.
     #[must_use]
     pub fn with_tables_embedded(mut self) -> Self {

@@ -21,7 +21,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// What stands in a case file under `path`, as TOML.
+    /// Returns the value as TOML in a case file under `path`.
     #[must_use]
     pub fn to_toml(&self, path: &str) -> String {
         match self {
@@ -39,7 +39,7 @@ impl Value {
         }
     }
 
-    /// As a table shows it, without quotes.
+    /// Returns it as a table shows it, without quotes.
     #[must_use]
     pub fn shown(&self) -> Cow<'_, str> {
         match self {
@@ -49,7 +49,7 @@ impl Value {
         }
     }
 
-    /// A text of a case file under `path`: a quantity or a toe, if it is one.
+    /// Returns a text of a case file under `path`: a quantity or a toe, if it is one.
     #[must_use]
     pub fn of_text(path: &str, text: &str) -> Self {
         let quoted = || Self::Toml(toml::Value::from(text).to_string());
@@ -70,7 +70,7 @@ impl Value {
         }
     }
 
-    /// What was typed without quotes: a pure number, or as [`Value::of_text`].
+    /// Makes it of a number typed without quotes: a pure number, or as [`Value::of_text`].
     #[must_use]
     pub fn of_number(path: &str, text: &str) -> Self {
         match text.trim().parse::<f64>() {
@@ -82,7 +82,7 @@ impl Value {
         }
     }
 
-    /// The same number in another unit; `None` if it measures something else.
+    /// Returns the same number in another unit; `None` if it measures something else.
     #[must_use]
     pub fn in_unit(&self, unit: &str) -> Option<f64> {
         let Self::Number { value, unit: own } = self else {
@@ -96,7 +96,8 @@ impl Value {
     }
 }
 
-/// Whether a path is that of a toe, of all columns or of one wedge's, whose direction is said in words.
+/// Returns whether a path is that of a toe, of all columns or of one wedge's, whose direction is said in
+/// words.
 fn is_toe(path: &str) -> bool {
     path.rsplit('.').next() == Some("toe")
 }
@@ -144,7 +145,7 @@ pub struct Factor {
 }
 
 impl Factor {
-    /// A factor of these paths and values.
+    /// Returns a factor of these paths and values.
     #[must_use]
     pub fn new(paths: Vec<String>, levels: Levels) -> Self {
         Self {
@@ -154,13 +155,13 @@ impl Factor {
         }
     }
 
-    /// Its name: the first path.
+    /// Returns its name: the first path.
     #[must_use]
     pub fn name(&self) -> &str {
         self.paths.first().map_or("", String::as_str)
     }
 
-    /// What one of its values sets, as `--set` takes it.
+    /// Returns the settings of one of its values, as `--set` takes them.
     #[must_use]
     pub fn overrides(&self, value: &Value) -> Vec<String> {
         if !self.groups.is_empty() {
@@ -174,7 +175,7 @@ impl Factor {
             .collect()
     }
 
-    /// How many values it has in a full factorial study.
+    /// Returns the number of its values in a full factorial study.
     #[must_use]
     pub fn count(&self) -> u64 {
         match &self.levels {
@@ -183,7 +184,7 @@ impl Factor {
         }
     }
 
-    /// The unit of its numbers; `None` if it has values that are none, or of several dimensions.
+    /// Returns the unit of its numbers; `None` if it has values that are none, or of several dimensions.
     #[must_use]
     pub fn unit(&self) -> Option<&str> {
         match &self.levels {
@@ -198,7 +199,7 @@ impl Factor {
         }
     }
 
-    /// The value of this number in a full factorial study.
+    /// Returns the value of this number in a full factorial study.
     #[must_use]
     pub fn level(&self, number: u64) -> Value {
         match &self.levels {
@@ -211,7 +212,7 @@ impl Factor {
         }
     }
 
-    /// The value at a coordinate from 0 to 1: of a list, each has an equal part of it.
+    /// Returns the value at a coordinate from 0 to 1: of a list, each has an equal part of it.
     #[must_use]
     pub fn at(&self, coordinate: f64) -> Value {
         match &self.levels {

@@ -18,7 +18,7 @@ pub struct LatinHypercube {
 }
 
 impl LatinHypercube {
-    /// A hypercube of so many runs.
+    /// Returns a hypercube of so many runs.
     #[must_use]
     pub fn new(runs: u64, seed: u64) -> Self {
         let bits = u64::BITS - runs.saturating_sub(1).leading_zeros();
@@ -29,7 +29,7 @@ impl LatinHypercube {
         }
     }
 
-    /// A coordinate of the run of this number (below the number of runs), from 0 to below 1.
+    /// Returns a coordinate of the run of this number (below the number of runs), from 0 to below 1.
     #[must_use]
     pub fn coordinate(&self, number: u64, dimension: usize) -> f64 {
         let stratum = self.stratum(number, dimension);
@@ -39,7 +39,8 @@ impl LatinHypercube {
         ((stratum as f64 + within) / self.runs as f64).min(below)
     }
 
-    /// The stratum of a run: each number from 0 to below the number of runs stands once in each dimension.
+    /// Returns the stratum of a run: each number from 0 to below the number of runs stands once in each
+    /// dimension.
     #[must_use]
     pub fn stratum(&self, number: u64, dimension: usize) -> u64 {
         let mut place = number % self.runs;

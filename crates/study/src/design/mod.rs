@@ -154,8 +154,8 @@ impl Study {
         read::text(source, text, folder, None)
     }
 
-    /// The same study from its texts, on this machine or another. Tables in files of their own are looked for
-    /// where they were.
+    /// Returns the same study from its texts, on this machine or another. Tables in files of their own are
+    /// looked for where they were.
     ///
     /// # Errors
     /// As [`Study::read`].
@@ -163,7 +163,7 @@ impl Study {
         read::text(&source.name, &source.text, &source.folder, Some(source.case))
     }
 
-    /// The texts that it was read from.
+    /// Returns the texts that it was read from.
     #[must_use]
     pub fn source(&self) -> &StudySource {
         &self.source
@@ -181,14 +181,14 @@ impl Study {
         self.base.units()
     }
 
-    /// The values of the variant of this number, below [`Study::count`]: one a factor, `None` where a list
-    /// leaves the case's own.
+    /// Returns the values of the variant of this number, below [`Study::count`]: one a factor, `None` where a
+    /// list leaves the case's own.
     #[must_use]
     pub fn values(&self, number: u64) -> Vec<Option<Value>> {
         values::of(self, number)
     }
 
-    /// What is set over the case for the variant of this number, as `--set` takes it.
+    /// Returns the settings over the case for the variant of this number, as `--set` takes them.
     #[must_use]
     pub fn overrides(&self, number: u64) -> Vec<String> {
         let values = self.values(number);
@@ -200,7 +200,7 @@ impl Study {
         self.everywhere().chain(varied).collect()
     }
 
-    /// The case of the variant of this number.
+    /// Returns the case of the variant of this number.
     ///
     /// # Errors
     /// Its values do not go together.
@@ -208,13 +208,13 @@ impl Study {
         self.source.case.case(&self.overrides(number))
     }
 
-    /// The measures that are kept of each variant.
+    /// Returns the measures that are kept of each variant.
     #[must_use]
     pub fn measures(&self) -> &Definitions {
         &self.measures
     }
 
-    /// What decides what it computes.
+    /// Returns the text of everything that decides its results.
     #[must_use]
     pub fn description(&self) -> Description<'_> {
         Description {
@@ -230,7 +230,7 @@ impl Study {
         }
     }
 
-    /// The description in short: other studies have another number, as good as certainly.
+    /// Returns the description in short: other studies have another number, as good as certainly.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
         // FNV-1a over the description's text, whose floating-point numbers are written so that they read
@@ -246,7 +246,7 @@ impl Study {
     }
 }
 
-/// What an accuracy sets.
+/// Returns the settings of an accuracy.
 fn accuracy_overrides(accuracy: Accuracy) -> impl Iterator<Item = String> {
     let set: &[&str] = match accuracy {
         Accuracy::Case => &[],

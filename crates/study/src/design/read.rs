@@ -59,7 +59,7 @@ struct Draft {
 }
 
 impl Draft {
-    /// What a value of it sets.
+    /// Returns the settings of one of its values.
     fn assigned(&self, (value, place): &Written) -> Assigned {
         if self.groups.is_empty() {
             let paths = self.factor.paths.iter();
@@ -342,19 +342,19 @@ pub(super) fn text(
     })
 }
 
-/// All values below a table, as `--set` takes them; a table in braces is one value.
+/// Returns all values below a table, as `--set` takes them; a table in braces is one value.
 pub(crate) fn settings(table: &Table) -> Vec<String> {
     let mut assigned = Vec::new();
     assignments(table, "", &mut assigned);
     assigned.iter().map(overriding).collect()
 }
 
-/// A value as `--set` takes it.
+/// Returns a value as `--set` takes it.
 fn overriding((path, (value, _)): &(String, Written)) -> String {
     format!("{path}={}", value.to_toml(path))
 }
 
-/// The mistakes of a case, moved to where the study has the value, or to its key.
+/// Returns the mistakes of a case, moved to where the study has the value, or to its key.
 fn moved<'w>(
     error: CaseError,
     written: impl Iterator<Item = (&'w str, &'w Written)>,
@@ -378,7 +378,7 @@ fn moved<'w>(
     })
 }
 
-/// A table under a key; nothing if it is left out.
+/// Returns a table under a key; nothing if it is left out.
 fn section<'t>(top: &Section<'t>, key: &str, problems: &mut Problems) -> Option<&'t Table> {
     top.table.entry(key)?;
     top.section(key, problems).map(|section| section.table)
@@ -392,7 +392,7 @@ fn refuse(top: &Section<'_>, key: &str, what: &str, help: &str, problems: &mut P
     }
 }
 
-/// A whole number that may be left out.
+/// Returns a whole number that may be left out.
 fn whole(top: &Section<'_>, key: &str, least: f64, problems: &mut Problems) -> Option<u64> {
     let node = top.table.get(key)?;
     match node.value {
@@ -416,7 +416,7 @@ fn whole(top: &Section<'_>, key: &str, least: f64, problems: &mut Problems) -> O
     }
 }
 
-/// The text of the case that is varied.
+/// Returns the text of the case that is varied.
 fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Problems) -> Option<CaseSource> {
     let path = folder.join(case);
     match CaseSource::half_truck(folder, Path::new(case)) {

@@ -48,8 +48,8 @@ pub struct Sobol {
 }
 
 impl Sobol {
-    /// The sequence in this many dimensions, at most [`DIMENSIONS`]; without a seed as it is, its first point
-    /// zero.
+    /// Returns the sequence in this many dimensions, at most [`DIMENSIONS`]; without a seed as it is, its
+    /// first point zero.
     #[must_use]
     pub fn new(dimensions: usize, seed: Option<u64>) -> Self {
         let dimensions = dimensions.min(DIMENSIONS);
@@ -61,8 +61,8 @@ impl Sobol {
         }
     }
 
-    /// A coordinate of the point of this number, from 0 to below 1; zero for a dimension that it does not
-    /// have.
+    /// Returns a coordinate of the point of this number, from 0 to below 1; zero for a dimension that it does
+    /// not have.
     #[must_use]
     pub fn coordinate(&self, number: u64, dimension: usize) -> f64 {
         let (Some(directions), Some(shift)) = (self.directions.get(dimension), self.shifts.get(dimension))
@@ -81,7 +81,7 @@ impl Sobol {
     }
 }
 
-/// The direction numbers of a dimension, `v_k = m_k / 2^k` as fixed-point numbers.
+/// Returns the direction numbers of a dimension, `v_k = m_k / 2^k` as fixed-point numbers.
 fn directions(dimension: usize) -> [u64; BITS as usize] {
     let mut v = [0; BITS as usize];
     let Some((degree, coefficients, first)) = dimension.checked_sub(1).map(|place| DIRECTIONS[place]) else {

@@ -2,7 +2,7 @@
 
 use super::{LatinHypercube, Sampling, Sobol, Study, Value};
 
-/// The values of a variant, one a factor.
+/// Returns the values of a variant, one a factor.
 pub(super) fn of(study: &Study, number: u64) -> Vec<Option<Value>> {
     let factors = &study.factors;
     match &study.sampling {

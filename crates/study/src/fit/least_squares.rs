@@ -149,7 +149,7 @@ impl State {
         Ok(false)
     }
 
-    /// One step down; whether another is worth while.
+    /// Makes one step down; whether another is worth while.
     fn step(
         &mut self,
         evaluate: Evaluate<'_>,

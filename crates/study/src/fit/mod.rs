@@ -109,13 +109,13 @@ impl Free {
         })
     }
 
-    /// The value at a scaled parameter, in its unit.
+    /// Returns the value at a scaled parameter, in its unit.
     #[must_use]
     pub fn at(&self, scaled: f64) -> f64 {
         self.low + (self.high - self.low) * scaled
     }
 
-    /// A value as `--set` takes it.
+    /// Returns a value as `--set` takes it.
     #[must_use]
     pub fn set(&self, value: f64) -> String {
         let unit = self.unit.clone();
@@ -200,7 +200,7 @@ pub struct Fit {
     pub failed: Option<String>,
 }
 
-/// The column of a case's run at these times (between rows linearly), SI.
+/// Returns the column of a case's run at these times (between rows linearly), SI.
 ///
 /// # Errors
 /// The run cannot begin or stops, ends before the last time, or has no such column.
@@ -309,7 +309,7 @@ fn bound_warning(found: &Found) -> String {
     at_bound(&found.free.path, &value.shown())
 }
 
-/// Where the case stands, as far as it lies well within the bounds; the middle otherwise.
+/// Returns the values of the case, as far as they lie well within the bounds; the middle otherwise.
 fn start(case: &AnyCase, free: &[Free]) -> Vec<f64> {
     let sections = case.fields();
     free.iter()
@@ -325,7 +325,7 @@ fn start(case: &AnyCase, free: &[Free]) -> Vec<f64> {
         .collect()
 }
 
-/// The least squares and what they say.
+/// Returns the least squares and what they say.
 fn finish(
     evaluate: Evaluate<'_>,
     measured: &Measured,

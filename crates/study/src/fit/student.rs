@@ -1,7 +1,7 @@
 //! Quantiles of Student's t distribution, for confidence intervals.
 
-/// The number t such that a Student-distributed value with so many degrees of freedom lies between -t and t
-/// with this probability.
+/// Returns the number t such that a Student-distributed value with so many degrees of freedom lies between -t
+/// and t with this probability.
 ///
 /// Hill's expansion (*Algorithm 396: Student's t-quantiles*, Comm. ACM 13, 1970), better than 1e-4 from three
 /// degrees of freedom on; the exact values for one and two.
@@ -41,7 +41,7 @@ pub fn two_sided(probability: f64, freedom: f64) -> f64 {
     (n * y).sqrt()
 }
 
-/// The quantile of the normal distribution: by Newton's method from Abramowitz and Stegun 26.2.23.
+/// Returns the quantile of the normal distribution: by Newton's method from Abramowitz and Stegun 26.2.23.
 fn normal(probability: f64) -> f64 {
     let tail = probability.min(1.0 - probability);
     let t = (-2.0 * libm::log(tail)).sqrt();

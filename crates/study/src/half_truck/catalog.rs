@@ -24,7 +24,7 @@ pub enum WedgeType {
 }
 
 impl WedgeType {
-    /// As in the files.
+    /// Returns the code as in the files.
     #[must_use]
     pub fn code(self) -> &'static str {
         match self {
@@ -81,7 +81,7 @@ pub struct Entry {
     pub yaw: YawCase,
 }
 
-/// All runs: the 24 of the table, and the four yawed ones as printed.
+/// Returns all runs: the 24 of the table, and the four yawed ones as printed.
 #[must_use]
 pub fn entries() -> Vec<Entry> {
     let mut entries = Vec::new();
@@ -105,7 +105,7 @@ pub fn entries() -> Vec<Entry> {
 }
 
 impl Entry {
-    /// Its name, such as `nucars_69_constant_toe_out_yaw`.
+    /// Returns its name, such as `nucars_69_constant_toe_out_yaw`.
     #[must_use]
     pub fn name(&self) -> String {
         let yaw = match self.yaw {
@@ -121,7 +121,7 @@ impl Entry {
         )
     }
 
-    /// One line for people.
+    /// Returns the title, one line.
     #[must_use]
     pub fn title(&self) -> String {
         let yaw = match self.yaw {
@@ -141,13 +141,13 @@ impl Entry {
         )
     }
 
-    /// Whether its files are printed in the thesis.
+    /// Returns whether its files are printed in the thesis.
     #[must_use]
     pub fn is_printed(&self) -> bool {
         self.toe == ToeCase::Out && self.yaw != YawCase::Intended
     }
 
-    /// The names of its built-in files: system, input, data.
+    /// Returns the names of its built-in files: system, input, data.
     #[must_use]
     pub fn files(&self) -> [&'static str; 3] {
         let system = match (self.wedges, self.damping) {
@@ -167,7 +167,7 @@ impl Entry {
         [system, input, data]
     }
 
-    /// The run, of `duration` seconds with a row each 0.01 s.
+    /// Returns the run, of `duration` seconds with a row each 0.01 s.
     ///
     /// `choices.yaw` says how the intended yaw is reached; as printed stands for the default way.
     ///
@@ -181,7 +181,7 @@ impl Entry {
         })
     }
 
-    /// The run with other settings; without a duration, the files' 20 s.
+    /// Returns the run with other settings; without a duration, the files' 20 s.
     ///
     /// # Errors
     /// A value of the settings is wrong; the built-in files have no mistakes.
@@ -219,7 +219,7 @@ pub const DURATION: f64 = 20.0;
 /// The interval of the printed runs' results, s.
 pub const OUTPUT_INTERVAL: f64 = 0.1;
 
-/// The run of this name.
+/// Returns the run of this name.
 #[must_use]
 pub fn entry(name: &str) -> Option<Entry> {
     entries().into_iter().find(|entry| entry.name() == name)

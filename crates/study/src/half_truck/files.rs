@@ -106,7 +106,7 @@ pub enum FilesError {
     NoYaw,
 }
 
-/// The run of these files.
+/// Returns the run of these files.
 ///
 /// # Errors
 /// What [`FilesError`] names.
@@ -207,8 +207,8 @@ pub fn case(
     })
 }
 
-/// The run of a run file, read from `path`, and what belongs to it. Errors in the files are for the caller to
-/// refuse.
+/// Returns the run of a run file, read from `path`, and what belongs to it. Errors in the files are for the
+/// caller to refuse.
 ///
 /// # Errors
 /// What [`FilesError`] names.

@@ -36,8 +36,8 @@ pub enum Request {
     },
 }
 
-/// The requests of a data file; with `all` also those of sections that are switched off. Gives too what
-/// cannot be written, in words.
+/// Returns the requests of a data file; with `all` also those of sections that are switched off. Gives too
+/// what cannot be written, in words.
 #[must_use]
 pub fn of(data: &DataFile, truck: &Truck, all: bool) -> (Vec<Request>, Vec<String>) {
     let mut reader = Reader {

@@ -50,7 +50,7 @@ pub fn run(case: &HalfTruckCase, progress: impl FnMut(f64)) -> Result<HalfTruckR
     Ok(Run::new(case)?.finish(progress))
 }
 
-/// As [`run`], but asks after each step, with the time reached, whether to go on. When not, it is told why,
+/// As [`run`], but asks after each step, with the time reached, whether to go on. If not, the answer says why,
 /// and the result is incomplete for that reason.
 ///
 /// # Errors
@@ -265,7 +265,7 @@ fn output(run: Run<HalfTruckCase>, stopped: Option<Stopped>) -> HalfTruckResult 
     result
 }
 
-/// The first number of a summary that is not finite, in words.
+/// Returns the first number of a summary that is not finite, in words.
 fn first_not_finite(summary: &HalfTruckSummary) -> Option<String> {
     let wedge = |wedge: &WedgeSummary| {
         let measures = [

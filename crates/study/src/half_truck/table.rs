@@ -479,13 +479,13 @@ fn force(
     }
 }
 
-/// The first prescribed body that moves up and down.
+/// Returns the first prescribed body that moves up and down.
 pub(super) fn input_body(model: &Model) -> Option<usize> {
     let moves = |body: &mechanics::body::Body| !body.frame.motions[2].is_constant();
     model.bodies.iter().position(moves)
 }
 
-/// Its vertical motion.
+/// Returns its vertical motion.
 pub(super) fn input_motion(model: &Model) -> Option<&Motion> {
     Some(&model.bodies[input_body(model)?].frame.motions[2])
 }

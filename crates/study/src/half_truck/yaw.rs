@@ -23,7 +23,8 @@ pub struct YawSummary {
     pub reached: SummaryValue,
 }
 
-/// An input body that yaws, and the free body that a yaw spring ties to it, by their places in the model.
+/// Returns an input body that yaws, and the free body that a yaw spring ties to it, by their places in the
+/// model.
 pub(super) fn drive(model: &Model) -> Option<(usize, usize)> {
     let yaws = |body: usize| !model.bodies[body].frame.motions[5].is_constant();
     let free = |body: usize| model.bodies[body].free[5];
@@ -38,7 +39,7 @@ pub(super) fn drive(model: &Model) -> Option<(usize, usize)> {
     })
 }
 
-/// Whether an input body commands a yaw.
+/// Returns whether an input body commands a yaw.
 #[must_use]
 pub fn is_commanded(truck: &Truck) -> bool {
     drive(&truck.model).is_some()
@@ -68,14 +69,14 @@ pub(super) fn summary(truck: &Truck, result: &HalfTruckResult, units: Units) -> 
 }
 
 impl YawSummary {
-    /// Whether less than half of the commanded yaw is reached.
+    /// Returns whether less than half of the commanded yaw is reached.
     #[must_use]
     pub fn is_missed(&self) -> bool {
         let (commanded, reached) = (self.commanded.value, self.reached.value);
         reached * commanded.signum() < REACHED * commanded.abs()
     }
 
-    /// The warning for its user.
+    /// Returns the warning for its user.
     #[must_use]
     pub fn warning(&self) -> String {
         format!(

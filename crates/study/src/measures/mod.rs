@@ -268,7 +268,7 @@ pub(crate) mod place {
 pub struct Measures(pub Vec<f64>);
 
 impl PartialEq for Measures {
-    /// The same bits, but any `NaN` equals any other.
+    /// Returns whether the bits are the same, but any `NaN` equals any other.
     fn eq(&self, other: &Self) -> bool {
         let mut pairs = self.0.iter().zip(&other.0);
         self.0.len() == other.0.len()

@@ -229,8 +229,8 @@ impl Reader<'_> {
     }
 }
 
-/// An SI value in the customary unit of its kind, with the fewest digits that differ from it by rounding
-/// only.
+/// Returns an SI value in the customary unit of its kind, with the fewest digits that differ from it by
+/// rounding only.
 pub(super) fn in_customary_units(value: f64, kind: Kind) -> Option<Quantity> {
     let unit = match kind {
         Kind::Inertia => "lbf in s^2",

@@ -81,7 +81,7 @@ impl<'r> Reader<'r> {
         self.within = table;
     }
 
-    /// The full path of what stands at a path within the table that sections are taken from.
+    /// Returns the full path of what stands at a path within the table that sections are taken from.
     fn full(&self, path: &str) -> String {
         match (self.within, path) {
             ("", path) => path.to_owned(),
@@ -129,7 +129,7 @@ impl<'r> Reader<'r> {
         self.at(path).is_some()
     }
 
-    /// What stands at a path.
+    /// Returns the node at a path.
     pub fn at(&self, path: &str) -> Option<&'r Node> {
         let path = &self.full(path);
         let (section, key) = path.rsplit_once('.').unwrap_or(("", path));
@@ -157,7 +157,7 @@ impl<'r> Reader<'r> {
         Some(table)
     }
 
-    /// The current section, if the case has it.
+    /// Returns the current section, if the case has it.
     pub fn given(&self) -> Option<Section<'r>> {
         let (outer, key) = self.section.rsplit_once('.').unwrap_or(("", &self.section));
         let place = self.table_at(outer).and_then(|table| table.entry(key));
@@ -195,7 +195,7 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Where files that the case names are looked for.
+    /// Returns the access to the files that the case names.
     pub fn tables(&self) -> Tables<'r> {
         self.tables
     }

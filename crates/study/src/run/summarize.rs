@@ -108,7 +108,7 @@ fn warnings(run: &Run<Case>, damped: bool) -> Vec<String> {
     warnings
 }
 
-/// What to do about a ledger that does not close.
+/// Returns the advice on a ledger that does not close.
 fn what_to_do(damped: bool) -> &'static str {
     if damped {
         energy::WHAT_TO_DO_WHERE_DAMPED

@@ -97,7 +97,7 @@ impl Spectrum {
         Ok(Self::of_segments(&values[..count], rows, step))
     }
 
-    /// Of segments of so many rows, a power of two.
+    /// Makes it of segments of so many rows, a power of two.
     fn of_segments(values: &[f64], rows: usize, step: f64) -> Self {
         let window: Vec<f64> = (0..rows)
             .map(|row| 0.5 - 0.5 * libm::cos(2.0 * PI * row as f64 / rows as f64))

@@ -122,7 +122,7 @@ impl fmt::Debug for Equations {
 }
 
 impl Equations {
-    /// The wedge at its start, time zero, its neighbours being at `start`.
+    /// Returns the wedge at its start, time zero, its neighbours being at `start`.
     ///
     /// # Errors
     /// The parameters make no wedge, or places or coil are not finite.
@@ -156,22 +156,22 @@ impl Equations {
         })
     }
 
-    /// The parameters, with the motions of the case.
+    /// Returns the parameters, with the motions of the case.
     #[must_use]
     pub fn parameters(&self) -> &Parameters {
         &self.parameters
     }
-    /// The system, as it is built for this wedge.
+    /// Returns the system, as it is built for this wedge.
     #[must_use]
     pub fn system(&self) -> &System {
         &self.wedge.system
     }
-    /// Where the neighbours were at time zero.
+    /// Returns the places of the neighbors at time zero.
     #[must_use]
     pub fn start(&self) -> &Neighbours {
         &self.start
     }
-    /// Where the coil's force came from at time zero.
+    /// Returns the source of the coil's force at time zero.
     #[must_use]
     pub fn start_coil(&self) -> CoilInput {
         self.start_coil
@@ -186,7 +186,7 @@ impl Equations {
     pub fn time(&self) -> f64 {
         self.time
     }
-    /// The states (SI): free coordinates, their rates, bristles, work and losses.
+    /// Returns the states (SI): free coordinates, their rates, bristles, work and losses.
     #[must_use]
     pub fn states(&self) -> &[f64] {
         &self.x
@@ -197,17 +197,17 @@ impl Equations {
     pub fn contact_states(&self) -> &[u8] {
         &self.contacts.states
     }
-    /// Where the neighbours are.
+    /// Returns the places of the neighbors.
     #[must_use]
     pub fn neighbours(&self) -> &Neighbours {
         &self.neighbours
     }
-    /// Where the coil's force comes from.
+    /// Returns the source of the coil's force.
     #[must_use]
     pub fn coil(&self) -> &CoilInput {
         &self.coil
     }
-    /// The coefficients of friction of column and slope.
+    /// Returns the coefficients of friction of column and slope.
     #[must_use]
     pub fn friction(&self) -> [f64; 2] {
         self.friction
@@ -251,7 +251,7 @@ impl Equations {
         Ok(())
     }
 
-    /// Says where the coil's force comes from.
+    /// Sets the source of the coil's force.
     ///
     /// # Errors
     /// Values that are not finite, or a negative stiffness.
@@ -311,7 +311,7 @@ impl Equations {
         Ok(())
     }
 
-    /// The rates of the states, SI.
+    /// Writes the rates of the states, SI.
     ///
     /// # Errors
     /// `out` does not have the length of the states.
@@ -337,7 +337,7 @@ impl Equations {
         self.contacts.update(&mut self.wedge.system, self.time, &self.x)
     }
 
-    /// What elements feel.
+    /// Returns the evaluation of all elements.
     pub fn evaluation(&mut self) -> &ElementEvaluation<f64> {
         if !self.evaluated {
             self.wedge
@@ -348,7 +348,7 @@ impl Equations {
         &self.evaluation
     }
 
-    /// What the wedge does to its neighbours, and what coil and faces feel.
+    /// Returns the wrenches of the wedge on its neighbors, and the forces of coil and faces.
     ///
     /// # Errors
     /// Never, with a wedge that [`Equations::new`] has built.
@@ -408,13 +408,13 @@ impl Equations {
         )
     }
 
-    /// The columns of a run's table.
+    /// Returns the columns of a run's table.
     #[must_use]
     pub fn columns(&self) -> &[Column] {
         self.outputs.columns()
     }
 
-    /// The values of all columns, SI: a row of the table that a run writes.
+    /// Returns the values of all columns, SI: a row of the table that a run writes.
     #[must_use]
     pub fn row(&mut self) -> Vec<f64> {
         let seen = self.observe();
@@ -447,7 +447,7 @@ fn finite(what: &str, value: f64) -> Result<(), SteppingError> {
     })
 }
 
-/// Whether all coordinates and rates are finite.
+/// Checks whether all coordinates and rates are finite.
 pub(super) fn check_neighbours(neighbours: &Neighbours) -> Result<(), SteppingError> {
     for (name, place) in [
         ("side frame", &neighbours.side_frame),
@@ -464,7 +464,7 @@ pub(super) fn check_neighbours(neighbours: &Neighbours) -> Result<(), SteppingEr
     Ok(())
 }
 
-/// Whether a coil's value is usable.
+/// Checks whether a coil's value is usable.
 pub(super) fn check_coil(coil: &CoilInput) -> Result<(), SteppingError> {
     match coil {
         CoilInput::Stiffness(value) if !coil.is_valid() => Err(SteppingError::Value {
@@ -477,7 +477,7 @@ pub(super) fn check_coil(coil: &CoilInput) -> Result<(), SteppingError> {
     }
 }
 
-/// Whether numbers are those of contact states.
+/// Checks whether numbers are those of contact states.
 pub(super) fn check_contact_states(contact_states: &[u8]) -> Result<(), SteppingError> {
     let none = contact_states
         .iter()
@@ -492,7 +492,7 @@ pub(super) fn check_contact_states(contact_states: &[u8]) -> Result<(), Stepping
     })
 }
 
-/// Whether coefficients of friction of column and slope are usable.
+/// Checks whether coefficients of friction of column and slope are usable.
 pub(super) fn check_friction(friction: [f64; 2]) -> Result<(), SteppingError> {
     for (name, value) in ["friction.column", "friction.slope"].into_iter().zip(friction) {
         if !(value >= 0.0 && value.is_finite()) {

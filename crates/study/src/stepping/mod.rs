@@ -55,7 +55,7 @@ pub struct SteppedWedge {
 }
 
 impl SteppedWedge {
-    /// The wedge of a case at time zero, its neighbours where the case's motions begin.
+    /// Returns the wedge of a case at time zero, its neighbours where the case's motions begin.
     ///
     /// # Errors
     /// The parameters make no wedge, or the integrator refuses the start.
@@ -64,7 +64,7 @@ impl SteppedWedge {
         Self::starting(case, &start)
     }
 
-    /// The same with the neighbours elsewhere at the start.
+    /// Returns the same with the neighbours elsewhere at the start.
     ///
     /// # Errors
     /// As [`SteppedWedge::new`], and values that are not finite.
@@ -77,8 +77,8 @@ impl SteppedWedge {
         )
     }
 
-    /// The same of parameters, options of the integrator (the number of steps is bounded by the rule of
-    /// [`progress`], for each step of the neighbours) and a coil that may be outside.
+    /// Returns the same of parameters, options of the integrator (the number of steps is bounded by the rule
+    /// of [`progress`], for each step of the neighbours) and a coil that may be outside.
     ///
     /// # Errors
     /// As [`SteppedWedge::starting`].
@@ -113,19 +113,19 @@ impl SteppedWedge {
         self.equations.time()
     }
 
-    /// Where the neighbours are.
+    /// Returns the places of the neighbors.
     #[must_use]
     pub fn neighbours(&self) -> &Neighbours {
         self.equations.neighbours()
     }
 
-    /// The state reached.
+    /// Returns the state reached.
     #[must_use]
     pub fn equations(&self) -> &Equations {
         &self.equations
     }
 
-    /// What the wedge does to its neighbours, and what coil and faces feel.
+    /// Returns the wrenches of the wedge on its neighbors, and the forces of coil and faces.
     ///
     /// # Errors
     /// Never, with a wedge that was built here.
@@ -133,12 +133,12 @@ impl SteppedWedge {
         self.equations.reading()
     }
 
-    /// What all corners and the coil feel.
+    /// Returns the evaluation of all corners and the coil.
     pub fn evaluation(&mut self) -> &ElementEvaluation<f64> {
         self.equations.evaluation()
     }
 
-    /// The rates of the states, see [`Equations::rates`].
+    /// Writes the rates of the states, see [`Equations::rates`].
     ///
     /// # Errors
     /// `out` does not have the length of the states.
@@ -146,18 +146,18 @@ impl SteppedWedge {
         self.equations.rates(out)
     }
 
-    /// The margins of the contact states, see [`Equations::margins`].
+    /// Returns the margins of the contact states, see [`Equations::margins`].
     pub fn margins(&mut self) -> &[f64] {
         self.equations.margins()
     }
 
-    /// The columns of [`SteppedWedge::row`].
+    /// Returns the columns of [`SteppedWedge::row`].
     #[must_use]
     pub fn columns(&self) -> &[Column] {
         self.equations.columns()
     }
 
-    /// A row of the table that a run writes, SI.
+    /// Returns a row of the table that a run writes, SI.
     #[must_use]
     pub fn row(&mut self) -> Vec<f64> {
         self.equations.row()
@@ -183,13 +183,13 @@ impl SteppedWedge {
             .jacobian_vector_product(states, neighbours, coil_force)
     }
 
-    /// What the integrator has done so far.
+    /// Returns the counters of the integrator so far.
     #[must_use]
     pub fn statistics(&self) -> &Statistics {
         self.integrator.statistics()
     }
 
-    /// One step: within `duration` (s) the neighbours go from where they are to `end`.
+    /// Makes one step: within `duration` (s) the neighbours go from where they are to `end`.
     ///
     /// # Errors
     /// A duration that is not positive, values that are not finite; or the integrator cannot go on: the wedge
@@ -198,7 +198,7 @@ impl SteppedWedge {
         self.step_to(end, self.time() + duration)
     }
 
-    /// The same with the time (s) at the step's end.
+    /// Makes the same step with the time (s) at its end.
     ///
     /// # Errors
     /// As [`SteppedWedge::step`].
@@ -247,7 +247,7 @@ impl SteppedWedge {
             .follow(time, self.integrator.x(), self.integrator.discrete_states(), end)
     }
 
-    /// Says where the coil's force comes from, from now on.
+    /// Sets the source of the coil's force from now on.
     ///
     /// # Errors
     /// Values that are not finite, or a negative stiffness.
@@ -276,7 +276,7 @@ impl SteppedWedge {
         Ok(())
     }
 
-    /// All that is needed to go on with the same bits, also in another process.
+    /// Returns all that is needed to go on with the same bits, also in another process.
     #[must_use]
     pub fn state(&self) -> SteppedState {
         SteppedState {
@@ -337,7 +337,7 @@ impl SteppedWedge {
     }
 }
 
-/// How a case is integrated.
+/// Returns the options of a case's integration.
 #[must_use]
 pub fn options(simulation: &Simulation) -> Options {
     Options {

@@ -41,7 +41,7 @@ pub struct SteppedState {
 }
 
 impl SteppedState {
-    /// The state as bytes: JSON, whose numbers read back to the last bit.
+    /// Returns the state as bytes: JSON, whose numbers read back to the last bit.
     ///
     /// # Errors
     /// Never, with a state that a wedge has given.
@@ -76,7 +76,7 @@ impl SteppedState {
         serde_json::from_slice(bytes).map_err(damaged)
     }
 
-    /// Whether places, coil, friction, time and contact states can be those of a wedge; what else the
+    /// Checks whether places, coil, friction, time and contact states can be those of a wedge; what else the
     /// integrator has is looked at by the integrator.
     pub(super) fn check(&self) -> Result<(), SteppingError> {
         check_neighbours(&self.neighbours)?;
@@ -94,8 +94,8 @@ impl SteppedState {
     }
 }
 
-/// A number for parameters and options; motions and coefficients of friction do not count, since a caller
-/// gives them.
+/// Returns a number for parameters and options; motions and coefficients of friction do not count, since a
+/// caller gives them.
 pub(super) fn fingerprint(parameters: &Parameters, options: &Options) -> u64 {
     let mut still = parameters.clone();
     for neighbour in [&mut still.side_frame, &mut still.bolster] {

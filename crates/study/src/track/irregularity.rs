@@ -19,7 +19,7 @@ const SHAPES: [&str; 4] = ["joints", "sine", "dip", "jog"];
 /// Rail length in North America, m.
 const RAIL: f64 = 39.0 * 0.3048;
 
-/// An irregularity; `end` is the length of the track, m.
+/// Returns an irregularity; `end` is the length of the track, m.
 pub(super) fn irregularity(
     section: &Section<'_>,
     end: Option<f64>,
@@ -55,7 +55,7 @@ pub(super) fn irregularity(
     })
 }
 
-/// The text of a name among others.
+/// Returns the text of a name among others.
 pub(super) fn named<'t>(
     section: &Section<'t>,
     key: &str,
@@ -76,7 +76,7 @@ pub(super) fn named<'t>(
     None
 }
 
-/// A whole number.
+/// Returns a whole number.
 pub(super) fn whole(section: &Section<'_>, key: &str, default: u64, problems: &mut Problems) -> Option<u64> {
     if section.table.get(key).is_none() {
         return Some(default);
@@ -97,7 +97,7 @@ pub(super) fn whole(section: &Section<'_>, key: &str, default: u64, problems: &m
     None
 }
 
-/// An amplitude, depth or offset, m: either sign.
+/// Returns an amplitude, depth or offset, m: either sign.
 fn size(section: &Section<'_>, key: &str, problems: &mut Problems) -> Option<f64> {
     let range = Range::Between(-1.0, 1.0, "below 1 m");
     section

@@ -12,7 +12,7 @@ const FORMS: [&str; 2] = ["space_curve", "mid_chord"];
 const SIGNS: Names<bool> = &[("row", false), ("usual", true)];
 const BEYOND: Names<bool> = &[("level", true)];
 
-/// A mistake in a measured table, shown where the track file names it.
+/// Returns a mistake in a measured table, shown where the track file names it.
 fn wrong(section: &Section<'_>, error: &MeasuredError) -> Problem {
     let problem = Problem::new(format!("`{}`: {error}", section.path_of("table"))).help(error.remedy());
     match section.table.place_of("table") {
@@ -21,7 +21,7 @@ fn wrong(section: &Section<'_>, error: &MeasuredError) -> Problem {
     }
 }
 
-/// The table that a section names, beside the track file.
+/// Returns the table that a section names, beside the track file.
 fn table(section: &Section<'_>, tables: Tables<'_>, problems: &mut Problems) -> Option<MeasuredTable> {
     let (text, _) = section.text("table", problems)?;
     let signs_known = match section.table.get("signs") {
@@ -50,7 +50,7 @@ fn table(section: &Section<'_>, tables: Tables<'_>, problems: &mut Problems) -> 
         .ok()
 }
 
-/// The irregularities of a measured table; `end` is the length of the track, m.
+/// Returns the irregularities of a measured table; `end` is the length of the track, m.
 pub(super) fn irregularities(
     section: &Section<'_>,
     tables: Tables<'_>,
@@ -113,7 +113,7 @@ pub(super) fn irregularities(
         .ok()
 }
 
-/// The center line of a measured table.
+/// Returns the center line of a measured table.
 pub(super) fn center_line(
     section: &Section<'_>,
     tables: Tables<'_>,

@@ -209,7 +209,7 @@ pub(crate) fn of_section(
     Some((track, support?))
 }
 
-/// A track that comes back near itself at two distances (m).
+/// Returns a track that comes back near itself at two distances (m).
 fn near_itself(tree: &Table, distances: [f64; 2]) -> Problem {
     let [first, second] = distances.map(|distance| format!("{:.0} ft ({distance:.0} m)", distance / FOOT));
     let problem = Problem::new(format!(
@@ -227,7 +227,7 @@ fn near_itself(tree: &Table, distances: [f64; 2]) -> Problem {
     )
 }
 
-/// A track that cannot be, shown at its segments.
+/// Returns a track that cannot be, shown at its segments.
 fn impossible(tree: &Table, error: &TrackError) -> Problem {
     let problem = Problem::new(error.to_string());
     let problem = match tree.place_of("segments") {
@@ -237,7 +237,7 @@ fn impossible(tree: &Table, error: &TrackError) -> Problem {
     problem.help("segments count from 0; put a spiral between a tangent and a curve, and between two curves")
 }
 
-/// The tables of a list, `[[key]]`.
+/// Returns the tables of a list, `[[key]]`.
 fn list<'t>(top: &Section<'t>, key: &str, problems: &mut Problems) -> Vec<Section<'t>> {
     let Some(node) = top.table.get(key) else {
         return Vec::new();
@@ -278,7 +278,7 @@ fn list<'t>(top: &Section<'t>, key: &str, problems: &mut Problems) -> Vec<Sectio
     found
 }
 
-/// A length along a track, m: positive, or zero if it may be.
+/// Returns a length along a track, m: positive, or zero if it may be.
 fn length(section: &Section<'_>, key: &str, or_zero: bool, problems: &mut Problems) -> Option<f64> {
     let node = section.require(key, &format!("write for example {key} = \"100 ft\""), problems)?;
     let path = section.path_of(key);

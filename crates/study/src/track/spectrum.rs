@@ -66,7 +66,7 @@ fn coefficients(section: &Section<'_>, key: &str, problems: &mut Problems) -> Op
     }
 }
 
-/// A density of the user's own, with both of its units.
+/// Returns a density of the user's own, with both of its units.
 fn rational(section: &Section<'_>, problems: &mut Problems) -> Option<Rational> {
     let names = WavenumberUnit::ALL.map(|(name, _)| name);
     let help = format!(
@@ -99,7 +99,7 @@ fn rational(section: &Section<'_>, problems: &mut Problems) -> Option<Rational> 
     Rational::new(&numerator?, &denominator?, wavenumber?.1, density?)
 }
 
-/// A realization; `end` is the length of the track, m.
+/// Returns a realization; `end` is the length of the track, m.
 pub(super) fn realized(
     section: &Section<'_>,
     end: Option<f64>,

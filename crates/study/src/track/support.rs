@@ -34,7 +34,7 @@ impl Support {
     }
 }
 
-/// The section `[support]`.
+/// Returns the section `[support]`.
 pub(super) fn support(section: &Section<'_>, problems: &mut Problems) -> Option<Support> {
     let kind = named(section, "kind", &["sprung", "rigid"], problems)?;
     if kind == "rigid" {

@@ -24,7 +24,7 @@ struct Rig {
 }
 
 impl Rig {
-    /// A rig with its name (behind `truck_`) and title.
+    /// Returns a rig with its name (behind `truck_`) and title.
     fn new(
         damping: &'static str,
         (name, title): (&str, String),
@@ -78,7 +78,7 @@ impl Rig {
     }
 }
 
-/// The yaw of both side frames in warp tests, from 2 s on.
+/// Returns the yaw of both side frames in warp tests, from 2 s on.
 fn warp_by_nests(amplitude: &str) -> String {
     format!(
         "side_frame.free_coordinates = []\n\
@@ -87,7 +87,7 @@ fn warp_by_nests(amplitude: &str) -> String {
     )
 }
 
-/// The bolster comes to height 0 within 0.2 to 1.2 s, from below or from above.
+/// Returns a motion in which the bolster comes to height 0 within 0.2 to 1.2 s, from below or from above.
 fn approach(rising: bool) -> Vec<String> {
     let [from, by] = if rising { ["-0.2", "0.2"] } else { ["0.2", "-0.2"] };
     vec![
@@ -109,7 +109,7 @@ fn bolster(key: &str, motion: &str) -> String {
 
 const HALF_CAR: &str = "load.kind = \"half_car\"\n";
 
-/// The rigs of one damping that have an empty version too.
+/// Returns the rigs of one damping that have an empty version too.
 fn rigs(damping: &'static str) -> Vec<Rig> {
     let rig = |name: String, title: &str, body, vertical, duration| {
         let title = format!("{damping} damping, {title}");
@@ -393,17 +393,17 @@ static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
     ]
 });
 
-/// The groups.
+/// Returns the groups.
 pub fn groups() -> &'static [Group] {
     &GROUPS
 }
 
-/// The names of all built-in trucks.
+/// Returns the names of all built-in trucks.
 pub fn names() -> impl Iterator<Item = &'static str> {
     names_in(groups())
 }
 
-/// The built-in truck of this name, with `--set` overrides (`path.key=value`).
+/// Returns the built-in truck of this name, with `--set` overrides (`path.key=value`).
 ///
 /// # Errors
 /// There is none of this name, or an override is wrong.
@@ -411,7 +411,7 @@ pub fn case_with(name: &str, overrides: &[String]) -> Result<TruckCase, CaseErro
     TruckCase::parse(&format!("{name}.toml"), text(name)?, Tables::nowhere(), overrides)
 }
 
-/// The case file of the built-in truck of this name.
+/// Returns the case file of the built-in truck of this name.
 ///
 /// # Errors
 /// There is none of this name; the help names the nearest.

@@ -153,7 +153,7 @@ impl TruckCase {
         while integrator.time() < self.settle {
             integrator.step_to(self.settle).map_err(|error| RunError::Step {
                 reason: format!("while the truck settles: {error}"),
-                contacts: "not told".to_owned(),
+                contacts: "not stated".to_owned(),
             })?;
         }
         let mut x = integrator.x().to_vec();
@@ -359,7 +359,7 @@ fn quasi_static(parameters: &Parameters) -> impl Iterator<Item = (&'static str, 
         })
 }
 
-/// The warnings about wedges between faces that do not close upwards.
+/// Returns the warnings about wedges between faces that do not close upwards.
 fn expelled(parameters: &Parameters) -> impl Iterator<Item = String> {
     quasi_static(parameters)
         .filter_map(|(name, own)| Some(format!("wedge {name}: {}", jam::expelled(&own, 0.0)?)))
@@ -369,7 +369,7 @@ fn expelled(parameters: &Parameters) -> impl Iterator<Item = String> {
 /// that.
 const SMALL_RISE: f64 = 0.05 * 0.0254;
 
-/// The warning about coils that do not carry what stands on them.
+/// Returns the warning about coils that do not carry what stands on them.
 fn surplus(case: &TruckCase, units: Units) -> Option<String> {
     let surplus = case.parameters.surplus()?;
     let rise = surplus / case.parameters.load_stiffness();
@@ -403,7 +403,7 @@ fn surplus(case: &TruckCase, units: Units) -> Option<String> {
     ))
 }
 
-/// The warning about wedges that no coil presses.
+/// Returns the warning about wedges that no coil presses.
 fn without_coil(case: &TruckCase) -> Option<String> {
     let wedges = WEDGE_NAMES.iter().zip(&case.parameters.wedges);
     let names: Vec<&str> = wedges
@@ -424,7 +424,7 @@ fn without_coil(case: &TruckCase) -> Option<String> {
     })
 }
 
-/// The warning about stops that have no clearance left at the start.
+/// Returns the warning about stops that have no clearance left at the start.
 fn closed(truck: &Truck, units: Units) -> Option<String> {
     let observation = truck.system.clone().observe(0.0, &truck.initial_state);
     let stops = truck.closed_stops(&observation);

@@ -104,7 +104,7 @@ impl Cycles {
     }
 }
 
-/// The angles at which warp stiffness is told, mrad.
+/// The angles at which warp stiffness is reported, mrad.
 pub const WARP_ANGLES: [f64; 6] = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0];
 
 /// Returns how a moment, or a part of it (N·m), grows until the rows reach a warp angle (rad) first, in
@@ -143,7 +143,7 @@ pub fn warp_stiffnesses(angles: &[f64], moments: &[f64], units: Units) -> BTreeM
 }
 
 impl SummaryValue {
-    /// A moment per angle (N·m/rad) in output units.
+    /// Returns a moment per angle (N·m/rad) in output units.
     #[must_use]
     pub fn per_radian(si: f64, units: Units) -> Self {
         let moment = Self::new(si, Kind::Moment, units);

@@ -65,7 +65,7 @@ const OF_COILS: [&str; 2] = ["stiffness", "damping"];
 const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
 
-/// The thesis's coil (Steets 2007, table 3-2), and its place below the wedge.
+/// Returns the thesis's coil (Steets 2007, table 3-2), and its place below the wedge.
 fn thesis_coil(damping: Damping) -> (ThesisCoil, [f64; 3]) {
     let [stiffness, free, nominal] = match damping {
         Damping::Variable => [3000.0, 10.25, 10.25],

@@ -209,7 +209,7 @@ impl<'l> Counterfaces<'l> {
     }
 }
 
-/// The length that a place stands for, by the trapezoidal rule.
+/// Returns the length that a place stands for, by the trapezoidal rule.
 fn cell(places: &[f64], place: usize) -> f64 {
     let last = places.len() - 1;
     0.5 * (places[(place + 1).min(last)] - places[place.saturating_sub(1)])

@@ -104,7 +104,7 @@ pub enum WearError {
 /// Why wear goes no further.
 #[derive(Debug)]
 pub enum WearStop {
-    /// It was told to.
+    /// The caller asked for it.
     Interrupted(String),
     /// It cannot.
     Error(WearError),
@@ -297,7 +297,7 @@ fn largest_part(case: &Case, work: &CycleWork, plan: &Plan, areas: &[Vec<f64>; 2
     largest
 }
 
-/// Returns what is told of a cycle.
+/// Returns the summary of a cycle.
 fn state(
     case: &Case,
     work: &CycleWork,

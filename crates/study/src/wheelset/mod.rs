@@ -192,7 +192,7 @@ impl WheelsetCase {
             });
         }
         let setup = setup(&wheelset, wheelset.track.track.clone())?;
-        // What does not stand there is told before anything is written.
+        // What is missing there is reported before anything is written.
         Rig::new(&setup, wheelset.start)?;
         Ok(Self {
             wheelset,
@@ -312,7 +312,7 @@ fn check(wheelset: &Wheelset) -> Result<(), WheelsetError> {
     }
 }
 
-/// The rig of a wheelset on a track.
+/// Returns the rig of a wheelset on a track.
 fn setup(wheelset: &Wheelset, track: Track) -> Result<Setup, WheelsetError> {
     let Wheelset { wheel, rail, .. } = wheelset;
     let rigid = RigidWheelset::new(

@@ -3,7 +3,7 @@
 use study::car::CarCase;
 use study::case::Tables;
 
-/// The messages of a case with `model = "car"` and these lines, with their help.
+/// Returns the messages of a case with `model = "car"` and these lines, with their help.
 fn refused(lines: &str) -> String {
     let text = format!("model = \"car\"\n{lines}");
     let error = CarCase::parse("case.toml", &text, Tables::nowhere(), &[]).unwrap_err();
@@ -197,7 +197,7 @@ fn input_models_are_told_apart() {
 
 /// What is doubtful but not wrong is kept for the summary.
 #[test]
-fn input_coils_that_would_go_solid_are_told() {
+fn input_coils_that_would_go_solid_are_reported() {
     let text = "model = \"car\"\ntruck.load_springs.preload = \"2 kip\"";
     let case = CarCase::parse("c.toml", text, Tables::nowhere(), &[]).unwrap();
     assert!(

@@ -107,14 +107,14 @@ fn energy_the_ledger_closes_over_a_dip() {
     let vertical = result.column("axle_1_left_vertical").unwrap();
     let least = vertical.iter().fold(f64::INFINITY, |least, own| least.min(*own));
     let static_load = summary.static_loads["axle_1_left"].value * 4.448_221_615_260_5;
-    let told = summary.statistics["axle_1_left_least_load"]
+    let reported = summary.statistics["axle_1_left_least_load"]
         .raw
         .as_ref()
         .unwrap()
         .value;
     assert!(
-        told < 99.0 && (told - 100.0 * least / static_load).abs() < 1e-6,
-        "{told}"
+        reported < 99.0 && (reported - 100.0 * least / static_load).abs() < 1e-6,
+        "{reported}"
     );
     // Entries of the ledger as columns: what is put in is stored or lost.
     let last = |name: &str| *result.column(name).unwrap().last().unwrap();
@@ -144,10 +144,10 @@ fn energy_the_ledger_closes_over_a_dip() {
 fn where_the_energy_went(result: &CarResult, lost: f64, creep: f64, residual: f64) {
     const INCH_POUND: f64 = 4.448_221_615_260_5 * 0.0254;
     let energy = &result.summary.energy;
-    let near = |told: f64, wanted: f64| {
+    let near = |reported: f64, wanted: f64| {
         assert!(
-            (told * INCH_POUND - wanted).abs() < 1e-9 * lost,
-            "{told} {wanted}"
+            (reported * INCH_POUND - wanted).abs() < 1e-9 * lost,
+            "{reported} {wanted}"
         );
     };
     near(energy.loss.as_ref().unwrap().value, lost);
@@ -267,9 +267,9 @@ fn limits_massless_wedges_run_in_a_curve() {
         summary.stopped
     );
     assert!(summary.warnings.is_empty(), "{:?}", summary.warnings);
-    let told = summary
+    let reported = summary
         .assumptions
         .iter()
         .any(|line| line.contains("8 of 8 wedges have no mass"));
-    assert!(told, "{:?}", summary.assumptions);
+    assert!(reported, "{:?}", summary.assumptions);
 }

@@ -11,7 +11,7 @@ const FOOT: f64 = 0.3048;
 const GRAVITY: f64 = 9.806_65;
 const INTERVAL: f64 = 0.005;
 
-/// A run of 40 s at 30 m/s: every wheel carries 100 kN, nothing else happens.
+/// Returns a run of 40 s at 30 m/s: every wheel carries 100 kN, nothing else happens.
 fn quiet() -> BTreeMap<String, Vec<f64>> {
     let rows = 8001;
     let mut columns = BTreeMap::new();
@@ -37,7 +37,7 @@ fn quiet() -> BTreeMap<String, Vec<f64>> {
     columns
 }
 
-fn told(columns: &BTreeMap<String, Vec<f64>>, rules: &Rules) -> Statistics {
+fn statistics(columns: &BTreeMap<String, Vec<f64>>, rules: &Rules) -> Statistics {
     let histories = Histories {
         column: &|name| columns.get(name).map_or(&[][..], Vec::as_slice),
         interval: INTERVAL,
@@ -53,8 +53,8 @@ fn set(columns: &mut BTreeMap<String, Vec<f64>>, name: &str, value: impl Fn(f64)
     columns.insert(name.to_owned(), time.iter().map(|t| value(*t)).collect());
 }
 
-fn value(told: &Statistics, name: &str) -> [f64; 2] {
-    let own = &told.values[name];
+fn value(statistics: &Statistics, name: &str) -> [f64; 2] {
+    let own = &statistics.values[name];
     [&own.raw, &own.filtered].map(|own| own.as_ref().map_or(f64::NAN, |own| own.value))
 }
 
@@ -69,19 +69,19 @@ fn analytic_ratios_that_last() {
         if t < 1.5 { 90e3 } else { pulse(t) }
     });
     set(&mut columns, "axle_1_right_lateral", |t| -0.5 * pulse(t));
-    let told = told(&columns, &Rules::default());
-    let [raw, filtered] = value(&told, "axle_1_left_l_over_v_time");
+    let statistics = statistics(&columns, &Rules::default());
+    let [raw, filtered] = value(&statistics, "axle_1_left_l_over_v_time");
     assert!((raw - 0.6).abs() < 1e-9, "{raw}");
     // In the middle of the pulse the filter has settled to within its overshoot.
     assert!((filtered - 0.6).abs() < 0.03, "{filtered}");
-    assert!((value(&told, "axle_1_left_l_over_v_distance")[0] - 0.6).abs() < 1e-9);
+    assert!((value(&statistics, "axle_1_left_l_over_v_distance")[0] - 0.6).abs() < 1e-9);
     // The right wheel is pressed outwards nowhere; the sum takes sizes.
-    assert!(value(&told, "axle_1_right_l_over_v_time")[0].abs() < 1e-9);
-    assert!((value(&told, "axle_1_sum_l_over_v_time")[0] - 0.9).abs() < 1e-9);
+    assert!(value(&statistics, "axle_1_right_l_over_v_time")[0].abs() < 1e-9);
+    assert!((value(&statistics, "axle_1_sum_l_over_v_time")[0] - 0.9).abs() < 1e-9);
     // Of the left side of the front truck one of two wheels is pressed.
-    assert!((value(&told, "truck_1_left_side_l_over_v")[0] - 0.3).abs() < 1e-9);
-    assert!(value(&told, "truck_2_left_side_l_over_v")[0].abs() < 1e-9);
-    let time = told.values["axle_1_left_l_over_v_time"].time.unwrap();
+    assert!((value(&statistics, "truck_1_left_side_l_over_v")[0] - 0.3).abs() < 1e-9);
+    assert!(value(&statistics, "truck_2_left_side_l_over_v")[0].abs() < 1e-9);
+    let time = statistics.values["axle_1_left_l_over_v_time"].time.unwrap();
     assert!((19.9..20.2).contains(&time), "{time}");
 }
 
@@ -92,9 +92,9 @@ fn limits_short_peaks_do_not_last() {
     set(&mut columns, "axle_2_left_lateral", |t| {
         if (20.0..20.036).contains(&t) { 60e3 } else { 0.0 }
     });
-    let told = told(&columns, &Rules::default());
-    assert!(value(&told, "axle_2_left_l_over_v_time")[0].abs() < 1e-9);
-    assert!((value(&told, "axle_2_left_l_over_v_distance")[0] - 0.6).abs() < 1e-9);
+    let statistics = statistics(&columns, &Rules::default());
+    assert!(value(&statistics, "axle_2_left_l_over_v_time")[0].abs() < 1e-9);
+    assert!((value(&statistics, "axle_2_left_l_over_v_distance")[0] - 0.6).abs() < 1e-9);
 }
 
 /// A load that swings by a sine: its least share, and the least that lasts, `1 - a cos(π τ f)`.
@@ -105,20 +105,24 @@ fn analytic_least_wheel_load_of_a_sine() {
     set(&mut columns, "axle_3_right_vertical", |t| {
         100e3 * (1.0 - 0.8 * (2.0 * PI * frequency * t).sin())
     });
-    let told = told(&columns, &Rules::default());
-    let [raw, filtered] = value(&told, "axle_3_right_least_load");
+    let statistics = statistics(&columns, &Rules::default());
+    let [raw, filtered] = value(&statistics, "axle_3_right_least_load");
     assert!((raw - 20.0).abs() < 0.01, "{raw}");
     let gain = study::signal::LowPass::new(INTERVAL, 15.0)
         .unwrap()
         .gain(frequency);
     assert!((filtered - (100.0 - 80.0 * gain)).abs() < 0.01);
-    let [raw, _] = value(&told, "axle_3_right_least_load_time");
+    let [raw, _] = value(&statistics, "axle_3_right_least_load_time");
     assert!(
         (raw - (100.0 - 80.0 * (PI * 0.05 * frequency).cos())).abs() < 0.01,
         "{raw}"
     );
     assert_eq!(
-        told.values["axle_3_right_least_load"].raw.as_ref().unwrap().unit,
+        statistics.values["axle_3_right_least_load"]
+            .raw
+            .as_ref()
+            .unwrap()
+            .unit,
         "%"
     );
 }
@@ -134,9 +138,9 @@ fn analytic_percentile_in_curves() {
     });
     set(&mut columns, "axle_4_left_lateral", |_| 100e3);
     set(&mut columns, "axle_4_left_vertical", |_| 500.0);
-    let told = told(&columns, &Rules::default());
-    assert!((value(&told, "axle_1_left_l_over_v_in_curves")[0] - 0.95).abs() < 2e-3);
-    assert_eq!(value(&told, "axle_4_left_l_over_v_time")[0], 0.0);
+    let statistics = statistics(&columns, &Rules::default());
+    assert!((value(&statistics, "axle_1_left_l_over_v_in_curves")[0] - 0.95).abs() < 2e-3);
+    assert_eq!(value(&statistics, "axle_4_left_l_over_v_time")[0], 0.0);
 }
 
 /// Accelerations: a sine of 1 Hz of 0.3 g in a part of the run.
@@ -147,9 +151,14 @@ fn analytic_accelerations_of_a_sine() {
     set(&mut columns, "body_at_truck_1_lateral_acceleration", |t| {
         amplitude * (2.0 * PI * t).sin()
     });
-    let told = told(&columns, &Rules::default());
+    let statistics = statistics(&columns, &Rules::default());
     let gain = study::signal::LowPass::new(INTERVAL, 10.0).unwrap().gain(1.0);
-    let of = |ending: &str| value(&told, &format!("body_at_truck_1_lateral_acceleration_{ending}"));
+    let of = |ending: &str| {
+        value(
+            &statistics,
+            &format!("body_at_truck_1_lateral_acceleration_{ending}"),
+        )
+    };
     let [raw, filtered] = of("peak_to_peak");
     assert!(
         (raw - 0.6).abs() < 1e-4 && (filtered - 0.6 * gain).abs() < 1e-3,
@@ -160,12 +169,12 @@ fn analytic_accelerations_of_a_sine() {
     // 2,000 ft are 20.32 s: not whole periods, so nearly.
     assert!((of("deviation")[0] - 0.3 / SQRT_2).abs() < 3e-3);
     assert!(
-        told.values["body_at_truck_1_lateral_acceleration_deviation"]
+        statistics.values["body_at_truck_1_lateral_acceleration_deviation"]
             .remark
             .is_empty()
     );
     assert_eq!(
-        told.values["body_at_truck_1_lateral_acceleration_rms"]
+        statistics.values["body_at_truck_1_lateral_acceleration_rms"]
             .raw
             .as_ref()
             .unwrap()
@@ -177,8 +186,8 @@ fn analytic_accelerations_of_a_sine() {
         deviation_distance: 20_000.0 * FOOT,
         ..Rules::default()
     };
-    let told = self::told(&columns, &rules);
-    let remark = &told.values["body_at_truck_1_lateral_acceleration_deviation"].remark;
+    let statistics = self::statistics(&columns, &rules);
+    let remark = &statistics.values["body_at_truck_1_lateral_acceleration_deviation"].remark;
     assert!(remark.contains("not over 20000 ft"), "{remark}");
 }
 
@@ -191,8 +200,8 @@ fn analytic_limits_name_the_worst_statistic() {
     });
     set(&mut columns, "axle_2_right_lateral", |_| 40e3);
     set(&mut columns, "axle_3_left_vertical", |_| 60e3);
-    let told = told(&columns, &Rules::default());
-    let limits = limits::of(&told.values, System::Us);
+    let statistics = statistics(&columns, &Rules::default());
+    let limits = limits::of(&statistics.values, System::Us);
     let of = |quantity: &str| {
         limits
             .iter()
@@ -212,24 +221,24 @@ fn analytic_limits_name_the_worst_statistic() {
 /// Rows too far apart for a filter: raw values stay, and what is missing is said. A run that only settles has
 /// none.
 #[test]
-fn limits_coarse_rows_and_short_runs_are_told() {
+fn limits_coarse_rows_and_short_runs_are_reported() {
     let columns = quiet();
     let rules = Rules {
         wheel_filter: 60.0,
         ..Rules::default()
     };
-    let told = told(&columns, &rules);
+    let statistics = statistics(&columns, &rules);
     assert!(
-        told.remarks.iter().any(|own| own.contains("60 Hz")),
+        statistics.remarks.iter().any(|own| own.contains("60 Hz")),
         "{:?}",
-        told.remarks
+        statistics.remarks
     );
-    assert!(told.values["axle_1_left_least_load"].filtered.is_none());
-    assert!((value(&told, "axle_1_left_least_load")[0] - 100.0).abs() < 1e-9);
+    assert!(statistics.values["axle_1_left_least_load"].filtered.is_none());
+    assert!((value(&statistics, "axle_1_left_least_load")[0] - 100.0).abs() < 1e-9);
     let short: BTreeMap<String, Vec<f64>> = columns
         .into_iter()
         .map(|(name, values)| (name, values[..300].to_vec()))
         .collect();
-    let told = self::told(&short, &Rules::default());
-    assert!(told.values.is_empty() && told.remarks[0].contains("settling"));
+    let statistics = self::statistics(&short, &Rules::default());
+    assert!(statistics.values.is_empty() && statistics.remarks[0].contains("settling"));
 }

@@ -5,12 +5,12 @@
 use std::path::Path;
 use study::case::{Case, CaseError, Problem};
 
-/// What is wrong with a text.
+/// Returns the problems of a text.
 pub fn errors(text: &str) -> CaseError {
     Case::parse("case.toml", text, Path::new(""), &[]).unwrap_err()
 }
 
-/// The only mistake in a text.
+/// Returns the only mistake in a text.
 pub fn only(error: &CaseError) -> &Problem {
     let [problem] = error.problems() else {
         panic!("{:#?}", error.problems())

@@ -20,7 +20,7 @@ pub static TWELVE: LazyLock<BTreeMap<&'static str, RunResult>> = LazyLock::new(|
     builtin::thesis_names().zip(run_all(&cases, 2)).collect()
 });
 
-/// One of them.
+/// Returns one of them.
 pub fn twelve(name: &str) -> &'static RunResult {
     &TWELVE[name]
 }
@@ -53,7 +53,7 @@ pub fn run_all(cases: &[Case], threads: usize) -> Vec<RunResult> {
         .collect()
 }
 
-/// A column in inches, lbf, lbf·in.
+/// Returns a column in inches, lbf, lbf·in.
 pub fn column(result: &RunResult, name: &str, unit: f64) -> Vec<f64> {
     result
         .column(name)

@@ -17,7 +17,7 @@ fn system(name: &str) -> System {
     System::new(case(name, 1.0).truck.model).unwrap()
 }
 
-/// The system without the springs that drive it.
+/// Returns the system without the springs that drive it.
 fn without_inputs(name: &str) -> System {
     let mut model = case(name, 1.0).truck.model;
     let inputs: Vec<bool> = model
@@ -94,8 +94,9 @@ fn the_variably_damped_truck_hangs_on_its_input_springs() {
 /// Eight springs and four coils of 3000 lb/in, between bolster and side frames, lb/in.
 const VARIABLE_PLAIN: f64 = 36_000.0;
 
-/// The same with an inclined column, 0.0034907 in/in out, without friction: the rise r = -s tan φ / tan θ
-/// takes from the coil's stroke, and the column's normal force N = F cos θ / sin(θ + φ) pushes by -N sin φ.
+/// Returns the same with an inclined column, 0.0034907 in/in out, without friction: the rise r = -s tan φ /
+/// tan θ takes from the coil's stroke, and the column's normal force N = F cos θ / sin(θ + φ) pushes by -N
+/// sin φ.
 fn variable_with_toe() -> f64 {
     let (theta, phi) = (32.0_f64.to_radians(), 0.003_490_7_f64.atan());
     let stroke = 1.0 - phi.tan() / theta.tan();
@@ -103,7 +104,7 @@ fn variable_with_toe() -> f64 {
     24_000.0 + 12_000.0 * stroke * force
 }
 
-/// The vibration whose motion is, by its energy, most of all in this coordinate of a body.
+/// Returns the vibration whose motion is, by its energy, most of all in this coordinate of a body.
 fn mode_of(system: &System, modes: &[Vibration], body: usize, coordinate: usize) -> Vibration {
     let share = |mode: &Vibration| {
         let mut all = 0.0;
@@ -130,8 +131,8 @@ fn frequency(system: &mut System, x: &[f64], held: Held, coordinate: usize) -> f
     mode_of(system, &found.modes, BODY, coordinate).frequency
 }
 
-/// A state at the drawn layout with the body a hair lower, so that springs with a kink there are on their
-/// compression side.
+/// Returns a state at the drawn layout with the body a hair lower, so that springs with a kink there are on
+/// their compression side.
 fn compressed(system: &System) -> Vec<f64> {
     let mut x = system.initial_state();
     x[system.position_of(BODY, 2).unwrap()] = -1e-6;
@@ -142,7 +143,7 @@ fn hertz(stiffness: f64) -> f64 {
     (stiffness / 319.175).sqrt() / (2.0 * std::f64::consts::PI)
 }
 
-/// Two springs one after the other.
+/// Returns two springs one after the other.
 fn series(a: f64, b: f64) -> f64 {
     a * b / (a + b)
 }
@@ -174,7 +175,7 @@ fn vertical_frequencies() {
     }
 }
 
-/// The system without its wedges.
+/// Returns the system without its wedges.
 fn without_wedges(name: &str) -> System {
     let mut model = case(name, 1.0).truck.model;
     model
@@ -248,8 +249,8 @@ fn solve(mut matrix: Vec<f64>, mut b: Vec<f64>) -> Vec<f64> {
     (0..n).map(|i| b[i] / matrix[i * n + i]).collect()
 }
 
-/// The body's yaw, rad, where 0.012 rad are commanded through 1e6 in-lb/rad: the linear system about the
-/// drawn layout, without wedges (sliding ones of type 6.9 take another 2 %).
+/// Returns the body's yaw, rad, where 0.012 rad are commanded through 1e6 in-lb/rad: the linear system about
+/// the drawn layout, without wedges (sliding ones of type 6.9 take another 2 %).
 fn linear_yaw(name: &str, held: Held) -> f64 {
     let mut system = without_wedges(name);
     let x = compressed(&system);
@@ -300,7 +301,7 @@ fn the_printed_yaw_input_hardly_yaws() {
     }
 }
 
-/// The body's yaw at rest without friction, with the commanded yaw held, rad.
+/// Returns the body's yaw at rest without friction, with the commanded yaw held, rad.
 fn yaw_at_rest(name: &str) -> f64 {
     let mut system = system(name);
     let x = system.initial_state();

@@ -20,12 +20,12 @@ pub fn result(name: &str, duration: f64) -> HalfTruckResult {
     run(&case(name, duration), |_| ()).unwrap()
 }
 
-/// A run with wedges' bodies and values set over it.
+/// Returns a run with wedges' bodies and values set over it.
 pub fn bodies(name: &str, duration: f64, set: &[&str]) -> HalfTruckCase {
     set_over(name, duration, &[&["option.wedges=bodies"], set].concat())
 }
 
-/// A run with values set over it.
+/// Returns a run with values set over it.
 pub fn set_over(name: &str, duration: f64, set: &[&str]) -> HalfTruckCase {
     let settings = Settings {
         duration: Some(duration),

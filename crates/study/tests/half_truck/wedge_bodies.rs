@@ -283,8 +283,8 @@ fn analytic_yawed_wedges_roll_and_stay_flush() {
     }
 }
 
-/// The half-truck with its input bodies turned: the bolster is driven in roll, pitch and yaw by stiff springs
-/// of the middle one alone, by `size` (rad).
+/// Returns the half-truck with its input bodies turned: the bolster is driven in roll, pitch and yaw by stiff
+/// springs of the middle one alone, by `size` (rad).
 fn turned(size: f64, linearized: bool, set: &[&str]) -> HalfTruckCase {
     let mut case = bodies("nucars_69_constant_toe_out", 1.5, set);
     let middle = case.truck.body(8).unwrap();
@@ -320,7 +320,8 @@ fn turned(size: f64, linearized: bool, set: &[&str]) -> HalfTruckCase {
     case
 }
 
-/// The largest difference of all wedges' column forces (N) and rolls (rad), each with the largest value.
+/// Returns the largest difference of all wedges' column forces (N) and rolls (rad), each with the largest
+/// value.
 fn differences(size: f64, set: &[&str]) -> [[f64; 2]; 2] {
     let results = run_cases(&[turned(size, true, set), turned(size, false, set)]);
     for result in &results {

@@ -30,7 +30,7 @@ fn refused(name: &str, change: impl Fn(u32, &mut Wedge)) -> WedgeBodyError {
 }
 
 #[test]
-fn input_what_is_missing_is_told() {
+fn input_what_is_missing_is_reported() {
     let name = "nucars_69_constant_toe_out";
     let error = refused(name, |number, wedge| {
         if number == 128 {

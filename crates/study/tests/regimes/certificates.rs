@@ -22,7 +22,7 @@ fn request(regimes: &[&str]) -> Request {
     }
 }
 
-/// A record of a run with these measures (SI) and zeros for the others.
+/// Returns a record of a run with these measures (SI) and zeros for the others.
 fn record(certificate: &Certificate, number: u64, given: &[(&str, f64)]) -> Record {
     let definitions = certificate.study.measures();
     let mut values = vec![0.0; definitions.len()];

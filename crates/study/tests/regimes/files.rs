@@ -105,12 +105,12 @@ fn input_settings_reach_the_case() {
 fn input_speeds_outside_of_the_range_are_explained() {
     let regime = Regime::named("fra_class_3").unwrap();
     let error = regime.settings(&Quantity::parse("45 mph").unwrap()).unwrap_err();
-    let told = messages(&error);
+    let message = messages(&error);
     assert!(
-        told.contains("fra_class_3 is for 5 mph to 40 mph, not for 45 mph"),
-        "{told}"
+        message.contains("fra_class_3 is for 5 mph to 40 mph, not for 45 mph"),
+        "{message}"
     );
-    assert!(told.contains("49 CFR 213.9"), "{told}");
+    assert!(message.contains("49 CFR 213.9"), "{message}");
     assert!(
         regime
             .settings(&Quantity::parse("64.37376 km/h").unwrap())
@@ -202,13 +202,16 @@ fn input_mistakes_are_shown_where_they_are() {
         let text = WHOLE.replacen(from, to, 1);
         assert_ne!(text, WHOLE);
         let error = Regime::parse("mine.toml", &text).unwrap_err();
-        let told = messages(&error);
+        let message = messages(&error);
         for part in parts {
-            assert!(told.contains(part), "{part}: {told}");
+            assert!(message.contains(part), "{part}: {message}");
         }
         if line > 0 {
             let lines = error.problems().iter().filter_map(|own| own.line_and_column());
-            assert!(lines.map(|(own, _)| own).any(|own| own == line), "{line}: {told}");
+            assert!(
+                lines.map(|(own, _)| own).any(|own| own == line),
+                "{line}: {message}"
+            );
         }
     }
 }
@@ -238,15 +241,19 @@ fn input_files_are_tried_on_a_car() {
     ] {
         fs::write(&path, WHOLE.replacen(from, to, 1)).unwrap();
         let error = Regime::read(&path).unwrap_err();
-        let told = messages(&error);
-        assert!(told.contains(part), "{told}");
+        let message = messages(&error);
+        assert!(message.contains(part), "{message}");
         let own = &error.problems()[0];
         assert_eq!(
             own.source_name(),
             Some(path.display().to_string().as_str()),
-            "{told}"
+            "{message}"
         );
-        assert_eq!(own.line_and_column().map(|(line, _)| line), Some(line), "{told}");
+        assert_eq!(
+            own.line_and_column().map(|(line, _)| line),
+            Some(line),
+            "{message}"
+        );
     }
     fs::write(
         folder.path().join("my_track.toml"),
@@ -261,15 +268,18 @@ fn input_files_are_tried_on_a_car() {
     let own = study::car::CarCase::parse("car.toml", "model = \"car\"", elsewhere, &settings).unwrap();
     assert!((own.parameters.track.center_line.length() - 500.0 * 0.3048).abs() < 1e-9);
     fs::write(&path, WHOLE.replace(track, "[track]\nfile = \"none.toml\"")).unwrap();
-    let told = messages(&Regime::read(&path).unwrap_err());
-    assert!(told.contains("none.toml") && told.contains("(11,"), "{told}");
+    let message = messages(&Regime::read(&path).unwrap_err());
+    assert!(
+        message.contains("none.toml") && message.contains("(11,"),
+        "{message}"
+    );
 }
 
 /// Names and files; a name that is nearly one.
 #[test]
 fn input_regimes_are_named_or_read() {
     assert_eq!(Regime::named_or_read("spiral").unwrap().name, "spiral");
-    let told = messages(&Regime::named_or_read("twist_and_rol").unwrap_err());
-    assert!(told.contains("did you mean twist_and_roll?"), "{told}");
+    let message = messages(&Regime::named_or_read("twist_and_rol").unwrap_err());
+    assert!(message.contains("did you mean twist_and_roll?"), "{message}");
     assert!(messages(&Regime::named_or_read("none.toml").unwrap_err()).contains("none.toml"));
 }

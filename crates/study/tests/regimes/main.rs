@@ -9,7 +9,7 @@ mod tracks;
 use study::car::CarCase;
 use study::car::regime::Regime;
 
-/// The built-in car of this lading in a regime at a speed.
+/// Returns the built-in car of this lading in a regime at a speed.
 fn case(regime: &str, lading: &str, speed: &str, overrides: &[&str]) -> CarCase {
     let regime = Regime::named(regime).unwrap();
     let speed = quantity::Quantity::parse(speed).unwrap();

@@ -28,25 +28,25 @@ fn run(regime: &str, lading: &str, speed: f64, overrides: &[&str]) -> CarResult 
     result
 }
 
-/// A statistic, filtered if it is.
+/// Returns a statistic, filtered if it is.
 fn statistic(result: &CarResult, name: &str) -> f64 {
     let own = &result.summary.statistics[name];
     own.filtered.as_ref().or(own.raw.as_ref()).unwrap().value
 }
 
-/// The body's roll, greatest less least, deg.
+/// Returns the body's roll, greatest less least, deg.
 fn roll(speed: f64, overrides: &[&str]) -> f64 {
     let result = run("twist_and_roll", "loaded", speed, overrides);
     statistic(&result, "body_roll_peak_to_peak").to_degrees()
 }
 
-/// The deviation of the body's vertical acceleration over the front truck, g.
+/// Returns the deviation of the body's vertical acceleration over the front truck, g.
 fn bounce(speed: f64, overrides: &[&str]) -> f64 {
     let result = run("pitch_and_bounce", "loaded", speed, overrides);
     statistic(&result, "body_at_truck_1_vertical_acceleration_deviation")
 }
 
-/// The mean of a column over the last two seconds.
+/// Returns the mean of a column over the last two seconds.
 fn late(result: &CarResult, name: &str) -> f64 {
     let column = result.column(name).unwrap();
     let own = &column[column.len() - 400..];

@@ -9,8 +9,8 @@ use super::case;
 const FOOT: f64 = 0.3048;
 const INCH: f64 = 0.0254;
 
-/// The irregularities of a regime's track foot by foot, in: of the left and the right rail, to the left and
-/// up.
+/// Returns the irregularities of a regime's track foot by foot, in: of the left and the right rail, to the
+/// left and up.
 fn foot_by_foot(regime: &str) -> Vec<[[f64; 2]; 2]> {
     let own = case(
         regime,
@@ -27,7 +27,7 @@ fn foot_by_foot(regime: &str) -> Vec<[[f64; 2]; 2]> {
         .collect()
 }
 
-/// The greatest value less the least.
+/// Returns the greatest value less the least.
 fn peak_to_peak(values: impl Iterator<Item = f64>) -> f64 {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), own| {
         (low.min(own), high.max(own))

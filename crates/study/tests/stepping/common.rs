@@ -6,13 +6,13 @@ use study::stepping::{Neighbours, SteppedWedge};
 /// A yawed case of each damping, a straight one, and one with bristles.
 pub const YAWED: &str = "cdrun_toe_out_0.2_psi_0.012";
 
-/// A built-in case with overrides.
+/// Returns a built-in case with overrides.
 pub fn case(name: &str, overrides: &[&str]) -> Case {
     let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
     builtin::case_with(name, &overrides).unwrap()
 }
 
-/// Where the case's own motions are.
+/// Returns the places in the case's own motions.
 pub fn place(case: &Case, time: f64) -> Neighbours {
     Neighbours::of(&case.parameters, time)
 }
@@ -27,14 +27,14 @@ pub fn drive(case: &Case, wedge: &mut SteppedWedge, end: f64, step: f64) {
     }
 }
 
-/// A wedge of a case at a time on its way.
+/// Returns a wedge of a case at a time on its way.
 pub fn at(case: &Case, end: f64, step: f64) -> SteppedWedge {
     let mut wedge = SteppedWedge::new(case).unwrap();
     drive(case, &mut wedge, end, step);
     wedge
 }
 
-/// The value of a column.
+/// Returns the value of a column.
 pub fn value(wedge: &mut SteppedWedge, name: &str) -> f64 {
     let row = wedge.row();
     let index = wedge

@@ -6,7 +6,7 @@ use study::case::{Case, Tables};
 use study::run::Run;
 use study::truck::{TruckCase, builtin};
 
-/// The messages of a case with `model = "truck"` and these lines, with their help.
+/// Returns the messages of a case with `model = "truck"` and these lines, with their help.
 fn refused(lines: &str) -> String {
     let text = format!("model = \"truck\"\n{lines}");
     let error = TruckCase::parse("case.toml", &text, Tables::nowhere(), &[]).unwrap_err();
@@ -354,7 +354,7 @@ fn input_a_gib_that_is_pressed_too_hard_stops_the_run() {
 
 /// What starts closed, loose or too low is told; sound rigs are not warned about.
 #[test]
-fn input_what_is_doubtful_at_the_start_is_told() {
+fn input_what_is_doubtful_at_the_start_is_reported() {
     let warnings = |name: &str, set: &[&str]| {
         let mut set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
         set.push("simulation.duration=0.02 s".to_owned());

@@ -50,7 +50,7 @@ pub fn run(parameters: &Parameters, duration: f64, method: Method, tolerance: f6
     ran
 }
 
-/// The loads at a time (s), a multiple of 0.02.
+/// Returns the loads at a time (s), a multiple of 0.02.
 pub fn at(ran: &Ran, time: f64) -> &Loads {
     &ran.loads[(time / 0.02).round() as usize]
 }

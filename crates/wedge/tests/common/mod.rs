@@ -91,14 +91,14 @@ pub fn column_forces(observation: &Observation) -> (f64, f64) {
     )
 }
 
-/// Both faces with this law.
+/// Returns both faces with this law.
 pub fn with_law(mut parameters: Parameters, law: FrictionLaw) -> Parameters {
     parameters.column_friction.law = law;
     parameters.slope_friction.law = law;
     parameters
 }
 
-/// The bristle with the specification's default values, N/m and N·s/m.
+/// Returns the bristle with the specification's default values, N/m and N·s/m.
 pub fn bristle() -> FrictionLaw {
     FrictionLaw::Bristle {
         stiffness: 1e6 * LBF_PER_IN,
@@ -106,7 +106,7 @@ pub fn bristle() -> FrictionLaw {
     }
 }
 
-/// Which of x, y, z, roll, pitch, yaw are free.
+/// Returns which of x, y, z, roll, pitch, yaw are free.
 pub fn free(names: &[&str]) -> [bool; 6] {
     mechanics::body::COORDINATES.map(|name| names.contains(&name))
 }

@@ -63,7 +63,7 @@ pub struct Answer {
 }
 
 impl Plain {
-    /// The wedge of the thesis.
+    /// Returns the wedge of the thesis.
     pub fn thesis(variable: bool, toe: f64, yaw: f64) -> Self {
         Self {
             variable,
@@ -112,7 +112,7 @@ impl Plain {
         self.mass() * dot(&v, &v) + spin
     }
 
-    /// The mass matrix, from the kinetic energy alone (it is a quadratic form of the rates).
+    /// Returns the mass matrix, from the kinetic energy alone (it is a quadratic form of the rates).
     fn mass_matrix(&self, q: &[f64; 4]) -> [[f64; 4]; 4] {
         let energy = |i: usize, j: usize| {
             let mut u = [0.0; 4];

@@ -80,14 +80,14 @@ pub unsafe extern "C" fn fmi2CancelStep(c: *mut c_void) -> Status {
     }
 }
 
-/// The status of a step: there is none under way.
+/// Gives the status of a step: there is none under way.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetStatus(c: *mut c_void, _kind: c_int, _value: *mut c_int) -> Status {
     // SAFETY: the standard's contract, see the module above.
     unsafe { call("fmi2GetStatus", c, |component| component.discard(NO_STEP)) }
 }
 
-/// The last time that was reached (`fmi2LastSuccessfulTime`).
+/// Gives the last time that was reached (`fmi2LastSuccessfulTime`).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetRealStatus(c: *mut c_void, kind: c_int, value: *mut f64) -> Status {
     const LAST_SUCCESSFUL_TIME: c_int = 2;
@@ -113,7 +113,7 @@ pub unsafe extern "C" fn fmi2GetIntegerStatus(c: *mut c_void, _kind: c_int, _val
     unsafe { call("fmi2GetIntegerStatus", c, |component| component.discard(NO_STEP)) }
 }
 
-/// Whether the FMU wants the simulation to end (`fmi2Terminated`): never.
+/// Tells whether the FMU wants the simulation to end (`fmi2Terminated`): never.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetBooleanStatus(c: *mut c_void, kind: c_int, value: *mut c_int) -> Status {
     const TERMINATED: c_int = 3;

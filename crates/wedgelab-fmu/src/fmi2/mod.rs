@@ -40,13 +40,13 @@ pub struct CallbackFunctions {
 
 type References = *const u32;
 
-/// The platform types.
+/// Returns the platform types.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2GetTypesPlatform() -> *const c_char {
     c"default".as_ptr()
 }
 
-/// The version of the standard.
+/// Returns the version of the standard.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2GetVersion() -> *const c_char {
     c"2.0".as_ptr()
@@ -350,7 +350,7 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(c: *mut c_void, state: *mut *mut c_voi
     unsafe { call("fmi2FreeFMUstate", c, |_| free_saved(state)) }
 }
 
-/// How many bytes a saved state takes.
+/// Gives the size of a saved state, bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
     c: *mut c_void,

@@ -69,7 +69,7 @@ pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(c: *mut c_void) -> Status {
     }
 }
 
-/// An integrator step is complete.
+/// Completes an integrator step.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
     c: *mut c_void,

@@ -31,7 +31,7 @@ pub type LogMessage = Option<unsafe extern "C" fn(*mut c_void, i32, *const c_cha
 pub type IntermediateUpdate =
     Option<unsafe extern "C" fn(*mut c_void, f64, bool, bool, bool, bool, *mut bool, *mut f64)>;
 
-/// The version of the standard.
+/// Returns the version of the standard.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi3GetVersion() -> *const c_char {
     c"3.0".as_ptr()
@@ -399,7 +399,7 @@ pub unsafe extern "C" fn fmi3SetBoolean(
     }
 }
 
-/// All variables are scalars: there is one value a reference.
+/// Checks the counts. All variables are scalars: there is one value a reference.
 fn same(references: usize, values: usize) -> Result<(), Error> {
     if references == values {
         return Ok(());
@@ -435,7 +435,7 @@ pub unsafe extern "C" fn fmi3FreeFMUState(instance: *mut c_void, state: *mut *mu
     unsafe { call("fmi3FreeFMUState", instance, |_| free_saved(state)) }
 }
 
-/// How many bytes a saved state takes.
+/// Gives the size of a saved state, bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3SerializedFMUStateSize(
     instance: *mut c_void,

@@ -56,7 +56,7 @@ pub unsafe extern "C" fn fmi3EnterContinuousTimeMode(instance: *mut c_void) -> S
     }
 }
 
-/// An integrator step is complete.
+/// Completes an integrator step.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3CompletedIntegratorStep(
     instance: *mut c_void,
@@ -145,7 +145,7 @@ pub unsafe extern "C" fn fmi3GetNominalsOfContinuousStates(
     }
 }
 
-/// How many event indicators there are.
+/// Gives the number of event indicators.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetNumberOfEventIndicators(instance: *mut c_void, count: *mut usize) -> Status {
     // SAFETY: the standard's contract, see the module above.
@@ -160,7 +160,7 @@ pub unsafe extern "C" fn fmi3GetNumberOfEventIndicators(instance: *mut c_void, c
     }
 }
 
-/// How many continuous states there are.
+/// Gives the number of continuous states.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetNumberOfContinuousStates(instance: *mut c_void, count: *mut usize) -> Status {
     // SAFETY: the standard's contract, see the module above.

@@ -10,12 +10,12 @@ use wedgelab_fmu::fmi3::*;
 
 use super::{ALONE, ERROR, Fmu, Log, three};
 
-/// The path of the folder `resources`.
+/// Returns the path of the folder `resources`.
 pub fn path_of(fmu: &Fmu) -> CString {
     CString::new(fmu.path().to_str().unwrap()).unwrap()
 }
 
-/// Whether an instance is refused with one message, by this function and with these words.
+/// Returns whether an instance is refused with one message, by this function and with these words.
 fn refused(log: &Log, made: *mut c_void, function: &str, words: &str) {
     assert!(made.is_null(), "{function} ({words}) made one");
     let said = log.take();
@@ -189,8 +189,11 @@ fn issue_029_an_instance_of_fmi_2_that_cannot_be_made_says_why() {
     let _alone = ALONE.lock();
     let (fmu, log) = (Fmu::new(Version::Two), Log::default());
     let folder = uri(&fmu);
-    let told = callbacks(&log);
-    let silent = CallbackFunctions { logger: None, ..told };
+    let logged = callbacks(&log);
+    let silent = CallbackFunctions {
+        logger: None,
+        ..logged
+    };
     for logging in [0, 1] {
         let make = |[name, token, folder]: Texts<'_>, kind: i32, functions: *const CallbackFunctions| unsafe {
             fmi2Instantiate(name, kind, token, folder, functions, 0, logging)
@@ -205,14 +208,14 @@ fn issue_029_an_instance_of_fmi_2_that_cannot_be_made_says_why() {
             more.map(|(folder, words)| ([c"wedge".as_ptr(), fmu.token.as_ptr(), folder.as_ptr()], words));
         for (texts, words) in wrong(&fmu, &folder).into_iter().chain(more) {
             for kind in [0, 1] {
-                refused(&log, make(texts, kind, &told), "fmi2Instantiate", words);
+                refused(&log, make(texts, kind, &logged), "fmi2Instantiate", words);
                 assert!(make(texts, kind, &silent).is_null() && make(texts, kind, null()).is_null());
             }
         }
         let good = [c"wedge".as_ptr(), fmu.token.as_ptr(), folder.as_ptr()];
         refused(
             &log,
-            make(good, 7, &told),
+            make(good, 7, &logged),
             "fmi2Instantiate",
             "there is no kind 7 of FMUs",
         );

@@ -1,4 +1,4 @@
-//! Issue 29: whatever an FMU refuses is told to the importer's logger, with the name of the function and a
+//! Issue 29: whatever an FMU refuses is sent to the importer's logger, with the name of the function and a
 //! reason; also while logging is switched off. Every exported function is called in every phase, rightly and
 //! wrongly.
 #![allow(missing_docs, clippy::unwrap_used, clippy::undocumented_unsafe_blocks)]
@@ -191,7 +191,7 @@ struct Driver<'d> {
 }
 
 impl Driver<'_> {
-    /// Whether the rows have all functions that are exported.
+    /// Returns whether the rows have all functions that are exported.
     fn check_names(&self) {
         let own: BTreeSet<&str> = self
             .rows
@@ -244,7 +244,7 @@ impl Driver<'_> {
         }
     }
 
-    /// Calls without an instance, and with one that is none, are errors; nobody is there to be told.
+    /// Calls without an instance, and with one that is none, are errors; there is no logger.
     fn drive_nobody(&self, freed: *mut c_void) {
         let mut nothing = [0_u64; 64];
         for instance in [null_mut(), freed, nothing.as_mut_ptr().cast()] {
@@ -257,7 +257,7 @@ impl Driver<'_> {
         assert!(self.log.take().is_empty());
     }
 
-    /// Whether all functions were refused at least once, except those that cannot be.
+    /// Returns whether all functions were refused at least once, except those that cannot be.
     fn check_refused(&self, refused: &BTreeSet<&'static str>) {
         for Row { name, .. } in self.rows {
             let never = NEVER_REFUSED.contains(name);

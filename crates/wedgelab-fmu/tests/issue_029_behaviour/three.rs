@@ -64,7 +64,7 @@ fn save(c: *mut c_void) -> *mut c_void {
     state
 }
 
-/// A state that was freed.
+/// Returns a state that was freed.
 fn freed(c: *mut c_void) -> *mut c_void {
     let state = save(c);
     let mut copy = state;
@@ -72,7 +72,7 @@ fn freed(c: *mut c_void) -> *mut c_void {
     state
 }
 
-/// Does something with a state, and frees it.
+/// Calls a function with a state, and frees it.
 fn with_state(c: *mut c_void, run: impl FnOnce(*mut c_void) -> i32) -> i32 {
     let mut state = save(c);
     let status = run(state);

@@ -31,7 +31,7 @@ unsafe extern "C" fn note(
     }
 }
 
-/// What an importer gives, with a logger.
+/// Returns the callbacks of an importer, with a logger.
 pub fn callbacks(log: &Log) -> CallbackFunctions {
     CallbackFunctions {
         // The one argument behind the format lies where a sixth one does.
@@ -43,7 +43,7 @@ pub fn callbacks(log: &Log) -> CallbackFunctions {
     }
 }
 
-/// The folder's URI.
+/// Returns the folder's URI.
 pub fn uri(fmu: &Fmu) -> CString {
     CString::new(format!("file://{}", fmu.path().display())).unwrap()
 }
@@ -70,7 +70,7 @@ fn save(c: *mut c_void) -> *mut c_void {
     state
 }
 
-/// A state that was freed.
+/// Returns a state that was freed.
 fn freed(c: *mut c_void) -> *mut c_void {
     let state = save(c);
     let mut copy = state;
@@ -78,7 +78,7 @@ fn freed(c: *mut c_void) -> *mut c_void {
     state
 }
 
-/// Does something with a state, and frees it.
+/// Calls a function with a state, and frees it.
 fn with_state(c: *mut c_void, run: impl FnOnce(*mut c_void) -> i32) -> i32 {
     let mut state = save(c);
     let status = run(state);

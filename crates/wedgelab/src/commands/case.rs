@@ -38,7 +38,7 @@ pub struct Arguments {
     force: bool,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut out = io::stdout().lock();
     let Some(name) = &arguments.name else {
@@ -76,7 +76,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 /// Width of the sentences below a group.
 const WIDTH: usize = 110;
 
-/// A text in lines of at most so many signs, broken between words.
+/// Returns a text in lines of at most so many signs, broken between words.
 fn lines(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {

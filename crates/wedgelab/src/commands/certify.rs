@@ -86,7 +86,7 @@ pub struct Common {
     json: bool,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     assess(
         &arguments.car,
@@ -159,7 +159,7 @@ pub fn assess(car: &Path, regimes: &[String], common: &Common, ending: &str) -> 
         }))?;
         return Ok(ExitCode::SUCCESS);
     }
-    told(&certificate, &findings, &path)?;
+    print(&certificate, &findings, &path)?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -226,7 +226,7 @@ fn other(folder: &Path) -> Result<Against, Failure> {
 }
 
 /// Prints the table of limits.
-fn told(certificate: &Certificate, findings: &Findings, path: &Path) -> io::Result<()> {
+fn print(certificate: &Certificate, findings: &Findings, path: &Path) -> io::Result<()> {
     let several = certificate.conditions.len() > 1;
     let mut table = Table::new(
         if several { 3 } else { 2 },

@@ -51,7 +51,7 @@ pub struct Arguments {
     json: bool,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let mut entries = read(&arguments.results)?;
@@ -108,7 +108,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The comparison as JSON; what is compared is named by its label.
+/// Returns the comparison as JSON; what is compared is named by its label.
 fn document(comparison: &Comparison, entries: &[Entry], folder: &Path, names: &[&str]) -> Value {
     let differences = comparison.differences.iter().map(|one| {
         json!({
@@ -177,7 +177,7 @@ fn read(paths: &[PathBuf]) -> Result<Vec<Entry>, Failure> {
     Ok(entries)
 }
 
-/// The name of a result: its folder's, or that of a file without ending.
+/// Returns the name of a result: its folder's, or that of a file without ending.
 pub fn label(file: &Path) -> String {
     let own = file.file_stem();
     let folder = file.parent().and_then(Path::file_name);

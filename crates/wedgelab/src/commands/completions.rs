@@ -20,7 +20,7 @@ pub struct Arguments {
     shell: Shell,
 }
 
-/// Does it for the whole command line.
+/// Executes the command for the whole command line.
 pub fn execute(arguments: &Arguments, mut whole: Command) -> Result<ExitCode, Failure> {
     let name = whole.get_name().to_owned();
     let mut text = Vec::new();

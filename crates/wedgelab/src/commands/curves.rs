@@ -46,7 +46,7 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let cases = arguments.varied.cases(&arguments.case)?;
@@ -102,7 +102,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     early.map_or(Ok(ExitCode::SUCCESS), Err)
 }
 
-/// The table of loops.
+/// Returns the table of loops.
 fn table(name: &str, loops: &[Named]) -> Table {
     let vertical = loops
         .first()

@@ -64,7 +64,7 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let of_run = arguments.case.join(CASE_FILE_NAME);
@@ -85,7 +85,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         AnyCase::HalfTruck(_) => {
             let message = format!("{} is neither a wedge, nor a truck, nor a car", case.name());
             let advice =
-                "energies are told of wedges and trucks whose motion or load is periodic, and of cars";
+                "energies are given for wedges and trucks whose motion or load is periodic, and for cars";
             return Err(Message::new(message, advice).into());
         }
     };
@@ -127,7 +127,7 @@ fn energy_of<C: RunFiles>(
 ) -> Result<(EnergySummary, Units), Failure> {
     let progress = Progress::new(1, quiet);
     interrupt::stops(
-        "stopping: energies of a cycle are told of whole runs (once more: ends at once)",
+        "stopping: energies of a cycle are given for whole runs (once more: ends at once)",
         "nothing was written",
     );
     let done = compute(case, &progress);
@@ -139,7 +139,7 @@ fn energy_of<C: RunFiles>(
     {
         let time = SixDigits(stopped.time);
         let message = format!("the run {} was interrupted at {time} s", summary.name());
-        let advice = "nothing is written, for energies of a cycle are told of whole runs; a \
+        let advice = "nothing is written, for energies of a cycle are given for whole runs; a \
                       simulation.duration of two periods is enough";
         return Err(Failure::Interrupted(Message::new(message, advice).into()));
     }

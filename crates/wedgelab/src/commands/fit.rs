@@ -36,7 +36,7 @@ const FORCES: [&str; 7] = [
 ];
 /// The vertical displacement of a wedge's bolster, and that of the body that drives a half-truck's.
 const DISPLACEMENTS: [&str; 2] = ["bolster_vertical", "input_vertical"];
-/// A measured stroke that differs by more than this part from the case's is told.
+/// A measured stroke that differs by more than this part from the case's is reported.
 const STROKE: f64 = 0.02;
 /// Below this, differences hang together so much that intervals are too narrow.
 const INDEPENDENT: f64 = 1.0;
@@ -124,7 +124,7 @@ impl From<FitError> for Failure {
     }
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     if !(arguments.confidence > 0.0 && arguments.confidence < 1.0) {
@@ -249,7 +249,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
 }
 
-/// The fit came to its end, but its run failed; its files are written.
+/// Returns the failure of a fit that came to its end, but whose run failed; its files are written.
 fn failed_fit(reason: &str, folder: &std::path::Path) -> Failure {
     let message = format!("the fit has failed: in the run with these values {reason}");
     let kept = format!(
@@ -259,7 +259,7 @@ fn failed_fit(reason: &str, folder: &std::path::Path) -> Failure {
     Failure::Failed(Message::new(message, kept).into())
 }
 
-/// The case with values set; as [`read_any`], but with the errors of cases alone.
+/// Returns the case with values set; as [`read_any`], but with the errors of cases alone.
 fn case_with(arguments: &Arguments, set: &[String]) -> Result<AnyCase, CaseError> {
     let name = arguments.case.to_str().unwrap_or("");
     if is_built_in(&arguments.case)
@@ -270,7 +270,7 @@ fn case_with(arguments: &Arguments, set: &[String]) -> Result<AnyCase, CaseError
     AnyCase::read(&arguments.case, set)
 }
 
-/// The column with the measured force.
+/// Returns the column with the measured force.
 fn force<'t>(table: &'t Measurements, name: Option<&str>) -> Result<&'t TableColumn, Failure> {
     if let Some(name) = name {
         return Ok(table.column(name)?);
@@ -285,7 +285,7 @@ fn force<'t>(table: &'t Measurements, name: Option<&str>) -> Result<&'t TableCol
     })
 }
 
-/// The bolster's motion as measured.
+/// Returns the bolster's motion as measured.
 fn followed(times: &[f64], displacement: &[f64]) -> String {
     let mut text = "bolster.vertical={ shape = \"table\", points = [".to_owned();
     for (time, value) in times.iter().zip(displacement) {

@@ -69,7 +69,7 @@ fn points(text: &str) -> Result<usize, String> {
     }
 }
 
-/// What is wrong with a map.
+/// Returns the failure of a map.
 fn refused(error: MapError) -> Failure {
     let message = error.to_string();
     match error {
@@ -86,7 +86,7 @@ fn refused(error: MapError) -> Failure {
     }
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let [first, second] = *arguments.over.as_slice() else {
@@ -141,7 +141,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     Err(Failure::Interrupted(Message::new(message, advice).into()))
 }
 
-/// Says what was found.
+/// Prints the findings.
 fn tell(found: &LockUpMap, out: &mut dyn Write) -> io::Result<()> {
     let [locks, slides, wrong] = found.counts();
     let margins = found.cells.iter().map(|cell| cell.margin.to_degrees());

@@ -27,7 +27,7 @@ pub struct Arguments {
     force: bool,
 }
 
-/// Does it for the whole command line.
+/// Executes the command for the whole command line.
 pub fn execute(arguments: &Arguments, mut whole: Command) -> Result<ExitCode, Failure> {
     whole.build();
     let mut pages = Vec::new();

@@ -63,7 +63,7 @@ pub struct Arguments {
     force: bool,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let mut table = read_table(&arguments.result)?;
@@ -157,7 +157,7 @@ fn frequency(text: &str) -> Result<f64, String> {
         .map_err(|error| format!("{error}; write for example \"0.5 Hz\""))
 }
 
-/// Why there is no spectrum, and what to do.
+/// Returns the reason why there is no spectrum, and the advice.
 fn refused(table: &Table, error: &SpectrumError) -> Message {
     let advice = match error {
         SpectrumError::TooShort { .. } => {
@@ -172,7 +172,7 @@ fn refused(table: &Table, error: &SpectrumError) -> Message {
     Message::new(format!("`{}`: {error}", table.file.display()), advice)
 }
 
-/// The name is not that of a file that can be written.
+/// Returns the failure of a name that is not that of a file that can be written.
 fn no_figure(file: &Path, what: &str) -> Failure {
     let message = format!("`{}` is no name for a figure: figures are {what}", file.display());
     let advice = format!("write --out {}", file.with_extension("svg").display());
@@ -199,7 +199,7 @@ enum Drawn {
     Table,
 }
 
-/// The name of a file that can be written, and what it holds.
+/// Returns the name of a file that can be written, and what it holds.
 fn drawn(file: &Path) -> Option<(&str, Drawn)> {
     let ending = file.extension()?.to_str()?.to_ascii_lowercase();
     let name = file.file_name()?.to_str()?;

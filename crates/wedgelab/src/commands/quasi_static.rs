@@ -81,7 +81,7 @@ struct Toe {
     value: f64,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let units = match arguments.units {
         OutputUnits::Us => Units::Us,
@@ -122,7 +122,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Both directions of the bolster, each with the slope's friction that the motion chooses, and the other.
+/// Returns both directions of the bolster, each with the slope's friction that the motion chooses, and the
+/// other.
 fn branches(wedge: &QuasiStaticWedge) -> impl Iterator<Item = (Direction, SlopeFriction, bool)> {
     [Direction::Down, Direction::Up]
         .into_iter()

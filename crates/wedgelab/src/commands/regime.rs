@@ -40,7 +40,7 @@ pub struct Arguments {
     common: Common,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     if let Some(name) = &arguments.show {
         let text = text(name)?;
@@ -66,7 +66,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
 }
 
-/// The file of what is built in under a name.
+/// Returns the file of what is built in under a name.
 fn text(name: &str) -> Result<&'static str, Message> {
     let regimes = Regime::all()
         .iter()

@@ -46,7 +46,7 @@ pub struct Arguments {
     json: bool,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let mut runs = Vec::new();
@@ -67,7 +67,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let links: Vec<String> = places.iter().map(|place| link(&out, place)).collect();
     write_page(&folder, |viewer| side_by_side::render(&runs, &links, viewer))?;
     if arguments.json {
-        let told = runs.iter().map(|run| {
+        let described = runs.iter().map(|run| {
             json!({
                 "label": run.label,
                 "folder": run.folder,
@@ -84,7 +84,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         json::print(&json!({
             "folder": folder.path(),
             "files": [page::FILE_NAME],
-            "runs": told.collect::<Vec<_>>(),
+            "runs": described.collect::<Vec<_>>(),
         }))?;
     } else {
         let mut out = io::stdout().lock();
@@ -106,7 +106,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// A path from the root, without links as far as it exists.
+/// Returns a path from the root, without links as far as it exists.
 fn absolute(path: &Path) -> PathBuf {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let mut rest = Vec::new();
@@ -125,7 +125,7 @@ fn absolute(path: &Path) -> PathBuf {
     }
 }
 
-/// The address of a folder from a page in another one, ending in `/`; empty for the same folder.
+/// Returns the address of a folder from a page in another one, ending in `/`; empty for the same folder.
 fn link(from: &Path, to: &Path) -> String {
     let (from, to): (Vec<Component<'_>>, Vec<Component<'_>>) =
         (from.components().collect(), to.components().collect());
@@ -142,7 +142,7 @@ fn link(from: &Path, to: &Path) -> String {
     up.chain(down).collect()
 }
 
-/// A part of a path as addresses have it.
+/// Returns a part of a path as addresses have it.
 fn encoded(part: &std::ffi::OsStr) -> String {
     let mut text = String::new();
     for byte in part.as_encoded_bytes() {

@@ -1,4 +1,4 @@
-//! `wedgelab reproduce`: all built-in cases, told in a report.
+//! `wedgelab reproduce`: all built-in cases, and a report on them.
 
 mod interrupted;
 mod sensitivity;
@@ -88,7 +88,7 @@ struct ReproducedRun {
     wall: Duration,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let cases = select(&arguments.only, builtin::names())?
@@ -158,10 +158,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let recordings = recordings.into_iter().chain(of_trucks).flatten().collect();
 
     let rigs: Vec<three_piece::Made> = rigs.into_iter().flatten().collect();
-    let told = if rigs.is_empty() {
+    let truck_report = if rigs.is_empty() {
         None
     } else {
-        Some(pool.install(|| three_piece::tell(rigs, &places.figures))?)
+        Some(pool.install(|| three_piece::report_on(rigs, &places.figures))?)
     };
     let figures = pool.install(|| {
         tell(
@@ -169,7 +169,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             &half_trucks,
             recordings,
             &places,
-            told.as_ref(),
+            truck_report.as_ref(),
             explored.as_ref(),
         )
     })?;
@@ -188,8 +188,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         page::FIGURES,
         run_files::NAMES.join(", "),
     )?;
-    if let Some(told) = &told {
-        let checks = &told.findings.checks;
+    if let Some(truck_report) = &truck_report {
+        let checks = &truck_report.findings.checks;
         let agreeing = Basis::ALL.map(|basis| {
             let of_basis = || checks.iter().filter(|check| check.basis == basis);
             let agreeing = of_basis().filter(|check| check.agrees).count();
@@ -224,7 +224,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             code = failure.report();
         }
     }
-    for run in told.iter().flat_map(|told| &told.runs) {
+    for run in truck_report.iter().flat_map(|truck_report| &truck_report.runs) {
         let summary = &run.result.summary;
         if let Some(failure) = unsound::<TruckCase>(summary, &planned.runs.join(&summary.name)) {
             code = failure.report();
@@ -293,7 +293,7 @@ fn tell(
     half_trucks: &[TruckOutcome],
     recordings: Vec<Recording>,
     places: &Places,
-    told: Option<&three_piece::Told>,
+    truck_report: Option<&three_piece::TruckReport>,
     explored: Option<&Sensitivity>,
 ) -> Result<usize, Failure> {
     let units = outcomes.first().map(|(_, result)| result.summary.units);
@@ -345,19 +345,19 @@ fn tell(
             trucks: half_trucks,
             units,
         }),
-        truck: told.is_some(),
+        truck: truck_report.is_some(),
     });
     places.sheets.write(|files| {
         files.add(page::FILE_NAME, |out| out.write_all(page.as_bytes()))?;
-        if let Some(told) = told {
-            three_piece::add(files, told)?;
+        if let Some(truck_report) = truck_report {
+            three_piece::add(files, truck_report)?;
         }
         if let Some(explored) = explored {
             files.add(report::sensitivity::FILE_NAME, |out| explored.write(out))?;
         }
         files.add(claims::FILE_NAME, |out| claims::write(&verdicts, out))
     })?;
-    Ok(count + told.map_or(0, |told| told.figures))
+    Ok(count + truck_report.map_or(0, |truck_report| truck_report.figures))
 }
 
 /// The folders that are written into.
@@ -367,7 +367,7 @@ struct Places {
     runs: Vec<Folder>,
 }
 
-/// The folders, found fit before anything is computed.
+/// Returns the folders, found fit before anything is computed.
 fn check(out: &Path, cases: &[Case], force: bool) -> Result<Places, Failure> {
     let figures = out.join(page::FIGURES);
     // Which figures there will be is not known yet: all that lie there are in the way.

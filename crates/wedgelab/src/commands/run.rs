@@ -93,7 +93,7 @@ fn time(text: &str) -> Result<Quantity, String> {
     }
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let case = read_any(&arguments.case, &arguments.set)?;
@@ -153,7 +153,7 @@ fn execute_in_parts(case: &AnyCase, arguments: &Arguments) -> Result<ExitCode, F
             (truck_table(&done.result), TRUCK_NOTE.to_owned())
         }),
         AnyCase::Car(case) => run_in_parts(&**case, case.to_toml_embedded(), arguments, |done| {
-            told_of_car(&done.result.summary)
+            limits_of_car(&done.result.summary)
         }),
         AnyCase::HalfTruck(case) => Err(not_here(&case.name)),
     }
@@ -187,9 +187,9 @@ fn run_in_parts<C: RunFiles>(
     } else if arguments.save.is_some() && summary.stopped().is_none() {
         say("the run came to its end; no state is saved");
     }
-    let told = summary.stopped().is_some_and(|own| saved::is_reason(&own.reason));
+    let saved = summary.stopped().is_some_and(|own| saved::is_reason(&own.reason));
     match unsound::<C>(summary, folder.path()) {
-        Some(failure) if !told => Err(failure),
+        Some(failure) if !saved => Err(failure),
         _ => Ok(ExitCode::SUCCESS),
     }
 }
@@ -199,7 +199,7 @@ fn not_here(name: &str) -> Failure {
     Message::new(format!("{name} is a half-truck"), "`wedgelab nucars run` runs it").into()
 }
 
-/// Returns a note with what is told of the energy of a cycle.
+/// Returns a note about the energy of a cycle.
 fn note(about: &str, energy: Option<String>) -> String {
     energy.map_or(about.to_owned(), |energy| format!("{about}\n\n{energy}"))
 }
@@ -246,7 +246,7 @@ fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     write_page(&folder, |viewer| page::car_run::render(&run, viewer))?;
     let summary = &run.result.summary;
-    tell(arguments, &folder, &names, summary, || told_of_car(summary))?;
+    tell(arguments, &folder, &names, summary, || limits_of_car(summary))?;
     if Viewer::embedded().is_none() {
         say(page::MISSING);
     }
@@ -281,8 +281,8 @@ fn tell(
     Ok(())
 }
 
-/// What is told of a car's run.
-fn told_of_car(summary: &CarSummary) -> (Table, String) {
+/// Returns the text about a car's run.
+fn limits_of_car(summary: &CarSummary) -> (Table, String) {
     if summary.limits.is_empty() {
         (Table::new(1, &[]), NO_STATISTICS.to_owned())
     } else {
@@ -300,7 +300,7 @@ M-1001, chapter XI: check
 them against your edition. A limit counts for its regimes only (summary.json names them). Margin: what is \
 left, in parts of it.";
 
-/// The table of a car's limits.
+/// Returns the table of a car's limits.
 fn car_table(summary: &CarSummary) -> Table {
     let mut table = Table::new(
         2,
@@ -334,7 +334,7 @@ Column normal force: of each wedge, its least and largest at any output time. En
 friction at column and
 slope, over whole cycles of the first periodic motion after the first one.";
 
-/// The table of a truck's wedges.
+/// Returns the table of a truck's wedges.
 fn truck_table(result: &TruckResult) -> Table {
     let summary = &result.summary;
     let [force, energy] = [Kind::Force, Kind::Energy].map(|kind| kind.label(summary.units));
@@ -361,19 +361,19 @@ fn truck_table(result: &TruckResult) -> Table {
     table
 }
 
-/// The names of all built-in cases: wedges, then trucks, then cars.
+/// Returns the names of all built-in cases: wedges, then trucks, then cars.
 pub fn built_in_names() -> impl Iterator<Item = &'static str> {
     let names = builtin::names().chain(truck::builtin::names());
     names.chain(car::builtin::names())
 }
 
-/// Whether a built-in case is meant. A folder may well have its name: that of its results.
+/// Returns whether a built-in case is meant. A folder may well have its name: that of its results.
 pub fn is_built_in(path: &Path) -> bool {
     let name = builtin::own_name(path.to_str().unwrap_or(""));
     (!path.exists() || path.is_dir()) && built_in_names().any(|builtin| builtin == name)
 }
 
-/// The case that a user names, of a wedge, a truck or a car, with `--set` overrides.
+/// Returns the case that a user names, of a wedge, a truck or a car, with `--set` overrides.
 pub fn read_any(path: &Path, set: &[String]) -> Result<AnyCase, Failure> {
     let name = path.to_str().unwrap_or("");
     if is_built_in(path)
@@ -399,12 +399,12 @@ pub fn read_any(path: &Path, set: &[String]) -> Result<AnyCase, Failure> {
     Ok(AnyCase::read(path, set)?)
 }
 
-/// The same where only a wedge's case will do.
+/// Returns the same where only a wedge's case will do.
 pub fn read(path: &Path, set: &[String]) -> Result<Case, Failure> {
     wedge_of(read_any(path, set)?)
 }
 
-/// The wedge's case, where no other will do.
+/// Returns the wedge's case, where no other will do.
 pub fn wedge_of(case: AnyCase) -> Result<Case, Failure> {
     match case {
         AnyCase::Wedge(case) => Ok(*case),

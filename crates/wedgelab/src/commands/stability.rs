@@ -83,7 +83,7 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// A range of speeds, m/s, rising; whichever end comes first in the text.
+/// Returns a range of speeds, m/s, rising; whichever end comes first in the text.
 fn range(text: &str) -> Result<[f64; 2], String> {
     const HOW: &str = "write for example \"30 mph\"..\"80 mph\"";
     let (from, to) = text.split_once("..").ok_or(HOW)?;
@@ -118,7 +118,7 @@ fn threshold(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let case = match read_any(&arguments.case, &arguments.set)? {
@@ -224,7 +224,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             None => writeln!(out, "Friction {name}: no vibration grows at these speeds.")?,
         }
     }
-    for line in runs.iter().flat_map(|runs| told(runs, units)) {
+    for line in runs.iter().flat_map(|runs| lines_of(runs, units)) {
         writeln!(out, "{line}")?;
     }
     let written: Vec<&str> = match &runs {
@@ -259,8 +259,8 @@ fn cannot_hunt(case: &CarCase, error: &HuntingError) -> Message {
     )
 }
 
-/// Where hunting ends and begins, in words.
-fn told(runs: &Hunting, units: Units) -> Vec<String> {
+/// Returns the speeds at which hunting ends and begins, in words.
+fn lines_of(runs: &Hunting, units: Units) -> Vec<String> {
     let speed = |si: f64| {
         let unit = Kind::TravelSpeed.label(units);
         format!("{:.1} {unit}", si * Kind::TravelSpeed.from_si(units))
@@ -289,7 +289,7 @@ fn told(runs: &Hunting, units: Units) -> Vec<String> {
     lines
 }
 
-/// The vibration that grows most at each speed.
+/// Returns the vibration that grows most at each speed.
 fn table(found: &Stability, units: Units) -> Table {
     let unit = Kind::TravelSpeed.label(units);
     let mut table = Table::new(

@@ -66,7 +66,8 @@ pub struct Arguments {
     json: bool,
 }
 
-/// What is wrong if a built-in case, or the folder of a run or a study, is named in place of a study file.
+/// Returns the failure if a built-in case, or the folder of a run or a study, is named in place of a study
+/// file.
 fn no_study(path: &Path) -> Option<Message> {
     let shown = path.display();
     if path.join(STUDY_FILE).is_file() {
@@ -94,7 +95,7 @@ impl From<StudyFolderError> for Failure {
     }
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     if let Some(message) = no_study(&arguments.study) {

@@ -57,7 +57,7 @@ const FOOT: f64 = 0.3048;
 /// More rows than these are not written.
 const MOST_ROWS: f64 = 2e6;
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let Command::Show {
         track: path,

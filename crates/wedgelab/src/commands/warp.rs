@@ -68,7 +68,7 @@ pub struct Varied {
     set: Vec<String>,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let cases = arguments.varied.cases(&arguments.case)?;
@@ -183,7 +183,7 @@ impl Varied {
 pub const STOPPING: &str =
     "stopping: the tests that have ended are written (once more: ends at once and writes nothing)";
 
-/// What is said of an interrupted command that has made so many of its tests; `None` if it was not.
+/// Returns the message of an interrupted command that has made so many of its tests; `None` if it was not.
 pub fn interrupted(made: usize, all: usize) -> Option<Failure> {
     if made == all || !interrupt::wanted() {
         return None;
@@ -219,7 +219,7 @@ pub fn run(label: &str, case: &TruckCase, progress: &Progress) -> Result<Option<
     Ok(Some(result))
 }
 
-/// The table of stiffnesses.
+/// Returns the table of stiffnesses.
 fn table(tests: &[Tested]) -> Table {
     let mut table = Table::new(
         1,

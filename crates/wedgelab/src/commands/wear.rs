@@ -101,7 +101,7 @@ enum Law {
     Energy,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let case = read(&arguments.case, &arguments.set)?;
@@ -188,7 +188,7 @@ fn law(arguments: &Arguments) -> Result<WearLaw, Failure> {
     })
 }
 
-/// Why there is not even a first state.
+/// Returns the reason why there is not even a first state.
 fn nothing(name: &str, stop: WearStop) -> Failure {
     match stop {
         WearStop::Interrupted(_) => {
@@ -217,7 +217,7 @@ fn advice(error: &WearError) -> &'static str {
     }
 }
 
-/// How the command ends when its files are written.
+/// Returns the exit of the command when its files are written.
 fn stopped(history: &WearHistory, plan: &Plan) -> Result<ExitCode, Failure> {
     let Some(stop) = &history.stopped else {
         return Ok(ExitCode::SUCCESS);

@@ -109,7 +109,7 @@ fn length_or_zero(text: &str) -> Result<Quantity, String> {
     }
 }
 
-/// A slope as a ratio (1:40) or a number.
+/// Returns a slope as a ratio (1:40) or a number.
 fn slope(text: &str) -> Result<f64, String> {
     let number = |text: &str| {
         text.trim()
@@ -127,7 +127,7 @@ fn slope(text: &str) -> Result<f64, String> {
     }
 }
 
-/// What is given, m, or else what is usual with Simpack's files, and with others.
+/// Returns the given value, m, or else the usual one of Simpack's files, or of others.
 fn or_usual(given: Option<&Quantity>, simpack: bool, usual: [f64; 2]) -> f64 {
     given.map_or(usual[usize::from(!simpack)], Quantity::to_si)
 }
@@ -144,7 +144,7 @@ const STEEL: Material = Material {
 /// Positions over the range of shifts.
 const POSITIONS: usize = 280;
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let (pair, files) = match &arguments.command {
         Command::Contact(own) => return wheelrail_contact::execute(own),
@@ -225,7 +225,7 @@ pub(super) fn wrong(error: &ProfileError) -> Failure {
 }
 
 impl Pair {
-    /// The names of wheel and rail.
+    /// Returns the names of wheel and rail.
     pub(super) fn names(&self) -> [&str; 2] {
         [&self.wheel, &self.rail]
     }
@@ -239,7 +239,7 @@ impl Pair {
         }
     }
 
-    /// The nominal radius of the wheels, m.
+    /// Returns the nominal radius of the wheels, m.
     pub(super) fn radius(&self) -> f64 {
         or_usual(
             self.radius.as_ref(),
@@ -256,7 +256,7 @@ impl Pair {
         extension.is_some_and(|own| own.eq_ignore_ascii_case("prw") || own.eq_ignore_ascii_case("prr"))
     }
 
-    /// The wheel; splines lie at most `deviation` (m) from their points if nothing is given.
+    /// Returns the wheel; splines lie at most `deviation` (m) from their points if nothing is given.
     pub(super) fn wheel(&self, deviation: f64) -> Result<Profile, Failure> {
         match self.wheel.as_str() {
             "aar_1b" => nominal::aar_1b().map_err(|error| wrong(&error)),
@@ -296,7 +296,7 @@ impl Pair {
     }
 }
 
-/// A row for some shifts.
+/// Returns a row for some shifts.
 fn table(positions: &[RigidPosition], conicity: &[(f64, f64)], largest: f64) -> Table {
     let mut table = Table::new(
         0,

@@ -156,7 +156,7 @@ fn of_rate(text: &str) -> Result<Quantity, String> {
     of(text, Kind::AngularSpeed)
 }
 
-/// A modulus, Pa.
+/// Returns a modulus, Pa.
 fn of_modulus(text: &str) -> Result<f64, String> {
     let units = [("GPa", 1e9), ("MPa", 1e6), ("ksi", 6_894_757.293_168_361)];
     let value = units.iter().find_map(|(unit, factor)| {
@@ -169,7 +169,7 @@ fn of_modulus(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let pair = &arguments.pair;
     if !(0.0..=0.5).contains(&arguments.poisson) {
@@ -277,7 +277,7 @@ fn patch(patch: &LoadedPatch) -> Value {
     })
 }
 
-/// The wheel; its height is null if it has none.
+/// Returns the wheel; its height is null if it has none.
 fn whole(wheel: &LoadedWheel) -> Value {
     json!({
         "seat": wheel.seat.word(),

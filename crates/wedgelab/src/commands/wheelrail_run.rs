@@ -204,7 +204,7 @@ fn of_time(text: &str) -> Result<Quantity, String> {
     of(text, Kind::Time)
 }
 
-/// A moment by an angle.
+/// Returns a moment by an angle.
 fn of_yaw_stiffness(text: &str) -> Result<Named, String> {
     let moment = text
         .trim()
@@ -216,7 +216,7 @@ fn of_yaw_stiffness(text: &str) -> Result<Named, String> {
     })
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let track = TrackFile::read(&arguments.track)?;
@@ -239,7 +239,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     Folder::check(folder.path(), &[page::FILE_NAME], true)?
         .write(|files| files.add(page::FILE_NAME, |out| out.write_all(html.as_bytes())))?;
     let mut out = io::stdout().lock();
-    told(&result.summary, &mut out)?;
+    print_summary(&result.summary, &mut out)?;
     writeln!(
         out,
         "\nWritten into {}: {} (open it in a browser).",
@@ -302,7 +302,7 @@ fn wheelset(arguments: &Arguments, track: TrackFile, name: String) -> Result<Whe
     })
 }
 
-/// What was given, in words.
+/// Returns the given values, in words.
 fn given(arguments: &Arguments, track: &TrackFile) -> BTreeMap<String, String> {
     let creep = match (arguments.creep, arguments.creep.to_possible_value()) {
         (Creep::Fastsim, _) => format!("fastsim, {0} x {0} cells", arguments.cells),
@@ -363,8 +363,8 @@ fn given(arguments: &Arguments, track: &TrackFile) -> BTreeMap<String, String> {
     given
 }
 
-/// The table of the wheels and what is said below it.
-fn told(summary: &WheelsetSummary, out: &mut impl Write) -> io::Result<()> {
+/// Prints the table of the wheels and the lines below it.
+fn print_summary(summary: &WheelsetSummary, out: &mut impl Write) -> io::Result<()> {
     let units = summary.units;
     let force = Kind::Force.label(units);
     let of = |side: &str, what: &str, kind: Kind| {

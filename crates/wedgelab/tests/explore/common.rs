@@ -67,12 +67,12 @@ impl Server {
         }
     }
 
-    /// A request with these headers only.
+    /// Returns a request with these headers only.
     pub fn send(&self, method: &str, path: &str, headers: &[(&str, &str)], body: &str) -> Answer {
         ask(&self.host, method, path, headers, body)
     }
 
-    /// What the page sends to be answered.
+    /// Returns the authorization that the page sends.
     pub fn authorization(&self) -> String {
         format!("Bearer {}", self.token)
     }
@@ -163,7 +163,7 @@ pub fn temporary() -> TempDir {
     tempfile::tempdir().unwrap()
 }
 
-/// A run that would take minutes.
+/// Returns a run that would take minutes.
 pub fn endless() -> Value {
     json!({ "set": { "simulation.duration": "20000 s", "simulation.output_interval": "1 s" } })
 }

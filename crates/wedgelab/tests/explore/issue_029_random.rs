@@ -98,7 +98,7 @@ const FILES: &[&str] = &[
     "file:///etc/passwd",
 ];
 
-/// A value that a reader may stumble over.
+/// Returns a value that a reader may stumble over.
 fn nasty(dice: &mut Dice) -> String {
     let many = [1, 60, 1000, 20_000, 65_000][dice.below(5)];
     let text = match dice.below(30) {
@@ -173,7 +173,7 @@ fn nasty(dice: &mut Dice) -> String {
     text.chars().take(65_000).collect()
 }
 
-/// A run that is short.
+/// Returns a run that is short.
 fn sensible(dice: &mut Dice) -> Value {
     let mut wanted = json!({ "set": {
         "simulation.duration": "0.2 s",
@@ -199,7 +199,7 @@ fn sensible(dice: &mut Dice) -> Value {
     wanted
 }
 
-/// The bytes of a body, or what is left of them.
+/// Returns the bytes of a body, or what is left of them.
 fn body(dice: &mut Dice) -> Vec<u8> {
     match dice.below(16) {
         12..16 | 0 | 1 => sensible(dice).to_string().into_bytes(),
@@ -248,7 +248,7 @@ fn body(dice: &mut Dice) -> Vec<u8> {
     }
 }
 
-/// A whole request.
+/// Returns a whole request.
 fn request(dice: &mut Dice, server: &Server) -> Vec<u8> {
     let rarely = |dice: &mut Dice| dice.below(12) == 0;
     let mut method = "POST";

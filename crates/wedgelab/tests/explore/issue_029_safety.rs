@@ -46,8 +46,8 @@ fn issue_029_nobody_is_answered_without_the_token() {
             headers.push(("Cookie", &cookie));
             let answer = server.send(method, path, &headers, "{}");
             assert_eq!(answer.status, 403, "{method} {path} {authorization:?}");
-            let told = "open the address that `wedgelab explore` printed";
-            assert!(answer.text().contains(told), "{}", answer.text());
+            let message = "open the address that `wedgelab explore` printed";
+            assert!(answer.text().contains(message), "{}", answer.text());
         }
     }
     // A program without the page says so; one that has it shows it to those who have the address.
@@ -65,7 +65,7 @@ fn issue_029_nobody_is_answered_without_the_token() {
 }
 
 #[test]
-fn issue_029_the_token_is_told_once() {
+fn issue_029_the_token_is_reported_once() {
     let folder = temporary();
     let mut server = Server::start_with(folder.path(), &[], Stdio::piped());
     let page = format!("/?token={}", server.token);
@@ -143,10 +143,10 @@ fn issue_029_tables_come_from_the_folder_of_the_case_only() {
     let answer = server.post("/api/run", &with("secret.csv"));
     assert_eq!(answer.status, 422);
     assert!(!answer.text().contains(SECRET), "{}", answer.text());
-    let told = message(&answer.json());
+    let refusal = message(&answer.json());
     assert!(
-        told.contains("secret.csv, line 1, column 1: name [unit] is expected"),
-        "{told}"
+        refusal.contains("secret.csv, line 1, column 1: name [unit] is expected"),
+        "{refusal}"
     );
     // A built-in case reads no file, whether it is chosen on the page or in the terminal.
     let mut preset = with("own.csv");
@@ -171,10 +171,10 @@ fn issue_029_tables_come_from_the_folder_of_the_case_only() {
         .output()
         .unwrap();
     assert_eq!(output.status.code(), Some(2));
-    let told = String::from_utf8(output.stderr).unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
     assert!(
-        told.contains("does not lie in the folder") && told.contains("copy the table"),
-        "{told}"
+        message.contains("does not lie in the folder") && message.contains("copy the table"),
+        "{refusal}"
     );
 }
 
@@ -238,13 +238,16 @@ fn issue_029_rows_bodies_and_changes_are_limited() {
         .args(["explore", "long.toml"])
         .output()
         .unwrap();
-    let told = String::from_utf8(output.stderr).unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2));
-    assert!(told.contains("20001 rows") && told.contains("0.05 s"), "{told}");
+    assert!(
+        message.contains("20001 rows") && message.contains("0.05 s"),
+        "{message}"
+    );
 }
 
 #[test]
-fn issue_029_results_that_are_not_finite_are_told() {
+fn issue_029_results_that_are_not_finite_are_reported() {
     let folder = temporary();
     let server = Server::start(folder.path(), &[]);
     for (path, text) in [
@@ -255,11 +258,11 @@ fn issue_029_results_that_are_not_finite_are_told() {
     ] {
         let wanted = json!({ "set": { path: text, "simulation.duration": "2 s" } });
         let answer = server.post("/api/run", &wanted);
-        let told = answer.json();
+        let body = answer.json();
         // Nothing is shown, or what came before the run stopped.
         match answer.status {
-            200 => assert!(told["summary"]["stopped"]["reason"].is_string(), "{path}={text}"),
-            422 => assert!(!told["errors"][0]["help"].as_str().unwrap().is_empty(), "{told}"),
+            200 => assert!(body["summary"]["stopped"]["reason"].is_string(), "{path}={text}"),
+            422 => assert!(!body["errors"][0]["help"].as_str().unwrap().is_empty(), "{body}"),
             other => panic!("{path}={text}: {other} {}", answer.text()),
         }
         let table = server.post("/api/export/result.csv", &wanted);

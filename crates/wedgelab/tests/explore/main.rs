@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use common::{Server, endless, post, temporary};
 use serde_json::{Value, json};
 
-/// What `wedgelab run` writes.
+/// Returns the folder that `wedgelab run` writes.
 fn run(folder: &Path, case: &str, set: &[(&str, &str)]) -> std::path::PathBuf {
     let out = folder.join("run");
     let mut command = Command::new(env!("CARGO_BIN_EXE_wedgelab"));
@@ -70,8 +70,12 @@ fn energies_are_those_of_the_command_line() {
         assert_eq!(answer["schema"], "wedgelab.explore/1");
         assert_eq!(answer["view"]["schema"], "wedgelab.view/1");
         let energy = &answer["summary"]["averages"]["energy_per_cycle"];
-        let told = run(folder.path(), "vdrun_toe_0_psi_0.012", set);
-        assert_eq!(*energy, summary(&told)["averages"]["energy_per_cycle"], "{set:?}");
+        let run_folder = run(folder.path(), "vdrun_toe_0_psi_0.012", set);
+        assert_eq!(
+            *energy,
+            summary(&run_folder)["averages"]["energy_per_cycle"],
+            "{set:?}"
+        );
         assert!(energy["side_frame"]["value"].as_f64().unwrap() > 0.0);
         assert!(!seen.contains(energy), "{set:?} changes the energy");
         seen.push(energy.clone());
@@ -99,7 +103,7 @@ fn a_case_file_is_explored_and_kept() {
     assert!(opening["presets"].as_array().unwrap().len() > 3);
     let set = [("friction.slope", "0.25")];
     let wanted = json!({ "set": { "friction.slope": "0.25" } });
-    let told = run(folder.path(), "my.toml", &set);
+    let run_folder = run(folder.path(), "my.toml", &set);
     for file in ["case.toml", "result.csv", "result.mat", "summary.json"] {
         let kept = server.post(&format!("/api/export/{file}"), &wanted);
         assert_eq!(kept.status, 200, "{file}");
@@ -108,7 +112,7 @@ fn a_case_file_is_explored_and_kept() {
             "{}",
             kept.head
         );
-        let written = fs::read(told.join(file)).unwrap();
+        let written = fs::read(run_folder.join(file)).unwrap();
         assert_eq!(kept.body, written, "{file}");
     }
     let other = server.post("/api/export/passwords", &wanted);
@@ -145,8 +149,8 @@ fn a_car_is_explored_and_kept() {
     assert!(
         run_view["scene"]["follow"] == "car_body" && run_view["columns"]["axle_1_left_vertical"].is_object()
     );
-    let told = run(folder.path(), name, &set);
-    let losses = summary(&told)["wedge_losses"].as_object().unwrap().clone();
+    let run_folder = run(folder.path(), name, &set);
+    let losses = summary(&run_folder)["wedge_losses"].as_object().unwrap().clone();
     let sum: f64 = losses.values().map(|loss| loss["value"].as_f64().unwrap()).sum();
     // lbf·in, in J.
     let energy = shown["energy"].as_f64().unwrap() / 0.112_984_829_027_616_7;
@@ -157,7 +161,7 @@ fn a_car_is_explored_and_kept() {
     for file in ["case.toml", "result.csv", "summary.json"] {
         let kept = server.post(&format!("/api/export/{file}"), &json!({ "set": wanted.clone() }));
         assert_eq!(kept.status, 200, "{file}");
-        assert_eq!(kept.body, fs::read(told.join(file)).unwrap(), "{file}");
+        assert_eq!(kept.body, fs::read(run_folder.join(file)).unwrap(), "{file}");
     }
     for (path, text, word) in [
         ("simulation.duration", "61 s", "the most here"),
@@ -199,8 +203,11 @@ fn a_truck_is_explored_and_kept() {
     );
     let columns = answer["view"]["runs"][0]["columns"].as_object().unwrap();
     assert!(columns.contains_key("warp_angle") && columns.contains_key("warp_moment"));
-    let told = run(folder.path(), name, &set);
-    let losses = summary(&told)["cycles"]["losses"].as_object().unwrap().clone();
+    let run_folder = run(folder.path(), name, &set);
+    let losses = summary(&run_folder)["cycles"]["losses"]
+        .as_object()
+        .unwrap()
+        .clone();
     let of_wedges = losses.iter().filter(|(name, _)| {
         ["leading_", "trailing_"].iter().any(|end| name.starts_with(end)) && !name.contains("wheelset")
     });
@@ -218,7 +225,7 @@ fn a_truck_is_explored_and_kept() {
     for file in ["case.toml", "result.csv", "result.mat", "summary.json"] {
         let kept = server.post(&format!("/api/export/{file}"), &json!({ "set": wanted.clone() }));
         assert_eq!(kept.status, 200, "{file}");
-        assert_eq!(kept.body, fs::read(told.join(file)).unwrap(), "{file}");
+        assert_eq!(kept.body, fs::read(run_folder.join(file)).unwrap(), "{file}");
     }
     for (preset, y) in [
         ("vdrun_toe_0_psi_0", "vertical_wedge_force"),
@@ -248,7 +255,7 @@ fn a_truck_is_explored_and_kept() {
 }
 
 #[test]
-fn mistakes_are_told_where_they_were_typed() {
+fn mistakes_are_reported_where_they_were_typed() {
     let folder = temporary();
     let server = Server::start(folder.path(), &[]);
     for (path, text, word) in [

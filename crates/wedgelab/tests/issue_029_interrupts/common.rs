@@ -48,7 +48,7 @@ fn prepare(command: &mut Command, folder: &Path) {
         .stderr(Stdio::piped());
 }
 
-/// A shell's line under way, in which `$0` is the program.
+/// Returns a shell's line under way, in which `$0` is the program.
 pub fn start_by_shell(folder: &Path, line: &str) -> Running {
     let mut command = Command::new("sh");
     prepare(&mut command, folder);
@@ -182,7 +182,7 @@ impl Drop for Running {
     }
 }
 
-/// The names in a folder, sorted; none if it is not there.
+/// Returns the names in a folder, sorted; none if it is not there.
 pub fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let mut names: Vec<String> = entries
@@ -192,7 +192,7 @@ pub fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// The hidden folders in a folder and all below it.
+/// Returns the hidden folders in a folder and all below it.
 pub fn hidden(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for name in names(folder) {
@@ -217,7 +217,7 @@ pub fn json(file: &Path) -> serde_json::Value {
     serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap()
 }
 
-/// The files of a run are there and agree with each other; returns its summary.
+/// Checks that the files of a run are there and agree with each other; returns its summary.
 #[track_caller]
 pub fn whole_run(folder: &Path) -> serde_json::Value {
     let summary = json(&folder.join("summary.json"));

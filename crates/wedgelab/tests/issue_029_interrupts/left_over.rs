@@ -16,7 +16,7 @@ const MANY_ROWS: [&str; 6] = [
     "simulation.duration=5 s",
 ];
 
-/// Whether a result is being written in a folder.
+/// Returns whether a result is being written in a folder.
 fn is_writing(folder: &Path) -> bool {
     let hidden = hidden(folder);
     hidden.iter().any(|path| path.join("result/result.csv").exists())

@@ -7,7 +7,7 @@ use tempfile::tempdir;
 
 use crate::common::{SIGNALS, contains, done, hidden, names, start, start_by_shell, whole_run};
 
-/// The runs that are there are whole, and nothing else is; returns their names.
+/// Checks that the runs that are there are whole, and that nothing else is there; returns their names.
 fn whole_runs(folder: &Path) -> Vec<String> {
     assert!(hidden(folder).is_empty());
     assert_eq!(names(folder), ["runs"], "there is no report");
@@ -37,8 +37,8 @@ fn issue_029_an_interrupted_reproduction_keeps_whole_runs_and_tells_the_missing_
         let ended = running.ended();
         assert_eq!(ended.code, Some(code), "{}", ended.err);
         let kept = whole_runs(&path.join("my own"));
-        let told = format!("interrupted: {} of 6 runs are whole, in my own/runs", kept.len());
-        contains(&ended.err, &[&told, "the report is not written"]);
+        let message = format!("interrupted: {} of 6 runs are whole, in my own/runs", kept.len());
+        contains(&ended.err, &[&message, "the report is not written"]);
         contains(
             &ended.err,
             &["wedgelab reproduce --out 'my own' --force --only 'vdrun*'"],
@@ -79,8 +79,8 @@ fn issue_029_an_interrupted_reproduction_tells_the_missing_half_trucks() {
         .unwrap();
     let trucks = after("The missing runs of trucks").trim();
     let missing: Vec<&str> = wedges.split(' ').chain(trucks.split(' ')).collect();
-    let told = format!("{} of {} runs are whole", kept.len(), kept.len() + missing.len());
-    contains(&ended.err, &[&told, "wedgelab reproduce --force"]);
+    let message = format!("{} of {} runs are whole", kept.len(), kept.len() + missing.len());
+    contains(&ended.err, &[&message, "wedgelab reproduce --force"]);
     assert!(missing.iter().all(|name| !kept.iter().any(|kept| kept == name)));
 }
 
@@ -103,8 +103,8 @@ fn limits_an_interrupted_sensitivity_goes_on_with_the_same_bytes() {
     assert_eq!(ended.code, Some(130), "{}", ended.err);
     let before = points("one");
     let kept = before.lines().count();
-    let told = format!("interrupted: {kept} of 18 points are kept in one/sensitivity");
-    contains(&ended.err, &[&told, "the same command goes on from there"]);
+    let message = format!("interrupted: {kept} of 18 points are kept in one/sensitivity");
+    contains(&ended.err, &[&message, "the same command goes on from there"]);
     assert_eq!(names(&path.join("one")), ["sensitivity"]);
     let ended = done(path, &of("1", "one"));
     contains(&ended.err, &[&format!("going on: {kept} of 18 points are there")]);

@@ -92,7 +92,7 @@ impl Read {
 
 const CORNERS: [&str; 4] = ["lower_right", "lower_left", "upper_right", "upper_left"];
 
-/// What the variables are to be, from the table of results.
+/// Returns the expected variables, from the table of results.
 fn expected_variables(run: &str) -> BTreeMap<&'static str, Vec<Vec<f64>>> {
     let csv = Csv::of(run);
     let corners = |face: &str, what: &str| -> Vec<Vec<f64>> {

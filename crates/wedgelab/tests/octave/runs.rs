@@ -22,7 +22,7 @@ pub const NAMES: [&str; 12] = [
     "cdrun_toe_in_0.2_psi_0.012",
 ];
 
-/// The twelve runs, computed once.
+/// Returns the twelve runs, computed once.
 pub fn runs() -> PathBuf {
     static RUNS: OnceLock<PathBuf> = OnceLock::new();
     let made = || {
@@ -59,7 +59,7 @@ impl Csv {
         self.0.get(name).unwrap_or_else(|| panic!("{name}")).clone()
     }
 
-    /// A column with a factor and an offset.
+    /// Returns a column with a factor and an offset.
     pub fn moved(&self, name: &str, factor: f64, offset: f64) -> Vec<f64> {
         self.get(name)
             .iter()

@@ -83,14 +83,14 @@ pub fn refused(folder: &Path, arguments: &[&str], code: i32, texts: &[&str]) {
     assert!(!output.err.contains("panicked"), "{}", output.err);
 }
 
-/// The bytes of both tables.
+/// Returns the bytes of both tables.
 pub fn table(folder: &Path) -> Vec<u8> {
     ["table.parquet", "table.csv"]
         .map(|name| fs::read(folder.join(name)).unwrap())
         .concat()
 }
 
-/// The names in a folder, sorted.
+/// Returns the names in a folder, sorted.
 pub fn names(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> = fs::read_dir(folder)
         .unwrap()
@@ -109,7 +109,7 @@ pub fn kept(folder: &Path) -> u64 {
         .sum()
 }
 
-/// The numbers of all records in the parts, sorted; a run that was done twice stands twice.
+/// Returns the numbers of all records in the parts, sorted; a run that was done twice stands twice.
 pub fn recorded(folder: &Path, study: &str, out: &str) -> Vec<u64> {
     let fingerprint = Study::read(&folder.join(study)).unwrap().fingerprint();
     let parts = folder.join(out).join("parts");

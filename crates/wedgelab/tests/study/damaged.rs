@@ -9,8 +9,8 @@ use tempfile::tempdir;
 
 use crate::common::{Output, SMALL, WHOLE, done, kept, names, output, refused, table, wedgelab};
 
-/// The study in `a`, where no file may grow beyond this many blocks of 512 bytes: as on a full disk they
-/// refuse to be written to.
+/// Returns the study in `a`, where no file may grow beyond this many blocks of 512 bytes: as on a full disk
+/// they refuse to be written to.
 #[cfg(unix)]
 fn on_a_full_disk(folder: &Path, blocks: u32) -> Output {
     let limited = format!(

@@ -151,7 +151,7 @@ fn make_up(path: &Path, study: &str, out: &str, runs: u64) {
     assert_eq!(folder.keep_all(&bytes).unwrap(), runs);
 }
 
-/// Whether a table that is not whole lies there.
+/// Returns whether a table that is not whole lies there.
 fn being_written(folder: &Path) -> bool {
     let mut entries = fs::read_dir(folder).unwrap().flatten();
     entries.any(|entry| entry.path().join("result/table.parquet").exists())

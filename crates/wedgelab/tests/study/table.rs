@@ -10,7 +10,7 @@ use tempfile::tempdir;
 
 use crate::common::{done, names};
 
-/// A table: for each row its cells by name.
+/// Returns a table: for each row its cells by name.
 fn rows(folder: &Path) -> Vec<Vec<(String, Field)>> {
     let reader = SerializedFileReader::new(File::open(folder.join("table.parquet")).unwrap()).unwrap();
     reader
@@ -105,7 +105,7 @@ fn limits_a_row_is_the_summary_of_the_same_run() {
     }
 }
 
-/// The cells of a line of CSV, without quotation marks.
+/// Returns the cells of a line of CSV, without quotation marks.
 fn cells(line: &str) -> Vec<String> {
     let (mut cells, mut quoted) = (vec![String::new()], false);
     for sign in line.chars() {

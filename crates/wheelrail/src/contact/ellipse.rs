@@ -87,7 +87,7 @@ impl Ellipses {
         }
     }
 
-    /// Both logarithms at x.
+    /// Returns both logarithms at x.
     #[inline(always)]
     fn at<S: Real>(&self, x: S) -> [S; 2] {
         let relative = (x.value() + LARGEST) / STEP;

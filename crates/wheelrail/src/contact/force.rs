@@ -263,7 +263,7 @@ fn energy<S: Real>(patch: &ContactPatch<S>) -> S {
     d * d * d.sqrt() * patch.ellipse.stiffness * patch.share * 0.4
 }
 
-/// From the wheel's center to a patch.
+/// Returns the vector from the wheel's center to a patch.
 #[inline(always)]
 fn arm<S: Real>(pose: &WheelPose<S>, patch: &ContactPatch<S>) -> [S; 3] {
     let [x, y, z] = patch.place;

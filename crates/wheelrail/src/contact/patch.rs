@@ -130,8 +130,8 @@ impl ContactPair {
         }
     }
 
-    /// The valley at which an interval is divided, and how far its parts are joined (less than 1); nothing if
-    /// it has no valley that divides it.
+    /// Returns the valley at which an interval is divided, and how far its parts are joined (less than 1);
+    /// nothing if it has no valley that divides it.
     fn division<S: Real>(
         &self,
         frame: &Frame<S>,
@@ -191,7 +191,7 @@ impl ContactPair {
         Some((valley, joined))
     }
 
-    /// The patch of an interval of the parameter.
+    /// Returns the patch of an interval of the parameter.
     fn patch<S: Real>(&self, frame: &Frame<S>, from: S, to: S, share: S) -> Option<ContactPatch<S>> {
         let zero = S::zero();
         let mut nodes = [Node {

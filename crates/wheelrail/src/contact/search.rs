@@ -250,8 +250,8 @@ impl ContactPair {
         }
     }
 
-    /// The overlap at the stations that lie over the rail, by its straight lines; minus infinity where there
-    /// is none. Nothing if no station does.
+    /// Returns the overlap at the stations that lie over the rail, by its straight lines; minus infinity
+    /// where there is none. Nothing if no station does.
     fn scan(&self, frame: &Frame<f64>) -> Option<Scan> {
         let mut scan = Scan {
             overlap: [f64::NEG_INFINITY; STATIONS],
@@ -382,14 +382,15 @@ impl ContactPair {
         [beside(before, k.saturating_sub(1)), beside(after, k + 1)]
     }
 
-    /// The node at a parameter with derivatives by the parameter.
+    /// Returns the node at a parameter with derivatives by the parameter.
     #[inline(always)]
     pub(super) fn along(&self, frame: &Frame<f64>, parameter: f64) -> Node<Dual<1>> {
         let lifted = frame.lifted::<Dual<1>>();
         lifted.node(&self.wheel, &self.rail, Dual::variable(parameter, 0))
     }
 
-    /// The parameter within an interval at which the overlap is largest or smallest: where its slope is zero.
+    /// Returns the parameter within an interval at which the overlap is largest or smallest: where its slope
+    /// is zero.
     pub(super) fn stationary(&self, frame: &Frame<f64>, ends: [f64; 2]) -> f64 {
         zero(ends, |parameter| {
             let slope = self.along(frame, parameter).overlap_slope;
@@ -397,8 +398,8 @@ impl ContactPair {
         })
     }
 
-    /// The parameter near a station at which the slope of the overlap is zero, and true; the station's own
-    /// and false if the slope does not change its sign beside it.
+    /// Returns the parameter near a station at which the slope of the overlap is zero, and true; the
+    /// station's own and false if the slope does not change its sign beside it.
     pub(super) fn turning(&self, frame: &Frame<f64>, scan: &Scan, k: usize) -> (f64, bool) {
         let at = |station: usize| {
             let parameter = self.wheel.parameter(station);
@@ -415,7 +416,7 @@ impl ContactPair {
         (own, false)
     }
 
-    /// An end of an interval.
+    /// Returns an end of an interval.
     pub(super) fn end<S: Real>(&self, frame: &Frame<S>, plain: &Frame<f64>, end: End) -> S {
         match end {
             End::Cut(at) => S::from(at),
@@ -435,7 +436,7 @@ impl ContactPair {
 }
 
 impl Scan {
-    /// The overlap at both neighbors of a station.
+    /// Returns the overlap at both neighbors of a station.
     fn neighbors(&self, k: usize) -> [f64; 2] {
         let before = k.checked_sub(1).map_or(f64::NEG_INFINITY, |k| self.overlap[k]);
         [

@@ -91,7 +91,7 @@ impl ContactTable {
         &self.pair
     }
 
-    /// The values of a part at a lateral place and an inclination, given in spacings of the table.
+    /// Returns the values of a part at a lateral place and an inclination, given in spacings of the table.
     #[inline(always)]
     fn at<S: Real>(&self, part: usize, column: S, row: S) -> [S; VALUES] {
         let (i, u) = span(column.value(), COLUMNS);
@@ -115,14 +115,14 @@ impl ContactTable {
     }
 }
 
-/// The cell of a coordinate, and the place within it.
+/// Returns the cell of a coordinate, and the place within it.
 #[inline(always)]
 fn span(value: f64, count: usize) -> (usize, f64) {
     let cell = (value.max(0.0) as usize).min(count - 2);
     (cell, value - cell as f64)
 }
 
-/// The point `offset - 1` beside a cell, within the table.
+/// Returns the point `offset - 1` beside a cell, within the table.
 #[inline(always)]
 fn clamped(cell: usize, offset: usize, count: usize) -> usize {
     (cell + offset).saturating_sub(1).min(count - 1)

@@ -163,14 +163,14 @@ pub fn chain(
     Ok(Curve::new(pieces, parameter))
 }
 
-/// The direction (rad) of a directed circle at a point of it.
+/// Returns the direction (rad) of a directed circle at a point of it.
 fn direction_on(center: [f64; 2], radius: f64, point: [f64; 2]) -> f64 {
     // The normal to the left is (center - point) / radius; the direction is a quarter turn to its right.
     let normal = [0, 1].map(|i| (center[i] - point[i]) / radius);
     libm::atan2(-normal[0], normal[1])
 }
 
-/// The point of an element nearest to a point.
+/// Returns the point of an element nearest to a point.
 fn nearest(element: &Element, point: [f64; 2]) -> [f64; 2] {
     match *element {
         Element::Line { point: own, angle } => {
@@ -187,7 +187,7 @@ fn nearest(element: &Element, point: [f64; 2]) -> [f64; 2] {
     }
 }
 
-/// Where two neighbors touch with the same direction.
+/// Returns the point where two neighbors touch with the same direction.
 fn joint(before: &Element, after: &Element) -> Option<[f64; 2]> {
     match (*before, *after) {
         (Element::Line { point, angle }, Element::Circle { center, radius })
@@ -209,7 +209,7 @@ fn joint(before: &Element, after: &Element) -> Option<[f64; 2]> {
     }
 }
 
-/// The center of a circle that touches two neighbors; of several, the one whose arc turns least.
+/// Returns the center of a circle that touches two neighbors; of several, the one whose arc turns least.
 fn fillet(before: &Element, radius: f64, after: &Element) -> Option<[f64; 2]> {
     let candidates = match (locus(before, radius)?, locus(after, radius)?) {
         (Locus::Line(p, a), Locus::Line(q, b)) => {

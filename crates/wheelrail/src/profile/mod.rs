@@ -149,7 +149,7 @@ impl Profile {
         self.kind
     }
 
-    /// Returns what users must be told of its source; empty if there is nothing.
+    /// Returns the remark about its source that users must see; empty if there is nothing.
     #[must_use]
     pub fn note(&self) -> &str {
         self.note
@@ -228,7 +228,7 @@ impl Profile {
             .map(|[y, _]| y)
     }
 
-    /// The point at which a function is largest; none if it has a value nowhere.
+    /// Returns the point at which a function is largest; none if it has a value nowhere.
     fn extreme(&self, function: impl Fn([f64; 2]) -> Option<f64>) -> Option<[f64; 2]> {
         let value = |parameter| function(self.curve.at(parameter).position).unwrap_or(f64::NEG_INFINITY);
         let mut best = (f64::NEG_INFINITY, self.curve.range()[0]);

@@ -80,7 +80,7 @@ pub(super) fn name_of(column: Column) -> &'static str {
         .map_or("", |(name, _, _)| name)
 }
 
-/// A column of the header; none if it is another one, an error (what is found) if its unit is wrong.
+/// Returns a column of the header; none if it is another one, an error (what is found) if its unit is wrong.
 pub(super) fn head(index: usize, cell: &str) -> Result<Option<Head>, String> {
     let cell = cell.trim().trim_matches('"').trim();
     let lower = cell.to_ascii_lowercase();

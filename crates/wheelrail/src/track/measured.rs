@@ -369,7 +369,7 @@ impl MeasuredTable {
         }
     }
 
-    /// The distance from row to row, which must be equal, m.
+    /// Returns the distance from row to row, which must be equal, m.
     fn spacing(&self) -> Result<f64, MeasuredError> {
         let [first, last] = self.range();
         let spacing = (last - first) / (self.distances.len().max(2) - 1) as f64;

@@ -176,7 +176,7 @@ impl RailLines {
         [left.lateral, left.vertical, right.lateral, right.vertical, roll]
     }
 
-    /// The same by interpolation.
+    /// Returns the same by interpolation.
     #[inline(always)]
     fn interpolated(&self, distance: f64) -> Node {
         if self.nodes.is_empty() {
@@ -196,7 +196,7 @@ impl RailLines {
         node
     }
 
-    /// A line at a distance.
+    /// Returns a line at a distance.
     #[inline(always)]
     fn at(&self, line: Line, distance: f64) -> At {
         let station = self.track.center_line.at(distance);
@@ -264,7 +264,7 @@ impl RailLines {
         ]
     }
 
-    /// A distance near the foot of a point in plan, from the point alone.
+    /// Returns a distance near the foot of a point in plan, from the point alone.
     fn near(&self, point: [f64; 2]) -> f64 {
         let away = |place: [f64; 2]| libm::hypot(point[0] - place[0], point[1] - place[1]);
         let last = self.places.len() - 1;

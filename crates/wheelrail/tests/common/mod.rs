@@ -52,7 +52,7 @@ pub const POSES: [[f64; 4]; 5] = [
 ];
 pub const VELOCITIES: [f64; 6] = [15.0, 0.02, -0.01, 0.03, 32.8, 0.05];
 
-/// The height of the center at which the rigid profiles overlap by so much.
+/// Returns the height of the center at which the rigid profiles overlap by so much.
 pub fn height(pair: &ContactPair, [lateral, overlap, yaw, roll]: [f64; 4]) -> f64 {
     let trial = RADIUS + 0.001;
     let pose = WheelPose::of(Side::Left, [lateral, trial], yaw, roll);

@@ -25,7 +25,7 @@ numbers to the
 limits that are stated here. [Theory](wheelrail-theory.md) has the equations.
 ";
 
-/// The page.
+/// Returns the page.
 pub fn page() -> String {
     let mut out = HEAD.to_owned();
     for part in [
@@ -161,7 +161,7 @@ fn kalker(out: &mut String) {
     }
 }
 
-/// The patch of CONTACT's example `tractcurv`.
+/// Returns the patch of CONTACT's example `tractcurv`.
 fn traction_patch() -> Patch<f64> {
     Patch {
         axes: [6.305e-3, 12.611e-3],

@@ -8,7 +8,7 @@ use super::{Instance, Phase, Saved};
 use crate::Error;
 use crate::element::Interface;
 
-/// A member of a saved state that cannot be.
+/// Returns a member of a saved state that cannot be.
 pub(crate) fn damaged(member: &str, found: impl Display, expected: impl Display) -> Error {
     Error::new(format!(
         "the saved state is damaged: {member} is {found}; it must be {expected}; restore a state as it was \
@@ -16,7 +16,7 @@ pub(crate) fn damaged(member: &str, found: impl Display, expected: impl Display)
     ))
 }
 
-/// Whether all numbers of a member are finite.
+/// Checks whether all numbers of a member are finite.
 pub(crate) fn check_finite<'v>(member: &str, values: impl IntoIterator<Item = &'v f64>) -> Result<(), Error> {
     match values
         .into_iter()
@@ -33,7 +33,7 @@ pub(crate) fn check_finite<'v>(member: &str, values: impl IntoIterator<Item = &'
 }
 
 impl Saved {
-    /// Whether it can be a state of this instance, as far as that can be said without its element.
+    /// Checks whether it can be a state of this instance, as far as that can be said without its element.
     pub(super) fn check(&self, instance: &Instance) -> Result<(), Error> {
         let values = &instance.values;
         let before = self
@@ -89,7 +89,7 @@ impl Saved {
         Ok(())
     }
 
-    /// Whether phase, interface, element and times belong together.
+    /// Checks whether phase, interface, element and times belong together.
     fn check_phase(&self) -> Result<(), Error> {
         let exchange = self.interface == Interface::ModelExchange;
         let possible = match self.phase {

@@ -268,7 +268,8 @@ fn wear() -> Group {
     }
 }
 
-/// The bolster presses the wedge against the column, pushes it down while it is pressed, and rises.
+/// Returns a case in which the bolster presses the wedge against the column, pushes it down while it is
+/// pressed, and rises.
 fn lock_up() -> Group {
     let ramp = |amplitude: &str, start: &str| {
         format!(
@@ -311,7 +312,7 @@ start = "equilibrium"
     }
 }
 
-/// A column that leans in by more than the wedge's angle: the faces open upwards.
+/// Returns a column that leans in by more than the wedge's angle: the faces open upwards.
 fn overturned_toe() -> Group {
     let case = BuiltIn::new(
         "overturned_toe".to_owned(),
@@ -346,7 +347,7 @@ start = "touching"
     }
 }
 
-/// A case file: the bolster moves in a sine about a height, with toe out.
+/// Returns a case file: the bolster moves in a sine about a height, with toe out.
 fn sine(
     damping: &str,
     wedge: &str,

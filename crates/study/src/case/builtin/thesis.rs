@@ -72,7 +72,7 @@ pub(super) fn group() -> Group {
     }
 }
 
-/// The case file holds what sets it apart from the others of its damping.
+/// Returns the case file, which holds what sets the case apart from the others of its damping.
 fn built_in([name, damping, toe, yaw]: &[&'static str; 4]) -> BuiltIn {
     let direction = match toe.split_once(" deg") {
         Some((_, "")) | None => "no toe".to_string(),

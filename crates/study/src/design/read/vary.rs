@@ -18,7 +18,7 @@ pub(super) const RANGE_HELP: &str = "write { from = 0.2, to = 0.6, count = 5 } (
 pub(super) const TRIED: usize = 200;
 const SCALES: Names<bool> = &[("linear", false), ("logarithmic", true)];
 
-/// A value as written.
+/// Returns a value as written.
 fn value(path: &str, node: &Node) -> Value {
     match &node.value {
         Toml::Number(number) if number.is_finite() => Value::Number {
@@ -30,7 +30,7 @@ fn value(path: &str, node: &Node) -> Value {
     }
 }
 
-/// A key under a path.
+/// Returns a key under a path.
 fn below(path: &str, key: &str) -> String {
     if path.is_empty() {
         key.to_owned()
@@ -39,7 +39,7 @@ fn below(path: &str, key: &str) -> String {
     }
 }
 
-/// Whether a table is a value of its own, written in braces, rather than the way to others.
+/// Returns whether a table is a value of its own, written in braces, rather than the way to others.
 fn in_braces(node: &Node) -> bool {
     node.place.text().starts_with('{')
 }
@@ -101,7 +101,7 @@ pub(super) fn factors(table: &Table, path: &str, kind: Kind, out: &mut Vec<Draft
     }
 }
 
-/// A list of values.
+/// Returns a list of values.
 fn listed(
     path: &str,
     items: &[Node],
@@ -133,7 +133,7 @@ fn listed(
     Some((Levels::Values(values), written))
 }
 
-/// A range in braces.
+/// Returns a range in braces.
 fn range(
     path: &str,
     table: &Table,
@@ -278,7 +278,7 @@ fn range(
 /// All paths that a variant sets; for each variant its values; and what it says.
 type Variants = (Vec<Draft>, Vec<Vec<Option<Value>>>, Vec<Assigned>);
 
-/// The variants of a list.
+/// Returns the variants of a list.
 pub(super) fn variants(top: &Section<'_>, problems: &mut Problems) -> Variants {
     const HELP: &str = "write [[variants]] for each of them and below it for example friction.column = 0.3";
     let mut drafts: Vec<Draft> = Vec::new();

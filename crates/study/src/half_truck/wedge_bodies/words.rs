@@ -8,7 +8,7 @@ use wedge::parameters::Damping;
 
 use super::{Made, MountedWedge};
 
-/// Says which springs may stand for the warp resistance that the bodies have of their own.
+/// Returns the sentence on springs that may stand for the warp resistance that the bodies have of their own.
 pub(super) fn warp_springs(truck: &Truck, wedges: &[MountedWedge]) -> Option<String> {
     let connections = &truck.model.connections;
     let ends = |place: usize| (connections[place].a, connections[place].b);
@@ -29,7 +29,7 @@ pub(super) fn warp_springs(truck: &Truck, wedges: &[MountedWedge]) -> Option<Str
 }
 
 impl Made {
-    /// What it takes from the files, and what is added, in words.
+    /// Returns the values taken from the files and those added, in words.
     pub(super) fn words(&self, law: &Massless, units: Units) -> Vec<String> {
         let wedge = &self.wedge;
         let measure = |value: f64, kind: Kind| measure(value, kind, units);

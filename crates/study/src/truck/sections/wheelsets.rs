@@ -74,7 +74,7 @@ pub(crate) fn adapter(r: &mut Reader<'_>, own: &mut Adapter) {
     }
 }
 
-/// The section of the adapters; `None` if there are none.
+/// Returns the section of the adapters; `None` if there are none.
 fn read_adapter(r: &mut Reader<'_>, kinds: Names<AdapterKind>, comment: &str) -> Option<Adapter> {
     r.section("adapter", "Where side frames stand on the bearings.");
     let mut kind = AdapterKind::Friction;

@@ -33,7 +33,7 @@ pub struct Wanted {
     pub set: BTreeMap<String, String>,
 }
 
-/// What the page needs to begin.
+/// The data that the page needs to begin.
 #[derive(Debug, Serialize)]
 pub struct Opening {
     schema: &'static str,
@@ -101,7 +101,7 @@ pub enum Refused {
 }
 
 impl Refused {
-    /// One mistake.
+    /// Makes the message of one mistake.
     pub fn mistake(path: &str, message: String, help: &str) -> Self {
         Self::Mistakes(vec![Mistake {
             path: path.to_owned(),
@@ -163,7 +163,7 @@ pub struct Explorer {
 pub struct Client(Arc<()>);
 
 impl Client {
-    /// What tells whether the client still waits.
+    /// Returns a watch that tells whether the client still waits.
     pub fn watch(&self) -> Watch {
         Watch(Arc::downgrade(&self.0))
     }
@@ -186,7 +186,7 @@ struct StoredRun {
 }
 
 impl Explorer {
-    /// Of this case.
+    /// Makes it of this case.
     pub fn new(base: Base) -> Self {
         Self {
             base,
@@ -212,7 +212,7 @@ impl Explorer {
         self.latest.load(Ordering::Relaxed) == turn.number && turn.client.0.strong_count() > 0
     }
 
-    /// What the page needs to begin.
+    /// Returns the data that the page needs to begin.
     ///
     /// # Errors
     /// A table that the case names has changed since the start and is wrong now.
@@ -262,7 +262,7 @@ impl Explorer {
         })
     }
 
-    /// A file of what is wanted: one of those of `wedgelab run`.
+    /// Returns a file of what is wanted: one of those of `wedgelab run`.
     ///
     /// # Errors
     /// As [`Explorer::run`], or there is no such file.
@@ -312,7 +312,7 @@ impl Explorer {
         Ok(case)
     }
 
-    /// What comes out; that of the latest run if it is what was wanted then.
+    /// Returns the outcome; that of the latest run if it is what was wanted then.
     fn outcome(&self, wanted: &Wanted, turn: &Turn) -> Result<Arc<Outcome>, Refused> {
         let case = self.case(wanted)?;
         let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
@@ -333,8 +333,8 @@ impl Explorer {
     }
 }
 
-/// The mistakes, each with the field it is shown at: the one that was typed into, or else the one the message
-/// speaks of.
+/// Returns the mistakes, each with the field it is shown at: the one that was typed into, or else the one the
+/// message speaks of.
 fn mistakes(error: &CaseError, set: &BTreeMap<String, String>, known: &[FieldSection]) -> Vec<Mistake> {
     let is_field = |path: &str| {
         set.contains_key(path)
@@ -408,12 +408,12 @@ mod tests {
             .next()
             .unwrap()
             .value = f64::NAN;
-        let Err(Refused::Mistakes(told)) = Outcome::Wedge(own).finite() else {
+        let Err(Refused::Mistakes(mistakes)) = Outcome::Wedge(own).finite() else {
             unreachable!("it is not finite");
         };
         assert!(
-            told[0].message.contains("the energy per cycle at the"),
-            "{told:?}"
+            mistakes[0].message.contains("the energy per cycle at the"),
+            "{mistakes:?}"
         );
     }
 }

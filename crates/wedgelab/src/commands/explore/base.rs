@@ -30,7 +30,7 @@ pub enum Base {
 }
 
 impl Base {
-    /// The case of `wedgelab run PATH`, checked.
+    /// Returns the case of `wedgelab run PATH`, checked.
     pub fn open(path: &Path) -> Result<Self, Failure> {
         run::read_any(path, &[])?;
         let base = if run::is_built_in(path) {
@@ -47,7 +47,7 @@ impl Base {
         Ok(base)
     }
 
-    /// The case with changes, each as `--set` takes it.
+    /// Returns the case with changes, each as `--set` takes it.
     ///
     /// # Errors
     /// A change is wrong, or the built-in case does not exist.
@@ -67,7 +67,7 @@ impl Base {
         }
     }
 
-    /// The built-in case's name.
+    /// Returns the built-in case's name.
     pub fn preset(&self) -> Option<&str> {
         match self {
             Self::BuiltIn(name) => Some(name),

@@ -84,9 +84,9 @@ mod tests {
     const LONG: Duration = Duration::from_secs(20);
 
     /// Tells when it is dropped.
-    struct Told(mpsc::Sender<()>);
+    struct Ended(mpsc::Sender<()>);
 
-    impl Drop for Told {
+    impl Drop for Ended {
         fn drop(&mut self) {
             let _ = self.0.try_send(());
         }
@@ -101,7 +101,7 @@ mod tests {
         (address, tokio::spawn(serve(listener, app, BRIEF, stop)))
     }
 
-    /// What a server answers until it ends the connection.
+    /// Returns the response of a server until it ends the connection.
     async fn answered(stream: &mut TcpStream) -> String {
         let mut bytes = Vec::new();
         let read = tokio::time::timeout(LONG, stream.read_to_end(&mut bytes));
@@ -145,7 +145,7 @@ mod tests {
     async fn issue_029_a_client_that_does_not_read_is_sent_away() {
         struct Owner {
             bytes: Vec<u8>,
-            _told: Told,
+            _signal: Ended,
         }
         impl AsRef<[u8]> for Owner {
             fn as_ref(&self) -> &[u8] {
@@ -153,11 +153,11 @@ mod tests {
             }
         }
         const LARGE: usize = 32 << 20;
-        let (tell, mut told) = mpsc::channel(4);
+        let (end, mut ended) = mpsc::channel(4);
         let large = async move || {
             Bytes::from_owner(Owner {
                 bytes: vec![0; LARGE],
-                _told: Told(tell.clone()),
+                _signal: Ended(end.clone()),
             })
         };
         let (address, _) = start(Router::new().route("/", get(large)), pending()).await;
@@ -166,19 +166,19 @@ mod tests {
             .write_all(b"GET / HTTP/1.1\r\nHost: a\r\n\r\n")
             .await
             .unwrap();
-        tokio::time::timeout(LONG, told.recv()).await.unwrap().unwrap();
+        tokio::time::timeout(LONG, ended.recv()).await.unwrap().unwrap();
         let taken = answered(&mut stream).await.len();
         assert!(taken < LARGE, "{taken} bytes");
     }
 
     #[tokio::test]
     async fn issue_029_work_ends_when_its_client_goes() {
-        let (tell, mut told) = mpsc::channel(4);
+        let (end, mut ended) = mpsc::channel(4);
         let (begin, mut begun) = mpsc::channel(4);
         let endless = move |_: Request| {
-            let (told, begin) = (Told(tell.clone()), begin.clone());
+            let (ended, begin) = (Ended(end.clone()), begin.clone());
             async move {
-                let _told = told;
+                let _signal = ended;
                 let _ = begin.send(()).await;
                 pending::<&'static str>().await
             }
@@ -188,9 +188,9 @@ mod tests {
         let request = b"POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 0\r\n\r\n";
         stream.write_all(request).await.unwrap();
         begun.recv().await.unwrap();
-        assert!(told.try_recv().is_err(), "it goes on while the client waits");
+        assert!(ended.try_recv().is_err(), "it goes on while the client waits");
         drop(stream);
-        tokio::time::timeout(LONG, told.recv()).await.unwrap().unwrap();
+        tokio::time::timeout(LONG, ended.recv()).await.unwrap().unwrap();
     }
 
     #[tokio::test]

@@ -34,7 +34,7 @@ impl Guard {
         }
     }
 
-    /// Why a request is refused; `None` if it is answered.
+    /// Returns the reason why a request is refused; `None` if it is answered.
     pub fn refusal(&self, uri: &Uri, headers: &HeaderMap) -> Option<String> {
         let mut hosts = headers.get_all(header::HOST).iter();
         let host = match (hosts.next().and_then(|host| host.to_str().ok()), hosts.next()) {
@@ -65,8 +65,8 @@ impl Guard {
         })
     }
 
-    /// Whether a request needs no token or has it: the page in its address, everything else in a header. A
-    /// cookie would be sent to all ports of the machine.
+    /// Returns whether a request needs no token or has it: the page in its address, everything else in a
+    /// header. A cookie would be sent to all ports of the machine.
     fn has_token(&self, uri: &Uri, headers: &HeaderMap) -> bool {
         if PUBLIC.contains(&uri.path()) {
             return true;

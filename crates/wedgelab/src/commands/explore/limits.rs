@@ -112,7 +112,7 @@ fn rows([duration, interval]: [f64; 2]) -> Result<(), TooLong> {
     })
 }
 
-/// The next number of two digits that is not smaller.
+/// Returns the next number of two digits that is not smaller.
 fn rounded_up(value: f64) -> f64 {
     let step = 10_f64.powf(value.log10().floor() - 1.0);
     let digits = format!("{:.1e}", (value / step * (1.0 - 1e-12)).ceil() * step);

@@ -57,7 +57,7 @@ pub struct Arguments {
     open: bool,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let path = arguments.case.clone().unwrap_or_else(|| PathBuf::from(FIRST));
     let base = Base::open(&path)?;

@@ -118,7 +118,7 @@ fn begun<C: RunCase>(run: Result<Run<C>, study::run::RunError>) -> Result<Run<C>
 const OUT_OF_PROPORTION: &str = "look for values that are out of proportion";
 
 impl Outcome {
-    /// Whether it is that of a case.
+    /// Returns whether it is that of a case.
     pub fn is_of(&self, case: &AnyCase) -> bool {
         match (self, case) {
             (Self::Wedge(own), AnyCase::Wedge(case)) => own.0 == **case,
@@ -128,7 +128,7 @@ impl Outcome {
         }
     }
 
-    /// The name of its case.
+    /// Returns the name of its case.
     pub fn name(&self) -> &str {
         match self {
             Self::Wedge(own) => &own.0.name,
@@ -137,7 +137,7 @@ impl Outcome {
         }
     }
 
-    /// The fields of its case.
+    /// Returns the fields of its case.
     pub fn fields(&self) -> Vec<FieldSection> {
         match self {
             Self::Wedge(own) => own.0.document.fields(),
@@ -163,7 +163,7 @@ impl Outcome {
         }
     }
 
-    /// What the page draws.
+    /// Returns the view that the page draws.
     pub fn view(&self) -> View {
         match self {
             Self::Wedge(own) => {
@@ -184,7 +184,7 @@ impl Outcome {
         }
     }
 
-    /// Its summary.
+    /// Returns its summary.
     pub fn summary(&self) -> AnySummary {
         match self {
             Self::Wedge(own) => {
@@ -197,7 +197,7 @@ impl Outcome {
         }
     }
 
-    /// The loop of it.
+    /// Returns the loop of it.
     pub fn shown_loop(&self) -> Loop {
         match self {
             Self::Wedge(own) => loop_of_wedge(&own.1),
@@ -206,7 +206,7 @@ impl Outcome {
         }
     }
 
-    /// One of its files, but the case. Returns the type of what was written.
+    /// Writes one of its files, but not the case. Returns the type of what was written.
     pub fn write(&self, file: &str, out: &mut Vec<u8>) -> io::Result<&'static str> {
         match (self, file) {
             (Self::Wedge(own), csv::FILE_NAME) => csv::write(&own.1, out)?,
@@ -235,7 +235,7 @@ fn joules(value: f64, units: quantity::System) -> f64 {
     value / Kind::Energy.from_si(units)
 }
 
-/// What energies of periodic motions are told of.
+/// The period that energies of periodic motions are of.
 const CYCLE: &str = "cycle";
 
 fn loop_of_wedge(result: &RunResult) -> Loop {
@@ -258,7 +258,8 @@ fn loop_of_wedge(result: &RunResult) -> Loop {
     }
 }
 
-/// The loop of warp where the truck warps, of roll where the bolster rolls, else of the vertical motion.
+/// Returns the loop of warp where the truck warps, of roll where the bolster rolls, else of the vertical
+/// motion.
 fn loop_of_truck(result: &TruckResult) -> Loop {
     let range = |name: &str| range(result.column(name));
     let (title, x, y) = if range("warp_angle") > 1e-3 {
@@ -303,7 +304,7 @@ fn loop_of_truck(result: &TruckResult) -> Loop {
     }
 }
 
-/// The greatest value of a column less its least.
+/// Returns the greatest value of a column less its least.
 fn range(column: Option<&[f64]>) -> f64 {
     let values = column.unwrap_or_default().iter();
     let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| {

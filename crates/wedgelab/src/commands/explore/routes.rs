@@ -37,7 +37,7 @@ type Made = http::Response<Vec<u8>>;
 
 type Shared = State<Arc<Server>>;
 
-/// The routes of a server, guarded.
+/// Returns the routes of a server, guarded.
 pub fn routes(explorer: Arc<Explorer>, guard: Guard, patience: Patience) -> Router {
     let server = Server {
         explorer,
@@ -128,7 +128,7 @@ async fn export(State(server): Shared, Path(file): Path<String>, request: Reques
 }
 
 impl Server {
-    /// What a request wants; its refusal if it is too long, too slow, or no request.
+    /// Returns the request as read; its refusal if it is too long, too slow, or no request.
     async fn wanted(&self, request: Request) -> Result<Wanted, Response> {
         let read = Json::<Wanted>::from_request(request, &());
         let rejection = match tokio::time::timeout(self.patience.body, read).await {
@@ -156,7 +156,7 @@ impl Server {
         })
     }
 
-    /// Does what takes time on another thread, so that the server goes on answering. There is room for some
+    /// Runs a long task on another thread, so that the server goes on answering. There is room for some
     /// answers at once, each until it is sent.
     async fn away(&self, work: impl FnOnce() -> Made + Send + 'static) -> Response {
         let Ok(room) = Arc::clone(&self.room).acquire_owned().await else {

@@ -10,7 +10,7 @@ const BYTES: usize = 32;
 pub struct Token(String);
 
 impl Token {
-    /// A new one from the system's generator.
+    /// Returns a new one from the system's generator.
     ///
     /// # Errors
     /// The system has no random numbers.
@@ -20,23 +20,23 @@ impl Token {
         Ok(Self(bytes.iter().map(|byte| format!("{byte:02x}")).collect()))
     }
 
-    /// The part of the address after `/`.
+    /// Returns the part of the address after `/`.
     pub fn query(&self) -> String {
         format!("?token={}", self.0)
     }
 
-    /// Whether this is the token; takes the same time for every wrong one of its length.
+    /// Returns whether this is the token; takes the same time for every wrong one of its length.
     pub fn is(&self, given: &str) -> bool {
         self.0.as_bytes().ct_eq(given.as_bytes()).into()
     }
 
-    /// Whether a query, such as `token=...`, has it.
+    /// Returns whether a query, such as `token=...`, has it.
     pub fn is_in_query(&self, query: &str) -> bool {
         let given = query.split('&').find_map(|part| part.strip_prefix("token="));
         given.is_some_and(|given| self.is(given))
     }
 
-    /// Whether a header `Authorization` has it: `Bearer ...`.
+    /// Returns whether a header `Authorization` has it: `Bearer ...`.
     pub fn is_in_header(&self, header: &[u8]) -> bool {
         let text = std::str::from_utf8(header).unwrap_or("");
         let given = text

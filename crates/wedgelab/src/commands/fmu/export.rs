@@ -68,7 +68,7 @@ fn version(text: &str) -> Result<Version, String> {
     }
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let source = arguments.source()?;
     may_write(&arguments.out, arguments.force)?;
@@ -99,7 +99,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 }
 
 impl Arguments {
-    /// What the FMU is to be made of.
+    /// Returns the source of the FMU.
     fn source(&self) -> Result<Source, Failure> {
         if let Some(half_truck) = self.choice.half_truck(&self.case, &self.set)? {
             let option = match (self.quasi_static, self.truck) {
@@ -158,7 +158,8 @@ static LIBRARY: &[u8] = include_bytes!(env!("WEDGELAB_FMU_LIBRARY"));
 const BUILD: &str = "`cargo build --release -p wedgelab-fmu` makes it, in the folder target/release; \
                      `--library FILE` names it";
 
-/// The platform of this program, and the library for it: the one that is named, or the one that it carries.
+/// Returns the platform of this program, and the library for it: the one that is named, or the one that it
+/// carries.
 pub(super) fn parts(library: Option<&Path>) -> Result<(Platform, Library), Failure> {
     let Some(platform) = Platform::here() else {
         let message = format!(
@@ -184,7 +185,7 @@ pub(super) fn parts(library: Option<&Path>) -> Result<(Platform, Library), Failu
     Ok((platform, library))
 }
 
-/// Whether a file may be written.
+/// Checks whether a file may be written.
 pub(super) fn may_write(path: &Path, force: bool) -> Result<(), Failure> {
     if path.is_dir() {
         let message = format!("{} is a folder", path.display());

@@ -30,7 +30,7 @@ pub struct Arguments {
     force: bool,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     may_write(&arguments.out, arguments.force)?;
     let (bytes, count) = package::merged(&arguments.parts)

@@ -32,7 +32,7 @@ enum Command {
     Ssp(ssp::Arguments),
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     match &arguments.command {

@@ -37,7 +37,7 @@ pub struct Arguments {
     force: bool,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let case = run::read(&arguments.case, &arguments.set)?;
     may_write(&arguments.out, arguments.force)?;

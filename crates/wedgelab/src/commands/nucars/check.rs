@@ -42,7 +42,7 @@ pub struct Arguments {
     json: bool,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let instead = arguments.instead.files();
     let mut files = Files::default();
@@ -97,7 +97,7 @@ fn report(files: &Files, arguments: &Arguments) -> Result<ExitCode, Failure> {
     Ok(code)
 }
 
-/// A finding as JSON; line and column count from one.
+/// Returns a finding as JSON; line and column count from one.
 fn document(finding: &Finding) -> Value {
     let (line, column) = finding.place().line_and_column();
     json!({

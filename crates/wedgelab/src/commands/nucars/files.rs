@@ -20,7 +20,7 @@ pub struct Instead {
 }
 
 impl Instead {
-    /// As the reader of files takes them.
+    /// Returns the files as the reader takes them.
     pub fn files(&self) -> file_sets::Instead {
         file_sets::Instead {
             system: self.system.clone(),

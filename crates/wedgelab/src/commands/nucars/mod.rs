@@ -31,7 +31,7 @@ enum Command {
     Modes(modes::Arguments),
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     match &arguments.command {
         Command::Check(arguments) => check::execute(arguments),

@@ -52,7 +52,7 @@ enum Stick {
 /// The least share of kinetic energy that is shown.
 const LEAST: f64 = 0.03;
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let source = load(&find(&arguments.file)?)?;
     let found = kind(&source)?;
@@ -154,7 +154,7 @@ fn energies(system: &System, mode: &Vibration, body: usize) -> Vec<(usize, f64)>
         .collect()
 }
 
-/// The shares of all bodies in words; the largest one is positive.
+/// Returns the shares of all bodies in words; the largest one is positive.
 fn shares(energies: &[Vec<(usize, f64)>]) -> Vec<String> {
     let all = || energies.iter().flatten().map(|(_, energy)| *energy);
     let whole: f64 = all().map(f64::abs).sum();

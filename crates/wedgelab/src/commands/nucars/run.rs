@@ -146,7 +146,7 @@ fn time(text: &str) -> Result<Quantity, String> {
     }
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let (false, Some(file)) = (arguments.list, &arguments.file) else {
         return list();
@@ -242,7 +242,7 @@ impl Arguments {
         })
     }
 
-    /// The case of a run file.
+    /// Returns the case of a run file.
     fn of_files(&self, file: &Path, settings: &Settings) -> Result<HalfTruckCase, Failure> {
         let instead = self.instead.files();
         let RunToMake { path, files, again } = read_run(file, &instead)?;
@@ -385,7 +385,7 @@ speed; lower stroke
 friction at the column.
 Jammed: share of the output times without steady sliding, held by the limit alone.";
 
-/// The table of wedges.
+/// Returns the table of wedges.
 fn table(summary: &HalfTruckSummary) -> Table {
     let units = summary.units;
     let (force, energy) = (Kind::Force.label(units), Kind::Energy.label(units));

@@ -16,7 +16,7 @@ use crate::table::Table;
 
 /// Print bodies, connections, characteristics and functions of a system file as tables
 ///
-/// Values are in the file's units. If the file has errors they are told, and what could be read is shown.
+/// Values are in the file's units. If the file has errors they are printed, and what could be read is shown.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -26,7 +26,7 @@ pub struct Arguments {
     file: PathBuf,
 }
 
-/// Does it.
+/// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let source = load(&find(&arguments.file)?)?;
     let found = kind(&source)?;

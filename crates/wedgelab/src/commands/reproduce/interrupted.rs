@@ -42,7 +42,7 @@ impl Planned {
         self.wedges.len() + self.trucks.len()
     }
 
-    /// What is there when all runs are, and the report is not.
+    /// Returns the message if all runs are there, and the report is not.
     pub fn without_report(&self) -> String {
         format!(
             "all {} runs are whole, in {}; the report and its figures are not written. \
@@ -101,7 +101,7 @@ impl Planned {
         Failure::Interrupted(Message::new(message, "the lines above say how to go on").into())
     }
 
-    /// The option for the folder, unless it is the usual one.
+    /// Returns the option for the folder, unless it is the usual one.
     fn place(&self) -> String {
         if self.out == Path::new(super::USUAL) {
             String::new()
@@ -111,13 +111,13 @@ impl Planned {
     }
 }
 
-/// The names of the runs that are not written.
+/// Returns the names of the runs that are not written.
 fn missing(names: &[String], written: impl Iterator<Item = bool>) -> Vec<&str> {
     let names = names.iter().zip(written).filter(|(_, written)| !written);
     names.map(|(name, _)| name.as_str()).collect()
 }
 
-/// A path as a shell takes it.
+/// Returns a path as a shell takes it.
 fn shown(path: &Path) -> String {
     let text = path.display().to_string();
     let plain = |sign: char| sign.is_alphanumeric() || "/._-+=:,@".contains(sign);

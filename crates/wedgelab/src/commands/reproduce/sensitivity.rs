@@ -78,13 +78,13 @@ pub fn explore(arguments: &Arguments, points: u64, pool: &rayon::ThreadPool) -> 
     Ok(Sensitivity::of(&space, points, &found))
 }
 
-/// What is kept when the program ends at once.
+/// Returns the message about the points kept when the program ends at once.
 fn stopped(folder: &Path) -> String {
     let folder = folder.display();
     format!("the points that ended are kept in {folder}. The same command goes on from there.")
 }
 
-/// The runs of the half-truck that statements are decided from. They have nothing of what is open.
+/// Returns the runs of the half-truck that statements are decided from. They have nothing of what is open.
 fn half_trucks() -> Result<Vec<TruckOutcome>, Failure> {
     let progress = Progress::new(0, true);
     let entries = catalog::entries();
@@ -100,7 +100,7 @@ fn half_trucks() -> Result<Vec<TruckOutcome>, Failure> {
         .collect()
 }
 
-/// What was found, in short.
+/// Returns the findings in short.
 pub fn in_short(found: &Sensitivity) -> String {
     let [always, mostly, seldom, never, open] = found.extents;
     let mut text = format!(

@@ -40,7 +40,7 @@ pub struct Made {
     recording: Option<Recording>,
 }
 
-/// All runs, in folders found fit.
+/// Returns all runs, in folders found fit.
 pub fn plan(out: &Path, force: bool) -> Result<Vec<Planned>, Failure> {
     let cases = three_piece::shown()
         .into_iter()
@@ -59,7 +59,7 @@ pub fn plan(out: &Path, force: bool) -> Result<Vec<Planned>, Failure> {
     Ok(planned)
 }
 
-/// The names of the runs that are written.
+/// Returns the names of the runs that are written.
 pub fn names(planned: &[Planned]) -> Vec<String> {
     let rigs = planned.iter().filter_map(|planned| match planned {
         Planned::Rig(case, _) => Some(case.name.clone()),
@@ -68,7 +68,7 @@ pub fn names(planned: &[Planned]) -> Vec<String> {
     rigs.collect()
 }
 
-/// Whether each of the runs that are written was.
+/// Returns whether each of the runs that are written was.
 pub fn written(made: &[Option<Made>], rigs: usize) -> impl Iterator<Item = bool> {
     made.iter().take(rigs).map(Option::is_some)
 }
@@ -121,8 +121,8 @@ fn one(planned: Planned, progress: &Progress) -> Result<Option<Made>, Failure> {
     }))
 }
 
-/// What is told: the page, its numbers, and what may be wrong with a run.
-pub struct Told {
+/// The report: the page, its numbers, and what may be wrong with a run.
+pub struct TruckReport {
     pub page: String,
     pub findings: Findings,
     pub figures: usize,
@@ -130,7 +130,7 @@ pub struct Told {
 }
 
 /// Draws the figures and makes the page.
-pub fn tell(made: Vec<Made>, figures: &Folder) -> Result<Told, Failure> {
+pub fn report_on(made: Vec<Made>, figures: &Folder) -> Result<TruckReport, Failure> {
     let (mut runs, mut recordings, mut rigs, mut worn) = (Vec::new(), Vec::new(), Rigs::default(), None);
     for made in made {
         rigs.add(&made.key, made.run.case.clone(), made.run.result.clone());
@@ -172,7 +172,7 @@ pub fn tell(made: Vec<Made>, figures: &Folder) -> Result<Told, Failure> {
             .as_ref()
             .map(|(viewer, view)| (*viewer, view.as_str())),
     });
-    Ok(Told {
+    Ok(TruckReport {
         page,
         findings,
         figures: drawn.len(),
@@ -181,7 +181,7 @@ pub fn tell(made: Vec<Made>, figures: &Folder) -> Result<Told, Failure> {
 }
 
 /// Writes page and numbers, both or none.
-pub fn add(files: &mut Files<'_>, told: &Told) -> Result<(), FileError> {
-    files.add(truck::FILE_NAME, |out| out.write_all(told.page.as_bytes()))?;
-    files.add(three_piece::FILE_NAME, |out| told.findings.write(out))
+pub fn add(files: &mut Files<'_>, report: &TruckReport) -> Result<(), FileError> {
+    files.add(truck::FILE_NAME, |out| out.write_all(report.page.as_bytes()))?;
+    files.add(three_piece::FILE_NAME, |out| report.findings.write(out))
 }

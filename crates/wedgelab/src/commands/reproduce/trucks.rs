@@ -31,13 +31,13 @@ pub struct Planned {
 }
 
 impl Planned {
-    /// Its name.
+    /// Returns its name.
     pub fn name(&self) -> &str {
         &self.case.name
     }
 }
 
-/// All runs of the half-truck, in folders found fit.
+/// Returns all runs of the half-truck, in folders found fit.
 pub fn plan(out: &Path, force: bool) -> Result<Vec<Planned>, Failure> {
     let cases = catalog::entries()
         .into_iter()

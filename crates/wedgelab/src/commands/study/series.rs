@@ -84,7 +84,7 @@ fn one<C: RunFiles>(
     Ok(done.map(|done| unsound::<C>(&done.result.summary, folder.path())))
 }
 
-/// What is kept of these runs, of which so many are written.
+/// Returns the message about these runs, of which so many are written.
 fn interrupted(numbers: &[u64], written: usize) -> Failure {
     let missing: Vec<String> = numbers[written..].iter().map(u64::to_string).collect();
     let message = format!(
