@@ -177,15 +177,15 @@ impl Carried {
 
     fn bushing<S: Real>(&self, time: S, x: &[S; STATES], pose: &Pose<S>) -> Bushing<S> {
         let (guide, place) = self.guide(time);
-        let turning: Vector<S> = Vector::lift(Vector([0.0, 0.0, HEADING_RATE]));
+        let angular_velocity: Vector<S> = Vector::lift(Vector([0.0, 0.0, HEADING_RATE]));
         let position = Vector([x[0], x[1], x[2]]);
         // The circle's center is the origin: the guide turns about it.
-        let carried = turning.cross::<S, S>(position);
+        let carried = angular_velocity.cross::<S, S>(position);
         let velocity = Vector([x[6], x[7], x[8]]) - carried;
         let offset: Vector<S> = guide.apply_transposed(position - place);
         let rate: Vector<S> = guide.apply_transposed(velocity);
         let turned: Matrix<S> = guide.transpose().times(pose.carrier);
-        let turn_rate: Vector<S> = guide.apply_transposed(pose.carrier_velocity - turning);
+        let turn_rate: Vector<S> = guide.apply_transposed(pose.carrier_velocity - angular_velocity);
         let [a, b, c] = turned.0;
         let half = S::from(0.5);
         let angle = Vector([(c[1] - b[2]) * half, (a[2] - c[0]) * half, (b[0] - a[1]) * half]);

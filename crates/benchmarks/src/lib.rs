@@ -109,11 +109,11 @@ pub fn costs<P: Problem>(problem: &mut P, time: f64, x: &[f64], shift: f64, call
 /// Returns the least CPU time of nine rounds, µs a call.
 fn least(calls: usize, mut call: impl FnMut()) -> f64 {
     let rounds = (0..9).map(|_| {
-        let begun = cpu_seconds();
+        let started = cpu_seconds();
         for _ in 0..calls {
             call();
         }
-        1e6 * (cpu_seconds() - begun) / calls as f64
+        1e6 * (cpu_seconds() - started) / calls as f64
     });
     rounds.fold(f64::INFINITY, f64::min)
 }

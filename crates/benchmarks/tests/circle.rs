@@ -108,14 +108,14 @@ fn analytic_linearization_relative_to_the_guide_is_the_same_at_every_heading() {
         for k in 0..11 {
             to[k][k] = 1.0;
         }
-        let (turn, turning) = ([[c, -s], [s, c]], [[-s, -c], [c, -s]]);
+        let (turn, rotation_rate) = ([[c, -s], [s, c]], [[-s, -c], [c, -s]]);
         for i in 0..2 {
             for j in 0..2 {
                 to[i][j] = turn[i][j];
                 to[5 + i][5 + j] = turn[i][j];
-                to[5 + i][j] = HEADING_RATE * turning[i][j];
-                rate[i][j] = HEADING_RATE * turning[i][j];
-                rate[5 + i][5 + j] = HEADING_RATE * turning[i][j];
+                to[5 + i][j] = HEADING_RATE * rotation_rate[i][j];
+                rate[i][j] = HEADING_RATE * rotation_rate[i][j];
+                rate[5 + i][5 + j] = HEADING_RATE * rotation_rate[i][j];
                 rate[5 + i][j] = -HEADING_RATE * HEADING_RATE * turn[i][j];
             }
         }

@@ -51,21 +51,21 @@ fn limits_bodies_of_the_chain_feel_their_neighbours_alone() {
     let count = chain.layout().speeds;
     // Four coordinates a body; the first of them is x. Pushed to and fro, so that a contact that is open just
     // now closes.
-    let felt = |chain: &mut System, body: usize| -> Vec<usize> {
+    let coupled_to = |chain: &mut System, body: usize| -> Vec<usize> {
         let pushed = [-1e-4, 1e-4].map(|push| {
             let mut x = x.clone();
             x[4 * body] += push;
             rates(chain, time, &x)
         });
-        let feels = |other: &usize| {
+        let is_coupled = |other: &usize| {
             let at = count + 4 * other;
             pushed.iter().any(|after| after[at..at + 4] != before[at..at + 4])
         };
-        (0..count / 4).filter(feels).collect()
+        (0..count / 4).filter(is_coupled).collect()
     };
     // Neighbor ahead of wedge k: free body 2k; wedge k: 2k + 1; the neighbor behind it: 2k - 2.
     assert_eq!(count / 4, 10);
-    assert_eq!(felt(&mut chain, 5), [2, 4, 5]);
-    assert_eq!(felt(&mut chain, 4), [4, 5, 7]);
-    assert_eq!(felt(&mut chain, 7), [4, 6, 7]);
+    assert_eq!(coupled_to(&mut chain, 5), [2, 4, 5]);
+    assert_eq!(coupled_to(&mut chain, 4), [4, 5, 7]);
+    assert_eq!(coupled_to(&mut chain, 7), [4, 6, 7]);
 }

@@ -149,10 +149,10 @@ impl Parameters {
             state.copy_from_slice(integrator.x());
         }
         let values = system.eigenvalues(0.0, &state, SHIFT)?;
-        let modes = values.into_iter().filter(|[_, turning]| *turning >= 0.0);
-        let modes = modes.map(|[growth, turning]| Mode {
+        let modes = values.into_iter().filter(|[_, imaginary]| *imaginary >= 0.0);
+        let modes = modes.map(|[growth, imaginary]| Mode {
             growth,
-            frequency: turning / (2.0 * std::f64::consts::PI),
+            frequency: imaginary / (2.0 * std::f64::consts::PI),
         });
         Ok(modes.collect())
     }

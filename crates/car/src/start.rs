@@ -84,7 +84,7 @@ pub(crate) struct Placement {
     /// layout, from the middle between the trucks.
     groups: [Pose; 3],
     /// Their angular velocities about the vertical, and velocities of their centers.
-    turning: [Vector<f64>; 3],
+    angular_velocities: [Vector<f64>; 3],
     moving: [Vector<f64>; 3],
 }
 
@@ -122,10 +122,11 @@ impl Placement {
         let mut body = between(ends);
         let along = |distance: f64| {
             let section = lines.section_at(Line::Center, distance);
-            let turning = Vector([0.0, 0.0, section.curvature * start.speed]);
-            (turning, section.curvature)
+            let angular_velocities = Vector([0.0, 0.0, section.curvature * start.speed]);
+            (angular_velocities, section.curvature)
         };
-        let turning = [start.distance + half, start.distance - half, start.distance].map(|at| along(at).0);
+        let angular_velocities =
+            [start.distance + half, start.distance - half, start.distance].map(|at| along(at).0);
         let moving = [trucks[0], trucks[1], body].map(|pose| {
             let ahead: Vector<f64> = pose.rotation.column(0);
             ahead.scale(start.speed)
@@ -138,7 +139,7 @@ impl Placement {
         body.place += aside.scale(start.body_shift);
         Self {
             groups: [trucks[0], trucks[1], body],
-            turning,
+            angular_velocities,
             moving,
         }
     }
@@ -174,11 +175,11 @@ impl Placement {
                     base.place + ahead.scale::<f64, f64>([half, -half][group])
                 }
             };
-            let swing: Vector<f64> = self.turning[group].cross(pose.place - center);
+            let swing: Vector<f64> = self.angular_velocities[group].cross(pose.place - center);
             let velocity: Vector<f64> = frame.apply_transposed(self.moving[group] + swing);
             let mut rates = [velocity.0[0], velocity.0[1], velocity.0[2], 0.0, 0.0, 0.0];
             // Both kinds of bodies have the heading as their first angle.
-            rates[4] = self.turning[group].0[2];
+            rates[4] = self.angular_velocities[group].0[2];
             if wheelset.is_some() {
                 rates[3] = parameters.start.speed / radius;
             }

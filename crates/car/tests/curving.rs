@@ -41,18 +41,18 @@ fn analytic_the_rails_turn_the_car() {
         let curvature = ran.car.lines.center_line().at(last.distance).curvature[0];
         let mass = parameters.weight() / parameters.gravity;
         let roll = (cant / (59.5 * INCH)).asin();
-        let turning = last.speed * last.speed * curvature;
+        let centripetal = last.speed * last.speed * curvature;
         let falling = parameters.gravity * roll.sin();
-        let expected = mass * (turning * roll.cos() - falling);
+        let expected = mass * (centripetal * roll.cos() - falling);
         // On the rails, to the outside: to the right in a curve to the left.
         let found = -late(&ran, lateral);
-        let scale = mass * turning.max(falling);
+        let scale = mass * centripetal.max(falling);
         assert!(
             (found - expected).abs() < 1e-3 * scale,
             "{degree} deg: {found} N, {expected} N expected of {scale} N"
         );
         let normal: f64 = last.wheels.iter().flatten().map(|wheel| wheel.vertical).sum();
-        let pressed = mass * (parameters.gravity * roll.cos() + turning * roll.sin());
+        let pressed = mass * (parameters.gravity * roll.cos() + centripetal * roll.sin());
         assert!(
             (normal / pressed - 1.0).abs() < 1e-3,
             "{normal} N, {pressed} N expected"

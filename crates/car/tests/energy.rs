@@ -138,15 +138,15 @@ fn analytic_gyroscopic_moment_of_the_wheelsets() {
     system.derivative(0.0, &still, &mut without);
     for wheelset in car.numbers.wheelsets {
         let at = |k: usize| speeds + system.position_of(wheelset, k).unwrap();
-        let (spin, turning) = (
+        let (spin, yaw_rate) = (
             car.initial_state[at(coordinate::SPIN)],
             car.initial_state[at(coordinate::HEADING)],
         );
         let change = with[at(coordinate::ROLL)] - without[at(coordinate::ROLL)];
         let own = &parameters.wheelset;
         // The spin leads the axle's left end down where it turns to the left.
-        let expected = own.about_axle * spin * turning / own.about_diameter;
-        assert!(spin > 20.0 && turning > 0.01, "{spin} {turning}");
+        let expected = own.about_axle * spin * yaw_rate / own.about_diameter;
+        assert!(spin > 20.0 && yaw_rate > 0.01, "{spin} {yaw_rate}");
         assert!(
             (change.abs() / expected - 1.0).abs() < 1e-3,
             "{change} and {expected} rad/s²"

@@ -110,7 +110,7 @@ fn cross_code_a_car_gives_the_columns_of_its_run() {
     assert!(relative.abs() < 2.0 * wanted, "{relative} {wanted}");
 }
 
-/// On rails that do not give way, a wheel over a dip feels what a wheel feels whose rail is moved by the
+/// On rails that do not give way, a wheel over a dip has the forces of a wheel whose rail is moved by the
 /// dip's depth at its place; but for the slope, along which a wheel's normal force pushes a little backward.
 #[test]
 fn cross_code_moved_rails_do_what_the_same_irregularity_does() {

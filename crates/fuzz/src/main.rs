@@ -153,7 +153,7 @@ impl Cli {
         }
         let plan = self.plan()?;
         let results = parent::run(&plan, &|result| {
-            report::tell(result, plan.seed);
+            report::print_one(result, plan.seed);
             if let Some(folder) = &self.save
                 && let Err(error) = report::save(result, plan.seed, folder)
             {

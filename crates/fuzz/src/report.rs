@@ -12,7 +12,7 @@ use crate::parent::ReaderResult;
 const MEGABYTE: f64 = 1e6;
 
 /// Tells what came out for a reader, as soon as it is known.
-pub fn tell(result: &ReaderResult, seed: u64) {
+pub fn print_one(result: &ReaderResult, seed: u64) {
     let ReaderResult { reader, tally, found } = result;
     let mut text = format!(
         "{}: {} executions, {} findings\n",

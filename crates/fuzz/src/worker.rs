@@ -61,7 +61,7 @@ pub struct Arguments {
 pub const GIVEN_UP: u8 = 3;
 
 /// Processor time of this process when it began the input that it reads, ns.
-static BEGUN: AtomicU64 = AtomicU64::new(u64::MAX);
+static STARTED: AtomicU64 = AtomicU64::new(u64::MAX);
 
 /// Ends this process when it has computed for too long on one input.
 fn end_when_patience_ends(patience: Duration) {
@@ -71,7 +71,7 @@ fn end_when_patience_ends(patience: Duration) {
         loop {
             std::thread::sleep(LOOK);
             // Begun later than now: nothing is read.
-            let since = nanoseconds(ClockId::ProcessCPUTime).checked_sub(BEGUN.load(Ordering::Relaxed));
+            let since = nanoseconds(ClockId::ProcessCPUTime).checked_sub(STARTED.load(Ordering::Relaxed));
             if since.is_some_and(|since| since > patience) {
                 std::process::exit(i32::from(GIVEN_UP));
             }
@@ -199,7 +199,7 @@ impl Worker {
     }
 
     fn measured(&self, input: &[u8]) -> (Duration, Result<Outcome, Panic>) {
-        BEGUN.store(nanoseconds(ClockId::ProcessCPUTime), Ordering::Relaxed);
+        STARTED.store(nanoseconds(ClockId::ProcessCPUTime), Ordering::Relaxed);
         let start = nanoseconds(ClockId::ThreadCPUTime);
         let outcome = panic::catch_unwind(|| (self.reader.read)(input));
         let time = nanoseconds(ClockId::ThreadCPUTime).saturating_sub(start);

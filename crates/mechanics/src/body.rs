@@ -1,4 +1,4 @@
-//! Rigid bodies in absolute coordinates, each with its own set of freed coordinates.
+//! Rigid bodies in absolute coordinates, each with its own set of free coordinates.
 //!
 //! A body has six coordinates x, y, z, roll, pitch, yaw, measured from its reference frame along that frame's
 //! axes. Some are free, the others are held. There are no algebraic constraints: a joint is a held coordinate

@@ -16,7 +16,7 @@ use numerics::scalar::Real;
 struct Driven {
     stiffness: f64,
     damping: f64,
-    turning: f64,
+    circulatory: f64,
 }
 
 impl Element for Driven {
@@ -29,11 +29,11 @@ impl Element for Driven {
     fn evaluate<S: Real>(&self, motion: &RelativeMotion<S>) -> Wrench<S> {
         let (d, v) = (motion.position, motion.velocity);
         let [x, y, _] = d.0;
-        let turning = Vector([-(y * self.turning), x * self.turning, S::zero()]);
+        let circulatory = Vector([-(y * self.circulatory), x * self.circulatory, S::zero()]);
         Wrench {
-            force: d.scale::<f64, S>(-self.stiffness) - v.scale::<f64, S>(self.damping) + turning,
+            force: d.scale::<f64, S>(-self.stiffness) - v.scale::<f64, S>(self.damping) + circulatory,
             moment: Vector::zero(),
-            powers: [v.dot::<S, S>(v) * self.damping, turning.dot::<S, S>(v)],
+            powers: [v.dot::<S, S>(v) * self.damping, circulatory.dot::<S, S>(v)],
         }
     }
     fn energy(&self, motion: &RelativeMotion<f64>) -> f64 {
@@ -45,7 +45,7 @@ const MASS: f64 = 2.0;
 const LAW: Driven = Driven {
     stiffness: 800.0,
     damping: 3.0,
-    turning: 100.0,
+    circulatory: 100.0,
 };
 
 fn system() -> System {
@@ -71,13 +71,13 @@ fn analytic_eigenvalues_of_a_driven_mass() {
         let value = |sign: f64| {
             [
                 MASS * square[0] + LAW.damping * real + LAW.stiffness,
-                MASS * square[1] + LAW.damping * imaginary - sign * LAW.turning,
+                MASS * square[1] + LAW.damping * imaginary - sign * LAW.circulatory,
             ]
         };
         let zero = |[a, b]: [f64; 2]| a.abs().max(b.abs()) < 1e-8 * LAW.stiffness;
-        let drifts = real.abs().max(imaginary.abs()) < 1e-6;
+        let is_drift = real.abs().max(imaginary.abs()) < 1e-6;
         assert!(
-            drifts || zero(value(1.0)) || zero(value(-1.0)),
+            is_drift || zero(value(1.0)) || zero(value(-1.0)),
             "{real} {imaginary}"
         );
     }

@@ -171,7 +171,7 @@ fn dropped(law: FrictionLaw, damping: f64, frame: Frame) -> Model {
     model
 }
 
-fn shaking(turning: bool) -> Frame {
+fn shaking(rotating: bool) -> Frame {
     let mut frame = Frame::fixed([0.0; 3], [0.0; 3]);
     let sine = |amplitude: f64, angular_frequency: f64| Motion::Sine {
         amplitude,
@@ -184,7 +184,7 @@ fn shaking(turning: bool) -> Frame {
         angular_frequency: 7.0,
     };
     frame.motions[2] = sine(0.005, 8.0);
-    if turning {
+    if rotating {
         frame.motions[4] = sine(0.03, 9.0);
         frame.motions[5] = Motion::Ramp {
             amplitude: 0.3,

@@ -178,7 +178,7 @@ struct Mechanism<'m> {
 }
 
 impl Mechanism<'_> {
-    fn freed(&self) -> Vec<(usize, usize)> {
+    fn free_coordinates(&self) -> Vec<(usize, usize)> {
         let coordinates = (0..self.bodies.len()).flat_map(|b| (0..6).map(move |k| (b, k)));
         coordinates.filter(|(b, k)| self.bodies[*b].free[*k]).collect()
     }
@@ -186,7 +186,7 @@ impl Mechanism<'_> {
     /// Poses with the e3 part as rate.
     fn poses(&self, q: &[N], u: &[N], time: N) -> Vec<Pose> {
         let mut all: Vec<[N; 6]> = self.bodies.iter().map(|body| body.initial.map(n)).collect();
-        for (i, (b, k)) in self.freed().iter().enumerate() {
+        for (i, (b, k)) in self.free_coordinates().iter().enumerate() {
             all[*b][*k] = q[i] + u[i] * unit(4);
         }
         let clock = time + unit(4);
@@ -266,10 +266,10 @@ impl Mechanism<'_> {
     }
 
     fn compare(&self, system: &mut System, random: &mut Random, turn: f64) {
-        let count = self.freed().len();
+        let count = self.free_coordinates().len();
         let time = random.between(0.1, 3.0);
         let mut x = vec![0.0; system.layout().len()];
-        for (i, (_, k)) in self.freed().iter().enumerate() {
+        for (i, (_, k)) in self.free_coordinates().iter().enumerate() {
             x[i] = random.between(-1.0, 1.0) * if *k < 3 { 0.2 } else { turn };
             x[count + i] = random.between(-3.0, 3.0);
         }
@@ -283,7 +283,7 @@ impl Mechanism<'_> {
             assert!(
                 error <= 1e-10 * size,
                 "coordinate {:?}: {} instead of {} (largest {size})",
-                self.freed()[i],
+                self.free_coordinates()[i],
                 dx[count + i],
                 expected[i]
             );

@@ -165,7 +165,7 @@ fn check_matrix(system: &mut System, time: f64, x: &[f64], expected: &[Vec<f64>]
     }
 }
 
-/// Compares matrix and time derivative at random states; passes over states with a kink within the
+/// Compares matrix and time derivative at random states; passes over states with a discontinuity within the
 /// difference.
 fn compare(model: &Model, seed: u64, wanted: usize, spread: [f64; 3]) -> Counts {
     let mut system = System::new(model.clone()).unwrap();
@@ -226,13 +226,14 @@ fn compare(model: &Model, seed: u64, wanted: usize, spread: [f64; 3]) -> Counts 
                 .complex_eigenvalues()
                 .iter()
                 .fold(0.0_f64, |most, value| most.max(value.norm()));
-            // A turning body's own answers, of the size of its angular velocity, are left out of the bound.
-            let turning = norm(&x[layout.speeds..moving]);
+            // A turning body's own eigenvalues, of the size of its angular velocity, are left out of the
+            // bound.
+            let rotating = norm(&x[layout.speeds..moving]);
             assert!(
-                fastest <= bound + 5.0 * turning,
-                "{fastest} 1/s, bound {bound}, turning {turning}"
+                fastest <= bound + 5.0 * rotating,
+                "{fastest} 1/s, bound {bound}, turning {rotating}"
             );
-            if bound > 20.0 * turning {
+            if bound > 20.0 * rotating {
                 counts.bounds.push(fastest / bound);
             }
         }
@@ -275,7 +276,7 @@ fn sine(amplitude: f64, angular_frequency: f64, phase: f64) -> Motion {
 }
 
 /// Returns one motion of every shape; those about axes turn the frame.
-fn shapes(turning: bool) -> [Motion; 6] {
+fn shapes(rotating: bool) -> [Motion; 6] {
     let times: Vec<f64> = (0..12).map(|i| 0.4 * f64::from(i) - 1.0).collect();
     let values = times.iter().map(|t| 0.1 * libm::sin(1.3 * t)).collect();
     let swept = Motion::SweptSine {
@@ -300,7 +301,7 @@ fn shapes(turning: bool) -> [Motion; 6] {
         Motion::Table(Spline::new(times.clone(), values).unwrap()),
     ];
     let held = [0.1, -0.2, 0.15].map(Motion::Constant);
-    let [a, b, c] = if turning { turns } else { held };
+    let [a, b, c] = if rotating { turns } else { held };
     let z = Motion::Sum(vec![triangle, ramp(RampProfile::Linear), sine(0.1, 2.0, 0.1)]);
     [
         Motion::Sum(vec![swept, ramp(RampProfile::Smooth)]),
@@ -312,11 +313,11 @@ fn shapes(turning: bool) -> [Motion; 6] {
     ]
 }
 
-fn moving(turning: bool) -> Frame {
+fn moving(rotating: bool) -> Frame {
     Frame {
         origin: [0.05, -0.1, 0.02],
         orientation: [0.1, -0.2, 0.3],
-        motions: shapes(turning),
+        motions: shapes(rotating),
     }
 }
 
@@ -594,8 +595,8 @@ fn curved() -> [Shape; 6] {
 #[test]
 fn on_curved_surfaces() {
     for (seed, shape) in curved().into_iter().enumerate() {
-        for (law, damping, turning) in [(TANH, 0.0, true), (BRISTLE, 20.0, true), (TANH, 30.0, false)] {
-            let mut model = one_on_prescribed(ALL, law, damping, moving(turning), [0.0; 6]);
+        for (law, damping, rotating) in [(TANH, 0.0, true), (BRISTLE, 20.0, true), (TANH, 30.0, false)] {
+            let mut model = one_on_prescribed(ALL, law, damping, moving(rotating), [0.0; 6]);
             for face in 0..2 {
                 let interface = Interface {
                     shape: shape.clone(),

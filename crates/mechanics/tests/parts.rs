@@ -250,7 +250,7 @@ fn input_what_presses_on_a_contact_is_held_to_a_bound() {
         [true, false, false, false, false, false],
         [true, false, true, false, false, false],
     );
-    let turning = [true, false, false, false, true, false];
+    let rotating = [true, false, false, false, true, false];
     // Along the floor alone: positions are not held, speeds to the reference speed of tanh.
     assert_eq!(bounds(along, [0.0; 3], TANH), (vec![false; 2], vec![false, true]));
     assert_eq!(bounds(along, [0.0; 3], BRISTLE).0, [false; 2]);
@@ -259,8 +259,8 @@ fn input_what_presses_on_a_contact_is_held_to_a_bound() {
     assert_eq!(bounds(up, [0.0; 3], BRISTLE).0, [false, true, false, true]);
     // Where the body's axes stand across, or turn, all are.
     assert_eq!(bounds(up, [0.0, 0.3, 0.0], TANH).0, [true, true, false, false]);
-    assert_eq!(bounds(turning, [0.0; 3], TANH).0, [true, true, false, false]);
-    assert_eq!(bounds(turning, [0.0; 3], BRISTLE).0, [true; 4]);
+    assert_eq!(bounds(rotating, [0.0; 3], TANH).0, [true, true, false, false]);
+    assert_eq!(bounds(rotating, [0.0; 3], BRISTLE).0, [true; 4]);
 }
 
 #[test]

@@ -395,14 +395,14 @@ fn characteristics(file: &SystemFile) -> Vec<Table> {
 
 /// Returns the units of the values of each function, by the elements that use it.
 fn units(file: &SystemFile) -> BTreeMap<u32, BTreeSet<&'static str>> {
-    let mut turning: BTreeMap<u32, BTreeSet<bool>> = BTreeMap::new();
+    let mut rotational: BTreeMap<u32, BTreeSet<bool>> = BTreeMap::new();
     for connection in &file.connections {
         let element = &connection.element;
         let several = element.characteristics().len() > 1;
         for (index, dof) in element.dofs().iter().enumerate() {
             let index = if several { index } else { 0 };
             if let Some(characteristic) = element.characteristics().get(index) {
-                turning
+                rotational
                     .entry(**characteristic)
                     .or_default()
                     .insert(!dof.kind.is_translation());
@@ -416,7 +416,7 @@ fn units(file: &SystemFile) -> BTreeMap<u32, BTreeSet<&'static str>> {
         }
     };
     for characteristic in &file.characteristics {
-        let turns = turning.get(&*characteristic.id).cloned().unwrap_or_default();
+        let turns = rotational.get(&*characteristic.id).cloned().unwrap_or_default();
         for turns in turns {
             let (force, damping) = if turns {
                 ("in·lb over rad", "in·lb over rad/s")

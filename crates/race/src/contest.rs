@@ -72,9 +72,9 @@ pub const SOLVERS: &[Solver] = &[
         method: "rodas5p",
         ours: true,
         span: 10.0,
-        options: "defaults (all quadratures of the energy ledger, kinks foreseen; a wedge's positions and \
-                  speeds held to 1e-5 of their scales where a wider tolerance is asked for), but contact \
-                  modes not recorded",
+        options: "defaults (all quadratures of the energy ledger, discontinuities predicted; a wedge's \
+                  positions and speeds held to 1e-5 of their scales where a wider tolerance is asked for), \
+                  but contact modes not recorded",
     },
     Solver {
         name: "wedgelab TR-BDF2",

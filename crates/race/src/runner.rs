@@ -228,11 +228,11 @@ fn wait(mut child: Child, longest: Duration) -> Outcome {
         failure,
         ..Outcome::default()
     };
-    let begun = Instant::now();
+    let started = Instant::now();
     loop {
         match child.try_wait() {
             Ok(Some(_)) => break,
-            Ok(None) if begun.elapsed() > longest => {
+            Ok(None) if started.elapsed() > longest => {
                 let _ = child.kill();
                 let _ = child.wait();
                 return failed(format!(

@@ -324,7 +324,7 @@ fn closed(case: &Case, times: &[f64], cycle: &Cycle) -> Option<Numbers> {
 /// Returns the energy that the quasi-static wedge loses at the column while the bolster goes from one height
 /// to another and back, J.
 fn element_energy(parameters: &Parameters, low: f64, high: f64) -> Option<f64> {
-    // The forces are straight lines with at most one kink: the midpoint rule is good to 1e-6.
+    // The forces are straight lines with at most one change of slope: the midpoint rule is good to 1e-6.
     const PIECES: u32 = 4000;
     let step = (high - low) / f64::from(PIECES);
     let mut energy = 0.0;

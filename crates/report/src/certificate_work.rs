@@ -102,11 +102,11 @@ fn one(
         return Ok(None);
     };
     let case = case.named(name);
-    let Ok(begun) = Run::with_motions(&case) else {
+    let Ok(started) = Run::with_motions(&case) else {
         return Ok(None);
     };
     let stops = || stop.load(Ordering::Relaxed);
-    let (result, motions) = begun.finish_with_motions(|_| match stops() {
+    let (result, motions) = started.finish_with_motions(|_| match stops() {
         true => ControlFlow::Break(String::new()),
         false => ControlFlow::Continue(()),
     });

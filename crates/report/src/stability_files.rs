@@ -42,8 +42,8 @@ pub fn write_table(found: &Stability, units: Units, out: &mut dyn Write) -> io::
     for branch in &found.branches {
         for (speed, modes) in found.speeds.iter().zip(&branch.modes) {
             for mode in modes {
-                let turning = 2.0 * std::f64::consts::PI * mode.frequency;
-                let ratio = -mode.growth / libm::hypot(mode.growth, turning);
+                let angular_frequency = 2.0 * std::f64::consts::PI * mode.frequency;
+                let ratio = -mode.growth / libm::hypot(mode.growth, angular_frequency);
                 writeln!(
                     out,
                     "{},{},{},{},{}",

@@ -110,12 +110,12 @@ impl StudyFolder {
         let description = serde_json::to_string_pretty(&study.description())
             .map_err(|error| write_error(path, io::Error::other(error)))?;
         let manifest = path.join(STUDY_FILE);
-        let begun = manifest.is_file();
-        if !begun {
+        let exists = manifest.is_file();
+        if !exists {
             refuse_foreign(path)?;
         }
         // Says in its own words what is wrong with a path.
-        let folder = Folder::check(path, &[STUDY_FILE], begun)?;
+        let folder = Folder::check(path, &[STUDY_FILE], exists)?;
         fs::create_dir_all(path.join(PARTS)).map_err(|reason| write_error(path, reason))?;
         let lock = OpenOptions::new()
             .create(true)
@@ -126,7 +126,7 @@ impl StudyFolder {
         let lock = Locked::new(lock).map_err(|_| StudyFolderError::Busy {
             folder: path.to_owned(),
         })?;
-        if begun {
+        if exists {
             let found = read_text(&manifest, &MANIFEST).map_err(|error| unreadable(&manifest, error))?;
             error::compare(path, &manifest, &found, &description)?;
         } else {

@@ -12,7 +12,7 @@ use crate::study_folder::{StudyFolder, StudyFolderError};
 
 /// What a folder holds before anything is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Begun {
+pub struct KeptRuns {
     /// Runs that are there.
     pub runs: u64,
     /// Bytes of records that were cut off or damaged, and are not there in another record.
@@ -23,18 +23,18 @@ pub struct Begun {
 ///
 /// # Errors
 /// One of them cannot be read, or holds something else.
-pub fn begun(folder: &StudyFolder) -> Result<Begun, StudyFolderError> {
-    let mut begun = Begun { runs: 0, lost: 0 };
+pub fn kept(folder: &StudyFolder) -> Result<KeptRuns, StudyFolderError> {
+    let mut kept = KeptRuns { runs: 0, lost: 0 };
     for part in 0..folder.parts() {
         let found = folder.part(part)?;
         let count = found.records.len() as u64;
-        begun.runs += count;
+        kept.runs += count;
         // What was computed again since then needs no word.
         if count < folder.numbers(part).end - folder.numbers(part).start {
-            begun.lost += found.lost;
+            kept.lost += found.lost;
         }
     }
-    Ok(begun)
+    Ok(kept)
 }
 
 /// What is still to be done: the runs of one part, then of the next.

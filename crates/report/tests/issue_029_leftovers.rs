@@ -125,20 +125,20 @@ fn issue_029_what_is_given_up_leaves_nothing() {
     let path = temporary.path();
     let place = path.join("new/deep/out");
     let folder = Folder::check(&place, &["a", "b"], false).unwrap();
-    let (begun, is_begun) = mpsc::channel();
+    let (started, is_started) = mpsc::channel();
     let (go_on, goes_on) = mpsc::channel();
     let writer = std::thread::spawn(move || {
         folder.write(|files| {
             files.add("a", |out| out.write_all(b"whole"))?;
             files.add("b", |out| {
-                begun.send(()).unwrap();
+                started.send(()).unwrap();
                 goes_on.recv().unwrap();
                 out.write_all(b"whole")
             })?;
             files.add("c", |out| out.write_all(b"whole"))
         })
     });
-    is_begun.recv().unwrap();
+    is_started.recv().unwrap();
     let hidden = names(&path.join("new/deep"));
     assert!(
         hidden.len() == 1 && hidden[0].starts_with(".wedgelab-"),

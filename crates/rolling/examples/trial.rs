@@ -162,9 +162,9 @@ fn run(setup: &Setup, method: Method, tolerance: f64, end: f64) -> Result<Run, F
     let mut integrator = Integrator::new(rig.system.clone(), options, 0.0, &rig.start)?;
     let (mut seconds, mut doubles, mut largest) = (0.0, 0.0, [0.0_f64; 2]);
     while integrator.time() < end {
-        let begun = Instant::now();
+        let started = Instant::now();
         integrator.step_to(end)?;
-        seconds += begun.elapsed().as_secs_f64();
+        seconds += started.elapsed().as_secs_f64();
         let seen = rig.system.observe(integrator.time(), integrator.x());
         let place = rig.relative(&setup.lines, &seen);
         let (mut counts, mut loads) = ([0; 2], [0.0; 2]);
@@ -269,11 +269,11 @@ fn best(mut call: impl FnMut(u32)) -> f64 {
     let batch = 200;
     let mut shortest = f64::INFINITY;
     for number in 0..50 {
-        let begun = Instant::now();
+        let started = Instant::now();
         for k in 0..batch {
             call(number * batch + k);
         }
-        shortest = shortest.min(begun.elapsed().as_secs_f64() / f64::from(batch));
+        shortest = shortest.min(started.elapsed().as_secs_f64() / f64::from(batch));
     }
     shortest
 }

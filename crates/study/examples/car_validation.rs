@@ -281,7 +281,7 @@ fn sides_in_curves() -> Result<String, Failure> {
     Ok(out)
 }
 
-/// Bounce on joints abreast, beside its frequency.
+/// Bounce on joints opposite each other, beside its frequency.
 fn bounce() -> Result<String, Failure> {
     let car = in_regime("pitch_and_bounce", "loaded", 50.0, &[])?.parameters;
     let trucks = car.trucks.iter();

@@ -169,7 +169,7 @@ impl Extremes {
     }
 }
 
-/// A force's answer to a motion at one frequency, as of a spring and a dashpot beside each other.
+/// A force's response to a motion at one frequency, as of a spring and a dashpot beside each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstHarmonic {
     /// In phase: force per displacement, N/m.

@@ -18,8 +18,8 @@ fn case(name: &str, tolerance: f64, interval: f64, duration: f64) -> Case {
 }
 
 /// Branch means and energies against those at 1e-9. Local errors are of the tolerance; these are global, of a
-/// system with kinks, so no order is asked for: only that they fall from those at 1e-3, and are small where
-/// users are.
+/// system with discontinuities, so no order is asked for: only that they fall from those at 1e-3, and are
+/// small where users are.
 #[test]
 fn yawed_cases_converge() {
     // The largest errors of all cases: that of a single one may be small by chance at a wide tolerance.
@@ -39,7 +39,7 @@ fn yawed_cases_converge() {
             .collect();
         println!("{name}: {errors:.1?} {errors:?}");
         // At the default tolerance and below nothing changes but the fourth digit and later ones; what is
-        // left there is the sensitivity of kinked motion, not the error of the method.
+        // left there is the sensitivity of motion with discontinuities, not the error of the method.
         assert!(
             errors[2..5].iter().all(|error| *error < 2e-4),
             "{name}: {errors:?}"

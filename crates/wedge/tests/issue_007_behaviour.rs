@@ -120,11 +120,11 @@ fn long_steps_over_what_creeps_keep_the_tolerance() {
     assert!(worst < 1.0, "a step is off by {worst} tolerances");
 }
 
-/// While a wedge that was let go still rattles, what sticks breaks loose for a fifth of a millisecond and is
-/// stuck again. A step that goes over that sees it at neither end; one was off by 106 tolerances, which a run
-/// kept for good.
+/// While a released wedge still chatters, sticking points slip for a fifth of a millisecond and
+/// stick again. A step across that interval has sticking points at both ends; one was off by 106 tolerances,
+/// which a run kept for good.
 #[test]
-fn long_steps_do_not_go_over_what_breaks_loose() {
+fn long_steps_do_not_pass_over_brief_slip() {
     let wedge = Wedge::new(thesis::parameters(Damping::Constant, 0.0, 0.0)).unwrap();
     let (mut all, mut worst) = (0, 0.0_f64);
     for lower in 0..5 {

@@ -121,7 +121,7 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
         .fold(0.0_f64, |m, (i, (a, b))| m.max((a - b).abs() / unit(i)))
 }
 
-/// At one state both wedges feel the same, to rounding.
+/// At one state both wedges have the same forces, to rounding.
 #[test]
 fn the_same_state_gives_the_same_forces() {
     use integrate::Problem;

@@ -40,7 +40,7 @@ impl Progress {
     }
 
     /// Tells the time reached (s); whether to go on.
-    pub fn tell(&mut self, time: f64) -> ControlFlow<()> {
+    pub fn report(&mut self, time: f64) -> ControlFlow<()> {
         self.steps += 1;
         if self.steps < STEPS || (self.call.is_none() && !self.interruptible) {
             return ControlFlow::Continue(());
@@ -138,7 +138,7 @@ pub fn run_one<C: RunFiles<Summary: Into<AnySummary>> + Sync>(
     columns: Option<&[String]>,
     mut progress: Progress,
 ) -> PyResult<NativeResult> {
-    let done = py.detach(|| table(case, columns, |time| progress.tell(time)));
+    let done = py.detach(|| table(case, columns, |time| progress.report(time)));
     if let Some(error) = progress.into_error() {
         return Err(error);
     }

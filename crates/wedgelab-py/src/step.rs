@@ -13,7 +13,7 @@ type Six = [f64; 6];
 type Load = ([f64; 3], [f64; 3]);
 /// Loads on bolster and side frame, coil compression and force, normal forces and friction losses of column
 /// and slope.
-type Answer = (Load, Load, f64, f64, [f64; 2], [f64; 2]);
+type ReadingTuple = (Load, Load, f64, f64, [f64; 2], [f64; 2]);
 
 /// A wedge between neighbours that are moved from outside.
 #[pyclass(module = "wedgelab._wedgelab", name = "NativeWedge")]
@@ -118,7 +118,7 @@ impl NativeWedge {
 
     /// Loads on bolster and side frame, coil compression and force, normal forces and friction losses of
     /// column and slope.
-    fn reading(&mut self, py: Python<'_>) -> PyResult<Answer> {
+    fn reading(&mut self, py: Python<'_>) -> PyResult<ReadingTuple> {
         let wedge = &mut self.wedge;
         guarded(py, || {
             let reading = wedge.reading().map_err(|error| refused(py, &error))?;

@@ -218,8 +218,8 @@ impl NativeStudyFolder {
 
     /// Returns the number of runs kept, and of bytes that were cut off or damaged.
     fn begun(&self, py: Python<'_>) -> PyResult<(u64, usize)> {
-        let begun = self.with(py, study_work::begun)?;
-        Ok((begun.runs, begun.lost))
+        let kept = self.with(py, study_work::kept)?;
+        Ok((kept.runs, kept.lost))
     }
 
     /// Returns the numbers of the runs of a part that are not there yet.

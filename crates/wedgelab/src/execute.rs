@@ -69,7 +69,7 @@ fn compute_by<C: RunCase, T>(
     progress: &Progress,
 ) -> Result<(Done<C::Output>, T), Failure> {
     let start = Instant::now();
-    let run = begun(case, begin(case))?;
+    let run = started(case, begin(case))?;
     let [duration, _] = case.duration_and_interval();
     let mut reached = progress.of_run(duration);
     let (result, taken) = finish(run, &mut |time| {
@@ -81,7 +81,7 @@ fn compute_by<C: RunCase, T>(
 }
 
 /// Returns a run that has begun; where nothing can be computed at all, the input is at fault.
-pub fn begun<C: RunCase>(case: &C, run: Result<Run<C>, RunError>) -> Result<Run<C>, Message> {
+pub fn started<C: RunCase>(case: &C, run: Result<Run<C>, RunError>) -> Result<Run<C>, Message> {
     run.map_err(|error| {
         let message = format!("the run {} cannot begin: {error}", case.name());
         Message::new(message, C::WHERE_TO_LOOK)

@@ -22,7 +22,7 @@ pub const REASON: &str = "interrupted";
 
 /// What a signal leads to.
 #[derive(Debug)]
-struct Answer {
+struct Reaction {
     /// What a first signal says if the command ends by itself.
     stop: Option<String>,
     /// What is kept when the program ends at once. Without it, all files that are in their place are whole
@@ -30,7 +30,7 @@ struct Answer {
     kept: Option<String>,
 }
 
-static ANSWER: Mutex<Answer> = Mutex::new(Answer {
+static REACTION: Mutex<Reaction> = Mutex::new(Reaction {
     stop: None,
     kept: None,
 });
@@ -58,7 +58,7 @@ pub fn ends(kept: &str) {
 }
 
 fn set(stop: Option<&str>, kept: Option<&str>) {
-    *ANSWER.lock().unwrap_or_else(PoisonError::into_inner) = Answer {
+    *REACTION.lock().unwrap_or_else(PoisonError::into_inner) = Reaction {
         stop: stop.map(str::to_owned),
         kept: kept.map(str::to_owned),
     };
@@ -95,7 +95,7 @@ pub fn code() -> Option<u8> {
 
 /// Begins to listen for signals. If that is not possible they do what they do to any program.
 pub fn listen() {
-    let (ready, begun) = mpsc::channel();
+    let (ready, started) = mpsc::channel();
     let listener = thread::Builder::new().name("signals".to_owned()).spawn(move || {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_io().build();
         let Ok(runtime) = runtime else { return };
@@ -104,29 +104,29 @@ pub fn listen() {
             // Nobody waits any more only if the program ends.
             let _ = ready.send(());
             loop {
-                answer(signals.next().await);
+                react(signals.next().await);
             }
         });
     });
     if listener.is_ok() {
         // An error says that the thread has ended, without listening.
-        let _ = begun.recv();
+        let _ = started.recv();
     }
 }
 
 /// Does what a signal with this exit code asks for.
-fn answer(code: u8) {
-    let answer = ANSWER.lock().unwrap_or_else(PoisonError::into_inner);
+fn react(code: u8) {
+    let reaction = REACTION.lock().unwrap_or_else(PoisonError::into_inner);
     CODE.store(code, Ordering::Relaxed);
-    if let Some(text) = &answer.stop
+    if let Some(text) = &reaction.stop
         && !WANTED.swap(true, Ordering::Relaxed)
     {
         say(text);
         return;
     }
     let abandoned = abandon();
-    say(&message(answer.kept.as_deref(), &abandoned));
-    // Nothing is written until then: `abandoned` lives, and so does the lock on the answer.
+    say(&message(reaction.kept.as_deref(), &abandoned));
+    // Nothing is written until then: `abandoned` lives, and so does the lock on the reaction.
     std::process::exit(i32::from(code));
 }
 

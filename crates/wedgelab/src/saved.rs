@@ -14,7 +14,7 @@ use report::summary::write_json;
 use serde::{Deserialize, Serialize};
 use study::run::{Recorder, Run, RunCase, RunState};
 
-use crate::execute::{Done, begun};
+use crate::execute::{Done, started};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -101,7 +101,7 @@ pub fn compute<C: RunCase>(
         Some(path) => Run::resume(case, read::<C>(path, parts.case)?),
         None => Run::new(case),
     };
-    let mut run = begun(case, run)?;
+    let mut run = started(case, run)?;
     let mut reached = progress.of_run(duration);
     let (mut reason, mut whole) = (None, true);
     while reason.is_none() && !run.is_finished() {

@@ -97,9 +97,9 @@ fn limits_the_largest_file_takes_a_moment() {
             [y, 0.3 - (0.09 - y * y).sqrt()].map(|x| -x)
         })
         .collect();
-    let begun = std::time::Instant::now();
+    let started = std::time::Instant::now();
     let profile = Profile::of_points(&Points::new("large", &points), Kind::Rail, 1e-6).unwrap();
     // Points are 1.4 μm apart, and one of eight is kept.
     assert!(profile.deviation().points > 10_000 && profile.deviation().largest <= 1e-6);
-    assert!(begun.elapsed().as_secs_f64() < 30.0);
+    assert!(started.elapsed().as_secs_f64() < 30.0);
 }

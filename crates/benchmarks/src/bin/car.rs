@@ -155,20 +155,20 @@ fn measure(
     let integrator = Integrator::new(car.system.clone(), options, 0.0, &x);
     let mut integrator = integrator.map_err(|error| error.to_string())?;
     let (mut balance, mut buffer) = (EnergyBalance::new(start), x.clone());
-    let (mut row, mut observing, begun) = (1.0, 0.0, cpu_seconds());
+    let (mut row, mut observing, started) = (1.0, 0.0, cpu_seconds());
     while integrator.time() < duration {
         integrator.step_to(duration).map_err(|error| error.to_string())?;
         while row * INTERVAL <= integrator.time() {
-            let begun = cpu_seconds();
+            let started = cpu_seconds();
             integrator.interpolate(row * INTERVAL, &mut buffer);
             observer.segment_like(integrator.problem());
             let seen = observer.observe(row * INTERVAL, &buffer);
             balance.note(row * INTERVAL, &observer.ledger_entries(&seen, start));
             row += 1.0;
-            observing += cpu_seconds() - begun;
+            observing += cpu_seconds() - started;
         }
     }
-    let cpu = cpu_seconds() - begun - observing;
+    let cpu = cpu_seconds() - started - observing;
     let s = integrator.statistics();
     println!(
         "{name:40} {:8} {tolerance:9.0e} {:6} {:8} {:6} {:7} {:9} {:9} {:9.0} {cpu:6.2} {:9.1} {:9.1e}",

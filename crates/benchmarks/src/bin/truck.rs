@@ -101,7 +101,7 @@ fn measure(case: &TruckCase, method: Method, tolerance: f64) -> Result<(System, 
     let mut observer = system.clone();
     let start = observer.observe(0.0, &x).energies.total();
     let mut integrator = Integrator::new(system, options, 0.0, &x).map_err(|error| error.to_string())?;
-    let begun = cpu_seconds();
+    let started = cpu_seconds();
     let (mut stopped, mut balance) = (None, EnergyBalance::new(start));
     let (mut row, mut buffer, mut observing) = (1.0, x.clone(), 0.0);
     while integrator.time() < duration {
@@ -110,16 +110,16 @@ fn measure(case: &TruckCase, method: Method, tolerance: f64) -> Result<(System, 
             break;
         }
         while row * INTERVAL <= integrator.time() {
-            let begun = cpu_seconds();
+            let started = cpu_seconds();
             integrator.interpolate(row * INTERVAL, &mut buffer);
             observer.segment_like(integrator.problem());
             let observation = observer.observe(row * INTERVAL, &buffer);
             balance.note(row * INTERVAL, &ledger(&observation, start));
             row += 1.0;
-            observing += cpu_seconds() - begun;
+            observing += cpu_seconds() - started;
         }
     }
-    let cpu = cpu_seconds() - begun - observing;
+    let cpu = cpu_seconds() - started - observing;
     let (time, x) = (integrator.time(), integrator.x().to_vec());
     observer.segment_like(integrator.problem());
     let observation = observer.observe(time, &x);

@@ -111,9 +111,9 @@ fn measure(count: usize, arrangement: Arrangement) -> Result<String, String> {
 /// Returns the mean cost of a step, µs, the number of events, and the state at the end.
 fn steps(system: &System, recorded: bool) -> Result<(f64, u64, Vec<f64>), String> {
     let mut integrator = begin(system, recorded)?;
-    let begun = cpu_seconds();
+    let started = cpu_seconds();
     advance(&mut integrator, STEPS)?;
-    let cost = 1e6 * (cpu_seconds() - begun) / f64::from(STEPS);
+    let cost = 1e6 * (cpu_seconds() - started) / f64::from(STEPS);
     Ok((cost, integrator.statistics().events, integrator.x().to_vec()))
 }
 

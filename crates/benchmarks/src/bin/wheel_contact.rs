@@ -28,13 +28,13 @@ const STEEL: Material = Material {
 fn measure(name: &str, calls: u32, mut call: impl FnMut() -> f64) {
     let mut shortest = f64::INFINITY;
     for _ in 0..BATCHES {
-        let begun = Instant::now();
+        let started = Instant::now();
         let mut sum = 0.0;
         for _ in 0..calls {
             sum += call();
         }
         black_box(sum);
-        shortest = shortest.min(begun.elapsed().as_secs_f64() / f64::from(calls));
+        shortest = shortest.min(started.elapsed().as_secs_f64() / f64::from(calls));
     }
     println!("{name:62} {:8.2} µs", shortest * 1e6);
 }
@@ -52,12 +52,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let rail = nominal::rail_136re()?.inclined(nominal::INCLINATION);
     let [_, top] = rail.top();
     let pair = ContactPair::new(&nominal::aar_1b()?, 0.4572, &rail, STEEL)?;
-    let begun = Instant::now();
+    let started = Instant::now();
     let table = ContactTable::new(pair.clone(), 1e-4)?;
     println!(
         "{:62} {:8.2} s",
         "a table is made in",
-        begun.elapsed().as_secs_f64()
+        started.elapsed().as_secs_f64()
     );
     let motion = WheelMotion {
         velocity: [20.0, 0.01, 0.0],

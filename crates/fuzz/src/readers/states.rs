@@ -200,7 +200,7 @@ fn new_instance(place: usize) -> Option<Instance> {
 }
 
 /// Returns an instance after its first steps.
-fn begun(place: usize) -> Option<Instance> {
+fn started_instance(place: usize) -> Option<Instance> {
     let mut instance = new_instance(place)?;
     instance.set_experiment(0.0, None, None).ok()?;
     instance.enter_initialization().ok()?;
@@ -213,7 +213,7 @@ fn instance_corpus() -> Vec<Vec<u8>> {
     for place in 0..MODELS.len() {
         let fresh = new_instance(place);
         states.extend(fresh.and_then(|instance| instance.save().to_bytes().ok()));
-        let Some(mut instance) = begun(place) else {
+        let Some(mut instance) = started_instance(place) else {
             continue;
         };
         states.extend(instance.save().to_bytes());

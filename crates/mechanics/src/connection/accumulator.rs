@@ -67,9 +67,9 @@ impl Accumulator {
     }
 }
 
-/// How friction is evaluated: by its law, or in a special case.
+/// A rule by which friction is evaluated: the law, or a special case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Grip {
+pub(crate) enum FrictionRule {
     /// By the law.
     #[default]
     Law,
@@ -79,7 +79,7 @@ pub(crate) enum Grip {
     Free,
 }
 
-impl Grip {
+impl FrictionRule {
     /// Returns the friction limit of an element with this normal force.
     #[inline(always)]
     pub fn limit<S: Real>(self, limit: S, normal: f64) -> S {
@@ -96,7 +96,7 @@ impl Grip {
 pub(crate) fn friction_of<S: Real>(
     accumulator: &Accumulator,
     limit: S,
-    grip: Grip,
+    rule: FrictionRule,
     velocity: [S; 2],
     deflection: [S; 2],
 ) -> Slip<S> {
@@ -105,7 +105,11 @@ pub(crate) fn friction_of<S: Real>(
             bristle::friction(limit, stiffness, damping, velocity, deflection)
         }
         Accumulator::Viscous { damping } => {
-            let limit = if grip == Grip::Stuck { S::zero() } else { limit };
+            let limit = if rule == FrictionRule::Stuck {
+                S::zero()
+            } else {
+                limit
+            };
             viscous(limit, damping, velocity)
         }
     }

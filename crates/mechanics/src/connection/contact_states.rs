@@ -9,7 +9,7 @@
 
 use super::accumulator::Friction;
 use super::forces::{CoordinatesAndRates, SpatialLaw, deflection_at};
-use super::{Connections, Grip, Spatial};
+use super::{Connections, FrictionRule, Spatial};
 use crate::system::{ContactState, SLIP_LOAD, STICK_LOAD};
 
 /// An element closes at this normal (or coil) force, N.
@@ -92,7 +92,7 @@ fn friction<L: SpatialLaw>(
     let deflection = deflection_at(element.internal, internal);
     element
         .law
-        .force_at(motion.extensions, motion.rates, deflection, Grip::Law)
+        .force_at(motion.extensions, motion.rates, deflection, FrictionRule::Law)
         .friction
 }
 

@@ -2,7 +2,7 @@
 
 use numerics::scalar::Real;
 
-use super::accumulator::{AxisForce, Grip, SpatialForce};
+use super::accumulator::{AxisForce, FrictionRule, SpatialForce};
 use super::gap::Gap;
 use super::spring::Spring;
 use super::surface::Surface;
@@ -23,7 +23,7 @@ pub(super) trait SpatialLaw {
         extensions: [S; 3],
         rates: [S; 3],
         deflection: [S; 2],
-        grip: Grip,
+        rule: FrictionRule,
     ) -> SpatialForce<S>;
 }
 
@@ -52,9 +52,9 @@ impl SpatialLaw for Surface {
         extensions: [S; 3],
         rates: [S; 3],
         deflection: [S; 2],
-        grip: Grip,
+        rule: FrictionRule,
     ) -> SpatialForce<S> {
-        self.evaluate(extensions, rates, deflection, grip)
+        self.evaluate(extensions, rates, deflection, rule)
     }
 }
 
@@ -69,9 +69,9 @@ impl SpatialLaw for WedgeLaw {
         extensions: [S; 3],
         rates: [S; 3],
         deflection: [S; 2],
-        grip: Grip,
+        rule: FrictionRule,
     ) -> SpatialForce<S> {
-        self.evaluate(extensions, rates, deflection, grip)
+        self.evaluate(extensions, rates, deflection, rule)
     }
 }
 
@@ -104,12 +104,12 @@ impl Connections {
             push_axis(gap, coordinates, loads, powers);
         }
         for surface in &self.surfaces {
-            let grip = self.grips.surfaces;
-            push_spatial(surface, coordinates, grip, internal, d_internal, loads, powers);
+            let rule = self.friction_rules.surfaces;
+            push_spatial(surface, coordinates, rule, internal, d_internal, loads, powers);
         }
         for wedge in &self.wedges {
-            let grip = self.grips.wedges;
-            push_spatial(wedge, coordinates, grip, internal, d_internal, loads, powers);
+            let rule = self.friction_rules.wedges;
+            push_spatial(wedge, coordinates, rule, internal, d_internal, loads, powers);
         }
     }
 }
@@ -137,7 +137,7 @@ fn push_axis<L: AxisLaw>(
 fn push_spatial<L: SpatialLaw>(
     element: &Spatial<L>,
     coordinates: CoordinatesAndRates<'_>,
-    grip: Grip,
+    rule: FrictionRule,
     internal: &[f64],
     d_internal: &mut [f64],
     loads: &mut [[f64; 6]],
@@ -148,7 +148,7 @@ fn push_spatial<L: SpatialLaw>(
     let deflection = deflection_at(element.internal, internal);
     let done = element
         .law
-        .force_at(motion.extensions, motion.rates, deflection, grip);
+        .force_at(motion.extensions, motion.rates, deflection, rule);
     site.push(done.force, &motion, loads);
     if let Some(at) = element.internal {
         d_internal[at..at + 2].copy_from_slice(&done.rate);

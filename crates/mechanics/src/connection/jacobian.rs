@@ -7,7 +7,7 @@
 use numerics::partitioned::Partitioned;
 use numerics::scalar::Dual;
 
-use super::accumulator::Grip;
+use super::accumulator::FrictionRule;
 use super::forces::{AxisLaw, SpatialLaw, deflection_at};
 use super::site::Site;
 use super::{Axis, Connections, Spatial};
@@ -75,10 +75,10 @@ impl Connections {
             inputs.axis(gap);
         }
         for surface in &self.surfaces {
-            inputs.spatial(surface, self.grips.surfaces);
+            inputs.spatial(surface, self.friction_rules.surfaces);
         }
         for wedge in &self.wedges {
-            inputs.spatial(wedge, self.grips.wedges);
+            inputs.spatial(wedge, self.friction_rules.wedges);
         }
     }
 }
@@ -161,11 +161,11 @@ impl JacobianInputs<'_> {
     }
 
     #[inline(always)]
-    fn spatial<L: SpatialLaw>(&mut self, element: &Spatial<L>, grip: Grip) {
+    fn spatial<L: SpatialLaw>(&mut self, element: &Spatial<L>, rule: FrictionRule) {
         let local = if element.law.uses_all_extensions() {
-            self.local::<L, 8>(element, grip)
+            self.local::<L, 8>(element, rule)
         } else {
-            self.local::<L, 6>(element, grip)
+            self.local::<L, 6>(element, rule)
         };
         if let Some(between) = &element.site.between {
             let internal = element.internal.map(|at| (at / 2, &element.internal_rows));
@@ -184,7 +184,7 @@ impl JacobianInputs<'_> {
 
     /// Returns the law with its derivatives.
     #[inline(always)]
-    fn local<L: SpatialLaw, const N: usize>(&self, element: &Spatial<L>, grip: Grip) -> Local {
+    fn local<L: SpatialLaw, const N: usize>(&self, element: &Spatial<L>, rule: FrictionRule) -> Local {
         let motion = element.site.motion((self.positions, self.rates));
         let (extensions, rates) = (motion.extensions, motion.rates);
         let deflection = deflection_at(element.internal, self.internal);
@@ -203,7 +203,7 @@ impl JacobianInputs<'_> {
                 Dual::variable(deflection[0], first + 3),
                 Dual::variable(deflection[1], first + 4),
             ],
-            grip,
+            rule,
         );
         Local {
             force: done.force.map(|force| force.value),

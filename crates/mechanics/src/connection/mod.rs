@@ -50,7 +50,7 @@ use surface::Surface;
 use wedge::WedgeLaw;
 
 pub use accumulator::Accumulator;
-pub(crate) use accumulator::Grip;
+pub(crate) use accumulator::FrictionRule;
 pub(crate) use assembler::ConnectionAssembler;
 pub use check::ConnectionError;
 pub use contact_states::{CLOSING_FORCE, OPENING_FORCE};
@@ -147,11 +147,11 @@ struct Spatial<L> {
     discrete_state: usize,
 }
 
-/// What friction does in each kind of element.
+/// The rules by which friction is evaluated in each kind of element.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Grips {
-    pub surfaces: Grip,
-    pub wedges: Grip,
+pub(crate) struct FrictionRules {
+    pub surfaces: FrictionRule,
+    pub wedges: FrictionRule,
 }
 
 /// Assembled connections, ready to be evaluated.
@@ -164,8 +164,8 @@ pub(crate) struct Connections {
     wedges: Vec<Spatial<WedgeLaw>>,
     /// The connections with friction, whose contact states are recorded.
     pub discrete_states: Vec<usize>,
-    /// What friction does in surfaces and in wedges.
-    pub grips: Grips,
+    /// The rules of friction in surfaces and in wedges.
+    pub friction_rules: FrictionRules,
 }
 
 impl Connections {

@@ -4,7 +4,7 @@ use super::between::Between;
 use super::forces::{CoordinatesAndRates, SpatialLaw, deflection_at};
 use super::site::Row;
 use super::wedge::{WedgeLaw, WedgeState};
-use super::{Connections, Grip, Spatial};
+use super::{Connections, FrictionRule, Spatial};
 use crate::body::Body;
 use crate::system::{ContactState, Energies};
 
@@ -64,11 +64,15 @@ impl Connections {
         let deflection = deflection_at(wedge.internal, internal);
         let mut inside = WedgeState::default();
         let (extensions, rates) = (motion.extensions, motion.rates);
-        wedge
-            .law
-            .evaluate_with(extensions, rates, deflection, self.grips.wedges, |state| {
+        wedge.law.evaluate_with(
+            extensions,
+            rates,
+            deflection,
+            self.friction_rules.wedges,
+            |state| {
                 inside = state;
-            });
+            },
+        );
         (inside, rates)
     }
 
@@ -126,7 +130,13 @@ impl Connections {
         }
         for surface in &self.surfaces {
             let state = &mut all[surface.site.connection];
-            fill(surface, self.grips.surfaces, coordinates, internal, state);
+            fill(
+                surface,
+                self.friction_rules.surfaces,
+                coordinates,
+                internal,
+                state,
+            );
             let spring = surface.law.energy(state.extensions[0]);
             let held = surface
                 .law
@@ -138,7 +148,7 @@ impl Connections {
         }
         for wedge in &self.wedges {
             let state = &mut all[wedge.site.connection];
-            fill(wedge, self.grips.wedges, coordinates, internal, state);
+            fill(wedge, self.friction_rules.wedges, coordinates, internal, state);
             let (inside, _) = self.inside(wedge, coordinates, internal);
             let deflection = deflection_at(wedge.internal, internal);
             let coil = wedge.law.energy(inside.coil_extension);
@@ -193,7 +203,7 @@ impl Connections {
 /// Extensions, rates, forces and contact state of a friction element.
 fn fill<L: SpatialLaw>(
     element: &Spatial<L>,
-    grip: Grip,
+    rule: FrictionRule,
     coordinates: CoordinatesAndRates<'_>,
     internal: &[f64],
     state: &mut ConnectionState,
@@ -201,13 +211,13 @@ fn fill<L: SpatialLaw>(
     let motion = element.site.motion(coordinates);
     let (extensions, rates) = (motion.extensions, motion.rates);
     let deflection = deflection_at(element.internal, internal);
-    let done = element.law.force_at(extensions, rates, deflection, grip);
-    let law_says = match grip {
-        Grip::Law => done.friction,
+    let done = element.law.force_at(extensions, rates, deflection, rule);
+    let law_says = match rule {
+        FrictionRule::Law => done.friction,
         _ => {
             element
                 .law
-                .force_at(extensions, rates, deflection, Grip::Law)
+                .force_at(extensions, rates, deflection, FrictionRule::Law)
                 .friction
         }
     };

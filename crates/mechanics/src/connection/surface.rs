@@ -14,7 +14,7 @@
 
 use numerics::scalar::Real;
 
-use super::accumulator::{Accumulator, Friction, Grip, SpatialForce, friction_of};
+use super::accumulator::{Accumulator, Friction, FrictionRule, SpatialForce, friction_of};
 use crate::curve::Curve;
 use crate::friction::Friction as Slip;
 
@@ -63,7 +63,7 @@ impl Surface {
         extensions: [S; 3],
         rates: [S; 3],
         deflection: [S; 2],
-        grip: Grip,
+        rule: FrictionRule,
     ) -> SpatialForce<S> {
         let normal = self.normal.evaluate(extensions[0]);
         let mut push = normal;
@@ -77,8 +77,8 @@ impl Surface {
         }
         let slip: Slip<S> = friction_of(
             &self.accumulator,
-            grip.limit(normal * self.coefficient, normal.value()),
-            grip,
+            rule.limit(normal * self.coefficient, normal.value()),
+            rule,
             [rates[1], rates[2]],
             deflection,
         );

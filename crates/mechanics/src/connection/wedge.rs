@@ -42,7 +42,7 @@
 
 use numerics::scalar::Real;
 
-use super::accumulator::{Accumulator, Friction, Grip, SpatialForce, friction_of};
+use super::accumulator::{Accumulator, Friction, FrictionRule, SpatialForce, friction_of};
 use super::options::{Branch, NegativeRise, Options, SlopeDirection};
 use crate::curve::Curve;
 use crate::friction::Friction as Slip;
@@ -267,9 +267,9 @@ impl WedgeLaw {
         extensions: [S; 3],
         rates: [S; 3],
         deflection: [S; 2],
-        grip: Grip,
+        rule: FrictionRule,
     ) -> SpatialForce<S> {
-        self.evaluate_with(extensions, rates, deflection, grip, |_| {})
+        self.evaluate_with(extensions, rates, deflection, rule, |_| {})
     }
 
     /// Returns the same; `report` receives the internal forces and motions.
@@ -279,7 +279,7 @@ impl WedgeLaw {
         extensions: [S; 3],
         rates: [S; 3],
         deflection: [S; 2],
-        grip: Grip,
+        rule: FrictionRule,
         report: impl FnOnce(WedgeState),
     ) -> SpatialForce<S> {
         let (mut face, mut rise, mut rise_rate, mut direction) = (&self.faces[0], S::zero(), S::zero(), 0.0);
@@ -309,7 +309,7 @@ impl WedgeLaw {
         let velocity = [along, rates[2]];
         // up the slope, against the wedge's own slip
         let own = match self.own_slip {
-            Some(speed) if direction != 0.0 && grip != Grip::Free => {
+            Some(speed) if direction != 0.0 && rule != FrictionRule::Free => {
                 Some((rise_rate * (1.0 / (self.cosine * speed))).tanh() * -self.slope_friction)
             }
             _ => None,
@@ -320,7 +320,7 @@ impl WedgeLaw {
             slope,
             normal,
             inside,
-        } = self.column(face, coil, own, velocity, deflection, grip);
+        } = self.column(face, coil, own, velocity, deflection, rule);
         // friction on the wedge along the column, up
         let up = slip.force[0];
         let (p_cos, p_sin) = (face.cosine, face.sine);
@@ -377,7 +377,7 @@ impl WedgeLaw {
         own: Option<S>,
         velocity: [S; 2],
         deflection: [S; 2],
-        grip: Grip,
+        rule: FrictionRule,
     ) -> Contact<S> {
         let zero = S::zero();
         let slope_at = |x: S| own.unwrap_or(x * face.alpha);
@@ -392,8 +392,8 @@ impl WedgeLaw {
                 inside,
             }
         };
-        if coil.value() <= 0.0 || grip == Grip::Free {
-            let slip = friction_of(&self.accumulator, zero, grip, velocity, deflection);
+        if coil.value() <= 0.0 || rule == FrictionRule::Free {
+            let slip = friction_of(&self.accumulator, zero, rule, velocity, deflection);
             return at(slip, zero, WedgeState::default());
         }
         let trial = self.accumulator.trial(velocity, deflection);
@@ -413,9 +413,9 @@ impl WedgeLaw {
             jammed: jammed && size > 0.0,
             ..WedgeState::default()
         };
-        if size <= limit || grip == Grip::Stuck {
-            let held = grip.limit(S::from(limit), coil.value());
-            let slip = friction_of(&self.accumulator, held, grip, velocity, deflection);
+        if size <= limit || rule == FrictionRule::Stuck {
+            let held = rule.limit(S::from(limit), coil.value());
+            let slip = friction_of(&self.accumulator, held, rule, velocity, deflection);
             let x = match by_velocity {
                 Some(x) => x,
                 None if self.friction > 0.0 => self.fraction(face, slip.force[0] / coil, own),
@@ -425,7 +425,7 @@ impl WedgeLaw {
         }
         let x = by_velocity.unwrap_or_else(|| -(trial[0] / square.sqrt()));
         let held = self.normal(face, coil, x, slope_at(x)).0 * self.friction;
-        let slip = friction_of(&self.accumulator, held, grip, velocity, deflection);
+        let slip = friction_of(&self.accumulator, held, rule, velocity, deflection);
         at(slip, if self.friction > 0.0 { x } else { zero }, inside)
     }
 

@@ -18,7 +18,7 @@
 //!
 //! Defects: a coil that comes down on its seat aside of its nominal place has its whole shear force again, so
 //! that the second term is then negative. No moment by rotation of the seats, no change of shear stiffness
-//! with compression; kinks at solid height and at lift-off.
+//! with compression; discontinuities at solid height and at lift-off.
 
 use numerics::scalar::Real;
 

@@ -15,8 +15,8 @@
 //!
 //! Defects: seats hold the ends of the coil, so that shear, tilt and damping act without load too, also where
 //! the body is lifted off. A [`ShearSpring`](super::ShearSpring) lets go instead, at the price of an energy
-//! that comes back with the load: a body that bounces on it without preload would gain energy by that. Kinks
-//! at the points of the table.
+//! that comes back with the load: a body that bounces on it without preload would gain energy by that. The
+//! stiffness jumps at the points of the table.
 
 use numerics::scalar::Real;
 

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::System;
 use crate::body::COORDINATES;
-use crate::connection::{Grip, Grips};
+use crate::connection::{FrictionRule, FrictionRules};
 use crate::motion::Motion;
 
 /// No equilibrium was found.
@@ -64,7 +64,7 @@ impl System {
         x: &[f64],
         friction: StaticFriction,
     ) -> Result<Vec<f64>, NoEquilibrium> {
-        let before = self.connections.grips;
+        let before = self.connections.friction_rules;
         let moving: Vec<_> = self.moved.iter().map(|m| m.motions.clone()).collect();
         // Motions are smooth in pieces: the position at `time` is that of the piece which begins there.
         let reference = self.reference;
@@ -78,13 +78,13 @@ impl System {
         }
         self.invalidate_kinematics();
         if friction == StaticFriction::Without {
-            self.connections.grips = Grips {
-                surfaces: Grip::Free,
-                wedges: Grip::Free,
+            self.connections.friction_rules = FrictionRules {
+                surfaces: FrictionRule::Free,
+                wedges: FrictionRule::Free,
             };
         }
         let found = self.settle(time, x, friction);
-        self.connections.grips = before;
+        self.connections.friction_rules = before;
         for (moved, motions) in self.moved.iter_mut().zip(moving) {
             moved.motions = motions;
         }

@@ -97,7 +97,7 @@ impl System {
                     let blocks = self.jacobian.blocks_mut(free.pair);
                     add_block(&self.gathered[number].block, free, free.free.len(), blocks);
                     if whole {
-                        self.turning_axes(number, x);
+                        self.rotation_axes(number, x);
                     }
                 }
                 continue;
@@ -172,7 +172,7 @@ impl System {
 
     /// The generalized moments of a body with linearized kinematics by its angles, with which the axes turn
     /// that the moment of its elements is taken about.
-    fn turning_axes(&mut self, number: usize, x: &[f64]) {
+    fn rotation_axes(&mut self, number: usize, x: &[f64]) {
         let free = &self.free[number];
         let (coordinates, _) = self.coordinates(free, x);
         let mut q = coordinates.map(Dual::<3>::from);

@@ -10,7 +10,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 use thiserror::Error;
 
 use super::System;
-use crate::connection::{Grip, Grips};
+use crate::connection::{FrictionRule, FrictionRules};
 
 /// Which closed connections with friction stick in a vibration; the others have no friction. Contact points
 /// follow their law and state: bristles at rest stick, tanh has no stiffness.
@@ -26,11 +26,17 @@ pub enum Held {
 }
 
 impl Held {
-    fn grips(self) -> Grips {
-        let grip = |sticks: bool| if sticks { Grip::Stuck } else { Grip::Free };
-        Grips {
-            surfaces: grip(self != Self::Nothing),
-            wedges: grip(self == Self::All),
+    fn friction_rules(self) -> FrictionRules {
+        let rule = |sticks: bool| {
+            if sticks {
+                FrictionRule::Stuck
+            } else {
+                FrictionRule::Free
+            }
+        };
+        FrictionRules {
+            surfaces: rule(self != Self::Nothing),
+            wedges: rule(self == Self::All),
         }
     }
 }
@@ -73,12 +79,12 @@ impl System {
     #[must_use]
     pub fn stiffness_matrix(&mut self, time: f64, x: &[f64], held: Held) -> Vec<f64> {
         let n = self.layout.speeds;
-        let grips = std::mem::replace(&mut self.connections.grips, held.grips());
+        let friction_rules = std::mem::replace(&mut self.connections.friction_rules, held.friction_rules());
         let mut dx = vec![0.0; x.len()];
         let mut df_dt = vec![0.0; x.len()];
         self.derivative(time, x, &mut dx);
         self.linearize(time, x, &dx, &mut df_dt);
-        self.connections.grips = grips;
+        self.connections.friction_rules = friction_rules;
         let mut stiffness = vec![0.0; n * n];
         let mut add = |row: usize, column: usize, value: f64| stiffness[row * n + column] += value;
         for (i, row) in self.free.iter().enumerate() {

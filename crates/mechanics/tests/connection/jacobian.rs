@@ -100,8 +100,8 @@ fn everything(options: Options, accumulator: Accumulator) -> Model {
 }
 
 /// Returns the smooth branch that every law is on, which must not change within a difference. Second
-/// differences find a kink.
-fn kinked(column: &[[f64; 5]], h: f64) -> bool {
+/// differences find a discontinuity.
+fn crosses_discontinuity(column: &[[f64; 5]], h: f64) -> bool {
     column.iter().any(|values| {
         let size = norm(values).max(1.0);
         // third differences of smooth functions are of the order h³
@@ -113,12 +113,13 @@ fn kinked(column: &[[f64; 5]], h: f64) -> bool {
     })
 }
 
-/// Returns the derivative of all rates by one argument, by a formula of fourth order; none at a kink.
+/// Returns the derivative of all rates by one argument, by a formula of fourth order; none at a
+/// discontinuity.
 fn difference(h: f64, mut f: impl FnMut(f64) -> Vec<f64>) -> Option<Vec<f64>> {
     let samples = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| f(k * h));
     let n = samples[0].len();
     let columns: Vec<[f64; 5]> = (0..n).map(|i| std::array::from_fn(|k| samples[k][i])).collect();
-    if kinked(&columns, h) {
+    if crosses_discontinuity(&columns, h) {
         return None;
     }
     let slope = |v: &[f64; 5]| (v[0] - 8.0 * v[1] + 8.0 * v[3] - v[4]) / (12.0 * h);
@@ -134,7 +135,8 @@ pub struct Counts {
     jammed: usize,
 }
 
-/// Compares at random states, column by column, leaving out columns with a kink within the difference.
+/// Compares at random states, column by column, leaving out columns with a discontinuity within the
+/// difference.
 pub fn compare(model: &Model, seed: u64) -> Counts {
     let mut system = System::new(model.clone()).unwrap();
     let layout = system.layout();

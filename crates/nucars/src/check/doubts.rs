@@ -23,11 +23,11 @@ fn shared_by_turns(file: &SystemFile, findings: &mut Findings) {
             continue;
         }
         for (dof, characteristic) in connection.element.dofs().iter().zip(characteristics) {
-            let [straight, turning] = uses.entry(**characteristic).or_default();
+            let [straight, rotational] = uses.entry(**characteristic).or_default();
             let list = if dof.kind.is_translation() {
                 straight
             } else {
-                turning
+                rotational
             };
             if list.len() < 50 && !list.contains(&*connection.id) {
                 list.push(*connection.id);
@@ -35,10 +35,10 @@ fn shared_by_turns(file: &SystemFile, findings: &mut Findings) {
         }
     }
     for characteristic in &file.characteristics {
-        let Some([straight, turning]) = uses.get(&*characteristic.id) else {
+        let Some([straight, rotational]) = uses.get(&*characteristic.id) else {
             continue;
         };
-        if straight.is_empty() || turning.is_empty() || findings.is_full_of(Severity::Warning) {
+        if straight.is_empty() || rotational.is_empty() || findings.is_full_of(Severity::Warning) {
             continue;
         }
         let numbers = |list: &[u32]| super::some_of(list.iter().copied());
@@ -46,7 +46,7 @@ fn shared_by_turns(file: &SystemFile, findings: &mut Findings) {
             "characteristic {} serves displacements (connections {}) and turns (connections {})",
             characteristic.id,
             numbers(straight),
-            numbers(turning)
+            numbers(rotational)
         );
         let help = "the same numbers are lb/in for the one and in·lb/rad for the other, a thousand times \
                     less on a lever of 40 in: give the turns a characteristic of their own";

@@ -109,8 +109,8 @@ fn levers(axis: DofKind) -> [(DofKind, usize); 2] {
 }
 
 fn drive(body: u32, axis: DofKind, springs: &[Spring<'_>]) -> Option<Drive> {
-    let turning: Vec<&Spring<'_>> = springs.iter().filter(|spring| spring.dof == axis).collect();
-    let first = turning.first()?;
+    let rotational: Vec<&Spring<'_>> = springs.iter().filter(|spring| spring.dof == axis).collect();
+    let first = rotational.first()?;
     let mut held_by = Vec::new();
     let mut holding = 0.0;
     for (dof, along) in levers(axis) {
@@ -138,8 +138,8 @@ fn drive(body: u32, axis: DofKind, springs: &[Spring<'_>]) -> Option<Drive> {
     Some(Drive {
         body,
         axis,
-        connections: turning.iter().map(|spring| *spring.connection.id).collect(),
-        stiffness: turning.iter().map(|spring| spring.stiffness).sum(),
+        connections: rotational.iter().map(|spring| *spring.connection.id).collect(),
+        stiffness: rotational.iter().map(|spring| spring.stiffness).sum(),
         input_body: first.input_body,
         held_by,
         holding,

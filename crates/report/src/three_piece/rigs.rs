@@ -33,7 +33,7 @@ pub struct Variant {
     pub case: TruckCase,
 }
 
-/// Rigs whose answers are computed with contacts and bristles of twice the stiffness too.
+/// Rigs whose results are computed with contacts and bristles of twice the stiffness too.
 pub(super) const SENSITIVE: [(&str, &str, &[&str]); 4] = [
     ("warp, new", "truck_warp_nest_constant_rising", &[]),
     (

@@ -1,4 +1,4 @@
-//! How far answers hang on the stiffness of contacts and bristles, which is decided, not measured.
+//! Sensitivity of results to the stiffness of contacts and bristles, which is decided, not measured.
 
 use serde::Serialize;
 use study::truck::WEDGE_NAMES;
@@ -6,12 +6,12 @@ use study::truck::run::TruckResult;
 
 use super::rigs::{INCH, KIP_INCH, POUND, Rigs, SENSITIVE, STIFFENED, at};
 
-/// An answer of a rig, and by how much it moves.
+/// A result of a rig, and its changes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Sensitivity {
     /// The rig.
     pub rig: &'static str,
-    /// The answer.
+    /// The result.
     pub answer: &'static str,
     /// Its unit.
     pub unit: &'static str,
@@ -24,7 +24,7 @@ pub struct Sensitivity {
 }
 
 /// What a rig is asked for.
-type Answer = (&'static str, &'static str, fn(&TruckResult) -> Option<f64>);
+type Quantity = (&'static str, &'static str, fn(&TruckResult) -> Option<f64>);
 
 /// Returns the warp moment where 20 mrad are reached first, kip·in.
 fn warp_moment(result: &TruckResult) -> Option<f64> {
@@ -49,7 +49,7 @@ fn loss(result: &TruckResult) -> Option<f64> {
     (!losses.is_empty()).then_some(sum / (POUND * INCH))
 }
 
-const WARP: [Answer; 3] = [
+const WARP: [Quantity; 3] = [
     ("warp moment at 20 mrad", "kip·in", warp_moment),
     ("largest normal force of a column", "lbf", normal),
     ("energy lost in a cycle", "in·lbf", loss),

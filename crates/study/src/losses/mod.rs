@@ -110,14 +110,14 @@ impl LossRecorder {
     /// No run of this case can have lost that.
     pub fn restore(&mut self, counts: LossCounts, time: f64) -> Result<(), RunError> {
         let [start, end] = self.window.map_or([f64::INFINITY; 2], |window| window.ends);
-        let begun = time > start;
-        let length = |full: usize| if begun { full } else { 0 };
+        let started = time > start;
+        let length = |full: usize| if started { full } else { 0 };
         check_length("counts.losses.last", counts.last.len(), length(self.terms))?;
         let terms = PARTS.len() * self.terms;
         check_length("counts.losses.terms", counts.terms.len(), length(terms))?;
         let powers = PARTS.len() * self.points * STATES.len() * KINDS;
         check_length("counts.losses.powers", counts.powers.len(), length(powers))?;
-        let passed = usize::from(begun) + usize::from(begun && time >= end);
+        let passed = usize::from(started) + usize::from(started && time >= end);
         check_length("counts.losses.stored", counts.stored.len(), passed)?;
         let values = counts.last.iter().chain(&counts.terms).chain(&counts.powers);
         let mut values = values.chain(counts.stored.iter().flatten());

@@ -14,7 +14,7 @@ use wedge::parameters::Parameters;
 use wedge::resultants::Resultants;
 use wedge::{BOLSTER, Wedge};
 
-use super::clock::ContactClock;
+use super::contact_times::ContactTimeCounter;
 use super::{COUNT, Measures, place};
 use crate::case::Case;
 use crate::closed_form;
@@ -157,7 +157,7 @@ struct Measuring {
     /// The averaging window and its number of cycles.
     window: Option<(f64, f64, u32)>,
     points: PointNames,
-    clock: ContactClock,
+    contact_times: ContactTimeCounter,
     /// Friction losses at the ends of the window, by face, J.
     probes: Vec<[f64; 2]>,
     loads: Loads,
@@ -178,7 +178,7 @@ impl Measuring {
         let averaged = window.map_or((0.0, duration), |(start, end, _)| (start, end));
         let points = PointNames::new(&parameters);
         Self {
-            clock: ContactClock::new(averaged, points.range(0).end),
+            contact_times: ContactTimeCounter::new(averaged, points.range(0).end),
             points,
             cycle,
             window,
@@ -207,7 +207,7 @@ impl Recorder for Measuring {
     fn step(&mut self, integrator: &Integrator<System>, system: &mut System, x: &mut [f64]) {
         let time = integrator.time();
         self.events += integrator.events().len() as u64;
-        self.clock.step(integrator.events(), time);
+        self.contact_times.step(integrator.events(), time);
         // Friction losses at the ends of the averaging window.
         let Some((start, end, _)) = self.window else {
             return;
@@ -223,7 +223,7 @@ impl Recorder for Measuring {
 
     fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
         if row.time == 0.0 {
-            self.clock.start(row.contact_states);
+            self.contact_times.start(row.contact_states);
         }
         system.loads(row.time, row.x, &mut self.loads);
         self.observe_row(row.time);
@@ -277,9 +277,10 @@ impl Measuring {
         self.averages(&mut values);
         values[place::PEAKS..place::PEAKS + 6].copy_from_slice(&self.peaks);
         for face in 0..FACES.len() {
-            values[place::LIFT_OFF + face] = self.clock.lift_off[face];
+            values[place::LIFT_OFF + face] = self.contact_times.lift_off[face];
             // A face that never touches has no share.
-            values[place::STICK + face] = self.clock.sticking[face] / self.clock.touching[face];
+            values[place::STICK + face] =
+                self.contact_times.sticking[face] / self.contact_times.touching[face];
         }
         let quasi_static = closed_form::wedge(&self.parameters);
         for (side, direction) in [Direction::Up, Direction::Down].into_iter().enumerate() {

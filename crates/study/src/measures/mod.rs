@@ -23,7 +23,7 @@
 //! where there are none, over the whole run. A measure that a run does not have is `NaN`.
 
 pub mod car;
-mod clock;
+mod contact_times;
 pub mod half_truck;
 mod measuring;
 pub mod truck;

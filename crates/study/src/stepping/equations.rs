@@ -105,7 +105,7 @@ pub struct Equations {
     neighbours: Neighbours,
     coil: CoilInput,
     friction: [f64; 2],
-    /// What elements feel here, if it is known already.
+    /// Evaluation of all elements here, if it is known already.
     evaluation: ElementEvaluation<f64>,
     evaluated: bool,
 }

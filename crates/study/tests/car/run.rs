@@ -94,8 +94,8 @@ fn analytic_static_loads_on_perfect_track() {
     );
 }
 
-/// Over a dip of one rail: the ledger closes with a method that does not damp the blow, the left wheels feel
-/// it, and statistics agree with the columns.
+/// Over a dip of one rail: the ledger closes with a method that does not damp the blow, the left wheels
+/// respond to it, and statistics agree with the columns.
 #[test]
 fn energy_the_ledger_closes_over_a_dip() {
     let simulation = "[simulation]\nduration = \"0.6 s\"\nmethod = \"rodas5p\"\n";

@@ -131,8 +131,8 @@ fn frequency(system: &mut System, x: &[f64], held: Held, coordinate: usize) -> f
     mode_of(system, &found.modes, BODY, coordinate).frequency
 }
 
-/// Returns a state at the drawn layout with the body a hair lower, so that springs with a kink there are on
-/// their compression side.
+/// Returns a state at the drawn layout with the body a hair lower, so that springs with a change of stiffness
+/// there are on their compression side.
 fn compressed(system: &System) -> Vec<f64> {
     let mut x = system.initial_state();
     x[system.position_of(BODY, 2).unwrap()] = -1e-6;

@@ -239,7 +239,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         }
         figure.add(files, fit_files::FIGURE, fit_files::PICTURE)
     })?;
-    tell(&found, &shown, &arguments.out, &names)?;
+    print_fit(&found, &shown, &arguments.out, &names)?;
     for warning in &found.warnings {
         say(&format!("warning: {}: {warning}", base.name()));
     }
@@ -315,7 +315,12 @@ fn compare_stroke(cycle: Option<Cycle>, displacement: &[f64]) {
     }
 }
 
-fn tell(found: &Fit, shown: &Shown<'_>, folder: &std::path::Path, names: &[&str]) -> Result<(), Failure> {
+fn print_fit(
+    found: &Fit,
+    shown: &Shown<'_>,
+    folder: &std::path::Path,
+    names: &[&str],
+) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     let interval = format!("interval, {} %", 100.0 * shown.confidence);
     let mut table = Table::new(

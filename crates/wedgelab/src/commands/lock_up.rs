@@ -121,7 +121,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         figure.add(files, lock_up_files::FIGURE, lock_up_files::PICTURE)
     })?;
     let mut out = io::stdout().lock();
-    tell(&found, &mut out)?;
+    print_map(&found, &mut out)?;
     writeln!(
         out,
         "\nWritten into {}: {}.",
@@ -142,7 +142,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 }
 
 /// Prints the findings.
-fn tell(found: &LockUpMap, out: &mut dyn Write) -> io::Result<()> {
+fn print_map(found: &LockUpMap, out: &mut dyn Write) -> io::Result<()> {
     let [locks, slides, wrong] = found.counts();
     let margins = found.cells.iter().map(|cell| cell.margin.to_degrees());
     let (least, most) = margins.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), margin| {

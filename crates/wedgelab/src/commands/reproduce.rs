@@ -164,7 +164,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Some(pool.install(|| three_piece::report_on(rigs, &places.figures))?)
     };
     let figures = pool.install(|| {
-        tell(
+        write_report(
             &outcomes,
             &half_trucks,
             recordings,
@@ -288,7 +288,7 @@ fn draw(exhibits: &[&Exhibit], folder: &Folder) -> Result<Vec<String>, Failure> 
 }
 
 /// Draws all figures and writes them and the page; gives the number of figures.
-fn tell(
+fn write_report(
     outcomes: &[Outcome],
     half_trucks: &[TruckOutcome],
     recordings: Vec<Recording>,

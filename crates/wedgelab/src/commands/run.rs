@@ -131,7 +131,7 @@ fn run<C: RunFiles>(
         compute(case, &progress).and_then(|done| write(&done, case, &folder, &progress).map(|()| done));
     progress.finish();
     let done = done?;
-    tell(arguments, &folder, &case.names(), &done.result.summary, || {
+    print_run(arguments, &folder, &case.names(), &done.result.summary, || {
         shown(&done)
     })?;
     match unsound::<C>(&done.result.summary, folder.path()) {
@@ -178,7 +178,7 @@ fn run_in_parts<C: RunFiles>(
     progress.finish();
     let (done, saved) = computed?;
     let summary = &done.result.summary;
-    tell(arguments, &folder, &case.names(), summary, || shown(&done))?;
+    print_run(arguments, &folder, &case.names(), summary, || shown(&done))?;
     if let Some(Saved { time, path }) = &saved {
         let (time, path) = (Number(*time), path.display());
         say(&format!(
@@ -218,7 +218,7 @@ fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failur
         contacts,
     };
     write_page(&folder, |viewer| page::truck_run::render(&run, viewer))?;
-    tell(arguments, &folder, &names, &run.result.summary, || {
+    print_run(arguments, &folder, &names, &run.result.summary, || {
         let energy = energy::in_short(&run.result.summary.energy);
         (truck_table(&run.result), note(TRUCK_NOTE, energy))
     })?;
@@ -246,7 +246,7 @@ fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     write_page(&folder, |viewer| page::car_run::render(&run, viewer))?;
     let summary = &run.result.summary;
-    tell(arguments, &folder, &names, summary, || limits_of_car(summary))?;
+    print_run(arguments, &folder, &names, summary, || limits_of_car(summary))?;
     if Viewer::embedded().is_none() {
         say(page::MISSING);
     }
@@ -257,7 +257,7 @@ fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
 }
 
 /// Tells what came out and where it lies: in words, a table and what its columns are, or as JSON.
-fn tell(
+fn print_run(
     arguments: &Arguments,
     folder: &Folder,
     names: &[&str],

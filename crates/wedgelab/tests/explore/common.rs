@@ -109,8 +109,8 @@ impl Server {
                 .unwrap()
                 .success()
         );
-        let begun = Instant::now();
-        while begun.elapsed() < Duration::from_secs(20) {
+        let started = Instant::now();
+        while started.elapsed() < Duration::from_secs(20) {
             if let Some(status) = self.child.try_wait().unwrap() {
                 return status.code();
             }

@@ -363,10 +363,10 @@ fn send(dice: &mut Dice, server: &Server, bytes: &[u8]) -> (&'static str, Vec<u8
     if stream.read_to_end(&mut answer).is_err() {
         let _ = stream.shutdown(Shutdown::Write);
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
-        let begun = Instant::now();
+        let started = Instant::now();
         let _ = stream.read_to_end(&mut answer);
         let shown = String::from_utf8_lossy(&bytes[..bytes.len().min(1000)]);
-        assert!(begun.elapsed() < PATIENCE, "the server waits for ever: {shown}");
+        assert!(started.elapsed() < PATIENCE, "the server waits for ever: {shown}");
         if answer.is_empty() {
             return ("left after a while", answer);
         }
@@ -425,7 +425,7 @@ fn issue_029_random_requests_break_nothing() {
     let mut slowest = Duration::ZERO;
     #[cfg(target_os = "linux")]
     let mut halfway = [0; 2];
-    let begun = Instant::now();
+    let started = Instant::now();
     for number in 0..requests {
         #[cfg(target_os = "linux")]
         if number == requests / 2 {
@@ -463,7 +463,7 @@ fn issue_029_random_requests_break_nothing() {
         assert!(!text.contains(&server.token), "{text} {}", shown());
         *counts.entry(status.unwrap_or(how).to_owned()).or_default() += 1;
     }
-    let took = begun.elapsed();
+    let took = started.elapsed();
     #[cfg(target_os = "linux")]
     let memories = [memory(server.child.id()), halfway];
     assert_eq!(energy(&server), before);

@@ -294,11 +294,11 @@ fn issue_029_a_run_ends_when_its_client_goes() {
         body.len()
     );
     stream.write_all(request.as_bytes()).unwrap();
-    let (pid, begun) = (server.child.id(), Instant::now());
+    let (pid, started) = (server.child.id(), Instant::now());
     let start = ticks(pid);
     // It runs: a quarter of a second of processor time.
     while ticks(pid) < start + 25 {
-        assert!(begun.elapsed() < LONG, "it does not begin");
+        assert!(started.elapsed() < LONG, "it does not begin");
         std::thread::sleep(Duration::from_millis(20));
     }
     drop(stream);
@@ -309,6 +309,6 @@ fn issue_029_a_run_ends_when_its_client_goes() {
         if ticks(pid) == before {
             return;
         }
-        assert!(begun.elapsed() < LONG, "it goes on without its client");
+        assert!(started.elapsed() < LONG, "it goes on without its client");
     }
 }

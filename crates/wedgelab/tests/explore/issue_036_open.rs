@@ -50,9 +50,12 @@ fn issue_036_a_browser_is_called_with_a_file_that_leads_to_the_page() {
     fs::write(&browser, script).unwrap();
     fs::set_permissions(&browser, fs::Permissions::from_mode(0o755)).unwrap();
     let (child, line) = start(path, &browser);
-    let begun = Instant::now();
+    let started = Instant::now();
     while !called.exists() {
-        assert!(begun.elapsed() < Duration::from_secs(60), "no browser was called");
+        assert!(
+            started.elapsed() < Duration::from_secs(60),
+            "no browser was called"
+        );
         std::thread::sleep(Duration::from_millis(20));
     }
     let said = fs::read_to_string(&called).unwrap();

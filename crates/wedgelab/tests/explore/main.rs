@@ -373,11 +373,11 @@ fn a_second_run_replaces_the_first() {
     let first = thread::spawn(move || post(&host, &authorization, "/api/run", &endless().to_string()));
     thread::sleep(Duration::from_millis(700));
     assert!(!first.is_finished());
-    let begun = Instant::now();
+    let started = Instant::now();
     assert_eq!(server.post("/api/run", &json!({ "set": {} })).status, 200);
     let first = first.join().unwrap();
     assert_eq!((first.status, &first.json()["replaced"]), (409, &json!(true)));
-    assert!(begun.elapsed() < Duration::from_secs(20));
+    assert!(started.elapsed() < Duration::from_secs(20));
 }
 
 #[cfg(unix)]
@@ -391,9 +391,9 @@ fn it_stops_cleanly_even_while_it_runs() {
         // A connection on which nothing is ever said must not hold it.
         let _idle = TcpStream::connect(&server.host).unwrap();
         thread::sleep(Duration::from_millis(700));
-        let begun = Instant::now();
+        let started = Instant::now();
         assert_eq!(server.end(signal), Some(0), "{signal}");
-        assert!(begun.elapsed() < Duration::from_secs(10));
+        assert!(started.elapsed() < Duration::from_secs(10));
         assert_eq!(running.join().unwrap().status, 409);
         assert!(TcpStream::connect(&server.host).is_err());
     }

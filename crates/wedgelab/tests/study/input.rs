@@ -62,13 +62,13 @@ fn input_more_than_a_million_runs_need_a_yes() {
         .stderr(Stdio::null())
         .spawn()
         .unwrap();
-    let begun = (0..3000).any(|_| {
+    let started = (0..3000).any(|_| {
         std::thread::sleep(Duration::from_millis(20));
         path.join("a/parts").exists() && kept(&path.join("a")) > 0
     });
     child.kill().unwrap();
     child.wait().unwrap();
-    assert!(begun);
+    assert!(started);
 }
 
 #[test]

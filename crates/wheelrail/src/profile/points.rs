@@ -152,8 +152,8 @@ impl Points {
             if line.is_empty() {
                 continue;
             }
-            if let Some(begun) = line.strip_suffix(".begin") {
-                block = begun.to_ascii_lowercase();
+            if let Some(opened) = line.strip_suffix(".begin") {
+                block = opened.to_ascii_lowercase();
             } else if line.ends_with(".end") {
                 ended |= block == "point";
                 block = String::new();

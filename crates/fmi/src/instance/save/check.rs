@@ -104,15 +104,15 @@ impl Saved {
                 "one of this kind of interface",
             ));
         }
-        let begun = !self.phase.is_before_start();
-        if begun && self.element.is_none() {
+        let started = !self.phase.is_before_start();
+        if started && self.element.is_none() {
             return Err(damaged(
                 "element",
                 "missing",
                 "there from the end of the initialization on",
             ));
         }
-        if !begun && self.time != self.start {
+        if !started && self.time != self.start {
             return Err(damaged(
                 "time",
                 self.time,

@@ -249,9 +249,9 @@ impl Explorer {
     /// # Errors
     /// What was typed is wrong, a later request came, or the client has gone.
     pub fn run(&self, wanted: &Wanted, turn: &Turn) -> Result<Answer, Refused> {
-        let begun = Instant::now();
+        let started = Instant::now();
         let outcome = self.outcome(wanted, turn)?;
-        let seconds = begun.elapsed().as_secs_f64();
+        let seconds = started.elapsed().as_secs_f64();
         Ok(Answer {
             schema: SCHEMA,
             view: outcome.view(),

@@ -174,7 +174,7 @@ mod tests {
     #[tokio::test]
     async fn issue_029_work_ends_when_its_client_goes() {
         let (end, mut ended) = mpsc::channel(4);
-        let (begin, mut begun) = mpsc::channel(4);
+        let (begin, mut started) = mpsc::channel(4);
         let endless = move |_: Request| {
             let (ended, begin) = (Ended(end.clone()), begin.clone());
             async move {
@@ -187,7 +187,7 @@ mod tests {
         let mut stream = TcpStream::connect(address).await.unwrap();
         let request = b"POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 0\r\n\r\n";
         stream.write_all(request).await.unwrap();
-        begun.recv().await.unwrap();
+        started.recv().await.unwrap();
         assert!(ended.try_recv().is_err(), "it goes on while the client waits");
         drop(stream);
         tokio::time::timeout(LONG, ended.recv()).await.unwrap().unwrap();

@@ -85,17 +85,17 @@ pub fn compute(case: AnyCase, wanted: impl Fn() -> bool) -> Result<Outcome, Refu
     };
     let outcome = match case {
         AnyCase::Wedge(case) => {
-            let result = begun(Run::new(&*case))?.finish_while(&mut goes_on);
+            let result = started(Run::new(&*case))?.finish_while(&mut goes_on);
             Outcome::Wedge(Box::new((*case, result)))
         }
         AnyCase::Truck(case) => {
-            let run = begun(Run::with_contacts(&*case))?;
+            let run = started(Run::with_contacts(&*case))?;
             let (result, contacts) = run.finish_with_contacts(&mut goes_on);
             Outcome::Truck(Box::new((*case, result, contacts)))
         }
         AnyCase::HalfTruck(_) => return Err(Refused::mistake("", NO_HALF_TRUCK.to_owned(), "")),
         AnyCase::Car(case) => {
-            let run = begun(Run::with_motions(&case))?;
+            let run = started(Run::with_motions(&case))?;
             let (result, motions) = run.finish_with_motions(&mut goes_on);
             Outcome::Car(Box::new((*case, result, motions)))
         }
@@ -111,7 +111,7 @@ pub fn compute(case: AnyCase, wanted: impl Fn() -> bool) -> Result<Outcome, Refu
 pub const NO_HALF_TRUCK: &str =
     "the explorer takes wedges, trucks and cars, not the half-trucks of NUCARS's files";
 
-fn begun<C: RunCase>(run: Result<Run<C>, study::run::RunError>) -> Result<Run<C>, Refused> {
+fn started<C: RunCase>(run: Result<Run<C>, study::run::RunError>) -> Result<Run<C>, Refused> {
     run.map_err(|error| Refused::mistake("", format!("the run cannot begin: {error}"), OUT_OF_PROPORTION))
 }
 

@@ -11,7 +11,7 @@ use nucars::{Finding, Severity};
 use serde_json::{Value, json};
 
 use super::files::Instead;
-use super::load::tell;
+use super::load::print_findings;
 use crate::failure::{Failure, INPUT};
 use crate::json;
 
@@ -81,7 +81,7 @@ fn report(files: &Files, arguments: &Arguments) -> Result<ExitCode, Failure> {
         return Ok(code);
     }
     for (_, _, findings) in &all {
-        tell(findings, shown);
+        print_findings(findings, shown);
     }
     let mut out = io::stdout().lock();
     for (kind, path, findings) in &all {

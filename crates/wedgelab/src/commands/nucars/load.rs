@@ -6,7 +6,7 @@ use nucars::{Finding, Findings};
 use crate::failure::say;
 
 /// Shows findings on the standard error.
-pub fn tell<'a>(findings: &'a Findings, which: impl Fn(&&'a Finding) -> bool) {
+pub fn print_findings<'a>(findings: &'a Findings, which: impl Fn(&&'a Finding) -> bool) {
     for finding in findings.list().iter().filter(which) {
         say(&format!("{:?}", Report::new(finding.clone())));
     }

@@ -13,14 +13,14 @@ use nucars::file_sets::{find, kind, load};
 use nucars::read::{FileKind, read_system};
 use nucars::truck::{Choices, Truck};
 
-use super::load::tell;
+use super::load::print_findings;
 use crate::failure::{Failure, INPUT, Message};
 use crate::table::Table;
 
 /// Print natural frequencies and shapes of a system
 ///
 /// Undamped small vibrations about the drawn layout, or about static equilibrium without friction, input
-/// bodies at rest. Where a characteristic has a kink, the piece of the larger strokes counts. Shapes are
+/// bodies at rest. Where the slope of a characteristic jumps, the slope at larger strokes counts. Shapes are
 /// given as shares of kinetic energy in each body's coordinates, with the sign of the motion; shares below 3
 /// % are left out. A negative number instead of a frequency is that of a motion that grows.
 #[derive(Debug, Args)]
@@ -66,7 +66,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut read = read_system(&source);
     read.add(check::system(&read));
     if read.findings.has_errors() {
-        tell(&read.findings, |finding| finding.severity() == Severity::Error);
+        print_findings(&read.findings, |finding| finding.severity() == Severity::Error);
         return Ok(ExitCode::from(INPUT));
     }
     let wrong = |error: &dyn std::fmt::Display| {

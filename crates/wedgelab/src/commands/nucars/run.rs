@@ -16,7 +16,7 @@ use study::half_truck::files::{Settings, case_of_run};
 use study::half_truck::{HalfTruckCase, HalfTruckStart, HalfTruckSummary, options};
 
 use super::files::Instead;
-use super::load::tell;
+use super::load::print_findings;
 use crate::commands::run::is_built_in;
 use crate::execute::{compute_with_contacts, unsound, write, write_page};
 use crate::failure::{Failure, Message, say};
@@ -321,7 +321,7 @@ pub fn read_run(file: &Path, instead: &file_sets::Instead) -> Result<RunToMake, 
     }
     let files = RunFiles::read(&path, instead)?;
     for findings in files.findings() {
-        tell(findings, |finding| finding.severity() == Severity::Error);
+        print_findings(findings, |finding| finding.severity() == Severity::Error);
     }
     let again = std::iter::once(format!("wedgelab nucars check {}", path.display()))
         .chain(instead.given())

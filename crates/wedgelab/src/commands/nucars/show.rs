@@ -10,7 +10,7 @@ use nucars::file_sets::{find, kind, load};
 use nucars::read::{FileKind, read_system};
 use nucars::show;
 
-use super::load::tell;
+use super::load::print_findings;
 use crate::failure::{Failure, INPUT, Message};
 use crate::table::Table;
 
@@ -49,6 +49,6 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         shown.write(&mut out)?;
     }
     out.flush()?;
-    tell(&read.findings, |finding| finding.severity() == Severity::Error);
+    print_findings(&read.findings, |finding| finding.severity() == Severity::Error);
     Ok(ExitCode::from(if read.findings.has_errors() { INPUT } else { 0 }))
 }

@@ -38,20 +38,20 @@ pub fn open(study: &Study, path: &Path) -> Result<StudyFolder, StudyFolderError>
 
 /// Computes all runs that have no record.
 pub fn all(study: &Study, folder: &StudyFolder, jobs: usize, quiet: bool) -> Result<Done, StudyFolderError> {
-    let begun = study_work::begun(folder)?;
-    let progress = Steady::new("runs", study.count(), begun.runs, quiet);
+    let kept = study_work::kept(folder)?;
+    let progress = Steady::new("runs", study.count(), kept.runs, quiet);
     let computed = study_work::compute(study, folder, jobs, interrupt::flag(), &|| progress.done());
     let now = progress.finish();
     computed?;
-    if begun.lost > 0 {
+    if kept.lost > 0 {
         say(&format!(
             "note: {} bytes in parts/ were cut off or damaged; their runs were computed again",
-            begun.lost
+            kept.lost
         ));
     }
     Ok(Done {
-        before: begun.runs,
+        before: kept.runs,
         now,
-        interrupted: begun.runs + now < study.count(),
+        interrupted: kept.runs + now < study.count(),
     })
 }

@@ -1,13 +1,13 @@
-//! How long contacts are open, stuck and slipping, from the contact events.
+//! Times for which contacts are open, stuck and slipping, from the contact events.
 
 use integrate::Event;
 use mechanics::system::ContactState;
 
-/// Times counted along a run.
+/// Counts times of contact along a run.
 #[derive(Clone, Debug)]
-pub(super) struct ContactClock {
+pub(super) struct ContactTimeCounter {
     contact_states: Vec<u8>,
-    /// How many points the column has: they come first.
+    /// Number of points of the column, which come first.
     of_column: usize,
     time: f64,
     /// Shares count from here to there, s.
@@ -20,8 +20,8 @@ pub(super) struct ContactClock {
     pub sticking: [f64; 2],
 }
 
-impl ContactClock {
-    /// Returns a clock at time zero for a column with so many points.
+impl ContactTimeCounter {
+    /// Returns a counter at time zero for a column with so many points.
     pub fn new(window: (f64, f64), of_column: usize) -> Self {
         Self {
             contact_states: Vec::new(),
@@ -88,12 +88,12 @@ mod tests {
             to,
         };
         // All open; corner 0 of the column touches and sticks from 1 s, slips from 3 s, leaves at 4 s.
-        let mut clock = ContactClock::new((2.0, 10.0), 4);
-        clock.start(&[0; 8]);
-        clock.step(&[event(1.0, 0, 1)], 2.5);
-        clock.step(&[event(3.0, 0, 2), event(4.0, 0, 0)], 10.0);
-        assert_eq!(clock.lift_off, [1.0 + 6.0, 10.0]);
-        assert_eq!(clock.touching, [2.0, 0.0]);
-        assert_eq!(clock.sticking, [1.0, 0.0]);
+        let mut contact_times = ContactTimeCounter::new((2.0, 10.0), 4);
+        contact_times.start(&[0; 8]);
+        contact_times.step(&[event(1.0, 0, 1)], 2.5);
+        contact_times.step(&[event(3.0, 0, 2), event(4.0, 0, 0)], 10.0);
+        assert_eq!(contact_times.lift_off, [1.0 + 6.0, 10.0]);
+        assert_eq!(contact_times.touching, [2.0, 0.0]);
+        assert_eq!(contact_times.sticking, [1.0, 0.0]);
     }
 }
