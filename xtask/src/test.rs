@@ -58,7 +58,11 @@ const CHECKS: &[Check] = &[
         "every crate depends on lower layers only",
         layers::check,
     ),
-    Check::new("prose", "no file points outside the repository", prose::check),
+    Check::new(
+        "prose",
+        "no file points outside the repository, no line of Rust is too long",
+        prose::check,
+    ),
     Check::new("links", "links between pages lead somewhere", links::check),
     // Before everything that compiles: what is compiled after it holds the viewer.
     Check::new(

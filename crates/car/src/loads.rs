@@ -17,7 +17,7 @@ use mechanics::system::{BodyState, Observation};
 use mechanics::vector::{Matrix, Vector};
 use rolling::wheel::{PatchState, motion_of};
 use truck::TruckFrame;
-use wheelrail::track::{Line, Section};
+use wheelrail::track::{Line, TrackSection};
 
 use crate::assemble::{Car, WheelElements, body_marker};
 
@@ -178,11 +178,11 @@ impl Car {
         self.axes.apply_transposed(vector)
     }
 
-    pub(crate) fn section(&self, place: Vector<f64>) -> Section<f64> {
+    pub(crate) fn section(&self, place: Vector<f64>) -> TrackSection<f64> {
         self.lines.section(Line::Center, self.own(place).0)
     }
 
-    fn arm(&self, place: Vector<f64>, section: &Section<f64>) -> [f64; 3] {
+    fn arm(&self, place: Vector<f64>, section: &TrackSection<f64>) -> [f64; 3] {
         (self.own(place) - Vector(section.origin)).0
     }
 
@@ -192,7 +192,7 @@ impl Car {
         motion_of(wheelset, [half, -half][i], &seen.bodies[on], self.axes)
     }
 
-    fn wheels(&self, w: usize, seen: &Observation, section: &Section<f64>) -> [WheelLoads; 2] {
+    fn wheels(&self, w: usize, seen: &Observation, section: &TrackSection<f64>) -> [WheelLoads; 2] {
         match &self.wheels {
             WheelElements::OnRails(wheels, half) => [0, 1].map(|i| {
                 let motion = self.wheel_motion(seen, w, i, *half);

@@ -8,7 +8,7 @@ use mechanics::system::Observation;
 use mechanics::vector::{Matrix, Vector};
 use rolling::wheelset::coordinate;
 use truck::TruckFrame;
-use wheelrail::track::Section;
+use wheelrail::track::TrackSection;
 
 use crate::assemble::Car;
 use crate::body::angles;
@@ -40,7 +40,7 @@ pub struct WheelsetAxes {
     /// The axle, to the left.
     pub axle: Vector<f64>,
     /// The section of the track there.
-    pub section: Section<f64>,
+    pub section: TrackSection<f64>,
     /// Angle of the spin, rad.
     pub spin: f64,
 }

@@ -12,10 +12,10 @@ use study::car::columns::CarTable;
 use study::case::Tables;
 
 use crate::Error;
-use crate::element::{Entries, Entry, Setting};
+use crate::element::{Entries, QuantityEntry, Setting};
 use crate::system::{
-    Direction, LoadPort, MOTION, Plant, Ports, Start, SystemElement, accumulators, add_motion, add_table,
-    contacts, internals, ledger, load, motions_along_axes, options,
+    LoadPort, MOTION, Plant, PortDirection, Ports, StartState, SystemElement, accumulators, add_motion,
+    add_table, contacts, internals, ledger, load, motions_along_axes, options,
 };
 
 /// Axes along which rails are moved and the body is pushed.
@@ -66,7 +66,7 @@ pub fn plant(case: &CarCase) -> Result<Plant, Error> {
 /// As [`plant`]; or values that are not finite, or the integrator refuses the start.
 pub fn element(case: &CarCase, setting: &Setting) -> Result<SystemElement, Error> {
     let driven = setting.options.get(MOTION).copied().unwrap_or(0) == 0;
-    SystemElement::new(plant(case)?, setting, Start::Initial, driven)
+    SystemElement::new(plant(case)?, setting, StartState::Initial, driven)
 }
 
 fn all(table: &CarTable) -> (Entries, Ports) {
@@ -92,7 +92,7 @@ fn all(table: &CarTable) -> (Entries, Ports) {
         }
         ports.loads.push(LoadPort {
             input: inputs.len(),
-            direction: Direction { body, row },
+            direction: PortDirection { body, row },
         });
         let text = "the car body with its lading from outside, at its center of gravity, fixed axes";
         inputs.push(load("", "car_body", axis, text));
@@ -121,7 +121,7 @@ fn all(table: &CarTable) -> (Entries, Ports) {
     (entries, ports)
 }
 
-fn states(system: &System) -> Vec<Entry> {
+fn states(system: &System) -> Vec<QuantityEntry> {
     let mut states = motions_along_axes(system);
     states.extend(internals(system));
     states.extend(accumulators(system));

@@ -20,7 +20,7 @@ pub enum Interface {
 
 /// A quantity of an element, as a variable shows it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
+pub struct QuantityEntry {
     /// Its name.
     pub name: String,
     /// What it is.
@@ -41,7 +41,7 @@ pub struct Entry {
     pub output: bool,
 }
 
-impl Entry {
+impl QuantityEntry {
     /// Returns a real number.
     #[must_use]
     pub fn real(
@@ -87,27 +87,27 @@ impl Entry {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Entries {
     /// Real parameters.
-    pub parameters: Vec<Entry>,
+    pub parameters: Vec<QuantityEntry>,
     /// Options: integers and truth values.
-    pub options: Vec<Entry>,
+    pub options: Vec<QuantityEntry>,
     /// Inputs, positions and rates of neighbours first.
-    pub inputs: Vec<Entry>,
+    pub inputs: Vec<QuantityEntry>,
     /// Outputs.
-    pub outputs: Vec<Entry>,
+    pub outputs: Vec<QuantityEntry>,
     /// Outputs depend on states alone, not on inputs.
     pub outputs_of_states: bool,
     /// Continuous states.
-    pub states: Vec<Entry>,
+    pub states: Vec<QuantityEntry>,
     /// How many of them, at the end of the list, are only accumulated: nothing depends on them.
     pub accumulators: usize,
     /// States whose rate is another state, by number; the others' rates depend on everything.
     pub kinematic: Vec<(usize, usize)>,
     /// Values to look at.
-    pub columns: Vec<Entry>,
+    pub columns: Vec<QuantityEntry>,
     /// Contact states.
-    pub modes: Vec<Entry>,
+    pub modes: Vec<QuantityEntry>,
     /// Event indicators.
-    pub indicators: Vec<Entry>,
+    pub indicators: Vec<QuantityEntry>,
 }
 
 /// What an element starts from.

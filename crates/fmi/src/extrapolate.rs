@@ -1,6 +1,6 @@
 //! Where inputs are at the end of a communication step, from what is known at its beginning.
 
-use crate::element::Entry;
+use crate::element::QuantityEntry;
 
 /// How inputs of a communication step are to be understood.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +26,12 @@ pub(crate) struct Known<'k> {
 ///
 /// Positions go on with their rate, and with half the square of the step times the rate's derivative where
 /// that is known; rates go on with their derivative; other inputs are held, or go on with their derivative.
-pub(crate) fn end_of_step(entries: &[Entry], known: Known<'_>, step: f64, how: Understanding) -> Vec<f64> {
+pub(crate) fn end_of_step(
+    entries: &[QuantityEntry],
+    known: Known<'_>,
+    step: f64,
+    how: Understanding,
+) -> Vec<f64> {
     let Known {
         values,
         slopes,
@@ -68,11 +73,11 @@ pub(crate) fn end_of_step(entries: &[Entry], known: Known<'_>, step: f64, how: U
 mod tests {
     use super::*;
 
-    fn entries() -> Vec<Entry> {
+    fn entries() -> Vec<QuantityEntry> {
         let mut entries = vec![
-            Entry::real("z", None, Some(0.0), ""),
-            Entry::real("z_rate", None, Some(0.0), ""),
-            Entry::real("k", None, Some(0.0), ""),
+            QuantityEntry::real("z", None, Some(0.0), ""),
+            QuantityEntry::real("z_rate", None, Some(0.0), ""),
+            QuantityEntry::real("k", None, Some(0.0), ""),
         ];
         entries[0].rate = Some(1);
         entries

@@ -11,7 +11,7 @@ use wedge::outputs::FACES;
 use wedge::quasi_static::{PlanePlace, PlaneReading, read};
 
 use crate::Error;
-use crate::element::{Element, ElementState, Entries, Entry, Setting, Slopes};
+use crate::element::{Element, ElementState, Entries, QuantityEntry, Setting, Slopes};
 use crate::instance::damaged;
 use crate::unit::Unit;
 use crate::wedge::entries::NEIGHBOURS;
@@ -64,7 +64,7 @@ pub fn entries(case: &Case) -> Result<Entries, Error> {
             .into_iter()
             .enumerate()
         {
-            let mut entry = Entry::real(
+            let mut entry = QuantityEntry::real(
                 format!("{name}_{axis}"),
                 unit(Kind::Length),
                 Some(place.position[k]),
@@ -74,7 +74,7 @@ pub fn entries(case: &Case) -> Result<Entries, Error> {
             inputs.push(entry);
         }
         for (axis, k) in [("x", 0), ("z", 2)] {
-            inputs.push(Entry::real(
+            inputs.push(QuantityEntry::real(
                 format!("{name}_{axis}_rate"),
                 unit(Kind::Speed),
                 Some(place.rate[k]),
@@ -82,13 +82,13 @@ pub fn entries(case: &Case) -> Result<Entries, Error> {
             ));
         }
     }
-    inputs.push(Entry::real(
+    inputs.push(QuantityEntry::real(
         "coil_stiffness_input",
         unit(Kind::Stiffness),
         Some(0.0),
         "stiffness of the coil, read if coil_mode = 1",
     ));
-    inputs.push(Entry::real(
+    inputs.push(QuantityEntry::real(
         "coil_force_input",
         unit(Kind::Force),
         Some(0.0),
@@ -97,7 +97,7 @@ pub fn entries(case: &Case) -> Result<Entries, Error> {
     let mut outputs = Vec::new();
     for name in NEIGHBOURS {
         for axis in ["x", "z"] {
-            outputs.push(Entry::real(
+            outputs.push(QuantityEntry::real(
                 format!("force_on_{name}_{axis}"),
                 unit(Kind::Force),
                 None,
@@ -108,13 +108,13 @@ pub fn entries(case: &Case) -> Result<Entries, Error> {
             ));
         }
     }
-    outputs.push(Entry::real(
+    outputs.push(QuantityEntry::real(
         "coil_compression",
         unit(Kind::Length),
         None,
         "compression of the coil: free length less length",
     ));
-    outputs.push(Entry::real(
+    outputs.push(QuantityEntry::real(
         "coil_force",
         unit(Kind::Force),
         None,
@@ -122,7 +122,7 @@ pub fn entries(case: &Case) -> Result<Entries, Error> {
     ));
     for face in FACES {
         let text = format!("normal force of the {face}");
-        outputs.push(Entry::real(
+        outputs.push(QuantityEntry::real(
             format!("{face}_normal_force"),
             unit(Kind::Force),
             None,
@@ -131,7 +131,7 @@ pub fn entries(case: &Case) -> Result<Entries, Error> {
     }
     for face in FACES {
         let text = format!("power lost in friction at the {face}");
-        outputs.push(Entry::real(
+        outputs.push(QuantityEntry::real(
             format!("{face}_friction_loss_power"),
             unit(Kind::Power),
             None,
@@ -150,7 +150,7 @@ pub fn entries(case: &Case) -> Result<Entries, Error> {
         ("bolster_friction_loss", "energy lost in friction at the slope"),
     ]
     .map(|(name, text)| {
-        let mut entry = Entry::real(name, unit(Kind::Energy), None, text);
+        let mut entry = QuantityEntry::real(name, unit(Kind::Energy), None, text);
         entry.nominal = Some(scales::ENERGY);
         entry
     });

@@ -20,7 +20,7 @@ use crate::package::{self, Library, Platform};
 use crate::source::Source;
 use crate::truck::WEDGES;
 use crate::unit::Unit;
-use crate::variable::{Role, Start, Variable};
+use crate::variable::{Start, Variable, VariableRole};
 
 /// The truck's name among the components.
 const TRUCK: &str = "truck";
@@ -97,11 +97,11 @@ fn connections(truck: &Description, wedge: &Description) -> Result<Vec<Connectio
         let there = (name, own);
         let role = find(wedge, &there.1).map(|other| other.role);
         connections.push(match (variable.role, role) {
-            (Role::Output(_), Some(Role::Input(_))) => Connection {
+            (VariableRole::Output(_), Some(VariableRole::Input(_))) => Connection {
                 from: here,
                 to: there,
             },
-            (Role::Input(_), Some(Role::Output(_))) => Connection {
+            (VariableRole::Input(_), Some(VariableRole::Output(_))) => Connection {
                 from: there,
                 to: here,
             },

@@ -13,9 +13,9 @@ use study::truck::columns::TruckTable;
 use wedge::parameters::Start as CaseStart;
 
 use crate::Error;
-use crate::element::{Entries, Entry, Setting};
+use crate::element::{Entries, QuantityEntry, Setting};
 use crate::system::{
-    MOTION, Plant, Ports, START, Start, SystemElement, accumulators, add_loads, add_motion, add_table,
+    MOTION, Plant, Ports, START, StartState, SystemElement, accumulators, add_loads, add_motion, add_table,
     contacts, internals, ledger, motions, options,
 };
 
@@ -64,8 +64,8 @@ pub fn plant(case: &TruckCase, driven: bool) -> Result<Plant, Error> {
 pub fn element(case: &TruckCase, setting: &Setting) -> Result<SystemElement, Error> {
     let option = |place: usize| setting.options.get(place).copied().unwrap_or(0);
     let start = match option(START) {
-        0 => Start::Initial,
-        _ => Start::Equilibrium,
+        0 => StartState::Initial,
+        _ => StartState::Equilibrium,
     };
     let driven = option(MOTION) == 0;
     SystemElement::new(plant(case, driven)?, setting, start, driven)
@@ -150,7 +150,7 @@ fn all(case: &TruckCase, system: &System, table: &TruckTable) -> (Entries, Ports
     (entries, ports)
 }
 
-fn states(system: &System) -> Vec<Entry> {
+fn states(system: &System) -> Vec<QuantityEntry> {
     let mut states = motions(system, |body| system.bodies()[body].name.clone());
     for state in &mut states {
         state.output = true;

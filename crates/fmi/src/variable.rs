@@ -70,7 +70,7 @@ pub enum Start {
 
 /// What stands behind a variable: the kind of quantity an element has, and its number among those.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
+pub enum VariableRole {
     /// Time.
     Time,
     /// A real parameter.
@@ -103,7 +103,7 @@ pub struct Variable {
     /// What it is, in one line.
     pub text: String,
     /// What stands behind it.
-    pub role: Role,
+    pub role: VariableRole,
     /// Its unit; `None` for numbers without one.
     pub unit: Option<Unit>,
     /// What it is for.

@@ -51,7 +51,7 @@ fn go_on(instance: &mut Instance, steps: u32, length: f64) -> Result<(), fmi::Er
         .unwrap_or(0);
     let input = instance
         .description()
-        .reference(fmi::variable::Role::Input(height))
+        .reference(fmi::variable::VariableRole::Input(height))
         .unwrap();
     for _ in 0..steps {
         let time = instance.time();
@@ -200,7 +200,7 @@ fn issue_029_an_experiment_set_up_after_a_value_was_read_counts() {
         .unwrap();
         let output = instance
             .description()
-            .reference(fmi::variable::Role::Output(0))
+            .reference(fmi::variable::VariableRole::Output(0))
             .unwrap();
         if reads {
             instance.get_float(output).unwrap();

@@ -19,7 +19,7 @@ pub struct Finding {
 
 /// Findings that are the same as far as can be told.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Group {
+pub struct FindingGroup {
     /// How many inputs did it.
     pub count: u64,
     /// The shortest of them.
@@ -27,7 +27,7 @@ pub struct Group {
 }
 
 /// All findings of a reader, by what they are.
-pub type Groups = BTreeMap<String, Group>;
+pub type Groups = BTreeMap<String, FindingGroup>;
 
 /// More groups are not told apart.
 const MOST_GROUPS: usize = 40;
@@ -37,10 +37,12 @@ pub fn add(groups: &mut Groups, mut finding: Finding) {
     if groups.len() >= MOST_GROUPS && !groups.contains_key(&finding.what) {
         "other findings".clone_into(&mut finding.what);
     }
-    let group = groups.entry(finding.what.clone()).or_insert_with(|| Group {
-        count: 0,
-        shortest: finding.clone(),
-    });
+    let group = groups
+        .entry(finding.what.clone())
+        .or_insert_with(|| FindingGroup {
+            count: 0,
+            shortest: finding.clone(),
+        });
     group.count += 1;
     if finding.length < group.shortest.length {
         group.shortest = finding;

@@ -31,7 +31,7 @@ use cap::Cap;
 use clap::{Parser, Subcommand};
 use fuzz::readers::{self, Reader};
 
-use parent::Plan;
+use parent::FuzzPlan;
 use repeat::Address;
 
 /// Counts what a worker holds, and ends it where it holds too much.
@@ -119,7 +119,7 @@ impl Cli {
             .map_err(|_| "--patience wants a positive number.".to_owned())
     }
 
-    fn plan(&self) -> Result<Plan, String> {
+    fn plan(&self) -> Result<FuzzPlan, String> {
         let readers = self.readers()?;
         let jobs = self.jobs.or(available_parallelism().ok()).map_or(1, NonZero::get);
         let seconds = match self.executions {
@@ -129,7 +129,7 @@ impl Cli {
         // As many turns as it takes until each reader has had its own.
         let turns = readers.len().div_ceil(jobs);
         let time = seconds.map(|seconds| Duration::try_from_secs_f64(seconds / turns as f64));
-        Ok(Plan {
+        Ok(FuzzPlan {
             time: time
                 .transpose()
                 .map_err(|_| "--seconds wants a positive number.".to_owned())?,

@@ -24,7 +24,7 @@ const WALL: u32 = 20;
 const LOOK: Duration = Duration::from_millis(10);
 
 /// What is to be done.
-pub struct Plan {
+pub struct FuzzPlan {
     /// The readers.
     pub readers: Vec<&'static Reader>,
     /// Which inputs.
@@ -53,7 +53,7 @@ pub struct ReaderResult {
 ///
 /// # Errors
 /// Workers cannot be started, or their files not be read.
-pub fn run(plan: &Plan, done: &(dyn Fn(&ReaderResult) + Sync)) -> Result<Vec<ReaderResult>, String> {
+pub fn run(plan: &FuzzPlan, done: &(dyn Fn(&ReaderResult) + Sync)) -> Result<Vec<ReaderResult>, String> {
     let folder = Folder::make().map_err(|error| format!("no folder for workers: {error}"))?;
     let results = Mutex::new(Vec::new());
     let next = AtomicUsize::new(0);
@@ -82,7 +82,7 @@ pub fn run(plan: &Plan, done: &(dyn Fn(&ReaderResult) + Sync)) -> Result<Vec<Rea
     Ok(results)
 }
 
-fn run_reader(reader: &'static Reader, plan: &Plan, folder: &Path) -> io::Result<ReaderResult> {
+fn run_reader(reader: &'static Reader, plan: &FuzzPlan, folder: &Path) -> io::Result<ReaderResult> {
     let folder = tempfile::tempdir_in(folder)?;
     let begin = Instant::now();
     let mut result = ReaderResult {
@@ -109,10 +109,10 @@ fn run_reader(reader: &'static Reader, plan: &Plan, folder: &Path) -> io::Result
         let number = ended.tally.number;
         from = number + 1;
         let (what, detail) = match ended.end {
-            End::Done => break,
-            End::Failed(text) => return Err(io::Error::other(text)),
-            End::Broke { what, detail } => (what, detail),
-            End::Hung => (
+            WorkerEnd::Done => break,
+            WorkerEnd::Failed(text) => return Err(io::Error::other(text)),
+            WorkerEnd::Broke { what, detail } => (what, detail),
+            WorkerEnd::Hung => (
                 "hangs".to_owned(),
                 format!(
                     "not done after {} s of processor time",
@@ -134,7 +134,7 @@ fn run_reader(reader: &'static Reader, plan: &Plan, folder: &Path) -> io::Result
 }
 
 /// How a worker ended.
-pub enum End {
+pub enum WorkerEnd {
     /// As it should.
     Done,
     /// It could not begin.
@@ -157,7 +157,7 @@ pub struct Ended {
     /// Its findings.
     pub findings: Vec<Finding>,
     /// How it ended.
-    pub end: End,
+    pub end: WorkerEnd,
 }
 
 /// A worker that is to be started.
@@ -234,14 +234,14 @@ impl Worker {
         let status = wait(&mut command.spawn()?, &tally, patience)?;
         let counted = Tally::read(&tally)?;
         let end = match status {
-            None => End::Hung,
-            Some(status) if status.code() == Some(i32::from(GIVEN_UP)) => End::Hung,
-            Some(status) if status.success() => End::Done,
+            None => WorkerEnd::Hung,
+            Some(status) if status.code() == Some(i32::from(GIVEN_UP)) => WorkerEnd::Hung,
+            Some(status) if status.success() => WorkerEnd::Done,
             Some(status) => {
                 let said = fs::read(&said)?;
                 let said = String::from_utf8_lossy(&said);
                 match counted {
-                    None => End::Failed(format!("{status}: {}", beginning(said.trim()))),
+                    None => WorkerEnd::Failed(format!("{status}: {}", beginning(said.trim()))),
                     Some(_) => broke(status, said.trim()),
                 }
             }
@@ -255,13 +255,13 @@ impl Worker {
 }
 
 /// Returns the description of an input that ended the process.
-fn broke(status: ExitStatus, said: &str) -> End {
+fn broke(status: ExitStatus, said: &str) -> WorkerEnd {
     let first = said.lines().next().unwrap_or("nothing was said");
     // Names of threads and processes differ.
     let words = ["overflowed its stack", "memory allocation of"];
     let known = words.iter().find(|words| said.contains(**words));
     let what = known.map_or_else(|| without_numbers(first), |words| (*words).to_owned());
-    End::Broke {
+    WorkerEnd::Broke {
         what: format!("abort: {what}"),
         detail: format!("{status}: {}", beginning(said)),
     }

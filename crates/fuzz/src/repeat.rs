@@ -10,7 +10,7 @@ use fuzz::inputs::Inputs;
 use fuzz::readers::{self, Reader};
 
 use crate::folder::Folder;
-use crate::parent::{End, Worker};
+use crate::parent::{Worker, WorkerEnd};
 use crate::worker::MESSAGES;
 
 /// An input: reader, seed, number.
@@ -84,17 +84,17 @@ fn run(reader: &Reader, input: &[u8], patience: Duration) -> io::Result<(Option<
         .input(&file)
         .watch(patience)?;
     Ok(match (ended.end, ended.findings.into_iter().next()) {
-        (End::Failed(text), _) => return Err(io::Error::other(text)),
-        (End::Hung, _) => (Some("hangs".to_owned()), "hangs".to_owned()),
-        (End::Broke { what, detail }, _) => {
+        (WorkerEnd::Failed(text), _) => return Err(io::Error::other(text)),
+        (WorkerEnd::Hung, _) => (Some("hangs".to_owned()), "hangs".to_owned()),
+        (WorkerEnd::Broke { what, detail }, _) => {
             let text = format!("{what}\n{detail}");
             (Some(what), text)
         }
-        (End::Done, Some(found)) => {
+        (WorkerEnd::Done, Some(found)) => {
             let text = format!("{}\n{}", found.what, found.detail);
             (Some(found.what), text)
         }
-        (End::Done, None) => {
+        (WorkerEnd::Done, None) => {
             let end = if ended.tally.accepted > 0 {
                 "accepted"
             } else {

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use fuzz::inputs::Inputs;
 use fuzz::limits::{LONGEST_EXECUTION, MOST_MEMORY, STACK};
-use fuzz::readers::{self, Outcome, Reader};
+use fuzz::readers::{self, ReadOutcome, Reader};
 use fuzz::shown;
 use rustix::time::{ClockId, clock_gettime};
 
@@ -198,7 +198,7 @@ impl Worker {
         Ok(())
     }
 
-    fn measured(&self, input: &[u8]) -> (Duration, Result<Outcome, Panic>) {
+    fn measured(&self, input: &[u8]) -> (Duration, Result<ReadOutcome, Panic>) {
         STARTED.store(nanoseconds(ClockId::ProcessCPUTime), Ordering::Relaxed);
         let start = nanoseconds(ClockId::ThreadCPUTime);
         let outcome = panic::catch_unwind(|| (self.reader.read)(input));

@@ -41,7 +41,7 @@ pub struct QuasiStaticWedge {
 
 /// Which way the bolster moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Direction {
+pub enum SlidingDirection {
     /// Down: loading.
     Down,
     /// Up: unloading.
@@ -68,7 +68,7 @@ pub struct Sliding {
     pub slope_normal: f64,
 }
 
-impl Direction {
+impl SlidingDirection {
     /// Returns a: +1 down, -1 up.
     #[must_use]
     pub fn sign(self) -> f64 {
@@ -93,17 +93,17 @@ impl SlopeFriction {
 impl QuasiStaticWedge {
     /// Returns the branch that rigid kinematics choose: toe out (and no toe) b = -a, toe in b = +a.
     #[must_use]
-    pub fn branch(&self, direction: Direction) -> SlopeFriction {
+    pub fn branch(&self, direction: SlidingDirection) -> SlopeFriction {
         let toe_in = self.toe < 0.0;
         match (direction, toe_in) {
-            (Direction::Down, true) | (Direction::Up, false) => SlopeFriction::UpSlope,
-            (Direction::Down, false) | (Direction::Up, true) => SlopeFriction::DownSlope,
+            (SlidingDirection::Down, true) | (SlidingDirection::Up, false) => SlopeFriction::UpSlope,
+            (SlidingDirection::Down, false) | (SlidingDirection::Up, true) => SlopeFriction::DownSlope,
         }
     }
 
     /// Returns the jam margin `θ + φ - b ψ_s - a ψ_c`, rad: the wedge jams where it is not positive.
     #[must_use]
-    pub fn jam_margin(&self, direction: Direction, slope: SlopeFriction) -> f64 {
+    pub fn jam_margin(&self, direction: SlidingDirection, slope: SlopeFriction) -> f64 {
         self.angle + self.toe
             - slope.sign() * libm::atan(self.slope_friction)
             - direction.sign() * libm::atan(self.column_friction)
@@ -131,7 +131,12 @@ impl QuasiStaticWedge {
 
     /// Returns the steady sliding under a coil force (N), or `None` if the wedge jams.
     #[must_use]
-    pub fn slide(&self, direction: Direction, slope: SlopeFriction, coil_force: f64) -> Option<Sliding> {
+    pub fn slide(
+        &self,
+        direction: SlidingDirection,
+        slope: SlopeFriction,
+        coil_force: f64,
+    ) -> Option<Sliding> {
         let margin = self.jam_margin(direction, slope);
         let (psi_c, psi_s) = (libm::atan(self.column_friction), libm::atan(self.slope_friction));
         let sine = libm::sin(margin);
@@ -179,7 +184,7 @@ impl QuasiStaticWedge {
     /// Returns the friction force over normal force at column (positive: up on the wedge) and slope
     /// (positive: up the slope on the wedge), see [`QuasiStaticWedge::normal_forces`].
     pub fn mobilize<S: Real>(&self, mobilized: S) -> [S; 2] {
-        let way = match self.branch(Direction::Down) {
+        let way = match self.branch(SlidingDirection::Down) {
             SlopeFriction::UpSlope => 1.0,
             SlopeFriction::DownSlope => -1.0,
         };

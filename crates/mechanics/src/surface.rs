@@ -45,7 +45,7 @@ pub struct Plane;
 /// The profile of a surface, as depth h below its tangent plane over the distance s from its middle, m.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Profile {
+pub enum SurfaceProfile {
     /// Straight.
     #[default]
     Flat,
@@ -61,7 +61,7 @@ pub enum Profile {
 /// The tangent along which a profile runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Direction {
+pub enum ProfileDirection {
     /// The marker's y axis.
     Y,
     /// The marker's z axis.
@@ -71,11 +71,11 @@ pub enum Direction {
 
 /// The shape of a surface.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Shape {
+pub struct SurfaceShape {
     /// Its profile.
-    pub profile: Profile,
+    pub profile: SurfaceProfile,
     /// Along which tangent the profile runs.
-    pub direction: Direction,
+    pub direction: ProfileDirection,
     /// How it recedes further, as by wear.
     pub worn: Option<DepthSurface>,
 }
@@ -129,7 +129,7 @@ const STEPS: usize = 20;
 /// It ends where a step is shorter than this, m.
 const NEAR: f64 = 1e-15;
 
-impl Profile {
+impl SurfaceProfile {
     /// Returns whether it is straight.
     #[must_use]
     pub fn is_flat(&self) -> bool {
@@ -226,7 +226,7 @@ impl Profile {
     }
 }
 
-impl Shape {
+impl SurfaceShape {
     /// Returns whether it is a plane.
     #[must_use]
     pub fn is_flat(&self) -> bool {
@@ -239,8 +239,8 @@ impl Shape {
         let ([x, y, z], zero, one) = (position.0, P::zero(), P::from(1.0));
         let Some(worn) = &self.worn else {
             let s = match self.direction {
-                Direction::Y => y,
-                Direction::Z => z,
+                ProfileDirection::Y => y,
+                ProfileDirection::Z => z,
             };
             let ProfileBend {
                 gap,
@@ -248,11 +248,11 @@ impl Shape {
                 curvature,
             } = self.profile.bend(x, s);
             let (axes, curvature) = match self.direction {
-                Direction::Y => (
+                ProfileDirection::Y => (
                     [[c, k, zero], [-k, c, zero], [zero, zero, one]],
                     [curvature, zero, zero],
                 ),
-                Direction::Z => (
+                ProfileDirection::Z => (
                     [[c, zero, k], [zero, one, zero], [-k, zero, c]],
                     [zero, zero, curvature],
                 ),
@@ -283,8 +283,8 @@ impl Shape {
         let depth = |place: [f64; 2]| {
             let mut depth = worn.evaluate(place[0], place[1]);
             let (along, twice) = match self.direction {
-                Direction::Y => (0, 0),
-                Direction::Z => (1, 2),
+                ProfileDirection::Y => (0, 0),
+                ProfileDirection::Z => (1, 2),
             };
             let [value, slope, second] = self.profile.depth(place[along]);
             depth.value += value;

@@ -16,7 +16,7 @@ use mechanics::friction::FrictionLaw;
 use mechanics::link::Marker;
 use mechanics::motion::{Motion, RampProfile};
 use mechanics::spline::Spline;
-use mechanics::surface::{Direction, Profile, Shape};
+use mechanics::surface::{ProfileDirection, SurfaceProfile, SurfaceShape};
 use mechanics::system::{Model, System};
 use nalgebra::DMatrix;
 
@@ -561,18 +561,18 @@ fn a_fast_turning_body_without_elements() {
 
 /// Returns a crown and a hollow, along either tangent, a table of one cubic, and surfaces worn over both
 /// tangents.
-fn curved() -> [Shape; 6] {
+fn curved() -> [SurfaceShape; 6] {
     let table = Spline::new(vec![-3.0, -1.0, 1.0, 3.0], vec![0.5, 0.1, 0.05, 0.6]).unwrap();
-    let arc = |curvature: f64| Profile::Arc { curvature };
+    let arc = |curvature: f64| SurfaceProfile::Arc { curvature };
     let mut shapes = [
-        (arc(0.7), Direction::Z),
-        (arc(-0.4), Direction::Y),
-        (Profile::Table(table.clone()), Direction::Y),
-        (Profile::Table(table), Direction::Z),
-        (Profile::Flat, Direction::Z),
-        (arc(0.3), Direction::Y),
+        (arc(0.7), ProfileDirection::Z),
+        (arc(-0.4), ProfileDirection::Y),
+        (SurfaceProfile::Table(table.clone()), ProfileDirection::Y),
+        (SurfaceProfile::Table(table), ProfileDirection::Z),
+        (SurfaceProfile::Flat, ProfileDirection::Z),
+        (arc(0.3), ProfileDirection::Y),
     ]
-    .map(|(profile, direction)| Shape {
+    .map(|(profile, direction)| SurfaceShape {
         profile,
         direction,
         worn: None,
@@ -612,7 +612,7 @@ fn on_curved_surfaces() {
 
 #[test]
 fn with_refined_laws() {
-    let refined = |factors: Vec<f64>, shape: Shape| Interface {
+    let refined = |factors: Vec<f64>, shape: SurfaceShape| Interface {
         shape,
         sliding: Sliding {
             ratio: 0.6,
@@ -623,8 +623,8 @@ fn with_refined_laws() {
         hardening: Some(0.4),
     };
     for (law, shape) in [
-        (TANH, Shape::default()),
-        (BRISTLE, Shape::default()),
+        (TANH, SurfaceShape::default()),
+        (BRISTLE, SurfaceShape::default()),
         (BRISTLE, curved()[0].clone()),
     ] {
         let mut model = one_on_prescribed(ALL, law, 10.0, moving(true), [0.0; 6]);

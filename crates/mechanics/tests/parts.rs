@@ -10,7 +10,7 @@ use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
 use mechanics::link::Marker;
 use mechanics::motion::Motion;
-use mechanics::system::{Loads, Model, System};
+use mechanics::system::{Model, System, SystemLoads};
 use mechanics::vector::Vector;
 
 const TANH: FrictionLaw = FrictionLaw::Tanh {
@@ -183,7 +183,7 @@ fn limits_signs_of_a_face_depend_on_the_states_of_its_group_alone() {
 #[test]
 fn limits_loads_are_the_sums_over_the_points() {
     let mut random = Random(6);
-    let mut loads = Loads::default();
+    let mut loads = SystemLoads::default();
     let mut pressed = 0;
     for mut system in models() {
         for _ in 0..60 {

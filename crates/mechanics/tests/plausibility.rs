@@ -14,8 +14,8 @@ use mechanics::energy_balance::{EnergyBalance, Entries};
 use mechanics::friction::FrictionLaw;
 use mechanics::link::Marker;
 use mechanics::plausibility::{
-    Finding, FindingKind, LARGEST_COMPRESSION_SHARE, LARGEST_SMALL_ANGLE, LARGEST_TILT, LIFTED_SHARE,
-    Location, PENETRATION_SHARE, Plausibility, PlausibilityRecord, RELEASED_SHARE,
+    FindingKind, LARGEST_COMPRESSION_SHARE, LARGEST_SMALL_ANGLE, LARGEST_TILT, LIFTED_SHARE, Location,
+    PENETRATION_SHARE, Plausibility, PlausibilityFinding, PlausibilityRecord, RELEASED_SHARE,
 };
 use mechanics::system::{Model, System};
 use quantity::System as Units;
@@ -54,7 +54,7 @@ fn state(system: &System, coordinates: [f64; 6]) -> Vec<f64> {
 
 /// Returns the findings if a system starts as it is and then takes these places at times of 0.01 s, 0.02 s
 /// and so on.
-fn found(system: &mut System, places: &[[f64; 6]]) -> Vec<Finding> {
+fn found(system: &mut System, places: &[[f64; 6]]) -> Vec<PlausibilityFinding> {
     let start = system.initial_state();
     let mut observation = Plausibility::new(system, 0.0, &start);
     for (row, place) in places.iter().enumerate() {

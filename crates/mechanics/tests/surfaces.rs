@@ -15,7 +15,7 @@ use mechanics::friction::FrictionLaw;
 use mechanics::link::Marker;
 use mechanics::motion::Motion;
 use mechanics::spline::Spline;
-use mechanics::surface::{Direction, Profile, Shape};
+use mechanics::surface::{ProfileDirection, SurfaceProfile, SurfaceShape};
 use mechanics::system::{EnergyTermKind, Model, ModelError, System};
 use mechanics::vector::Vector;
 
@@ -27,18 +27,18 @@ const BRISTLE: FrictionLaw = FrictionLaw::Bristle {
     damping: 3e3,
 };
 
-fn arc(radius: f64, direction: Direction) -> Interface {
+fn arc(radius: f64, direction: ProfileDirection) -> Interface {
     shaped(
-        Profile::Arc {
+        SurfaceProfile::Arc {
             curvature: 1.0 / radius,
         },
         direction,
     )
 }
 
-fn shaped(profile: Profile, direction: Direction) -> Interface {
+fn shaped(profile: SurfaceProfile, direction: ProfileDirection) -> Interface {
     Interface {
-        shape: Shape {
+        shape: SurfaceShape {
             profile,
             direction,
             worn: None,
@@ -61,7 +61,7 @@ fn over(points: &[[f64; 3]], interface: Interface, law: FrictionLaw, initial: [f
 #[test]
 fn analytic_a_point_on_a_cylinder_has_its_distance_and_normal() {
     let mut random = Random(1);
-    for direction in [Direction::Y, Direction::Z] {
+    for direction in [ProfileDirection::Y, ProfileDirection::Z] {
         for radius in [0.5, 3.0, -2.0] {
             for _ in 0..50 {
                 let angle = random.between(-0.7, 0.7);
@@ -71,8 +71,8 @@ fn analytic_a_point_on_a_cylinder_has_its_distance_and_normal() {
                 let (sine, cosine) = libm::sincos(angle);
                 let (s, z) = (out * sine, out * cosine - radius);
                 let place = match direction {
-                    Direction::Y => [random.between(-1.0, 1.0), s, z],
-                    Direction::Z => [-s, random.between(-1.0, 1.0), z],
+                    ProfileDirection::Y => [random.between(-1.0, 1.0), s, z],
+                    ProfileDirection::Z => [-s, random.between(-1.0, 1.0), z],
                 };
                 let mut initial = [0.0; 6];
                 initial[..3].copy_from_slice(&place);
@@ -92,8 +92,8 @@ fn analytic_a_point_on_a_cylinder_has_its_distance_and_normal() {
                     point.gap
                 );
                 let normal = match direction {
-                    Direction::Y => [0.0, sine, cosine],
-                    Direction::Z => [-sine, 0.0, cosine],
+                    ProfileDirection::Y => [0.0, sine, cosine],
+                    ProfileDirection::Z => [-sine, 0.0, cosine],
                 };
                 let rate = velocity.dot::<f64, f64>(Vector(normal));
                 assert!((point.gap_rate - rate).abs() < 1e-14);
@@ -118,18 +118,23 @@ fn convergence_a_table_of_a_circle_is_the_circle() {
         let s: Vec<f64> = (0..points)
             .map(|i| 1.6 * f64::from(i) / f64::from(points - 1) - 0.8)
             .collect();
-        let circle = Profile::Arc {
+        let circle = SurfaceProfile::Arc {
             curvature: 1.0 / radius,
         };
         let depths = s.iter().map(|s| circle.depth(*s)[0]).collect();
-        let table = Profile::Table(Spline::new(s, depths).unwrap());
+        let table = SurfaceProfile::Table(Spline::new(s, depths).unwrap());
         let mut worst: f64 = 0.0;
         let mut random = Random(2);
         for _ in 0..200 {
             let mut initial = [0.0; 6];
             (initial[0], initial[2]) = (random.between(-0.7, 0.7), random.between(-0.2, 0.1));
-            let of = |profile: &Profile| {
-                let built = over(&[[0.0; 3]], shaped(profile.clone(), Direction::Z), TANH, initial);
+            let of = |profile: &SurfaceProfile| {
+                let built = over(
+                    &[[0.0; 3]],
+                    shaped(profile.clone(), ProfileDirection::Z),
+                    TANH,
+                    initial,
+                );
                 let mut system = System::new(built).unwrap();
                 let x = system.initial_state();
                 system.observe(0.0, &x).faces[0].points[0].gap
@@ -157,11 +162,11 @@ fn limits_an_arc_of_no_curvature_is_the_plane() {
         let flat = over(&points, Interface::default(), law, initial);
         let straight = over(
             &points,
-            shaped(Profile::Arc { curvature: 0.0 }, Direction::Y),
+            shaped(SurfaceProfile::Arc { curvature: 0.0 }, ProfileDirection::Y),
             law,
             initial,
         );
-        let far = over(&points, arc(1e13, Direction::Z), law, initial);
+        let far = over(&points, arc(1e13, ProfileDirection::Z), law, initial);
         let mut systems = [flat, straight, far].map(|model| System::new(model).unwrap());
         for _ in 0..50 {
             let mut x = systems[0].initial_state();
@@ -203,7 +208,7 @@ fn pressed(count: usize, depth: f64, shift: f64) -> [f64; 2] {
     let points: Vec<[f64; 3]> = (0..count).map(|i| [0.0, place(i), 0.0]).collect();
     let mut built = over(
         &points,
-        arc(RADIUS, Direction::Y),
+        arc(RADIUS, ProfileDirection::Y),
         TANH,
         [0.0, shift, -depth, 0.0, 0.0, 0.0],
     );
@@ -335,7 +340,7 @@ fn rocking(interface: Interface, law: FrictionLaw) -> Model {
 
 #[test]
 fn energy_closes_on_crowns_with_refined_friction() {
-    let refined = |shape: Shape| Interface {
+    let refined = |shape: SurfaceShape| Interface {
         shape,
         sliding: Sliding {
             ratio: 0.5,
@@ -347,10 +352,10 @@ fn energy_closes_on_crowns_with_refined_friction() {
     };
     let table = Spline::new(vec![-0.5, -0.2, 0.1, 0.5], vec![0.03, 0.004, 0.002, 0.04]).unwrap();
     for (interface, law) in [
-        (arc(2.0, Direction::Y), TANH),
-        (refined(arc(1.5, Direction::Z).shape), TANH),
+        (arc(2.0, ProfileDirection::Y), TANH),
+        (refined(arc(1.5, ProfileDirection::Z).shape), TANH),
         (
-            refined(shaped(Profile::Table(table), Direction::Y).shape),
+            refined(shaped(SurfaceProfile::Table(table), ProfileDirection::Y).shape),
             BRISTLE,
         ),
         (
@@ -571,7 +576,7 @@ fn mapped(half: f64, count: usize, depth: impl Fn(f64, f64) -> f64) -> DepthSurf
 }
 
 fn worn(worn: DepthSurface) -> Interface {
-    let mut interface = shaped(Profile::Flat, Direction::Z);
+    let mut interface = shaped(SurfaceProfile::Flat, ProfileDirection::Z);
     interface.shape.worn = Some(worn);
     interface
 }
@@ -618,7 +623,11 @@ fn limits_maps_are_planes_and_tables() {
     let table = |direction| {
         let places = vec![-1.0, -0.5, 0.5, 1.0];
         let depths = places.iter().map(|s| 0.2 * s * s).collect();
-        shaped(Profile::Table(Spline::new(places, depths).unwrap()), direction).shape
+        shaped(
+            SurfaceProfile::Table(Spline::new(places, depths).unwrap()),
+            direction,
+        )
+        .shape
     };
     let flat = worn(mapped(1.0, 5, |_, _| 0.0)).shape;
     let along_y = worn(mapped(1.0, 5, |y, _| 0.2 * y * y)).shape;
@@ -633,7 +642,10 @@ fn limits_maps_are_planes_and_tables() {
         assert_eq!(flat.gap(point), point.0[0]);
         let vector = Vector([0.4, 0.7, -0.2]);
         assert_eq!(flat.resolve(point, vector), vector.0);
-        for (map, table) in [(&along_y, table(Direction::Y)), (&along_z, table(Direction::Z))] {
+        for (map, table) in [
+            (&along_y, table(ProfileDirection::Y)),
+            (&along_z, table(ProfileDirection::Z)),
+        ] {
             assert!((map.gap(point) - table.gap(point)).abs() < 1e-14);
             let (one, other) = (map.resolve(point, vector), table.resolve(point, vector));
             for k in 0..3 {

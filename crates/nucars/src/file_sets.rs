@@ -132,7 +132,7 @@ impl Instead {
 }
 
 /// A file that was read.
-pub struct Entry<T> {
+pub struct FileEntry<T> {
     /// Where.
     pub path: PathBuf,
     /// What was read.
@@ -154,24 +154,24 @@ pub struct FileSet {
 
 /// All files, each once.
 #[derive(Default)]
-pub struct Files {
+pub struct ReadFiles {
     /// System files.
-    pub systems: Vec<Entry<SystemFile>>,
+    pub systems: Vec<FileEntry<SystemFile>>,
     /// Data files.
-    pub data: Vec<Entry<DataFile>>,
+    pub data: Vec<FileEntry<DataFile>>,
     /// Input files.
-    pub inputs: Vec<Entry<InputFile>>,
+    pub inputs: Vec<FileEntry<InputFile>>,
     /// Run files.
-    pub runs: Vec<Entry<RunFile>>,
+    pub runs: Vec<FileEntry<RunFile>>,
 }
 
 /// Adds to a list what is not yet in it, and gives its place.
 fn place<T>(
-    list: &mut Vec<Entry<T>>,
+    list: &mut Vec<FileEntry<T>>,
     path: &Path,
     read: impl FnOnce() -> Result<Read<T>, LoadError>,
 ) -> Result<usize, LoadError> {
-    let same = |entry: &Entry<T>| {
+    let same = |entry: &FileEntry<T>| {
         entry.path == path
             || entry
                 .path
@@ -182,14 +182,14 @@ fn place<T>(
     if let Some(index) = list.iter().position(same) {
         return Ok(index);
     }
-    list.push(Entry {
+    list.push(FileEntry {
         path: path.to_owned(),
         read: read()?,
     });
     Ok(list.len() - 1)
 }
 
-impl Files {
+impl ReadFiles {
     /// Reads a file, unless it was read before, as the kind it must be or seems to be; its place in its list.
     ///
     /// # Errors
@@ -247,7 +247,7 @@ impl Files {
         if let Some(path) = path {
             return self.add(&find(path)?, Some(kind)).map(Some);
         }
-        let Entry { path, read } = &mut self.runs[run];
+        let FileEntry { path, read } = &mut self.runs[run];
         let Some(name) = read.tree.names(kind) else {
             return Ok(None);
         };
@@ -263,16 +263,16 @@ impl Files {
 
     /// Checks each file alone, and with those it belongs to.
     pub fn check(&mut self, sets: &[FileSet]) {
-        for Entry { read, .. } in &mut self.systems {
+        for FileEntry { read, .. } in &mut self.systems {
             read.add(check::system(read));
         }
-        for Entry { read, .. } in &mut self.data {
+        for FileEntry { read, .. } in &mut self.data {
             read.add(check::data(read));
         }
-        for Entry { read, .. } in &mut self.inputs {
+        for FileEntry { read, .. } in &mut self.inputs {
             read.add(check::input(read));
         }
-        for Entry { read, .. } in &mut self.runs {
+        for FileEntry { read, .. } in &mut self.runs {
             read.add(check::run(read));
         }
         for set in sets {
@@ -320,7 +320,7 @@ impl Files {
 
 /// A run file with its files, all read and checked.
 pub struct RunFiles {
-    files: Files,
+    files: ReadFiles,
     set: FileSet,
 }
 
@@ -330,7 +330,7 @@ impl RunFiles {
     /// # Errors
     /// It cannot be read, or a file that is given instead cannot.
     pub fn read(path: &Path, instead: &Instead) -> Result<Self, LoadError> {
-        let mut files = Files::default();
+        let mut files = ReadFiles::default();
         let run = files.add(path, Some(FileKind::Run))?;
         let mut set = FileSet {
             run: Some(run),
@@ -387,7 +387,7 @@ impl RunFiles {
     /// Returns the texts of all of them.
     #[must_use]
     pub fn texts(&self) -> Texts {
-        fn text<T>(list: &[Entry<T>], index: Option<usize>) -> Option<Text> {
+        fn text<T>(list: &[FileEntry<T>], index: Option<usize>) -> Option<Text> {
             let source = &list.get(index?)?.read.source;
             Some(Text {
                 name: source.name().to_owned(),
@@ -408,19 +408,19 @@ impl RunFiles {
     /// A text is too long.
     pub fn of_texts(texts: &Texts) -> Result<Self, LoadError> {
         fn add<T>(
-            list: &mut Vec<Entry<T>>,
+            list: &mut Vec<FileEntry<T>>,
             text: Option<&Text>,
             read: impl FnOnce(&Arc<SourceText>) -> Read<T>,
         ) -> Result<Option<usize>, LoadError> {
             let Some(text) = text else { return Ok(None) };
             let source = SourceText::from_text(&*text.name, &*text.text).map_err(|error| too_long(&error))?;
-            list.push(Entry {
+            list.push(FileEntry {
                 path: PathBuf::from(&text.name),
                 read: read(&source),
             });
             Ok(Some(list.len() - 1))
         }
-        let mut files = Files::default();
+        let mut files = ReadFiles::default();
         let set = FileSet {
             run: add(&mut files.runs, texts.run.as_ref(), read_run)?,
             system: add(&mut files.systems, texts.system.as_ref(), read_system)?,

@@ -19,7 +19,7 @@ use quantity::{Kind, Quantity, nearest};
 use thiserror::Error;
 
 use crate::source::Spanned;
-use crate::tree::{InputFile, Law, Shape, SystemFile, Toe};
+use crate::tree::{HistoryShape, InputFile, Law, SystemFile, Toe};
 use crate::truck::units::{DEGREE, INCH, INERTIA, MASS, MOMENT, POUND};
 
 /// A value that cannot be set.
@@ -381,9 +381,9 @@ fn targets<'t>(
                 all.extend([from, to, &mut segment.amplitude].map(|value| ("factor", Factor(value))));
                 let [first, last] = &segment.coefficients;
                 let sine = match *segment.shape {
-                    Shape::Sin => true,
-                    Shape::Ssin => first == last,
-                    Shape::Null | Shape::Cusp | Shape::Bend => false,
+                    HistoryShape::Sin => true,
+                    HistoryShape::Ssin => first == last,
+                    HistoryShape::Null | HistoryShape::Cusp | HistoryShape::Bend => false,
                 };
                 if sine {
                     let both = segment.coefficients.iter_mut();

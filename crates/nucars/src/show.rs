@@ -4,11 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::check::{GRAVITY, shown};
 use crate::source::Spanned;
-use crate::tree::{Law, SystemFile, Toe, Value};
+use crate::tree::{Law, SystemFile, Toe, UnknownValue};
 
 /// A table of texts.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Table {
+pub struct SystemTable {
     /// A short name for programs, which stays: `bodies`, `connections`, `wedges`.
     pub key: &'static str,
     /// What it shows.
@@ -21,14 +21,14 @@ pub struct Table {
     pub rows: Vec<Vec<String>>,
 }
 
-impl Table {
+impl SystemTable {
     fn new(
         key: &'static str,
         title: impl Into<String>,
         words: usize,
         columns: &[(&'static str, &'static str)],
     ) -> Self {
-        Table {
+        SystemTable {
             key,
             title: title.into(),
             columns: columns.to_vec(),
@@ -39,7 +39,7 @@ impl Table {
 }
 
 /// Returns all tables of a system; those without rows are left out.
-pub fn system(file: &SystemFile) -> Vec<Table> {
+pub fn system(file: &SystemFile) -> Vec<SystemTable> {
     let mut tables = vec![bodies(file), input_bodies(file), connections(file)];
     tables.extend(characteristics(file));
     tables.push(functions(file));
@@ -47,8 +47,8 @@ pub fn system(file: &SystemFile) -> Vec<Table> {
     tables
 }
 
-fn bodies(file: &SystemFile) -> Table {
-    let mut table = Table::new(
+fn bodies(file: &SystemFile) -> SystemTable {
+    let mut table = SystemTable::new(
         "bodies",
         "Bodies",
         3,
@@ -80,8 +80,8 @@ fn bodies(file: &SystemFile) -> Table {
     table
 }
 
-fn input_bodies(file: &SystemFile) -> Table {
-    let mut table = Table::new(
+fn input_bodies(file: &SystemFile) -> SystemTable {
+    let mut table = SystemTable::new(
         "input_bodies",
         "Input bodies",
         4,
@@ -113,8 +113,8 @@ fn input_bodies(file: &SystemFile) -> Table {
     table
 }
 
-fn connections(file: &SystemFile) -> Table {
-    let mut table = Table::new(
+fn connections(file: &SystemFile) -> SystemTable {
+    let mut table = SystemTable::new(
         "connections",
         "Connections (body 0 is the ground; forces act on A against the stroke A - B)",
         7,
@@ -177,12 +177,12 @@ fn toe(toe: Spanned<Toe>) -> String {
     .to_owned()
 }
 
-fn characteristics(file: &SystemFile) -> Vec<Table> {
+fn characteristics(file: &SystemFile) -> Vec<SystemTable> {
     const NUMBER: (&str, &str) = ("characteristic", "");
     const ANGLE: (&str, &str) = ("wedge angle", "deg");
     const KA: (&str, &str) = ("Ka", "lb/in");
     const CA: (&str, &str) = ("Ca", "lb·s/in");
-    let mut limits = Table::new(
+    let mut limits = SystemTable::new(
         "springs",
         "Characteristics of types 1, 1.1, 1.3: springs and dampers",
         3,
@@ -194,7 +194,7 @@ fn characteristics(file: &SystemFile) -> Vec<Table> {
             ("in compression", "lb, in·lb"),
         ],
     );
-    let mut gaps = Table::new(
+    let mut gaps = SystemTable::new(
         "gaps",
         "Characteristics of type 1.2: no force between two strokes",
         3,
@@ -206,7 +206,7 @@ fn characteristics(file: &SystemFile) -> Vec<Table> {
             ("to", "in"),
         ],
     );
-    let mut viscous = Table::new(
+    let mut viscous = SystemTable::new(
         "viscous_wedges",
         "Characteristics of types 6.3 and 6.7: viscous wedges",
         4,
@@ -222,13 +222,13 @@ fn characteristics(file: &SystemFile) -> Vec<Table> {
             ("Mu2 (column)", ""),
         ],
     );
-    let mut surfaces = Table::new(
+    let mut surfaces = SystemTable::new(
         "surfaces",
         "Characteristics of type 6.5: surface friction",
         3,
         &[NUMBER, ("normal force", ""), ("damping", ""), KA, CA, ("Mu", "")],
     );
-    let mut wedges = Table::new(
+    let mut wedges = SystemTable::new(
         "wedges",
         "Characteristics of type 6.8: stick-slip wedges",
         4,
@@ -246,7 +246,7 @@ fn characteristics(file: &SystemFile) -> Vec<Table> {
             ("FWNMAX", "lb"),
         ],
     );
-    let mut wedges_3d = Table::new(
+    let mut wedges_3d = SystemTable::new(
         "wedges_3d",
         "Characteristics of type 6.9: stick-slip wedges in three directions",
         5,
@@ -264,7 +264,7 @@ fn characteristics(file: &SystemFile) -> Vec<Table> {
             ("FWNMAX", "lb"),
         ],
     );
-    let mut unused = Table::new(
+    let mut unused = SystemTable::new(
         "unused_characteristics",
         "Characteristics without connection",
         2,
@@ -381,9 +381,9 @@ fn characteristics(file: &SystemFile) -> Vec<Table> {
                 ],
             )),
             Law::Unused { values } => {
-                let shown = |value: &Spanned<Value>| match value.value {
-                    Value::Number(number) => shown(number),
-                    Value::Logical(truth) => if truth { ".T." } else { ".F." }.to_owned(),
+                let shown = |value: &Spanned<UnknownValue>| match value.value {
+                    UnknownValue::Number(number) => shown(number),
+                    UnknownValue::Logical(truth) => if truth { ".T." } else { ".F." }.to_owned(),
                 };
                 let values: Vec<String> = values.iter().map(shown).collect();
                 unused.rows.push(row(&[values.join(" ")], &[]));
@@ -471,8 +471,8 @@ fn units(file: &SystemFile) -> BTreeMap<u32, BTreeSet<&'static str>> {
     units
 }
 
-fn functions(file: &SystemFile) -> Table {
-    let mut table = Table::new(
+fn functions(file: &SystemFile) -> SystemTable {
+    let mut table = SystemTable::new(
         "functions",
         "Functions (linear between the points and on beyond them)",
         3,

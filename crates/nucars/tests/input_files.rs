@@ -4,7 +4,7 @@
 
 use nucars::read::{AnyFile, FileKind, Read, read, read_data, read_input, read_run, read_system};
 use nucars::source::SourceText;
-use nucars::tree::{DataFile, DataRequest, Element, InputFile, Law, RunFile, Shape, SystemFile, Toe};
+use nucars::tree::{DataFile, DataRequest, Element, HistoryShape, InputFile, Law, RunFile, SystemFile, Toe};
 use nucars::{Severity, builtin, write};
 
 const SYSTEMS: [&str; 4] = [
@@ -181,12 +181,12 @@ fn values_as_printed() {
 
     let yaw = input("bolst_displ_input36.inp");
     let segment = &yaw.history(6).unwrap().segments[0];
-    assert_eq!((*segment.shape, *segment.amplitude), (Shape::Bend, 0.012));
+    assert_eq!((*segment.shape, *segment.amplitude), (HistoryShape::Bend, 0.012));
     assert_eq!(
         segment.coefficients.map(|coefficient| coefficient.value),
         [0.1, 100.0]
     );
-    assert_eq!(*yaw.history(3).unwrap().segments[0].shape, Shape::Ssin);
+    assert_eq!(*yaw.history(3).unwrap().segments[0].shape, HistoryShape::Ssin);
 }
 
 #[test]

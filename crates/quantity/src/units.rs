@@ -18,7 +18,7 @@ pub const STANDARD_GRAVITY: f64 = 9.806_65;
 pub const POUND_FORCE: f64 = 4.448_221_615_260_5;
 
 /// A unit with a name of its own.
-pub(crate) struct Named {
+pub(crate) struct NamedUnit {
     pub name: &'static str,
     /// One of these, in SI.
     pub factor: f64,
@@ -37,8 +37,8 @@ const PRESSURE: Dimension = Dimension::new(1, -1, -2, 0);
 const ENERGY: Dimension = Dimension::new(1, 2, -2, 0);
 const POWER: Dimension = Dimension::new(1, 2, -3, 0);
 
-const fn unit(name: &'static str, factor: f64, dimension: Dimension) -> Named {
-    Named {
+const fn unit(name: &'static str, factor: f64, dimension: Dimension) -> NamedUnit {
+    NamedUnit {
         name,
         factor,
         dimension,
@@ -47,7 +47,7 @@ const fn unit(name: &'static str, factor: f64, dimension: Dimension) -> Named {
 
 /// Every unit with a name. `lb` alone is a mass, `lbf` the force; a frequency in `Hz` or `rpm`
 /// counts cycles, so that one of them is 2π rad.
-pub(crate) static UNITS: &[Named] = &[
+pub(crate) static UNITS: &[NamedUnit] = &[
     unit("in", INCH, LENGTH),
     unit("ft", FOOT, LENGTH),
     unit("yd", 0.9144, LENGTH),
@@ -125,6 +125,6 @@ pub(crate) static SYNONYMS: &[(&str, &str)] = &[
 ];
 
 /// Returns the unit of this name.
-pub(crate) fn find(name: &str) -> Option<&'static Named> {
+pub(crate) fn find(name: &str) -> Option<&'static NamedUnit> {
     UNITS.iter().find(|unit| unit.name == name)
 }

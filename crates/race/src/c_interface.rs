@@ -10,7 +10,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::slice::{from_raw_parts, from_raw_parts_mut};
 
 use crate::equations::Equations;
-use crate::problem::Problem;
+use crate::problem::RaceProblem;
 
 /// What a handle points to.
 pub struct Handle {
@@ -32,7 +32,7 @@ pub unsafe extern "C" fn race_open(name: *const c_char) -> *mut Handle {
     // SAFETY: not null, and the caller promises a text that ends.
     let name = unsafe { CStr::from_ptr(name) };
     let open = || {
-        let problem = Problem::named(name.to_str().ok()?).ok()?;
+        let problem = RaceProblem::named(name.to_str().ok()?).ok()?;
         let (rows, interval, duration) = (problem.rows(), problem.interval, problem.duration);
         let equations = Equations::new(problem.system, &problem.start);
         Some(Handle {

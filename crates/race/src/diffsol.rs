@@ -14,7 +14,7 @@ use diffsol::{
 use crate::clock::{cpu_seconds, wall_seconds};
 use crate::equations::Equations;
 use crate::outcome::Outcome;
-use crate::problem::Problem;
+use crate::problem::RaceProblem;
 
 /// diffsol's methods in the race.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +47,7 @@ pub fn run(
     limit: f64,
     rows: usize,
 ) -> Result<(Outcome, Vec<f64>), String> {
-    let problem = Problem::named(name).map_err(|error| error.to_string())?;
+    let problem = RaceProblem::named(name).map_err(|error| error.to_string())?;
     let equations = Equations::new(problem.system.clone(), &problem.start);
     let n = equations.dimension();
     let start = equations.start().to_vec();
@@ -122,7 +122,7 @@ pub fn run(
 
 /// What a solver needs to know of a run.
 struct Each<'r> {
-    problem: &'r Problem,
+    problem: &'r RaceProblem,
     rows: usize,
     limit: f64,
     cpu: f64,

@@ -10,7 +10,7 @@ use mechanics::system::{EnergyTermKind, System};
 use nalgebra::DMatrix;
 use numerics::Singular;
 
-use crate::problem::{Problem, ProblemError};
+use crate::problem::{ProblemError, RaceProblem};
 
 /// A shift of the size of the wedge's contact frequencies, 1/s; any other would do.
 const SHIFT: f64 = 2e3;
@@ -38,7 +38,7 @@ impl Equations {
     /// # Errors
     /// There is no such problem.
     pub fn named(name: &str) -> Result<Self, ProblemError> {
-        let problem = Problem::named(name)?;
+        let problem = RaceProblem::named(name)?;
         Ok(Self::new(problem.system, &problem.start))
     }
 

@@ -1,6 +1,6 @@
 //! Work-precision figures: time over error, one panel a case, one curve a solver.
 
-use report::drawing::{Colour, Curve, Figure, Line, Panel};
+use report::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 use crate::contest::{IN_OCTAVE, RECORDED, SOLVERS};
 use crate::problem::is_yawed;
@@ -40,7 +40,7 @@ fn panel(one: &Standing) -> Panel {
             })
             .collect();
         let (colour, line) = look(solver.name);
-        (!points.is_empty()).then(|| Curve {
+        (!points.is_empty()).then(|| PlotCurve {
             label: solver.name.to_owned(),
             colour,
             line,

@@ -7,8 +7,8 @@ use std::process::ExitCode;
 use integrate::Method;
 use race::contest::{SOLVERS, Tools};
 use race::outcome::{repeated, write_states};
-use race::page::{Measured, Results};
-use race::runner::{Plan, TOLERANCES};
+use race::page::{MeasuredOn, Results};
+use race::runner::{RacePlan, TOLERANCES};
 use race::wedge_case::WedgeCase;
 use race::{diffsol, figures, own, problem, standings, tables};
 
@@ -138,7 +138,7 @@ fn all(words: &[&str]) -> Result<(), String> {
     let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
     let solvers: Vec<&str> = SOLVERS.iter().map(|solver| solver.name).collect();
     let folder = needed("--out")?;
-    let plan = Plan {
+    let plan = RacePlan {
         cases: chosen("--cases", problem::names())?,
         solvers: chosen("--solvers", owned(&solvers))?,
         tolerances: chosen("--tolerances", owned(&TOLERANCES))?,
@@ -176,7 +176,7 @@ fn all(words: &[&str]) -> Result<(), String> {
         return Ok(());
     }
     let option = |name: &str| options.get(name).copied().unwrap_or("unknown").to_owned();
-    let measured = Measured {
+    let measured = MeasuredOn {
         date: option("--date"),
         machine: option("--machine"),
         cores: option("--cores"),

@@ -4,7 +4,7 @@ use study::metrics::{Cycle, mean};
 use wedge::outputs::Outputs;
 
 use crate::equations::Equations;
-use crate::problem::{Judged, Problem};
+use crate::problem::{Judged, RaceProblem};
 
 /// What a run is judged by, SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +18,7 @@ pub enum Quantities {
 
 /// Observes the states of a problem.
 pub struct Judge {
-    problem: Problem,
+    problem: RaceProblem,
     equations: Equations,
     outputs: Option<(Outputs, [usize; 4])>,
 }
@@ -29,7 +29,7 @@ impl Judge {
     /// # Errors
     /// There is no such problem.
     pub fn new(name: &str) -> Result<Self, String> {
-        let problem = Problem::named(name).map_err(|error| error.to_string())?;
+        let problem = RaceProblem::named(name).map_err(|error| error.to_string())?;
         let equations = Equations::new(problem.system.clone(), &problem.start);
         let outputs = problem
             .parameters
@@ -60,7 +60,7 @@ impl Judge {
 
     /// Returns the problem.
     #[must_use]
-    pub fn problem(&self) -> &Problem {
+    pub fn problem(&self) -> &RaceProblem {
         &self.problem
     }
 

@@ -6,7 +6,7 @@ use integrate::{Family, Integrator, Method, Options};
 use crate::clock::{cpu_seconds, wall_seconds};
 use crate::equations::Equations;
 use crate::outcome::Outcome;
-use crate::problem::Problem;
+use crate::problem::RaceProblem;
 
 /// Integrates up to `rows` rows, contact states `recorded` or not; the states of the rows reached.
 ///
@@ -20,7 +20,7 @@ pub fn run(
     limit: f64,
     rows: usize,
 ) -> Result<(Outcome, Vec<f64>), String> {
-    let problem = Problem::named(name).map_err(|error| error.to_string())?;
+    let problem = RaceProblem::named(name).map_err(|error| error.to_string())?;
     let equations = Equations::new(problem.system.clone(), &problem.start);
     let rows = rows.min(problem.rows());
     let end = problem.time(rows - 1);

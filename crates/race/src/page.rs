@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::contest::{COMMON_OPTIONS, SOLVERS};
 use crate::runner::REFERENCE;
 use crate::standings::Standing;
-use crate::tables::{self, Table};
+use crate::tables::{self, MarkdownTable};
 
 /// Layout of the stored results.
 const SCHEMA: &str = "wedgelab.race/1";
@@ -42,24 +42,24 @@ pub struct Race {
     /// The solvers, in words.
     pub solvers: String,
     /// Where and when it was measured.
-    pub measured: Measured,
+    pub measured: MeasuredOn,
     /// What else a reader must know of these numbers; may be empty.
     pub remarks: Vec<String>,
     /// How many times longer the others take at equal error.
-    pub ratios: Table,
+    pub ratios: MarkdownTable,
     /// Runs at one tolerance; empty where there are none.
-    pub usual: Table,
+    pub usual: MarkdownTable,
     /// Cheapest runs.
-    pub cheapest: Table,
+    pub cheapest: MarkdownTable,
     /// Failures.
-    pub failures: Table,
+    pub failures: MarkdownTable,
     /// Other tables, with their headings.
-    pub others: Vec<(String, Table)>,
+    pub others: Vec<(String, MarkdownTable)>,
 }
 
 /// Where and when something was measured.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Measured {
+pub struct MeasuredOn {
     /// The date, such as 2026-11-23.
     pub date: String,
     /// The processor as it reports itself.
@@ -77,7 +77,7 @@ pub struct Measured {
 impl Results {
     /// Returns the results of one race over all cases and solvers.
     #[must_use]
-    pub fn of(standings: &[Standing], measured: Measured) -> Self {
+    pub fn of(standings: &[Standing], measured: MeasuredOn) -> Self {
         let race = Race {
             solvers: "All solvers".to_owned(),
             measured,
@@ -144,7 +144,7 @@ impl Results {
 impl Race {
     /// Where, when and how it was measured.
     fn heading(&self) -> String {
-        let Measured {
+        let MeasuredOn {
             date,
             machine,
             cores,
@@ -162,7 +162,7 @@ impl Race {
         text
     }
 
-    fn tables(&self) -> impl Iterator<Item = (&str, &Table)> {
+    fn tables(&self) -> impl Iterator<Item = (&str, &MarkdownTable)> {
         let own = [
             (
                 "How many times longer the others take at equal error",
@@ -281,7 +281,7 @@ fn ratio(cell: &str) -> Option<(f64, f64)> {
 
 /// For each of the others the ratios over all cases.
 fn summary(races: &[Race]) -> String {
-    let mut table = Table {
+    let mut table = MarkdownTable {
         head: [
             "others",
             "cases compared",
@@ -324,7 +324,7 @@ fn summary(races: &[Race]) -> String {
 }
 
 /// Failures, a line for each solver.
-fn failed(failures: &Table) -> String {
+fn failed(failures: &MarkdownTable) -> String {
     let mut solvers: Vec<(&str, Vec<String>)> = Vec::new();
     for row in &failures.rows {
         let [case, solver, tolerances, why] = row.as_slice() else {
@@ -344,7 +344,7 @@ fn failed(failures: &Table) -> String {
     if solvers.is_empty() {
         return "No run failed.\n".to_owned();
     }
-    let table = Table {
+    let table = MarkdownTable {
         head: vec!["solver".to_owned(), "out of time".to_owned()],
         rows: solvers
             .into_iter()

@@ -38,7 +38,7 @@ pub enum Judged {
 }
 
 /// A problem with its start.
-pub struct Problem {
+pub struct RaceProblem {
     /// Its name.
     pub name: String,
     /// Its equations.
@@ -120,7 +120,7 @@ pub fn start_of(name: &str) -> (&str, u32) {
         .unwrap_or((name, 0))
 }
 
-impl Problem {
+impl RaceProblem {
     /// Returns the problem of this name, which may ask for another start ([`with_start`]).
     ///
     /// # Errors

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contest::{Program, SOLVERS, Solver, Tools, solver};
 use crate::outcome::Outcome;
-use crate::problem::{Judged, Problem, with_start};
+use crate::problem::{Judged, RaceProblem, with_start};
 
 /// The tolerances of the race.
 pub const TOLERANCES: [&str; 12] = [
@@ -23,7 +23,7 @@ const REFERENCE_LIMIT: f64 = 600.0;
 
 /// One run of the race.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Entry {
+pub struct RaceEntry {
     /// The problem.
     pub case: String,
     /// The solver.
@@ -38,7 +38,7 @@ pub struct Entry {
 
 /// What is to be run.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct RacePlan {
     /// Problems.
     pub cases: Vec<String>,
     /// Names of solvers.
@@ -57,12 +57,12 @@ pub struct Plan {
     pub kept_only: bool,
 }
 
-impl Plan {
+impl RacePlan {
     /// Runs everything that is not there yet.
     ///
     /// # Errors
     /// Files cannot be written, or a program cannot be started.
-    pub fn run(&self, tools: &Tools) -> Result<Vec<Entry>, String> {
+    pub fn run(&self, tools: &Tools) -> Result<Vec<RaceEntry>, String> {
         let folder = |name: &str| {
             let folder = self.folder.join(name);
             fs::create_dir_all(&folder)
@@ -73,7 +73,7 @@ impl Plan {
         folder("runs")?;
         let mut entries = Vec::new();
         for case in &self.cases {
-            let problem = Problem::named(case).map_err(|error| error.to_string())?;
+            let problem = RaceProblem::named(case).map_err(|error| error.to_string())?;
             let all = problem.rows();
             // One run of what is chaotic in detail is a matter of luck.
             let starts = match problem.judged {
@@ -121,7 +121,7 @@ impl Plan {
         one: &Solver,
         rows: usize,
         starts: u32,
-    ) -> Result<Vec<Entry>, String> {
+    ) -> Result<Vec<RaceEntry>, String> {
         let mut entries = Vec::new();
         let mut late = None;
         // Halves of decades only where a run takes seconds at most: a front of seven points makes one of them
@@ -166,7 +166,7 @@ impl Plan {
         tolerance: &str,
         rows: usize,
         limit: f64,
-    ) -> Result<Option<Entry>, String> {
+    ) -> Result<Option<RaceEntry>, String> {
         let kept = self
             .folder
             .join("runs")
@@ -201,8 +201,8 @@ impl Plan {
     }
 }
 
-fn entry(case: &str, solver: &Solver, tolerance: &str, rows: usize, outcome: Outcome) -> Entry {
-    Entry {
+fn entry(case: &str, solver: &Solver, tolerance: &str, rows: usize, outcome: Outcome) -> RaceEntry {
+    RaceEntry {
         case: case.to_owned(),
         solver: solver.name.to_owned(),
         tolerance: tolerance.to_owned(),

@@ -10,7 +10,7 @@ use crate::contest::solver;
 use crate::measure::{Judge, Quantities};
 use crate::outcome::{Outcome, read_states};
 use crate::problem::{Judged, start_of, with_start};
-use crate::runner::{Entry, REFERENCE, states_file};
+use crate::runner::{REFERENCE, RaceEntry, states_file};
 
 /// Errors at which solvers are compared.
 pub const LEVELS: [f64; 9] = [3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5, 1e-6, 1e-7];
@@ -20,7 +20,7 @@ pub const LEVELS: [f64; 9] = [3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5, 1e-6, 1e
 pub struct Judgement {
     /// The run.
     #[serde(flatten)]
-    pub entry: Entry,
+    pub entry: RaceEntry,
     /// Its error against the reference; none if it failed.
     pub error: Option<f64>,
 }
@@ -55,8 +55,8 @@ pub struct Standing {
 ///
 /// # Errors
 /// A file cannot be read, or a reference is missing.
-pub fn judge(folder: &Path, entries: &[Entry]) -> Result<Vec<Standing>, String> {
-    let mut groups: BTreeMap<(usize, usize), BTreeMap<u32, Vec<&Entry>>> = BTreeMap::new();
+pub fn judge(folder: &Path, entries: &[RaceEntry]) -> Result<Vec<Standing>, String> {
+    let mut groups: BTreeMap<(usize, usize), BTreeMap<u32, Vec<&RaceEntry>>> = BTreeMap::new();
     let mut cases: Vec<&str> = Vec::new();
     for entry in entries {
         let (case, start) = start_of(&entry.case);
@@ -124,7 +124,7 @@ fn root_mean_square(values: impl Iterator<Item = f64>, number: usize) -> f64 {
     (values.map(|value| value * value).sum::<f64>() / number as f64).sqrt()
 }
 
-fn standing(folder: &Path, case: &str, group: &[&Entry]) -> Result<Standing, String> {
+fn standing(folder: &Path, case: &str, group: &[&RaceEntry]) -> Result<Standing, String> {
     let mut judge = Judge::new(case)?;
     let (all, rows) = (judge.problem().rows(), group[0].rows);
     let read =

@@ -11,7 +11,7 @@ use crate::standings::{Judgement, Standing};
 /// A table of texts. Stored as its lines: the head, then the rows.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(from = "Vec<String>", into = "Vec<String>")]
-pub struct Table {
+pub struct MarkdownTable {
     /// The names of the columns.
     pub head: Vec<String>,
     /// The rows, as long as the head.
@@ -21,7 +21,7 @@ pub struct Table {
 /// What stands between the cells of a line.
 const BETWEEN: &str = " | ";
 
-impl From<Vec<String>> for Table {
+impl From<Vec<String>> for MarkdownTable {
     fn from(lines: Vec<String>) -> Self {
         let cells = |line: &String| line.split(BETWEEN).map(str::to_owned).collect::<Vec<_>>();
         let head = lines.first().map(cells).unwrap_or_default();
@@ -37,8 +37,8 @@ impl From<Vec<String>> for Table {
     }
 }
 
-impl From<Table> for Vec<String> {
-    fn from(table: Table) -> Self {
+impl From<MarkdownTable> for Vec<String> {
+    fn from(table: MarkdownTable) -> Self {
         let lines = std::iter::once(table.head).chain(table.rows);
         let lines = lines.filter(|line| !line.is_empty());
         // Empty cells at the end are left out.
@@ -48,7 +48,7 @@ impl From<Table> for Vec<String> {
     }
 }
 
-impl Table {
+impl MarkdownTable {
     fn new<S: ToString>(head: &[S]) -> Self {
         Self {
             head: head.iter().map(ToString::to_string).collect(),
@@ -57,7 +57,7 @@ impl Table {
     }
 }
 
-impl fmt::Display for Table {
+impl fmt::Display for MarkdownTable {
     /// Writes it as Markdown.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "| {} |", self.head.join(" | "))?;
@@ -103,7 +103,7 @@ fn power(value: f64) -> String {
 /// Returns the table of ratios of times to ours, case by case and solver by solver: the least and the middle
 /// of all error levels.
 #[must_use]
-pub fn ratios(standings: &[Standing]) -> Table {
+pub fn ratios(standings: &[Standing]) -> MarkdownTable {
     let full = standings.iter().map(|one| one.span).fold(0.0, f64::max);
     let rows: Vec<&Standing> = standings.iter().filter(|one| one.span == full).collect();
     let mut columns: Vec<(String, Vec<&str>)> = vec![("CVODE".to_owned(), vec!["CVODE BDF"])];
@@ -120,7 +120,7 @@ pub fn ratios(standings: &[Standing]) -> Table {
     let heads: Vec<&str> = heads
         .chain(["Octave ode15s", "the same, equations in Octave"])
         .collect();
-    let mut table = Table::new(&heads);
+    let mut table = MarkdownTable::new(&heads);
     for one in rows {
         let mut cells = vec![one.case.clone(), power(one.floor)];
         let (ours, took_part) = (one.ours(), one.solvers());
@@ -159,8 +159,8 @@ fn cell(ratios: &[(f64, f64)]) -> String {
 
 /// Case by case the cheapest run of each solver whose error is not above `level`, or the floor.
 #[must_use]
-pub fn at_level(standings: &[Standing], level: f64) -> Table {
-    let mut table = Table::new(&[
+pub fn at_level(standings: &[Standing], level: f64) -> MarkdownTable {
+    let mut table = MarkdownTable::new(&[
         "case",
         "solver",
         "tolerance",
@@ -207,9 +207,9 @@ pub fn at_level(standings: &[Standing], level: f64) -> Table {
 
 /// Time and error of some solvers at one tolerance, in the yawed cases, which converge.
 #[must_use]
-pub fn at_tolerance(standings: &[Standing], tolerance: &str, solvers: &[&str]) -> Table {
+pub fn at_tolerance(standings: &[Standing], tolerance: &str, solvers: &[&str]) -> MarkdownTable {
     let heads: Vec<&str> = ["case"].into_iter().chain(solvers.iter().copied()).collect();
-    let mut table = Table::new(&heads);
+    let mut table = MarkdownTable::new(&heads);
     let full = standings.iter().map(|one| one.span).fold(0.0, f64::max);
     for one in standings
         .iter()
@@ -237,8 +237,8 @@ pub fn at_tolerance(standings: &[Standing], tolerance: &str, solvers: &[&str]) -
 
 /// Every failure, case by case.
 #[must_use]
-pub fn failures(standings: &[Standing]) -> Table {
-    let mut table = Table::new(&["case", "solver", "tolerances", "why"]);
+pub fn failures(standings: &[Standing]) -> MarkdownTable {
+    let mut table = MarkdownTable::new(&["case", "solver", "tolerances", "why"]);
     for one in standings {
         for name in one.solvers() {
             let failed = |run: &&Judgement| run.entry.solver == name && !run.entry.outcome.failure.is_empty();
@@ -329,11 +329,11 @@ pub fn everything(standings: &[Standing]) -> String {
 mod tests {
     use super::*;
     use crate::outcome::Outcome;
-    use crate::runner::Entry;
+    use crate::runner::RaceEntry;
 
     fn run(solver: &str, error: f64, cpu: f64) -> Judgement {
         Judgement {
-            entry: Entry {
+            entry: RaceEntry {
                 case: "a case".to_owned(),
                 solver: solver.to_owned(),
                 tolerance: "1e-6".to_owned(),

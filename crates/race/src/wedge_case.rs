@@ -5,7 +5,7 @@ use serde::Serialize;
 use wedge::parameters::Parameters;
 
 use crate::equations::Equations;
-use crate::problem::Problem;
+use crate::problem::RaceProblem;
 
 /// A wedge with its start, for `drivers/wedge_case.m`. SI units; the state is that of [`Equations`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -26,7 +26,7 @@ impl WedgeCase {
     /// # Errors
     /// There is no such problem, or it is no wedge.
     pub fn named(name: &str) -> Result<Self, String> {
-        let problem = Problem::named(name).map_err(|error| error.to_string())?;
+        let problem = RaceProblem::named(name).map_err(|error| error.to_string())?;
         let times = (0..problem.rows()).map(|row| problem.time(row)).collect();
         let parameters = problem
             .parameters

@@ -5,8 +5,8 @@
 use race::equations::Equations;
 use race::measure::Quantities;
 use race::outcome::Outcome;
-use race::problem::{Problem, START_STEP, names, start_of, with_start};
-use race::runner::Entry;
+use race::problem::{RaceProblem, START_STEP, names, start_of, with_start};
+use race::runner::RaceEntry;
 use race::standings::{Judgement, Standing, over_starts};
 
 /// Each column against a central difference with Richardson's extrapolation, at a state on the way, where
@@ -64,7 +64,7 @@ fn the_jacobian_is_the_derivative_of_the_rates() {
 #[test]
 fn no_problem_has_a_break() {
     for name in names() {
-        let mut problem = Problem::named(&name).unwrap();
+        let mut problem = RaceProblem::named(&name).unwrap();
         let end = integrate::Problem::next_time_discontinuity(&mut problem.system, 0.0);
         assert!(end.is_infinite(), "{name}: {end}");
     }
@@ -91,7 +91,7 @@ fn errors_by_hand() {
 
 fn standing(runs: &[(&str, f64, f64, &str)]) -> Standing {
     let runs = runs.iter().map(|(solver, error, cpu, failure)| Judgement {
-        entry: Entry {
+        entry: RaceEntry {
             case: "case".to_owned(),
             solver: (*solver).to_owned(),
             tolerance: "1e-3".to_owned(),
@@ -150,14 +150,14 @@ fn starts_are_taken_together_by_hand() {
 fn another_start_is_lower() {
     for case in ["vdrun_toe_0_psi_0", "planar_variable"] {
         let (own, other) = (
-            Problem::named(case).unwrap(),
-            Problem::named(&with_start(case, 3)).unwrap(),
+            RaceProblem::named(case).unwrap(),
+            RaceProblem::named(&with_start(case, 3)).unwrap(),
         );
         let differs: Vec<usize> = (0..own.start.len())
             .filter(|k| own.start[*k] != other.start[*k])
             .collect();
         assert_eq!(differs.len(), 1, "{case}");
-        let heights = |problem: &Problem| -> Vec<f64> {
+        let heights = |problem: &RaceProblem| -> Vec<f64> {
             let observation = problem.system.clone().observe(0.0, &problem.start);
             observation.bodies.iter().map(|body| body.origin.0[2]).collect()
         };

@@ -5,12 +5,12 @@ use race::c_interface::{
     race_close, race_dimension, race_jacobian, race_open, race_rates, race_rows, race_start, race_time,
 };
 use race::contest::{IN_OCTAVE, Tools, solver};
-use race::problem::{Problem, names};
+use race::problem::{RaceProblem, names};
 use race::wedge_case::WedgeCase;
 
 #[test]
 fn an_unknown_problem_is_named_with_those_there_are() {
-    let error = Problem::named("vdrun").err().unwrap().to_string();
+    let error = RaceProblem::named("vdrun").err().unwrap().to_string();
     assert!(
         error.contains("`vdrun`") && names().iter().all(|name| error.contains(name)),
         "{error}"
@@ -19,9 +19,12 @@ fn an_unknown_problem_is_named_with_those_there_are() {
 
 #[test]
 fn what_is_no_wedge_starts_nowhere_else() {
-    let error = Problem::named("stick_tanh@1").err().unwrap().to_string();
+    let error = RaceProblem::named("stick_tanh@1").err().unwrap().to_string();
     assert!(error.contains("stick_tanh has no wedge"), "{error}");
-    let error = Problem::named("vdrun_toe_0_psi_0@x").err().unwrap().to_string();
+    let error = RaceProblem::named("vdrun_toe_0_psi_0@x")
+        .err()
+        .unwrap()
+        .to_string();
     assert!(error.contains("`vdrun_toe_0_psi_0@x`"), "{error}");
 }
 

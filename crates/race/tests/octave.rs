@@ -11,7 +11,7 @@ use race::equations::Equations;
 use race::measure::Judge;
 use race::outcome::{Outcome, read_states, write_states};
 use race::own;
-use race::problem::Problem;
+use race::problem::RaceProblem;
 use study::case::builtin;
 use wedge::parameters::Parameters;
 
@@ -84,7 +84,7 @@ impl Counts {
 /// all directions.
 fn states_of(name: &str, equations: &Equations) -> Vec<(f64, Vec<f64>)> {
     let n = equations.dimension();
-    let problem = Problem::named(name).unwrap();
+    let problem = RaceProblem::named(name).unwrap();
     let (_, states) = own::run(name, Method::Rodas5P, false, 1e-5, 60.0, 251).unwrap();
     let mut list = vec![(0.0, equations.start().to_vec())];
     for (number, row) in [5, 40, 100, 160, 220, 250].into_iter().enumerate() {
@@ -121,7 +121,7 @@ fn cross_code_the_equations_in_octave_are_the_compiled_ones() {
     let mut expected = Vec::new();
     for name in &cases {
         let mut equations = Equations::named(name).unwrap();
-        let parameters = Problem::named(name).unwrap().parameters.unwrap();
+        let parameters = RaceProblem::named(name).unwrap().parameters.unwrap();
         let list = states_of(name, &equations);
         let mut counts = Counts::default();
         numbers.push(list.len() as f64);

@@ -21,18 +21,18 @@
 
 mod remarks;
 
-use mechanics::quasi_static::{Direction, QuasiStaticWedge};
+use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection};
 use study::case::Case;
 use study::closed_form;
 use study::half_truck::HalfTruckResult;
-use study::half_truck::catalog::{Entry, ToeCase, WedgeType, YawCase};
+use study::half_truck::catalog::{CatalogEntry, ToeCase, WedgeType, YawCase};
 use study::metrics::{Cycle, mean};
 use study::result::RunResult;
 use wedge::parameters::{Damping, Parameters};
 
 use quantity::Kind;
 
-use crate::figures::{Outcome, yaw};
+use crate::figures::{CaseOutcome, yaw};
 
 pub(crate) use remarks::percent;
 
@@ -40,7 +40,7 @@ pub(crate) use remarks::percent;
 pub const COMPONENT: &str = "127";
 
 /// A run of the half-truck.
-pub type TruckOutcome = (Entry, HalfTruckResult);
+pub type TruckOutcome = (CatalogEntry, HalfTruckResult);
 
 /// Returns a column of the half-truck's table under the name of the stand-alone wedge's column that stands
 /// for the same; any other name is the half-truck's own.
@@ -148,7 +148,7 @@ pub struct Stroke {
 
 /// A comparison: one damping, without or with yaw.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Group {
+pub struct AgreementGroup {
     /// Its damping.
     pub damping: Damping,
     /// Whether the bolster is yawed.
@@ -166,13 +166,13 @@ pub struct Group {
 pub(crate) struct Set<'o> {
     pub damping: Damping,
     pub yawed: bool,
-    pub alone: &'o Outcome,
+    pub alone: &'o CaseOutcome,
     pub trucks: Vec<&'o TruckOutcome>,
 }
 
 /// Returns the sets that these runs allow: those with a stand-alone run and at least one of the half-truck,
 /// all complete.
-pub(crate) fn sets<'o>(outcomes: &'o [Outcome], trucks: &'o [TruckOutcome]) -> Vec<Set<'o>> {
+pub(crate) fn sets<'o>(outcomes: &'o [CaseOutcome], trucks: &'o [TruckOutcome]) -> Vec<Set<'o>> {
     let mut sets = Vec::new();
     for damping in [Damping::Variable, Damping::Constant] {
         for yawed in [false, true] {
@@ -216,11 +216,11 @@ pub(crate) fn sets<'o>(outcomes: &'o [Outcome], trucks: &'o [TruckOutcome]) -> V
 
 /// Returns all comparisons that these runs allow.
 #[must_use]
-pub fn groups(outcomes: &[Outcome], trucks: &[TruckOutcome]) -> Vec<Group> {
+pub fn groups(outcomes: &[CaseOutcome], trucks: &[TruckOutcome]) -> Vec<AgreementGroup> {
     sets(outcomes, trucks).iter().filter_map(group).collect()
 }
 
-fn group(set: &Set<'_>) -> Option<Group> {
+fn group(set: &Set<'_>) -> Option<AgreementGroup> {
     let (case, result) = set.alone;
     let cycle = Cycle::of(&case.parameters)?;
     let mut models = vec![stand_alone(case, result, &cycle)?];
@@ -231,7 +231,7 @@ fn group(set: &Set<'_>) -> Option<Group> {
         models.push(numbers);
     }
     models.push(closed(case, result.column("time")?, &cycle)?);
-    let mut group = Group {
+    let mut group = AgreementGroup {
         damping: set.damping,
         yawed: set.yawed,
         models,
@@ -270,7 +270,7 @@ fn stand_alone(case: &Case, result: &RunResult, cycle: &Cycle) -> Option<Numbers
     })
 }
 
-fn truck(case: &Case, entry: &Entry, result: &HalfTruckResult, cycle: &Cycle) -> Option<Numbers> {
+fn truck(case: &Case, entry: &CatalogEntry, result: &HalfTruckResult, cycle: &Cycle) -> Option<Numbers> {
     let column = |name| truck_column(result, name);
     let times = column("time")?;
     let friction = column("vertical_wedge_force")?;
@@ -301,7 +301,11 @@ fn closed(case: &Case, times: &[f64], cycle: &Cycle) -> Option<Numbers> {
     for time in times {
         let [z, speed, _] = parameters.bolster.coordinates[2].evaluate(*time, 0.0);
         if let Some(up) = cycle.branch(parameters.damping, *time, z, speed) {
-            let direction = if up { Direction::Up } else { Direction::Down };
+            let direction = if up {
+                SlidingDirection::Up
+            } else {
+                SlidingDirection::Down
+            };
             sums[usize::from(up)] += closed_form::vertical_wedge_force(parameters, z, direction)?;
             counts[usize::from(up)] += 1;
         }
@@ -331,7 +335,7 @@ fn element_energy(parameters: &Parameters, low: f64, high: f64) -> Option<f64> {
     for piece in 0..PIECES {
         let z = low + (f64::from(piece) + 0.5) * step;
         let force = |direction| closed_form::vertical_wedge_force(parameters, z, direction);
-        energy += (force(Direction::Up)? - force(Direction::Down)?) * step;
+        energy += (force(SlidingDirection::Up)? - force(SlidingDirection::Down)?) * step;
     }
     Some(energy)
 }
@@ -346,7 +350,13 @@ fn element(case: &Case, wedges: WedgeType) -> Parameters {
     parameters
 }
 
-fn stroke(case: &Case, entry: &Entry, result: &HalfTruckResult, cycle: &Cycle, found: f64) -> Option<Stroke> {
+fn stroke(
+    case: &Case,
+    entry: &CatalogEntry,
+    result: &HalfTruckResult,
+    cycle: &Cycle,
+    found: f64,
+) -> Option<Stroke> {
     let column = |name| truck_column(result, name);
     let (times, strokes) = (column("time")?, column("wedge_z")?);
     let (start, _, cycles) = cycle.window(*times.last()?)?;
@@ -433,9 +443,9 @@ pub fn equation_5_1(case: &Case, result: &HalfTruckResult) -> Option<Vec<[f64; 2
         .zip(rates)
         .map(|(coil, rate)| {
             let direction = if *rate > 0.0 {
-                Direction::Up
+                SlidingDirection::Up
             } else {
-                Direction::Down
+                SlidingDirection::Down
             };
             let slide = wedge.slide(direction, wedge.branch(direction), coil.max(0.0))?;
             let (sin, cos) = libm::sincos(wedge.toe);

@@ -3,7 +3,7 @@
 //! Reference lines are those of the quasi-static wedge ([`study::closed_form`]), dashed or dotted, and are
 //! not drawn where it has none.
 
-use mechanics::quasi_static::{Direction, SlopeFriction};
+use mechanics::quasi_static::{SlidingDirection, SlopeFriction};
 use quantity::{Kind, System as Units};
 use study::case::{Case, builtin};
 use study::closed_form;
@@ -13,7 +13,7 @@ use study::summary::Averages;
 use wedge::parameters::{Damping, Parameters};
 
 use crate::csv::converted;
-use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures::axis;
 
 /// A run of a group: its case, and what came out.
@@ -344,7 +344,7 @@ fn lock_up(runs: &[Ran], units: Units) -> Vec<Panel> {
         let weight = case.parameters.wedge.mass * case.parameters.gravity;
         let wedge = closed_form::wedge(&case.parameters);
         let sliding = |coil: &f64| {
-            let slide = wedge.slide(Direction::Down, SlopeFriction::UpSlope, coil - weight);
+            let slide = wedge.slide(SlidingDirection::Down, SlopeFriction::UpSlope, coil - weight);
             slide.map_or(f64::NAN, |slide| slide.column_normal)
         };
         if wedge.lock_up_margin(0.0) > 0.0 {
@@ -402,7 +402,7 @@ fn cycles(case: &Case, result: &RunResult, name: &str, units: Units) -> Option<V
 }
 
 /// Returns the quasi-static wedge's forces over the bolster's stroke: straight lines.
-fn branches(parameters: &Parameters, units: Units) -> Vec<Curve> {
+fn branches(parameters: &Parameters, units: Units) -> Vec<PlotCurve> {
     let Some(cycle) = Cycle::of(parameters) else {
         return Vec::new();
     };
@@ -417,10 +417,10 @@ fn branches(parameters: &Parameters, units: Units) -> Vec<Curve> {
         });
         curve("quasi-static wedge", (Colour::Black, Line::Dashed), points)
     };
-    [Direction::Up, Direction::Down].map(line).into()
+    [SlidingDirection::Up, SlidingDirection::Down].map(line).into()
 }
 
-fn force_panel(damping: Damping, units: Units, curves: Vec<Curve>) -> Panel {
+fn force_panel(damping: Damping, units: Units, curves: Vec<PlotCurve>) -> Panel {
     panel(
         &format!("{} damping", damping.name()),
         ("bolster's vertical displacement", Kind::Length),
@@ -451,8 +451,12 @@ fn amplitude_name(amplitude: f64, units: Units) -> String {
 
 // All data for the drawing layer pass through these three.
 
-fn curve(label: &str, (colour, line): (Colour, Line), points: impl IntoIterator<Item = (f64, f64)>) -> Curve {
-    Curve {
+fn curve(
+    label: &str,
+    (colour, line): (Colour, Line),
+    points: impl IntoIterator<Item = (f64, f64)>,
+) -> PlotCurve {
+    PlotCurve {
         label: label.to_owned(),
         colour,
         line,
@@ -465,7 +469,7 @@ fn panel(
     (x, x_kind): (&str, Kind),
     (y, y_kind): (&str, Kind),
     units: Units,
-    curves: Vec<Curve>,
+    curves: Vec<PlotCurve>,
 ) -> Panel {
     Panel {
         title: title.to_owned(),

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 
 use quantity::{Kind, System as Units};
 use serde_json::json;
-use study::car::certificate::{Assessed, Certificate, Verdict, verdicts};
+use study::car::certificate::{Assessed, Certificate, LimitVerdict, verdicts};
 
 use crate::csv;
 use crate::files::{FileError, Folder};
@@ -27,14 +27,14 @@ pub const NAMES: [&str; 4] = [
 
 /// What all runs say.
 #[derive(Clone, Debug)]
-pub struct Findings {
+pub struct CertificateFindings {
     /// The runs in their order.
     pub runs: Vec<Assessed>,
     /// How each limit is kept.
-    pub verdicts: Vec<Verdict>,
+    pub verdicts: Vec<LimitVerdict>,
 }
 
-impl Findings {
+impl CertificateFindings {
     /// Makes the study's table of a folder in which all runs are kept, and assesses them.
     ///
     /// # Errors
@@ -62,7 +62,7 @@ impl Findings {
 /// A file cannot be written.
 pub fn write(
     certificate: &Certificate,
-    findings: &Findings,
+    findings: &CertificateFindings,
     page: &str,
     folder: &Folder,
 ) -> Result<(), FileError> {
@@ -120,7 +120,10 @@ fn columns() -> Vec<ParquetColumn> {
 }
 
 /// Returns the rows of the table: each run beside each limit of its regime, or alone if there is none.
-fn rows<'c>(certificate: &'c Certificate, findings: &'c Findings) -> impl Iterator<Item = Vec<Cell<'c>>> {
+fn rows<'c>(
+    certificate: &'c Certificate,
+    findings: &'c CertificateFindings,
+) -> impl Iterator<Item = Vec<Cell<'c>>> {
     let text = |own: &'c str| match own {
         "" => Cell::Missing,
         own => Cell::Text(Cow::Borrowed(own)),
@@ -166,7 +169,11 @@ fn rows<'c>(certificate: &'c Certificate, findings: &'c Findings) -> impl Iterat
     })
 }
 
-fn parquet(certificate: &Certificate, findings: &Findings, out: &mut (dyn Write + Send)) -> io::Result<()> {
+fn parquet(
+    certificate: &Certificate,
+    findings: &CertificateFindings,
+    out: &mut (dyn Write + Send),
+) -> io::Result<()> {
     let description = serde_json::to_string(&certificate.study.description()).map_err(io::Error::other)?;
     let metadata = [(STUDY_KEY, description)];
     let mut table = TableWriter::new(out, columns(), &metadata).map_err(io::Error::other)?;
@@ -176,7 +183,11 @@ fn parquet(certificate: &Certificate, findings: &Findings, out: &mut (dyn Write 
     table.finish().map_err(io::Error::other)
 }
 
-fn table_as_csv(certificate: &Certificate, findings: &Findings, out: &mut dyn Write) -> io::Result<()> {
+fn table_as_csv(
+    certificate: &Certificate,
+    findings: &CertificateFindings,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let columns = columns();
     csv::write_header(columns.iter().map(|column| column.name.as_str()), out)?;
     for row in rows(certificate, findings) {
@@ -186,7 +197,7 @@ fn table_as_csv(certificate: &Certificate, findings: &Findings, out: &mut dyn Wr
 }
 
 /// Returns all that a certificate says.
-fn document(certificate: &Certificate, findings: &Findings) -> serde_json::Value {
+fn document(certificate: &Certificate, findings: &CertificateFindings) -> serde_json::Value {
     let limits = &certificate.limits;
     let verdicts = findings.verdicts.iter().map(|own| {
         let limit = &limits.limits[own.limit];

@@ -12,7 +12,7 @@ use study::car::CarCase;
 use study::car::certificate::{Assessed, Certificate, worst_run};
 use study::run::Run;
 
-use crate::certificate_files::{self, Findings, NAMES};
+use crate::certificate_files::{self, CertificateFindings, NAMES};
 use crate::figures::car::CarRun;
 use crate::files::{FileError, Folder};
 use crate::page::certificate::{self as page, Against, WorstRun};
@@ -35,8 +35,8 @@ pub fn finish(
     against: Option<&Against>,
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
-) -> Result<Option<Findings>, StudyFolderError> {
-    let findings = Findings::gather(certificate, folder)?;
+) -> Result<Option<CertificateFindings>, StudyFolderError> {
+    let findings = CertificateFindings::gather(certificate, folder)?;
     let worst = worst_runs(certificate, &findings, folder.path(), jobs, stop, done)?;
     if stop.load(Ordering::Relaxed) {
         return Ok(None);
@@ -58,7 +58,7 @@ fn unwritable(folder: &Path, error: serde_json::Error) -> StudyFolderError {
 
 fn worst_runs(
     certificate: &Certificate,
-    findings: &Findings,
+    findings: &CertificateFindings,
     path: &Path,
     jobs: usize,
     stop: &AtomicBool,

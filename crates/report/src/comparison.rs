@@ -12,7 +12,7 @@ use quantity::{Kind, System as Units};
 use crate::drawing::Figure;
 use crate::overlay::{self, Axes};
 use crate::plot;
-use crate::table::{Table, TableColumn};
+use crate::table::{ResultTable, TableColumn};
 use choose::choose;
 use energies::energies;
 pub use error::ComparisonError;
@@ -49,11 +49,11 @@ const LOOP: [&str; 2] = ["bolster_vertical", "vertical_wedge_force"];
 
 /// A result with its name in figures and tables.
 #[derive(Clone, Debug)]
-pub struct Entry {
+pub struct ComparedResult {
     /// Its name.
     pub label: String,
     /// Its table.
-    pub table: Table,
+    pub table: ResultTable,
 }
 
 /// How a column of one result differs from the first result's, in the first one's units.
@@ -134,7 +134,7 @@ impl Comparison {
     ///
     /// # Errors
     /// See [`ComparisonError`].
-    pub fn of(entries: &[Entry], columns: &[String]) -> Result<Self, ComparisonError> {
+    pub fn of(entries: &[ComparedResult], columns: &[String]) -> Result<Self, ComparisonError> {
         let Some((first, others)) = entries.split_first() else {
             return Err(ComparisonError::NoCommonTime {
                 spans: "there are no results".to_owned(),
@@ -178,7 +178,7 @@ impl Comparison {
     ///
     /// # Errors
     /// A column is missing: the entries are not those that were compared.
-    pub fn figures(&self, entries: &[Entry]) -> Result<Vec<(String, Figure)>, ComparisonError> {
+    pub fn figures(&self, entries: &[ComparedResult]) -> Result<Vec<(String, Figure)>, ComparisonError> {
         let mut figures: Vec<(String, Figure)> = Vec::new();
         let free = |file: &str, figures: &[(String, Figure)]| {
             let taken = |other: &str| other.to_lowercase() == file.to_lowercase();
@@ -201,7 +201,13 @@ impl Comparison {
         Ok(figures)
     }
 
-    fn overlay(&self, entries: &[Entry], title: String, x: &str, y: &str) -> Result<Figure, ComparisonError> {
+    fn overlay(
+        &self,
+        entries: &[ComparedResult],
+        title: String,
+        x: &str,
+        y: &str,
+    ) -> Result<Figure, ComparisonError> {
         let mut axes = Axes {
             x_label: String::new(),
             y_label: String::new(),
@@ -240,7 +246,7 @@ impl Comparison {
     ///
     /// # Errors
     /// The writer's.
-    pub fn write(&self, entries: &[Entry], out: &mut dyn Write) -> io::Result<()> {
+    pub fn write(&self, entries: &[ComparedResult], out: &mut dyn Write) -> io::Result<()> {
         let mut table = ::csv::Writer::from_writer(out);
         table.write_record([
             "column",
@@ -301,7 +307,7 @@ impl Comparison {
 }
 
 /// First and last time of a table.
-fn ends(table: &Table) -> (f64, f64) {
+fn ends(table: &ResultTable) -> (f64, f64) {
     let times = table.times();
     (
         times.first().copied().unwrap_or(f64::NAN),
@@ -309,7 +315,7 @@ fn ends(table: &Table) -> (f64, f64) {
     )
 }
 
-fn common_span(entries: &[Entry]) -> Result<(f64, f64), ComparisonError> {
+fn common_span(entries: &[ComparedResult]) -> Result<(f64, f64), ComparisonError> {
     let span = entries
         .iter()
         .map(|entry| ends(&entry.table))
@@ -334,7 +340,12 @@ fn common_span(entries: &[Entry]) -> Result<(f64, f64), ComparisonError> {
 }
 
 /// Returns remarks about spans, units and times that are not the same.
-fn differing(first: &Entry, others: &[Entry], times: &[f64], span: (f64, f64)) -> Vec<String> {
+fn differing(
+    first: &ComparedResult,
+    others: &[ComparedResult],
+    times: &[f64],
+    span: (f64, f64),
+) -> Vec<String> {
     let mut notes = Vec::new();
     let all = std::iter::once(first).chain(others);
     if all.into_iter().any(|entry| ends(&entry.table) != span) {
@@ -384,7 +395,7 @@ fn words_of(units: Units) -> &'static str {
 }
 
 /// Returns a column's values in these units at these times, all of them within the table's span.
-fn sampled(table: &Table, column: &TableColumn, units: Units, times: &[f64]) -> Vec<f64> {
+fn sampled(table: &ResultTable, column: &TableColumn, units: Units, times: &[f64]) -> Vec<f64> {
     let own = table.times();
     let values = column.in_units(units);
     let at = |time: &f64| {

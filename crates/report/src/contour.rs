@@ -3,7 +3,7 @@
 /// A grid of heights: `heights[i * y.len() + j]` stands at `(x[i], y[j])`; heights that are not finite are
 /// holes.
 #[derive(Clone, Copy, Debug)]
-pub struct Grid<'g> {
+pub struct HeightGrid<'g> {
     /// Abscissae, increasing.
     pub x: &'g [f64],
     /// Ordinates, increasing.
@@ -16,7 +16,7 @@ type Point = (f64, f64);
 
 /// Returns the lines at this height, straight between the edges of cells.
 #[must_use]
-pub fn lines(grid: &Grid<'_>, level: f64) -> Vec<Vec<Point>> {
+pub fn lines(grid: &HeightGrid<'_>, level: f64) -> Vec<Vec<Point>> {
     let columns = grid.y.len();
     let at = |i: usize, j: usize| (grid.x[i], grid.y[j], grid.heights[i * columns + j]);
     let mut pieces: Vec<[Point; 2]> = Vec::new();
@@ -116,7 +116,7 @@ mod tests {
         let y = [0.0, 2.0];
         // z = x + 10 y
         let heights: Vec<f64> = x.iter().flat_map(|x| y.map(|y| x + 10.0 * y)).collect();
-        let grid = Grid {
+        let grid = HeightGrid {
             x: &x,
             y: &y,
             heights: &heights,
@@ -134,7 +134,7 @@ mod tests {
     #[test]
     fn limits_holes_and_flat_ground_have_no_lines() {
         let (x, y) = ([0.0, 1.0], [0.0, 1.0]);
-        let grid = |heights| Grid {
+        let grid = |heights| HeightGrid {
             x: &x,
             y: &y,
             heights,

@@ -6,7 +6,7 @@ use quantity::System as Units;
 use study::truck::loop_curve::{LoopCurve, LoopKind};
 
 use crate::csv::converted;
-use crate::drawing::{Curve, Figure, Panel, distinct};
+use crate::drawing::{Figure, Panel, PlotCurve, distinct};
 use crate::figures::axis;
 
 /// The table of loops.
@@ -19,7 +19,7 @@ pub const PICTURE: &str = "curves.png";
 pub const NAMES: [&str; 3] = [LOOPS, FIGURE, PICTURE];
 
 /// A loop with what sets it apart from the others; empty if there is one only.
-pub type Named = (String, LoopCurve);
+pub type LabeledLoop = (String, LoopCurve);
 
 /// Returns the names of the columns of what moves and of what resists.
 fn names(kind: LoopKind) -> [&'static str; 2] {
@@ -33,7 +33,7 @@ fn names(kind: LoopKind) -> [&'static str; 2] {
 ///
 /// # Errors
 /// The writer's.
-pub fn write(loops: &[Named], out: &mut dyn Write) -> io::Result<()> {
+pub fn write(loops: &[LabeledLoop], out: &mut dyn Write) -> io::Result<()> {
     let Some((_, first)) = loops.first() else {
         return Ok(());
     };
@@ -58,7 +58,7 @@ pub fn write(loops: &[Named], out: &mut dyn Write) -> io::Result<()> {
 
 /// Returns the figure of the loops.
 #[must_use]
-pub fn figure(loops: &[Named]) -> Figure {
+pub fn figure(loops: &[LabeledLoop]) -> Figure {
     let Some((_, first)) = loops.first() else {
         return Figure::default();
     };
@@ -70,7 +70,7 @@ pub fn figure(loops: &[Named]) -> Figure {
     let curves = loops.iter().enumerate().map(|(number, (label, own))| {
         let (colour, line) = distinct(number);
         let points = own.motion.iter().zip(&own.resistance);
-        Curve {
+        PlotCurve {
             label: if label.is_empty() {
                 "truck".to_owned()
             } else {

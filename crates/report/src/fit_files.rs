@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use study::fit::{Fit, Measured};
 
 use crate::csv::converted;
-use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures::axis;
 use crate::overlay::words;
 
@@ -22,7 +22,7 @@ pub const SCHEMA: &str = "wedgelab.fit/1";
 
 /// What the figure shows beside the fit.
 #[derive(Clone, Copy, Debug)]
-pub struct Shown<'s> {
+pub struct FitFigure<'s> {
     /// What was measured.
     pub measured: &'s Measured,
     /// What it measures.
@@ -39,7 +39,7 @@ pub struct Shown<'s> {
 ///
 /// # Errors
 /// They cannot be written.
-pub fn write(fit: &Fit, shown: &Shown<'_>, mut out: impl Write) -> io::Result<()> {
+pub fn write(fit: &Fit, shown: &FitFigure<'_>, mut out: impl Write) -> io::Result<()> {
     let parameters: Vec<Value> = fit
         .parameters
         .iter()
@@ -79,7 +79,7 @@ pub fn write(fit: &Fit, shown: &Shown<'_>, mut out: impl Write) -> io::Result<()
 
 /// Returns the loop measured and fitted, and the differences over time.
 #[must_use]
-pub fn figure(fit: &Fit, shown: &Shown<'_>) -> Figure {
+pub fn figure(fit: &Fit, shown: &FitFigure<'_>) -> Figure {
     let (kind, units) = (shown.kind, shown.units);
     let name = words(&shown.measured.column);
     let to = |values: &[f64], kind| -> Vec<f64> {
@@ -97,7 +97,7 @@ pub fn figure(fit: &Fit, shown: &Shown<'_>) -> Figure {
         ),
         None => (times.clone(), axis("time", Kind::Time, units)),
     };
-    let curve = |label: &str, colour, line, x: &[f64], y: &[f64]| Curve {
+    let curve = |label: &str, colour, line, x: &[f64], y: &[f64]| PlotCurve {
         label: label.to_owned(),
         colour,
         line,

@@ -8,7 +8,7 @@ use serde::Serialize;
 use study::car::hunting::{Boundary, Hunting, Point, Ramp};
 use study::car::stability::{FRICTION, Stability};
 
-use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures::axis;
 use crate::summary::write_json;
 
@@ -170,7 +170,7 @@ pub fn figure(case: &str, found: &Hunting, stability: &Stability, units: Units) 
                 .map(|point| (speed(point.speed), of(point) * kind.from_si(units)))
                 .collect();
             top = points.iter().fold(top, |top, (_, value)| top.max(*value));
-            curves.push(Curve {
+            curves.push(PlotCurve {
                 label: label.to_owned(),
                 colour,
                 line,
@@ -193,7 +193,7 @@ pub fn figure(case: &str, found: &Hunting, stability: &Stability, units: Units) 
         let lowest = stability.speeds.first().copied().unwrap_or_default();
         for (critical, (label, colour, line)) in marks {
             if let Some(critical) = critical.filter(|own| *own > lowest) {
-                curves.push(Curve {
+                curves.push(PlotCurve {
                     label: label.to_owned(),
                     colour,
                     line,

@@ -2,13 +2,13 @@
 
 use std::io::{self, Write};
 
-use mechanics::quasi_static::{Direction, SlopeFriction};
+use mechanics::quasi_static::{SlidingDirection, SlopeFriction};
 use quantity::System as Units;
 use study::case::Case;
-use study::lock_up::{Axis, Found, LockUpMap};
+use study::lock_up::{LockUpMap, MapAxis, RigOutcome};
 
-use crate::contour::{self, Grid};
-use crate::drawing::{Colour, Curve, Figure, Line, Mark, Panel};
+use crate::contour::{self, HeightGrid};
+use crate::drawing::{Colour, Figure, Line, Mark, Panel, PlotCurve};
 use crate::figures::study::contour_curves;
 
 /// The table.
@@ -30,10 +30,10 @@ const LEVELS: usize = 12;
 const SIGN: f64 = 0.008;
 
 /// Returns the heading of an axis's column: its name with its unit.
-fn heading(axis: Axis, units: Units) -> String {
+fn heading(axis: MapAxis, units: Units) -> String {
     match axis.unit(units).0 {
         "" => axis.name().to_owned(),
-        unit if axis == Axis::Toe => format!("toe_out_{unit}"),
+        unit if axis == MapAxis::Toe => format!("toe_out_{unit}"),
         unit => format!("{}_{unit}", axis.name()),
     }
 }
@@ -62,7 +62,7 @@ pub fn write_table(map: &LockUpMap, units: Units, out: &mut dyn Write) -> io::Re
             map.values[1][place % points] * second.unit(units).1,
         ];
         let reason = match &cell.found {
-            Found::Unknown(reason) => reason.replace([',', '\n', '"'], ";"),
+            RigOutcome::Unknown(reason) => reason.replace([',', '\n', '"'], ";"),
             _ => String::new(),
         };
         writeln!(
@@ -109,15 +109,15 @@ pub fn figure(case: &Case, map: &LockUpMap, units: Units) -> Figure {
     });
     let expected = over(&|at| {
         let (wedge, _) = map.massless(case, at);
-        let slide = wedge.slide(Direction::Down, SlopeFriction::UpSlope, 1.0);
+        let slide = wedge.slide(SlidingDirection::Down, SlopeFriction::UpSlope, 1.0);
         slide.map_or(f64::NAN, |slide| slide.column_normal * libm::cos(wedge.toe))
     });
-    let grid = |heights| Grid {
+    let grid = |heights| HeightGrid {
         x: &fine_shown[0],
         y: &fine_shown[1],
         heights,
     };
-    let boundary = |heights, label: &str, colour| Curve {
+    let boundary = |heights, label: &str, colour| PlotCurve {
         label: label.to_owned(),
         colour,
         line: Line::Solid,
@@ -128,7 +128,7 @@ pub fn figure(case: &Case, map: &LockUpMap, units: Units) -> Figure {
         boundary(&closing, "faces no longer close upwards", Colour::Purple),
     ];
     let boundaries = boundaries.into_iter().filter(|curve| !curve.points.is_empty());
-    let boundaries: Vec<Curve> = boundaries.collect();
+    let boundaries: Vec<PlotCurve> = boundaries.collect();
 
     let levels: Vec<f64> = contour::round_levels(&margins, LEVELS)
         .into_iter()
@@ -156,7 +156,7 @@ pub fn figure(case: &Case, map: &LockUpMap, units: Units) -> Figure {
     };
 
     let computed: Vec<f64> = map.cells.iter().map(|cell| cell.ratio).collect();
-    let coarse = Grid {
+    let coarse = HeightGrid {
         x: &values[0],
         y: &values[1],
         heights: &computed,
@@ -202,8 +202,8 @@ pub fn figure(case: &Case, map: &LockUpMap, units: Units) -> Figure {
     }
 }
 
-fn panel(axes: [Axis; 2], units: Units, title: &str, x: &[f64]) -> Panel {
-    let label = |axis: Axis| match axis.unit(units).0 {
+fn panel(axes: [MapAxis; 2], units: Units, title: &str, x: &[f64]) -> Panel {
+    let label = |axis: MapAxis| match axis.unit(units).0 {
         "" => axis.words().to_owned(),
         unit => format!("{} ({unit})", axis.words()),
     };
@@ -219,14 +219,14 @@ fn panel(axes: [Axis; 2], units: Units, title: &str, x: &[f64]) -> Panel {
 
 /// Lines of equal height in one style, with their marks.
 fn lines(
-    grid: &Grid<'_>,
+    grid: &HeightGrid<'_>,
     levels: &[f64],
     label: &str,
     colour: Colour,
     line: Line,
-) -> (Vec<Curve>, Vec<Mark>) {
+) -> (Vec<PlotCurve>, Vec<Mark>) {
     let named = |(curve, mark)| {
-        let own = Curve {
+        let own = PlotCurve {
             label: label.to_owned(),
             colour,
             line,
@@ -248,7 +248,7 @@ fn broken(lines: Vec<Vec<(f64, f64)>>) -> Vec<(f64, f64)> {
 }
 
 /// Returns a cross where a rig locked, a bar where it slid, a small stroke upwards where it is not known.
-fn signs(map: &LockUpMap, values: &[Vec<f64>; 2]) -> Vec<Curve> {
+fn signs(map: &LockUpMap, values: &[Vec<f64>; 2]) -> Vec<PlotCurve> {
     let size = values.each_ref().map(|values| {
         let ends = values.first().zip(values.last());
         ends.map_or(0.0, |(first, last)| SIGN * (last - first).abs())
@@ -256,13 +256,13 @@ fn signs(map: &LockUpMap, values: &[Vec<f64>; 2]) -> Vec<Curve> {
     let points = values[1].len();
     let kinds = [
         (
-            Found::Locks.name(),
+            RigOutcome::Locks.name(),
             "cross: rig locks up",
             Colour::Black,
             &[[-1.0, -1.0, 1.0, 1.0], [-1.0, 1.0, 1.0, -1.0]][..],
         ),
         (
-            Found::Slides.name(),
+            RigOutcome::Slides.name(),
             "bar: rig slides",
             Colour::Green,
             &[[-1.0, 0.0, 1.0, 0.0]],
@@ -275,7 +275,7 @@ fn signs(map: &LockUpMap, values: &[Vec<f64>; 2]) -> Vec<Curve> {
         ),
     ];
     let curves = kinds.map(|(name, label, colour, strokes)| {
-        let mut curve = Curve {
+        let mut curve = PlotCurve {
             label: label.to_owned(),
             colour,
             line: Line::Solid,

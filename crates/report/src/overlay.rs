@@ -2,7 +2,7 @@
 
 use quantity::{Kind, System as Units};
 
-use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures;
 use crate::table::TableColumn;
 
@@ -46,7 +46,7 @@ pub(crate) fn figure(title: String, caption: String, axes: Vec<Axes>) -> Figure 
         let curve = |(label, points): (String, Vec<(f64, f64)>)| {
             let place = names.iter().position(|name| *name == label).unwrap_or_default();
             let (colour, line) = look(place);
-            Curve {
+            PlotCurve {
                 label,
                 colour,
                 line,

@@ -9,13 +9,13 @@ use crate::drawing::Figure;
 use crate::figures::digits;
 use crate::overlay::{self, Axes};
 use crate::parquet::Cell;
-use crate::table::{Table, TableColumn, TableError};
+use crate::table::{ResultTable, TableColumn, TableError};
 
 /// Returns the figure of the columns `ys` over the column `x`, in the table's units; one panel a unit.
 ///
 /// # Errors
 /// One of the columns is not in the table.
-pub fn figure(table: &Table, label: &str, x: &str, ys: &[String]) -> Result<Figure, TableError> {
+pub fn figure(table: &ResultTable, label: &str, x: &str, ys: &[String]) -> Result<Figure, TableError> {
     let units = table.units;
     let abscissa = table.column(x)?;
     let columns = ys
@@ -73,7 +73,7 @@ pub fn density_unit(unit: &str) -> String {
 
 /// Returns the power spectral density of a column, in the column's units, in decibels over one unit.
 #[must_use]
-pub fn density_figure(table: &Table, label: &str, column: &TableColumn, spectrum: &Spectrum) -> Figure {
+pub fn density_figure(table: &ResultTable, label: &str, column: &TableColumn, spectrum: &Spectrum) -> Figure {
     let words = overlay::words(&column.name);
     let unit = density_unit(column.kind.label(table.units));
     let pairs = spectrum.frequencies.iter().zip(&spectrum.density);
@@ -104,7 +104,7 @@ pub fn density_figure(table: &Table, label: &str, column: &TableColumn, spectrum
 /// # Errors
 /// The writer's.
 pub fn write_density(
-    table: &Table,
+    table: &ResultTable,
     column: &TableColumn,
     spectrum: &Spectrum,
     out: &mut dyn Write,

@@ -5,13 +5,13 @@ use wedge::parameters::Damping;
 
 use crate::agreement::TruckOutcome;
 use crate::beyond;
-use crate::figures::{self, Exhibit, Outcome};
-use crate::page::{Drawn, Section};
+use crate::figures::{self, CaseOutcome, Exhibit};
+use crate::page::{DrawnFigure, PageSection};
 use crate::sensitivity::Sensitivity;
 
 /// Figures that belong together, not yet drawn.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Plan {
+pub struct SectionPlan {
     /// Its name in links.
     pub id: String,
     /// Its heading.
@@ -30,8 +30,8 @@ pub struct Plan {
 
 /// Returns the sections of the report on these runs of the thesis's kind.
 #[must_use]
-pub fn thesis(outcomes: &[Outcome]) -> Vec<Plan> {
-    let mut plans = vec![Plan {
+pub fn thesis(outcomes: &[CaseOutcome]) -> Vec<SectionPlan> {
+    let mut plans = vec![SectionPlan {
         id: "model".to_owned(),
         title: "Motion, friction law, coil".to_owned(),
         intro: "What goes into the runs.".to_owned(),
@@ -48,7 +48,7 @@ pub fn thesis(outcomes: &[Outcome]) -> Vec<Plan> {
         } else {
             "without yaw"
         };
-        plans.push(Plan {
+        plans.push(SectionPlan {
             id: format!("{name}{}", if yawed { "-yawed" } else { "" }),
             title: format!("{} damping, {with}", figures::capital(name)),
             intro: intro(damping, yawed).to_owned(),
@@ -58,7 +58,7 @@ pub fn thesis(outcomes: &[Outcome]) -> Vec<Plan> {
             group: String::new(),
         });
     }
-    plans.extend(outcomes.iter().map(|outcome| Plan {
+    plans.extend(outcomes.iter().map(|outcome| SectionPlan {
         id: format!("run-{}", outcome.0.name),
         title: format!("{}: {}", outcome.0.name, outcome.0.title),
         intro: String::new(),
@@ -73,8 +73,8 @@ pub fn thesis(outcomes: &[Outcome]) -> Vec<Plan> {
 
 /// Returns the sections of the cases beyond the thesis, one a group, each with what to look at.
 #[must_use]
-pub fn beyond(outcomes: &[Outcome]) -> Vec<Plan> {
-    let group_of = |outcome: &Outcome| builtin::group_of(&outcome.0.name).map(|group| group.name);
+pub fn beyond(outcomes: &[CaseOutcome]) -> Vec<SectionPlan> {
+    let group_of = |outcome: &CaseOutcome| builtin::group_of(&outcome.0.name).map(|group| group.name);
     let mut plans = Vec::new();
     for runs in outcomes.chunk_by(|a, b| group_of(a) == group_of(b)) {
         let Some(group) = runs.first().and_then(|(case, _)| builtin::group_of(&case.name)) else {
@@ -83,7 +83,7 @@ pub fn beyond(outcomes: &[Outcome]) -> Vec<Plan> {
         let Some(figure) = beyond::figure(group.name, runs) else {
             continue;
         };
-        plans.push(Plan {
+        plans.push(SectionPlan {
             id: format!("beyond-{}", group.name.replace('_', "-")),
             title: group.title.to_owned(),
             intro: group.look_at.to_owned(),
@@ -103,8 +103,8 @@ pub fn beyond(outcomes: &[Outcome]) -> Vec<Plan> {
 /// Returns the sections of runs that are only seen moving: those beyond the thesis, and those of the
 /// half-truck.
 #[must_use]
-pub fn moving(others: &[Outcome], trucks: &[TruckOutcome]) -> Vec<Plan> {
-    let plan = |name: &str, title: &str, group: &str| Plan {
+pub fn moving(others: &[CaseOutcome], trucks: &[TruckOutcome]) -> Vec<SectionPlan> {
+    let plan = |name: &str, title: &str, group: &str| SectionPlan {
         id: format!("run-{name}"),
         title: format!("{name}: {title}"),
         intro: String::new(),
@@ -130,9 +130,9 @@ pub fn moving(others: &[Outcome], trucks: &[TruckOutcome]) -> Vec<Plan> {
 /// Returns the section that compares these runs with those of the half-truck; `None` where there are none to
 /// be compared.
 #[must_use]
-pub fn comparison(outcomes: &[Outcome], trucks: &[TruckOutcome]) -> Option<Plan> {
+pub fn comparison(outcomes: &[CaseOutcome], trucks: &[TruckOutcome]) -> Option<SectionPlan> {
     let exhibits = figures::comparison::exhibits(outcomes, trucks);
-    (!exhibits.is_empty()).then(|| Plan {
+    (!exhibits.is_empty()).then(|| SectionPlan {
         id: "compared".to_owned(),
         title: "Against types 6.8 and 6.9, toe out".to_owned(),
         intro: "The thesis's comparison: its stand-alone wedge against the comparison program's wedges, \
@@ -147,9 +147,9 @@ pub fn comparison(outcomes: &[Outcome], trucks: &[TruckOutcome]) -> Option<Plan>
 
 /// Returns the section of the statements over the contact stiffness.
 #[must_use]
-pub fn sensitivity(found: &Sensitivity) -> Option<Plan> {
+pub fn sensitivity(found: &Sensitivity) -> Option<SectionPlan> {
     let exhibits = figures::sensitivity::exhibits(found);
-    (!exhibits.is_empty()).then(|| Plan {
+    (!exhibits.is_empty()).then(|| SectionPlan {
         id: "open-stiffness".to_owned(),
         title: "Statements over the contact stiffness".to_owned(),
         intro: String::new(),
@@ -183,8 +183,8 @@ fn intro(damping: Damping, yawed: bool) -> &'static str {
 
 /// Returns a section's figures as drawn.
 #[must_use]
-pub fn drawn(plan: &Plan, svgs: impl IntoIterator<Item = String>) -> Section {
-    Section {
+pub fn drawn(plan: &SectionPlan, svgs: impl IntoIterator<Item = String>) -> PageSection {
+    PageSection {
         id: plan.id.clone(),
         title: plan.title.clone(),
         intro: plan.intro.clone(),
@@ -196,7 +196,7 @@ pub fn drawn(plan: &Plan, svgs: impl IntoIterator<Item = String>) -> Section {
             .iter()
             .cloned()
             .zip(svgs)
-            .map(|(exhibit, svg)| Drawn { exhibit, svg })
+            .map(|(exhibit, svg)| DrawnFigure { exhibit, svg })
             .collect(),
     }
 }

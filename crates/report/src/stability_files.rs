@@ -6,7 +6,7 @@ use quantity::{Kind, System as Units};
 use serde::Serialize;
 use study::car::stability::{Branch, FRICTION, Mode, Stability};
 
-use crate::drawing::{Curve, Figure, Panel, distinct};
+use crate::drawing::{Figure, Panel, PlotCurve, distinct};
 use crate::figures::axis;
 use crate::summary::write_json;
 
@@ -129,7 +129,7 @@ pub fn figure(case: &str, found: &Stability, units: Units) -> Figure {
                 let (colour, line) = distinct(number);
                 let values = first(branch, of);
                 let pairs = found.speeds.iter().zip(values);
-                Curve {
+                PlotCurve {
                     label: format!("friction {}", name(branch)),
                     colour,
                     line,

@@ -18,7 +18,7 @@ const REASONS: usize = 10;
 
 /// The values of a parameter, sorted into places.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Axis {
+pub enum ParameterAxis {
     /// Numbers or texts, each with a place of its own.
     Values {
         /// The values.
@@ -39,7 +39,7 @@ pub enum Axis {
     },
 }
 
-impl Axis {
+impl ParameterAxis {
     fn of(factor: &Factor, sampling: &Sampling, runs: u64) -> Self {
         // Some runs should fall into each part of a pair.
         let count = ((runs as f64 / 6.0).sqrt() as u64).clamp(3, MOST_PARTS) as usize;
@@ -206,15 +206,15 @@ impl Gathered {
 }
 
 /// What is gathered of each measure.
-pub type Cell = Vec<Gathered>;
+pub type MetricCell = Vec<Gathered>;
 
 /// A pair of parameters: means over the places of both.
 #[derive(Clone, Debug)]
-pub struct Pair {
+pub struct ParameterPair {
     /// Their numbers among the factors.
     pub factors: [usize; 2],
     /// Measures by place: `place of the first * places of the second + place of the second`.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<MetricCell>,
     /// Runs without measures, by place.
     pub failed: Vec<u64>,
 }
@@ -227,7 +227,7 @@ pub struct JamCells {
     /// Their toe, rad, positive out.
     pub toe: Gathered,
     /// The column's force over the coil's load, falling and rising, by place of angle and friction as in
-    /// [`Pair`].
+    /// [`ParameterPair`].
     pub ratios: Vec<[Gathered; 2]>,
 }
 
@@ -247,8 +247,8 @@ impl Jam {
     const RATIOS: [&str; 2] = ["column_force_ratio_down", "column_force_ratio_up"];
 
     /// If angle and friction are varied, by three places each at least.
-    fn new(study: &Study, axes: &[Axis]) -> Option<Self> {
-        let numeric = |axis: &Axis| axis.middles().is_some_and(|middles| middles.len() > 2);
+    fn new(study: &Study, axes: &[ParameterAxis]) -> Option<Self> {
+        let numeric = |axis: &ParameterAxis| axis.middles().is_some_and(|middles| middles.len() > 2);
         let of = |path: &str| factor_of(study, path).filter(|number| numeric(&axes[*number]));
         let (angle, friction) = (
             of(Self::ANGLE)?,
@@ -291,15 +291,15 @@ fn factor_of(study: &Study, path: &str) -> Option<usize> {
 #[derive(Clone, Debug)]
 pub struct Digest {
     /// The parameters.
-    pub axes: Vec<Axis>,
+    pub axes: Vec<ParameterAxis>,
     /// For each parameter, for each of its places, the measures.
-    pub effects: Vec<Vec<Cell>>,
+    pub effects: Vec<Vec<MetricCell>>,
     /// The pairs of numeric parameters.
-    pub pairs: Vec<Pair>,
+    pub pairs: Vec<ParameterPair>,
     /// The jam map, if angle and friction are varied.
     pub jam: Option<Jam>,
     /// All runs together.
-    pub all: Cell,
+    pub all: MetricCell,
     /// Runs that are complete, refused, stopped, failed.
     pub ended: [u64; 4],
     /// The first runs that are not complete, and why.
@@ -314,11 +314,11 @@ impl Digest {
     /// Nothing gathered yet.
     #[must_use]
     pub fn new(study: &Study) -> Self {
-        let none: Cell = vec![Gathered::NONE; study.measures().len()];
-        let axes: Vec<Axis> = study
+        let none: MetricCell = vec![Gathered::NONE; study.measures().len()];
+        let axes: Vec<ParameterAxis> = study
             .factors
             .iter()
-            .map(|factor| Axis::of(factor, &study.sampling, study.count()))
+            .map(|factor| ParameterAxis::of(factor, &study.sampling, study.count()))
             .collect();
         let numeric: Vec<usize> = (0..axes.len())
             .filter(|number| axes[*number].middles().is_some_and(|middles| middles.len() > 1))
@@ -328,7 +328,7 @@ impl Digest {
             let (axes, none) = (&axes, &none);
             numeric[place + 1..].iter().map(move |second| {
                 let cells = axes[*first].len() * axes[*second].len();
-                Pair {
+                ParameterPair {
                     factors: [*first, *second],
                     cells: vec![none.clone(); cells],
                     failed: vec![0; cells],

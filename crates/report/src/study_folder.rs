@@ -87,7 +87,7 @@ pub struct StudyFolder {
 
 /// What a part holds.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct StudyPart {
     /// Its records by number, each once.
     pub records: Vec<Record>,
     /// Bytes that belong to no sound record.
@@ -177,7 +177,7 @@ impl StudyFolder {
     ///
     /// # Errors
     /// It cannot be read, has records of another study, or two that contradict each other.
-    pub fn part(&self, part: u64) -> Result<Part, StudyFolderError> {
+    pub fn part(&self, part: u64) -> Result<StudyPart, StudyFolderError> {
         let file = self.file_of(part);
         let bytes = match read(&file, &RECORDS) {
             Ok(bytes) => bytes,
@@ -205,7 +205,7 @@ impl StudyFolder {
             });
         }
         records.dedup_by_key(|record| record.number);
-        Ok(Part {
+        Ok(StudyPart {
             records,
             lost: found.lost,
         })

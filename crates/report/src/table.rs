@@ -64,7 +64,7 @@ impl TableColumn {
 
 /// A table of results.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
+pub struct ResultTable {
     /// The file that it was read from.
     pub file: PathBuf,
     /// The units in which it was written.
@@ -73,7 +73,7 @@ pub struct Table {
     time: usize,
 }
 
-impl Table {
+impl ResultTable {
     /// Reads a result: a folder with a `result.csv`, such a file, or another CSV file of the same form.
     ///
     /// # Errors
@@ -87,7 +87,7 @@ impl Table {
     /// Understands the content of a file.
     ///
     /// # Errors
-    /// As [`Table::read`].
+    /// As [`ResultTable::read`].
     pub fn parse(file: &Path, bytes: &[u8]) -> Result<Self, TableError> {
         let text = text_of(file, bytes)?;
         let mut reader = ReaderBuilder::new()
@@ -267,7 +267,7 @@ impl Rows<'_> {
     }
 
     /// Returns the table; `None` if there was not even a line of names.
-    fn finish(self) -> Option<Result<Table, TableError>> {
+    fn finish(self) -> Option<Result<ResultTable, TableError>> {
         let (header, _) = self.header?;
         let file = self.file.to_owned();
         if let Some((line, found)) = self.short {
@@ -282,7 +282,7 @@ impl Rows<'_> {
             return Some(Err(TableError::NoRows { file }));
         }
         let columns = header.names.into_iter().zip(self.columns);
-        Some(Ok(Table {
+        Some(Ok(ResultTable {
             file,
             units: header.units,
             time: header.time,

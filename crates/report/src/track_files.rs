@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use wheelrail::track::{RailPlace, Track};
 
-use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 /// The table.
 pub const TABLE: &str = "track.csv";
@@ -25,18 +25,18 @@ const DEGREE_CHORD: f64 = 30.48;
 
 /// One of the four irregularities that are measured along chords.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Measured {
+pub struct MeasuredTrack {
     /// Left (0) or right (1) rail.
     pub rail: usize,
     /// Whether it is the alignment (lateral), else the profile (vertical).
     pub lateral: bool,
 }
 
-impl Measured {
+impl MeasuredTrack {
     /// All four.
     pub const ALL: [Self; 4] = {
-        const fn measured(rail: usize, lateral: bool) -> Measured {
-            Measured { rail, lateral }
+        const fn measured(rail: usize, lateral: bool) -> MeasuredTrack {
+            MeasuredTrack { rail, lateral }
         }
         [
             measured(0, false),
@@ -77,7 +77,7 @@ struct Row {
     /// The distance, m.
     distance: f64,
     rails: [RailPlace; 2],
-    /// Mid-chord offsets, m, by [`Measured::ALL`] and [`CHORDS`].
+    /// Mid-chord offsets, m, by [`MeasuredTrack::ALL`] and [`CHORDS`].
     offsets: [[f64; 3]; 4],
 }
 
@@ -98,7 +98,7 @@ impl<'t> Survey<'t> {
             let rails = track.rails(distance);
             let ends =
                 CHORDS.map(|chord| [-0.5, 0.5].map(|half| track.rails(distance + half * chord * FOOT)));
-            let offsets = Measured::ALL.map(|measured| {
+            let offsets = MeasuredTrack::ALL.map(|measured| {
                 [0, 1, 2].map(|chord: usize| {
                     let [a, b] = &ends[chord];
                     measured.of(&rails) - 0.5 * (measured.of(a) + measured.of(b))
@@ -118,7 +118,7 @@ impl<'t> Survey<'t> {
 
     /// Returns the largest mid-chord offsets, by what is measured and by chord.
     #[must_use]
-    pub fn largest(&self) -> Vec<(Measured, [Largest; 3])> {
+    pub fn largest(&self) -> Vec<(MeasuredTrack, [Largest; 3])> {
         let of = |number: usize| {
             [0, 1, 2].map(|chord: usize| {
                 let start = Largest { offset: 0.0, at: 0.0 };
@@ -132,7 +132,7 @@ impl<'t> Survey<'t> {
                 })
             })
         };
-        Measured::ALL
+        MeasuredTrack::ALL
             .into_iter()
             .enumerate()
             .map(|(number, measured)| (measured, of(number)))
@@ -161,11 +161,11 @@ impl<'t> Survey<'t> {
             out,
             "distance_ft,x_ft,y_ft,z_ft,heading_rad,curvature_per_ft,degree_of_curve,superelevation_in,grade"
         )?;
-        for measured in Measured::ALL {
+        for measured in MeasuredTrack::ALL {
             write!(out, ",{}_in", measured.name())?;
         }
         write!(out, ",cross_level_in,gauge_deviation_in")?;
-        for measured in Measured::ALL {
+        for measured in MeasuredTrack::ALL {
             for chord in CHORDS {
                 write!(out, ",{}_offset_{chord}_ft_in", measured.name())?;
             }
@@ -184,7 +184,7 @@ impl<'t> Survey<'t> {
                 station.superelevation[0] / INCH,
                 station.grade
             )?;
-            for measured in Measured::ALL {
+            for measured in MeasuredTrack::ALL {
                 write!(out, ",{}", measured.of(&row.rails) / INCH)?;
             }
             let [left, right] = &row.rails;
@@ -208,7 +208,7 @@ impl<'t> Survey<'t> {
                 .map(|row| (row.distance / FOOT, value(row)))
                 .collect()
         };
-        let curve = |label: &str, colour, line, points| Curve {
+        let curve = |label: &str, colour, line, points| PlotCurve {
             label: label.to_owned(),
             colour,
             line,

@@ -9,7 +9,7 @@ use study::truck::run::TruckResult;
 use study::truck::warp::{Growth, NUCARS_STIFFNESS, PARTS, WarpCurve};
 
 use crate::csv::converted;
-use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 use crate::figures::axis;
 
 /// The table of stiffnesses.
@@ -154,10 +154,10 @@ pub fn write_pwl(tests: &[Tested], out: &mut dyn Write) -> io::Result<()> {
 #[must_use]
 pub fn figure(tests: &[Tested]) -> Figure {
     let kip = |value: f64| value / KIP_INCH;
-    let mut loops: Vec<Curve> = NUCARS_STIFFNESS
+    let mut loops: Vec<PlotCurve> = NUCARS_STIFFNESS
         .iter()
         .zip([Line::Dotted, Line::Dashed])
-        .map(|((name, stiffness), line)| Curve {
+        .map(|((name, stiffness), line)| PlotCurve {
             label: (*name).to_owned(),
             colour: Colour::Grey,
             line,
@@ -186,7 +186,7 @@ pub fn figure(tests: &[Tested]) -> Figure {
         } else {
             test.label.clone()
         };
-        loops.push(Curve {
+        loops.push(PlotCurve {
             label,
             colour,
             line,
@@ -209,12 +209,15 @@ pub fn figure(tests: &[Tested]) -> Figure {
         let parts = PARTS.iter().enumerate().filter_map(|(number, (name, words, _))| {
             let points = over_angle(first, &format!("warp_moment_{name}"));
             let (colour, line) = distinct(tests.len() + number);
-            points.iter().any(|(_, moment)| *moment != 0.0).then(|| Curve {
-                label: (*words).to_owned(),
-                colour,
-                line,
-                points,
-            })
+            points
+                .iter()
+                .any(|(_, moment)| *moment != 0.0)
+                .then(|| PlotCurve {
+                    label: (*words).to_owned(),
+                    colour,
+                    line,
+                    points,
+                })
         });
         panels.push(Panel {
             title: format!("(b) its parts{named}"),
@@ -237,7 +240,7 @@ pub fn figure(tests: &[Tested]) -> Figure {
                     let forces = forces
                         .into_iter()
                         .map(|force| converted(force, Kind::Force, Units::Us));
-                    Curve {
+                    PlotCurve {
                         label: wedge.replace('_', " "),
                         colour,
                         line,

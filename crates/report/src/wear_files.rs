@@ -4,12 +4,12 @@
 use std::io::{self, Write};
 
 use quantity::{Kind, System as Units};
-use study::wear::{LIMIT, Plan, WearHistory, WearLaw, WearState, maps};
+use study::wear::{LIMIT, WearHistory, WearLaw, WearPlan, WearState, maps};
 use wedge::face::{DepthMap, FaceProperties};
 use wedge::outputs::FACES;
 
 use crate::csv::converted;
-use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures::{axis, capital, digits, over_face};
 
 /// The course of wear over the cycles.
@@ -244,7 +244,7 @@ pub fn figure(history: &WearHistory) -> Figure {
         );
         panels.push(over_face(title, face, &rectangles[number], &heights, units));
     }
-    let course = |label: &str, colour: Colour, line: Line, of: &dyn Fn(&WearState) -> f64| Curve {
+    let course = |label: &str, colour: Colour, line: Line, of: &dyn Fn(&WearState) -> f64| PlotCurve {
         label: label.to_owned(),
         colour,
         line,
@@ -291,7 +291,7 @@ pub fn figure(history: &WearHistory) -> Figure {
 
 /// Returns what wear comes to, in words.
 #[must_use]
-pub fn words(history: &WearHistory, plan: &Plan, given: Given) -> String {
+pub fn words(history: &WearHistory, plan: &WearPlan, given: Given) -> String {
     let units = history.case.simulation.output_units;
     let (Some(first), Some(last)) = (history.states.first(), history.states.last()) else {
         return String::new();

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use wheelrail::profile::Profile;
 use wheelrail::wheelset::RigidPosition;
 
-use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 /// The table.
 pub const TABLE: &str = "wheelrail.csv";
@@ -57,7 +57,7 @@ pub fn figure(
     positions: &[RigidPosition],
     conicity: &[(f64, f64)],
 ) -> Figure {
-    let curve = |label: &str, colour, line, points: Vec<(f64, f64)>| Curve {
+    let curve = |label: &str, colour, line, points: Vec<(f64, f64)>| PlotCurve {
         label: label.to_owned(),
         colour,
         line,
@@ -76,7 +76,7 @@ pub fn figure(
             .collect()
     };
     let shift = "lateral shift (in, left positive)";
-    let panel = |title: &str, x_label: &str, y_label: &str, curves: Vec<Curve>| Panel {
+    let panel = |title: &str, x_label: &str, y_label: &str, curves: Vec<PlotCurve>| Panel {
         title: title.to_owned(),
         x_label: x_label.to_owned(),
         y_label: y_label.to_owned(),

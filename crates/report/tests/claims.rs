@@ -5,7 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, OnceLock};
 
 use quantity::System as Units;
-use report::claims::{Claims, Evidence, Group, REQUIRED, Row, RunId, SCHEMA, Toe, Verdict, claims, evaluate};
+use report::claims::{
+    ClaimGroup, ClaimRow, ClaimVerdict, Claims, Evidence, REQUIRED, RunId, SCHEMA, Toe, claims, evaluate,
+};
 use study::case::{Case, builtin};
 use study::result::RunResult;
 use study::run::Run;
@@ -45,18 +47,18 @@ fn evidence(runs: &[(Case, RunResult)]) -> Evidence<'_> {
 }
 
 /// Returns the rows of the twelve runs.
-fn rows() -> &'static [Row] {
-    static ROWS: OnceLock<Vec<Row>> = OnceLock::new();
+fn rows() -> &'static [ClaimRow] {
+    static ROWS: OnceLock<Vec<ClaimRow>> = OnceLock::new();
     ROWS.get_or_init(|| evaluate(&evidence(twelve())))
 }
 
-fn row<'r>(rows: &'r [Row], id: &str) -> &'r Row {
+fn row<'r>(rows: &'r [ClaimRow], id: &str) -> &'r ClaimRow {
     rows.iter()
         .find(|row| row.id == id)
         .unwrap_or_else(|| panic!("no claim {id}"))
 }
 
-fn verdicts(rows: &[Row]) -> Vec<(&'static str, Verdict)> {
+fn verdicts(rows: &[ClaimRow]) -> Vec<(&'static str, ClaimVerdict)> {
     rows.iter().map(|row| (row.id, row.verdict)).collect()
 }
 
@@ -127,21 +129,21 @@ fn the_table() {
 #[test]
 fn verdicts_come_with_their_reasons() {
     // Those that compare need runs of the half-truck, and have tests of their own.
-    for row in rows().iter().filter(|row| row.group != Group::Comparison) {
+    for row in rows().iter().filter(|row| row.group != ClaimGroup::Comparison) {
         let claim = claims().find(|claim| claim.id == row.id).unwrap();
         match row.verdict {
-            Verdict::Holds => assert!(row.note.is_empty(), "{}", row.id),
-            Verdict::DoesNot => {
+            ClaimVerdict::Holds => assert!(row.note.is_empty(), "{}", row.id),
+            ClaimVerdict::DoesNot => {
                 let why = claim.why_not.unwrap_or_else(|| panic!("{}: why not?", row.id));
                 assert!(why.len() > 30 && why.ends_with('.'), "{}: {why}", row.id);
                 assert_eq!(row.note, why);
             }
-            Verdict::CannotBeDecided => {
+            ClaimVerdict::CannotBeDecided => {
                 assert!(row.code.is_empty(), "{}: {}", row.id, row.note);
                 assert!(row.note.len() > 30, "{}: {}", row.id, row.note);
             }
         }
-        if row.verdict != Verdict::CannotBeDecided {
+        if row.verdict != ClaimVerdict::CannotBeDecided {
             assert!(!row.values.is_empty() && !row.code.is_empty(), "{}", row.id);
             assert!(
                 !row.code.contains("  ") && !row.code.contains('\n'),
@@ -157,7 +159,7 @@ fn verdicts_come_with_their_reasons() {
 fn what_must_hold_holds() {
     for id in REQUIRED {
         let row = row(rows(), id);
-        assert_eq!(row.verdict, Verdict::Holds, "{row:#?}");
+        assert_eq!(row.verdict, ClaimVerdict::Holds, "{row:#?}");
     }
 }
 
@@ -284,8 +286,8 @@ fn verdicts_follow_the_results() {
         let swapped = evidence(twelve()).exchanged(run(constant, Toe::Out), run(constant, Toe::In));
         let changed = evaluate(&swapped);
         for id in ids {
-            assert_eq!(row(rows(), id).verdict, Verdict::Holds);
-            assert_eq!(row(&changed, id).verdict, Verdict::DoesNot, "{id}");
+            assert_eq!(row(rows(), id).verdict, ClaimVerdict::Holds);
+            assert_eq!(row(&changed, id).verdict, ClaimVerdict::DoesNot, "{id}");
             assert!(!row(&changed, id).note.is_empty());
         }
     }
@@ -293,7 +295,7 @@ fn verdicts_follow_the_results() {
     let swapped = evidence(twelve()).exchanged(run(true, Toe::Out), run(false, Toe::Out));
     let changed = evaluate(&swapped);
     for id in ["6.1-never-lifts-off", "5.1-lift-off-after-3-s"] {
-        assert_ne!(row(&changed, id).verdict, Verdict::Holds, "{id}");
+        assert_ne!(row(&changed, id).verdict, ClaimVerdict::Holds, "{id}");
     }
 }
 
@@ -315,7 +317,7 @@ fn names_do_not_matter() {
 #[test]
 fn missing_runs_leave_claims_undecided() {
     for row in evaluate(&Evidence::default()) {
-        assert_eq!(row.verdict, Verdict::CannotBeDecided, "{}", row.id);
+        assert_eq!(row.verdict, ClaimVerdict::CannotBeDecided, "{}", row.id);
         assert!(!row.note.is_empty());
     }
     let without: Vec<&(Case, RunResult)> = twelve()
@@ -326,7 +328,7 @@ fn missing_runs_leave_claims_undecided() {
         without.iter().map(|(case, result)| (case, result)),
     ));
     let ordered = row(&found, "6.1-toe-order-up");
-    assert_eq!(ordered.verdict, Verdict::CannotBeDecided);
+    assert_eq!(ordered.verdict, ClaimVerdict::CannotBeDecided);
     assert_eq!(ordered.note, "the run \"constant, toe in\" was not made");
     // What needs it is undecided, the others stand.
     let mut needing = 0;
@@ -334,7 +336,7 @@ fn missing_runs_leave_claims_undecided() {
         let mut words = row.code.split(|c: char| !c.is_alphanumeric() && c != '_');
         if words.any(|word| word == "cd_in") {
             needing += 1;
-            assert_eq!(found.verdict, Verdict::CannotBeDecided, "{}", row.id);
+            assert_eq!(found.verdict, ClaimVerdict::CannotBeDecided, "{}", row.id);
         } else {
             assert_eq!(found, row);
         }
@@ -353,7 +355,7 @@ fn incomplete_and_short_runs_leave_claims_undecided() {
     }
     let found = evaluate(&evidence(&stopped));
     let ordered = row(&found, "5.1-toe-order-down");
-    assert_eq!(ordered.verdict, Verdict::CannotBeDecided);
+    assert_eq!(ordered.verdict, ClaimVerdict::CannotBeDecided);
     assert!(
         ordered.note.contains("variable, no toe\" stopped at 10"),
         "{}",
@@ -368,7 +370,13 @@ fn incomplete_and_short_runs_leave_claims_undecided() {
         ]);
         for row in evaluate(&evidence(&short)) {
             if row.id.starts_with("5.1-") || row.id.starts_with("6.1-") {
-                assert_eq!(row.verdict, Verdict::CannotBeDecided, "{} {}", row.id, row.note);
+                assert_eq!(
+                    row.verdict,
+                    ClaimVerdict::CannotBeDecided,
+                    "{} {}",
+                    row.id,
+                    row.note
+                );
                 assert!(!row.note.is_empty());
             }
         }
@@ -386,7 +394,7 @@ fn missing_columns_leave_claims_undecided() {
     for row in evaluate(&evidence(&bare)) {
         let summary_only = row.code.contains("energy_per_cycle") || row.code.contains("ledger_residual");
         if !summary_only {
-            assert_eq!(row.verdict, Verdict::CannotBeDecided, "{}", row.id);
+            assert_eq!(row.verdict, ClaimVerdict::CannotBeDecided, "{}", row.id);
         }
     }
 }
@@ -409,6 +417,6 @@ fn verdicts_do_not_depend_on_units() {
 fn reproduction_the_point_as_decided_has_the_verdicts_of_the_report() {
     let point = report::sensitivity::compute(&[], &[]);
     assert!(point.unsound.is_empty(), "{:?}", point.unsound);
-    let own: Vec<Verdict> = rows().iter().map(|row| row.verdict).collect();
+    let own: Vec<ClaimVerdict> = rows().iter().map(|row| row.verdict).collect();
     assert_eq!(point.verdicts, own);
 }

@@ -7,9 +7,9 @@ use std::f64::consts::PI;
 use std::sync::OnceLock;
 
 use nucars::truck::Choices;
-use report::agreement::{ComparedModel, Group as Agreement, Numbers, TruckOutcome, groups};
-use report::claims::{Claims, Evidence, Group, Row, Verdict, evaluate};
-use report::figures::{Exhibit, Outcome, comparison};
+use report::agreement::{AgreementGroup as Agreement, ComparedModel, Numbers, TruckOutcome, groups};
+use report::claims::{ClaimGroup, ClaimRow, ClaimVerdict, Claims, Evidence, evaluate};
+use report::figures::{CaseOutcome, Exhibit, comparison};
 use report::page::{self, Comparison, Contents};
 use study::case::builtin;
 use study::half_truck::catalog::{self, ToeCase, WedgeType, YawCase};
@@ -21,8 +21,8 @@ const POUND: f64 = 4.448_221_615_260_5;
 const INCH: f64 = 0.0254;
 
 /// Returns the four stand-alone runs with toe out, and the half-truck's that go with them.
-fn runs() -> &'static (Vec<Outcome>, Vec<TruckOutcome>) {
-    static RUNS: OnceLock<(Vec<Outcome>, Vec<TruckOutcome>)> = OnceLock::new();
+fn runs() -> &'static (Vec<CaseOutcome>, Vec<TruckOutcome>) {
+    static RUNS: OnceLock<(Vec<CaseOutcome>, Vec<TruckOutcome>)> = OnceLock::new();
     RUNS.get_or_init(|| {
         let alone = builtin::thesis_names()
             .filter(|name| name.contains("toe_out_0.2"))
@@ -67,7 +67,7 @@ fn truck(wedges: WedgeType, damping: Damping, yaw: YawCase) -> &'static HalfTruc
     &found.unwrap().1
 }
 
-fn alone(name: &str) -> &'static Outcome {
+fn alone(name: &str) -> &'static CaseOutcome {
     runs().0.iter().find(|(case, _)| case.name == name).unwrap()
 }
 
@@ -330,12 +330,12 @@ fn loops_of_the_elements_alone_are_the_known_ones() {
     }
 }
 
-fn rows(trucks: &[TruckOutcome]) -> Vec<Row> {
+fn rows(trucks: &[TruckOutcome]) -> Vec<ClaimRow> {
     let evidence = Evidence::new(runs().0.iter().map(|(case, result)| (case, result)))
         .with_trucks(trucks.iter().map(|(entry, result)| (entry, result)));
     let rows = evaluate(&evidence);
     rows.into_iter()
-        .filter(|row| row.group == Group::Comparison)
+        .filter(|row| row.group == ClaimGroup::Comparison)
         .collect()
 }
 
@@ -345,13 +345,18 @@ fn claims_are_decided_from_the_half_truck() {
     assert!(rows.len() > 30);
     for row in &rows {
         assert_eq!(
-            row.verdict == Verdict::CannotBeDecided,
+            row.verdict == ClaimVerdict::CannotBeDecided,
             row.code.is_empty(),
             "{} {}",
             row.id,
             row.note
         );
-        assert_eq!(row.verdict == Verdict::Holds, row.note.is_empty(), "{}", row.id);
+        assert_eq!(
+            row.verdict == ClaimVerdict::Holds,
+            row.note.is_empty(),
+            "{}",
+            row.id
+        );
         assert!(!row.note.contains("Why is not known"), "{}", row.id);
     }
     // Values are those of the types' columns.
@@ -370,13 +375,13 @@ fn claims_are_decided_from_the_half_truck() {
         numbers(group, ComparedModel::Type(WedgeType::Spatial)).up,
         1e-9,
     );
-    assert_eq!(row.verdict, Verdict::DoesNot);
+    assert_eq!(row.verdict, ClaimVerdict::DoesNot);
 }
 
 #[test]
 fn without_the_half_truck_they_are_not() {
     for row in rows(&[]) {
-        assert_eq!(row.verdict, Verdict::CannotBeDecided, "{}", row.id);
+        assert_eq!(row.verdict, ClaimVerdict::CannotBeDecided, "{}", row.id);
         assert!(
             row.code.is_empty() || row.note.contains("was not made"),
             "{}",
@@ -393,7 +398,7 @@ fn without_the_half_truck_they_are_not() {
     for row in rows(&trucks) {
         let yawed = row.code.contains("_yaw_6");
         if yawed {
-            assert_eq!(row.verdict, Verdict::CannotBeDecided, "{}", row.id);
+            assert_eq!(row.verdict, ClaimVerdict::CannotBeDecided, "{}", row.id);
         }
     }
     // A stopped run decides nothing.
@@ -404,7 +409,7 @@ fn without_the_half_truck_they_are_not() {
     assert!(
         rows(&trucks)
             .iter()
-            .all(|row| row.verdict == Verdict::CannotBeDecided)
+            .all(|row| row.verdict == ClaimVerdict::CannotBeDecided)
     );
     assert!(groups(&runs().0, &trucks).is_empty());
 }
@@ -421,11 +426,11 @@ fn types_are_told_apart() {
     }
     let changed = rows(&trucks);
     let row = |id: &str| changed.iter().find(|row| row.id == id).unwrap();
-    assert_eq!(row("5.1-type-6.8-plane").verdict, Verdict::DoesNot);
-    assert_eq!(row("5.2-dissipation-closer-to-6.9").verdict, Verdict::Holds);
+    assert_eq!(row("5.1-type-6.8-plane").verdict, ClaimVerdict::DoesNot);
+    assert_eq!(row("5.2-dissipation-closer-to-6.9").verdict, ClaimVerdict::Holds);
     assert_eq!(
         row("6.2-longitudinal-same-magnitude").verdict,
-        Verdict::CannotBeDecided
+        ClaimVerdict::CannotBeDecided
     );
 }
 

@@ -7,14 +7,14 @@ use std::sync::OnceLock;
 
 use report::csv;
 use report::drawing::Figure;
-use report::figures::{self, Exhibit, Outcome};
+use report::figures::{self, CaseOutcome, Exhibit};
 use report::sections;
 use study::case::builtin;
 use study::run::Run;
 
 /// Six runs, toe out and toe in, to the end: the figures' windows need it.
-fn outcomes() -> &'static [Outcome] {
-    static OUTCOMES: OnceLock<Vec<Outcome>> = OnceLock::new();
+fn outcomes() -> &'static [CaseOutcome] {
+    static OUTCOMES: OnceLock<Vec<CaseOutcome>> = OnceLock::new();
     OUTCOMES.get_or_init(|| {
         [
             "vdrun_toe_out_0.2_psi_0",
@@ -47,7 +47,7 @@ fn exhibit(name: &str) -> Exhibit {
 }
 
 /// Returns the columns of a run's CSV file, read back without our own code.
-fn table(outcome: &Outcome) -> HashMap<String, Vec<f64>> {
+fn table(outcome: &CaseOutcome) -> HashMap<String, Vec<f64>> {
     let mut bytes = Vec::new();
     csv::write(&outcome.1, &mut bytes).unwrap();
     let text = String::from_utf8(bytes).unwrap();
@@ -272,7 +272,7 @@ fn a_hundred_thousand_points_keep_their_peaks_and_become_small() {
         panels: vec![report::drawing::Panel {
             x_label: "time (s)".to_owned(),
             y_label: "force (lbf)".to_owned(),
-            curves: vec![report::drawing::Curve {
+            curves: vec![report::drawing::PlotCurve {
                 label: "curve".to_owned(),
                 points,
                 ..Default::default()

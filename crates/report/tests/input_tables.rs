@@ -8,7 +8,7 @@ use std::path::Path;
 use miette::Diagnostic;
 use quantity::{Kind, System as Units};
 use report::csv;
-use report::table::{Table, TableError};
+use report::table::{ResultTable, TableError};
 use study::case::builtin;
 use study::result::RunResult;
 use study::run::Run;
@@ -28,8 +28,8 @@ fn written(result: &RunResult) -> Vec<u8> {
     bytes
 }
 
-fn parse(text: &str) -> Result<Table, TableError> {
-    Table::parse(Path::new("a.csv"), text.as_bytes())
+fn parse(text: &str) -> Result<ResultTable, TableError> {
+    ResultTable::parse(Path::new("a.csv"), text.as_bytes())
 }
 
 fn bits(values: &[f64]) -> Vec<u64> {
@@ -61,7 +61,7 @@ fn what_is_written_is_read_to_the_same_bits() {
         for (column, value) in [(1, 0.1 + 0.2), (2, 5e-324), (3, 1e300), (4, -0.0), (5, 1e-7)] {
             result.values[column][1] = value;
         }
-        let table = Table::parse(Path::new("result.csv"), &written(&result)).unwrap();
+        let table = ResultTable::parse(Path::new("result.csv"), &written(&result)).unwrap();
         assert_eq!(
             (table.units, table.columns().len()),
             (units, result.columns.len())
@@ -92,8 +92,8 @@ fn what_is_written_is_read_to_the_same_bits() {
 
 #[test]
 fn the_same_run_in_both_units_is_the_same() {
-    let [us, si] =
-        ["us", "si"].map(|units| Table::parse(Path::new("result.csv"), &written(&short(units))).unwrap());
+    let [us, si] = ["us", "si"]
+        .map(|units| ResultTable::parse(Path::new("result.csv"), &written(&short(units))).unwrap());
     for (a, b) in us.columns().iter().zip(si.columns()) {
         for (x, y) in a.in_units(Units::Si).iter().zip(&b.written) {
             assert!((x - y).abs() <= 5e-16 * y.abs(), "{}: {x} {y}", a.name);
@@ -150,7 +150,7 @@ fn files_that_are_no_tables() {
         (b"time_s,a\n0,\0\n", "not text"),
         (b"time_s,a\n0,\xe4\n", "no text"),
     ] {
-        let error = Table::parse(Path::new("x"), bytes).unwrap_err();
+        let error = ResultTable::parse(Path::new("x"), bytes).unwrap_err();
         assert!(matches!(error, TableError::Foreign { .. }), "{error}");
         assert!(error.to_string().contains(text), "{error}");
     }
@@ -314,14 +314,14 @@ fn numbers_that_are_wrong() {
 fn files_cut_anywhere() {
     let text = "time_s,wedge_x_in,\"odd, \u{e4}_lbf\"\n0,1.25,-2\n0.1,2.5,3e-7\n";
     for cut in 0..text.len() {
-        match Table::parse(Path::new("a.csv"), &text.as_bytes()[..cut]) {
+        match ResultTable::parse(Path::new("a.csv"), &text.as_bytes()[..cut]) {
             Ok(table) => assert!(table.times().len() <= 2 && table.columns().len() == 3, "{cut}"),
             Err(error) => assert!(!error.to_string().is_empty()),
         }
         let mut changed = text.as_bytes().to_vec();
         for byte in [b',', b'"', b'\n', 0, 0xff] {
             changed[cut] = byte;
-            let _ = Table::parse(Path::new("a.csv"), &changed);
+            let _ = ResultTable::parse(Path::new("a.csv"), &changed);
         }
     }
 }
@@ -336,10 +336,10 @@ fn results_that_are_not_there() {
         written(&short("si")),
     )
     .unwrap();
-    assert!(Table::read(&path.join("reproduction/runs/soft")).is_ok());
-    assert!(Table::read(&path.join("reproduction/runs/soft/result.csv")).is_ok());
+    assert!(ResultTable::read(&path.join("reproduction/runs/soft")).is_ok());
+    assert!(ResultTable::read(&path.join("reproduction/runs/soft/result.csv")).is_ok());
     let advice = |name: &str| {
-        Table::read(&path.join(name))
+        ResultTable::read(&path.join(name))
             .unwrap_err()
             .help()
             .unwrap()
@@ -354,7 +354,7 @@ fn results_that_are_not_there() {
 
 #[test]
 fn columns_that_are_not_there_are_guessed() {
-    let table = Table::parse(Path::new("result.csv"), &written(&short("us"))).unwrap();
+    let table = ResultTable::parse(Path::new("result.csv"), &written(&short("us"))).unwrap();
     let advice = |name: &str| {
         let error = table.column(name).unwrap_err();
         assert!(matches!(&error, TableError::NoColumn { name: wanted, .. } if wanted == name));

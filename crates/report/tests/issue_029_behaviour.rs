@@ -5,11 +5,11 @@
 use std::fs;
 use std::path::Path;
 
-use report::comparison::{Comparison, ComparisonError, Entry};
-use report::table::{Table, TableError};
+use report::comparison::{ComparedResult, Comparison, ComparisonError};
+use report::table::{ResultTable, TableError};
 
 fn wrong(text: &[u8]) -> TableError {
-    Table::parse(Path::new("some.csv"), text).unwrap_err()
+    ResultTable::parse(Path::new("some.csv"), text).unwrap_err()
 }
 
 #[test]
@@ -55,7 +55,7 @@ fn issue_029_files_of_another_kind_are_recognized() {
         ("PAR1", "is a Parquet table", "pandas"),
     ] {
         fs::write(&file, content).unwrap();
-        let error = Table::read(&file).unwrap_err();
+        let error = ResultTable::read(&file).unwrap_err();
         let help = miette::Diagnostic::help(&error).unwrap().to_string();
         assert!(
             error.to_string().contains(what) && help.contains(advice),
@@ -67,16 +67,16 @@ fn issue_029_files_of_another_kind_are_recognized() {
 #[cfg(unix)]
 #[test]
 fn issue_029_devices_are_not_read_to_their_end() {
-    let error = Table::read(Path::new("/dev/zero")).unwrap_err();
+    let error = ResultTable::read(Path::new("/dev/zero")).unwrap_err();
     assert!(error.to_string().contains("is not text"), "{error}");
 }
 
 /// Differences and means of numbers near the largest that there are were infinite, and called a comparison.
 #[test]
 fn issue_029_comparisons_that_overflow_are_refused() {
-    let entry = |label: &str, value: &str| Entry {
+    let entry = |label: &str, value: &str| ComparedResult {
         label: label.to_owned(),
-        table: Table::parse(
+        table: ResultTable::parse(
             Path::new("some.csv"),
             format!("time_s,wedge_x_in\n0,{value}\n1,{value}\n").as_bytes(),
         )

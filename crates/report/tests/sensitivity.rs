@@ -6,9 +6,9 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use report::claims::{Evidence, REQUIRED, Verdict, claims, verdicts};
+use report::claims::{ClaimVerdict, Evidence, REQUIRED, claims, verdicts};
 use report::sensitivity::{
-    AXES, Extent, FRICTIONS, Found, Kept, KeptError, Place, Sensitivity, Space, deciding,
+    AXES, Extent, FRICTIONS, Kept, KeptError, PointOutcome, PointPlace, Sensitivity, Space, deciding,
 };
 use study::case::builtin;
 use study::run::Run;
@@ -104,7 +104,7 @@ fn limits_extents_are_of_the_points_that_decide() {
 }
 
 /// Points of which this many statements hold besides the required ones, and these required ones.
-fn found(required: usize, others: usize) -> Found {
+fn found(required: usize, others: usize) -> PointOutcome {
     let (mut required, mut others) = (required, others);
     let verdicts = claims().map(|claim| {
         let left = if REQUIRED.contains(&claim.id) {
@@ -113,12 +113,12 @@ fn found(required: usize, others: usize) -> Found {
             &mut others
         };
         if *left == 0 {
-            return Verdict::DoesNot;
+            return ClaimVerdict::DoesNot;
         }
         *left -= 1;
-        Verdict::Holds
+        ClaimVerdict::Holds
     });
-    Found {
+    PointOutcome {
         verdicts: verdicts.collect(),
         axes: vec![false; AXES.len()],
         unsound: Vec::new(),
@@ -132,7 +132,7 @@ fn chosen(of: impl Fn(usize, u64) -> (usize, usize)) -> usize {
     for point in 0..POINTS {
         let fifth = (5.0 * space.coordinates(point)[0]) as usize;
         let (required, others) = of(fifth, point);
-        points.insert(Place::Space(point), found(required, others));
+        points.insert(PointPlace::Space(point), found(required, others));
     }
     let stiffness = Sensitivity::of(&space, POINTS, &points).stiffness;
     assert_eq!(
@@ -198,7 +198,7 @@ fn reproduction_statements_of_breaking_out_turn_with_friction_of_rest() {
     let turned: Vec<(&str, bool)> = claims()
         .zip(both)
         .filter(|(claim, (without, with))| speaks(claim.statement) && without != with)
-        .map(|(claim, (_, with))| (claim.id, *with == Verdict::Holds))
+        .map(|(claim, (_, with))| (claim.id, *with == ClaimVerdict::Holds))
         .collect();
     let expected = [
         ("5.1-sticks-and-slips-down", true),
@@ -218,7 +218,7 @@ fn limits_points_are_cases_and_more_of_them_keep_the_earlier_ones() {
     assert!(few.iter().all(|place| more.contains(place)));
     assert_eq!(few.len(), 1 + 13 + 8 + FRICTIONS.len());
     for place in &more {
-        assert_eq!(Place::of_key(&place.key()), Some(*place));
+        assert_eq!(PointPlace::of_key(&place.key()), Some(*place));
         let set = space.set(*place);
         for name in builtin::thesis_names() {
             let case = builtin::case_with(name, &set).unwrap();
@@ -229,7 +229,7 @@ fn limits_points_are_cases_and_more_of_them_keep_the_earlier_ones() {
         }
     }
     // As decided, nothing is set; the first choice of each parameter is what the cases take.
-    assert!(space.set(Place::Decided).is_empty());
+    assert!(space.set(PointPlace::Decided).is_empty());
     for parameter in space.parameters.iter().skip(1) {
         assert_eq!(parameter.decided, parameter.labels[0]);
         let value = parameter.factor.at(0.0).to_toml(parameter.factor.name());
@@ -250,7 +250,7 @@ fn limits_kept_points_survive_and_are_of_one_space() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path().join("sensitivity");
     let space = Space::default();
-    let places: Vec<Place> = (0..4).map(Place::Space).collect();
+    let places: Vec<PointPlace> = (0..4).map(PointPlace::Space).collect();
     let kept = Kept::open(&folder, &space, false).unwrap();
     let mut point = found(5, 20);
     point.unsound.push("a run: why".to_owned());

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use report::drawing::Curve;
+use report::drawing::PlotCurve;
 use report::figures::Exhibit;
 use report::figures::jam::maps;
 use report::study_digest::Digest;
@@ -36,7 +36,7 @@ fn maps_of(text: &str, ratio: impl Fn(u64) -> f64) -> Vec<Exhibit> {
     maps(&study, &digest)
 }
 
-fn curves<'e>(exhibit: &'e Exhibit, panel: usize, label: &str) -> Vec<&'e Curve> {
+fn curves<'e>(exhibit: &'e Exhibit, panel: usize, label: &str) -> Vec<&'e PlotCurve> {
     let curves = exhibit.figure.panels[panel].curves.iter();
     curves.filter(|curve| curve.label == label).collect()
 }

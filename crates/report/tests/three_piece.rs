@@ -6,7 +6,7 @@
 use std::sync::OnceLock;
 
 use report::page::truck::{TruckContents, render};
-use report::three_piece::{Basis, Findings, Rigs, shown, variants};
+use report::three_piece::{Basis, Rigs, TruckFindings, shown, variants};
 use study::run::Run;
 use study::truck::builtin;
 
@@ -28,9 +28,9 @@ fn rigs() -> &'static Rigs {
     })
 }
 
-fn findings() -> &'static Findings {
-    static FINDINGS: OnceLock<Findings> = OnceLock::new();
-    FINDINGS.get_or_init(|| Findings::of(rigs()))
+fn findings() -> &'static TruckFindings {
+    static FINDINGS: OnceLock<TruckFindings> = OnceLock::new();
+    FINDINGS.get_or_init(|| TruckFindings::of(rigs()))
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn limits_stiffness_moves_what_locks() {
 #[test]
 fn input_what_is_wrong_or_missing_is_reported() {
     assert!(
-        Findings::of(&Rigs::default())
+        TruckFindings::of(&Rigs::default())
             .checks
             .iter()
             .all(|check| check.what.contains("bounce"))
@@ -115,7 +115,7 @@ fn input_what_is_wrong_or_missing_is_reported() {
         *roll *= 1.02;
     }
     rigs.add("frictionless warp", case.clone(), result.clone());
-    let wrong = Findings::of(&rigs);
+    let wrong = TruckFindings::of(&rigs);
     let check = wrong
         .checks
         .iter()
@@ -127,7 +127,7 @@ fn input_what_is_wrong_or_missing_is_reported() {
     );
     result.summary.complete = false;
     rigs.add("frictionless warp", case, result);
-    let less = Findings::of(&rigs);
+    let less = TruckFindings::of(&rigs);
     assert!(
         !less
             .checks

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use quantity::System as Units;
 use report::claims::Claims;
-use report::figures::Outcome;
+use report::figures::CaseOutcome;
 use report::page::{self, Contents, Viewer};
 use report::sections;
 use report::view::View;
@@ -18,20 +18,20 @@ use study::half_truck::{HalfTruckResult, run as run_truck};
 use study::run::Run;
 
 /// Runs a case to its end, which figures need, or for a short time.
-fn outcome(name: &str, set: &[&str]) -> Outcome {
+fn outcome(name: &str, set: &[&str]) -> CaseOutcome {
     let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
     let case = builtin::case_with(name, &set).unwrap();
     let result = Run::new(&case).unwrap().finish(|_| ());
     (case, result)
 }
 
-fn full(outcomes: &[Outcome]) -> Vec<Recording> {
+fn full(outcomes: &[CaseOutcome]) -> Vec<Recording> {
     let record = |outcome| Recording::of_wedge(outcome, Detail::Full);
     outcomes.iter().map(record).collect()
 }
 
 /// Returns the document as another program reads it.
-fn document(outcomes: &[Outcome]) -> Value {
+fn document(outcomes: &[CaseOutcome]) -> Value {
     let plans = sections::thesis(outcomes);
     let exhibits: Vec<_> = plans.iter().flat_map(|plan| &plan.exhibits).collect();
     let json = View::new(Units::Us, full(outcomes), exhibits).to_json().unwrap();

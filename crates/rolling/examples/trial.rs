@@ -12,7 +12,7 @@ use mechanics::element::Element;
 use mechanics::link::RelativeMotion;
 use mechanics::vector::{Matrix, Vector};
 use rolling::carriage::Carriage;
-use rolling::rig::{Rig, Setup, Start, Wheels};
+use rolling::rig::{Rig, RigStart, Setup, Wheels};
 use rolling::track::RailSupport;
 use rolling::wheel::{Search, WheelOnRail};
 use rolling::wheelset::WheelsetBody;
@@ -149,9 +149,9 @@ struct Run {
 fn run(setup: &Setup, method: Method, tolerance: f64, end: f64) -> Result<Run, Failure> {
     let mut rig = Rig::new(
         setup,
-        Start {
+        RigStart {
             distance: 1.0,
-            ..Start::default()
+            ..RigStart::default()
         },
     )?;
     let stored = rig.system.observe(0.0, &rig.start).energies.total();
@@ -284,9 +284,9 @@ fn costs() -> Result<(), Failure> {
         let setup = setup(rough(6)?, false, table)?;
         let mut rig = Rig::new(
             &setup,
-            Start {
+            RigStart {
                 distance: 200.0,
-                ..Start::default()
+                ..RigStart::default()
             },
         )?;
         let (x, mut dx) = (rig.start.clone(), rig.start.clone());

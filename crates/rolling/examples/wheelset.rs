@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use integrate::{Integrator, Options};
 use rolling::carriage::Carriage;
-use rolling::rig::{Rig, Setup, Start, Wheels};
+use rolling::rig::{Rig, RigStart, Setup, Wheels};
 use rolling::wheel::Search;
 use rolling::wheelset::WheelsetBody;
 use wheelrail::conicity::LinearGeometry;
@@ -100,9 +100,9 @@ fn setup(
 fn least_damped(setup: &Setup, range: [f64; 2]) -> Result<[f64; 2], Failure> {
     let mut rig = Rig::new(
         setup,
-        Start {
+        RigStart {
             distance: 500.0,
-            ..Start::default()
+            ..RigStart::default()
         },
     )?;
     let found = rig.system.eigenvalues(0.0, &rig.start.clone(), 20.0)?;
@@ -119,7 +119,7 @@ fn run(
     lateral: f64,
     end: f64,
 ) -> Result<(f64, Vec<f64>), Failure> {
-    let start = Start {
+    let start = RigStart {
         distance: 1.0,
         lateral,
         yaw: 0.0,

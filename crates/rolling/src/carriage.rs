@@ -12,7 +12,7 @@ use mechanics::element::{Element, Wrench};
 use mechanics::link::RelativeMotion;
 use mechanics::vector::Vector;
 use numerics::scalar::Real;
-use wheelrail::track::{Line, RailLines, Section};
+use wheelrail::track::{Line, RailLines, TrackSection};
 
 use crate::ahead::ahead;
 
@@ -37,7 +37,7 @@ pub struct Carriage {
 
 /// The wheelset in the axes of the section.
 struct Seen<S> {
-    section: Section<S>,
+    section: TrackSection<S>,
     /// To the left of the center line, m.
     lateral: S,
     /// The axle.

@@ -59,7 +59,7 @@ pub struct Setup {
 
 /// Where a run begins, relative to the track.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Start {
+pub struct RigStart {
     /// Distance along the track, m.
     pub distance: f64,
     /// To the left, m.
@@ -113,7 +113,7 @@ impl Rig {
     ///
     /// # Errors
     /// [`RigError`].
-    pub fn new(setup: &Setup, start: Start) -> Result<Self, RigError> {
+    pub fn new(setup: &Setup, start: RigStart) -> Result<Self, RigError> {
         let (sine, cosine) = libm::sincos(setup.heading);
         let axes: Matrix<f64> = rotation_z((sine, cosine));
         let section = setup.lines.section_at(Line::Center, start.distance);

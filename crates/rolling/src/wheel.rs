@@ -31,7 +31,7 @@ use wheelrail::contact::{
     WheelPose, stored_energy,
 };
 use wheelrail::hertz::Material;
-use wheelrail::track::{Line, RailLines, Section};
+use wheelrail::track::{Line, RailLines, TrackSection};
 
 use crate::ahead::ahead;
 
@@ -105,7 +105,7 @@ pub struct PatchState {
 
 /// Returns a pose in a section: the wheel's center and its axle (to the left) in the fixed axes of the track.
 #[inline(always)]
-fn pose_in<S: Real>(section: &Section<S>, side: Side, center: [S; 3], axle: [S; 3]) -> WheelPose<S> {
+fn pose_in<S: Real>(section: &TrackSection<S>, side: Side, center: [S; 3], axle: [S; 3]) -> WheelPose<S> {
     let arm = [0, 1, 2].map(|i| center[i] - section.origin[i]);
     let [_, y, z] = side.mirrored(section.of(arm));
     let left = section.of(axle);
@@ -121,7 +121,7 @@ fn pose_in<S: Real>(section: &Section<S>, side: Side, center: [S; 3], axle: [S; 
 
 /// What an evaluation works with.
 pub(crate) struct Placed<S> {
-    section: Section<S>,
+    section: TrackSection<S>,
     pub(crate) pose: WheelPose<S>,
     motion: WheelMotion<S>,
     /// The pose with its change in time.

@@ -12,7 +12,7 @@ use mechanics::element::Element;
 use mechanics::link::RelativeMotion;
 use mechanics::vector::{Matrix, Vector, rotation_x, rotation_y, rotation_z};
 use rolling::linear::LinearOnTrack;
-use rolling::rig::{Rig, RigError, Setup, Start, WHEELSET, Wheels};
+use rolling::rig::{Rig, RigError, RigStart, Setup, WHEELSET, Wheels};
 use rolling::track::RailSupport;
 use rolling::wheel::{Search, WheelOnRail};
 use rolling::wheelset::coordinate;
@@ -119,9 +119,9 @@ fn analytic_a_circle_of_curve_from_any_heading_has_the_same_forces() {
     // One lap from a heading, and the quarter in which the body's angles pass 90 and 270 degrees from others.
     for (heading, part) in [(0.7, 1.0), (FRAC_PI_2, 0.1), (3.9, 0.15)] {
         let setup = Setup { heading, ..curved() };
-        let start = Start {
+        let start = RigStart {
             distance: 1.0,
-            ..Start::default()
+            ..RigStart::default()
         };
         let mut rig = Rig::new(&setup, start).unwrap();
         let options = Options {
@@ -159,9 +159,9 @@ fn analytic_a_circle_of_curve_from_any_heading_has_the_same_forces() {
 fn analytic_lateral_balance_in_a_curve() {
     let setup = curved();
     let (_, radius) = circle();
-    let start = Start {
+    let start = RigStart {
         distance: 1.0,
-        ..Start::default()
+        ..RigStart::default()
     };
     let mut rig = Rig::new(&setup, start).unwrap();
     let mut integrator = Integrator::new(rig.system.clone(), Options::default(), 0.0, &rig.start).unwrap();
@@ -208,9 +208,9 @@ fn analytic_jacobian_is_that_of_differences() {
         rough(CreepLaw::ShenHedrickElkins),
         wheels,
     ] {
-        let start = Start {
+        let start = RigStart {
             distance: 30.0,
-            ..Start::default()
+            ..RigStart::default()
         };
         let mut rig = Rig::new(&setup, start).unwrap();
         let mut x = rig.start.clone();
@@ -318,9 +318,9 @@ fn analytic_sprung_rails_sink_under_their_load() {
         0.0,
     );
     setup.support = Some(RailSupport::default_support("rail", 9.81));
-    let start = Start {
+    let start = RigStart {
         distance: 10.0,
-        ..Start::default()
+        ..RigStart::default()
     };
     let mut rig = Rig::new(&setup, start).unwrap();
     let mut integrator = Integrator::new(rig.system.clone(), Options::default(), 0.0, &rig.start).unwrap();
@@ -347,7 +347,7 @@ fn input_a_wheelset_off_its_rails_is_refused() {
     for (lateral, load) in [(0.4, 280e3), (0.0, -1e6)] {
         let mut setup = setup.clone();
         setup.carriage.load = load;
-        let start = Start {
+        let start = RigStart {
             distance: 10.0,
             lateral,
             yaw: 0.0,
@@ -363,5 +363,5 @@ fn input_a_wheelset_off_its_rails_is_refused() {
     if let Wheels::OnRails { search, .. } = &mut with_table.wheels {
         *search = [0, 1].map(|_| Search::Table(Arc::new(table.clone())));
     }
-    assert!(Rig::new(&with_table, Start::default()).is_ok());
+    assert!(Rig::new(&with_table, RigStart::default()).is_ok());
 }

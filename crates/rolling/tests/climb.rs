@@ -10,7 +10,7 @@ use mechanics::vector::{Matrix, Vector, rotation_z};
 use rolling::rig::Wheels;
 use rolling::wheel::WheelOnRail;
 use wheelrail::contact::{ContactLaw, CreepLaw, Side};
-use wheelrail::creep::fastsim::Grid;
+use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::track::Segment;
 
 /// Returns the zero of a falling function.
@@ -87,7 +87,7 @@ fn largest_ratio(law: ContactLaw, attack: f64, load: f64) -> [f64; 2] {
 /// 15 % above.
 #[test]
 fn analytic_a_wheel_that_climbs_reaches_nadals_limit() {
-    let fastsim = CreepLaw::Fastsim(Grid {
+    let fastsim = CreepLaw::Fastsim(StripGrid {
         cells: 20,
         strips: 20,
     });

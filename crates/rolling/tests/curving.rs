@@ -6,7 +6,7 @@ mod common;
 
 use common::{POLACH, after, freight, on_rails, track};
 use integrate::{Integrator, Options};
-use rolling::rig::{Setup, Start};
+use rolling::rig::{RigStart, Setup};
 use rolling::track::RailSupport;
 use wheelrail::contact::{ContactLaw, CreepLaw};
 use wheelrail::track::{CurveElements, Segment};
@@ -46,9 +46,9 @@ fn least(found: &[[f64; 2]]) -> [f64; 2] {
 fn analytic_going_on_along_a_curve_is_neutral() {
     for sprung in [false, true] {
         let setup = curve(1000.0, sprung);
-        let start = Start {
+        let start = RigStart {
             distance: 400.0,
-            ..Start::default()
+            ..RigStart::default()
         };
         let (mut rig, x) = after(&setup, start, 1e-6, 6.0);
         let near = |found: &[[f64; 2]]| -> Vec<f64> {
@@ -69,9 +69,9 @@ fn analytic_vibrations_in_a_curve_are_those_of_runs() {
     let setup = curve(500.0, false);
     let (mut rig, x) = after(
         &setup,
-        Start {
+        RigStart {
             distance: 10.0,
-            ..Start::default()
+            ..RigStart::default()
         },
         1e-6,
         8.0,
@@ -157,9 +157,9 @@ fn limits_vibrations_in_a_wide_curve_are_those_of_straight_track() {
         curvature: 1e-5,
         superelevation: 0.0,
     };
-    let start = Start {
+    let start = RigStart {
         distance: 10.0,
-        ..Start::default()
+        ..RigStart::default()
     };
     let found = [Segment::Curve(2000.0, level), Segment::Tangent(2000.0)].map(|segment| {
         let mut setup = on_rails(&freight(), track(&[segment], Vec::new()), law, SPEED);

@@ -6,7 +6,7 @@ mod common;
 use common::{INCH, POLACH, freight, on_rails, track};
 use integrate::{Integrator, Options};
 use mechanics::system::Observation;
-use rolling::rig::{Rig, Setup, Start};
+use rolling::rig::{Rig, RigStart, Setup};
 use rolling::track::RailSupport;
 use wheelrail::contact::{ContactLaw, CreepLaw};
 use wheelrail::track::shape::Shape;
@@ -20,9 +20,9 @@ fn run(
     end: f64,
     mut see: impl FnMut(&Rig, &Observation),
 ) -> (f64, Observation, Rig) {
-    let start = Start {
+    let start = RigStart {
         distance: 1.0,
-        ..Start::default()
+        ..RigStart::default()
     };
     let mut rig = Rig::new(setup, start).unwrap();
     let stored = rig.system.observe(0.0, &rig.start).energies.total();

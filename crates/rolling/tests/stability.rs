@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use common::suspended::{SUSPENDED, critical_speed, growth_by_steps, hunting};
 use common::{coned_wheelset, linear};
 use integrate::{Integrator, Options};
-use rolling::rig::{Rig, Start};
+use rolling::rig::{Rig, RigStart};
 
 /// `w² = (c1 kψ + c2 ky)/(c1 I + c2 m)`, `Vc² = c1 c2 w² / (X + (ky - m w²)(kψ - I w²))`, with c1 = 2 f22,
 /// c2 = 2 f11 l², X = 4 f11 f22 λ l / r.
@@ -82,7 +82,7 @@ fn analytic_kinematic_wavelength_of_coned_wheels() {
 
         let mut rig = Rig::new(
             &setup,
-            Start {
+            RigStart {
                 distance: 10.0,
                 lateral: 5e-4,
                 yaw: 0.0,

@@ -9,7 +9,7 @@ use std::thread;
 
 use car::FrictionState;
 use quantity::Quantity;
-use study::car::hunting::{Boundary, Point, Settings, hunting};
+use study::car::hunting::{Boundary, HuntingSettings, Point, hunting};
 use study::car::regime::Regime;
 use study::car::run::CarResult;
 use study::car::{CarCase, builtin};
@@ -182,7 +182,7 @@ fn hunting_over_speed() -> Result<String, Failure> {
             "start.axle_shift=0.4 in".to_owned(),
         ];
         let case = builtin::case_with("car_hunting_empty", &overrides)?;
-        let settings = Settings {
+        let settings = HuntingSettings {
             speeds: range.map(|own| own * MPH),
             ramp: RAMP,
             threshold: THRESHOLD,

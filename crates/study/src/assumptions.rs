@@ -2,7 +2,7 @@
 
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
-use mechanics::surface::Profile;
+use mechanics::surface::SurfaceProfile;
 use wedge::Wedge;
 use wedge::face::{FaceDirection, FaceProperties, Grid};
 use wedge::parameters::{Damping, FaceFriction, STANDARD_GRAVITY, Start, Wear};
@@ -123,15 +123,17 @@ pub(crate) fn of_face(name: &str, face: &FaceProperties) -> Option<String> {
             FaceDirection::Across => "across",
         };
         match &own.profile {
-            Profile::Flat => {}
-            Profile::Arc { curvature } => {
+            SurfaceProfile::Flat => {}
+            SurfaceProfile::Arc { curvature } => {
                 let kind = if *curvature < 0.0 { "hollow" } else { "crowned" };
                 parts.push(format!(
                     "{whose} surface {kind} {way} the face by a radius of {:.4} in",
                     1.0 / (curvature.abs() * INCH)
                 ));
             }
-            Profile::Table(_) => parts.push(format!("{whose} surface by a table of depths {way} the face")),
+            SurfaceProfile::Table(_) => {
+                parts.push(format!("{whose} surface by a table of depths {way} the face"))
+            }
         }
     }
     for (map, whose) in [

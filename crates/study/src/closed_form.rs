@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 
 use mechanics::coil::CoilLaw;
-use mechanics::quasi_static::{Direction, QuasiStaticWedge};
+use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection};
 use wedge::parameters::{Damping, Parameters};
 
 use crate::metrics::{Cycle, FirstHarmonic};
@@ -62,7 +62,11 @@ pub fn load(parameters: &Parameters, bolster: f64) -> f64 {
 /// Returns the vertical wedge force, N: the column's friction on the side frame, positive up, with the
 /// bolster at this height (m) and moving this way; `None` where the wedge jams.
 #[must_use]
-pub fn vertical_wedge_force(parameters: &Parameters, bolster: f64, direction: Direction) -> Option<f64> {
+pub fn vertical_wedge_force(
+    parameters: &Parameters,
+    bolster: f64,
+    direction: SlidingDirection,
+) -> Option<f64> {
     let wedge = wedge(parameters);
     let slide = wedge.slide(direction, wedge.branch(direction), load(parameters, bolster))?;
     Some(-direction.sign() * slide.column_friction * libm::cos(parameters.toe))
@@ -70,7 +74,7 @@ pub fn vertical_wedge_force(parameters: &Parameters, bolster: f64, direction: Di
 
 /// Returns the vertical force of wedge and coil on the bolster, N, positive up; `None` where the wedge jams.
 #[must_use]
-pub fn force_on_bolster(parameters: &Parameters, bolster: f64, direction: Direction) -> Option<f64> {
+pub fn force_on_bolster(parameters: &Parameters, bolster: f64, direction: SlidingDirection) -> Option<f64> {
     let wedge = wedge(parameters);
     let load = load(parameters, bolster);
     let slide = wedge.slide(direction, wedge.branch(direction), load)?;
@@ -99,10 +103,10 @@ pub fn first_harmonic(parameters: &Parameters) -> Option<FirstHarmonic> {
             .then(|| force_on_bolster(parameters, z, direction))
             .flatten()
     };
-    let mean = |z: f64| Some(0.5 * (force(z, Direction::Up)? + force(z, Direction::Down)?));
+    let mean = |z: f64| Some(0.5 * (force(z, SlidingDirection::Up)? + force(z, SlidingDirection::Down)?));
     let (low, high) = (cycle.middle - cycle.amplitude, cycle.middle + cycle.amplitude);
     let stiffness = -(mean(high)? - mean(low)?) / (high - low);
-    let between = force(cycle.middle, Direction::Down)? - force(cycle.middle, Direction::Up)?;
+    let between = force(cycle.middle, SlidingDirection::Down)? - force(cycle.middle, SlidingDirection::Up)?;
     let work = 2.0 * cycle.amplitude * between;
     Some(FirstHarmonic {
         stiffness,
@@ -116,7 +120,7 @@ pub fn energy_per_cycle(parameters: &Parameters) -> Option<f64> {
     let cycle = Cycle::of(parameters)?;
     first_harmonic(parameters)?;
     let force = |direction| vertical_wedge_force(parameters, cycle.middle, direction);
-    Some(2.0 * cycle.amplitude * (force(Direction::Up)? - force(Direction::Down)?))
+    Some(2.0 * cycle.amplitude * (force(SlidingDirection::Up)? - force(SlidingDirection::Down)?))
 }
 
 /// Returns the largest restoring moment of one wedge in warp, N·m, under this normal force at the column (N):

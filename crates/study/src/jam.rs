@@ -6,7 +6,7 @@
 //! load or place count with their values at rest, without load and map; crowns do not count, because the
 //! normal of a crown that rests on a flat counterface is the counterface's.
 
-use mechanics::quasi_static::{Direction, QuasiStaticWedge};
+use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
@@ -37,8 +37,8 @@ impl JamMargins {
         Self {
             closing_angle: angle(wedge.closing_angle(yaw)),
             lock_up: angle(wedge.lock_up_margin(yaw)),
-            down: going(Direction::Down),
-            up: going(Direction::Up),
+            down: going(SlidingDirection::Down),
+            up: going(SlidingDirection::Up),
             statement: statement(wedge, yaw),
         }
     }

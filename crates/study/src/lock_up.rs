@@ -15,7 +15,7 @@ use std::sync::Mutex;
 use std::sync::PoisonError;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use mechanics::quasi_static::{Direction, QuasiStaticWedge, SlopeFriction};
+use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection, SlopeFriction};
 use mechanics::system::ContactState;
 use quantity::{Kind, Quantity, System as Units};
 use wedge::face::Grid;
@@ -53,7 +53,7 @@ const MOST_TILT: f64 = std::f64::consts::FRAC_PI_8;
 
 /// A parameter that a map goes over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axis {
+pub enum MapAxis {
     /// The wedge's angle.
     Angle,
     /// The coefficient of friction of both faces.
@@ -66,7 +66,7 @@ pub enum Axis {
     Yaw,
 }
 
-impl Axis {
+impl MapAxis {
     /// All of them.
     pub const ALL: [Self; 5] = [Self::Angle, Self::Friction, Self::Toe, Self::Crown, Self::Yaw];
 
@@ -174,26 +174,26 @@ impl Axis {
 
 /// An axis of a map with its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Span {
+pub struct MapRange {
     /// Which.
-    pub axis: Axis,
+    pub axis: MapAxis,
     /// Its ends, SI, increasing.
     pub ends: [f64; 2],
 }
 
-impl Span {
+impl MapRange {
     /// Reads a text such as `angle=20 deg..50 deg`, whichever end comes first.
     ///
     /// # Errors
     /// What is wrong with it, and what to write.
     pub fn parse(text: &str) -> Result<Self, String> {
         const HOW: &str = "write for example \"angle=20 deg..50 deg\" or \"friction=0.1..0.6\"";
-        let names = Axis::ALL.map(Axis::name).join(", ");
+        let names = MapAxis::ALL.map(MapAxis::name).join(", ");
         let (name, values) = text
             .split_once('=')
             .ok_or(format!("an axis has a name and a range; {HOW}"))?;
         let name = name.trim();
-        let axis = Axis::ALL.into_iter().find(|axis| axis.name() == name);
+        let axis = MapAxis::ALL.into_iter().find(|axis| axis.name() == name);
         let axis = axis.ok_or(format!("there is no axis `{name}`; choose two of {names}"))?;
         let (from, to) = values
             .split_once("..")
@@ -218,7 +218,7 @@ impl Span {
             .map(|number| {
                 let share = number as f64 / last;
                 match self.axis {
-                    Axis::Crown => from * libm::pow(to / from, share),
+                    MapAxis::Crown => from * libm::pow(to / from, share),
                     _ => from + (to - from) * share,
                 }
             })
@@ -228,7 +228,7 @@ impl Span {
 
 /// What a rig found.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Found {
+pub enum RigOutcome {
     /// The wedge holds at a face: it is locked.
     Locks,
     /// It slides at both faces.
@@ -239,7 +239,7 @@ pub enum Found {
     Unknown(String),
 }
 
-impl Found {
+impl RigOutcome {
     /// Returns its name in tables.
     #[must_use]
     pub fn name(&self) -> &'static str {
@@ -254,7 +254,7 @@ impl Found {
 
 /// A point of a map.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Cell {
+pub struct MapPoint {
     /// The closing angle of the faces, rad.
     pub closing_angle: f64,
     /// The lock-up margin, rad.
@@ -263,7 +263,7 @@ pub struct Cell {
     /// close; none where it locks up.
     pub expected_ratio: Option<f64>,
     /// What the rig found.
-    pub found: Found,
+    pub found: RigOutcome,
     /// Parts of the normal forces of column and slope that are carried by points that stick, at the rig's
     /// end.
     pub holding: [f64; 2],
@@ -272,13 +272,13 @@ pub struct Cell {
     pub ratio: f64,
 }
 
-impl Cell {
+impl MapPoint {
     /// Returns whether what the rig found contradicts the sign of the margin.
     #[must_use]
     pub fn contradicts(&self) -> bool {
         match self.found {
-            Found::Locks => self.margin > 0.0,
-            Found::Slides => self.margin <= 0.0,
+            RigOutcome::Locks => self.margin > 0.0,
+            RigOutcome::Slides => self.margin <= 0.0,
             _ => false,
         }
     }
@@ -288,17 +288,17 @@ impl Cell {
 #[derive(Clone, Debug, PartialEq)]
 pub struct LockUpMap {
     /// Its axes.
-    pub spans: [Span; 2],
+    pub spans: [MapRange; 2],
     /// Values along each, SI.
     pub values: [Vec<f64>; 2],
     /// Its points, the second axis changing fastest.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<MapPoint>,
     /// Why it was ended early, if it was: points whose rigs were not run have the closed form alone.
     pub interrupted: Option<String>,
 }
 
 /// Returns the rig of a case with these values of the axes.
-fn rig(text: &str, values: [(Axis, f64); 2]) -> Result<Case, CaseError> {
+fn rig(text: &str, values: [(MapAxis, f64); 2]) -> Result<Case, CaseError> {
     let mut set: Vec<String> = RIG.iter().chain(&TIMES).map(|text| (*text).to_owned()).collect();
     set.extend(values.into_iter().flat_map(|(axis, value)| axis.set(value)));
     Case::parse("the lock-up rig", text, Tables::nowhere(), &set)
@@ -312,7 +312,7 @@ fn rig(text: &str, values: [(Axis, f64); 2]) -> Result<Case, CaseError> {
 /// was.
 pub fn map(
     case: &Case,
-    spans: [Span; 2],
+    spans: [MapRange; 2],
     points: usize,
     threads: usize,
     go_on: impl Fn(usize) -> ControlFlow<String> + Sync,
@@ -383,7 +383,7 @@ pub fn map(
         let cell = cell.unwrap_or_else(|| {
             let (wedge, yaw) = map.massless(case, at(number).map(|(_, value)| value));
             let reason = map.interrupted.clone().unwrap_or_default();
-            closed(&wedge, yaw, Found::Unknown(reason))
+            closed(&wedge, yaw, RigOutcome::Unknown(reason))
         });
         map.cells.push(cell);
     }
@@ -398,11 +398,11 @@ impl LockUpMap {
         let mut yaw = closed_form::yaw(&case.parameters);
         for (span, value) in self.spans.iter().zip(values) {
             match span.axis {
-                Axis::Angle => wedge.angle = value,
-                Axis::Friction => (wedge.column_friction, wedge.slope_friction) = (value, value),
-                Axis::Toe => wedge.toe = value,
-                Axis::Yaw => yaw = value,
-                Axis::Crown => {}
+                MapAxis::Angle => wedge.angle = value,
+                MapAxis::Friction => (wedge.column_friction, wedge.slope_friction) = (value, value),
+                MapAxis::Toe => wedge.toe = value,
+                MapAxis::Yaw => yaw = value,
+                MapAxis::Crown => {}
             }
         }
         (wedge, yaw)
@@ -411,11 +411,11 @@ impl LockUpMap {
     /// Returns how many rigs locked and slid, and how many of them contradict the margin.
     #[must_use]
     pub fn counts(&self) -> [usize; 3] {
-        let count = |of: &dyn Fn(&Cell) -> bool| self.cells.iter().filter(|cell| of(cell)).count();
+        let count = |of: &dyn Fn(&MapPoint) -> bool| self.cells.iter().filter(|cell| of(cell)).count();
         [
-            count(&|cell| cell.found == Found::Locks),
-            count(&|cell| cell.found == Found::Slides),
-            count(&Cell::contradicts),
+            count(&|cell| cell.found == RigOutcome::Locks),
+            count(&|cell| cell.found == RigOutcome::Slides),
+            count(&MapPoint::contradicts),
         ]
     }
 
@@ -428,15 +428,15 @@ impl LockUpMap {
 }
 
 /// Returns what the closed form says of a point whose rig was not run; `why` unless the faces open upwards.
-fn closed(wedge: &QuasiStaticWedge, yaw: f64, why: Found) -> Cell {
-    let slide = wedge.slide(Direction::Down, SlopeFriction::UpSlope, 1.0);
+fn closed(wedge: &QuasiStaticWedge, yaw: f64, why: RigOutcome) -> MapPoint {
+    let slide = wedge.slide(SlidingDirection::Down, SlopeFriction::UpSlope, 1.0);
     let closing_angle = wedge.closing_angle(yaw);
-    Cell {
+    MapPoint {
         closing_angle,
         margin: wedge.lock_up_margin(yaw),
         expected_ratio: slide.map(|slide| slide.column_normal * libm::cos(wedge.toe)),
         found: if closing_angle <= 0.0 {
-            Found::PushedOut
+            RigOutcome::PushedOut
         } else {
             why
         },
@@ -446,22 +446,22 @@ fn closed(wedge: &QuasiStaticWedge, yaw: f64, why: Found) -> Cell {
 }
 
 /// Runs a rig.
-fn cell(case: &Case) -> Cell {
+fn cell(case: &Case) -> MapPoint {
     let wedge = closed_form::wedge(&case.parameters);
     let yaw = closed_form::yaw(&case.parameters);
-    let mut cell = closed(&wedge, yaw, Found::Slides);
-    if cell.found == Found::PushedOut {
+    let mut cell = closed(&wedge, yaw, RigOutcome::Slides);
+    if cell.found == RigOutcome::PushedOut {
         return cell;
     }
     let result = match Run::new(case) {
         Ok(run) => run.finish(|_| ()),
         Err(error) => {
-            cell.found = Found::Unknown(error.to_string());
+            cell.found = RigOutcome::Unknown(error.to_string());
             return cell;
         }
     };
     if let Some(stopped) = &result.summary.stopped {
-        cell.found = Found::Unknown(stopped.reason.clone());
+        cell.found = RigOutcome::Unknown(stopped.reason.clone());
         return cell;
     }
     let last = |name: &str| {
@@ -471,15 +471,15 @@ fn cell(case: &Case) -> Cell {
     let parameters = &case.parameters;
     let load = last("coil_force") - parameters.wedge.mass * parameters.gravity;
     if load <= 0.0 {
-        cell.found = Found::Unknown("the coil does not carry the wedge's weight at the end".to_owned());
+        cell.found = RigOutcome::Unknown("the coil does not carry the wedge's weight at the end".to_owned());
         return cell;
     }
     cell.ratio = last("longitudinal_wedge_force") / load;
     let faces = [&parameters.column_face, &parameters.slope_face];
     cell.holding = [0, 1].map(|face| holding(&result, FACES[face], &faces[face].grid));
     cell.found = match cell.holding.iter().any(|share| *share > HOLDS) {
-        true => Found::Locks,
-        false => Found::Slides,
+        true => RigOutcome::Locks,
+        false => RigOutcome::Slides,
     };
     cell
 }
@@ -510,7 +510,7 @@ fn holding(result: &RunResult, face: &str, grid: &Grid) -> f64 {
 pub enum MapError {
     /// Both axes are the same.
     #[error("both axes are the {}", .0.name())]
-    SameAxis(Axis),
+    SameAxis(MapAxis),
     /// A map of one point.
     #[error("{0} points along an axis are no map")]
     OnePoint(usize),

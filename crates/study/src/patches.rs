@@ -5,7 +5,7 @@ use mechanics::vector::Vector;
 use quantity::Kind;
 use rolling::wheel::PatchState;
 use wheelrail::contact::Side;
-use wheelrail::track::Section;
+use wheelrail::track::TrackSection;
 
 /// Patches of a wheel that have columns, from the field side to the gauge side.
 pub const PATCHES: usize = 3;
@@ -57,7 +57,7 @@ pub(crate) struct Patches {
 }
 
 /// Returns the axes of a wheelset that do not spin: forward, along the axle to the left, up.
-pub(crate) fn unspun(axle: Vector<f64>, section: &Section<f64>) -> [Vector<f64>; 3] {
+pub(crate) fn unspun(axle: Vector<f64>, section: &TrackSection<f64>) -> [Vector<f64>; 3] {
     let up = Vector(section.axes[2]);
     let share: f64 = up.dot::<f64, f64>(axle);
     let up = up - axle.scale(share);

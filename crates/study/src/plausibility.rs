@@ -2,7 +2,7 @@
 //!
 //! What is looked at, and the limits, are those of [`mechanics::plausibility`].
 
-use mechanics::plausibility::{Finding, FindingKind, Location};
+use mechanics::plausibility::{FindingKind, Location, PlausibilityFinding};
 use mechanics::system::System;
 use quantity::System as Units;
 use wedge::outputs::{CORNERS, FACES, PointNames};
@@ -38,7 +38,7 @@ pub fn at_bound(path: &str, value: &str) -> String {
 pub fn warnings<C: RunCase>(run: &Run<C>) -> Vec<String> {
     let units = run.case.units();
     let findings = findings(run);
-    let words = |finding: &Finding| run.recorder.describe(&run.system, finding, units);
+    let words = |finding: &PlausibilityFinding| run.recorder.describe(&run.system, finding, units);
     findings.iter().map(words).collect()
 }
 
@@ -59,7 +59,7 @@ fn by_kind<C: RunCase>(run: &Run<C>, counts: impl Fn(FindingKind) -> bool) -> Ve
     let units = run.case.units();
     let mut findings = findings(run);
     findings.retain(|finding| counts(finding.kind));
-    let kind = |finding: &Finding| std::mem::discriminant(&finding.kind);
+    let kind = |finding: &PlausibilityFinding| std::mem::discriminant(&finding.kind);
     let mut warnings = Vec::new();
     for (number, finding) in findings.iter().enumerate() {
         if findings[..number]
@@ -114,14 +114,19 @@ fn nonsense_among<C: RunCase>(run: &Run<C>, counts: impl Fn(FindingKind) -> bool
     Some(run.recorder.describe(&run.system, first, run.case.units()))
 }
 
-fn findings<C: RunCase>(run: &Run<C>) -> Vec<Finding> {
+fn findings<C: RunCase>(run: &Run<C>) -> Vec<PlausibilityFinding> {
     let [_, interval] = run.case.duration_and_interval();
     run.plausibility
         .findings(&run.system, &run.energy_balance, interval)
 }
 
 /// Returns a finding in a half-truck with the numbers that its files give to bodies and connections.
-pub(crate) fn in_truck(system: &System, finding: &Finding, numbers: [&[u32]; 2], units: Units) -> String {
+pub(crate) fn in_truck(
+    system: &System,
+    finding: &PlausibilityFinding,
+    numbers: [&[u32]; 2],
+    units: Units,
+) -> String {
     let [bodies, connections] = numbers;
     let numbered = match finding.location {
         Location::Body(body) => bodies
@@ -138,7 +143,12 @@ pub(crate) fn in_truck(system: &System, finding: &Finding, numbers: [&[u32]; 2],
 }
 
 /// Returns a finding in a wedge with the names and keys of its case.
-pub(crate) fn in_wedge(system: &System, points: &PointNames, finding: &Finding, units: Units) -> String {
+pub(crate) fn in_wedge(
+    system: &System,
+    points: &PointNames,
+    finding: &PlausibilityFinding,
+    units: Units,
+) -> String {
     let face_name = |face: usize| FACES.get(face).copied().unwrap_or("face");
     let place = match finding.location {
         Location::Face { face, point: None } => format!("the {}", face_name(face)),

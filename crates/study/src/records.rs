@@ -222,7 +222,7 @@ impl Record {
 
 /// What bytes hold.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Found {
+pub struct ReadRecords {
     /// The study's sound records, in the order in which they were written.
     pub records: Vec<Record>,
     /// Whether there are records of another study.
@@ -233,8 +233,8 @@ pub struct Found {
 
 /// Finds all records of a study in bytes, whatever lies between them.
 #[must_use]
-pub fn read(fingerprint: u64, bytes: &[u8]) -> Found {
-    let mut found = Found::default();
+pub fn read(fingerprint: u64, bytes: &[u8]) -> ReadRecords {
+    let mut found = ReadRecords::default();
     let mut at = 0;
     while at < bytes.len() {
         match Record::read(&bytes[at..]) {

@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 use integrate::{Integrator, Options, SetupError};
 use mechanics::energy_balance::{EnergyBalance, Entries};
 use mechanics::output::Column;
-use mechanics::plausibility::{Finding, Plausibility};
+use mechanics::plausibility::{Plausibility, PlausibilityFinding};
 use mechanics::system::{ModelError, NoEquilibrium, System};
 use quantity::{SixDigits, System as Units};
 use serde::Serialize;
@@ -212,7 +212,7 @@ pub trait Recorder {
     /// A value is not finite, or the model has been torn apart; the row has not been taken.
     fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError>;
     /// Returns what is implausible in words, with the places as the user knows them.
-    fn describe(&self, system: &System, finding: &Finding, units: Units) -> String;
+    fn describe(&self, system: &System, finding: &PlausibilityFinding, units: Units) -> String;
     /// Returns these contact states in words, by contact.
     fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String>;
     /// Returns the numbers that the user's files give to bodies and connections, for messages; empty without

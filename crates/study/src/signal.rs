@@ -120,7 +120,7 @@ impl LowPass {
 
 /// A value found within a stretch of rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Found {
+pub struct WindowValue {
     /// The value.
     pub value: f64,
     /// Where the stretch begins.
@@ -132,7 +132,7 @@ pub struct Found {
 /// Returns the largest value that is reached or exceeded without interruption over a `length` of `places`
 /// (both of one unit: time or distance; places grow). `None` if the places do not reach so far.
 #[must_use]
-pub fn sustained(places: &[f64], values: &[f64], length: f64) -> Option<Found> {
+pub fn sustained(places: &[f64], values: &[f64], length: f64) -> Option<WindowValue> {
     let (first, last) = (*places.first()?, *places.last()?);
     if last - first < length * (1.0 - 1e-12) {
         return None;
@@ -150,7 +150,7 @@ pub fn sustained(places: &[f64], values: &[f64], length: f64) -> Option<Found> {
             None => high = middle,
         }
     }
-    Some(Found {
+    Some(WindowValue {
         value: low,
         start,
         length,
@@ -197,18 +197,18 @@ pub fn percentile(values: &[f64], share: f64) -> Option<f64> {
 /// Returns the largest standard deviation of the values within stretches of this length; of all rows where
 /// there are fewer, whose length is then returned. `None` without values.
 #[must_use]
-pub fn largest_deviation(places: &[f64], values: &[f64], length: f64) -> Option<Found> {
+pub fn largest_deviation(places: &[f64], values: &[f64], length: f64) -> Option<WindowValue> {
     largest(places, values, length, true)
 }
 
 /// Returns the largest root of the mean square of the values within stretches of this length, as
 /// [`largest_deviation`].
 #[must_use]
-pub fn largest_rms(places: &[f64], values: &[f64], length: f64) -> Option<Found> {
+pub fn largest_rms(places: &[f64], values: &[f64], length: f64) -> Option<WindowValue> {
     largest(places, values, length, false)
 }
 
-fn largest(places: &[f64], values: &[f64], length: f64, about_mean: bool) -> Option<Found> {
+fn largest(places: &[f64], values: &[f64], length: f64, about_mean: bool) -> Option<WindowValue> {
     let count = values.len();
     let shift = if about_mean {
         values.iter().sum::<f64>() / count.max(1) as f64
@@ -229,7 +229,7 @@ fn largest(places: &[f64], values: &[f64], length: f64, about_mean: bool) -> Opt
         libm::sqrt((square - taken).max(0.0))
     };
     let (first, last) = (*places.first()?, *places.last()?);
-    let mut best = Found {
+    let mut best = WindowValue {
         value: of(0, count),
         start: first,
         length: last - first,
@@ -249,7 +249,7 @@ fn largest(places: &[f64], values: &[f64], length: f64, about_mean: bool) -> Opt
         }
         let value = of(from, to);
         if value > best.value {
-            best = Found {
+            best = WindowValue {
                 value,
                 start: places[from],
                 length,

@@ -6,7 +6,7 @@ mod runs;
 
 use std::f64::consts::PI;
 
-use mechanics::quasi_static::{Direction, QuasiStaticWedge, SlopeFriction};
+use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection, SlopeFriction};
 use runs::{INCH, LBF, column};
 use study::case::{Case, builtin};
 use study::closed_form;
@@ -80,8 +80,8 @@ fn the_damping_of_the_quasi_static_wedge() {
     };
     let constant = wedge(37.5);
     let (up, down) = (
-        friction(constant, Direction::Up, 3702.2),
-        friction(constant, Direction::Down, 3702.2),
+        friction(constant, SlidingDirection::Up, 3702.2),
+        friction(constant, SlidingDirection::Down, 3702.2),
     );
     let [times, z, f] = sine(
         1.0,
@@ -97,8 +97,8 @@ fn the_damping_of_the_quasi_static_wedge() {
 
     let variable = wedge(32.0);
     let (up, down) = (
-        friction(variable, Direction::Up, 1.0),
-        friction(variable, Direction::Down, 1.0),
+        friction(variable, SlidingDirection::Up, 1.0),
+        friction(variable, SlidingDirection::Down, 1.0),
     );
     let [times, z, f] = sine(1.0, 2.0, 200_000, 2.0 * PI, |z, rate| {
         let coil = 3000.0 * (-z).max(0.0);
@@ -215,7 +215,10 @@ fn the_rig_test_reaches_the_quasi_static_forces() {
         let (aside, length) = (values("wedge_x", INCH), values("coil_length", INCH));
         let toe = case.parameters.toe;
         // The triangle turns at 2.5, 7.5, ... s; rows are 0.02 s apart.
-        for (time, direction, sign) in [(12.48, Direction::Up, 1.0), (17.48, Direction::Down, -1.0)] {
+        for (time, direction, sign) in [
+            (12.48, SlidingDirection::Up, 1.0),
+            (17.48, SlidingDirection::Down, -1.0),
+        ] {
             let row = (time / 0.02_f64).round() as usize;
             let lean = (aside[row] / length[row]).asin();
             let wedge = QuasiStaticWedge {
@@ -253,7 +256,7 @@ fn the_rig_test_as_built_in_stays_within_the_quasi_static_forces() {
             column(&result, "coil_force", LBF),
         );
         let share = |row: usize| {
-            let slide = wedge.slide(Direction::Up, SlopeFriction::UpSlope, coil[row] - 50.0);
+            let slide = wedge.slide(SlidingDirection::Up, SlopeFriction::UpSlope, coil[row] - 50.0);
             force[row] / slide.unwrap().column_friction
         };
         let end = share(624);
@@ -270,8 +273,8 @@ fn reference_lines_in_numbers() {
     let mut parameters = builtin::case("cdrun_toe_0_psi_0").unwrap().parameters;
     parameters.gravity = 0.0;
     let force = |direction| closed_form::vertical_wedge_force(&parameters, 0.01, direction).unwrap() / LBF;
-    assert!((force(Direction::Up) - 2174.4).abs() < 0.1);
-    assert!((force(Direction::Down) + 1153.1).abs() < 0.1);
+    assert!((force(SlidingDirection::Up) - 2174.4).abs() < 0.1);
+    assert!((force(SlidingDirection::Down) + 1153.1).abs() < 0.1);
     let found = closed_form::first_harmonic(&parameters).unwrap();
     assert!((found.damping / LBF_S_PER_IN - 1059.0).abs() < 0.5, "{found:?}");
     assert!(found.stiffness.abs() < 1e-6 * found.damping);
@@ -298,7 +301,7 @@ fn reference_lines_in_numbers() {
     // Toe in jams on the way down at friction 0.4.
     let jam = builtin::case("cdrun_toe_in_0.2_psi_0").unwrap().parameters;
     assert_eq!(
-        closed_form::vertical_wedge_force(&jam, 0.0, Direction::Down),
+        closed_form::vertical_wedge_force(&jam, 0.0, SlidingDirection::Down),
         None
     );
 }

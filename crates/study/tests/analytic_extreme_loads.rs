@@ -7,7 +7,7 @@ mod runs;
 #[path = "three_piece/common.rs"]
 mod trucks;
 
-use mechanics::quasi_static::{Direction, SlopeFriction};
+use mechanics::quasi_static::{SlidingDirection, SlopeFriction};
 use runs::{INCH, LBF, column};
 use study::case::builtin;
 use study::closed_form;
@@ -44,7 +44,7 @@ fn a_pressed_wedge_with_a_positive_margin_slides_under_the_quasi_static_force() 
     for time in [1.4, 2.0, 2.9] {
         let load = at(&result, "coil_force", LBF, time) - 50.0;
         let slide = wedge
-            .slide(Direction::Down, SlopeFriction::UpSlope, load)
+            .slide(SlidingDirection::Down, SlopeFriction::UpSlope, load)
             .unwrap();
         let normal = at(&result, "longitudinal_wedge_force", LBF, time);
         assert!(
@@ -103,7 +103,7 @@ fn a_locked_wedge_is_freed_by_the_force_of_its_friction_and_by_raising_the_bolst
     let wedge = closed_form::wedge(&case.parameters);
     let load = at(&result, "coil_force", LBF, 3.6) - 50.0;
     let up = wedge
-        .slide(Direction::Up, SlopeFriction::UpSlope, load)
+        .slide(SlidingDirection::Up, SlopeFriction::UpSlope, load)
         .unwrap()
         .column_normal;
     let after = at(&result, "longitudinal_wedge_force", LBF, 3.6);

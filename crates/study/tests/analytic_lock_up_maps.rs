@@ -4,10 +4,10 @@
 use std::ops::ControlFlow;
 
 use study::case::builtin;
-use study::lock_up::{Axis, Found, LockUpMap, MapError, Span, map};
+use study::lock_up::{LockUpMap, MapAxis, MapError, MapRange, RigOutcome, map};
 
-fn spans(texts: [&str; 2]) -> [Span; 2] {
-    texts.map(|text| Span::parse(text).unwrap())
+fn spans(texts: [&str; 2]) -> [MapRange; 2] {
+    texts.map(|text| MapRange::parse(text).unwrap())
 }
 
 fn map_of(texts: [&str; 2], points: usize) -> LockUpMap {
@@ -57,7 +57,7 @@ fn limits_maps_do_not_depend_on_threads_and_leave_out_faces_that_open() {
     let [one, three] =
         [1, 3].map(|threads| map(&case, axes, 4, threads, |_| ControlFlow::Continue(())).unwrap());
     assert_eq!(format!("{one:?}"), format!("{three:?}"));
-    assert_eq!(one.cells[0].found, Found::PushedOut);
+    assert_eq!(one.cells[0].found, RigOutcome::PushedOut);
     assert!(one.cells[0].closing_angle < 0.0);
     let stopped = map(&case, axes, 4, 2, |_| ControlFlow::Break("enough".to_owned()));
     assert_eq!(stopped.unwrap_err().to_string(), "enough");
@@ -74,10 +74,13 @@ fn limits_maps_do_not_depend_on_threads_and_leave_out_faces_that_open() {
     );
     for (cell, whole) in early.cells[6..].iter().zip(&one.cells[6..]) {
         assert!(
-            matches!(cell.found, Found::Unknown(_) | Found::PushedOut),
+            matches!(cell.found, RigOutcome::Unknown(_) | RigOutcome::PushedOut),
             "{cell:?}"
         );
-        assert_eq!(cell.found == Found::PushedOut, whole.found == Found::PushedOut);
+        assert_eq!(
+            cell.found == RigOutcome::PushedOut,
+            whole.found == RigOutcome::PushedOut
+        );
         assert!(
             (cell.margin - whole.margin).abs() < 1e-12 && cell.ratio.is_nan(),
             "{cell:?}"
@@ -111,13 +114,13 @@ fn input_axes_that_make_no_map_are_refused() {
         ("crown=0 in..10 in", "crown is 0 in; it must be positive"),
         ("yaw=0 rad..1 rad", "yaw is 1 rad; it must be below 22.5 deg"),
     ] {
-        let error = Span::parse(text).unwrap_err();
+        let error = MapRange::parse(text).unwrap_err();
         assert!(error.contains(part), "{text}: {error}");
     }
     let case = builtin::case("lock_up_friction_0.4").unwrap();
     let error = |axes, points| map(&case, axes, points, 1, |_| ControlFlow::Continue(())).unwrap_err();
     let same = spans(["angle=20 deg..30 deg", "angle=30 deg..40 deg"]);
-    assert!(matches!(error(same, 3), MapError::SameAxis(Axis::Angle)));
+    assert!(matches!(error(same, 3), MapError::SameAxis(MapAxis::Angle)));
     let axes = spans(["angle=20 deg..30 deg", "friction=0.1..0.2"]);
     assert!(matches!(error(axes, 1), MapError::OnePoint(1)));
     // A value that only the case can refuse: this crown is no surface of a wedge of 6 in.

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use study::any_case::{AnyCase, CaseSource};
 use study::case::{Case, CaseError};
-use study::fit::least_squares::{Settings, minimize};
+use study::fit::least_squares::{SearchSettings, minimize};
 use study::fit::{Free, Measured, course, fit, two_sided};
 
 /// Normally distributed numbers (Box and Muller), of a linear congruential generator.
@@ -54,7 +54,7 @@ fn convergence_intervals_hold_as_often_as_they_say() {
         let mut noise = Noise(seed);
         let data: Vec<f64> = exact.iter().map(|value| value + 20.0 * noise.normal()).collect();
         let evaluate = |places: &[Vec<f64>]| places.iter().map(|place| Ok(values(place))).collect();
-        let found = minimize(&evaluate, &data, &[0.5; 3], &Settings::default()).unwrap();
+        let found = minimize(&evaluate, &data, &[0.5; 3], &SearchSettings::default()).unwrap();
         assert!(found.settled);
         let covariance = found.covariance.unwrap();
         for k in 0..3 {
@@ -80,7 +80,7 @@ fn analytic_a_straight_line_is_the_textbooks() {
             .map(|place| Ok(x.iter().map(|x| 10.0 * place[0] + 10.0 * place[1] * x).collect()))
             .collect()
     };
-    let found = minimize(&evaluate, &y, &[0.5, 0.5], &Settings::default()).unwrap();
+    let found = minimize(&evaluate, &y, &[0.5, 0.5], &SearchSettings::default()).unwrap();
     // Sums: x 15, y 30.5, xy 111.1, xx 55; slope (5·111.1 - 15·30.5)/(5·55 - 225) = 1.96, intercept 0.22.
     assert!((10.0 * found.place[1] - 1.96).abs() < 1e-6);
     assert!((10.0 * found.place[0] - 0.22).abs() < 1e-6);
@@ -96,19 +96,25 @@ fn limits_bounds_hold_and_what_is_not_determined_is_said() {
     let evaluate = |places: &[Vec<f64>]| -> Vec<Result<Vec<f64>, String>> {
         places.iter().map(|place| Ok(vec![place[0]; 4])).collect()
     };
-    let found = minimize(&evaluate, &[1.5, 1.6, 1.4, 1.5], &[0.5], &Settings::default()).unwrap();
+    let found = minimize(
+        &evaluate,
+        &[1.5, 1.6, 1.4, 1.5],
+        &[0.5],
+        &SearchSettings::default(),
+    )
+    .unwrap();
     assert_eq!(found.place, [1.0]);
     assert!(found.at_bound[0] && found.settled);
     let found = minimize(
         &evaluate,
         &[0.4, 0.6, 0.5, 0.45],
         &[0.2, 0.5],
-        &Settings::default(),
+        &SearchSettings::default(),
     );
     assert!(found.unwrap().covariance.is_none());
     let failing = |places: &[Vec<f64>]| places.iter().map(|_| Err("no".to_owned())).collect();
     assert_eq!(
-        minimize(&failing, &[1.0], &[0.5], &Settings::default()).unwrap_err(),
+        minimize(&failing, &[1.0], &[0.5], &SearchSettings::default()).unwrap_err(),
         "no"
     );
 }

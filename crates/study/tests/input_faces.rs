@@ -1,7 +1,7 @@
 //! The sections of the wedge's faces: read, written, refused; the same in trucks.
 #![allow(missing_docs, clippy::unwrap_used)]
 
-use mechanics::surface::Profile;
+use mechanics::surface::SurfaceProfile;
 use study::case::{Case, CaseError, Tables};
 use study::run::Run;
 use study::truck::TruckCase;
@@ -49,13 +49,16 @@ fn input_faces_are_read_and_written_back() {
     let case = read(FACES).unwrap();
     let p = &case.parameters;
     assert_eq!(p.column_face.grid, Grid { up: 5, across: 3 });
-    assert!(matches!(p.column_face.counterface.profile, Profile::Table(_)));
+    assert!(matches!(
+        p.column_face.counterface.profile,
+        SurfaceProfile::Table(_)
+    ));
     assert_eq!(p.column_face.sliding_friction, Some(0.3));
     let map = p.column_face.wedge_wear.as_ref().unwrap();
     assert!((map.depth(0.0, 0.0) - 0.0175 * 0.0254).abs() < 1e-16);
     assert!((p.column_face.stribeck_speed - 0.05 * 0.0254).abs() < 1e-18);
-    let arc = |profile: &Profile| match profile {
-        Profile::Arc { curvature } => *curvature,
+    let arc = |profile: &SurfaceProfile| match profile {
+        SurfaceProfile::Arc { curvature } => *curvature,
         _ => f64::NAN,
     };
     assert!((arc(&p.slope_face.wedge_surface.profile) * 90.0 * 0.0254 - 1.0).abs() < 1e-14);

@@ -4,7 +4,7 @@
 #[path = "common/runs.rs"]
 mod runs;
 
-use mechanics::quasi_static::{Direction, QuasiStaticWedge, SlopeFriction};
+use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection, SlopeFriction};
 use mechanics::system::System;
 use nucars::truck::Choices;
 use quantity::SixDigits;
@@ -69,7 +69,7 @@ fn squeezed_down_it_slides_or_jams() {
             column_friction: friction,
             slope_friction: friction,
         };
-        match wedge.slide(Direction::Down, SlopeFriction::UpSlope, coil) {
+        match wedge.slide(SlidingDirection::Down, SlopeFriction::UpSlope, coil) {
             Some(slide) => {
                 // Sliding across takes a part of the friction, the twisted wedge some of its angle.
                 assert!(

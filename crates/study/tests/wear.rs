@@ -9,7 +9,7 @@ use study::metrics::Cycle;
 use study::run::RunCase;
 use study::wear::archard::Archard;
 use study::wear::energy::WearByEnergy;
-use study::wear::{LIMIT, Plan, WearError, WearHistory, WearLaw, WearStop, advance};
+use study::wear::{LIMIT, WearError, WearHistory, WearLaw, WearPlan, WearStop, advance};
 use wedge::Wedge;
 
 const INCH: f64 = 0.0254;
@@ -32,8 +32,8 @@ fn grid(up: usize, across: usize) -> String {
     format!("[column_face]\ngrid = [{up}, {across}]\n[slope_face]\ngrid = [{up}, {across}]\n")
 }
 
-fn plan(cycles: f64, steps: u32, law: WearLaw) -> Plan {
-    Plan {
+fn plan(cycles: f64, steps: u32, law: WearLaw) -> WearPlan {
+    WearPlan {
         cycles,
         steps,
         most_steps: 100,
@@ -42,7 +42,7 @@ fn plan(cycles: f64, steps: u32, law: WearLaw) -> Plan {
     }
 }
 
-fn worn(case: &Case, plan: &Plan) -> WearHistory {
+fn worn(case: &Case, plan: &WearPlan) -> WearHistory {
     let history = advance(case, plan, |_, _| ControlFlow::Continue(())).unwrap();
     assert!(history.stopped.is_none(), "{:?}", history.stopped);
     history
@@ -260,11 +260,12 @@ fn limits_no_step_wears_more_than_its_part_of_the_penetration() {
 
 #[test]
 fn input_what_cannot_be_worn_is_refused() {
-    let refused =
-        |case: &Case, plan: &Plan| match advance(case, plan, |_, _| ControlFlow::Continue(())).unwrap_err() {
-            WearStop::Error(error) => error,
-            WearStop::Interrupted(reason) => panic!("{reason}"),
-        };
+    let refused = |case: &Case, plan: &WearPlan| match advance(case, plan, |_, _| ControlFlow::Continue(()))
+        .unwrap_err()
+    {
+        WearStop::Error(error) => error,
+        WearStop::Interrupted(reason) => panic!("{reason}"),
+    };
     let law = WearLaw::Archard(ARCHARD);
     let short = Case::parse(
         "case.toml",
@@ -311,7 +312,7 @@ fn analytic_a_counterface_is_worn_where_the_wedge_slides() {
          3]\n",
     );
     let (cycles, ratio) = (1000.0, 0.6);
-    let plan = Plan {
+    let plan = WearPlan {
         counterface: ratio,
         ..plan(cycles, 1, WearLaw::Archard(ARCHARD))
     };
@@ -399,7 +400,7 @@ fn limits_short_travel_wears_both_partners_as_one() {
     let alone = worn(&case, &plan(cycles, 2, law(2.0)));
     let both = worn(
         &case,
-        &Plan {
+        &WearPlan {
             counterface: 1.0,
             ..plan(cycles, 2, law(1.0))
         },

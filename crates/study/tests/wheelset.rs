@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use quantity::System as Units;
-use rolling::rig::Start;
+use rolling::rig::RigStart;
 use rolling::wheelset::WheelsetBody;
 use study::run::Run;
 use study::track::TrackFile;
@@ -47,9 +47,9 @@ fn wheelset(track: &str, speed: f64) -> Wheelset {
         friction: 0.4,
         creep: CreepLaw::Polach(polach::DRY),
         search: SearchMode::Search,
-        start: Start {
+        start: RigStart {
             distance: 2.0,
-            ..Start::default()
+            ..RigStart::default()
         },
         duration: None,
         interval: 0.005,

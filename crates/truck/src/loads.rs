@@ -15,7 +15,7 @@ use mechanics::vector::{Matrix, Vector};
 use crate::PLACES;
 use crate::assemble::{BOLSTER, INBOARD_HALVES, SIDE_FRAMES, Truck, WEDGES};
 use crate::elements::{Law, Role, Suspended, WedgePlace};
-use crate::mounted::{MountedTruck, TruckFrame, View};
+use crate::mounted::{MountedTruck, TruckFrame, TruckView};
 use crate::split::WAYS;
 
 /// The moment about z that elements exert on the bolster, by kind of element, N·m.
@@ -117,7 +117,7 @@ impl Truck {
     #[must_use]
     pub fn loads(&self, observation: &Observation) -> Loads {
         self.mounted
-            .loads_of(&View::new(&self.mounted, observation, None))
+            .loads_of(&TruckView::new(&self.mounted, observation, None))
     }
 
     /// Returns the name of a coil or stop; empty if there is none of this number.
@@ -138,10 +138,10 @@ impl MountedTruck {
     /// Returns the loads at an observation of the system in which the truck is, in the axes of a frame.
     #[must_use]
     pub fn loads(&self, observation: &Observation, frame: &TruckFrame) -> Loads {
-        self.loads_of(&View::new(self, observation, Some(*frame)))
+        self.loads_of(&TruckView::new(self, observation, Some(*frame)))
     }
 
-    fn loads_of(&self, view: &View<'_>) -> Loads {
+    fn loads_of(&self, view: &TruckView<'_>) -> Loads {
         let yaw = |body: usize| view.yaw(body);
         let mut loads = Loads {
             warp_angle: 0.5 * (yaw(SIDE_FRAMES) + yaw(SIDE_FRAMES + 1)) - yaw(BOLSTER),
@@ -230,7 +230,7 @@ impl MountedTruck {
 
     /// Returns the loads of a wedge in one piece, or of a half: a body of the truck, its first face, its
     /// nominal place.
-    fn one_piece(&self, body: usize, first: usize, place: Vector<f64>, view: &View<'_>) -> WedgeLoads {
+    fn one_piece(&self, body: usize, first: usize, place: Vector<f64>, view: &TruckView<'_>) -> WedgeLoads {
         let [column, slope] = [first, first + 1].map(|face| &view.seen.faces[face]);
         let center = view.body(body).center_of_gravity;
         WedgeLoads {
@@ -244,7 +244,7 @@ impl MountedTruck {
     }
 
     /// Returns the loads of both halves of a split wedge.
-    fn split(&self, number: usize, first: usize, view: &View<'_>) -> WedgeLoads {
+    fn split(&self, number: usize, first: usize, view: &TruckView<'_>) -> WedgeLoads {
         let [_, way] = PLACES[number];
         let halves = [0, 1].map(|half| {
             let shift = WAYS[half] * way * self.half_shifts[number];
@@ -271,7 +271,7 @@ impl MountedTruck {
     }
 
     /// Returns the loads of a wedge without mass, and its place.
-    fn massless_wedge(&self, number: usize, state: &ConnectionState, view: &View<'_>) -> WedgeLoads {
+    fn massless_wedge(&self, number: usize, state: &ConnectionState, view: &TruckView<'_>) -> WedgeLoads {
         let Some(inside) = state.wedge else {
             return WedgeLoads::default();
         };
@@ -329,7 +329,7 @@ impl MountedTruck {
     }
 
     /// Adds what one element of the suspension does; returns the size of its force.
-    fn add(&self, loads: &mut Loads, element: &Suspended, view: &View<'_>, bolster: Vector<f64>) -> f64 {
+    fn add(&self, loads: &mut Loads, element: &Suspended, view: &TruckView<'_>, bolster: Vector<f64>) -> f64 {
         let [(a, _), (b, _)] = &element.ends;
         let numbers = &self.mount.bodies;
         let (place, axes, motion) = relative_motion(&element.ends, &view.seen.bodies);

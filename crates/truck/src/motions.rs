@@ -6,7 +6,7 @@ use mechanics::vector::Vector;
 
 use crate::assemble::{BOLSTER, SIDE_FRAMES};
 use crate::elements::WedgePlace;
-use crate::mounted::{MountedTruck, TruckFrame, View};
+use crate::mounted::{MountedTruck, TruckFrame, TruckView};
 
 /// What a face exerts on its wedge.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,7 @@ impl MountedTruck {
     /// frame.
     #[must_use]
     pub fn motions(&self, seen: &Observation, frame: &TruckFrame) -> Motions {
-        let view = View::new(self, seen, Some(*frame));
+        let view = TruckView::new(self, seen, Some(*frame));
         let part = |number: usize| {
             let moved = view.place(view.body(number).center_of_gravity) - self.part_places[number - BOLSTER];
             let ([x, y, z], [roll, pitch, yaw]) = (moved.0, view.angles(number));
@@ -50,7 +50,7 @@ impl MountedTruck {
         }
     }
 
-    fn faces(&self, view: &View<'_>) -> Vec<[FaceForce; 2]> {
+    fn faces(&self, view: &TruckView<'_>) -> Vec<[FaceForce; 2]> {
         let pair = |column: usize| [column, column + 1].map(|face| of_face(&view.seen.faces[face], view));
         let whole = (0..).zip(&self.added.wedges).map(|(number, place)| match *place {
             // Of a split wedge column and slope of the outboard half, then those of the inboard one.
@@ -65,7 +65,7 @@ impl MountedTruck {
     }
 
     /// Returns the faces of a wedge without mass.
-    fn massless(&self, number: usize, connection: usize, view: &View<'_>) -> [FaceForce; 2] {
+    fn massless(&self, number: usize, connection: usize, view: &TruckView<'_>) -> [FaceForce; 2] {
         let connection = &view.seen.connections[connection];
         let inside = connection.wedge.unwrap_or_default();
         let state = connection.contact_state.unwrap_or(ContactState::Open);
@@ -90,7 +90,7 @@ impl MountedTruck {
     }
 }
 
-fn of_face(face: &FaceState, view: &View<'_>) -> FaceForce {
+fn of_face(face: &FaceState, view: &TruckView<'_>) -> FaceForce {
     let sum = |sum: Vector<f64>, force: &Vector<f64>| sum + *force;
     let friction = face.friction_forces.iter().fold(Vector::zero(), sum);
     FaceForce {

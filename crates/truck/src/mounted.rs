@@ -82,13 +82,13 @@ impl MountedTruck {
 }
 
 /// An observation in the axes of a truck.
-pub(crate) struct View<'o> {
+pub(crate) struct TruckView<'o> {
     pub seen: &'o Observation,
     truck: &'o MountedTruck,
     frame: Option<TruckFrame>,
 }
 
-impl<'o> View<'o> {
+impl<'o> TruckView<'o> {
     pub fn new(truck: &'o MountedTruck, seen: &'o Observation, frame: Option<TruckFrame>) -> Self {
         Self { seen, truck, frame }
     }

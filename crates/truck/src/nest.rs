@@ -39,12 +39,12 @@ impl CatalogCoil {
 }
 
 /// A coil at its place: column (-1, 0, 1 along x) and row (-1, 0, 1 along y).
-pub type Place = (CatalogCoil, [i8; 2]);
+pub type CoilPlace = (CatalogCoil, [i8; 2]);
 
 /// Returns the coils of a whole nest: nine outer and five inner ones (constant damping), six outer and seven
 /// inner ones (variable damping).
 #[must_use]
-pub fn whole_nest(damping: Damping) -> Vec<Place> {
+pub fn whole_nest(damping: Damping) -> Vec<CoilPlace> {
     use CatalogCoil::{D5Inner, D5Outer};
     let places = (-1..=1).flat_map(|x| (-1..=1).map(move |y| [x, y]));
     let mut coils = Vec::new();
@@ -68,10 +68,10 @@ pub fn whole_nest(damping: Damping) -> Vec<Place> {
 /// A broken or missing coil: leave it out of the result, not of `coils`; the others keep their loads, and the
 /// truck settles.
 #[must_use]
-pub fn springs(coils: &[Place], load: f64, shear_ratio: f64) -> Vec<NestCoil> {
+pub fn springs(coils: &[CoilPlace], load: f64, shear_ratio: f64) -> Vec<NestCoil> {
     let total: f64 = coils.iter().map(|(coil, _)| coil.stiffness()).sum();
     let deflection = load / total;
-    let spring = |(coil, [x, y]): &Place| {
+    let spring = |(coil, [x, y]): &CoilPlace| {
         let stiffness = coil.stiffness();
         NestCoil {
             place: [f64::from(*x) * PITCH, f64::from(*y) * PITCH],

@@ -5,7 +5,7 @@ mod common;
 
 use common::INCH;
 use mechanics::spline::Spline;
-use mechanics::surface::Profile;
+use mechanics::surface::SurfaceProfile;
 use mechanics::system::StaticFriction;
 use truck::{Bolster, Lading, Parameters, Truck};
 use wedge::face::{FaceDirection, FaceProfile, FaceProperties, Grid, Pad};
@@ -16,7 +16,7 @@ fn sloping(direction: FaceDirection) -> FaceProfile {
     let places = [-7.0, -2.0, 2.0, 7.0].map(|place| place * INCH);
     let depths = [0.03, 0.004, 0.001, 0.006].map(|depth| depth * INCH);
     FaceProfile {
-        profile: Profile::Table(Spline::new(places.to_vec(), depths.to_vec()).unwrap()),
+        profile: SurfaceProfile::Table(Spline::new(places.to_vec(), depths.to_vec()).unwrap()),
         direction,
     }
 }
@@ -96,7 +96,7 @@ fn limits_a_truck_with_refined_wedges_starts_touching_and_leaves_out_what_joins_
     let face = FaceProperties {
         grid: Grid { up: 5, across: 3 },
         counterface: FaceProfile {
-            profile: Profile::Arc {
+            profile: SurfaceProfile::Arc {
                 curvature: 1.0 / (70.0 * INCH),
             },
             direction: FaceDirection::Across,

@@ -11,7 +11,7 @@ use mechanics::connection::{Accumulator, Connection, Law, SpringDamper, SurfaceF
 use mechanics::curve::Curve;
 use mechanics::friction::FrictionLaw;
 use mechanics::motion::Motion;
-use mechanics::quasi_static::{Direction, QuasiStaticWedge, SlopeFriction};
+use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection, SlopeFriction};
 use mechanics::system::{Held, Model, StaticFriction, System};
 use truck::{
     Adapter, BOLSTER, Bolster, ControlCoil, Lading, Parameters, SIDE_FRAMES, Truck, WedgeKind, empirical_warp,
@@ -167,8 +167,8 @@ fn analytic_sliding_wedges_follow_the_quasi_static_balance() {
     let ran = run(&parameters, 5.0, Method::default(), 1e-7);
     // Through the nominal height on the way down and up, side frames where they are then.
     for (time, direction, slope) in [
-        (1.58, Direction::Down, SlopeFriction::DownSlope),
-        (3.12, Direction::Up, SlopeFriction::UpSlope),
+        (1.58, SlidingDirection::Down, SlopeFriction::DownSlope),
+        (3.12, SlidingDirection::Up, SlopeFriction::UpSlope),
     ] {
         let loads = at(&ran, time);
         let rise = loads.wedges[0].displacement[2] - 0.5 * INCH * libm::sin(2.0 * time);
@@ -238,10 +238,10 @@ fn limits_wedges_of_both_kinds_in_one_truck() {
     let (parameters, both) = rig([none, body, body, none]);
     assert!(both.residual < 1e-5, "{:e}", both.residual);
     for (time, direction, slope) in [
-        (1.2, Direction::Down, SlopeFriction::DownSlope),
-        (2.0, Direction::Down, SlopeFriction::DownSlope),
-        (3.0, Direction::Up, SlopeFriction::UpSlope),
-        (3.9, Direction::Up, SlopeFriction::UpSlope),
+        (1.2, SlidingDirection::Down, SlopeFriction::DownSlope),
+        (2.0, SlidingDirection::Down, SlopeFriction::DownSlope),
+        (3.0, SlidingDirection::Up, SlopeFriction::UpSlope),
+        (3.9, SlidingDirection::Up, SlopeFriction::UpSlope),
     ] {
         for number in [1, 2] {
             let [found, expected] = [&both, &bodies].map(|ran| at(ran, time).wedges[number].column_normal);

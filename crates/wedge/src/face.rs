@@ -8,7 +8,7 @@ mod grid;
 
 use mechanics::contact::{ContactPoint, Interface, Sliding};
 use mechanics::friction::FrictionLaw;
-use mechanics::surface::{Direction, Profile, Shape};
+use mechanics::surface::{ProfileDirection, SurfaceProfile, SurfaceShape};
 use mechanics::vector::Vector;
 use serde::{Deserialize, Serialize};
 
@@ -72,7 +72,7 @@ pub type FrictionMap = Vec<Vec<f64>>;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FaceProfile {
     /// Depth over the distance from the middle of the face, up or to the left, m.
-    pub profile: Profile,
+    pub profile: SurfaceProfile,
     /// Which way the profile runs.
     pub direction: FaceDirection,
 }
@@ -230,8 +230,8 @@ impl FaceProperties {
         let worn = self.counterface_wear.as_ref();
         let worn = worn.and_then(|map| map.surface(reversed).ok());
         let (direction, reversed) = match self.counterface.direction {
-            FaceDirection::Up => (Direction::Z, reversed[0]),
-            FaceDirection::Across => (Direction::Y, reversed[1]),
+            FaceDirection::Up => (ProfileDirection::Z, reversed[0]),
+            FaceDirection::Across => (ProfileDirection::Y, reversed[1]),
         };
         let profile = &self.counterface.profile;
         let sliding = self.sliding_friction.filter(|_| friction.coefficient > 0.0);
@@ -245,7 +245,7 @@ impl FaceProperties {
                 .collect(),
         };
         Interface {
-            shape: Shape {
+            shape: SurfaceShape {
                 profile: if reversed {
                     profile.mirrored()
                 } else {
@@ -307,8 +307,8 @@ impl FaceProperties {
             (paths.counterface, &self.counterface),
         ] {
             match &own.profile {
-                Profile::Flat => {}
-                Profile::Arc { curvature } => {
+                SurfaceProfile::Flat => {}
+                SurfaceProfile::Arc { curvature } => {
                     let radius = 1.0 / curvature.abs();
                     check(
                         path,
@@ -317,7 +317,7 @@ impl FaceProperties {
                         "a radius of more than half of the face",
                     )?;
                 }
-                Profile::Table(table) => {
+                SurfaceProfile::Table(table) => {
                     let (first, last) = table.range();
                     let holds = first <= -extent(own) && last >= extent(own);
                     let expected = "a table from edge to edge of the face, its places from the middle";

@@ -1,6 +1,6 @@
 //! Resultants of the forces on the wedge and of the reactions on its neighbors.
 
-use mechanics::system::{BodyState, CoilLoad, FaceLoad, Loads, Observation, System};
+use mechanics::system::{BodyState, CoilLoad, FaceLoad, Observation, System, SystemLoads};
 use mechanics::vector::Vector;
 
 use crate::assemble::{COLUMN, SLOPE, WEDGE};
@@ -26,7 +26,7 @@ pub struct Resultants {
 impl Resultants {
     /// Returns the resultants of [`System::loads`].
     #[must_use]
-    pub fn of(damping: Damping, loads: &Loads) -> Self {
+    pub fn of(damping: Damping, loads: &SystemLoads) -> Self {
         let faces = [COLUMN, SLOPE].map(|face| loads.faces[face]);
         Self::new(damping, &loads.bodies[WEDGE], faces, &loads.coils[0])
     }

@@ -6,14 +6,14 @@ mod common;
 use common::{INCH, LBF, LBF_PER_IN};
 use integrate::Problem;
 use mechanics::spline::Spline;
-use mechanics::surface::Profile;
+use mechanics::surface::SurfaceProfile;
 use wedge::face::{DepthMap, FaceDirection, FaceProfile, FaceProperties, Grid, Pad};
 use wedge::parameters::Damping;
 use wedge::{Parameters, Start, Wedge, thesis};
 
 fn arc(radius: f64, direction: FaceDirection) -> FaceProfile {
     FaceProfile {
-        profile: Profile::Arc {
+        profile: SurfaceProfile::Arc {
             curvature: 1.0 / radius,
         },
         direction,
@@ -24,7 +24,7 @@ fn table(direction: FaceDirection) -> FaceProfile {
     let places = [-6.0, -3.0, -1.0, 2.0, 6.0].map(|place| place * INCH);
     let depths = [0.04, 0.008, 0.0, 0.003, 0.03].map(|depth| depth * INCH);
     FaceProfile {
-        profile: Profile::Table(Spline::new(places.to_vec(), depths.to_vec()).unwrap()),
+        profile: SurfaceProfile::Table(Spline::new(places.to_vec(), depths.to_vec()).unwrap()),
         direction,
     }
 }
@@ -207,7 +207,7 @@ fn analytic_a_cubic_map_of_a_counterface_is_its_table() {
                 } else {
                     let depths = places.map(cubic).to_vec();
                     face.counterface = FaceProfile {
-                        profile: Profile::Table(Spline::new(places.to_vec(), depths).unwrap()),
+                        profile: SurfaceProfile::Table(Spline::new(places.to_vec(), depths).unwrap()),
                         direction,
                     };
                 }

@@ -1,7 +1,7 @@
 //! Faces with grids of points: sums, convergence with the number of points.
 #![allow(missing_docs, clippy::unwrap_used)]
 
-use mechanics::system::{ContactState, Loads};
+use mechanics::system::{ContactState, SystemLoads};
 use wedge::face::Grid;
 use wedge::outputs::{FACES, Outputs, PointNames};
 use wedge::parameters::Damping;
@@ -25,7 +25,7 @@ fn analytic_pressures_add_up_to_the_forces_of_the_faces() {
     let states = vec![ContactState::Stick as u8; wedge.system.point_count()];
     let mut row = Vec::new();
     outputs.values(&wedge.system, &observation, &states, 0.0, &mut row);
-    let mut loads = Loads::default();
+    let mut loads = SystemLoads::default();
     wedge.system.loads(0.0, &wedge.initial_state, &mut loads);
     let faces = [&parameters.column_face, &parameters.slope_face];
     for (face, name) in FACES.into_iter().enumerate() {
@@ -44,7 +44,7 @@ fn analytic_pressures_add_up_to_the_forces_of_the_faces() {
                 row[index] * area
             })
             .sum();
-        let Loads { faces: seen, .. } = &loads;
+        let SystemLoads { faces: seen, .. } = &loads;
         let normal = seen[face].normal.dot::<f64, f64>(seen[face].normal).sqrt();
         assert!(normal > 1000.0);
         assert!(

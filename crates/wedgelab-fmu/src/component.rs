@@ -7,7 +7,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use fmi::instance::{Instance, Message};
 use fmi::{Category, Error, Severity};
 
-use crate::handles::{Kind, hand_out, is_alive, take_back};
+use crate::handles::{HandleKind, hand_out, is_alive, take_back};
 use crate::pointers::string;
 
 /// Status codes, the same in both versions.
@@ -170,7 +170,7 @@ pub(crate) unsafe fn instantiate(
         Ok(Component::new(make(name)?, logger, name, logging))
     }));
     let error = match made {
-        Ok(Ok(component)) => return hand_out(component, Kind::Instance),
+        Ok(Ok(component)) => return hand_out(component, HandleKind::Instance),
         Ok(Err(error)) => error,
         Err(panic) => Error::new(words(&*panic)),
     };
@@ -188,7 +188,7 @@ pub(crate) unsafe fn instantiate(
 pub(crate) unsafe fn free(pointer: *mut c_void) {
     guard(|| {
         // SAFETY: by this function's contract; instances are components.
-        let _ = unsafe { take_back::<Component>(pointer, Kind::Instance) };
+        let _ = unsafe { take_back::<Component>(pointer, HandleKind::Instance) };
     });
 }
 
@@ -203,7 +203,7 @@ pub(crate) unsafe fn call(
     pointer: *mut c_void,
     run: impl FnOnce(&mut Component) -> Result<Status, Error>,
 ) -> Status {
-    if !is_alive(pointer, Kind::Instance) {
+    if !is_alive(pointer, HandleKind::Instance) {
         return ERROR;
     }
     let component = pointer.cast::<Component>();

@@ -7,17 +7,17 @@ use std::sync::{PoisonError, RwLock};
 
 /// What a pointer leads to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum HandleKind {
     /// An instance.
     Instance,
     /// A saved state.
     State,
 }
 
-static ALIVE: RwLock<BTreeMap<usize, Kind>> = RwLock::new(BTreeMap::new());
+static ALIVE: RwLock<BTreeMap<usize, HandleKind>> = RwLock::new(BTreeMap::new());
 
 /// Returns a pointer for something that C keeps.
-pub(crate) fn hand_out<T>(thing: T, kind: Kind) -> *mut c_void {
+pub(crate) fn hand_out<T>(thing: T, kind: HandleKind) -> *mut c_void {
     let pointer: *mut c_void = Box::into_raw(Box::new(thing)).cast();
     let mut alive = ALIVE.write().unwrap_or_else(PoisonError::into_inner);
     alive.insert(pointer as usize, kind);
@@ -26,7 +26,7 @@ pub(crate) fn hand_out<T>(thing: T, kind: Kind) -> *mut c_void {
 
 /// Returns whether a pointer comes from [`hand_out`] for this kind and has not been taken back. (Another
 /// thing of this kind may have come to lie where a freed one was.)
-pub(crate) fn is_alive(pointer: *const c_void, kind: Kind) -> bool {
+pub(crate) fn is_alive(pointer: *const c_void, kind: HandleKind) -> bool {
     let alive = ALIVE.read().unwrap_or_else(PoisonError::into_inner);
     alive.get(&(pointer as usize)) == Some(&kind)
 }
@@ -35,7 +35,7 @@ pub(crate) fn is_alive(pointer: *const c_void, kind: Kind) -> bool {
 ///
 /// # Safety
 /// What has been handed out for this kind is of the type `T`, and nobody uses it at the same time.
-pub(crate) unsafe fn take_back<T>(pointer: *mut c_void, kind: Kind) -> bool {
+pub(crate) unsafe fn take_back<T>(pointer: *mut c_void, kind: HandleKind) -> bool {
     let found = {
         let mut alive = ALIVE.write().unwrap_or_else(PoisonError::into_inner);
         let found = alive.get(&(pointer as usize)) == Some(&kind);

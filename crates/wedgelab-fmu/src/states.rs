@@ -6,7 +6,7 @@ use fmi::Error;
 use fmi::instance::Saved;
 
 use crate::component::{Component, OK, Status};
-use crate::handles::{Kind, hand_out, is_alive, take_back};
+use crate::handles::{HandleKind, hand_out, is_alive, take_back};
 use crate::pointers::{missing, put, slice, slice_mut};
 
 /// A saved state behind a pointer.
@@ -31,8 +31,8 @@ pub(crate) unsafe fn save(component: &Component, target: *mut *mut c_void) -> Re
     };
     let saved: SavedState = component.instance.save();
     if place.is_null() {
-        *place = hand_out(saved, Kind::State);
-    } else if is_alive(*place, Kind::State) {
+        *place = hand_out(saved, HandleKind::State);
+    } else if is_alive(*place, HandleKind::State) {
         // SAFETY: it is a state from here, which is alive, and by this function's contract nobody uses it.
         unsafe { *place.cast::<SavedState>() = saved };
     } else {
@@ -49,7 +49,7 @@ pub(crate) unsafe fn saved<'a>(pointer: *mut c_void) -> Result<&'a SavedState, E
     if pointer.is_null() {
         return Err(missing("the state"));
     }
-    if !is_alive(pointer, Kind::State) {
+    if !is_alive(pointer, HandleKind::State) {
         return Err(no_state("the state"));
     }
     // SAFETY: it is a state from here, which is alive and by this function's contract stays as it is.
@@ -69,7 +69,7 @@ pub(crate) unsafe fn free_saved(target: *mut *mut c_void) -> Result<Status, Erro
         return Err(missing("the state"));
     };
     // SAFETY: by this function's contract; states are saved states.
-    if !place.is_null() && !unsafe { take_back::<SavedState>(*place, Kind::State) } {
+    if !place.is_null() && !unsafe { take_back::<SavedState>(*place, HandleKind::State) } {
         return Err(no_state("the state to be freed"));
     }
     *place = std::ptr::null_mut();
@@ -114,7 +114,7 @@ pub(crate) unsafe fn deserialize(
     // SAFETY: by this function's contract. What the place held before is not freed: it may be uninitialized.
     unsafe {
         put(target, std::ptr::null_mut(), "the state")?;
-        put(target, hand_out(state, Kind::State), "the state")?;
+        put(target, hand_out(state, HandleKind::State), "the state")?;
     }
     Ok(OK)
 }

@@ -181,7 +181,7 @@ type GroupOfCases = (&'static str, &'static str, &'static str, Vec<Named>);
 /// Returns the groups of built-in cases: name, title, what to look at, and the names and titles of its cases.
 #[pyfunction]
 pub fn built_in_groups() -> Vec<GroupOfCases> {
-    let cases = |group: &'static builtin::Group| {
+    let cases = |group: &'static builtin::CaseGroup| {
         let cases = group.cases.iter();
         cases
             .map(|case| (case.name.as_str(), case.title.as_str()))

@@ -5,16 +5,16 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use report::agreement::TruckOutcome;
-use report::drawing::{Curve, Figure, Line, Panel};
-use report::figures::{Exhibit, Outcome};
-use report::sections::{self, Plan};
+use report::drawing::{Figure, Line, Panel, PlotCurve};
+use report::figures::{CaseOutcome, Exhibit};
+use report::sections::{self, SectionPlan};
 use study::case::builtin;
 use study::half_truck::catalog;
 
 use crate::errors::{guarded, simple};
 use crate::outcome::NativeResult;
 
-fn curve<'py>(py: Python<'py>, curve: &Curve) -> PyResult<Bound<'py, PyDict>> {
+fn curve<'py>(py: Python<'py>, curve: &PlotCurve) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     dict.set_item("label", &curve.label)?;
     dict.set_item("color", curve.colour.hex())?;
@@ -95,7 +95,7 @@ pub fn report_figures<'py>(
     results: Vec<PyRef<'py, NativeResult>>,
 ) -> PyResult<Bound<'py, PyList>> {
     guarded(py, || {
-        let outcomes: Vec<Outcome> = results.iter().filter_map(|result| result.outcome()).collect();
+        let outcomes: Vec<CaseOutcome> = results.iter().filter_map(|result| result.outcome()).collect();
         let trucks: Vec<TruckOutcome> = results
             .iter()
             .filter_map(|result| result.half_truck())
@@ -114,9 +114,9 @@ pub fn report_figures<'py>(
         // As in the report: groups beyond the thesis by their names, everything else as the thesis's runs.
         let is_beyond =
             |name: &str| builtin::thesis_names().all(|own| own != name) && builtin::group_of(name).is_some();
-        let (beyond, thesis): (Vec<Outcome>, Vec<Outcome>) =
+        let (beyond, thesis): (Vec<CaseOutcome>, Vec<CaseOutcome>) =
             outcomes.into_iter().partition(|(case, _)| is_beyond(&case.name));
-        let mut plans: Vec<Plan> = Vec::new();
+        let mut plans: Vec<SectionPlan> = Vec::new();
         if !thesis.is_empty() {
             plans.extend(
                 sections::thesis(&thesis)

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
 use serde::{Deserialize, Serialize};
 use study::any_case::CaseSource;
-use study::half_truck::catalog::{self, Entry, YawCase};
+use study::half_truck::catalog::{self, CatalogEntry, YawCase};
 use study::half_truck::files::{Settings, case_of_run};
 use study::half_truck::{HalfTruckCase, HalfTruckStart, options};
 
@@ -90,9 +90,9 @@ pub fn of_source(py: Python<'_>, source: &CaseSource, set: Vec<String>) -> PyRes
     }
 }
 
-fn entry(py: Python<'_>, name: &str) -> PyResult<Entry> {
+fn entry(py: Python<'_>, name: &str) -> PyResult<CatalogEntry> {
     catalog::entry(name).ok_or_else(|| {
-        let names: Vec<String> = catalog::entries().iter().map(Entry::name).collect();
+        let names: Vec<String> = catalog::entries().iter().map(CatalogEntry::name).collect();
         let help = match nearest(name, names.iter().map(String::as_str)) {
             Some(near) => format!("did you mean {near}? wedgelab.nucars.built_in() lists all"),
             None => "name a run file, or one of wedgelab.nucars.built_in()".to_owned(),

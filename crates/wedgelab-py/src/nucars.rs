@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use ::nucars::file_sets::{Files, Instead, LoadError, find, kind, load};
+use ::nucars::file_sets::{Instead, LoadError, ReadFiles, find, kind, load};
 use ::nucars::read::{FileKind, read_data, read_input, read_run, read_system};
 use ::nucars::source::SourceText;
 use ::nucars::{Findings, builtin, check, show, write};
@@ -179,8 +179,8 @@ pub fn check_files<'py>(
     })
 }
 
-fn checked(paths: &[PathBuf], instead: &Instead) -> Result<Files, LoadError> {
-    let mut files = Files::default();
+fn checked(paths: &[PathBuf], instead: &Instead) -> Result<ReadFiles, LoadError> {
+    let mut files = ReadFiles::default();
     for path in paths {
         files.add(&find(path)?, None)?;
     }

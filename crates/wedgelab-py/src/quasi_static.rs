@@ -1,6 +1,6 @@
 //! The quasi-static element over arrays.
 
-use mechanics::quasi_static::{Direction, QuasiStaticWedge, SlopeFriction};
+use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection, SlopeFriction};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -52,9 +52,9 @@ pub fn slide<'py>(
 
 fn one(wedge: &QuasiStaticWedge, coil_force: f64, direction: f64, slope: f64) -> [f64; 5] {
     let direction = if direction > 0.0 {
-        Direction::Up
+        SlidingDirection::Up
     } else {
-        Direction::Down
+        SlidingDirection::Down
     };
     let branch = match slope {
         0.0 => wedge.branch(direction),

@@ -6,11 +6,11 @@ use std::sync::Arc;
 
 use ::wheelrail::conicity::RollingRadiusDifference;
 use ::wheelrail::contact::{ContactLaw, CreepLaw, Side};
-use ::wheelrail::creep::fastsim::Grid;
+use ::wheelrail::creep::fastsim::StripGrid;
 use ::wheelrail::creep::{Coefficients, Creepage, Patch, fastsim, linear, polach, shen_hedrick_elkins};
 use ::wheelrail::hertz::Material;
 use ::wheelrail::loaded::{Attitude, LoadError, LoadedPatch, LoadedWheel};
-use ::wheelrail::profile::{Kind, Points, Profile, ProfileError, nominal};
+use ::wheelrail::profile::{Points, Profile, ProfileError, ProfileKind, nominal};
 use ::wheelrail::wheelset::{Layout, RigidWheelset};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
@@ -56,8 +56,12 @@ impl NativeProfile {
     }
 }
 
-fn kind(wheel: bool) -> Kind {
-    if wheel { Kind::Wheel } else { Kind::Rail }
+fn kind(wheel: bool) -> ProfileKind {
+    if wheel {
+        ProfileKind::Wheel
+    } else {
+        ProfileKind::Rail
+    }
 }
 
 #[pymethods]
@@ -111,7 +115,7 @@ impl NativeProfile {
 
     #[getter]
     fn is_wheel(&self) -> bool {
-        self.profile.kind() == Kind::Wheel
+        self.profile.kind() == ProfileKind::Wheel
     }
 
     #[getter]
@@ -167,7 +171,7 @@ fn law_of(py: Python<'_>, name: &str, cells: usize) -> PyResult<CreepLaw> {
         "linear" => CreepLaw::Linear,
         "shen_hedrick_elkins" => CreepLaw::ShenHedrickElkins,
         "polach" => CreepLaw::Polach(polach::DRY),
-        "fastsim" => CreepLaw::Fastsim(Grid { cells, strips: cells }),
+        "fastsim" => CreepLaw::Fastsim(StripGrid { cells, strips: cells }),
         _ => {
             let help = "creep laws are \"linear\", \"shen_hedrick_elkins\", \"polach\", \"fastsim\"";
             return Err(refused(py, &format!("there is no creep law {name:?}"), help));

@@ -1,7 +1,7 @@
 //! What users ask of tables of results before they are used: a span of time, other names of columns.
 
 use clap::Args;
-use report::table::Table;
+use report::table::ResultTable;
 
 use crate::failure::{Failure, Message};
 
@@ -18,8 +18,8 @@ impl Names {
     ///
     /// # Errors
     /// A pair is not understood, no table has the column, or the one that has it has NAME too.
-    pub fn apply<'t>(&self, tables: impl IntoIterator<Item = &'t mut Table>) -> Result<(), Failure> {
-        let mut tables: Vec<&mut Table> = tables.into_iter().collect();
+    pub fn apply<'t>(&self, tables: impl IntoIterator<Item = &'t mut ResultTable>) -> Result<(), Failure> {
+        let mut tables: Vec<&mut ResultTable> = tables.into_iter().collect();
         for pair in &self.map {
             let parts = pair
                 .split_once('=')
@@ -49,7 +49,7 @@ impl Names {
 
 /// A span of time.
 #[derive(Debug, Args)]
-pub struct Span {
+pub struct TimeSpan {
     /// Leave out the values before this time, s
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     from: Option<f64>,
@@ -58,12 +58,12 @@ pub struct Span {
     to: Option<f64>,
 }
 
-impl Span {
+impl TimeSpan {
     /// Leaves out the rows beyond the span.
     ///
     /// # Errors
     /// Fewer than two rows are left.
-    pub fn apply(&self, table: &mut Table) -> Result<(), Failure> {
+    pub fn apply(&self, table: &mut ResultTable) -> Result<(), Failure> {
         keep(table, self.from, self.to)
     }
 }
@@ -72,7 +72,7 @@ impl Span {
 ///
 /// # Errors
 /// Fewer than two rows are left.
-pub fn keep(table: &mut Table, from: Option<f64>, to: Option<f64>) -> Result<(), Failure> {
+pub fn keep(table: &mut ResultTable, from: Option<f64>, to: Option<f64>) -> Result<(), Failure> {
     if from.is_none() && to.is_none() {
         return Ok(());
     }

@@ -19,7 +19,7 @@ use study::summary::{RunSummary, Stopped, Summary, SummaryValue};
 use crate::failure::{Failure, Message, say};
 use crate::interrupt;
 use crate::progress::Progress;
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// A run that has ended, perhaps before its time.
 #[derive(Debug)]
@@ -223,12 +223,12 @@ pub fn jobs(given: Option<u16>) -> usize {
 }
 
 /// Returns the table of runs; all of them in the same units.
-pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone) -> Table {
+pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone) -> TerminalTable {
     let unit = |of: fn(&Summary) -> Option<&SummaryValue>| {
         let found = runs.clone().into_iter().find_map(|(summary, _)| of(summary));
         found.map_or(String::new(), |measure| measure.unit.clone())
     };
-    let mut table = Table::new(
+    let mut table = TerminalTable::new(
         2,
         &[
             ("run", ""),

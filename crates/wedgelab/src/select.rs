@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use quantity::nearest;
-use report::table::Table;
+use report::table::ResultTable;
 use study::case::builtin;
 use study::half_truck::catalog;
 
@@ -28,10 +28,10 @@ pub fn built_in_elsewhere(path: &Path) -> Option<Message> {
 }
 
 /// Reads the result of a run, or another table.
-pub fn read_table(path: &Path) -> Result<Table, Failure> {
+pub fn read_table(path: &Path) -> Result<ResultTable, Failure> {
     match built_in_elsewhere(path).filter(|_| !path.exists()) {
         Some(message) => Err(message.into()),
-        None => Ok(Table::read(path)?),
+        None => Ok(ResultTable::read(path)?),
     }
 }
 

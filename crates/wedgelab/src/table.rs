@@ -4,12 +4,12 @@ use std::io::{self, Write};
 
 /// A table: two lines of head (names and units), rows; the first column to the left, all others to the right.
 #[derive(Debug)]
-pub struct Table {
+pub struct TerminalTable {
     rows: Vec<Vec<String>>,
     left: usize,
 }
 
-impl Table {
+impl TerminalTable {
     /// Returns a table with the names and units of its columns; the first `left` ones are words.
     pub fn new(left: usize, head: &[(&str, &str)]) -> Self {
         let line = |of: fn(&(&str, &str)) -> String| head.iter().map(of).collect();

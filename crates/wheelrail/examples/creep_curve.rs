@@ -1,7 +1,7 @@
 //! Traction over longitudinal creepage by four laws, for a wheel of 36 in on a rail's crown of 10 in.
 //! `cargo run --release -p wheelrail --example creep_curve`
 
-use wheelrail::creep::fastsim::{self, Grid};
+use wheelrail::creep::fastsim::{self, StripGrid};
 use wheelrail::creep::{Creepage, Patch, linear, polach, shen_hedrick_elkins};
 use wheelrail::hertz::{Hertz, HertzError, Material};
 
@@ -13,7 +13,7 @@ fn main() -> Result<(), HertzError> {
     let (load, friction) = (160e3, 0.3);
     let hertz = Hertz::new(steel, 1.0 / 0.4572, 1.0 / 0.254)?;
     let patch = Patch::new(&hertz, load, friction);
-    let grid = Grid {
+    let grid = StripGrid {
         cells: 50,
         strips: 50,
     };

@@ -113,7 +113,7 @@ impl Hertz {
         }
         let (a, b) = (0.5 * rolling, 0.5 * lateral);
         let ratio = a.min(b) / a.max(b);
-        let shape = Shape::of(ratio);
+        let shape = EllipseShape::of(ratio);
         let modulus = material.composite_modulus();
         let size = libm::cbrt(3.0 / (4.0 * modulus * (a + b)));
         let (major, minor) = (shape.major * size, shape.minor * size);
@@ -160,7 +160,7 @@ impl Hertz {
 
 /// The dimensionless ellipse: semi-axes and approach over their scales.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shape {
+pub struct EllipseShape {
     /// Major semi-axis m.
     pub major: f64,
     /// Minor semi-axis n.
@@ -169,7 +169,7 @@ pub struct Shape {
     pub approach: f64,
 }
 
-impl Shape {
+impl EllipseShape {
     /// Returns the ellipse of a ratio of curvatures `min(A, B) / max(A, B)`, above 0 and at most 1.
     #[must_use]
     pub fn of(ratio: f64) -> Self {

@@ -9,10 +9,10 @@ use common::{
 };
 use numerics::scalar::Dual;
 use wheelrail::contact::{ContactPair, CreepLaw, Side, WheelMotion, WheelPose};
-use wheelrail::creep::fastsim::Grid;
+use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
 use wheelrail::hertz::{Hertz, Material};
-use wheelrail::profile::{Element, Kind, Profile, ProfileError, nominal};
+use wheelrail::profile::{ChainElement, Profile, ProfileError, ProfileKind, nominal};
 
 /// A cone on an arc: the arc's slope is the cone's at the contact; place, radius, curvatures, Hertz's load.
 #[test]
@@ -197,7 +197,7 @@ fn assert_derivatives(pair: &ContactPair, creep: CreepLaw, pose: [f64; 4], withi
 #[test]
 fn analytic_derivatives_are_those_of_differences() {
     let pair = freight_pair();
-    let grid = Grid {
+    let grid = StripGrid {
         cells: 21,
         strips: 21,
     };
@@ -284,7 +284,7 @@ fn analytic_the_right_side_mirrors_the_left_one() {
 #[test]
 fn analytic_powers_balance() {
     let pair = freight_pair();
-    let grid = Grid {
+    let grid = StripGrid {
         cells: 21,
         strips: 21,
     };
@@ -375,11 +375,12 @@ fn input_wrong_profiles_are_refused() {
         ..STEEL
     };
     assert!(ContactPair::new(&wheel, RADIUS, &rail, soft).is_err());
-    let line = Element::Line {
+    let line = ChainElement::Line {
         point: [0.0, 0.0],
         angle: 1.5,
     };
-    let steep = Profile::of_chain("steep", Kind::Wheel, [-1e-3, -0.02], &[line], [1e-3, 0.02]).unwrap();
+    let steep =
+        Profile::of_chain("steep", ProfileKind::Wheel, [-1e-3, -0.02], &[line], [1e-3, 0.02]).unwrap();
     let error = ContactPair::new(&steep, RADIUS, &rail, STEEL).unwrap_err();
     assert!(error.to_string().contains("steep than 82°"), "{error}");
     let aside = rail.moved([1.0, 0.0]);

@@ -11,9 +11,9 @@ use std::path::Path;
 use wheelrail::contact::{
     ContactLaw, ContactPair, ContactTable, CreepLaw, FindPatches, Side, WheelMotion, WheelPose,
 };
-use wheelrail::creep::fastsim::Grid;
+use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::hertz::Material;
-use wheelrail::profile::{Kind, Profile};
+use wheelrail::profile::{Profile, ProfileKind};
 
 /// Roll (rad) and pitch rate (rad/s) by half millimetres of y.
 const MOTION: [[f64; 2]; 21] = [
@@ -91,7 +91,7 @@ const REFERENCE: [Reference; 8] = [
     },
 ];
 
-fn profile(file: &str, kind: Kind) -> Profile {
+fn profile(file: &str, kind: ProfileKind) -> Profile {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/manchester");
     Profile::read(&folder.join(file), kind, 0.0).unwrap()
 }
@@ -120,7 +120,7 @@ fn wheel(pair: &impl FindPatches, rail_origin: f64, side: Side, shift: f64) -> F
     let law = ContactLaw {
         friction: 0.3,
         damping: 0.0,
-        creep: CreepLaw::Fastsim(Grid {
+        creep: CreepLaw::Fastsim(StripGrid {
             cells: 50,
             strips: 50,
         }),
@@ -177,8 +177,8 @@ fn reproduction_manchester_contact_benchmark() {
         youngs_modulus: 2.0 * 82e9 * 1.28,
         poisson: 0.28,
     };
-    let wheel_profile = profile("MBench_S1002_v3.prw", Kind::Wheel);
-    let rail_profile = profile("MBench_UIC60_v3.prr", Kind::Rail);
+    let wheel_profile = profile("MBench_S1002_v3.prw", ProfileKind::Wheel);
+    let rail_profile = profile("MBench_UIC60_v3.prr", ProfileKind::Rail);
     let origin = 0.7175 - rail_profile.gauge_point(0.014);
     let pair = ContactPair::new(&wheel_profile, 0.46, &rail_profile, steel).unwrap();
     for Reference { shift, left, right } in REFERENCE {
@@ -209,9 +209,15 @@ fn reproduction_the_right_patch_moves_to_the_gauge_corner() {
         youngs_modulus: 2.0 * 82e9 * 1.28,
         poisson: 0.28,
     };
-    let rail = profile("MBench_UIC60_v3.prr", Kind::Rail);
+    let rail = profile("MBench_UIC60_v3.prr", ProfileKind::Rail);
     let origin = 0.7175 - rail.gauge_point(0.014);
-    let pair = ContactPair::new(&profile("MBench_S1002_v3.prw", Kind::Wheel), 0.46, &rail, steel).unwrap();
+    let pair = ContactPair::new(
+        &profile("MBench_S1002_v3.prw", ProfileKind::Wheel),
+        0.46,
+        &rail,
+        steel,
+    )
+    .unwrap();
     let [before, after] = [4.5, 5.0].map(|shift| wheel(&pair, origin, Side::Right, shift));
     assert!((before.deepest - 737.89).abs() < 1.0, "{}", before.deepest);
     assert!((after.deepest - 727.09).abs() < 1.0, "{}", after.deepest);
@@ -225,9 +231,15 @@ fn reproduction_manchester_contact_benchmark_by_tables() {
         youngs_modulus: 2.0 * 82e9 * 1.28,
         poisson: 0.28,
     };
-    let rail = profile("MBench_UIC60_v3.prr", Kind::Rail);
+    let rail = profile("MBench_UIC60_v3.prr", ProfileKind::Rail);
     let origin = 0.7175 - rail.gauge_point(0.014);
-    let pair = ContactPair::new(&profile("MBench_S1002_v3.prw", Kind::Wheel), 0.46, &rail, steel).unwrap();
+    let pair = ContactPair::new(
+        &profile("MBench_S1002_v3.prw", ProfileKind::Wheel),
+        0.46,
+        &rail,
+        steel,
+    )
+    .unwrap();
     let table = ContactTable::new(pair, 2e-5).unwrap();
     for Reference { shift, left, right } in &REFERENCE {
         for (side, expected) in [(Side::Left, left), (Side::Right, right)] {

@@ -2,13 +2,13 @@
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use numerics::scalar::Dual;
-use wheelrail::creep::fastsim::Grid;
+use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::{
     Coefficients, CreepForces, Creepage, Patch, fastsim, linear, polach, shen_hedrick_elkins,
 };
 
 const SHEAR: f64 = 82e9;
-const FINE: Grid = Grid {
+const FINE: StripGrid = StripGrid {
     cells: 200,
     strips: 200,
 };
@@ -78,7 +78,7 @@ fn reproduction_kalkers_coefficients_to_the_digits_of_the_table() {
 fn reproduction_traction_curve_of_contact() {
     let patch = traction();
     let limit = 0.33 * 106.7e3;
-    let grid = Grid {
+    let grid = StripGrid {
         cells: 30,
         strips: 30,
     };
@@ -162,7 +162,7 @@ fn cases(mut see: impl FnMut(&Patch<f64>, &Creepage<f64>)) {
 /// No law gives power, at any ellipse, creepage and spin.
 #[test]
 fn energy_creep_forces_and_spin_moments_never_give_power() {
-    const COARSE: Grid = Grid {
+    const COARSE: StripGrid = StripGrid {
         cells: 20,
         strips: 20,
     };
@@ -224,7 +224,7 @@ fn limits_small_creepages_have_linear_forces() {
         }
     }
     for strips in [5, 11, 21] {
-        let grid = Grid { cells: 40, strips };
+        let grid = StripGrid { cells: 40, strips };
         // Far from saturation: no cell slips, but for those at the trailing edge.
         let free = Patch {
             friction: 1e6,
@@ -327,7 +327,7 @@ fn analytic_derivatives_against_differences() {
         }
     }
     // FASTSIM by one number with derivatives: the value is the same.
-    let coarse = Grid {
+    let coarse = StripGrid {
         cells: 21,
         strips: 21,
     };

@@ -2,7 +2,7 @@
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use numerics::scalar::Dual;
-use wheelrail::hertz::{Hertz, HertzError, Material, Shape, elliptic_integrals};
+use wheelrail::hertz::{EllipseShape, Hertz, HertzError, Material, elliptic_integrals};
 
 const STEEL: Material = Material {
     youngs_modulus: 207e9,
@@ -24,7 +24,7 @@ fn analytic_semi_axes_and_approach_by_the_table() {
         (90.0, 1.0, 1.0, 1.0),
     ] {
         let cosine = f64::cos(f64::to_radians(degrees));
-        let shape = Shape::of((1.0 - cosine) / (1.0 + cosine));
+        let shape = EllipseShape::of((1.0 - cosine) / (1.0 + cosine));
         for (found, expected) in [
             (shape.major, major),
             (shape.minor, minor),

@@ -4,7 +4,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
 
-use wheelrail::profile::{Element, Kind, Points, Profile, ProfileError, check_gauge, nominal};
+use wheelrail::profile::{ChainElement, Points, Profile, ProfileError, ProfileKind, check_gauge, nominal};
 
 const INCH: f64 = 0.0254;
 
@@ -41,17 +41,18 @@ fn assert_tangential(profile: &Profile) {
 #[test]
 fn analytic_a_fillet_between_lines() {
     let elements = [
-        Element::Line {
+        ChainElement::Line {
             point: [-1.0, 0.0],
             angle: 0.0,
         },
-        Element::Fillet { radius: -0.25 },
-        Element::Line {
+        ChainElement::Fillet { radius: -0.25 },
+        ChainElement::Line {
             point: [0.0, -1.0],
             angle: -FRAC_PI_2,
         },
     ];
-    let profile = Profile::of_chain("corner", Kind::Rail, [-1.0, 0.0], &elements, [0.0, -1.0]).unwrap();
+    let profile =
+        Profile::of_chain("corner", ProfileKind::Rail, [-1.0, 0.0], &elements, [0.0, -1.0]).unwrap();
     let [start, end] = profile.curve().range();
     assert_eq!(start, 0.0);
     assert!((end - (1.5 + 0.125 * PI)).abs() < 1e-12, "{end}");
@@ -68,17 +69,17 @@ fn analytic_a_fillet_between_lines() {
 #[test]
 fn analytic_a_fillet_between_circles() {
     let elements = [
-        Element::Circle {
+        ChainElement::Circle {
             center: [0.0, 0.0],
             radius: -10.0,
         },
-        Element::Fillet { radius: 3.0 },
-        Element::Circle {
+        ChainElement::Fillet { radius: 3.0 },
+        ChainElement::Circle {
             center: [14.0, 4.0],
             radius: -2.0,
         },
     ];
-    let profile = Profile::of_chain("wave", Kind::Rail, [-10.0, 0.0], &elements, [14.0, 6.0]).unwrap();
+    let profile = Profile::of_chain("wave", ProfileKind::Rail, [-10.0, 0.0], &elements, [14.0, 6.0]).unwrap();
     assert_tangential(&profile);
     let joints: Vec<f64> = profile.curve().joints().collect();
     let [p, q] = [joints[1], joints[2]].map(|joint| profile.curve().at(joint).position);
@@ -190,7 +191,7 @@ fn analytic_a_spline_through_points_of_a_circle() {
                 [0.3 * angle.sin(), 0.3 * angle.cos() - 0.3]
             })
             .collect();
-        let profile = Profile::of_points(&Points::new("arc", &points), Kind::Rail, 0.0).unwrap();
+        let profile = Profile::of_points(&Points::new("arc", &points), ProfileKind::Rail, 0.0).unwrap();
         assert!(profile.deviation().largest < 1e-16);
         assert_eq!(profile.deviation().points, count + 1);
         let sample = profile.curve().sample(1e-4);
@@ -223,7 +224,7 @@ fn analytic_smoothing_keeps_the_stated_deviation() {
         .collect();
     let points = Points::new("noisy", &points);
     let roughness = |deviation: f64| {
-        let profile = Profile::of_points(&points, Kind::Rail, deviation).unwrap();
+        let profile = Profile::of_points(&points, ProfileKind::Rail, deviation).unwrap();
         let found = profile.deviation();
         assert!(
             found.largest <= deviation.max(1e-15),
@@ -254,8 +255,8 @@ fn input_csv_with_units_and_senses() {
                  3;0;0\n4;0.031496062992126;0.787401574803150\n5;0.590551181102362;1.574803149606299\n";
     let [up, other] = [up, other].map(|text| Points::from_csv("rail.csv", text).unwrap());
     assert_eq!(up.lines, [3, 4, 5, 6, 7]);
-    let [up, other] = [up, other].map(|points| Profile::of_points(&points, Kind::Rail, 0.0).unwrap());
-    assert_eq!(up.kind(), Kind::Rail);
+    let [up, other] = [up, other].map(|points| Profile::of_points(&points, ProfileKind::Rail, 0.0).unwrap());
+    assert_eq!(up.kind(), ProfileKind::Rail);
     for ((_, a), (_, b)) in up
         .curve()
         .sample(1e-3)
@@ -267,7 +268,7 @@ fn input_csv_with_units_and_senses() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("rail.csv");
     std::fs::write(&file, "y [mm], z [mm]\n-40,-15\n-20,-0.8\n0,0\n20,-0.8\n40,-14\n").unwrap();
-    let read = Profile::read(&file, Kind::Rail, 0.0).unwrap();
+    let read = Profile::read(&file, ProfileKind::Rail, 0.0).unwrap();
     assert_eq!(read.curve(), up.curve());
 }
 
@@ -275,7 +276,7 @@ fn input_csv_with_units_and_senses() {
 /// face.
 #[test]
 fn input_simpack_profiles_of_the_manchester_benchmark() {
-    let wheel = Profile::read(&manchester("MBench_S1002_v3.prw"), Kind::Wheel, 0.0).unwrap();
+    let wheel = Profile::read(&manchester("MBench_S1002_v3.prw"), ProfileKind::Wheel, 0.0).unwrap();
     let [_, bottom] = wheel.bottom();
     assert!(
         (bottom + 0.028).abs() < 1e-5,
@@ -283,7 +284,7 @@ fn input_simpack_profiles_of_the_manchester_benchmark() {
     );
     let tip = wheel.bottom()[0];
     assert!(tip > -0.058 && tip < -0.052, "{tip}");
-    let rail = Profile::read(&manchester("MBench_UIC60_v3.prr"), Kind::Rail, 0.0).unwrap();
+    let rail = Profile::read(&manchester("MBench_UIC60_v3.prr"), ProfileKind::Rail, 0.0).unwrap();
     let [y, z] = rail.top();
     assert!(y.abs() < 3e-3 && z.abs() < 1e-5, "{y} {z}");
     let gauge = rail.gauge_point(0.014);
@@ -296,7 +297,7 @@ fn input_simpack_profiles_of_the_manchester_benchmark() {
         matches!(error, ProfileError::WiderThanGauge { .. }) && error.to_string().contains("1435.0 mm"),
         "{error}"
     );
-    let exchanged = Profile::read(&manchester("MBench_UIC60_v3.prr"), Kind::Wheel, 0.0).unwrap_err();
+    let exchanged = Profile::read(&manchester("MBench_UIC60_v3.prr"), ProfileKind::Wheel, 0.0).unwrap_err();
     assert!(exchanged.to_string().contains("profile of a rail"), "{exchanged}");
     assert!(exchanged.remedy().contains("exchange"));
 }
@@ -310,7 +311,7 @@ fn input_simpack_keys_are_applied() {
                 units.ang.f = 57.29577951308232\n \
                 point.begin\n 1.0 2.0 1.0\n 1.0 7.0\n !3 4\n point.end\nspline.end\n";
     let points = Points::from_simpack("a.prr", text).unwrap();
-    assert_eq!(points.kind, Some(Kind::Rail));
+    assert_eq!(points.kind, Some(ProfileKind::Rail));
     assert_eq!(points.lines, [14], "the second point lies beyond the bound");
     // (1, 2) + (2, 1) = (3, 3), turned (-3, 3), mirrored (3, 3), z up and mm: (0.003, -0.003).
     let [y, z] = points.points[0];
@@ -371,10 +372,10 @@ fn input_wrong_units_orientation_and_crossings_are_refused() {
         .map(|i| [5e-3 * f64::from(i), -9.0 * (5e-3 * f64::from(i)).powi(2)])
         .collect();
     let judge = |points: &[[f64; 2]], kind| Profile::of_points(&Points::new("p", points), kind, 0.0);
-    assert!(judge(&rail, Kind::Rail).is_ok());
+    assert!(judge(&rail, ProfileKind::Rail).is_ok());
     let scaled = |factor: f64| -> Vec<[f64; 2]> { rail.iter().map(|p| p.map(|x| factor * x)).collect() };
     for (factor, words) in [(1e3, "mm that are called m"), (1e-3, "m that are called mm")] {
-        let error = judge(&scaled(factor), Kind::Rail).unwrap_err();
+        let error = judge(&scaled(factor), ProfileKind::Rail).unwrap_err();
         assert!(
             matches!(error, ProfileError::Units { .. }) && error.remedy().contains(words),
             "{}",
@@ -382,28 +383,28 @@ fn input_wrong_units_orientation_and_crossings_are_refused() {
         );
     }
     let upside_down: Vec<[f64; 2]> = rail.iter().map(|[y, z]| [*y, -z]).collect();
-    let error = judge(&upside_down, Kind::Rail).unwrap_err();
+    let error = judge(&upside_down, ProfileKind::Rail).unwrap_err();
     assert!(error.remedy().contains("z_down"), "{error}");
     let aside: Vec<[f64; 2]> = rail.iter().map(|[y, z]| [y + 0.1, *z]).collect();
     assert!(
-        judge(&aside, Kind::Rail)
+        judge(&aside, ProfileKind::Rail)
             .unwrap_err()
             .to_string()
             .contains("datum")
     );
     let mut crossing = rail.clone();
     crossing.swap(6, 10);
-    let error = judge(&crossing, Kind::Rail).unwrap_err();
+    let error = judge(&crossing, ProfileKind::Rail).unwrap_err();
     assert!(
         matches!(error, ProfileError::SelfCrossing { .. }) && error.to_string().contains("p, line"),
         "{error}"
     );
     assert!(matches!(
-        judge(&rail[..4], Kind::Rail),
+        judge(&rail[..4], ProfileKind::Rail),
         Err(ProfileError::TooFew { points: 4, .. })
     ));
     assert!(matches!(
-        Profile::of_points(&Points::new("p", &rail), Kind::Rail, -1e-6),
+        Profile::of_points(&Points::new("p", &rail), ProfileKind::Rail, -1e-6),
         Err(ProfileError::Number { .. })
     ));
     // A wheel whose flange lies on the field side, and one whose flange points up.
@@ -414,17 +415,17 @@ fn input_wrong_units_orientation_and_crossings_are_refused() {
         .iter()
         .map(|(_, p)| p.position)
         .collect();
-    assert!(judge(&sample, Kind::Wheel).is_ok());
+    assert!(judge(&sample, ProfileKind::Wheel).is_ok());
     let mirrored: Vec<[f64; 2]> = sample.iter().map(|[y, z]| [-y, *z]).collect();
     assert!(
-        judge(&mirrored, Kind::Wheel)
+        judge(&mirrored, ProfileKind::Wheel)
             .unwrap_err()
             .remedy()
             .contains("mirror.y")
     );
     let raised: Vec<[f64; 2]> = sample.iter().map(|[y, z]| [*y, -z]).collect();
     assert!(
-        judge(&raised, Kind::Wheel)
+        judge(&raised, ProfileKind::Wheel)
             .unwrap_err()
             .remedy()
             .contains("mirror.z")
@@ -434,11 +435,11 @@ fn input_wrong_units_orientation_and_crossings_are_refused() {
 /// Chains that cannot be.
 #[test]
 fn input_elements_that_do_not_join_are_refused_with_their_number() {
-    let line = |z: f64, angle: f64| Element::Line {
+    let line = |z: f64, angle: f64| ChainElement::Line {
         point: [0.0, z],
         angle,
     };
-    let circle = |z: f64, radius: f64| Element::Circle {
+    let circle = |z: f64, radius: f64| ChainElement::Circle {
         center: [0.0, z],
         radius,
     };
@@ -454,17 +455,21 @@ fn input_elements_that_do_not_join_are_refused_with_their_number() {
             "element 2 (from 1) does not touch",
         ),
         (
-            vec![line(0.0, 0.0), Element::Fillet { radius: 0.01 }],
+            vec![line(0.0, 0.0), ChainElement::Fillet { radius: 0.01 }],
             "element 2 (from 1) is a fillet at an end",
         ),
         (
-            vec![line(0.0, 0.0), Element::Fillet { radius: 0.01 }, line(0.1, 0.0)],
+            vec![
+                line(0.0, 0.0),
+                ChainElement::Fillet { radius: 0.01 },
+                line(0.1, 0.0),
+            ],
             "element 2 (from 1) has no place",
         ),
         (vec![circle(0.0, 0.0)], "element 1 (from 1) has a radius of zero"),
         (vec![line(0.0, PI)], "element 1 (from 1) ends before it begins"),
     ] {
-        let error = Profile::of_chain("c", Kind::Rail, ends.0, &elements, ends.1).unwrap_err();
+        let error = Profile::of_chain("c", ProfileKind::Rail, ends.0, &elements, ends.1).unwrap_err();
         assert!(error.to_string().contains(found), "{error}, not {found}");
         assert!(!error.remedy().is_empty());
     }
@@ -480,7 +485,7 @@ fn limits_repeated_points_are_left_out() {
         let z = 0.3 - (0.09 + y * y).sqrt();
         points.extend([[y, z], [y + 1e-9, z], [y, z]]);
     }
-    let profile = Profile::of_points(&Points::new("repeated", &points), Kind::Rail, 0.0).unwrap();
+    let profile = Profile::of_points(&Points::new("repeated", &points), ProfileKind::Rail, 0.0).unwrap();
     assert_eq!(profile.deviation().points, 41);
     let [start, end] = profile.curve().range();
     let middle = profile.convexity(0.5 * (start + end));
@@ -492,7 +497,7 @@ fn limits_repeated_points_are_left_out() {
 fn input_a_point_far_off_is_refused_with_its_line() {
     let text = "y [mm], z [mm]\n-30, -1.5\n-20, -0.7\n-10, -0846723\n0, 0\n10, -0.2\n20, -0.7\n30, -1.5\n";
     let points = Points::from_csv("rail.csv", text).unwrap();
-    let error = Profile::of_points(&points, Kind::Rail, 0.0).unwrap_err();
+    let error = Profile::of_points(&points, ProfileKind::Rail, 0.0).unwrap_err();
     let message = error.to_string();
     assert!(
         message.contains("rail.csv, line") && message.contains("no profile has more than 300 mm"),

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use wheelrail::contact::{ContactPair, Side, WheelPose};
 use wheelrail::hertz::Material;
-use wheelrail::profile::{Kind, Points, Profile, nominal};
+use wheelrail::profile::{Points, Profile, ProfileKind, nominal};
 
 /// A generator of numbers without meaning (Knuth's linear congruence).
 struct Random(u64);
@@ -70,7 +70,7 @@ fn limits_broken_files_are_read_or_refused() {
             true => Points::from_simpack("broken", &text),
             false => Points::from_csv("broken", &text),
         };
-        let profile = points.and_then(|points| Profile::of_points(&points, Kind::Wheel, 1e-5));
+        let profile = points.and_then(|points| Profile::of_points(&points, ProfileKind::Wheel, 1e-5));
         match profile.and_then(|profile| ContactPair::new(&profile, 0.46, &rail, steel)) {
             Ok(pair) => {
                 let pose = WheelPose::of(Side::Left, [0.0, 0.4599], 1e-3, 0.0);
@@ -98,7 +98,7 @@ fn limits_the_largest_file_takes_a_moment() {
         })
         .collect();
     let started = std::time::Instant::now();
-    let profile = Profile::of_points(&Points::new("large", &points), Kind::Rail, 1e-6).unwrap();
+    let profile = Profile::of_points(&Points::new("large", &points), ProfileKind::Rail, 1e-6).unwrap();
     // Points are 1.4 μm apart, and one of eight is kept.
     assert!(profile.deviation().points > 10_000 && profile.deviation().largest <= 1e-6);
     assert!(started.elapsed().as_secs_f64() < 30.0);

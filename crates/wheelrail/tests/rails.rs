@@ -4,8 +4,8 @@
 use numerics::scalar::{Dual, Real};
 use wheelrail::track::spectrum::{Realization, Spectrum};
 use wheelrail::track::{
-    CenterLine, CurveElements, Direction, Irregularity, Line, Placed, RailLines, Rails, Section, Segment,
-    Track,
+    CenterLine, CurveElements, Direction, Irregularity, Line, Placed, RailLines, Rails, Segment, Track,
+    TrackSection,
 };
 
 const DISTANCE: f64 = 1.51;
@@ -48,7 +48,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// Returns the point with these coordinates in a section.
-fn point(section: &Section<f64>, own: [f64; 3]) -> [f64; 3] {
+fn point(section: &TrackSection<f64>, own: [f64; 3]) -> [f64; 3] {
     let arm = section.fixed(own);
     [0, 1, 2].map(|i| section.origin[i] + arm[i])
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use wheelrail::conicity::{ConicityError, LinearGeometry, RollingRadiusDifference};
 use wheelrail::hertz::Material;
-use wheelrail::profile::{Kind, Profile, ProfileError, nominal};
+use wheelrail::profile::{Profile, ProfileError, ProfileKind, nominal};
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
 const STEEL: Material = Material {
@@ -42,8 +42,8 @@ fn freight() -> RigidWheelset {
 
 fn manchester() -> RigidWheelset {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/manchester");
-    let wheel = Profile::read(&folder.join("MBench_S1002_v3.prw"), Kind::Wheel, 0.0).unwrap();
-    let rail = Profile::read(&folder.join("MBench_UIC60_v3.prr"), Kind::Rail, 0.0).unwrap();
+    let wheel = Profile::read(&folder.join("MBench_S1002_v3.prw"), ProfileKind::Wheel, 0.0).unwrap();
+    let rail = Profile::read(&folder.join("MBench_UIC60_v3.prr"), ProfileKind::Rail, 0.0).unwrap();
     let layout = Layout {
         tape_distance: 1.5,
         gauge: 1.435,
@@ -117,8 +117,8 @@ fn reproduction_conicities_of_en_15302_from_rolling_radius_differences() {
 #[test]
 fn reproduction_conicities_of_en_15302_from_profiles() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/en15302");
-    let wheel = Profile::read(&folder.join("wheel_a.csv"), Kind::Wheel, 0.0).unwrap();
-    let rail = Profile::read(&folder.join("rail_a.csv"), Kind::Rail, 0.0).unwrap();
+    let wheel = Profile::read(&folder.join("wheel_a.csv"), ProfileKind::Wheel, 0.0).unwrap();
+    let rail = Profile::read(&folder.join("rail_a.csv"), ProfileKind::Rail, 0.0).unwrap();
     let layout = Layout {
         tape_distance: 1.5,
         gauge: 1.435,

@@ -56,7 +56,7 @@ fn measure(name: &str, step: f64, read: bool) -> Result<f64, Box<dyn std::error:
         .description()
         .variables
         .iter()
-        .filter(|variable| matches!(variable.role, fmi::variable::Role::Output(_)))
+        .filter(|variable| matches!(variable.role, fmi::variable::VariableRole::Output(_)))
         .map(|variable| variable.reference)
         .collect();
     instance.enter_initialization()?;

@@ -9,13 +9,13 @@ use numerics::scalar::{Dual, Number};
 use wheelrail::contact::{
     ContactLaw, ContactPair, ContactTable, CreepLaw, FindPatches, Side, WheelMotion, WheelPose,
 };
-use wheelrail::creep::fastsim::Grid;
+use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::{Creepage, Patch, fastsim, linear, polach, shen_hedrick_elkins};
 use wheelrail::hertz::{Hertz, Material};
 use wheelrail::profile::nominal;
 
 const BATCHES: u32 = 40;
-const GRID: Grid = Grid {
+const GRID: StripGrid = StripGrid {
     cells: 21,
     strips: 21,
 };

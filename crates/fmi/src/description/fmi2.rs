@@ -2,7 +2,7 @@
 
 use super::xml::{Attributes, Xml, list, number};
 use super::{Description, Version};
-use crate::variable::{Causality, Role, Start, Variability, Variable};
+use crate::variable::{Causality, Start, Variability, Variable, VariableRole};
 use crate::{Category, Error};
 
 pub(super) fn write(description: &Description) -> Result<String, Error> {
@@ -99,8 +99,8 @@ fn write_variable(xml: &mut Xml, description: &Description, variable: &Variable)
                 }
                 typed.extend(variable.nominal.map(|nominal| ("nominal", number(nominal))));
                 typed.extend(start.map(|start| ("start", number(start))));
-                if let Role::Rate(state) = variable.role {
-                    let index = description.reference(Role::State(state)).map(index);
+                if let VariableRole::Rate(state) = variable.role {
+                    let index = description.reference(VariableRole::State(state)).map(index);
                     typed.extend(index.map(|index| ("derivative", index.to_string())));
                 }
                 "Real"
@@ -134,7 +134,7 @@ fn structure(xml: &mut Xml, description: &Description) -> Result<(), Error> {
             ("dependencies", dependencies),
         ]
     };
-    let rates = || description.those(|role| matches!(role, Role::Rate(_)));
+    let rates = || description.those(|role| matches!(role, VariableRole::Rate(_)));
     xml.element("Outputs", &[], |xml| {
         description
             .outputs()
@@ -149,7 +149,10 @@ fn structure(xml: &mut Xml, description: &Description) -> Result<(), Error> {
             .those(|role| {
                 matches!(
                     role,
-                    Role::Output(_) | Role::ContactState(_) | Role::State(_) | Role::Rate(_)
+                    VariableRole::Output(_)
+                        | VariableRole::ContactState(_)
+                        | VariableRole::State(_)
+                        | VariableRole::Rate(_)
                 )
             })
             .filter(|variable| variable.variability != Variability::Fixed)

@@ -2,7 +2,7 @@
 
 use super::xml::{Attributes, Xml, list, number};
 use super::{Description, Version};
-use crate::variable::{Causality, Role, Start, Variable};
+use crate::variable::{Causality, Start, Variable, VariableRole};
 use crate::{Category, Error};
 
 pub(super) fn write(description: &Description) -> Result<String, Error> {
@@ -90,8 +90,8 @@ fn write_variable(xml: &mut Xml, description: &Description, variable: &Variable)
             }
             attributes.extend(variable.nominal.map(|nominal| ("nominal", number(nominal))));
             attributes.extend(start.map(|start| ("start", number(start))));
-            if let Role::Rate(state) = variable.role {
-                let reference = description.reference(Role::State(state));
+            if let VariableRole::Rate(state) = variable.role {
+                let reference = description.reference(VariableRole::State(state));
                 attributes.extend(reference.map(|reference| ("derivative", reference.to_string())));
             }
             "Float64"
@@ -123,14 +123,17 @@ fn structure(xml: &mut Xml, description: &Description) -> Result<(), Error> {
     for variable in description.outputs() {
         with_dependencies(xml, "Output", variable)?;
     }
-    for variable in description.those(|role| matches!(role, Role::Rate(_))) {
+    for variable in description.those(|role| matches!(role, VariableRole::Rate(_))) {
         with_dependencies(xml, "ContinuousStateDerivative", variable)?;
     }
     // At the start everything depends on all inputs and parameters, which is what no list means.
     for variable in description.those(|role| {
         matches!(
             role,
-            Role::Output(_) | Role::ContactState(_) | Role::State(_) | Role::Rate(_)
+            VariableRole::Output(_)
+                | VariableRole::ContactState(_)
+                | VariableRole::State(_)
+                | VariableRole::Rate(_)
         )
     }) {
         xml.empty(
@@ -138,7 +141,7 @@ fn structure(xml: &mut Xml, description: &Description) -> Result<(), Error> {
             &[("valueReference", variable.reference.to_string())],
         )?;
     }
-    for variable in description.those(|role| matches!(role, Role::Indicator(_))) {
+    for variable in description.those(|role| matches!(role, VariableRole::Indicator(_))) {
         with_dependencies(xml, "EventIndicator", variable)?;
     }
     Ok(())

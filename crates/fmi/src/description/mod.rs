@@ -7,10 +7,10 @@ pub(crate) mod xml;
 use sha2::{Digest, Sha256};
 
 use crate::Error;
-use crate::element::{Entries, Entry};
+use crate::element::{Entries, QuantityEntry};
 use crate::source::Source;
 use crate::unit::Unit;
-use crate::variable::{Causality, Role, Start, Variability, Variable};
+use crate::variable::{Causality, Start, Variability, Variable, VariableRole};
 
 /// The version of the standard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -197,7 +197,7 @@ impl Description {
 
     /// Returns the reference of what stands behind a variable.
     #[must_use]
-    pub fn reference(&self, role: Role) -> Option<u32> {
+    pub fn reference(&self, role: VariableRole) -> Option<u32> {
         self.variables
             .iter()
             .find(|variable| variable.role == role)
@@ -241,25 +241,25 @@ impl Description {
     }
 
     /// On which variables an unknown depends; each list in the order of references.
-    fn dependencies(&self, role: Role) -> Vec<u32> {
+    fn dependencies(&self, role: VariableRole) -> Vec<u32> {
         let entries = &self.entries;
         let states = entries.states.len() - entries.accumulators;
         let depends = |variable: &&Variable| match (role, variable.role) {
             // Work and losses are accumulated: nothing depends on them.
-            (Role::Output(_), Role::State(state)) => state < states,
-            (Role::Output(_), Role::Input(_)) => !entries.outputs_of_states,
+            (VariableRole::Output(_), VariableRole::State(state)) => state < states,
+            (VariableRole::Output(_), VariableRole::Input(_)) => !entries.outputs_of_states,
             // A state that is an output.
-            (Role::State(output), Role::State(state)) => output == state,
-            (Role::Rate(rate), other) => match entries.kinematic.iter().find(|(q, _)| *q == rate) {
-                Some((_, speed)) => other == Role::State(*speed),
+            (VariableRole::State(output), VariableRole::State(state)) => output == state,
+            (VariableRole::Rate(rate), other) => match entries.kinematic.iter().find(|(q, _)| *q == rate) {
+                Some((_, speed)) => other == VariableRole::State(*speed),
                 None => match other {
-                    Role::State(state) => state < states,
-                    Role::Input(_) => true,
+                    VariableRole::State(state) => state < states,
+                    VariableRole::Input(_) => true,
                     _ => false,
                 },
             },
-            (Role::Indicator(_), Role::State(state)) => state < states,
-            (Role::Indicator(_), Role::Input(_)) => true,
+            (VariableRole::Indicator(_), VariableRole::State(state)) => state < states,
+            (VariableRole::Indicator(_), VariableRole::Input(_)) => true,
             _ => false,
         };
         self.variables
@@ -277,7 +277,7 @@ impl Description {
     }
 
     /// Variables with a role of a kind, in the order of references.
-    fn those(&self, is: impl Fn(Role) -> bool) -> impl Iterator<Item = &Variable> {
+    fn those(&self, is: impl Fn(VariableRole) -> bool) -> impl Iterator<Item = &Variable> {
         self.variables.iter().filter(move |variable| is(variable.role))
     }
 }
@@ -287,7 +287,7 @@ fn variables(entries: &Entries) -> Vec<Variable> {
         reference: 0,
         name: "time".to_owned(),
         text: "time".to_owned(),
-        role: Role::Time,
+        role: VariableRole::Time,
         unit: Some(Unit::Of(quantity::Kind::Time)),
         causality: Causality::Independent,
         variability: Variability::Continuous,
@@ -295,36 +295,52 @@ fn variables(entries: &Entries) -> Vec<Variable> {
         nominal: None,
         reach: None,
     }];
-    let mut add = |entry: &Entry, role: Role, causality: Causality, variability: Variability| {
-        variables.push(Variable {
-            reference: variables.len() as u32,
-            name: entry.name.clone(),
-            text: entry.text.clone(),
-            role,
-            unit: entry.unit.filter(|unit| unit.name().is_some()),
-            causality,
-            variability,
-            start: entry.start,
-            nominal: entry.nominal,
-            reach: entry.reach,
-        });
-    };
+    let mut add =
+        |entry: &QuantityEntry, role: VariableRole, causality: Causality, variability: Variability| {
+            variables.push(Variable {
+                reference: variables.len() as u32,
+                name: entry.name.clone(),
+                text: entry.text.clone(),
+                role,
+                unit: entry.unit.filter(|unit| unit.name().is_some()),
+                causality,
+                variability,
+                start: entry.start,
+                nominal: entry.nominal,
+                reach: entry.reach,
+            });
+        };
     for (i, entry) in entries.inputs.iter().enumerate() {
-        add(entry, Role::Input(i), Causality::Input, Variability::Continuous);
+        add(
+            entry,
+            VariableRole::Input(i),
+            Causality::Input,
+            Variability::Continuous,
+        );
     }
     for (i, entry) in entries.outputs.iter().enumerate() {
-        add(entry, Role::Output(i), Causality::Output, Variability::Continuous);
+        add(
+            entry,
+            VariableRole::Output(i),
+            Causality::Output,
+            Variability::Continuous,
+        );
     }
     for (i, entry) in entries.modes.iter().enumerate() {
         add(
             entry,
-            Role::ContactState(i),
+            VariableRole::ContactState(i),
             Causality::Output,
             Variability::Discrete,
         );
     }
     for (i, entry) in entries.options.iter().enumerate() {
-        add(entry, Role::Option(i), Causality::Parameter, Variability::Fixed);
+        add(
+            entry,
+            VariableRole::Option(i),
+            Causality::Parameter,
+            Variability::Fixed,
+        );
     }
     for (i, entry) in entries.parameters.iter().enumerate() {
         let variability = if entry.tunable {
@@ -332,7 +348,12 @@ fn variables(entries: &Entries) -> Vec<Variable> {
         } else {
             Variability::Fixed
         };
-        add(entry, Role::Parameter(i), Causality::Parameter, variability);
+        add(
+            entry,
+            VariableRole::Parameter(i),
+            Causality::Parameter,
+            variability,
+        );
     }
     for (i, entry) in entries.states.iter().enumerate() {
         let causality = if entry.output {
@@ -340,24 +361,34 @@ fn variables(entries: &Entries) -> Vec<Variable> {
         } else {
             Causality::Local
         };
-        add(entry, Role::State(i), causality, Variability::Continuous);
+        add(entry, VariableRole::State(i), causality, Variability::Continuous);
     }
     for (i, state) in entries.states.iter().enumerate() {
-        let rate = Entry::real(
+        let rate = QuantityEntry::real(
             format!("der({})", state.name),
             state.unit.map(Unit::rate),
             None,
             format!("rate of {}", state.name),
         );
-        add(&rate, Role::Rate(i), Causality::Local, Variability::Continuous);
+        add(
+            &rate,
+            VariableRole::Rate(i),
+            Causality::Local,
+            Variability::Continuous,
+        );
     }
     for (i, entry) in entries.columns.iter().enumerate() {
-        add(entry, Role::Column(i), Causality::Local, Variability::Continuous);
+        add(
+            entry,
+            VariableRole::Column(i),
+            Causality::Local,
+            Variability::Continuous,
+        );
     }
     for (i, entry) in entries.indicators.iter().enumerate() {
         add(
             entry,
-            Role::Indicator(i),
+            VariableRole::Indicator(i),
             Causality::Local,
             Variability::Continuous,
         );

@@ -7,7 +7,7 @@ use mechanics::system::{EnergyTermKind, System};
 use study::half_truck::HalfTruckCase;
 
 use super::start_option;
-use crate::element::{Entries, Entry};
+use crate::element::{Entries, QuantityEntry};
 use crate::system::{
     Ports, accumulated, add_loads, add_motion, add_table, contact, deflection, ledger, motions, options,
 };
@@ -56,7 +56,7 @@ pub(super) fn all(case: &HalfTruckCase, system: &System, table: &[Column]) -> (E
     (entries, ports)
 }
 
-fn states(case: &HalfTruckCase, system: &System) -> Vec<Entry> {
+fn states(case: &HalfTruckCase, system: &System) -> Vec<QuantityEntry> {
     let truck = &case.truck;
     let mut states = motions(system, |body| format!("body_{}", truck.bodies[body]));
     for state in &mut states {
@@ -104,7 +104,7 @@ fn connection(case: &HalfTruckCase, place: usize) -> String {
 }
 
 /// Contact states and event indicators of all connections with friction.
-fn contacts(case: &HalfTruckCase, system: &System) -> (Vec<Entry>, Vec<Entry>) {
+fn contacts(case: &HalfTruckCase, system: &System) -> (Vec<QuantityEntry>, Vec<QuantityEntry>) {
     let names = system.frictional_connections().iter();
     names.map(|place| contact(&connection(case, *place))).unzip()
 }

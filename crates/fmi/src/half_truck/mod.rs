@@ -19,7 +19,7 @@ use study::half_truck::{HalfTruckCase, HalfTruckStart, catalog};
 
 use crate::Error;
 use crate::element::Setting;
-use crate::system::{MOTION, Plant, START, Start, SystemElement};
+use crate::system::{MOTION, Plant, START, StartState, SystemElement};
 
 /// The file with the run.
 pub const RESOURCE: &str = "run.json";
@@ -176,8 +176,8 @@ impl HalfTruck {
         let option = |place: usize| setting.options.get(place).copied().unwrap_or(0);
         let driven = option(MOTION) == 0;
         let start = match option(START) {
-            0 => Start::Initial,
-            _ => Start::Equilibrium,
+            0 => StartState::Initial,
+            _ => StartState::Equilibrium,
         };
         SystemElement::new(self.plant()?, setting, start, driven)
     }

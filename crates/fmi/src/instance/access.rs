@@ -3,7 +3,7 @@
 use super::{Instance, Phase};
 use crate::Error;
 use crate::element::Interface;
-use crate::variable::{Causality, Role, Start, Variability, Variable};
+use crate::variable::{Causality, Start, Variability, Variable, VariableRole};
 
 /// The type that a call is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,11 +65,11 @@ impl Instance {
         let role = self.find(reference, Type::Float)?.role;
         let damaged = || Error::new(format!("the variable {reference} has no value"));
         match role {
-            Role::Time => Ok(self.time),
-            Role::Input(i) => self.values.inputs.get(i).copied().ok_or_else(damaged),
-            Role::Parameter(i) => self.values.parameters.get(i).copied().ok_or_else(damaged),
-            Role::State(i) => self.fresh()?.states().get(i).copied().ok_or_else(damaged),
-            Role::Output(i) => {
+            VariableRole::Time => Ok(self.time),
+            VariableRole::Input(i) => self.values.inputs.get(i).copied().ok_or_else(damaged),
+            VariableRole::Parameter(i) => self.values.parameters.get(i).copied().ok_or_else(damaged),
+            VariableRole::State(i) => self.fresh()?.states().get(i).copied().ok_or_else(damaged),
+            VariableRole::Output(i) => {
                 if self.outputs.is_none() {
                     let mut outputs = vec![0.0; self.description.entries.outputs.len()];
                     self.fresh()?.outputs(&mut outputs)?;
@@ -80,7 +80,7 @@ impl Instance {
                     .and_then(|outputs| outputs.get(i).copied())
                     .ok_or_else(damaged)
             }
-            Role::Column(i) => {
+            VariableRole::Column(i) => {
                 if self.columns.is_none() {
                     let mut columns = vec![0.0; self.description.entries.columns.len()];
                     self.fresh()?.columns(&mut columns);
@@ -91,17 +91,17 @@ impl Instance {
                     .and_then(|columns| columns.get(i).copied())
                     .ok_or_else(damaged)
             }
-            Role::Rate(i) => {
+            VariableRole::Rate(i) => {
                 let mut rates = vec![0.0; self.description.entries.states.len()];
                 self.fresh()?.rates(&mut rates)?;
                 rates.get(i).copied().ok_or_else(damaged)
             }
-            Role::Indicator(i) => {
+            VariableRole::Indicator(i) => {
                 let mut indicators = vec![0.0; self.description.entries.indicators.len()];
                 self.fresh()?.indicators(&mut indicators);
                 indicators.get(i).copied().ok_or_else(damaged)
             }
-            Role::Option(_) | Role::ContactState(_) => Err(damaged()),
+            VariableRole::Option(_) | VariableRole::ContactState(_) => Err(damaged()),
         }
     }
 
@@ -111,11 +111,11 @@ impl Instance {
     /// There is no such variable, or no element starts from the values set so far.
     pub fn get_integer(&mut self, reference: u32) -> Result<i32, Error> {
         match self.find(reference, Type::Integer)?.role {
-            Role::ContactState(i) => {
+            VariableRole::ContactState(i) => {
                 let mode = self.fresh()?.modes().get(i).copied();
                 Ok(i32::from(mode.unwrap_or(0)))
             }
-            Role::Option(i) => Ok(self.values.options.get(i).copied().unwrap_or(0)),
+            VariableRole::Option(i) => Ok(self.values.options.get(i).copied().unwrap_or(0)),
             _ => Err(Error::new(format!("the variable {reference} has no value"))),
         }
     }
@@ -126,7 +126,7 @@ impl Instance {
     /// There is no such variable.
     pub fn get_boolean(&mut self, reference: u32) -> Result<bool, Error> {
         match self.find(reference, Type::Boolean)?.role {
-            Role::Option(i) => Ok(self.values.options.get(i).copied().unwrap_or(0) != 0),
+            VariableRole::Option(i) => Ok(self.values.options.get(i).copied().unwrap_or(0) != 0),
             _ => Err(Error::new(format!("the variable {reference} has no value"))),
         }
     }
@@ -181,7 +181,7 @@ impl Instance {
         self.may_set_float(reference, value)?;
         let role = self.find(reference, Type::Float)?.role;
         match role {
-            Role::Input(i) => {
+            VariableRole::Input(i) => {
                 if let Some(input) = self.values.inputs.get_mut(i) {
                     *input = value;
                 }
@@ -193,7 +193,7 @@ impl Instance {
                     self.changed();
                 }
             }
-            Role::Parameter(i) => {
+            VariableRole::Parameter(i) => {
                 let mut parameters = self.values.parameters.clone();
                 if let Some(parameter) = parameters.get_mut(i) {
                     *parameter = value;
@@ -226,7 +226,7 @@ impl Instance {
 
     fn set_option(&mut self, reference: u32, value: i32, wanted: Type) -> Result<(), Error> {
         self.may_set_option(reference, value, wanted)?;
-        if let Role::Option(i) = self.find(reference, wanted)?.role {
+        if let VariableRole::Option(i) = self.find(reference, wanted)?.role {
             if let Some(option) = self.values.options.get_mut(i) {
                 *option = value;
             }
@@ -274,7 +274,7 @@ impl Instance {
     /// There is no such input, another order than 1, or a value that is not finite.
     pub fn set_input_derivative(&mut self, reference: u32, order: i32, value: f64) -> Result<(), Error> {
         let variable = self.find(reference, Type::Float)?;
-        let Role::Input(i) = variable.role else {
+        let VariableRole::Input(i) = variable.role else {
             return Err(Error::new(format!("`{}` is no input", variable.name)));
         };
         if order != 1 {
@@ -333,8 +333,8 @@ impl Instance {
         for (reference, value) in knowns.iter().zip(seed) {
             let variable = self.find(*reference, Type::Float)?;
             let place = match variable.role {
-                Role::State(i) => states.get_mut(i),
-                Role::Input(i) => inputs.get_mut(i),
+                VariableRole::State(i) => states.get_mut(i),
+                VariableRole::Input(i) => inputs.get_mut(i),
                 _ => None,
             };
             match place {
@@ -351,8 +351,8 @@ impl Instance {
         for (reference, target) in unknowns.iter().zip(out) {
             let variable = self.find(*reference, Type::Float)?;
             let value = match variable.role {
-                Role::Output(i) => slopes.outputs.get(i),
-                Role::Rate(i) => slopes.rates.get(i),
+                VariableRole::Output(i) => slopes.outputs.get(i),
+                VariableRole::Rate(i) => slopes.rates.get(i),
                 _ => None,
             };
             *target = *value.ok_or_else(|| {

@@ -352,7 +352,7 @@ fn check_experiment(start: f64, stop: Option<f64>, tolerance: Option<f64>) -> Re
 impl Values {
     fn of(description: &Description) -> Self {
         let entries = &description.entries;
-        let real = |entry: &crate::element::Entry| match entry.start {
+        let real = |entry: &crate::element::QuantityEntry| match entry.start {
             Start::Float(Some(start)) => start,
             _ => 0.0,
         };

@@ -9,8 +9,8 @@ use mechanics::system::{EnergyTermKind, System, scales};
 use mechanics::vector::Vector;
 use quantity::Kind;
 
-use super::ports::{Direction, LoadPort, MotionPort, Ports, Reading, coordinates};
-use crate::element::{Entries, Entry};
+use super::ports::{LoadPort, MotionPort, PortDirection, Ports, Reading, coordinates};
+use crate::element::{Entries, QuantityEntry};
 use crate::unit::Unit;
 
 /// Returns the unit of a kind.
@@ -29,14 +29,14 @@ pub(crate) fn kinds(coordinate: usize) -> (Kind, Kind) {
 }
 
 /// Returns the input that loads a coordinate of a body, such as `force_on_body_x` or `moment_on_body_roll`.
-pub(crate) fn load(prefix: &str, on: &str, coordinate: usize, text: &str) -> Entry {
+pub(crate) fn load(prefix: &str, on: &str, coordinate: usize, text: &str) -> QuantityEntry {
     let axis = ["x", "y", "z"][coordinate % 3];
     let (load, kind) = if coordinate < 3 {
         ("force", Kind::Force)
     } else {
         ("moment", Kind::Moment)
     };
-    Entry::real(
+    QuantityEntry::real(
         format!("{prefix}{load}_on_{on}_{}", COORDINATES[coordinate]),
         unit(kind),
         Some(0.0),
@@ -46,7 +46,7 @@ pub(crate) fn load(prefix: &str, on: &str, coordinate: usize, text: &str) -> Ent
 
 /// Adds inputs for value and rate of a coordinate of a prescribed body; they start where its own motion does.
 pub(crate) fn add_motion(
-    (inputs, ports): (&mut Vec<Entry>, &mut Ports),
+    (inputs, ports): (&mut Vec<QuantityEntry>, &mut Ports),
     (body, own): (usize, &Body),
     coordinate: usize,
     (name, text): (&str, &str),
@@ -54,10 +54,10 @@ pub(crate) fn add_motion(
     let [value, rate, _] = own.frame.motions[coordinate].evaluate(0.0, 0.0);
     let (kind, rate_kind) = kinds(coordinate);
     let position = inputs.len();
-    let mut entry = Entry::real(name, unit(kind), Some(value), text);
+    let mut entry = QuantityEntry::real(name, unit(kind), Some(value), text);
     entry.rate = Some(position + 1);
     inputs.push(entry);
-    inputs.push(Entry::real(
+    inputs.push(QuantityEntry::real(
         format!("{name}_rate"),
         unit(rate_kind),
         Some(rate),
@@ -73,14 +73,14 @@ pub(crate) fn add_motion(
 
 /// Adds inputs for force and moment along every free coordinate of a body.
 pub(crate) fn add_loads(
-    (inputs, ports): (&mut Vec<Entry>, &mut Ports),
+    (inputs, ports): (&mut Vec<QuantityEntry>, &mut Ports),
     (body, own): (usize, &Body),
     (name, text): (&str, &str),
 ) {
     for coordinate in (0..6).filter(|k| own.free[*k]) {
         ports.loads.push(LoadPort {
             input: inputs.len(),
-            direction: Direction::coordinate(body, coordinate),
+            direction: PortDirection::coordinate(body, coordinate),
         });
         inputs.push(load("", name, coordinate, text));
     }
@@ -105,7 +105,7 @@ pub(crate) fn add_table(
             continue;
         }
         let text = input::shortened(&column.text);
-        let entry = Entry::real(&column.name, unit(column.kind), None, text);
+        let entry = QuantityEntry::real(&column.name, unit(column.kind), None, text);
         if is_output(number, column) {
             entries.outputs.push(entry);
             ports.outputs.push(Reading::Table(number));
@@ -119,17 +119,17 @@ pub(crate) fn add_table(
 
 /// Returns the options of a system whose prescribed bodies inputs may move; `motion` and `start` are their
 /// texts, and how it starts if nothing is said.
-pub(crate) fn options(motion: &str, (start, text): (i32, &str)) -> Vec<Entry> {
+pub(crate) fn options(motion: &str, (start, text): (i32, &str)) -> Vec<QuantityEntry> {
     vec![
-        Entry::integer("motion", Some(0), [0, 1], motion),
-        Entry::integer("start", Some(start), [0, 1], text),
-        Entry::boolean(
+        QuantityEntry::integer("motion", Some(0), [0, 1], motion),
+        QuantityEntry::integer("start", Some(start), [0, 1], text),
+        QuantityEntry::boolean(
             "derive_rates",
             false,
             "co-simulation: rates of prescribed bodies are found from their positions, the inputs *_rate \
              are not read",
         ),
-        Entry::boolean(
+        QuantityEntry::boolean(
             "inputs_at_end",
             false,
             "co-simulation: inputs are those of the end of a communication step (else of its beginning, and \
@@ -139,15 +139,15 @@ pub(crate) fn options(motion: &str, (start, text): (i32, &str)) -> Vec<Entry> {
 }
 
 /// Returns contact state and event indicator of a contact.
-pub(crate) fn contact(name: &str) -> (Entry, Entry) {
+pub(crate) fn contact(name: &str) -> (QuantityEntry, QuantityEntry) {
     let words = name.replace('_', " ");
-    let state = Entry::integer(
+    let state = QuantityEntry::integer(
         &format!("{name}_state"),
         None,
         [0, 2],
         format!("contact state of {words}: 0 open, 1 stick, 2 slip"),
     );
-    let indicator = Entry::real(
+    let indicator = QuantityEntry::real(
         format!("{name}_event_indicator"),
         None,
         None,
@@ -157,7 +157,7 @@ pub(crate) fn contact(name: &str) -> (Entry, Entry) {
 }
 
 /// Returns contact states and event indicators of all points of faces, in the order of the contact states.
-pub(crate) fn contacts(system: &System) -> (Vec<Entry>, Vec<Entry>) {
+pub(crate) fn contacts(system: &System) -> (Vec<QuantityEntry>, Vec<QuantityEntry>) {
     let faces = 0..system.faces().len();
     let points = |face: usize| 0..system.faces()[face].element.points.len();
     let all = faces.flat_map(|face| points(face).map(move |number| (face, number)));
@@ -171,7 +171,7 @@ fn point(system: &System, face: usize, point: usize) -> String {
 }
 
 /// Returns the positions of all free bodies, then their rates, each with the name of its body and coordinate.
-pub(crate) fn motions(system: &System, name: impl Fn(usize) -> String) -> Vec<Entry> {
+pub(crate) fn motions(system: &System, name: impl Fn(usize) -> String) -> Vec<QuantityEntry> {
     let text =
         "displacement of the center of gravity, or angle, from the drawn position, in the truck's axes";
     states(system, text, |body, k| {
@@ -182,7 +182,7 @@ pub(crate) fn motions(system: &System, name: impl Fn(usize) -> String) -> Vec<En
 /// As [`motions`], of bodies whose reference frames stand in any way along the fixed axes: a coordinate has
 /// the name of the fixed axis along or about which it goes in the nominal layout, and `minus` if it goes the
 /// other way.
-pub(crate) fn motions_along_axes(system: &System) -> Vec<Entry> {
+pub(crate) fn motions_along_axes(system: &System) -> Vec<QuantityEntry> {
     let text = "displacement of the origin along a fixed axis, or angle about it, from the nominal layout; \
                 angles of a body follow each other";
     states(system, text, |body, k| {
@@ -196,7 +196,7 @@ pub(crate) fn motions_along_axes(system: &System) -> Vec<Entry> {
 }
 
 /// Returns positions, then rates; `name` gives the name of a coordinate of a body.
-fn states(system: &System, text: &str, name: impl Fn(usize, usize) -> String) -> Vec<Entry> {
+fn states(system: &System, text: &str, name: impl Fn(usize, usize) -> String) -> Vec<QuantityEntry> {
     let mut states = Vec::new();
     for rate in [false, true] {
         for (body, k) in coordinates(system) {
@@ -212,14 +212,17 @@ fn states(system: &System, text: &str, name: impl Fn(usize, usize) -> String) ->
             } else {
                 text
             };
-            states.push(with_nominal(Entry::real(name, unit(kind), None, text), nominal));
+            states.push(with_nominal(
+                QuantityEntry::real(name, unit(kind), None, text),
+                nominal,
+            ));
         }
     }
     states
 }
 
 /// Returns the internal states of a system: bristles by the points of their faces, others by their numbers.
-pub(crate) fn internals(system: &System) -> Vec<Entry> {
+pub(crate) fn internals(system: &System) -> Vec<QuantityEntry> {
     let mut names = vec![String::new(); system.layout().internals];
     for (face, own) in system.faces().iter().enumerate() {
         for internal in 0..own.internal_count {
@@ -247,7 +250,7 @@ pub(crate) fn internals(system: &System) -> Vec<Entry> {
 
 /// Returns what a system accumulates, then the work of the loads. Of elements of one name the further ones
 /// get a number.
-pub(crate) fn accumulators(system: &System) -> Vec<Entry> {
+pub(crate) fn accumulators(system: &System) -> Vec<QuantityEntry> {
     let mut known: BTreeMap<String, usize> = BTreeMap::new();
     let own = system.energy_terms().iter().map(move |term| {
         let text = match term.kind {
@@ -268,25 +271,28 @@ pub(crate) fn accumulators(system: &System) -> Vec<Entry> {
 }
 
 /// Returns the deflection of a bristle.
-pub(crate) fn deflection(name: String, text: &str) -> Entry {
+pub(crate) fn deflection(name: String, text: &str) -> QuantityEntry {
     with_nominal(
-        Entry::real(name, unit(Kind::Length), None, text),
+        QuantityEntry::real(name, unit(Kind::Length), None, text),
         scales::DEFLECTION,
     )
 }
 
 /// Returns work or a loss that is accumulated.
-pub(crate) fn accumulated(name: &str, text: &str) -> Entry {
-    with_nominal(Entry::real(name, unit(Kind::Energy), None, text), scales::ENERGY)
+pub(crate) fn accumulated(name: &str, text: &str) -> QuantityEntry {
+    with_nominal(
+        QuantityEntry::real(name, unit(Kind::Energy), None, text),
+        scales::ENERGY,
+    )
 }
 
-fn with_nominal(mut entry: Entry, nominal: f64) -> Entry {
+fn with_nominal(mut entry: QuantityEntry, nominal: f64) -> QuantityEntry {
     entry.nominal = Some(nominal);
     entry
 }
 
 /// Returns the three columns of the energy ledger.
-pub(crate) fn ledger(residual: &str) -> Vec<Entry> {
+pub(crate) fn ledger(residual: &str) -> Vec<QuantityEntry> {
     [
         (
             "stored_energy_change",
@@ -294,7 +300,7 @@ pub(crate) fn ledger(residual: &str) -> Vec<Entry> {
         ),
         ("ledger_residual", residual),
     ]
-    .map(|(name, text)| Entry::real(name, unit(Kind::Energy), None, text))
+    .map(|(name, text)| QuantityEntry::real(name, unit(Kind::Energy), None, text))
     .into_iter()
     .chain([crate::wedge::entries::relative_residual()])
     .collect()

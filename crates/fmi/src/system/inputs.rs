@@ -8,7 +8,7 @@ use crate::Error;
 
 /// The loads on the bodies of a system.
 #[derive(Clone, Debug)]
-pub(super) struct Loads {
+pub(super) struct InputLoads {
     /// On each body.
     on: Vec<Six>,
     /// The bodies that inputs load.
@@ -17,7 +17,7 @@ pub(super) struct Loads {
     places: Vec<(usize, usize)>,
 }
 
-impl Loads {
+impl InputLoads {
     pub fn new(system: &System, ports: &Ports) -> Self {
         let mut loaded: Vec<usize> = ports.loads.iter().map(|port| port.direction.body).collect();
         loaded.sort_unstable();

@@ -21,8 +21,8 @@ pub(crate) use entries::{
     accumulated, accumulators, add_loads, add_motion, add_table, contact, contacts, deflection, internals,
     kinds, ledger, load, motions, motions_along_axes, options, unit,
 };
-use inputs::{Loads, lead, place};
-pub use ports::{Direction, LoadPort, MotionPort, Plant, Ports, Reading, Six, StartPort, Table};
+use inputs::{InputLoads, lead, place};
+pub use ports::{LoadPort, MotionPort, Plant, PortDirection, Ports, Reading, Six, StartPort, TableReader};
 pub use state::SystemState;
 
 /// The place of the option that says who moves prescribed bodies, in [`options`].
@@ -40,7 +40,7 @@ const SAME_TIME: f64 = 1e-12;
 
 /// How a system starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Start {
+pub enum StartState {
     /// At its initial coordinates and at rest, or as its parameters say.
     Initial,
     /// In static equilibrium without friction, prescribed bodies being where they are.
@@ -51,7 +51,7 @@ pub enum Start {
 pub struct SystemElement {
     pub(crate) plant: Plant,
     integrator: Option<Integrator<System>>,
-    loads: Loads,
+    loads: InputLoads,
     /// The contact states, if they are variables.
     contacts: Option<Contacts>,
     /// Whether inputs move prescribed bodies; else these follow motions of their own.
@@ -76,12 +76,12 @@ impl SystemElement {
     ///
     /// # Errors
     /// Values that are not finite, no equilibrium, or the integrator refuses the start.
-    pub fn new(plant: Plant, setting: &Setting, start: Start, driven: bool) -> Result<Self, Error> {
+    pub fn new(plant: Plant, setting: &Setting, start: StartState, driven: bool) -> Result<Self, Error> {
         let failed = |error: &dyn std::fmt::Display| Error::new(error.to_string());
         let mut plant = plant;
         let time = setting.start_time;
         check_inputs(&setting.inputs, plant.entries.inputs.len())?;
-        let mut loads = Loads::new(&plant.system, &plant.ports);
+        let mut loads = InputLoads::new(&plant.system, &plant.ports);
         loads.set(&plant.ports, &setting.inputs);
         loads.put(&mut plant.system)?;
         if driven {
@@ -90,7 +90,7 @@ impl SystemElement {
         plant.system.next_time_discontinuity(time);
         let initial = plant.initial.clone();
         let mut states = initial.unwrap_or_else(|| plant.system.initial_state());
-        if start == Start::Equilibrium {
+        if start == StartState::Equilibrium {
             let drawn = states.clone();
             let found = plant.system.equilibrium(time, &drawn, StaticFriction::Without);
             states = found.map_err(|error| {

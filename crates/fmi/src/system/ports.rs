@@ -12,14 +12,14 @@ pub type Six = [f64; 6];
 /// coordinates. The same row gives its rate from the rates of the coordinates, and the generalized forces of
 /// a force along it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Direction {
+pub struct PortDirection {
     /// The number of the body.
     pub body: usize,
     /// The derivatives of the displacement by the coordinates.
     pub row: Six,
 }
 
-impl Direction {
+impl PortDirection {
     /// Returns the coordinate (0 to 5) of a body itself: a displacement of its center of gravity, or an
     /// angle.
     #[must_use]
@@ -69,7 +69,7 @@ pub struct LoadPort {
     /// The number of the input.
     pub input: usize,
     /// The displacement.
-    pub direction: Direction,
+    pub direction: PortDirection,
 }
 
 /// Two inputs that move a coordinate of a prescribed body.
@@ -100,16 +100,16 @@ pub struct StartPort {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reading {
     /// A displacement.
-    Displacement(Direction),
+    Displacement(PortDirection),
     /// The rate of a displacement.
-    Rate(Direction),
+    Rate(PortDirection),
     /// The value of this number in the table.
     Table(usize),
 }
 
 /// Appends the values of a table's columns (SI) at an instant; the rates of its state are given if
 /// [`Plant::table_takes_rates`].
-pub type Table = Box<dyn FnMut(&Observation, &[f64], &mut Vec<f64>) + Send>;
+pub type TableReader = Box<dyn FnMut(&Observation, &[f64], &mut Vec<f64>) + Send>;
 
 /// The ports of a system, by the numbers of its inputs, outputs, parameters and columns among its
 /// [`Entries`].
@@ -137,7 +137,7 @@ pub struct Plant {
     /// Its ports.
     pub ports: Ports,
     /// What the table says of an instant; none if no port reads it.
-    pub table: Option<Table>,
+    pub table: Option<TableReader>,
     /// Whether the table reads the rates of the state, which cost an evaluation more.
     pub table_takes_rates: bool,
     /// Numbers of bodies and of connections in files, for messages; may be empty.

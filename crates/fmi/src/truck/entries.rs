@@ -4,13 +4,13 @@ use mechanics::body::COORDINATES;
 use mechanics::system::{EnergyTermKind, System};
 
 use super::WEDGES;
-use crate::element::{Entries, Entry};
+use crate::element::{Entries, QuantityEntry};
 use crate::system::{accumulated, deflection, kinds, ledger, load, motions, unit};
 use crate::wedge::entries::NEIGHBOURS;
 
-fn parameters() -> Vec<Entry> {
+fn parameters() -> Vec<QuantityEntry> {
     let positions = COORDINATES.iter().enumerate().map(|(k, name)| {
-        Entry::real(
+        QuantityEntry::real(
             format!("body_{name}_start"),
             unit(kinds(k).0),
             Some(0.0),
@@ -18,7 +18,7 @@ fn parameters() -> Vec<Entry> {
         )
     });
     let rates = COORDINATES.iter().enumerate().map(|(k, name)| {
-        Entry::real(
+        QuantityEntry::real(
             format!("body_{name}_rate_start"),
             unit(kinds(k).1),
             Some(0.0),
@@ -28,7 +28,7 @@ fn parameters() -> Vec<Entry> {
     positions.chain(rates).collect()
 }
 
-fn inputs() -> Vec<Entry> {
+fn inputs() -> Vec<QuantityEntry> {
     let mut inputs = Vec::new();
     for wedge in WEDGES {
         for on in NEIGHBOURS {
@@ -46,7 +46,7 @@ fn inputs() -> Vec<Entry> {
     inputs
 }
 
-fn outputs() -> Vec<Entry> {
+fn outputs() -> Vec<QuantityEntry> {
     let mut outputs = Vec::new();
     for wedge in WEDGES {
         for name in NEIGHBOURS {
@@ -56,7 +56,7 @@ fn outputs() -> Vec<Entry> {
                 wedge.replace('_', " ")
             );
             for (k, axis) in COORDINATES.iter().enumerate() {
-                outputs.push(Entry::real(
+                outputs.push(QuantityEntry::real(
                     format!("{wedge}_{name}_{axis}"),
                     unit(kinds(k).0),
                     None,
@@ -64,7 +64,7 @@ fn outputs() -> Vec<Entry> {
                 ));
             }
             for (k, axis) in COORDINATES.iter().enumerate() {
-                outputs.push(Entry::real(
+                outputs.push(QuantityEntry::real(
                     format!("{wedge}_{name}_{axis}_rate"),
                     unit(kinds(k).1),
                     None,
@@ -76,7 +76,7 @@ fn outputs() -> Vec<Entry> {
     outputs
 }
 
-fn states(system: &System) -> Vec<Entry> {
+fn states(system: &System) -> Vec<QuantityEntry> {
     let names = ["ground", "body", "left_side_frame", "right_side_frame"];
     let mut states = motions(system, |body| {
         names.get(body).copied().unwrap_or("body").to_owned()

@@ -23,7 +23,7 @@ use wedge::Parameters;
 
 use crate::Error;
 use crate::element::Setting;
-use crate::system::{Direction, LoadPort, Plant, Ports, Reading, Start, StartPort, SystemElement};
+use crate::system::{LoadPort, Plant, PortDirection, Ports, Reading, StartPort, StartState, SystemElement};
 
 /// The file that the truck is made of.
 pub const FILE: &str = "Bolst_wedge_sf_68_constant.sys";
@@ -36,7 +36,7 @@ const CONNECTIONS: [u32; 4] = [127, 128, 129, 130];
 pub const BODY: usize = 1;
 
 /// For each wedge the displacements of the points that bolster and side frame turn about.
-type Points = [[[Direction; 6]; 2]; 4];
+type Points = [[[PortDirection; 6]; 2]; 4];
 
 /// Returns the truck that has room for the wedges of a case.
 ///
@@ -65,7 +65,7 @@ pub fn plant(case: &Case) -> Result<Plant, Error> {
 /// # Errors
 /// Values that are not finite; or the integrator refuses the start.
 pub fn element(case: &Case, setting: &Setting) -> Result<SystemElement, Error> {
-    SystemElement::new(plant(case)?, setting, Start::Initial, false)
+    SystemElement::new(plant(case)?, setting, StartState::Initial, false)
 }
 
 /// Returns the system, and the points where the wedges are.
@@ -89,7 +89,7 @@ fn system(wedge: &Parameters) -> Result<(System, Points), Error> {
             let center = center(body);
             let mut lever: [f64; 3] = std::array::from_fn(|k| connection.point[k] - center[k]);
             lever[0] += if turned { -ahead } else { ahead };
-            Direction::of_point(body, lever, turned)
+            PortDirection::of_point(body, lever, turned)
         }));
     }
     let points = points.try_into().map_err(|_| failed(&"it has not four wedges"))?;
@@ -112,7 +112,7 @@ fn system(wedge: &Parameters) -> Result<(System, Points), Error> {
 /// six inputs are the load on the body.
 fn ports(points: &Points) -> Ports {
     let wedges = || points.iter().flatten();
-    let body: [Direction; 6] = std::array::from_fn(|k| Direction::coordinate(BODY, k));
+    let body: [PortDirection; 6] = std::array::from_fn(|k| PortDirection::coordinate(BODY, k));
     let starts = [false, true].into_iter().flat_map(|rate| {
         (0..6).map(move |coordinate| StartPort {
             body: BODY,

@@ -12,7 +12,7 @@ use wedge::parameters::Start as StartOfRun;
 
 use super::parameters;
 use crate::Error;
-use crate::element::{Entries, Entry};
+use crate::element::{Entries, QuantityEntry};
 use crate::unit::Unit;
 
 /// Neighbours, in the order of the inputs.
@@ -65,8 +65,8 @@ pub(crate) fn column_numbers(equations: &Equations) -> Vec<usize> {
 }
 
 /// Returns the relative residual of the energy ledger.
-pub(crate) fn relative_residual() -> Entry {
-    Entry::real(
+pub(crate) fn relative_residual() -> QuantityEntry {
+    QuantityEntry::real(
         "ledger_relative_residual",
         None,
         None,
@@ -104,7 +104,7 @@ pub(crate) fn entries(case: &Case) -> Result<Entries, Error> {
                     "" => String::new(),
                     reference => format!(" ({reference})"),
                 };
-                Entry::real(
+                QuantityEntry::real(
                     &column.name,
                     unit(column.kind),
                     None,
@@ -114,7 +114,7 @@ pub(crate) fn entries(case: &Case) -> Result<Entries, Error> {
             .chain([relative_residual()])
             .collect(),
         modes: of_points(&points, "_state", |point| {
-            Entry::integer(
+            QuantityEntry::integer(
                 "",
                 None,
                 [0, 2],
@@ -122,7 +122,7 @@ pub(crate) fn entries(case: &Case) -> Result<Entries, Error> {
             )
         }),
         indicators: of_points(&points, "_event_indicator", |point| {
-            Entry::real(
+            QuantityEntry::real(
                 "",
                 None,
                 None,
@@ -132,7 +132,7 @@ pub(crate) fn entries(case: &Case) -> Result<Entries, Error> {
     })
 }
 
-fn of_points(points: &PointNames, ending: &str, entry: impl Fn(&str) -> Entry) -> Vec<Entry> {
+fn of_points(points: &PointNames, ending: &str, entry: impl Fn(&str) -> QuantityEntry) -> Vec<QuantityEntry> {
     let mut entries = Vec::new();
     for (number, face) in FACES.into_iter().enumerate() {
         for (i, point) in points.of(number).iter().enumerate() {
@@ -146,34 +146,34 @@ fn of_points(points: &PointNames, ending: &str, entry: impl Fn(&str) -> Entry) -
 }
 
 /// Options of a wedge.
-pub(crate) fn options(case: &Case) -> Vec<Entry> {
+pub(crate) fn options(case: &Case) -> Vec<QuantityEntry> {
     let start = match case.parameters.start {
         StartOfRun::Rest => 0,
         StartOfRun::Touching => 1,
         StartOfRun::Equilibrium => 2,
     };
     vec![
-        Entry::integer(
+        QuantityEntry::integer(
             OPTIONS[0],
             Some(0),
             [0, 2],
             "where the coil's spring force comes from: 0 the coil of the case, 1 coil_stiffness_input times \
              coil_compression, 2 coil_force_input",
         ),
-        Entry::integer(
+        QuantityEntry::integer(
             OPTIONS[1],
             Some(start),
             [0, 2],
             "the wedge at the start: 0 nominal position, 1 the same with column and pocket moved apart \
              until nothing penetrates, 2 frictionless static equilibrium",
         ),
-        Entry::boolean(
+        QuantityEntry::boolean(
             OPTIONS[2],
             false,
             "co-simulation: rates of bolster and side frame are found from their positions, the inputs \
              *_rate are not read",
         ),
-        Entry::boolean(
+        QuantityEntry::boolean(
             OPTIONS[3],
             false,
             "co-simulation: inputs are those of the end of a communication step (else of its beginning, and \
@@ -182,7 +182,7 @@ pub(crate) fn options(case: &Case) -> Vec<Entry> {
     ]
 }
 
-fn inputs(start: &Neighbours) -> Vec<Entry> {
+fn inputs(start: &Neighbours) -> Vec<QuantityEntry> {
     let mut inputs = Vec::new();
     for (name, place) in NEIGHBOURS.into_iter().zip([&start.bolster, &start.side_frame]) {
         let first = inputs.len();
@@ -197,7 +197,7 @@ fn inputs(start: &Neighbours) -> Vec<Entry> {
             } else {
                 (Kind::Angle, format!("{axis} angle of the {words}"))
             };
-            let mut entry = Entry::real(
+            let mut entry = QuantityEntry::real(
                 format!("{name}_{axis}"),
                 unit(kind),
                 Some(place.position[k]),
@@ -208,7 +208,7 @@ fn inputs(start: &Neighbours) -> Vec<Entry> {
         }
         for (k, axis) in COORDINATES.into_iter().enumerate() {
             let kind = if k < 3 { Kind::Speed } else { Kind::AngularSpeed };
-            inputs.push(Entry::real(
+            inputs.push(QuantityEntry::real(
                 format!("{name}_{axis}_rate"),
                 unit(kind),
                 Some(place.rate[k]),
@@ -216,13 +216,13 @@ fn inputs(start: &Neighbours) -> Vec<Entry> {
             ));
         }
     }
-    inputs.push(Entry::real(
+    inputs.push(QuantityEntry::real(
         "coil_stiffness_input",
         unit(Kind::Stiffness),
         Some(0.0),
         "stiffness of the coil, read if coil_mode = 1",
     ));
-    inputs.push(Entry::real(
+    inputs.push(QuantityEntry::real(
         "coil_force_input",
         unit(Kind::Force),
         Some(0.0),
@@ -243,12 +243,12 @@ pub(crate) fn neighbours(inputs: &[f64]) -> Neighbours {
     }
 }
 
-fn outputs() -> Vec<Entry> {
+fn outputs() -> Vec<QuantityEntry> {
     let mut outputs = Vec::new();
     for name in NEIGHBOURS {
         let words = name.replace('_', " ");
         for axis in ["x", "y", "z"] {
-            outputs.push(Entry::real(
+            outputs.push(QuantityEntry::real(
                 format!("force_on_{name}_{axis}"),
                 unit(Kind::Force),
                 None,
@@ -256,7 +256,7 @@ fn outputs() -> Vec<Entry> {
             ));
         }
         for (moment, axis) in [("roll", "x"), ("pitch", "y"), ("yaw", "z")] {
-            outputs.push(Entry::real(
+            outputs.push(QuantityEntry::real(
                 format!("moment_on_{name}_{moment}"),
                 unit(Kind::Moment),
                 None,
@@ -267,20 +267,20 @@ fn outputs() -> Vec<Entry> {
             ));
         }
     }
-    outputs.push(Entry::real(
+    outputs.push(QuantityEntry::real(
         "coil_compression",
         unit(Kind::Length),
         None,
         "compression of the coil: free length less length",
     ));
-    outputs.push(Entry::real(
+    outputs.push(QuantityEntry::real(
         "coil_force",
         unit(Kind::Force),
         None,
         "spring force of the coil, positive pushes",
     ));
     for face in FACES {
-        outputs.push(Entry::real(
+        outputs.push(QuantityEntry::real(
             format!("{face}_normal_force"),
             unit(Kind::Force),
             None,
@@ -288,7 +288,7 @@ fn outputs() -> Vec<Entry> {
         ));
     }
     for face in FACES {
-        outputs.push(Entry::real(
+        outputs.push(QuantityEntry::real(
             format!("{face}_friction_loss_power"),
             unit(Kind::Power),
             None,
@@ -299,14 +299,14 @@ fn outputs() -> Vec<Entry> {
 }
 
 /// Names, units and nominal values of the states.
-fn states(system: &System, points: &PointNames) -> Vec<Entry> {
+fn states(system: &System, points: &PointNames) -> Vec<QuantityEntry> {
     let layout = system.layout();
     let mut states = Vec::with_capacity(layout.len());
     let free: Vec<usize> = (0..6)
         .filter(|k| system.position_of(WEDGE, *k).is_some())
         .collect();
     let mut add = |name: String, kind: Kind, nominal: f64, text: String| {
-        let mut entry = Entry::real(name, unit(kind), None, text);
+        let mut entry = QuantityEntry::real(name, unit(kind), None, text);
         entry.nominal = Some(nominal);
         states.push(entry);
     };

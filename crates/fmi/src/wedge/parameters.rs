@@ -6,7 +6,7 @@ use quantity::Kind;
 use wedge::Parameters;
 use wedge::parameters::FaceFriction;
 
-use crate::element::Entry;
+use crate::element::QuantityEntry;
 use crate::unit::Unit;
 
 /// How to read and write one parameter.
@@ -223,10 +223,11 @@ fn present(parameters: &Parameters) -> impl Iterator<Item = (&'static Access, f6
 }
 
 /// Returns the parameters of a wedge that there are, with their values.
-pub(crate) fn entries(parameters: &Parameters) -> Vec<Entry> {
+pub(crate) fn entries(parameters: &Parameters) -> Vec<QuantityEntry> {
     present(parameters)
         .map(|(access, value)| {
-            let mut entry = Entry::real(access.name, Some(Unit::Of(access.kind)), Some(value), access.text);
+            let mut entry =
+                QuantityEntry::real(access.name, Some(Unit::Of(access.kind)), Some(value), access.text);
             entry.tunable = access.tunable;
             entry
         })

@@ -3,7 +3,7 @@
 use study::case::builtin;
 use study::run::Run;
 
-use super::{Outcome, Reader, cases};
+use super::{ReadOutcome, Reader, cases};
 
 /// Beginnings of runs.
 pub const BEGINNINGS: Reader = Reader {
@@ -17,26 +17,26 @@ pub const BEGINNINGS: Reader = Reader {
 /// Steps of the integrator that are made.
 const STEPS: usize = 3;
 
-fn begin(input: &[u8]) -> Outcome {
+fn begin(input: &[u8]) -> ReadOutcome {
     let Ok(text) = std::str::from_utf8(input) else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let set: Vec<String> = text.lines().map(str::to_owned).collect();
     // What is wrong with the text is for the reader `overrides`.
     let Ok(case) = builtin::case_with("vdrun_toe_out_0.2_psi_0.012", &set) else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let mut run = match Run::new(&case) {
         Ok(run) => run,
-        Err(error) => return Outcome::refused_with(&error.to_string()),
+        Err(error) => return ReadOutcome::refused_with(&error.to_string()),
     };
-    let mut all = Outcome::ACCEPTED;
+    let mut all = ReadOutcome::ACCEPTED;
     for _ in 0..STEPS {
         if run.is_finished() {
             break;
         }
         if let Err(error) = run.advance() {
-            all = all.or(Outcome::refused_with(&error.to_string()));
+            all = all.or(ReadOutcome::refused_with(&error.to_string()));
             break;
         }
     }

@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use rustix::time::{ClockId, clock_gettime};
 
-use super::{Outcome, Reader};
+use super::{ReadOutcome, Reader};
 
 /// The reader.
 pub const BROKEN: Reader = Reader {
@@ -25,29 +25,29 @@ const WORDS: [&str; 7] = [
     "promise",
 ];
 
-fn read(input: &[u8]) -> Outcome {
+fn read(input: &[u8]) -> ReadOutcome {
     match std::str::from_utf8(input) {
-        Ok("sound") => Outcome::ACCEPTED,
+        Ok("sound") => ReadOutcome::ACCEPTED,
         #[allow(clippy::panic)]
         Ok("panic") => panic!("promise broken: on purpose"),
-        Ok("promise") => Outcome::refused_with(&"long ".repeat(100_000)),
+        Ok("promise") => ReadOutcome::refused_with(&"long ".repeat(100_000)),
         Ok("recursion") => {
             black_box(down(u64::MAX));
-            Outcome::ACCEPTED
+            ReadOutcome::ACCEPTED
         }
         Ok("memory") => {
             black_box(vec![1_u8; 2 << 30]);
-            Outcome::ACCEPTED
+            ReadOutcome::ACCEPTED
         }
         Ok("slow") => {
             compute(2);
-            Outcome::ACCEPTED
+            ReadOutcome::ACCEPTED
         }
         Ok("endless") => {
             compute(i64::MAX);
-            Outcome::ACCEPTED
+            ReadOutcome::ACCEPTED
         }
-        _ => Outcome::NO_TEXT,
+        _ => ReadOutcome::NO_TEXT,
     }
 }
 

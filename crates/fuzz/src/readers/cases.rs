@@ -2,7 +2,7 @@
 
 use study::case::{Case, CaseError, builtin};
 
-use super::{Outcome, Reader, corpus, nowhere, refused_as_written};
+use super::{ReadOutcome, Reader, corpus, nowhere, refused_as_written};
 
 /// Case files.
 pub const CASES: Reader = Reader {
@@ -84,24 +84,24 @@ fn case_corpus() -> Vec<Vec<u8>> {
 }
 
 /// Returns the outcome of reading a case.
-pub(super) fn outcome(read: Result<Case, CaseError>) -> Outcome {
+pub(super) fn outcome(read: Result<Case, CaseError>) -> ReadOutcome {
     match read {
         Ok(case) => {
             check_written(&case);
-            Outcome::ACCEPTED
+            ReadOutcome::ACCEPTED
         }
         Err(error) => refused(&error),
     }
 }
 
 /// Checks the places of mistakes, and how they are shown.
-pub(super) fn refused(error: &CaseError) -> Outcome {
+pub(super) fn refused(error: &CaseError) -> ReadOutcome {
     assert!(!error.problems().is_empty(), "no mistake: {error}");
     for problem in error.problems() {
         let placed = problem.source_name().is_none() || problem.line_and_column().is_some();
         assert!(placed, "place outside: {problem}");
     }
-    Outcome::refused(error)
+    ReadOutcome::refused(error)
 }
 
 /// The case as written is read as the same case.
@@ -144,16 +144,16 @@ pub(super) fn messages(error: &CaseError) -> String {
     messages.join("; ")
 }
 
-fn case_file(input: &[u8]) -> Outcome {
+fn case_file(input: &[u8]) -> ReadOutcome {
     match std::str::from_utf8(input) {
         Ok(text) => outcome(Case::parse("case.toml", text, nowhere(), &[])),
-        Err(_) => Outcome::NO_TEXT,
+        Err(_) => ReadOutcome::NO_TEXT,
     }
 }
 
-fn values(input: &[u8]) -> Outcome {
+fn values(input: &[u8]) -> ReadOutcome {
     let Ok(text) = std::str::from_utf8(input) else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let base = builtin::text(BASE).ok().map(|text| ("base.toml", text));
     let over_case = outcome(Case::of_values(base, "values", text, nowhere()));
@@ -161,12 +161,12 @@ fn values(input: &[u8]) -> Outcome {
     over_case.or(over_thesis)
 }
 
-fn overrides(input: &[u8]) -> Outcome {
+fn overrides(input: &[u8]) -> ReadOutcome {
     match std::str::from_utf8(input) {
         Ok(text) => {
             let set: Vec<String> = text.lines().map(str::to_owned).collect();
             outcome(builtin::case_with(BASE, &set))
         }
-        Err(_) => Outcome::NO_TEXT,
+        Err(_) => ReadOutcome::NO_TEXT,
     }
 }

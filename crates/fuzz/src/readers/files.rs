@@ -6,7 +6,7 @@ use input::FileType;
 use input::file::{Expected, read_text};
 use study::case::builtin;
 
-use super::{Outcome, Reader};
+use super::{ReadOutcome, Reader};
 
 /// Files.
 pub const FILES: Reader = Reader {
@@ -47,18 +47,18 @@ fn corpus() -> Vec<Vec<u8>> {
 }
 
 /// Expects a case.
-fn read(input: &[u8]) -> Outcome {
+fn read(input: &[u8]) -> ReadOutcome {
     const CASE: Expected = Expected {
         what: "case file",
         types: &[FileType::Case],
         most: 500_000,
     };
     let Ok(folder) = tempfile::tempdir() else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let path = folder.path().join("file");
     if fs::write(&path, input).is_err() {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     }
     let text = read_text(&path, &CASE);
     let foreign = FileType::of(input).is_some_and(|found| found != FileType::Case);
@@ -66,11 +66,11 @@ fn read(input: &[u8]) -> Outcome {
         Ok(text) => {
             assert!(!foreign, "wrong kind read: {:?}", FileType::of(input));
             assert!(text.len() <= input.len(), "more read: {} bytes", text.len());
-            Outcome::ACCEPTED
+            ReadOutcome::ACCEPTED
         }
         Err(error) => {
             let help = error.help().unwrap_or_default();
-            Outcome::refused_with(&format!("{error}\n{help}"))
+            ReadOutcome::refused_with(&format!("{error}\n{help}"))
         }
     }
 }

@@ -5,7 +5,7 @@ use nucars::builtin;
 use nucars::file_sets::{Text, Texts};
 use study::half_truck::files::Settings;
 
-use super::{Outcome, Reader, refused_as_written};
+use super::{ReadOutcome, Reader, refused_as_written};
 
 /// Runs of half-trucks in FMUs.
 pub const FMU_RUNS: Reader = Reader {
@@ -51,19 +51,19 @@ fn corpus() -> Vec<Vec<u8>> {
     made.map(|own| own.text().as_bytes().to_vec()).collect()
 }
 
-fn read(input: &[u8]) -> Outcome {
+fn read(input: &[u8]) -> ReadOutcome {
     let Ok(text) = std::str::from_utf8(input) else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let half_truck = match HalfTruck::parse(text) {
         Ok(half_truck) => half_truck,
-        Err(error) => return Outcome::refused_with(&error.to_string()),
+        Err(error) => return ReadOutcome::refused_with(&error.to_string()),
     };
     if let Err(error) = HalfTruck::parse(half_truck.text()) {
         refused_as_written(&error);
     }
     match half_truck.plant() {
-        Ok(_) => Outcome::ACCEPTED,
-        Err(error) => Outcome::refused_with(&error.to_string()),
+        Ok(_) => ReadOutcome::ACCEPTED,
+        Err(error) => ReadOutcome::refused_with(&error.to_string()),
     }
 }

@@ -29,7 +29,7 @@ pub struct Reader {
     /// Pieces that mean something to it.
     pub dictionary: &'static [&'static [u8]],
     /// Reads any bytes. It panics if a promise is broken.
-    pub read: fn(&[u8]) -> Outcome,
+    pub read: fn(&[u8]) -> ReadOutcome,
 }
 
 /// All readers.
@@ -77,7 +77,7 @@ pub fn find(name: &str) -> Option<&'static Reader> {
 /// # Panics
 /// A promise is broken, or there is no such reader.
 #[allow(clippy::panic)]
-pub fn read(name: &str, input: &[u8]) -> Outcome {
+pub fn read(name: &str, input: &[u8]) -> ReadOutcome {
     match find(name) {
         Some(reader) => (reader.read)(input),
         None => panic!("there is no reader `{name}`"),
@@ -86,14 +86,14 @@ pub fn read(name: &str, input: &[u8]) -> Outcome {
 
 /// What became of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Outcome {
+pub struct ReadOutcome {
     /// Whether it was accepted.
     pub accepted: bool,
     /// Bytes of the longest text in which it was refused; zero, if it was accepted.
     pub message: usize,
 }
 
-impl Outcome {
+impl ReadOutcome {
     /// Accepted.
     const ACCEPTED: Self = Self {
         accepted: true,

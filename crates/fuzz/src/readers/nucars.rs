@@ -8,9 +8,9 @@ use nucars::read::{AnyFile, FileKind, Read, read, read_data, read_input, read_ru
 use nucars::source::SourceText;
 use nucars::tree::{DataFile, InputFile, RunFile, SystemFile};
 use nucars::{Findings, builtin, check, show, write};
-use study::half_truck::files::{self, Files, Settings};
+use study::half_truck::files::{self, FileTrees, Settings};
 
-use super::{Outcome, Reader, refused_as_written};
+use super::{ReadOutcome, Reader, refused_as_written};
 use crate::shown;
 
 /// System files.
@@ -107,9 +107,9 @@ static PARTNERS: LazyLock<Option<Partners>> = LazyLock::new(|| {
     })
 });
 
-fn file(input: &[u8], kind: FileKind) -> Outcome {
+fn file(input: &[u8], kind: FileKind) -> ReadOutcome {
     let Some(partners) = PARTNERS.as_ref() else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     // Without an ending, what it is follows from its sections.
     if let Ok(source) = SourceText::from_bytes("file", input.to_vec()) {
@@ -117,7 +117,7 @@ fn file(input: &[u8], kind: FileKind) -> Outcome {
     }
     let source = match SourceText::from_bytes("file", input.to_vec()) {
         Ok(source) => source,
-        Err(error) => return Outcome::refused_with(&error.to_string()),
+        Err(error) => return ReadOutcome::refused_with(&error.to_string()),
     };
     let all = match read(&source, kind) {
         AnyFile::System(read) => system(*read, partners),
@@ -125,7 +125,7 @@ fn file(input: &[u8], kind: FileKind) -> Outcome {
         AnyFile::Data(read) => data(*read, partners),
         AnyFile::Run(read) => run(*read, partners),
     };
-    Outcome {
+    ReadOutcome {
         accepted: !all.has_errors(),
         message: message_bytes(&all),
     }
@@ -164,7 +164,7 @@ fn check_again<T: PartialEq>(own: &T, again: Option<Read<T>>) {
 }
 
 /// Makes a run of files, without running it.
-fn build(files: Files<'_>) {
+fn build(files: FileTrees<'_>) {
     if let Err(error) = files::case("files", "", files, &Settings::default()) {
         shown::check_text(&error.to_string());
     }
@@ -187,7 +187,7 @@ fn system(mut read: Read<SystemFile>, with: &Partners) -> Findings {
     read.add(check::system_with_input(&read, &with.input.tree));
     message_bytes(&check::data_of_system(&with.data, &read.tree));
     if !read.findings.has_errors() {
-        build(Files {
+        build(FileTrees {
             system: &read.tree,
             input: Some(&with.input.tree),
             data: Some(&with.data.tree),
@@ -206,7 +206,7 @@ fn input_file(mut read: Read<InputFile>, with: &Partners) -> Findings {
     message_bytes(&check::system_with_input(&with.system, &read.tree));
     message_bytes(&check::run_with_input(&with.run, &read.tree));
     if !read.findings.has_errors() {
-        build(Files {
+        build(FileTrees {
             system: &with.system.tree,
             input: Some(&read.tree),
             data: Some(&with.data.tree),
@@ -225,7 +225,7 @@ fn data(mut read: Read<DataFile>, with: &Partners) -> Findings {
     let together = check::data_of_system(&read, &with.system.tree);
     message_bytes(&together);
     if !read.findings.has_errors() && !together.has_errors() {
-        build(Files {
+        build(FileTrees {
             system: &with.system.tree,
             input: Some(&with.input.tree),
             data: Some(&read.tree),
@@ -243,7 +243,7 @@ fn run(mut read: Read<RunFile>, with: &Partners) -> Findings {
     read.add(check::run(&read));
     read.add(check::run_with_input(&read, &with.input.tree));
     if !read.findings.has_errors() {
-        build(Files {
+        build(FileTrees {
             system: &with.system.tree,
             input: Some(&with.input.tree),
             data: Some(&with.data.tree),

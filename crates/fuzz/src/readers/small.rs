@@ -7,7 +7,7 @@ use study::fit::Free;
 use study::half_truck::options;
 
 use super::cases::outcome;
-use super::{Outcome, Reader, refused_as_written};
+use super::{ReadOutcome, Reader, refused_as_written};
 
 /// Quantities and units.
 pub const UNITS: Reader = Reader {
@@ -95,14 +95,14 @@ fn lines(text: &[u8]) -> Vec<Vec<u8>> {
         .collect()
 }
 
-fn units(input: &[u8]) -> Outcome {
+fn units(input: &[u8]) -> ReadOutcome {
     let Ok(text) = std::str::from_utf8(input) else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let mut all = match Quantity::parse(text) {
         Ok(quantity) => {
             check_quantity(&quantity);
-            Outcome::ACCEPTED
+            ReadOutcome::ACCEPTED
         }
         Err(error) => unit_refused(&error, text),
     };
@@ -141,37 +141,37 @@ fn check_quantity(quantity: &Quantity) {
     );
 }
 
-fn unit_refused(error: &UnitError, text: &str) -> Outcome {
+fn unit_refused(error: &UnitError, text: &str) -> ReadOutcome {
     let span = error.span();
     assert!(text.get(span.clone()).is_some(), "place outside: {span:?}");
-    Outcome::refused_with(&format!("{error}\n{}", error.help()))
+    ReadOutcome::refused_with(&format!("{error}\n{}", error.help()))
 }
 
-fn free(input: &[u8]) -> Outcome {
+fn free(input: &[u8]) -> ReadOutcome {
     let Ok(text) = std::str::from_utf8(input) else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     match Free::parse(text) {
         Ok(free) => {
             assert!(free.low < free.high, "no range: {} to {}", free.low, free.high);
             let set = [0.0, 0.5].map(|share| free.set(free.at(share)));
             let cases = set.map(|set| outcome(builtin::case_with("cdrun_toe_0_psi_0", &[set])));
-            Outcome::ACCEPTED.or(cases[0]).or(cases[1])
+            ReadOutcome::ACCEPTED.or(cases[0]).or(cases[1])
         }
-        Err(error) => Outcome::refused_with(&format!("{}\n{}", error.problem, error.advice)),
+        Err(error) => ReadOutcome::refused_with(&format!("{}\n{}", error.problem, error.advice)),
     }
 }
 
-fn option(input: &[u8]) -> Outcome {
+fn option(input: &[u8]) -> ReadOutcome {
     let Ok(text) = std::str::from_utf8(input) else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let mut choices = Choices::default();
     match options::set(&mut choices, text) {
         Ok(()) => {
             assert!(!choices.describe().is_empty(), "nothing said: {choices:?}");
-            Outcome::ACCEPTED
+            ReadOutcome::ACCEPTED
         }
-        Err(error) => Outcome::refused_with(&error.to_string()),
+        Err(error) => ReadOutcome::refused_with(&error.to_string()),
     }
 }

@@ -13,7 +13,7 @@ use study::half_truck::files::Settings;
 use study::run::{Counts, Run, RunState};
 use study::stepping::{Neighbours, SteppedState, SteppedWedge};
 
-use super::{Outcome, Reader};
+use super::{ReadOutcome, Reader};
 
 /// States of driven wedges.
 pub const DRIVEN: Reader = Reader {
@@ -99,28 +99,28 @@ fn driven_corpus() -> Vec<Vec<u8>> {
     states
 }
 
-fn driven(input: &[u8]) -> Outcome {
+fn driven(input: &[u8]) -> ReadOutcome {
     let Some(case) = CASE.as_ref() else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let state = match SteppedState::from_bytes(input) {
         Ok(state) => state,
-        Err(error) => return Outcome::refused_with(&error.to_string()),
+        Err(error) => return ReadOutcome::refused_with(&error.to_string()),
     };
     let Ok(mut wedge) = SteppedWedge::new(case) else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let before = wedge.state();
     if let Err(error) = wedge.restore(&state) {
         assert!(wedge.state() == before, "changed although refused: {error}");
-        return Outcome::refused_with(&error.to_string());
+        return ReadOutcome::refused_with(&error.to_string());
     }
-    let mut all = Outcome::ACCEPTED;
+    let mut all = ReadOutcome::ACCEPTED;
     for _ in 0..STEPS {
         let time = wedge.time() + STEP;
         let stepped = wedge.step_to(&Neighbours::of(&case.parameters, time), time);
         if let Err(error) = stepped {
-            all = all.or(Outcome::refused_with(&error.to_string()));
+            all = all.or(ReadOutcome::refused_with(&error.to_string()));
             break;
         }
         let _ = wedge.reading();
@@ -146,26 +146,26 @@ fn run_corpus() -> Vec<Vec<u8>> {
     states
 }
 
-fn run_state(input: &[u8]) -> Outcome {
+fn run_state(input: &[u8]) -> ReadOutcome {
     let Some(case) = CASE.as_ref() else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let state: RunState<Counts> = match serde_json::from_slice(input) {
         Ok(state) => state,
         // Whoever shows what serde says of a damaged text cuts it.
-        Err(error) => return Outcome::refused_with(&input::bounded(error.to_string())),
+        Err(error) => return ReadOutcome::refused_with(&input::bounded(error.to_string())),
     };
     let mut run = match Run::resume(case, state) {
         Ok(run) => run,
-        Err(error) => return Outcome::refused_with(&error.to_string()),
+        Err(error) => return ReadOutcome::refused_with(&error.to_string()),
     };
-    let mut all = Outcome::ACCEPTED;
+    let mut all = ReadOutcome::ACCEPTED;
     for _ in 0..STEPS {
         if run.is_finished() {
             break;
         }
         if let Err(error) = run.advance() {
-            all = all.or(Outcome::refused_with(&error.to_string()));
+            all = all.or(ReadOutcome::refused_with(&error.to_string()));
             break;
         }
     }
@@ -224,16 +224,16 @@ fn instance_corpus() -> Vec<Vec<u8>> {
     states
 }
 
-fn instance(input: &[u8]) -> Outcome {
+fn instance(input: &[u8]) -> ReadOutcome {
     let saved = match Saved::from_bytes(input) {
         Ok(saved) => saved,
-        Err(error) => return Outcome::refused_with(&error.to_string()),
+        Err(error) => return ReadOutcome::refused_with(&error.to_string()),
     };
     // That of another FMU is refused by its token; which one this is may be seen in the text.
     let place = TOKENS.iter().position(|token| *token == token_of(input));
     match new_instance(place.unwrap_or(0)) {
         Some(instance) => restore(instance, &saved),
-        None => Outcome::NO_TEXT,
+        None => ReadOutcome::NO_TEXT,
     }
 }
 
@@ -254,16 +254,16 @@ fn token_of(saved: &[u8]) -> Option<[String; 2]> {
     Some([head.token, head.interface])
 }
 
-fn restore(mut instance: Instance, saved: &Saved) -> Outcome {
+fn restore(mut instance: Instance, saved: &Saved) -> ReadOutcome {
     let before = instance.save();
     if let Err(error) = instance.restore(saved) {
         assert!(instance.save() == before, "changed although refused: {error}");
-        return Outcome::refused_with(&error.to_string());
+        return ReadOutcome::refused_with(&error.to_string());
     }
-    let mut all = Outcome::ACCEPTED;
+    let mut all = ReadOutcome::ACCEPTED;
     for _ in 0..STEPS {
         if let Err(error) = go_on(&mut instance) {
-            all = all.or(Outcome::refused_with(&error));
+            all = all.or(ReadOutcome::refused_with(&error));
             break;
         }
     }

@@ -3,15 +3,15 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use report::claims::{Verdict, claims};
-use report::sensitivity::{AXES, Found, Kept, POINTS_FILE, Place, Space};
+use report::claims::{ClaimVerdict, claims};
+use report::sensitivity::{AXES, Kept, POINTS_FILE, PointOutcome, PointPlace, Space};
 use report::study_folder::{STUDY_FILE, StudyFolder};
 use study::design::Study;
 use study::measures::{Measures, of_wedges};
 use study::records::{self, Record, Status};
 
 use super::cases::{messages, refused};
-use super::{Outcome, Reader, corpus, nowhere, refused_as_written};
+use super::{ReadOutcome, Reader, corpus, nowhere, refused_as_written};
 
 /// Study files.
 pub const STUDIES: Reader = Reader {
@@ -99,16 +99,16 @@ fn some(count: u64) -> Vec<u64> {
     numbers
 }
 
-fn study_file(input: &[u8]) -> Outcome {
+fn study_file(input: &[u8]) -> ReadOutcome {
     let Ok(text) = std::str::from_utf8(input) else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let study = match Study::parse("study.toml", text, nowhere()) {
         Ok(study) => study,
         Err(error) => return refused(&error),
     };
     assert!(study.count() > 0, "no variants: {}", study.name);
-    let mut outcome = Outcome::ACCEPTED;
+    let mut outcome = ReadOutcome::ACCEPTED;
     for number in some(study.count()) {
         let values = study.values(number);
         assert!(
@@ -141,28 +141,28 @@ fn manifest() -> Vec<u8> {
     serde_json::to_vec_pretty(&description).unwrap_or_default()
 }
 
-fn manifest_file(input: &[u8]) -> Outcome {
+fn manifest_file(input: &[u8]) -> ReadOutcome {
     let Some(study) = SMALL.as_ref() else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let Ok(folder) = tempfile::tempdir() else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let write = |path: &Path| std::fs::write(path.join(STUDY_FILE), input);
     if write(folder.path()).is_err() {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     }
     match StudyFolder::open(folder.path(), study) {
-        Ok(_) => Outcome::ACCEPTED,
-        Err(error) => Outcome::refused(&error),
+        Ok(_) => ReadOutcome::ACCEPTED,
+        Err(error) => ReadOutcome::refused(&error),
     }
 }
 
 /// Returns a folder with points, and what it holds with a few.
 fn point_corpus() -> Vec<Vec<u8>> {
     let space = Space::default();
-    let found = Found {
-        verdicts: claims().map(|_| Verdict::Holds).collect(),
+    let found = PointOutcome {
+        verdicts: claims().map(|_| ClaimVerdict::Holds).collect(),
         axes: vec![true; AXES.len()],
         unsound: vec!["vdrun_toe_0_psi_0: it stopped".to_owned()],
     };
@@ -170,7 +170,11 @@ fn point_corpus() -> Vec<Vec<u8>> {
         return Vec::new();
     };
     let kept = Kept::open(folder.path(), &space, false);
-    let places = [Place::Decided, Place::Space(3), Place::OtherFriction(1, 0)];
+    let places = [
+        PointPlace::Decided,
+        PointPlace::Space(3),
+        PointPlace::OtherFriction(1, 0),
+    ];
     if let Ok(kept) = kept {
         for place in places {
             // A point that cannot be kept is missing in the corpus, no more.
@@ -182,28 +186,28 @@ fn point_corpus() -> Vec<Vec<u8>> {
         .collect()
 }
 
-fn points_file(input: &[u8]) -> Outcome {
+fn points_file(input: &[u8]) -> ReadOutcome {
     let space = Space::default();
     let Ok(folder) = tempfile::tempdir() else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let open = || Kept::open(folder.path(), &space, false);
     if open().is_err() || std::fs::write(folder.path().join(POINTS_FILE), input).is_err() {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     }
     let places = space.places(16);
     let missing = match open() {
         Ok(kept) => kept.missing(&places),
-        Err(error) => return Outcome::refused(&error),
+        Err(error) => return ReadOutcome::refused(&error),
     };
     // One more is kept behind whatever is there, and found again with the others.
-    let found = Found {
-        verdicts: claims().map(|_| Verdict::DoesNot).collect(),
+    let found = PointOutcome {
+        verdicts: claims().map(|_| ClaimVerdict::DoesNot).collect(),
         axes: vec![false; AXES.len()],
         unsound: Vec::new(),
     };
     let Some(place) = missing.last() else {
-        return Outcome::ACCEPTED;
+        return ReadOutcome::ACCEPTED;
     };
     if open().is_ok_and(|kept| kept.keep(&space, *place, &found).is_ok())
         && let Ok(kept) = open()
@@ -220,7 +224,7 @@ fn points_file(input: &[u8]) -> Outcome {
             places.len()
         );
     }
-    Outcome::ACCEPTED
+    ReadOutcome::ACCEPTED
 }
 
 const FINGERPRINT: u64 = 42;
@@ -261,7 +265,7 @@ fn record_corpus() -> Vec<Vec<u8>> {
     ]
 }
 
-fn record_bytes(input: &[u8]) -> Outcome {
+fn record_bytes(input: &[u8]) -> ReadOutcome {
     let found = records::read(FINGERPRINT, input);
     assert!(found.lost <= input.len(), "too much lost: {}", found.lost);
     let mut bytes = Vec::new();
@@ -285,7 +289,7 @@ fn record_bytes(input: &[u8]) -> Outcome {
     framed.extend(input);
     let framed = records::read(FINGERPRINT, &framed);
     assert!(framed.records.len() <= 1 + found.records.len(), "records made up");
-    Outcome {
+    ReadOutcome {
         accepted: !found.records.is_empty(),
         message: 0,
     }

@@ -4,12 +4,12 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use quantity::Kind;
-use report::comparison::{Comparison, Entry};
-use report::table::Table;
-use study::case::{Case, CoilForce, Motion, QuantityTable, builtin};
+use report::comparison::{ComparedResult, Comparison};
+use report::table::ResultTable;
+use study::case::{Case, CaseMotion, CoilForce, QuantityTable, builtin};
 
 use super::cases::{outcome, refused};
-use super::{Outcome, Reader, corpus};
+use super::{ReadOutcome, Reader, corpus};
 use crate::limits::FINITE_COMPARISONS;
 
 /// Results to be compared.
@@ -59,26 +59,26 @@ pub const TABLES: Reader = Reader {
 };
 
 /// The result that others are compared with.
-static OWN: LazyLock<Option<Entry>> = LazyLock::new(|| {
+static OWN: LazyLock<Option<ComparedResult>> = LazyLock::new(|| {
     let text = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/corpus/results/run_us.csv"));
     entry("own", text).ok()
 });
 
-fn entry(name: &str, bytes: &[u8]) -> Result<Entry, report::table::TableError> {
-    let table = Table::parse(Path::new(&format!("no-such-folder/{name}.csv")), bytes)?;
-    Ok(Entry {
+fn entry(name: &str, bytes: &[u8]) -> Result<ComparedResult, report::table::TableError> {
+    let table = ResultTable::parse(Path::new(&format!("no-such-folder/{name}.csv")), bytes)?;
+    Ok(ComparedResult {
         label: name.to_owned(),
         table,
     })
 }
 
-fn result(input: &[u8]) -> Outcome {
+fn result(input: &[u8]) -> ReadOutcome {
     let foreign = match entry("foreign", input) {
         Ok(foreign) => foreign,
-        Err(error) => return Outcome::refused(&error),
+        Err(error) => return ReadOutcome::refused(&error),
     };
     let Some(own) = OWN.as_ref() else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let rows = foreign.table.times().len();
     for column in foreign.table.columns() {
@@ -91,13 +91,13 @@ fn result(input: &[u8]) -> Outcome {
     }
     let pairs = [[own.clone(), foreign.clone()], [foreign, own.clone()]];
     let outcomes = pairs.map(|pair| compare(&pair));
-    Outcome::ACCEPTED.or(outcomes[0]).or(outcomes[1])
+    ReadOutcome::ACCEPTED.or(outcomes[0]).or(outcomes[1])
 }
 
-fn compare(entries: &[Entry]) -> Outcome {
+fn compare(entries: &[ComparedResult]) -> ReadOutcome {
     let comparison = match Comparison::of(entries, &[]) {
         Ok(comparison) => comparison,
-        Err(error) => return Outcome::refused(&error),
+        Err(error) => return ReadOutcome::refused(&error),
     };
     for difference in &comparison.differences {
         let finite = difference.largest.is_finite() && difference.root_mean_square.is_finite();
@@ -108,7 +108,7 @@ fn compare(entries: &[Entry]) -> Outcome {
         comparison.write(entries, &mut bytes).is_ok() && !bytes.is_empty(),
         "nothing written"
     );
-    Outcome::ACCEPTED
+    ReadOutcome::ACCEPTED
 }
 
 /// A case with such tables.
@@ -117,9 +117,9 @@ static BASE: LazyLock<Option<Case>> = LazyLock::new(|| {
     builtin::case_with("vdrun_toe_out_0.2_psi_0.012", &set).ok()
 });
 
-fn table(input: &[u8]) -> Outcome {
+fn table(input: &[u8]) -> ReadOutcome {
     let (Ok(text), Some(base)) = (std::str::from_utf8(input), BASE.as_ref()) else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let [_, _, vertical, _, _, yaw] = [0, 1, 2, 3, 4, 5];
     let motion = |kind: Kind, coordinate: usize| {
@@ -128,7 +128,7 @@ fn table(input: &[u8]) -> Outcome {
             Err(error) => return refused(&error),
         };
         let mut document = base.document.clone();
-        document.bolster.coordinates[coordinate] = Motion::Table(table);
+        document.bolster.coordinates[coordinate] = CaseMotion::Table(table);
         outcome(Case::from_document(&document))
     };
     let all = motion(Kind::Length, vertical).or(motion(Kind::Angle, yaw));

@@ -3,11 +3,11 @@
 use study::car::{self, CarCase};
 use study::track::TrackFile;
 use study::truck::{TruckCase, builtin};
-use wheelrail::profile::{Kind, Points, Profile};
+use wheelrail::profile::{Points, Profile, ProfileKind};
 use wheelrail::track::{Form, MeasuredTable};
 
 use super::cases::{messages, refused};
-use super::{Outcome, Reader, nowhere, refused_as_written};
+use super::{ReadOutcome, Reader, nowhere, refused_as_written};
 
 /// Cases of trucks.
 pub const TRUCKS: Reader = Reader {
@@ -121,9 +121,9 @@ fn truck_corpus() -> Vec<Vec<u8>> {
     corpus
 }
 
-fn truck(input: &[u8]) -> Outcome {
+fn truck(input: &[u8]) -> ReadOutcome {
     let Ok(text) = std::str::from_utf8(input) else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     match TruckCase::parse("truck.toml", text, nowhere(), &[]) {
         Ok(case) => {
@@ -131,7 +131,7 @@ fn truck(input: &[u8]) -> Outcome {
                 Ok(again) => assert!(again == case, "another case: {}", case.name),
                 Err(error) => refused_as_written(&messages(&error)),
             }
-            Outcome::ACCEPTED
+            ReadOutcome::ACCEPTED
         }
         Err(error) => refused(&error),
     }
@@ -177,9 +177,9 @@ fn car_corpus() -> Vec<Vec<u8>> {
     corpus
 }
 
-fn car(input: &[u8]) -> Outcome {
+fn car(input: &[u8]) -> ReadOutcome {
     let Ok(text) = std::str::from_utf8(input) else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     match CarCase::parse("car.toml", text, nowhere(), &[]) {
         Ok(case) => {
@@ -187,7 +187,7 @@ fn car(input: &[u8]) -> Outcome {
                 Ok(again) => assert!(again == case, "another case: {}", case.name),
                 Err(error) => refused_as_written(&messages(&error)),
             }
-            Outcome::ACCEPTED
+            ReadOutcome::ACCEPTED
         }
         Err(error) => refused(&error),
     }
@@ -207,9 +207,9 @@ fn track_corpus() -> Vec<Vec<u8>> {
     ]
 }
 
-fn track(input: &[u8]) -> Outcome {
+fn track(input: &[u8]) -> ReadOutcome {
     let Ok(text) = std::str::from_utf8(input) else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     match TrackFile::parse("track.toml", text) {
         Ok(file) => {
@@ -226,7 +226,7 @@ fn track(input: &[u8]) -> Outcome {
                     .all(|rail| rail.lateral[0].is_finite() && rail.vertical[0].is_finite());
                 assert!(finite, "no rails at {distance} m");
             }
-            Outcome::ACCEPTED
+            ReadOutcome::ACCEPTED
         }
         Err(error) => refused(&error),
     }
@@ -244,9 +244,9 @@ fn measured_corpus() -> Vec<Vec<u8>> {
     vec![rails.into_bytes(), line.into_bytes()]
 }
 
-fn measured(input: &[u8]) -> Outcome {
+fn measured(input: &[u8]) -> ReadOutcome {
     let Ok(text) = std::str::from_utf8(input) else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let read = |signs_known| {
         let table = MeasuredTable::parse("table.csv", text, signs_known)?;
@@ -270,10 +270,10 @@ fn measured(input: &[u8]) -> Outcome {
             let station = line.at(0.5 * line.length());
             assert!(station.position.iter().all(|own| own.is_finite()), "no place");
         }
-        Ok(Outcome::ACCEPTED)
+        Ok(ReadOutcome::ACCEPTED)
     };
     let refused = |error: wheelrail::track::MeasuredError| {
-        Outcome::refused_with(&format!("{error}; {}", error.remedy()))
+        ReadOutcome::refused_with(&format!("{error}; {}", error.remedy()))
     };
     read(true).or_else(|_| read(false)).unwrap_or_else(refused)
 }
@@ -291,22 +291,22 @@ fn profile_corpus() -> Vec<Vec<u8>> {
     ]
 }
 
-fn profile(input: &[u8]) -> Outcome {
+fn profile(input: &[u8]) -> ReadOutcome {
     let Ok(text) = std::str::from_utf8(input) else {
-        return Outcome::NO_TEXT;
+        return ReadOutcome::NO_TEXT;
     };
     let read = |points: Result<Points, wheelrail::profile::ProfileError>| {
         let made = points.and_then(|points| {
-            let rail = Profile::of_points(&points, Kind::Rail, 2e-5);
-            rail.or_else(|_| Profile::of_points(&points, Kind::Wheel, 2e-5))
+            let rail = Profile::of_points(&points, ProfileKind::Rail, 2e-5);
+            rail.or_else(|_| Profile::of_points(&points, ProfileKind::Wheel, 2e-5))
         });
         match made {
             Ok(profile) => {
                 let [y, z] = profile.top();
                 assert!(y.is_finite() && z.is_finite(), "no top");
-                Outcome::ACCEPTED
+                ReadOutcome::ACCEPTED
             }
-            Err(error) => Outcome::refused_with(&format!("{error}; {}", error.remedy())),
+            Err(error) => ReadOutcome::refused_with(&format!("{error}; {}", error.remedy())),
         }
     };
     read(Points::from_csv("profile.csv", text)).or(read(Points::from_simpack("profile.prr", text)))

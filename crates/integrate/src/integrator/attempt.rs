@@ -1,7 +1,7 @@
 //! What attempts of all methods share.
 
 use super::Integrator;
-use super::memory::{Failure, Outcome};
+use super::memory::{AttemptFailure, AttemptOutcome};
 use crate::error::Reason;
 use crate::methods::tableau::Family;
 use crate::problem::Problem;
@@ -12,7 +12,7 @@ impl<P: Problem> Integrator<P> {
     ///
     /// Only a diagnostic attempt finds the state to blame for a value that is not finite in a stage.
     #[inline(always)]
-    pub(super) fn make_attempt(&mut self) -> Outcome {
+    pub(super) fn make_attempt(&mut self) -> AttemptOutcome {
         if self.tableau.family == Family::DiagonallyImplicit {
             self.attempt_esdirk()
         } else if self.is_explicit(self.attempt.step) {
@@ -24,9 +24,9 @@ impl<P: Problem> Integrator<P> {
 
     /// Factors `shift·I - J` with the matrix that the problem holds.
     #[inline(always)]
-    pub(super) fn factor(&mut self, shift: f64) -> Result<(), Failure> {
+    pub(super) fn factor(&mut self, shift: f64) -> Result<(), AttemptFailure> {
         self.statistics.factorizations += 1;
-        self.problem.factor(shift).map_err(|singular| Failure {
+        self.problem.factor(shift).map_err(|singular| AttemptFailure {
             reason: Reason::Singular {
                 block: singular.block,
             },
@@ -55,7 +55,7 @@ impl<P: Problem> Integrator<P> {
     /// Evaluates the derivative at the end of the attempt. It belongs to the step: a step to a state without
     /// derivative is rejected.
     #[inline(always)]
-    pub(super) fn evaluate_end(&mut self) -> Result<(), Failure> {
+    pub(super) fn evaluate_end(&mut self) -> Result<(), AttemptFailure> {
         let n = self.dimension;
         self.problem
             .derivative(self.attempt.target, &self.trial_x[..n], &mut self.trial_dx[..n]);
@@ -86,8 +86,8 @@ pub(super) fn stage_time(alpha: f64, start: f64, step: f64, target: f64) -> f64 
 
 /// Returns the failure of an attempt with a value that is not finite; the first such state is to blame.
 #[cold]
-pub(super) fn not_finite(values: &[f64]) -> Failure {
-    Failure {
+pub(super) fn not_finite(values: &[f64]) -> AttemptFailure {
+    AttemptFailure {
         reason: Reason::NotFinite,
         index: values.iter().position(|value| !value.is_finite()),
     }

@@ -9,7 +9,7 @@
 
 use super::Integrator;
 use super::attempt::{not_finite, stage_time};
-use super::memory::{Attempt, Failure, Outcome};
+use super::memory::{Attempt, AttemptFailure, AttemptOutcome};
 use crate::error::Reason;
 use crate::newton::{CacheValidity, LineSearch, LinearizationPoint, Newton};
 use crate::problem::Problem;
@@ -22,7 +22,7 @@ use crate::vector::{
 impl<P: Problem> Integrator<P> {
     /// Makes an attempt by the ESDIRK method; returns its error in units of the tolerance.
     #[inline(never)]
-    pub(super) fn attempt_esdirk(&mut self) -> Outcome {
+    pub(super) fn attempt_esdirk(&mut self) -> AttemptOutcome {
         let (stride, last) = (self.stride, self.tableau.stages() - 2);
         self.trial_method = self.tableau;
         scale(&mut self.trial_stages[..stride], self.attempt.step, &self.dx);
@@ -81,7 +81,7 @@ impl<P: Problem> Integrator<P> {
 
     /// Solves the equations of a stage, from the prediction in the argument to the solution in the argument.
     #[inline(never)]
-    fn solve_nonlinear_stage(&mut self) -> Result<(), Failure> {
+    fn solve_nonlinear_stage(&mut self) -> Result<(), AttemptFailure> {
         self.evaluate_stage();
         while !self.first_correction()? && !self.iterate() {}
         Ok(())
@@ -89,14 +89,14 @@ impl<P: Problem> Integrator<P> {
 
     /// Makes the first correction with a matrix, from the argument, where the derivative is known; returns
     /// whether the stage is solved.
-    fn first_correction(&mut self) -> Result<bool, Failure> {
+    fn first_correction(&mut self) -> Result<bool, AttemptFailure> {
         let n = self.dimension;
         if !all_finite(&self.stage_derivative) {
             return Err(not_finite(&self.stage_derivative[..n]));
         }
         let matrices = self.newton.matrices + 1;
         if matrices > tuning::MAXIMUM_MATRICES {
-            return Err(Failure {
+            return Err(AttemptFailure {
                 reason: Reason::NewtonFailure,
                 index: None,
             });
@@ -198,7 +198,7 @@ impl<P: Problem> Integrator<P> {
     }
 
     /// Provides a factored matrix; returns whether it is known to be valid at the argument.
-    fn prepare_matrix(&mut self, validity: CacheValidity) -> Result<bool, Failure> {
+    fn prepare_matrix(&mut self, validity: CacheValidity) -> Result<bool, AttemptFailure> {
         // A later stage begins with the matrix of the stage before.
         let evaluate = match validity {
             CacheValidity::Valid => false,
@@ -231,7 +231,7 @@ impl<P: Problem> Integrator<P> {
     }
 
     /// Factors the cached matrix with a shift, unless it is factored so.
-    fn factor_matrix(&mut self, shift: f64) -> Result<(), Failure> {
+    fn factor_matrix(&mut self, shift: f64) -> Result<(), AttemptFailure> {
         if self.newton.cache.shift() != shift {
             if let Err(failure) = self.factor(shift) {
                 self.newton.cache.clear();

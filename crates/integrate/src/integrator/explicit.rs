@@ -2,7 +2,7 @@
 
 use super::Integrator;
 use super::attempt::{not_finite, stage_time};
-use super::memory::{Attempt, Outcome};
+use super::memory::{Attempt, AttemptOutcome};
 use crate::methods::explicit::TSITOURAS;
 use crate::problem::Problem;
 use crate::tuning::attempt as tuning;
@@ -21,7 +21,7 @@ impl<P: Problem> Integrator<P> {
 
     /// Makes an attempt by the explicit method; returns its error in units of the tolerance.
     #[inline(never)]
-    pub(super) fn attempt_explicit(&mut self) -> Outcome {
+    pub(super) fn attempt_explicit(&mut self) -> AttemptOutcome {
         let (n, stride) = (self.dimension, self.stride);
         let Attempt {
             step,

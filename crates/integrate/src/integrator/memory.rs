@@ -4,13 +4,13 @@ use crate::discontinuity::Prediction;
 use crate::error::Reason;
 
 /// Why an attempt failed, and the index of the state to blame.
-pub(super) struct Failure {
+pub(super) struct AttemptFailure {
     pub reason: Reason,
     pub index: Option<usize>,
 }
 
 /// The norm of the error of an attempt in units of the tolerance, or why it failed.
-pub(super) type Outcome = Result<f64, Failure>;
+pub(super) type AttemptOutcome = Result<f64, AttemptFailure>;
 
 /// The current attempt at a step.
 #[derive(Clone, Copy, Debug)]

@@ -2,7 +2,7 @@
 
 use super::Integrator;
 use super::attempt::{not_finite, stage_time};
-use super::memory::{Attempt, Outcome};
+use super::memory::{Attempt, AttemptOutcome};
 use crate::problem::Problem;
 use crate::tuning::attempt as tuning;
 use crate::vector::{add, all_finite, combine, max_norm};
@@ -10,7 +10,7 @@ use crate::vector::{add, all_finite, combine, max_norm};
 impl<P: Problem> Integrator<P> {
     /// Makes an attempt by the Rosenbrock method; returns its error in units of the tolerance.
     #[inline(never)]
-    pub(super) fn attempt_rosenbrock(&mut self) -> Outcome {
+    pub(super) fn attempt_rosenbrock(&mut self) -> AttemptOutcome {
         let (n, stride, tableau) = (self.dimension, self.stride, self.tableau);
         let Attempt {
             step,
@@ -77,7 +77,7 @@ impl<P: Problem> Integrator<P> {
 
     /// Computes the new state and the error from the stages.
     #[inline(always)]
-    fn finish_rosenbrock(&mut self) -> Outcome {
+    fn finish_rosenbrock(&mut self) -> AttemptOutcome {
         let (n, stride, count) = (self.dimension, self.stride, self.tableau.stages());
         self.statistics.derivatives += count as u64 - 1;
         self.statistics.solves += count as u64;

@@ -1,7 +1,7 @@
 //! A step: attempts are planned and made until one passes the error test.
 
 use super::Integrator;
-use super::memory::{Attempt, CorrectionState, Failure, Outcome};
+use super::memory::{Attempt, AttemptFailure, AttemptOutcome, CorrectionState};
 use crate::dense_output::DenseOutput;
 use crate::discontinuity::Prediction;
 use crate::error::{Reason, StepError};
@@ -87,7 +87,7 @@ impl<P: Problem> Integrator<P> {
 
     /// Plans another attempt after one that failed or whose error is too large.
     #[cold]
-    fn reject(&mut self, outcome: Outcome) -> Result<(), StepError> {
+    fn reject(&mut self, outcome: AttemptOutcome) -> Result<(), StepError> {
         let Attempt {
             end,
             mut step,
@@ -99,7 +99,7 @@ impl<P: Problem> Integrator<P> {
         } = self.attempt;
         let tried = target - self.time;
         if diagnostic {
-            let failure = outcome.err().unwrap_or(Failure {
+            let failure = outcome.err().unwrap_or(AttemptFailure {
                 reason: Reason::NotFinite,
                 index: blamed,
             });
@@ -109,7 +109,7 @@ impl<P: Problem> Integrator<P> {
             Ok(error) => {
                 scaled_error = error;
                 step *= self.reject_error(error);
-                Failure {
+                AttemptFailure {
                     reason: Reason::Error,
                     index: None,
                 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::between::Between;
 use super::gap::Gap;
-use super::site::{End, Row, Site};
+use super::site::{ConnectionEnd, CoordinateRow, Site};
 use super::spring::Spring;
 use super::surface::Surface;
 use super::wedge::{ColumnFace, WedgeLaw};
@@ -178,7 +178,7 @@ impl ConnectionAssembler<'_> {
         let mut sign = -1.0;
         let ends = numbers.map(|body| {
             sign = -sign;
-            End {
+            ConnectionEnd {
                 body,
                 free: self.free_number[body],
                 size: self.slots[body].iter().flatten().count(),
@@ -189,7 +189,7 @@ impl ConnectionAssembler<'_> {
         let rows = numbers.map(|body| {
             let center = self.bodies[body].frame.origin;
             let offset = std::array::from_fn(|k| point[k] - center[k]);
-            coordinates.map(|coordinate| Row::new(coordinate, offset, &self.slots[body]))
+            coordinates.map(|coordinate| CoordinateRow::new(coordinate, offset, &self.slots[body]))
         });
         let prescribed = ends.iter().any(|end| end.prescribed);
         let own = |kind| {

@@ -2,7 +2,7 @@
 
 use super::between::Between;
 use super::forces::{CoordinatesAndRates, SpatialLaw, deflection_at};
-use super::site::Row;
+use super::site::CoordinateRow;
 use super::wedge::{WedgeLaw, WedgeState};
 use super::{Connections, FrictionRule, Spatial};
 use crate::body::Body;
@@ -188,7 +188,7 @@ impl Connections {
                 let along = |coordinates: &[[f64; 6]], body: usize| {
                     let center = bodies[body].frame.origin;
                     let offset = std::array::from_fn(|k| connection.point[k] - center[k]);
-                    Row::new(coordinate, offset, &[None; 6]).along(&coordinates[body])
+                    CoordinateRow::new(coordinate, offset, &[None; 6]).along(&coordinates[body])
                 };
                 let extension = |coordinates: &[[f64; 6]]| {
                     along(coordinates, connection.a) - along(coordinates, connection.b)

@@ -9,7 +9,7 @@ use numerics::partitioned::Partitioned;
 
 /// The row of one displacement in a body's coordinates: at most three entries.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Row {
+pub(crate) struct CoordinateRow {
     at: [u8; 3],
     arm: [f64; 3],
     /// The same by free coordinates; arms of held ones are zero.
@@ -17,7 +17,7 @@ pub(crate) struct Row {
     free_arm: [f64; 3],
 }
 
-impl Row {
+impl CoordinateRow {
     /// Returns the displacement `coordinate` (0..6) of the point at `offset` from the center of gravity;
     /// `slots` numbers the free coordinates.
     pub fn new(coordinate: usize, offset: [f64; 3], slots: &[Option<usize>; 6]) -> Self {
@@ -85,7 +85,7 @@ impl Row {
 
 /// One end of a connection.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct End {
+pub(crate) struct ConnectionEnd {
     /// The body.
     pub body: usize,
     /// Its number among the free bodies.
@@ -106,9 +106,9 @@ pub(crate) struct Site<const D: usize, const P: usize> {
     /// First component there.
     pub component: usize,
     /// Body A and body B.
-    pub ends: [End; 2],
+    pub ends: [ConnectionEnd; 2],
     /// The rows of its displacements at both ends.
-    pub rows: [[Row; D]; 2],
+    pub rows: [[CoordinateRow; D]; 2],
     /// Coupling blocks by end and end.
     pub pairs: [[usize; 2]; 2],
     /// Its powers' quadratures.
@@ -128,7 +128,7 @@ pub(crate) struct Site<const D: usize, const P: usize> {
 /// Extensions and their rates at a state, and, between markers, the derivatives of the extensions by the
 /// coordinates of both bodies.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Motion<const D: usize> {
+pub(crate) struct ExtensionMotion<const D: usize> {
     /// Extensions.
     pub extensions: [f64; D],
     /// Their rates.
@@ -151,9 +151,9 @@ impl<const D: usize, const P: usize> Site<D, P> {
 
     /// Returns the extensions and their rates.
     #[inline(always)]
-    pub fn motion(&self, (positions, rates): CoordinatesAndRates<'_>) -> Motion<D> {
+    pub fn motion(&self, (positions, rates): CoordinatesAndRates<'_>) -> ExtensionMotion<D> {
         let Some(between) = &self.between else {
-            return Motion {
+            return ExtensionMotion {
                 extensions: self.differences(positions),
                 rates: self.differences(rates),
                 levers: None,
@@ -162,7 +162,7 @@ impl<const D: usize, const P: usize> Site<D, P> {
         let levers = between.levers_at(positions);
         let speeds = between.both(rates);
         let rate = |row: &[f64; 12]| row.iter().zip(&speeds).map(|(lever, speed)| lever * speed).sum();
-        Motion {
+        ExtensionMotion {
             extensions: levers.extensions,
             rates: levers.by_coordinates.each_ref().map(rate),
             levers: Some(levers.by_coordinates),
@@ -196,7 +196,7 @@ impl<const D: usize, const P: usize> Site<D, P> {
 
     /// Adds the forces on both bodies.
     #[inline(always)]
-    pub fn push(&self, force: [f64; D], motion: &Motion<D>, loads: &mut [[f64; 6]]) {
+    pub fn push(&self, force: [f64; D], motion: &ExtensionMotion<D>, loads: &mut [[f64; 6]]) {
         let Some(levers) = &motion.levers else {
             self.push_along_axes(force, loads);
             return;

@@ -16,14 +16,14 @@ use super::blocks::{OUTPUTS, PointBlock, PointDerivatives, Points};
 use super::motion::FaceMotion;
 use super::{PointForce, PointKinematics};
 use crate::link::RelativeMotion;
-use crate::surface::{Bend, Shape, compose, resolve};
+use crate::surface::{Bend, SurfaceShape, compose, resolve};
 use crate::tangent::{Tangent, TangentColumn, TangentColumns, sum};
 use crate::vector::Vector;
 
 /// A curved surface, and the motion of the body with the points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CurvedMotion<'s> {
-    pub shape: &'s Shape,
+    pub shape: &'s SurfaceShape,
     pub relative: &'s RelativeMotion<f64>,
 }
 

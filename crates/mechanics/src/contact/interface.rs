@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use super::PointProperties;
 use crate::friction::dot;
-use crate::surface::Shape;
+use crate::surface::SurfaceShape;
 
 /// How friction depends on slip speed and load.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -49,7 +49,7 @@ impl Default for Sliding {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Interface {
     /// The shape of the surface that the points touch.
-    pub shape: Shape,
+    pub shape: SurfaceShape,
     /// How friction depends on slip speed and load; the coefficient of the face is that of rest.
     pub sliding: Sliding,
     /// A factor of the coefficient for each point; empty: 1 for all.

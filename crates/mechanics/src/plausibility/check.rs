@@ -12,7 +12,7 @@ use crate::vector::Vector;
 
 /// A quantity at a place, and its limit (SI).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Check {
+pub(super) struct PlausibilityCheck {
     pub kind: FindingKind,
     pub location: Location,
     pub limit: f64,
@@ -35,7 +35,7 @@ pub(super) struct FaceStart {
 /// All that is looked at, in the order in which [`super::Plausibility::note`] finds the values.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Checks {
-    pub all: Vec<Check>,
+    pub all: Vec<PlausibilityCheck>,
     pub faces: Vec<FaceStart>,
     /// Distances between the markers of other force elements at the start, m.
     pub distances: Vec<f64>,
@@ -89,7 +89,7 @@ impl Checks {
 
     fn add(&mut self, kind: FindingKind, location: Location, limit: f64) {
         let limit = if limit > 0.0 { limit } else { f64::INFINITY };
-        self.all.push(Check {
+        self.all.push(PlausibilityCheck {
             kind,
             location,
             limit,

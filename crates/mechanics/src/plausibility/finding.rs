@@ -160,7 +160,7 @@ impl FindingKind {
 
 /// Something implausible in a run. Values are SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Finding {
+pub struct PlausibilityFinding {
     /// What.
     pub kind: FindingKind,
     /// Where.
@@ -175,7 +175,7 @@ pub struct Finding {
     pub limit: f64,
 }
 
-impl Finding {
+impl PlausibilityFinding {
     /// Returns the finding as one sentence in these units, without advice; `place` is its location in words.
     #[must_use]
     pub fn words(&self, place: &str, units: Units) -> String {
@@ -278,7 +278,7 @@ impl Finding {
 }
 
 /// A finding in SI units, without names.
-impl fmt::Display for Finding {
+impl fmt::Display for PlausibilityFinding {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let place = match self.location {
             Location::Body(number) => format!("body {number}"),

@@ -1,11 +1,11 @@
 //! Plausibility of a run: whether its bodies stayed where the model means something.
 //!
 //! The equations have a solution also where they no longer describe a machine: a surface is an unbounded
-//! plane, a contact spring can be compressed without limit, a coil can be turned inside out.
-//! [`Plausibility`] is shown a run at each output time, keeps the worst value of each quantity at each
-//! place, and gives a [`Finding`] for each that exceeds its limit. It knows bodies, contact faces, coils,
-//! other force elements and connections of a [`System`](crate::system::System), whatever they stand for. It
-//! changes nothing in a run, and allocates nothing after its construction.
+//! plane, a contact spring can be compressed without limit, a coil can be turned inside out. [`Plausibility`]
+//! is shown a run at each output time, keeps the worst value of each quantity at each place, and gives a
+//! [`PlausibilityFinding`] for each that exceeds its limit. It knows bodies, contact faces, coils, other
+//! force elements and connections of a [`System`](crate::system::System), whatever they stand for. It changes
+//! nothing in a run, and allocates nothing after its construction.
 //!
 //! Limits, with their reasons, are the constants of this module; lengths are taken from the model itself.
 
@@ -13,8 +13,8 @@ mod check;
 mod finding;
 mod observer;
 
-pub use finding::{Finding, FindingKind, Location};
-pub use observer::{FaceRecord, Plausibility, PlausibilityRecord, Worst};
+pub use finding::{FindingKind, Location, PlausibilityFinding};
+pub use observer::{FaceRecord, Plausibility, PlausibilityRecord, WorstValue};
 
 /// Largest penetration of a contact point, as a share of the smallest extent of its face. Up to 1 % the
 /// angles and levers of the undeformed faces are exact to about a percent.

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::check::Checks;
 use super::{
-    FEWEST_ROWS, Finding, FindingKind, LARGEST_FRICTION, LARGEST_SCATTER, Location, RELEASED_SHARE,
-    ROWS_A_PERIOD,
+    FEWEST_ROWS, FindingKind, LARGEST_FRICTION, LARGEST_SCATTER, Location, PlausibilityFinding,
+    RELEASED_SHARE, ROWS_A_PERIOD,
 };
 use crate::connection::Law;
 use crate::energy_balance::EnergyBalance;
@@ -19,7 +19,7 @@ const LARGEST: f64 = 1e300;
 
 /// The worst value of one quantity at one place so far (SI).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Worst {
+pub struct WorstValue {
     /// The value, zero or positive.
     pub value: f64,
     /// The first output time with it, s.
@@ -51,7 +51,7 @@ pub struct PlausibilityRecord {
     /// Output times seen.
     pub rows: u64,
     /// The worst values, in a fixed order.
-    pub worst: Vec<Worst>,
+    pub worst: Vec<WorstValue>,
     /// The contact faces.
     pub faces: Vec<FaceRecord>,
 }
@@ -60,7 +60,7 @@ impl PlausibilityRecord {
     /// Returns whether it can be the record of a run: no value is negative or out of all bounds.
     fn is_sound(&self) -> bool {
         let size = |value: f64| (0.0..LARGEST).contains(&value);
-        let worst = |worst: &Worst| {
+        let worst = |worst: &WorstValue| {
             let times = size(worst.time) && worst.since.is_none_or(size);
             times && size(worst.value) && worst.point as u64 <= MAXIMUM_COUNT
         };
@@ -89,7 +89,7 @@ impl Plausibility {
         let checks = Checks::new(system);
         let record = PlausibilityRecord {
             rows: 0,
-            worst: vec![Worst::default(); checks.all.len()],
+            worst: vec![WorstValue::default(); checks.all.len()],
             faces: vec![FaceRecord::default(); checks.faces.len()],
         };
         let mut observer = Self { checks, record };
@@ -174,7 +174,12 @@ impl Plausibility {
     /// Returns what is implausible, by kind of element and place; `balance` is the run's energy balance, and
     /// `interval` its output interval, s.
     #[must_use]
-    pub fn findings(&self, system: &System, balance: &EnergyBalance, interval: f64) -> Vec<Finding> {
+    pub fn findings(
+        &self,
+        system: &System,
+        balance: &EnergyBalance,
+        interval: f64,
+    ) -> Vec<PlausibilityFinding> {
         let mut findings = Vec::new();
         let pairs = self.checks.all.iter().zip(&self.record.worst);
         for (check, worst) in pairs.filter(|(check, worst)| worst.value > check.limit) {
@@ -185,7 +190,7 @@ impl Plausibility {
                 },
                 (_, location) => location,
             };
-            findings.push(Finding {
+            findings.push(PlausibilityFinding {
                 kind: check.kind,
                 location,
                 time: Some(worst.time),
@@ -201,7 +206,7 @@ impl Plausibility {
             .max(balance.largest_stored_change)
             .max(balance.stored_at_start);
         for (number, face) in self.record.faces.iter().enumerate() {
-            let finding = |kind: FindingKind, value: f64, limit: f64| Finding {
+            let finding = |kind: FindingKind, value: f64, limit: f64| PlausibilityFinding {
                 kind,
                 location: Location::Face {
                     face: number,
@@ -266,7 +271,7 @@ fn tilt(relative: &RelativeMotion<f64>, normal: Vector<f64>) -> f64 {
 }
 
 /// Returns the coefficients of friction that are out of proportion.
-fn frictions(system: &System) -> impl Iterator<Item = Finding> {
+fn frictions(system: &System) -> impl Iterator<Item = PlausibilityFinding> {
     let faces = system.faces().iter().enumerate().map(|(face, mounted)| {
         let location = Location::Face { face, point: None };
         (location, mounted.element.coefficient)
@@ -285,7 +290,7 @@ fn frictions(system: &System) -> impl Iterator<Item = Finding> {
         });
     let all = faces.chain(connections);
     all.filter(|(_, coefficient)| *coefficient > LARGEST_FRICTION)
-        .map(|(location, value)| Finding {
+        .map(|(location, value)| PlausibilityFinding {
             kind: FindingKind::Friction,
             location,
             time: None,

@@ -26,7 +26,7 @@ pub struct MotionChange {
 
 /// A direction.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Direction<'d> {
+pub struct StateDirection<'d> {
     /// Changes of the states; empty: none of them changes.
     pub state: &'d [f64],
     /// Changes of prescribed motions.
@@ -62,7 +62,7 @@ impl System {
         &mut self,
         time: f64,
         x: &[f64],
-        direction: &Direction<'_>,
+        direction: &StateDirection<'_>,
     ) -> Option<JacobianVectorProduct> {
         let n = x.len();
         let linearized = self.free.iter().any(|free| free.linear.is_some());
@@ -118,7 +118,12 @@ impl System {
         Some(JacobianVectorProduct { rates, evaluation })
     }
 
-    fn frame_derivative(&self, body: usize, time: f64, direction: &Direction<'_>) -> FrameMotion<Dual<1>> {
+    fn frame_derivative(
+        &self,
+        body: usize,
+        time: f64,
+        direction: &StateDirection<'_>,
+    ) -> FrameMotion<Dual<1>> {
         let frame = &self.bodies[body].frame;
         let mut jets: [Jet<Dual<1>>; 6] =
             std::array::from_fn(|k| frame.motions[k].evaluate(time, self.reference).map(Dual::from));

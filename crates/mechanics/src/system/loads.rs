@@ -1,7 +1,7 @@
 //! Wrenches of the elements on the bodies with marker A, along fixed axes, without other derived quantities.
 //!
 //! [`System::observe`] gives the same for every point, and all energies, at four times the cost. Nothing is
-//! allocated after the first use of [`Loads`].
+//! allocated after the first use of [`SystemLoads`].
 
 use super::forces::Mountable;
 use super::observe::{BodyState, CoilState, FaceState};
@@ -37,7 +37,7 @@ pub struct CoilLoad {
 
 /// States of all bodies, and the wrenches on those with marker A.
 #[derive(Clone, Debug, Default)]
-pub struct Loads {
+pub struct SystemLoads {
     /// All bodies.
     pub bodies: Vec<BodyState>,
     /// All faces.
@@ -102,7 +102,7 @@ impl CoilState {
 
 impl System {
     /// Computes the wrenches of all elements on the bodies with marker A at `time` and state `x`.
-    pub fn loads(&mut self, time: f64, x: &[f64], out: &mut Loads) {
+    pub fn loads(&mut self, time: f64, x: &[f64], out: &mut SystemLoads) {
         self.update_kinematics(time, x);
         self.body_states(x, &mut out.bodies);
         let [_, _, internal, _] = self.layout.split(x);

@@ -23,7 +23,7 @@ use mechanics::frame::Frame;
 use mechanics::friction::{FrictionLaw, bristle, tanh};
 use mechanics::link::{Marker, RelativeMotion};
 use mechanics::motion::{Motion, RampProfile};
-use mechanics::quasi_static::{Direction, QuasiStaticWedge, SlopeFriction};
+use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection, SlopeFriction};
 use mechanics::spline::{Spline, SplineError};
 use mechanics::system::System;
 use mechanics::vector::{Matrix, Vector};

@@ -34,9 +34,11 @@ fn massless_wedge_with_toe_out() {
         for (toe, [down, down_friction, up, up_friction]) in rows {
             let one = wedge(angle, toe, 0.4, 0.4);
             let down_found = one
-                .slide(Direction::Down, SlopeFriction::DownSlope, force)
+                .slide(SlidingDirection::Down, SlopeFriction::DownSlope, force)
                 .unwrap();
-            let up_found = one.slide(Direction::Up, SlopeFriction::UpSlope, force).unwrap();
+            let up_found = one
+                .slide(SlidingDirection::Up, SlopeFriction::UpSlope, force)
+                .unwrap();
             close(down_found.column_normal, down, 0.05);
             close(down_found.column_friction, down_friction, 0.05);
             close(up_found.column_normal, up, 0.05);
@@ -49,11 +51,13 @@ fn massless_wedge_with_toe_out() {
 fn massless_wedge_with_toe_in() {
     for ((angle, force), (normal, friction)) in LEGS.into_iter().zip([(1699.9, 680.0), (1777.2, 710.9)]) {
         let one = wedge(angle, -0.2, 0.4, 0.4);
-        let up = one.slide(Direction::Up, SlopeFriction::DownSlope, force).unwrap();
+        let up = one
+            .slide(SlidingDirection::Up, SlopeFriction::DownSlope, force)
+            .unwrap();
         close(up.column_normal, normal, 0.05);
         close(up.column_friction, friction, 0.05);
         assert_eq!(
-            one.slide(Direction::Down, SlopeFriction::UpSlope, force),
+            one.slide(SlidingDirection::Down, SlopeFriction::UpSlope, force),
             None,
             "it jams"
         );
@@ -66,19 +70,23 @@ fn massless_wedge_on_a_frictionless_slope() {
         let one = wedge(angle, 0.0, 0.4, 0.0);
         for slope in [SlopeFriction::UpSlope, SlopeFriction::DownSlope] {
             let found = |direction| one.slide(direction, slope, force).unwrap().column_normal;
-            close(found(Direction::Down), down, 0.5);
-            close(found(Direction::Up), up, if angle == 32.0 { 0.5 } else { 0.05 });
+            close(found(SlidingDirection::Down), down, 0.5);
+            close(
+                found(SlidingDirection::Up),
+                up,
+                if angle == 32.0 { 0.5 } else { 0.05 },
+            );
             // N = F / (tan θ - a μ)
             let t = one.angle.tan();
-            close(found(Direction::Down), force / (t - 0.4), 1e-6);
-            close(found(Direction::Up), force / (t + 0.4), 1e-6);
+            close(found(SlidingDirection::Down), force / (t - 0.4), 1e-6);
+            close(found(SlidingDirection::Up), force / (t + 0.4), 1e-6);
         }
     }
 }
 
 #[test]
 fn branches_and_jam() {
-    use Direction::{Down, Up};
+    use SlidingDirection::{Down, Up};
     use SlopeFriction::{DownSlope, UpSlope};
     for (toe, down, up) in [
         (0.2, DownSlope, UpSlope),
@@ -113,12 +121,16 @@ fn massless_wedge_in_force_balance() {
             slope_friction: random.between(0.0, 0.8),
         };
         let force = random.between(100.0, 5000.0);
-        for direction in [Direction::Down, Direction::Up] {
+        for direction in [SlidingDirection::Down, SlidingDirection::Up] {
             for slope in [SlopeFriction::UpSlope, SlopeFriction::DownSlope] {
                 let (st, ct) = one.angle.sin_cos();
                 let (sp, cp) = one.toe.sin_cos();
                 // The bolster takes the wedge along: friction of the column acts up while it moves down.
-                let up = if direction == Direction::Down { 1.0 } else { -1.0 };
+                let up = if direction == SlidingDirection::Down {
+                    1.0
+                } else {
+                    -1.0
+                };
                 let along = if slope == SlopeFriction::UpSlope {
                     1.0
                 } else {
@@ -164,7 +176,7 @@ fn partly_mobilized_friction_ends_in_steady_sliding() {
             column_friction: 0.35,
             slope_friction: 0.2,
         };
-        for (mobilized, direction) in [(1.0, Direction::Down), (-1.0, Direction::Up)] {
+        for (mobilized, direction) in [(1.0, SlidingDirection::Down), (-1.0, SlidingDirection::Up)] {
             let steady = wedge.slide(direction, wedge.branch(direction), 3000.0).unwrap();
             let [column, slope] = wedge.normal_forces(mobilized, 3000.0).unwrap();
             assert!((column / steady.column_normal - 1.0).abs() < 1e-12);
@@ -226,7 +238,7 @@ fn lock_up_margin_is_where_the_friction_cones_hold_a_line_in_common() {
 /// Without yaw it is the margin of steady sliding with both frictions against the wedge.
 #[test]
 fn lock_up_margin_tells_where_steady_sliding_ends() {
-    use Direction::Down;
+    use SlidingDirection::Down;
     use SlopeFriction::UpSlope;
     for angle in [20.0, 32.0, 37.5, 50.0] {
         for toe in [-5.0, 0.0, 0.2, 5.0] {

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use mechanics::connection::{Accumulator, Branch, ColumnFace, Law, Options, SlopeDirection};
 use mechanics::curve::Curve;
-use mechanics::quasi_static::{Direction, QuasiStaticWedge};
+use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection};
 use mechanics::system::ContactState;
 use mechanics::system::System;
 
@@ -94,7 +94,7 @@ fn wedge_slides_as_the_massless_wedge() {
             column_friction: law.column_friction,
             slope_friction: law.slope_friction,
         };
-        for (direction, velocity) in [(Direction::Down, -1e5), (Direction::Up, 1e5)] {
+        for (direction, velocity) in [(SlidingDirection::Down, -1e5), (SlidingDirection::Up, 1e5)] {
             let state = wedge_at(&law, &Options::default(), -INCH, velocity);
             match other.slide(direction, other.branch(direction), state.coil_force) {
                 Some(sliding) => {

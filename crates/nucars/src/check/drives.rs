@@ -5,11 +5,11 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use super::shown;
 use crate::finding::{Finding, Findings, Severity};
 use crate::source::Span;
-use crate::tree::{Connection, DofKind, Element, InputFile, Law, PiecewiseLinear, Shape, SystemFile};
+use crate::tree::{Connection, DofKind, Element, HistoryShape, InputFile, Law, PiecewiseLinear, SystemFile};
 
 /// A turn of a body that input bodies command through springs.
 #[derive(Clone, Debug)]
-pub struct Drive {
+pub struct SpringDrive {
     /// The body that is to turn.
     pub body: u32,
     /// The axis: roll, pitch or yaw.
@@ -37,7 +37,7 @@ struct Spring<'a> {
 }
 
 /// Returns all turns that are commanded through springs, by body and axis.
-pub fn drives(file: &SystemFile) -> Vec<Drive> {
+pub fn drives(file: &SystemFile) -> Vec<SpringDrive> {
     let inputs: HashSet<u32> = file.input_bodies.iter().map(|body| *body.id).collect();
     let functions: HashMap<u32, &PiecewiseLinear> = file
         .piecewise_linear
@@ -108,7 +108,7 @@ fn levers(axis: DofKind) -> [(DofKind, usize); 2] {
     }
 }
 
-fn drive(body: u32, axis: DofKind, springs: &[Spring<'_>]) -> Option<Drive> {
+fn drive(body: u32, axis: DofKind, springs: &[Spring<'_>]) -> Option<SpringDrive> {
     let rotational: Vec<&Spring<'_>> = springs.iter().filter(|spring| spring.dof == axis).collect();
     let first = rotational.first()?;
     let mut held_by = Vec::new();
@@ -135,7 +135,7 @@ fn drive(body: u32, axis: DofKind, springs: &[Spring<'_>]) -> Option<Drive> {
         }
     }
     held_by.sort_unstable();
-    Some(Drive {
+    Some(SpringDrive {
         body,
         axis,
         connections: rotational.iter().map(|spring| *spring.connection.id).collect(),
@@ -203,7 +203,7 @@ pub(super) fn check_with_input(file: &SystemFile, input: &InputFile, findings: &
         let amplitude = history
             .segments
             .iter()
-            .filter(|segment| *segment.shape != Shape::Null)
+            .filter(|segment| *segment.shape != HistoryShape::Null)
             .map(|segment| segment.amplitude.abs())
             .fold(0.0, f64::max);
         if amplitude == 0.0 {

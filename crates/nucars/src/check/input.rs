@@ -4,7 +4,7 @@ use super::repeated;
 use crate::finding::{Finding, Findings, Severity};
 use crate::read::Read;
 use crate::source::{SourceText, Span};
-use crate::tree::{History, InputFile, Segment, Shape};
+use crate::tree::{History, HistoryShape, InputFile, Segment};
 
 /// Checks an input file alone.
 pub fn input(read: &Read<InputFile>) -> Findings {
@@ -76,7 +76,7 @@ fn segments(history: &History, findings: &mut Findings) {
 fn shape(segment: &Segment, what: &str, findings: &mut Findings) {
     let [first, second] = segment.coefficients;
     match *segment.shape {
-        Shape::Sin | Shape::Ssin => {
+        HistoryShape::Sin | HistoryShape::Ssin => {
             for frequency in [first, second] {
                 if *frequency < 0.0 {
                     let message = format!("a frequency of {what} is {frequency} Hz");
@@ -88,7 +88,7 @@ fn shape(segment: &Segment, what: &str, findings: &mut Findings) {
                 findings.warning("no-effect", first.span, message, "write its frequency in Hz");
             }
         }
-        Shape::Bend | Shape::Cusp => {
+        HistoryShape::Bend | HistoryShape::Cusp => {
             if *first <= 0.0 {
                 let message = format!("the first coefficient of {what} is {first}");
                 findings.error(
@@ -99,7 +99,7 @@ fn shape(segment: &Segment, what: &str, findings: &mut Findings) {
                 );
             }
         }
-        Shape::Null => {
+        HistoryShape::Null => {
             if *segment.amplitude != 0.0 {
                 let message = format!(
                     "{what} has the shape NULL, so its amplitude of {} has no effect",
@@ -126,7 +126,7 @@ fn comments(
 ) {
     let text = source.slice(before);
     let shape = *segment.shape;
-    let moves = shape != Shape::Null && *segment.amplitude != 0.0;
+    let moves = shape != HistoryShape::Null && *segment.amplitude != 0.0;
     for line in text.lines().filter(|line| line.trim_start().starts_with('!')) {
         let line = line.to_lowercase();
         let words = |word: &str| {
@@ -135,9 +135,9 @@ fn comments(
         };
         let said = if words("null") && moves {
             "null"
-        } else if words("sine") && matches!(shape, Shape::Bend | Shape::Cusp) {
+        } else if words("sine") && matches!(shape, HistoryShape::Bend | HistoryShape::Cusp) {
             "sine"
-        } else if words("bend") && matches!(shape, Shape::Sin | Shape::Ssin) {
+        } else if words("bend") && matches!(shape, HistoryShape::Sin | HistoryShape::Ssin) {
             "bend"
         } else {
             continue;

@@ -21,7 +21,7 @@ use crate::source::{Span, Spanned};
 
 pub use balance::{Balance, GRAVITY, vertical_balance};
 pub use data::{data, data_of_system};
-pub use drives::{Drive, drives};
+pub use drives::{SpringDrive, drives};
 pub use input::input;
 pub use run::{run, run_with_input, run_without_file};
 pub use system::{system, system_with_input};

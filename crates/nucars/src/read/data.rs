@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::fields::{Fields, Stop, Wrap, short};
-use super::sections::{self, Section};
+use super::sections::{self, FileSection};
 use super::{FileKind, Read};
 use crate::finding::{Finding, Findings, Severity};
 use crate::lexer::TokenKind;
@@ -89,7 +89,7 @@ pub fn read_data(source: &Arc<SourceText>) -> Read<DataFile> {
     }
 }
 
-fn request(section: &Section, source: &SourceText, findings: &mut Findings) -> DataRequest {
+fn request(section: &FileSection, source: &SourceText, findings: &mut Findings) -> DataRequest {
     let mut fields = Fields::new(section.cursor(source), source.text(), Wrap::Counted, findings);
     let dofs = |fields: Fields<'_, '_>, quantity| {
         let (count, bodies) = dof_section(fields);

@@ -7,7 +7,7 @@ use super::{FileKind, Read, sections};
 use crate::finding::{Finding, Findings, Severity};
 use crate::number;
 use crate::source::{At, SourceText, Spanned};
-use crate::tree::{Argument, History, InputFile, Segment, Shape};
+use crate::tree::{Argument, History, HistoryShape, InputFile, Segment};
 
 pub const KEYWORDS: &[&str] = &["INPUT TITLE", "INPUT HISTORY DATA"];
 
@@ -146,8 +146,8 @@ fn segment(fields: &mut Fields<'_, '_>, index: u32) -> Result<Segment, Stop> {
     let shape = fields.word(
         "shape",
         "a shape: 0 NULL, 1 CUSP, 2 BEND, 3 SIN, 4 SSIN",
-        Shape::Null,
-        |text| Shape::from_code(number::whole(text)?),
+        HistoryShape::Null,
+        |text| HistoryShape::from_code(number::whole(text)?),
     )?;
     let end = fields.number("end (s or ft)")?;
     let base = [

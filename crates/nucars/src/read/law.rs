@@ -6,11 +6,11 @@ use super::fields::{Fields, Stop};
 use crate::finding::Severity;
 use crate::number;
 use crate::source::{At, Spanned};
-use crate::tree::{Characteristic, Connection, Element, Law, PiecewiseLinear, Toe, Value};
+use crate::tree::{Characteristic, Connection, Element, Law, PiecewiseLinear, Toe, UnknownValue};
 
 /// The form of a characteristic, by the type of connection that uses it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum LawForm {
     Limits,
     Gap,
     ViscousWedge,
@@ -20,36 +20,36 @@ pub enum Form {
     StickSlipWedge3d,
 }
 
-impl Form {
+impl LawForm {
     fn of(element: &Element) -> Self {
         match element {
-            Element::Parallel(_) | Element::ParallelGroup(_) | Element::CoilGroup(_) => Form::Limits,
-            Element::Gap(_) => Form::Gap,
-            Element::ViscousWedge(_) => Form::ViscousWedge,
-            Element::SurfaceFriction(_) => Form::SurfaceFriction,
-            Element::ViscousToeWedge(_) => Form::ViscousToeWedge,
-            Element::StickSlipWedge(_) => Form::StickSlipWedge,
-            Element::StickSlipWedge3d(_) => Form::StickSlipWedge3d,
+            Element::Parallel(_) | Element::ParallelGroup(_) | Element::CoilGroup(_) => LawForm::Limits,
+            Element::Gap(_) => LawForm::Gap,
+            Element::ViscousWedge(_) => LawForm::ViscousWedge,
+            Element::SurfaceFriction(_) => LawForm::SurfaceFriction,
+            Element::ViscousToeWedge(_) => LawForm::ViscousToeWedge,
+            Element::StickSlipWedge(_) => LawForm::StickSlipWedge,
+            Element::StickSlipWedge3d(_) => LawForm::StickSlipWedge3d,
         }
     }
 
     /// Returns the number of values that follow the record's number.
     fn values(self) -> usize {
         match self {
-            Form::Limits | Form::Gap => 4,
-            Form::ViscousWedge => 6,
-            Form::ViscousToeWedge => 8,
-            Form::SurfaceFriction => 5,
-            Form::StickSlipWedge | Form::StickSlipWedge3d => 10,
+            LawForm::Limits | LawForm::Gap => 4,
+            LawForm::ViscousWedge => 6,
+            LawForm::ViscousToeWedge => 8,
+            LawForm::SurfaceFriction => 5,
+            LawForm::StickSlipWedge | LawForm::StickSlipWedge3d => 10,
         }
     }
 }
 
 /// Returns the form of each characteristic that is used, by the greater number of uses.
-pub fn forms(connections: &[Connection]) -> HashMap<u32, Form> {
-    let mut uses: HashMap<u32, Vec<(Form, u32)>> = HashMap::new();
+pub fn forms(connections: &[Connection]) -> HashMap<u32, LawForm> {
+    let mut uses: HashMap<u32, Vec<(LawForm, u32)>> = HashMap::new();
     for connection in connections {
-        let form = Form::of(&connection.element);
+        let form = LawForm::of(&connection.element);
         for characteristic in connection.element.characteristics() {
             let counts = uses.entry(**characteristic).or_default();
             match counts.iter_mut().find(|(count, _)| *count == form) {
@@ -58,7 +58,7 @@ pub fn forms(connections: &[Connection]) -> HashMap<u32, Form> {
             }
         }
     }
-    let most = |counts: Vec<(Form, u32)>| {
+    let most = |counts: Vec<(LawForm, u32)>| {
         // The first of several with equal numbers.
         let first = counts.first().copied()?;
         let best = counts
@@ -74,7 +74,7 @@ pub fn forms(connections: &[Connection]) -> HashMap<u32, Form> {
 /// Returns a record of `\CHARACTERISTIC DATA`.
 pub fn characteristic(
     fields: &mut Fields<'_, '_>,
-    forms: &HashMap<u32, Form>,
+    forms: &HashMap<u32, LawForm>,
 ) -> Result<Characteristic, Stop> {
     fields.begin("characteristic", 0, 1);
     let id = fields.key("number")?;
@@ -103,7 +103,7 @@ fn toe(fields: &mut Fields<'_, '_>) -> Result<Spanned<Toe>, Stop> {
     Ok(Spanned::new(if *out { Toe::Out } else { Toe::In }, out.span))
 }
 
-fn law(fields: &mut Fields<'_, '_>, form: Form) -> Result<Law, Stop> {
+fn law(fields: &mut Fields<'_, '_>, form: LawForm) -> Result<Law, Stop> {
     const STIFFNESS: &str = "function of the stiffness (0 if there is none)";
     const DAMPING: &str = "function of the damping (0 if there is none)";
     const COIL: &str = "function of the coil (0 if its force is constant)";
@@ -112,19 +112,19 @@ fn law(fields: &mut Fields<'_, '_>, form: Form) -> Result<Law, Stop> {
     const KA: &str = "Ka (lb/in)";
     const CA: &str = "Ca (lb·s/in)";
     Ok(match form {
-        Form::Limits => Law::Limits {
+        LawForm::Limits => Law::Limits {
             stiffness: fields.whole(STIFFNESS)?,
             damping: fields.whole(DAMPING)?,
             extension: fields.number("limit in extension (lb or in·lb)")?,
             compression: fields.number("limit in compression (lb or in·lb)")?,
         },
-        Form::Gap => Law::Gap {
+        LawForm::Gap => Law::Gap {
             stiffness: fields.whole(STIFFNESS)?,
             damping: fields.whole(DAMPING)?,
             high: fields.number("upper end of the gap (in)")?,
             low: fields.number("lower end of the gap (in)")?,
         },
-        Form::ViscousWedge => Law::ViscousWedge {
+        LawForm::ViscousWedge => Law::ViscousWedge {
             coil: fields.whole(COIL)?,
             damping: fields.whole(DAMPING)?,
             angle: fields.number(ANGLE)?,
@@ -132,7 +132,7 @@ fn law(fields: &mut Fields<'_, '_>, form: Form) -> Result<Law, Stop> {
             viscosity: fields.number("LVB (lb·s/in)")?,
             friction: fields.number("coefficient of friction")?,
         },
-        Form::ViscousToeWedge => Law::ViscousToeWedge {
+        LawForm::ViscousToeWedge => Law::ViscousToeWedge {
             coil: fields.whole(COIL)?,
             damping: fields.whole(DAMPING)?,
             angle: fields.number(ANGLE)?,
@@ -142,14 +142,14 @@ fn law(fields: &mut Fields<'_, '_>, form: Form) -> Result<Law, Stop> {
             column_friction: fields.number("Mu2 (column)")?,
             toe: toe(fields)?,
         },
-        Form::SurfaceFriction => Law::SurfaceFriction {
+        LawForm::SurfaceFriction => Law::SurfaceFriction {
             normal: fields.whole("function of the normal force")?,
             damping: fields.whole(DAMPING)?,
             stiffness: fields.number(KA)?,
             bristle_damping: fields.number(CA)?,
             friction: fields.number("coefficient of friction")?,
         },
-        Form::StickSlipWedge => Law::StickSlipWedge {
+        LawForm::StickSlipWedge => Law::StickSlipWedge {
             coil: fields.whole(COIL)?,
             damping: fields.whole(DAMPING)?,
             angle: fields.number(ANGLE)?,
@@ -161,7 +161,7 @@ fn law(fields: &mut Fields<'_, '_>, form: Form) -> Result<Law, Stop> {
             toe: toe(fields)?,
             normal_limit: fields.number("FWNMAX (lb)")?,
         },
-        Form::StickSlipWedge3d => Law::StickSlipWedge3d {
+        LawForm::StickSlipWedge3d => Law::StickSlipWedge3d {
             coil: fields.whole("function of the coil")?,
             face: fields.whole("function of the column's face")?,
             angle: fields.number(ANGLE)?,
@@ -181,8 +181,8 @@ fn unused(fields: &mut Fields<'_, '_>) -> Law {
     let mut values = Vec::new();
     while let Some(token) = fields.cursor.peek().filter(|token| !token.begins_line) {
         let text = fields.text_of(token);
-        let number = number::real(text).map(Value::Number);
-        let Some(value) = number.or_else(|| number::logical(text).map(Value::Logical)) else {
+        let number = number::real(text).map(UnknownValue::Number);
+        let Some(value) = number.or_else(|| number::logical(text).map(UnknownValue::Logical)) else {
             break;
         };
         fields.cursor.next();

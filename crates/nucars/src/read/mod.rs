@@ -1,7 +1,7 @@
 //! Reading files into trees.
 //!
-//! Reading is lenient: a mistake costs its record at most, and the rest is read; all mistakes are reported, each
-//! at its place. [`Read::strict`] gives the tree only if there are none.
+//! Reading is lenient: a mistake costs its record at most, and the rest is read; all mistakes are reported,
+//! each at its place. [`Read::strict`] gives the tree only if there are none.
 
 mod data;
 mod fields;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::fields::{Fields, Stop, Wrap};
-use super::sections::{self, Section};
+use super::sections::{self, FileSection};
 use super::{FileKind, Read};
 use crate::finding::{Findings, Severity};
 use crate::source::{SourceText, Spanned};
@@ -71,7 +71,7 @@ pub fn read_run(source: &Arc<SourceText>) -> Read<RunFile> {
 }
 
 fn values<T>(
-    section: &Section,
+    section: &FileSection,
     source: &SourceText,
     keyword: &'static str,
     findings: &mut Findings,

@@ -10,7 +10,7 @@ use crate::tree::{RawSection, Title};
 
 /// A section: from after its keyword to the next one.
 #[derive(Clone, Debug)]
-pub struct Section {
+pub struct FileSection {
     /// In capitals, words separated by one blank, without `\`.
     pub keyword: Spanned<String>,
     /// `$\` instead of `\`.
@@ -18,7 +18,7 @@ pub struct Section {
     pub body: Span,
 }
 
-impl Section {
+impl FileSection {
     pub fn is(&self, keyword: &str) -> bool {
         self.keyword.value == keyword
     }
@@ -32,10 +32,10 @@ impl Section {
 const MOST: usize = 10_000;
 
 /// Cuts a file at lines that begin with `\` in the first column, or with `$\` (switched off) in any.
-pub fn split(source: &SourceText) -> Vec<Section> {
+pub fn split(source: &SourceText) -> Vec<FileSection> {
     let text = source.text();
     let bytes = text.as_bytes();
-    let mut sections: Vec<Section> = Vec::new();
+    let mut sections: Vec<FileSection> = Vec::new();
     let mut line = 0;
     while line < bytes.len() && sections.len() < MOST {
         let rest = &bytes[line..];
@@ -51,7 +51,7 @@ pub fn split(source: &SourceText) -> Vec<Section> {
             }
             let start = if off { line + indent + 1 } else { line };
             let (keyword, body) = keyword(text, start, line + length);
-            sections.push(Section {
+            sections.push(FileSection {
                 keyword,
                 off,
                 body: Span::new(body, text.len()),
@@ -84,7 +84,11 @@ fn keyword(text: &str, start: usize, end: usize) -> (Spanned<String>, usize) {
 }
 
 /// Returns the first section with this keyword that is not switched off; others with it are mistakes.
-pub fn only<'a>(sections: &'a [Section], keyword: &str, findings: &mut Findings) -> Option<&'a Section> {
+pub fn only<'a>(
+    sections: &'a [FileSection],
+    keyword: &str,
+    findings: &mut Findings,
+) -> Option<&'a FileSection> {
     let mut found = sections
         .iter()
         .filter(|section| !section.off && section.is(keyword));
@@ -102,11 +106,11 @@ pub fn only<'a>(sections: &'a [Section], keyword: &str, findings: &mut Findings)
 
 /// Returns the first section with this keyword, which the file must have.
 pub fn required<'a>(
-    sections: &'a [Section],
+    sections: &'a [FileSection],
     keyword: &str,
     kind: FileKind,
     findings: &mut Findings,
-) -> Option<&'a Section> {
+) -> Option<&'a FileSection> {
     let found = only(sections, keyword, findings);
     // A file without any keyword has one mistake, not one for each.
     if found.is_none() && !sections.is_empty() {
@@ -133,7 +137,7 @@ pub fn required<'a>(
 
 /// Sections that are none of `known`: switched off ones are noted, unknown ones are warned of.
 pub fn others(
-    sections: &[Section],
+    sections: &[FileSection],
     known: &[&str],
     source: &SourceText,
     kind: FileKind,
@@ -183,7 +187,12 @@ pub fn others(
 }
 
 /// Warns of lines that look like keywords but have blanks before the `\`, and of files without any keyword.
-pub fn look_for_hidden(source: &SourceText, sections: &[Section], kind: FileKind, findings: &mut Findings) {
+pub fn look_for_hidden(
+    source: &SourceText,
+    sections: &[FileSection],
+    kind: FileKind,
+    findings: &mut Findings,
+) {
     if source.is_latin1() {
         findings.note(
             "encoding",
@@ -242,7 +251,7 @@ pub fn lines(source: &SourceText, span: Span) -> Vec<Spanned<String>> {
 }
 
 /// Returns the title section: its first line is the title, the others are notes.
-pub fn title(sections: &[Section], keyword: &str, source: &SourceText, findings: &mut Findings) -> Title {
+pub fn title(sections: &[FileSection], keyword: &str, source: &SourceText, findings: &mut Findings) -> Title {
     let Some(section) = only(sections, keyword, findings) else {
         if sections.is_empty() {
             return Title::default();

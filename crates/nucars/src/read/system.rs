@@ -6,13 +6,15 @@ use quantity::nearest;
 
 use super::fields::{Fields, Stop, Wrap, begins_named, begins_numbered, short};
 use super::law::{characteristic, forms, piecewise_linear};
-use super::sections::{self, Section};
+use super::sections::{self, FileSection};
 use super::{FileKind, Read};
 use crate::finding::{Finding, Findings, Severity};
 use crate::lexer::TokenKind;
 use crate::number;
 use crate::source::{At, SourceText, Spanned};
-use crate::tree::{Body, Connection, Dof, Element, Group, InputBody, Pair, Single, SystemFile, Triple};
+use crate::tree::{
+    Body, Connection, DirectionGroup, DirectionPair, Dof, Element, InputBody, Single, SystemFile, Triple,
+};
 
 pub const KEYWORDS: &[&str] = &[
     "SYSTEM TITLE",
@@ -47,7 +49,7 @@ pub fn read_system(source: &Arc<SourceText>) -> Read<SystemFile> {
     let characteristics = named("CHARACTERISTIC DATA", &mut findings);
     let functions = named("PWL DATA", &mut findings);
     let inputs = sections::only(&sections, "INPUT BODY DATA", &mut findings)
-        .map(|found: &Section| found.cursor(source));
+        .map(|found: &FileSection| found.cursor(source));
 
     let lost = &mut tree.lost;
     lost.bodies = bodies.is_none();
@@ -330,19 +332,19 @@ fn element(fields: &mut Fields<'_, '_>, kind: &str) -> Result<Element, Stop> {
             characteristic: fields.whole("characteristic")?,
         })
     }
-    fn group(fields: &mut Fields<'_, '_>) -> Result<Group, Stop> {
+    fn group(fields: &mut Fields<'_, '_>) -> Result<DirectionGroup, Stop> {
         let count = fields.key("number of directions")?;
         let dofs = (0..*count)
             .map(|_| fields.dof("direction"))
             .collect::<Result<_, _>>()?;
         let characteristics = (0..*count).map(|_| fields.whole("characteristic of a direction"));
-        Ok(Group {
+        Ok(DirectionGroup {
             dofs,
             characteristics: characteristics.collect::<Result<_, _>>()?,
         })
     }
-    fn pair(fields: &mut Fields<'_, '_>) -> Result<Pair, Stop> {
-        Ok(Pair {
+    fn pair(fields: &mut Fields<'_, '_>) -> Result<DirectionPair, Stop> {
+        Ok(DirectionPair {
             dofs: [
                 fields.dof("vertical direction")?,
                 fields.dof("lateral direction")?,

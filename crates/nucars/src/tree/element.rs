@@ -14,7 +14,7 @@ pub struct Single {
 
 /// Several directions, each with a characteristic of its own.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Group {
+pub struct DirectionGroup {
     /// The directions.
     pub dofs: Vec<Spanned<Dof>>,
     /// The characteristic of each.
@@ -23,7 +23,7 @@ pub struct Group {
 
 /// Two directions with one characteristic: vertical, lateral.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pair {
+pub struct DirectionPair {
     /// Vertical, lateral.
     pub dofs: [Spanned<Dof>; 2],
     /// The characteristic of both.
@@ -181,13 +181,13 @@ pub enum Law {
     /// No connection uses it, so its form is not known.
     Unused {
         /// What its line says.
-        values: Vec<Spanned<Value>>,
+        values: Vec<Spanned<UnknownValue>>,
     },
 }
 
 /// A value whose meaning is not known.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Value {
+pub enum UnknownValue {
     /// A number.
     Number(f64),
     /// A truth value.

@@ -46,7 +46,7 @@ pub struct History {
 
 /// The shape of a segment on top of its base line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum HistoryShape {
     /// 0: the base line alone.
     Null,
     /// 1: cusp.
@@ -59,13 +59,19 @@ pub enum Shape {
     Ssin,
 }
 
-impl Shape {
+impl HistoryShape {
     /// All of them, by their codes 0 to 4.
-    pub const ALL: [Shape; 5] = [Shape::Null, Shape::Cusp, Shape::Bend, Shape::Sin, Shape::Ssin];
+    pub const ALL: [HistoryShape; 5] = [
+        HistoryShape::Null,
+        HistoryShape::Cusp,
+        HistoryShape::Bend,
+        HistoryShape::Sin,
+        HistoryShape::Ssin,
+    ];
 
     /// Returns the shape with this code.
     pub fn from_code(code: u32) -> Option<Self> {
-        Shape::ALL.get(usize::try_from(code).ok()?).copied()
+        HistoryShape::ALL.get(usize::try_from(code).ok()?).copied()
     }
 
     /// Returns its code.
@@ -85,7 +91,7 @@ pub struct Segment {
     /// Its number in the history, from 1.
     pub number: Spanned<u32>,
     /// Its shape.
-    pub shape: Spanned<Shape>,
+    pub shape: Spanned<HistoryShape>,
     /// Where it ends, s or ft.
     pub end: Spanned<f64>,
     /// The base line at its start and its end, in or rad.

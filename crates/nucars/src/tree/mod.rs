@@ -12,8 +12,8 @@ mod system;
 pub use data::{
     BodyDofs, Component, DataFile, DataRequest, DataSection, DofQuantity, ElementQuantity, Sum, Terms,
 };
-pub use element::{Characteristic, Group, Law, Pair, Single, Toe, Triple, Value};
-pub use input::{Argument, History, InputFile, Segment, Shape};
+pub use element::{Characteristic, DirectionGroup, DirectionPair, Law, Single, Toe, Triple, UnknownValue};
+pub use input::{Argument, History, HistoryShape, InputFile, Segment};
 pub use run::{Control, RunFile, Stepping};
 pub use system::{Body, Connection, Dof, DofKind, Element, InputBody, PiecewiseLinear, SystemFile};
 

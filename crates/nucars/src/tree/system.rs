@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::element::{Characteristic, Group, Pair, Single, Triple};
+use super::element::{Characteristic, DirectionGroup, DirectionPair, Single, Triple};
 use super::{RawSection, Title};
 use crate::source::{At, Spanned};
 
@@ -223,19 +223,19 @@ pub enum Element {
     /// 1: spring and damper in parallel in one direction.
     Parallel(Single),
     /// 1.1: the same in several directions, which do not act on one another.
-    ParallelGroup(Group),
+    ParallelGroup(DirectionGroup),
     /// 1.2: spring and damper that act outside a gap.
     Gap(Single),
     /// 1.3: group of coils: lateral, vertical, roll.
-    CoilGroup(Group),
+    CoilGroup(DirectionGroup),
     /// 6.3: wedge with viscous friction: vertical, lateral.
-    ViscousWedge(Pair),
+    ViscousWedge(DirectionPair),
     /// 6.5: friction on a surface: normal direction, two directions of friction.
     SurfaceFriction(Triple),
     /// 6.7: wedge with viscous friction, toe and two coefficients: vertical, lateral.
-    ViscousToeWedge(Pair),
+    ViscousToeWedge(DirectionPair),
     /// 6.8: wedge with stick-slip: vertical, lateral.
-    StickSlipWedge(Pair),
+    StickSlipWedge(DirectionPair),
     /// 6.9: wedge with stick-slip: vertical, longitudinal, lateral.
     StickSlipWedge3d(Triple),
 }

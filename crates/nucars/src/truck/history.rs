@@ -5,7 +5,7 @@ use mechanics::motion::{Motion, Piece, RampProfile};
 use super::build::BuildError;
 use super::choices::{Bend, Choices};
 use super::units::FOOT;
-use crate::tree::{Argument, History, Segment, Shape};
+use crate::tree::{Argument, History, HistoryShape, Segment};
 
 /// Returns the motion of a history in the file's units times `factor`, `delay` seconds late.
 pub(super) fn motion(
@@ -47,17 +47,17 @@ fn shape(segment: &Segment, choices: &Choices, scale: f64, length: f64) -> Motio
     let amplitude = *segment.amplitude;
     let angular = |frequency: f64| 2.0 * std::f64::consts::PI * frequency / scale;
     let shape = match *segment.shape {
-        Shape::Null => None,
-        Shape::Sin => Some(sine(amplitude, angular(c1))),
-        Shape::Ssin if c1 == c2 => Some(sine(amplitude, angular(c1))),
-        Shape::Ssin => Some(Motion::SweptSine {
+        HistoryShape::Null => None,
+        HistoryShape::Sin => Some(sine(amplitude, angular(c1))),
+        HistoryShape::Ssin if c1 == c2 => Some(sine(amplitude, angular(c1))),
+        HistoryShape::Ssin => Some(Motion::SweptSine {
             amplitude,
             start: angular(c1),
             end: angular(c2),
             duration: length,
         }),
-        Shape::Bend => Some(bend(choices.bend, amplitude, c1 * scale, c2 * scale, length)),
-        Shape::Cusp => Some(Motion::Cusps {
+        HistoryShape::Bend => Some(bend(choices.bend, amplitude, c1 * scale, c2 * scale, length)),
+        HistoryShape::Cusp => Some(Motion::Cusps {
             amplitude,
             decay: c1 * scale,
             spacing: c2 * scale,

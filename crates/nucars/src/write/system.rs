@@ -2,7 +2,7 @@
 
 use super::{Out, list, logical, quoted, real, reals};
 use crate::source::Spanned;
-use crate::tree::{Characteristic, Element, Law, SystemFile, Toe, Value};
+use crate::tree::{Characteristic, Element, Law, SystemFile, Toe, UnknownValue};
 
 pub fn write(file: &SystemFile) -> String {
     let mut out = Out::default();
@@ -196,8 +196,8 @@ fn law(characteristic: &Characteristic) -> String {
             let values: String = values
                 .iter()
                 .map(|value| match value.value {
-                    Value::Number(number) => format!(" {}", real(number)),
-                    Value::Logical(truth) => format!(" {}", logical(truth)),
+                    UnknownValue::Number(number) => format!(" {}", real(number)),
+                    UnknownValue::Logical(truth) => format!(" {}", logical(truth)),
                 })
                 .collect();
             format!(" {id}{values}")

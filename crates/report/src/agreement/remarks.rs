@@ -5,11 +5,11 @@ use quantity::{Kind, System as Units};
 use study::half_truck::catalog::WedgeType;
 use wedge::parameters::Damping;
 
-use super::{ComparedModel, Group, Stroke};
+use super::{AgreementGroup, ComparedModel, Stroke};
 use crate::figures::digits;
 
 /// Returns the sentences.
-pub(super) fn of(group: &Group, units: Units) -> Vec<String> {
+pub(super) fn of(group: &AgreementGroup, units: Units) -> Vec<String> {
     let mut remarks = Vec::new();
     remarks.push(slope(group).to_owned());
     remarks.extend(group.strokes.iter().map(|stroke| loops(group, stroke, units)));
@@ -38,7 +38,7 @@ pub(super) fn of(group: &Group, units: Units) -> Vec<String> {
 }
 
 /// Returns the sentence on why the stand-alone model differs from all quasi-static ones.
-fn slope(group: &Group) -> &'static str {
+fn slope(group: &AgreementGroup) -> &'static str {
     match (group.damping, group.yawed) {
         (Damping::Constant, _) => {
             "The quasi-static models are on eq. 5-1's plateaus at once after a reversal. In the stand-alone \
@@ -61,7 +61,7 @@ fn slope(group: &Group) -> &'static str {
 }
 
 /// Returns the sentence on a type's loop in the half-truck.
-fn loops(group: &Group, stroke: &Stroke, units: Units) -> String {
+fn loops(group: &AgreementGroup, stroke: &Stroke, units: Units) -> String {
     let energy = |value: f64| {
         let value = value * Kind::Energy.from_si(units);
         format!("{} {}", digits(value), Kind::Energy.label(units))
@@ -93,7 +93,7 @@ fn loops(group: &Group, stroke: &Stroke, units: Units) -> String {
 }
 
 /// Returns the sentence on stroke lost or gained.
-fn springs(group: &Group, stroke: &Stroke, units: Units) -> String {
+fn springs(group: &AgreementGroup, stroke: &Stroke, units: Units) -> String {
     let length = |value: f64| {
         let value = value * Kind::Length.from_si(units);
         format!("{} {}", digits(value), Kind::Length.label(units))
@@ -114,7 +114,7 @@ fn springs(group: &Group, stroke: &Stroke, units: Units) -> String {
 }
 
 /// Returns the sentence on the effect of yaw.
-fn yaw(group: &Group) -> Vec<String> {
+fn yaw(group: &AgreementGroup) -> Vec<String> {
     let mut texts = vec![
         "Yawed as intended, the half-truck's bolster is held in yaw by its springs and wedges alone and \
          swings about 0.012 rad, slowly dying out. The wedges slide sideways along the column with it, and \

@@ -393,7 +393,8 @@ pub(super) static CLAIMS: &[Claim] = &[
         place: "section 7.1, page 75",
         says: "After the comparison type 6.9 was updated; the updated one is very similar to the \
                stand-alone model, above all in the longitudinal forces.",
-        reason: "The thesis does not say what was changed in type 6.9, and no output of it is at hand, before or after.",
+        reason: "The thesis does not say what was changed in type 6.9, and no output of it is at hand, \
+                 before or after.",
     },
     undecidable! {
         id: "7.1-proven-models",

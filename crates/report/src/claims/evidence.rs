@@ -8,7 +8,7 @@ use mechanics::motion::Motion;
 use quantity::{Kind, System as Units};
 use study::case::Case;
 use study::half_truck::HalfTruckResult;
-use study::half_truck::catalog::{Entry, ToeCase, WedgeType, YawCase};
+use study::half_truck::catalog::{CatalogEntry, ToeCase, WedgeType, YawCase};
 use study::metrics::Cycle;
 use study::result::RunResult;
 use wedge::parameters::Damping;
@@ -58,7 +58,7 @@ impl RunId {
     /// Returns the kind of case that a half-truck's run is compared with; `None` for yaw as printed, which is
     /// no yaw.
     #[must_use]
-    pub fn of_truck(entry: &Entry) -> Option<Self> {
+    pub fn of_truck(entry: &CatalogEntry) -> Option<Self> {
         Some(Self {
             constant: entry.damping == Damping::Constant,
             toe: match entry.toe {
@@ -171,7 +171,10 @@ impl<'a> Evidence<'a> {
     /// the half-truck is compared with the stand-alone run of its damping, toe and yaw, which tells the
     /// cycle.
     #[must_use]
-    pub fn with_trucks(mut self, trucks: impl IntoIterator<Item = (&'a Entry, &'a HalfTruckResult)>) -> Self {
+    pub fn with_trucks(
+        mut self,
+        trucks: impl IntoIterator<Item = (&'a CatalogEntry, &'a HalfTruckResult)>,
+    ) -> Self {
         let known = trucks
             .into_iter()
             .filter_map(|(entry, result)| Some(((RunId::of_truck(entry)?, entry.wedges), result)));
@@ -280,7 +283,7 @@ struct Seen<'a> {
 
 /// A value that was found, SI.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Value {
+pub struct NotedValue {
     /// What it is of.
     pub label: String,
     /// The value, SI.
@@ -292,18 +295,18 @@ pub struct Value {
 /// What predicates note down as they are evaluated.
 #[derive(Debug, Default)]
 struct Notes {
-    values: RefCell<Vec<Value>>,
+    values: RefCell<Vec<NotedValue>>,
     gaps: RefCell<Vec<String>>,
 }
 
 /// A run as a predicate sees it.
 #[derive(Clone, Copy)]
-pub(super) struct View<'a> {
+pub(super) struct ClaimView<'a> {
     seen: Seen<'a>,
     notes: &'a Notes,
 }
 
-impl<'a> View<'a> {
+impl<'a> ClaimView<'a> {
     /// Returns its name in words.
     pub(super) fn name(self) -> String {
         self.seen.source.to_string()
@@ -361,7 +364,7 @@ impl<'a> View<'a> {
         if value.is_nan() {
             self.missing(format!("there is no {label}"));
         }
-        let value_found = Value { label, value, kind };
+        let value_found = NotedValue { label, value, kind };
         let mut values = self.notes.values.borrow_mut();
         if !values.contains(&value_found) {
             values.push(value_found);
@@ -379,7 +382,7 @@ impl<'a> View<'a> {
 
 /// Whether a claim holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
-pub enum Verdict {
+pub enum ClaimVerdict {
     /// The runs show what is claimed.
     #[serde(rename = "holds")]
     Holds,
@@ -391,7 +394,7 @@ pub enum Verdict {
     CannotBeDecided,
 }
 
-impl Verdict {
+impl ClaimVerdict {
     /// In words.
     #[must_use]
     pub fn words(self) -> &'static str {
@@ -405,21 +408,21 @@ impl Verdict {
 
 /// What came out of a predicate.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Finding {
+pub struct ClaimFinding {
     /// Whether it holds.
-    pub verdict: Verdict,
+    pub verdict: ClaimVerdict,
     /// The values that it rests on.
-    pub values: Vec<Value>,
+    pub values: Vec<NotedValue>,
     /// Why it cannot be decided; empty otherwise.
     pub undecided: String,
 }
 
-impl Finding {
+impl ClaimFinding {
     /// Returns the finding of a claim that the runs cannot decide.
     #[must_use]
     pub fn undecided(why: impl Into<String>) -> Self {
         Self {
-            verdict: Verdict::CannotBeDecided,
+            verdict: ClaimVerdict::CannotBeDecided,
             values: Vec::new(),
             undecided: why.into(),
         }
@@ -430,32 +433,32 @@ impl Finding {
 pub(super) fn decide<const N: usize>(
     evidence: &Evidence<'_>,
     runs: [EvidenceSource; N],
-    holds: impl Fn([View<'_>; N]) -> bool,
-) -> Finding {
+    holds: impl Fn([ClaimView<'_>; N]) -> bool,
+) -> ClaimFinding {
     let found = runs.map(|id| evidence.find(id));
     let missing: Vec<&str> = found
         .iter()
         .filter_map(|found| found.as_ref().err().map(String::as_str))
         .collect();
     if !missing.is_empty() {
-        return Finding::undecided(missing.join("; "));
+        return ClaimFinding::undecided(missing.join("; "));
     }
     let notes = Notes::default();
-    let views: Vec<View<'_>> = found
+    let views: Vec<ClaimView<'_>> = found
         .into_iter()
         .flatten()
-        .map(|seen| View { seen, notes: &notes })
+        .map(|seen| ClaimView { seen, notes: &notes })
         .collect();
-    let Ok(views) = <[View<'_>; N]>::try_from(views) else {
-        return Finding::undecided("runs are missing");
+    let Ok(views) = <[ClaimView<'_>; N]>::try_from(views) else {
+        return ClaimFinding::undecided("runs are missing");
     };
     let holds = holds(views);
     let gaps = notes.gaps.take();
-    Finding {
+    ClaimFinding {
         verdict: match (gaps.is_empty(), holds) {
-            (false, _) => Verdict::CannotBeDecided,
-            (true, true) => Verdict::Holds,
-            (true, false) => Verdict::DoesNot,
+            (false, _) => ClaimVerdict::CannotBeDecided,
+            (true, true) => ClaimVerdict::Holds,
+            (true, false) => ClaimVerdict::DoesNot,
         },
         values: notes.values.take(),
         undecided: gaps.join("; "),

@@ -6,11 +6,11 @@
 use mechanics::coil::CoilLaw;
 use quantity::Kind;
 
-use super::evidence::View;
-use super::words::{Quantity, When};
+use super::evidence::ClaimView;
+use super::words::{ClaimQuantity, When};
 
 /// Values of a quantity at the rows of a time.
-fn chosen(run: View<'_>, quantity: Quantity, when: When) -> Vec<f64> {
+fn chosen(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> Vec<f64> {
     (quantity.series)(run)
         .into_iter()
         .zip((when.rows)(run))
@@ -26,31 +26,31 @@ fn average(values: &[f64]) -> f64 {
     }
 }
 
-fn noted(run: View<'_>, what: &str, quantity: Quantity, when: When, value: f64) -> f64 {
+fn noted(run: ClaimView<'_>, what: &str, quantity: ClaimQuantity, when: When, value: f64) -> f64 {
     let label = format!("{what}{}, {}, {}", quantity.name, run.name(), when.name);
     run.note(label, value, quantity.kind)
 }
 
 /// Mean.
-pub(super) fn mean(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+pub(super) fn mean(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> f64 {
     let value = average(&chosen(run, quantity, when));
     noted(run, "mean ", quantity, when, value)
 }
 
 /// Size of the mean, whatever its sign.
-pub(super) fn size(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+pub(super) fn size(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> f64 {
     let value = average(&chosen(run, quantity, when)).abs();
     noted(run, "size of the mean ", quantity, when, value)
 }
 
 /// Mean of the size, whatever the sign.
-pub(super) fn mean_size(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+pub(super) fn mean_size(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> f64 {
     let sizes: Vec<f64> = chosen(run, quantity, when).iter().map(|v| v.abs()).collect();
     noted(run, "mean size of ", quantity, when, average(&sizes))
 }
 
 /// Greatest size, whatever the sign.
-pub(super) fn peak(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+pub(super) fn peak(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> f64 {
     let values = chosen(run, quantity, when);
     let most = values.iter().fold(f64::NAN, |most, value| value.abs().max(most));
     noted(run, "peak ", quantity, when, most)
@@ -63,25 +63,25 @@ fn least_and_greatest(values: &[f64]) -> (f64, f64) {
 }
 
 /// Least value.
-pub(super) fn least(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+pub(super) fn least(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> f64 {
     let (least, _) = least_and_greatest(&chosen(run, quantity, when));
     noted(run, "least ", quantity, when, least)
 }
 
 /// Greatest value.
-pub(super) fn greatest(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+pub(super) fn greatest(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> f64 {
     let (_, most) = least_and_greatest(&chosen(run, quantity, when));
     noted(run, "greatest ", quantity, when, most)
 }
 
 /// Greatest less least value.
-pub(super) fn range(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+pub(super) fn range(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> f64 {
     let (least, most) = least_and_greatest(&chosen(run, quantity, when));
     noted(run, "range of ", quantity, when, most - least)
 }
 
 /// Mean size of the second difference between rows that follow each other: how rough a curve is.
-pub(super) fn roughness(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+pub(super) fn roughness(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> f64 {
     let (values, rows) = ((quantity.series)(run), (when.rows)(run));
     let bends: Vec<f64> = values
         .windows(3)
@@ -94,7 +94,7 @@ pub(super) fn roughness(run: View<'_>, quantity: Quantity, when: When) -> f64 {
 
 /// Returns the number of peaks of a curve: rises after which it falls again by more than 2 % of its greatest
 /// size.
-pub(super) fn peaks(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+pub(super) fn peaks(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> f64 {
     let values = chosen(run, quantity, when);
     let most = values.iter().fold(f64::NAN, |most, value| value.abs().max(most));
     let threshold = 0.02 * most;
@@ -119,7 +119,7 @@ pub(super) fn peaks(run: View<'_>, quantity: Quantity, when: When) -> f64 {
 }
 
 /// Share of a time in which something is so.
-pub(super) fn share(run: View<'_>, so: When, when: When) -> f64 {
+pub(super) fn share(run: ClaimView<'_>, so: When, when: When) -> f64 {
     let so = (so.rows, so.name);
     let rows = (when.rows)(run);
     let marks: Vec<f64> = (so.0)(run)
@@ -132,7 +132,7 @@ pub(super) fn share(run: View<'_>, so: When, when: When) -> f64 {
 }
 
 /// Returns the value of another quantity where one has its peak.
-pub(super) fn at_peak(run: View<'_>, quantity: Quantity, when: When, other: Quantity) -> f64 {
+pub(super) fn at_peak(run: ClaimView<'_>, quantity: ClaimQuantity, when: When, other: ClaimQuantity) -> f64 {
     let values = chosen(run, quantity, when);
     let others = chosen(run, other, when);
     let (_, value) = values
@@ -156,7 +156,7 @@ pub(super) fn at_peak(run: View<'_>, quantity: Quantity, when: When, other: Quan
 }
 
 /// Returns whether something is so where a quantity has its peak: 1 or 0.
-pub(super) fn so_at_peak(run: View<'_>, quantity: Quantity, when: When, so: When) -> bool {
+pub(super) fn so_at_peak(run: ClaimView<'_>, quantity: ClaimQuantity, when: When, so: When) -> bool {
     let values = chosen(run, quantity, when);
     let marks: Vec<bool> = (so.rows)(run)
         .into_iter()
@@ -184,7 +184,7 @@ pub(super) fn so_at_peak(run: View<'_>, quantity: Quantity, when: When, so: When
 }
 
 /// Friction energy per cycle at the side frame, as the summary has it.
-pub(super) fn energy_per_cycle(run: View<'_>) -> f64 {
+pub(super) fn energy_per_cycle(run: ClaimView<'_>) -> f64 {
     run.note(
         format!("energy per cycle at the side frame, {}", run.name()),
         run.energy_per_cycle(),
@@ -194,7 +194,7 @@ pub(super) fn energy_per_cycle(run: View<'_>) -> f64 {
 
 /// Root mean square of the difference between a quantity and itself one period later, over that of the
 /// quantity.
-pub(super) fn change_between_cycles(run: View<'_>, quantity: Quantity) -> f64 {
+pub(super) fn change_between_cycles(run: ClaimView<'_>, quantity: ClaimQuantity) -> f64 {
     let values = (quantity.series)(run);
     let times = run.column("time");
     let period = run.cycle().period();
@@ -228,7 +228,7 @@ pub(super) fn change_between_cycles(run: View<'_>, quantity: Quantity) -> f64 {
 }
 
 /// Frequency (rad/s) with which a quantity crosses its mean.
-pub(super) fn ringing_frequency(run: View<'_>, quantity: Quantity, when: When) -> f64 {
+pub(super) fn ringing_frequency(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> f64 {
     let (values, rows, times) = ((quantity.series)(run), (when.rows)(run), run.column("time"));
     let middle = average(&chosen(run, quantity, when));
     let (mut crossings, mut time) = (0.0, 0.0);
@@ -255,7 +255,7 @@ pub(super) fn ringing_frequency(run: View<'_>, quantity: Quantity, when: When) -
 }
 
 /// Natural frequency of the free wedge on its coil (rad/s).
-pub(super) fn natural_frequency(run: View<'_>) -> f64 {
+pub(super) fn natural_frequency(run: ClaimView<'_>) -> f64 {
     let parameters = &run.case().parameters;
     let value = match &parameters.coil.law {
         CoilLaw::Linear { stiffness } => (stiffness / parameters.wedge.mass).sqrt(),
@@ -266,7 +266,7 @@ pub(super) fn natural_frequency(run: View<'_>) -> f64 {
 }
 
 /// Returns the first of some times (s) at which something is so.
-pub(super) fn first_time(run: View<'_>, so: When, when: When) -> f64 {
+pub(super) fn first_time(run: ClaimView<'_>, so: When, when: When) -> f64 {
     let rows = (so.rows)(run).into_iter().zip((when.rows)(run));
     let value = run
         .column("time")
@@ -283,16 +283,16 @@ pub(super) fn first_time(run: View<'_>, so: When, when: When) -> f64 {
 
 /// Returns the largest pitch moment that the face's normal forces could give with all of them at one edge:
 /// peak longitudinal force times half the face's height.
-pub(super) fn pitch_limit(run: View<'_>) -> f64 {
+pub(super) fn pitch_limit(run: ClaimView<'_>) -> f64 {
     edge_moment(run, "height", run.case().parameters.wedge.height)
 }
 
 /// Returns the largest yaw moment: peak longitudinal force times half the face's width.
-pub(super) fn yaw_limit(run: View<'_>) -> f64 {
+pub(super) fn yaw_limit(run: ClaimView<'_>) -> f64 {
     edge_moment(run, "width", run.case().parameters.wedge.width)
 }
 
-fn edge_moment(run: View<'_>, what: &str, extent: f64) -> f64 {
+fn edge_moment(run: ClaimView<'_>, what: &str, extent: f64) -> f64 {
     let values = chosen(run, super::words::longitudinal_force, super::words::settled);
     let most = values.iter().fold(f64::NAN, |most, value| value.abs().max(most));
     let label = format!(
@@ -303,12 +303,12 @@ fn edge_moment(run: View<'_>, what: &str, extent: f64) -> f64 {
 }
 
 /// Amplitude of the bolster's vertical motion.
-pub(super) fn amplitude(run: View<'_>) -> f64 {
+pub(super) fn amplitude(run: ClaimView<'_>) -> f64 {
     run.cycle().amplitude
 }
 
 /// Relative residual of the energy ledger.
-pub(super) fn ledger_residual(run: View<'_>) -> f64 {
+pub(super) fn ledger_residual(run: ClaimView<'_>) -> f64 {
     let value = run.ledger_residual().abs();
     let label = format!("relative residual of the energy ledger, {}", run.name());
     run.note(label, value, Kind::Dimensionless)
@@ -316,8 +316,13 @@ pub(super) fn ledger_residual(run: View<'_>) -> f64 {
 
 /// Returns the correlation of two runs' curves: the correlation of a quantity's values at the rows that both
 /// have.
-pub(super) fn correlation(one: View<'_>, other: View<'_>, quantity: Quantity, when: When) -> f64 {
-    let times = |run: View<'_>| -> Vec<f64> {
+pub(super) fn correlation(
+    one: ClaimView<'_>,
+    other: ClaimView<'_>,
+    quantity: ClaimQuantity,
+    when: When,
+) -> f64 {
+    let times = |run: ClaimView<'_>| -> Vec<f64> {
         let rows = (when.rows)(run).into_iter();
         let times = run.column("time").iter().copied();
         times
@@ -356,7 +361,7 @@ pub(super) fn correlation(one: View<'_>, other: View<'_>, quantity: Quantity, wh
 }
 
 /// Returns whether a run's table lacks what the stand-alone wedge has in this column.
-pub(super) fn lacks(run: View<'_>, column: &str) -> bool {
+pub(super) fn lacks(run: ClaimView<'_>, column: &str) -> bool {
     let label = format!("columns {column}, {}", run.name());
     run.note(label, f64::from(u8::from(run.has(column))), Kind::Count) == 0.0
 }

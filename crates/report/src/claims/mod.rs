@@ -40,23 +40,23 @@ mod variable;
 mod variable_yawed;
 mod words;
 
-pub use evidence::{Evidence, Finding, RunId, Toe, Value, Verdict};
+pub use evidence::{ClaimFinding, ClaimVerdict, Evidence, NotedValue, RunId, Toe};
 
 use std::io::{self, Write};
 
 use serde::Serialize;
-use study::half_truck::catalog::{Entry, ToeCase, YawCase};
+use study::half_truck::catalog::{CatalogEntry, ToeCase, YawCase};
 use study::summary::SummaryValue;
 
 use crate::summary::write_json;
 
-/// Version of the structure of [`Row`], for files.
+/// Version of the structure of [`ClaimRow`], for files.
 pub const SCHEMA: &str = "wedgelab.claims/1";
 
 /// Where a claim belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Group {
+pub enum ClaimGroup {
     /// Section 5.1.
     Variable,
     /// Section 5.2.
@@ -71,7 +71,7 @@ pub enum Group {
     Comparison,
 }
 
-impl Group {
+impl ClaimGroup {
     /// All groups, in order.
     pub const ALL: [Self; 6] = [
         Self::Variable,
@@ -102,7 +102,7 @@ pub struct Claim {
     /// A short name that stays, such as `5.1-ringing-about-zero`.
     pub id: &'static str,
     /// Where it belongs.
-    pub group: Group,
+    pub group: ClaimGroup,
     /// Where it stands in the thesis.
     pub place: &'static str,
     /// What it says, in our words.
@@ -112,18 +112,18 @@ pub struct Claim {
     /// The predicate as it is compiled; empty for a claim that the runs cannot decide.
     pub code: &'static str,
     /// Evaluates the predicate.
-    pub evaluate: fn(&Evidence<'_>) -> Finding,
+    pub evaluate: fn(&Evidence<'_>) -> ClaimFinding,
     /// Why it does not hold in the thesis's runs as they come out here; `None` where it does.
     pub why_not: Option<&'static str>,
 }
 
 /// A claim with its verdict, ready to be shown or written.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Row {
+pub struct ClaimRow {
     /// [`Claim::id`].
     pub id: &'static str,
     /// [`Claim::group`].
-    pub group: Group,
+    pub group: ClaimGroup,
     /// [`Claim::place`].
     pub place: &'static str,
     /// [`Claim::statement`].
@@ -133,16 +133,16 @@ pub struct Row {
     /// [`Claim::code`], on one line.
     pub code: String,
     /// The verdict.
-    pub verdict: Verdict,
+    pub verdict: ClaimVerdict,
     /// The values found, in the runs' units.
-    pub values: Vec<Shown>,
+    pub values: Vec<ShownValue>,
     /// Why it does not hold or cannot be decided; empty where it holds.
     pub note: String,
 }
 
 /// A value found, with its unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Shown {
+pub struct ShownValue {
     /// What it is of.
     pub label: String,
     /// The value and its unit.
@@ -162,19 +162,19 @@ pub struct Claims {
     /// How many cannot be decided.
     pub undecided: usize,
     /// The claims in the order of the thesis.
-    pub claims: Vec<Row>,
+    pub claims: Vec<ClaimRow>,
 }
 
 impl Claims {
     /// Counts rows.
     #[must_use]
-    pub fn of(claims: Vec<Row>) -> Self {
+    pub fn of(claims: Vec<ClaimRow>) -> Self {
         let count = |verdict| claims.iter().filter(|row| row.verdict == verdict).count();
         Self {
             schema: SCHEMA,
-            hold: count(Verdict::Holds),
-            do_not: count(Verdict::DoesNot),
-            undecided: count(Verdict::CannotBeDecided),
+            hold: count(ClaimVerdict::Holds),
+            do_not: count(ClaimVerdict::DoesNot),
+            undecided: count(ClaimVerdict::CannotBeDecided),
             claims,
         }
     }
@@ -230,12 +230,12 @@ const NOT_LOOKED_INTO: &str =
 /// Returns all claims with their verdicts, in the order of the thesis. Runs that are missing or incomplete
 /// leave the claims that need them undecided.
 #[must_use]
-pub fn evaluate(evidence: &Evidence<'_>) -> Vec<Row> {
+pub fn evaluate(evidence: &Evidence<'_>) -> Vec<ClaimRow> {
     let units = evidence.units();
     claims()
         .map(|claim| {
             let finding = (claim.evaluate)(evidence);
-            Row {
+            ClaimRow {
                 id: claim.id,
                 group: claim.group,
                 place: claim.place,
@@ -247,15 +247,15 @@ pub fn evaluate(evidence: &Evidence<'_>) -> Vec<Row> {
                     .values
                     .into_iter()
                     .filter(|found| !found.value.is_nan())
-                    .map(|found| Shown {
+                    .map(|found| ShownValue {
                         label: found.label,
                         measure: SummaryValue::new(found.value, found.kind, units),
                     })
                     .collect(),
                 note: match finding.verdict {
-                    Verdict::Holds => String::new(),
-                    Verdict::DoesNot => claim.why_not.unwrap_or(NOT_LOOKED_INTO).to_owned(),
-                    Verdict::CannotBeDecided => finding.undecided,
+                    ClaimVerdict::Holds => String::new(),
+                    ClaimVerdict::DoesNot => claim.why_not.unwrap_or(NOT_LOOKED_INTO).to_owned(),
+                    ClaimVerdict::CannotBeDecided => finding.undecided,
                 },
             }
         })
@@ -265,14 +265,14 @@ pub fn evaluate(evidence: &Evidence<'_>) -> Vec<Row> {
 /// Returns whether claims are decided from this run of the half-truck: toe out, without yaw or yawed as
 /// intended.
 #[must_use]
-pub fn needs_truck(entry: &Entry) -> bool {
+pub fn needs_truck(entry: &CatalogEntry) -> bool {
     entry.toe == ToeCase::Out && entry.yaw != YawCase::Printed
 }
 
 /// Returns the verdicts on all claims, in the order of the thesis: what [`evaluate`] finds, without its
 /// words.
 #[must_use]
-pub fn verdicts(evidence: &Evidence<'_>) -> Vec<Verdict> {
+pub fn verdicts(evidence: &Evidence<'_>) -> Vec<ClaimVerdict> {
     claims().map(|claim| (claim.evaluate)(evidence).verdict).collect()
 }
 
@@ -290,7 +290,7 @@ fn on_one_line(code: &str) -> String {
 }
 
 /// A claim whose predicate is compiled and shown from the same words. `runs` names the runs that it needs; in
-/// `holds` they are what [`evidence::View`] shows of them.
+/// `holds` they are what [`evidence::ClaimView`] shows of them.
 macro_rules! claim {
     (
         id: $id:literal,
@@ -304,7 +304,7 @@ macro_rules! claim {
     ) => {
         $crate::claims::Claim {
             id: $id,
-            group: $crate::claims::Group::$group,
+            group: $crate::claims::ClaimGroup::$group,
             place: $place,
             statement: $says,
             predicate: $test,
@@ -342,12 +342,12 @@ macro_rules! undecidable {
     ) => {
         $crate::claims::Claim {
             id: $id,
-            group: $crate::claims::Group::$group,
+            group: $crate::claims::ClaimGroup::$group,
             place: $place,
             statement: $says,
             predicate: "none: nothing in the runs decides it",
             code: "",
-            evaluate: |_| $crate::claims::Finding::undecided($reason),
+            evaluate: |_| $crate::claims::ClaimFinding::undecided($reason),
             why_not: None,
         }
     };

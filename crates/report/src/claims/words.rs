@@ -9,113 +9,114 @@
 use quantity::Kind;
 use wedge::outputs::CORNERS;
 
-use super::evidence::View;
+use super::evidence::ClaimView;
 
 /// A column, or what is made of columns, row by row, SI.
 #[derive(Clone, Copy)]
-pub(super) struct Quantity {
+pub(super) struct ClaimQuantity {
     pub(super) name: &'static str,
     pub(super) kind: Kind,
-    pub(super) series: fn(View<'_>) -> Vec<f64>,
+    pub(super) series: fn(ClaimView<'_>) -> Vec<f64>,
 }
 
 /// Times at which something is so.
 #[derive(Clone, Copy)]
 pub(super) struct When {
     pub(super) name: &'static str,
-    pub(super) rows: fn(View<'_>) -> Vec<bool>,
+    pub(super) rows: fn(ClaimView<'_>) -> Vec<bool>,
 }
 
 /// One cycle per second, rad/s.
 pub(super) const hertz: f64 = 2.0 * std::f64::consts::PI;
 
-const fn column(name: &'static str, kind: Kind, series: fn(View<'_>) -> Vec<f64>) -> Quantity {
-    Quantity { name, kind, series }
+const fn column(name: &'static str, kind: Kind, series: fn(ClaimView<'_>) -> Vec<f64>) -> ClaimQuantity {
+    ClaimQuantity { name, kind, series }
 }
 
-const fn when(name: &'static str, rows: fn(View<'_>) -> Vec<bool>) -> When {
+const fn when(name: &'static str, rows: fn(ClaimView<'_>) -> Vec<bool>) -> When {
     When { name, rows }
 }
 
 /// Column friction as it acts on the side frame; chapter 6 draws it.
-pub(super) const vertical_force: Quantity = column("vertical wedge force", Kind::Force, |run| {
+pub(super) const vertical_force: ClaimQuantity = column("vertical wedge force", Kind::Force, |run| {
     run.column("vertical_wedge_force").to_vec()
 });
 /// The same less the coil's force on the side frame; chapter 5 draws it.
-pub(super) const side_frame_force: Quantity =
+pub(super) const side_frame_force: ClaimQuantity =
     column("vertical force on the side frame", Kind::Force, |run| {
         run.column("vertical_force_on_side_frame").to_vec()
     });
-pub(super) const longitudinal_force: Quantity = column("longitudinal wedge force", Kind::Force, |run| {
+pub(super) const longitudinal_force: ClaimQuantity = column("longitudinal wedge force", Kind::Force, |run| {
     run.column("longitudinal_wedge_force").to_vec()
 });
-pub(super) const lateral_force: Quantity = column("lateral force on the bolster", Kind::Force, |run| {
+pub(super) const lateral_force: ClaimQuantity = column("lateral force on the bolster", Kind::Force, |run| {
     run.column("net_force_on_bolster_y").to_vec()
 });
-pub(super) const dissipation: Quantity = column("dissipation at the side frame", Kind::Power, |run| {
+pub(super) const dissipation: ClaimQuantity = column("dissipation at the side frame", Kind::Power, |run| {
     run.column("side_frame_dissipation").to_vec()
 });
 /// The power of the column's friction, which types 6.8 and 6.9 have too: negative where energy is lost.
-pub(super) const friction_power: Quantity = column("friction power at the side frame", Kind::Power, |run| {
-    run.column("side_frame_friction_power").to_vec()
-});
-pub(super) const roll_moment: Quantity = column("roll moment", Kind::Moment, |run| {
+pub(super) const friction_power: ClaimQuantity =
+    column("friction power at the side frame", Kind::Power, |run| {
+        run.column("side_frame_friction_power").to_vec()
+    });
+pub(super) const roll_moment: ClaimQuantity = column("roll moment", Kind::Moment, |run| {
     run.column("side_frame_roll_moment").to_vec()
 });
-pub(super) const pitch_moment: Quantity = column("pitch moment", Kind::Moment, |run| {
+pub(super) const pitch_moment: ClaimQuantity = column("pitch moment", Kind::Moment, |run| {
     run.column("side_frame_pitch_moment").to_vec()
 });
-pub(super) const yaw_moment: Quantity = column("yaw moment", Kind::Moment, |run| {
+pub(super) const yaw_moment: ClaimQuantity = column("yaw moment", Kind::Moment, |run| {
     run.column("side_frame_yaw_moment").to_vec()
 });
-pub(super) const coil_force: Quantity =
+pub(super) const coil_force: ClaimQuantity =
     column("coil force", Kind::Force, |run| run.column("coil_force").to_vec());
-pub(super) const wedge_x: Quantity = column("longitudinal wedge displacement", Kind::Length, |run| {
+pub(super) const wedge_x: ClaimQuantity = column("longitudinal wedge displacement", Kind::Length, |run| {
     run.column("wedge_x").to_vec()
 });
-pub(super) const wedge_y: Quantity = column("lateral wedge displacement", Kind::Length, |run| {
+pub(super) const wedge_y: ClaimQuantity = column("lateral wedge displacement", Kind::Length, |run| {
     run.column("wedge_y").to_vec()
 });
-pub(super) const wedge_z: Quantity = column("vertical wedge displacement", Kind::Length, |run| {
+pub(super) const wedge_z: ClaimQuantity = column("vertical wedge displacement", Kind::Length, |run| {
     run.column("wedge_z").to_vec()
 });
-pub(super) const wedge_roll: Quantity = column("roll of the wedge", Kind::Angle, |run| {
+pub(super) const wedge_roll: ClaimQuantity = column("roll of the wedge", Kind::Angle, |run| {
     run.column("wedge_roll").to_vec()
 });
-pub(super) const wedge_pitch: Quantity = column("pitch of the wedge", Kind::Angle, |run| {
+pub(super) const wedge_pitch: ClaimQuantity = column("pitch of the wedge", Kind::Angle, |run| {
     run.column("wedge_pitch").to_vec()
 });
-pub(super) const wedge_yaw: Quantity = column("yaw of the wedge", Kind::Angle, |run| {
+pub(super) const wedge_yaw: ClaimQuantity = column("yaw of the wedge", Kind::Angle, |run| {
     run.column("wedge_yaw").to_vec()
 });
-pub(super) const bolster_z: Quantity = column("bolster displacement", Kind::Length, |run| {
+pub(super) const bolster_z: ClaimQuantity = column("bolster displacement", Kind::Length, |run| {
     run.column("bolster_vertical").to_vec()
 });
-pub(super) const bolster_speed: Quantity = column("vertical bolster speed", Kind::Speed, |run| {
+pub(super) const bolster_speed: ClaimQuantity = column("vertical bolster speed", Kind::Speed, |run| {
     run.column("bolster_vertical_rate").to_vec()
 });
-pub(super) const bolster_yaw: Quantity = column("yaw of the bolster", Kind::Angle, |run| {
+pub(super) const bolster_yaw: ClaimQuantity = column("yaw of the bolster", Kind::Angle, |run| {
     run.column("bolster_yaw").to_vec()
 });
 /// Distance of a lower and of an upper corner from the column, where positive: those of the side that yaw
 /// lifts off.
-pub(super) const lower_gap: Quantity = column(
+pub(super) const lower_gap: ClaimQuantity = column(
     "gap at the lower right corner of the column",
     Kind::Length,
     |run| gap(run, "column_lower_right_gap"),
 );
-pub(super) const upper_gap: Quantity = column(
+pub(super) const upper_gap: ClaimQuantity = column(
     "gap at the upper right corner of the column",
     Kind::Length,
     |run| gap(run, "column_upper_right_gap"),
 );
 /// How many of the four column corners touch.
-pub(super) const corners_touching: Quantity =
+pub(super) const corners_touching: ClaimQuantity =
     column("column corners that touch", Kind::Dimensionless, |run| {
         corners(run, "column", |open, _, _| (CORNERS.len() - open) as f64)
     });
 /// The upper corners' share of the column's normal force, less one half; zero where nothing touches.
-pub(super) const unevenness: Quantity = column(
+pub(super) const unevenness: ClaimQuantity = column(
     "upper corners' share of the normal force less one half",
     Kind::Dimensionless,
     |run| {
@@ -135,12 +136,12 @@ pub(super) const unevenness: Quantity = column(
     },
 );
 
-fn gap(run: View<'_>, name: &str) -> Vec<f64> {
+fn gap(run: ClaimView<'_>, name: &str) -> Vec<f64> {
     run.column(name).iter().map(|gap| gap.max(0.0)).collect()
 }
 
 /// Returns a function of the numbers of a face's corners that are open, stick and slip.
-fn corners<T>(run: View<'_>, face: &str, make: fn(usize, usize, usize) -> T) -> Vec<T> {
+fn corners<T>(run: ClaimView<'_>, face: &str, make: fn(usize, usize, usize) -> T) -> Vec<T> {
     let states = CORNERS.map(|corner| run.column(&format!("{face}_{corner}_state")));
     let rows = states.iter().map(|states| states.len()).min().unwrap_or(0);
     (0..rows)
@@ -153,12 +154,12 @@ fn corners<T>(run: View<'_>, face: &str, make: fn(usize, usize, usize) -> T) -> 
 
 /// Rows at which the bolster's displacement (over its amplitude) and speed (over its peak) are so, after the
 /// start.
-fn phase(run: View<'_>, holds: fn(f64, f64) -> bool) -> Vec<bool> {
+fn phase(run: ClaimView<'_>, holds: fn(f64, f64) -> bool) -> Vec<bool> {
     timed(run, |time, z, speed| time > 0.5 && holds(z, speed))
 }
 
 /// As [`phase`], with the time (over the period) and from the start.
-fn timed(run: View<'_>, holds: impl Fn(f64, f64, f64) -> bool) -> Vec<bool> {
+fn timed(run: ClaimView<'_>, holds: impl Fn(f64, f64, f64) -> bool) -> Vec<bool> {
     let cycle = run.cycle();
     let positions = run.column("bolster_vertical");
     let speeds = run.column("bolster_vertical_rate");
@@ -175,7 +176,7 @@ fn timed(run: View<'_>, holds: impl Fn(f64, f64, f64) -> bool) -> Vec<bool> {
         .collect()
 }
 
-fn branch(run: View<'_>, up: bool) -> Vec<bool> {
+fn branch(run: ClaimView<'_>, up: bool) -> Vec<bool> {
     let cycle = run.cycle();
     let damping = run.case().parameters.damping;
     let positions = run.column("bolster_vertical");
@@ -310,7 +311,7 @@ pub(super) const powerless: When = when("while the friction has hardly any power
     quiet(run, "side_frame_friction_power", 0.01)
 });
 
-fn quiet(run: View<'_>, name: &str, share: f64) -> Vec<bool> {
+fn quiet(run: ClaimView<'_>, name: &str, share: f64) -> Vec<bool> {
     let values = run.column(name);
     let most = values
         .iter()
@@ -321,7 +322,7 @@ fn quiet(run: View<'_>, name: &str, share: f64) -> Vec<bool> {
     both(quiet, &phase(run, |_, _| true))
 }
 
-fn wedge_moves(run: View<'_>, sign: f64) -> Vec<bool> {
+fn wedge_moves(run: ClaimView<'_>, sign: f64) -> Vec<bool> {
     let moves: Vec<bool> = run
         .column("wedge_z_rate")
         .iter()

@@ -2,17 +2,17 @@
 
 use quantity::nearest;
 
-use super::{ComparisonError, Entry, MAIN};
+use super::{ComparedResult, ComparisonError, MAIN};
 use crate::table::TableColumn;
 
 /// Returns the columns to compare, without units.
 pub(super) fn choose(
-    first: &Entry,
-    others: &[Entry],
+    first: &ComparedResult,
+    others: &[ComparedResult],
     wanted: &[String],
     notes: &mut Vec<String>,
 ) -> Result<Vec<String>, ComparisonError> {
-    let clash = |own: &TableColumn, other: &Entry| {
+    let clash = |own: &TableColumn, other: &ComparedResult| {
         let theirs = other.table.find(&own.name)?;
         (theirs.kind.dimension() != own.kind.dimension()).then(|| ComparisonError::Kinds {
             column: own.name.clone(),
@@ -73,7 +73,11 @@ pub(super) fn choose(
 }
 
 /// Returns the error, with names that may be meant to be the same.
-fn nothing_in_common(first: &Entry, other: &Entry, own: &[&TableColumn]) -> ComparisonError {
+fn nothing_in_common(
+    first: &ComparedResult,
+    other: &ComparedResult,
+    own: &[&TableColumn],
+) -> ComparisonError {
     const MOST: usize = 3;
     let theirs = || {
         let names = other.table.columns().iter().map(|column| column.name.as_str());

@@ -9,7 +9,7 @@ use quantity::{Kind, System as Units};
 use serde::Deserialize;
 use study::summary::SummaryValue;
 
-use super::{Energy, Entry};
+use super::{ComparedResult, Energy};
 use crate::{csv, summary};
 
 /// What the file of a summary must be.
@@ -31,7 +31,7 @@ struct AveragesPart {
 }
 
 /// Energies per cycle of the results whose summaries have them, as the first one's has.
-pub(super) fn energies(entries: &[Entry], units: Units, notes: &mut Vec<String>) -> Vec<Energy> {
+pub(super) fn energies(entries: &[ComparedResult], units: Units, notes: &mut Vec<String>) -> Vec<Energy> {
     let mut read = entries
         .iter()
         .map(|entry| match summary_beside(&entry.table.file) {

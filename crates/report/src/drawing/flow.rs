@@ -8,7 +8,7 @@ use super::paint::{FONT, SHEET_WIDTH, TEXT_SIZE, TITLE_SIZE, title_size};
 
 /// A node: a bar as high as what flows through it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Node {
+pub struct FlowNode {
     /// Its column, from the left.
     pub column: usize,
     /// Its text, number and unit included; may be empty, or have several lines.
@@ -34,7 +34,7 @@ pub struct Band {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FlowChart {
     /// Its nodes.
-    pub nodes: Vec<Node>,
+    pub nodes: Vec<FlowNode>,
     /// Its bands.
     pub bands: Vec<Band>,
 }
@@ -69,7 +69,7 @@ impl FlowChart {
         self.nodes.iter().map(|node| node.column + 1).max().unwrap_or(0)
     }
 
-    fn of_column(&self, column: usize) -> impl Iterator<Item = (usize, &Node)> {
+    fn of_column(&self, column: usize) -> impl Iterator<Item = (usize, &FlowNode)> {
         let nodes = self.nodes.iter().enumerate();
         nodes.filter(move |(_, node)| node.column == column)
     }
@@ -203,12 +203,12 @@ impl FlowChart {
 
 #[cfg(test)]
 mod tests {
-    use super::{Band, Colour, FlowChart, Node};
+    use super::{Band, Colour, FlowChart, FlowNode};
 
     /// Widths are proportional, with one scale for all columns, and nodes do not overlap.
     #[test]
     fn analytic_bands_are_as_wide_as_what_flows() {
-        let node = |column, value| Node {
+        let node = |column, value| FlowNode {
             column,
             label: format!("{value} J"),
             value,

@@ -82,7 +82,7 @@ pub fn distinct(number: usize) -> (Colour, Line) {
 
 /// A curve.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Curve {
+pub struct PlotCurve {
     /// Its name in the legend; curves of the same name in several panels share one entry, and one without a
     /// name has none.
     pub label: String,
@@ -113,7 +113,7 @@ pub struct Panel {
     /// Name and unit of the ordinate.
     pub y_label: String,
     /// Its curves, the first one lowest.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<PlotCurve>,
     /// The window that is shown of the abscissa; without one, everything.
     pub x_window: Option<(f64, f64)>,
     /// Names of the ordinates 0, 1, ..., from bottom to top, where the ordinate is not a number.
@@ -171,8 +171,8 @@ impl Figure {
     }
 
     /// Returns the names in the legend with their styles, in the order in which they first appear.
-    fn legend(&self) -> Vec<&Curve> {
-        let mut entries: Vec<&Curve> = Vec::new();
+    fn legend(&self) -> Vec<&PlotCurve> {
+        let mut entries: Vec<&PlotCurve> = Vec::new();
         for curve in self.panels.iter().flat_map(|panel| &panel.curves) {
             if !curve.label.is_empty() && entries.iter().all(|entry| entry.label != curve.label) {
                 entries.push(curve);
@@ -227,7 +227,7 @@ mod tests {
     use super::*;
 
     fn figure() -> Figure {
-        let curve = Curve {
+        let curve = PlotCurve {
             label: "a < b".to_owned(),
             colour: Colour::Blue,
             line: Line::Dashed,

@@ -11,7 +11,7 @@ use kuva::render::figure::Figure as Sheet;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 
 use super::scale::Scale;
-use super::{Curve, Figure, Line, Panel};
+use super::{Figure, Line, Panel, PlotCurve};
 use crate::thin::{thin, window};
 
 /// Width of a figure of one row, and of a single panel, pixels.
@@ -338,13 +338,13 @@ fn panel_layout(panel: &Panel, x: Scale, y: Scale) -> Layout {
 }
 
 /// Rows of lines and names below the panels, where no data are.
-fn add_legend(scene: &mut Scene, entries: &[&Curve]) {
+fn add_legend(scene: &mut Scene, entries: &[&PlotCurve]) {
     let (gap, between) = (8.0, 36.0);
-    let width = |curve: &Curve| {
+    let width = |curve: &PlotCurve| {
         let letters = 0.55 * f64::from(TEXT_SIZE) * curve.label.chars().count() as f64;
         LEGEND_LINE + gap + letters
     };
-    let mut rows: Vec<(Vec<&Curve>, f64)> = Vec::new();
+    let mut rows: Vec<(Vec<&PlotCurve>, f64)> = Vec::new();
     for entry in entries {
         let own = width(entry) + between;
         match rows.last_mut() {

@@ -9,7 +9,7 @@ use quantity::{Kind, System as Units};
 
 use super::{Exhibit, axis};
 use crate::csv::converted;
-use crate::drawing::{Curve, Figure, Panel, distinct};
+use crate::drawing::{Figure, Panel, PlotCurve, distinct};
 
 /// A run of a car.
 #[derive(Clone, Debug)]
@@ -53,7 +53,7 @@ impl CarRun {
         let units = self.units();
         let curves = columns.iter().enumerate().map(|(number, (label, name))| {
             let (colour, line) = distinct(number);
-            Curve {
+            PlotCurve {
                 label: label.clone(),
                 colour,
                 line,

@@ -4,15 +4,15 @@ use ::study::car::certificate::{Assessed, Certificate};
 use quantity::{Kind, System as Units};
 
 use super::{Exhibit, axis, capital};
-use crate::certificate_files::Findings;
-use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
+use crate::certificate_files::CertificateFindings;
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 
 /// Returns the figure of a regime over the speed: a panel for each of its limits, then the wedges.
 #[must_use]
-pub fn over_speed(certificate: &Certificate, findings: &Findings, regime: usize) -> Exhibit {
+pub fn over_speed(certificate: &Certificate, findings: &CertificateFindings, regime: usize) -> Exhibit {
     let own = &certificate.regimes[regime];
     let units = Units::Us;
-    let over = |value: &dyn Fn(&Assessed) -> Option<f64>| -> Vec<Curve> {
+    let over = |value: &dyn Fn(&Assessed) -> Option<f64>| -> Vec<PlotCurve> {
         let conditions = certificate.conditions.iter().enumerate();
         let curves = conditions.map(|(condition, named)| {
             let (colour, line) = distinct(condition);
@@ -22,7 +22,7 @@ pub fn over_speed(certificate: &Certificate, findings: &Findings, regime: usize)
                 .filter_map(|run| Some((run.speed_si * Kind::TravelSpeed.from_si(units), value(run)?)))
                 .collect();
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            Curve {
+            PlotCurve {
                 label: named.name.replace('_', " "),
                 colour,
                 line,
@@ -31,7 +31,7 @@ pub fn over_speed(certificate: &Certificate, findings: &Findings, regime: usize)
         });
         curves.filter(|curve| !curve.points.is_empty()).collect()
     };
-    let panel = |title: String, y_label: String, curves: Vec<Curve>| Panel {
+    let panel = |title: String, y_label: String, curves: Vec<PlotCurve>| Panel {
         title,
         x_label: axis("speed", Kind::TravelSpeed, units),
         y_label,
@@ -55,7 +55,7 @@ pub fn over_speed(certificate: &Certificate, findings: &Findings, regime: usize)
                 (low.min(*at), high.max(*at))
             });
         if ends.0.is_finite() {
-            curves.push(Curve {
+            curves.push(PlotCurve {
                 label: "limit".to_owned(),
                 colour: Colour::Vermillion,
                 line: Line::Dotted,

@@ -5,7 +5,7 @@
 //! is known. Their columns are those of the leading left wedge, drawn under the names of the stand-alone
 //! wedge's columns that stand for the same ([`crate::agreement::truck_column`]).
 
-use mechanics::quasi_static::Direction;
+use mechanics::quasi_static::SlidingDirection;
 use quantity::{Kind, System as Units};
 use study::closed_form;
 use study::half_truck::HalfTruckResult;
@@ -14,10 +14,10 @@ use study::metrics::Cycle;
 use wedge::parameters::Damping;
 
 use super::thesis::{Windows, cut_text, windows};
-use super::{Exhibit, Outcome, axis, capital, curve};
+use super::{CaseOutcome, Exhibit, axis, capital, curve};
 use crate::agreement::{Set, TruckOutcome, equation_5_1, sets, truck_column};
 use crate::csv::converted;
-use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 /// What a figure shows.
 struct Quantity {
@@ -107,7 +107,7 @@ const EQUATION: (&str, Colour, Line) = ("eq. 5-1", Colour::Green, Line::Dotted);
 
 /// Returns the figures that these runs allow.
 #[must_use]
-pub fn exhibits(outcomes: &[Outcome], trucks: &[TruckOutcome]) -> Vec<Exhibit> {
+pub fn exhibits(outcomes: &[CaseOutcome], trucks: &[TruckOutcome]) -> Vec<Exhibit> {
     let mut exhibits = Vec::new();
     for set in sets(outcomes, trucks) {
         let sheet = Sheet::new(&set);
@@ -156,7 +156,7 @@ impl<'o> Sheet<'o> {
     }
 
     /// Returns one column over another for all models; then eq. 5-1.
-    fn curves(&self, x: &str, quantity: &Quantity) -> Vec<Curve> {
+    fn curves(&self, x: &str, quantity: &Quantity) -> Vec<PlotCurve> {
         let mut curves = vec![curve(&self.set.alone.1, x, quantity.column, ALONE)];
         for (entry, result) in self.set.trucks.iter().copied() {
             let values = truck_column(result, quantity.column);
@@ -187,12 +187,12 @@ impl<'o> Sheet<'o> {
     }
 
     /// Eq. 5-1 over the input's stroke: both branches.
-    fn branches(&self) -> Option<Curve> {
+    fn branches(&self) -> Option<PlotCurve> {
         let parameters = &self.set.alone.0.parameters;
         let cycle = Cycle::of(parameters)?;
         let (low, high) = (cycle.middle - cycle.amplitude, cycle.middle + cycle.amplitude);
         let mut points = Vec::new();
-        for direction in [Direction::Up, Direction::Down] {
+        for direction in [SlidingDirection::Up, SlidingDirection::Down] {
             for part in 0..=BRANCH_POINTS {
                 let z = low + (high - low) * f64::from(part) / f64::from(BRANCH_POINTS);
                 let force = closed_form::vertical_wedge_force(parameters, z, direction)?;
@@ -204,7 +204,7 @@ impl<'o> Sheet<'o> {
             points.push((f64::NAN, f64::NAN));
         }
         let (label, colour, line) = EQUATION;
-        Some(Curve {
+        Some(PlotCurve {
             label: label.to_owned(),
             colour,
             line,
@@ -219,12 +219,12 @@ impl<'o> Sheet<'o> {
         values: impl Iterator<Item = f64>,
         kind: Kind,
         (label, colour, line): (&str, Colour, Line),
-    ) -> Option<Curve> {
+    ) -> Option<PlotCurve> {
         let x_kind = if x == "time" { Kind::Time } else { Kind::Length };
         // Loops of the half-truck are drawn over its stroke.
         let x = if x == "bolster_vertical" { "wedge_z" } else { x };
         let points = truck_column(result, x)?.iter().zip(values);
-        Some(Curve {
+        Some(PlotCurve {
             label: label.to_owned(),
             colour,
             line,

@@ -1,14 +1,14 @@
 //! The jam map of a study: the column's force over angle and friction, computed and of the massless wedge.
 
-use mechanics::quasi_static::{Direction, QuasiStaticWedge};
+use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection};
 use quantity::Quantity;
 use study::closed_form;
 use study::design::Study;
 
 use super::study::{contour_curves, factor_axis};
 use super::{Exhibit, digits};
-use crate::contour::Grid;
-use crate::drawing::{Colour, Curve, Figure, Line, Mark, Panel};
+use crate::contour::HeightGrid;
+use crate::drawing::{Colour, Figure, Line, Mark, Panel, PlotCurve};
 use crate::study_digest::{Digest, Jam, JamCells};
 
 /// Column forces over the coil's load.
@@ -46,8 +46,8 @@ fn map(study: &Study, digest: &Digest, jam: &Jam, cells: &JamCells) -> Option<Ex
         wedge
     };
     let sides = [
-        (0, Direction::Down, "(a) while the bolster falls"),
-        (1, Direction::Up, "(b) while the bolster rises"),
+        (0, SlidingDirection::Down, "(a) while the bolster falls"),
+        (1, SlidingDirection::Up, "(b) while the bolster rises"),
     ];
     let panels = sides.map(|(side, direction, title)| {
         let computed: Vec<f64> = cells.ratios.iter().map(|cell| cell[side].mean()).collect();
@@ -60,7 +60,7 @@ fn map(study: &Study, digest: &Digest, jam: &Jam, cells: &JamCells) -> Option<Ex
         let closed = contours(&fine_x, &fine_y, &heights);
         let (mut curves, mut marks) = (Vec::new(), Vec::new());
         for (curve, mark) in computed {
-            curves.push(Curve {
+            curves.push(PlotCurve {
                 label: "computed".to_owned(),
                 colour: Colour::Black,
                 line: Line::Solid,
@@ -69,7 +69,7 @@ fn map(study: &Study, digest: &Digest, jam: &Jam, cells: &JamCells) -> Option<Ex
             marks.push(mark);
         }
         for (curve, mark) in closed {
-            curves.push(Curve {
+            curves.push(PlotCurve {
                 label: "massless wedge".to_owned(),
                 colour: Colour::Vermillion,
                 line: Line::Dashed,
@@ -91,7 +91,7 @@ fn map(study: &Study, digest: &Digest, jam: &Jam, cells: &JamCells) -> Option<Ex
             .filter(|(at, _)| (x[0]..=x[x.len() - 1]).contains(at))
             .collect();
         if !boundary.is_empty() {
-            curves.push(Curve {
+            curves.push(PlotCurve {
                 label: "massless wedge jams left of this".to_owned(),
                 colour: Colour::Purple,
                 line: Line::Dotted,
@@ -148,8 +148,8 @@ fn map(study: &Study, digest: &Digest, jam: &Jam, cells: &JamCells) -> Option<Ex
     })
 }
 
-fn contours(x: &[f64], y: &[f64], heights: &[f64]) -> Vec<(Curve, Mark)> {
-    contour_curves(&Grid { x, y, heights }, &RATIOS)
+fn contours(x: &[f64], y: &[f64], heights: &[f64]) -> Vec<(PlotCurve, Mark)> {
+    contour_curves(&HeightGrid { x, y, heights }, &RATIOS)
 }
 
 /// Points evenly from the first to the last.
@@ -162,7 +162,7 @@ fn between(values: &[f64]) -> Vec<f64> {
 }
 
 /// Returns the column's normal force along the track over the load; `NaN` where the wedge jams.
-fn ratio(wedge: &QuasiStaticWedge, direction: Direction) -> f64 {
+fn ratio(wedge: &QuasiStaticWedge, direction: SlidingDirection) -> f64 {
     let slide = wedge.slide(direction, wedge.branch(direction), 1.0);
     slide.map_or(f64::NAN, |slide| slide.column_normal * libm::cos(wedge.toe))
 }

@@ -35,10 +35,10 @@ pub(crate) use pressure::over_face;
 use quantity::{Kind, System as Units};
 
 use crate::csv::converted;
-use crate::drawing::{Colour, Curve, Figure, Line};
+use crate::drawing::{Colour, Figure, Line, PlotCurve};
 
 /// A case and what came out of it.
-pub type Outcome = (Case, RunResult);
+pub type CaseOutcome = (Case, RunResult);
 
 /// A figure of the report.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,8 +99,8 @@ pub fn curve<S: RunSummary>(
     x: &str,
     y: &str,
     (label, colour, line): (&str, Colour, Line),
-) -> Curve {
-    Curve {
+) -> PlotCurve {
+    PlotCurve {
         label: label.to_owned(),
         colour,
         line,

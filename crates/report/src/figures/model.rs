@@ -5,13 +5,13 @@ use mechanics::friction::{FrictionLaw, bristle, tanh};
 use quantity::{Kind, System as Units};
 use wedge::parameters::Damping;
 
-use super::{Exhibit, Outcome, axis, curve, digits, toe_style, yaw};
+use super::{CaseOutcome, Exhibit, axis, curve, digits, toe_style, yaw};
 use crate::csv::converted;
-use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 
 /// Returns the figures that these runs allow.
 #[must_use]
-pub fn exhibits(outcomes: &[Outcome]) -> Vec<Exhibit> {
+pub fn exhibits(outcomes: &[CaseOutcome]) -> Vec<Exhibit> {
     let mut exhibits = Vec::new();
     exhibits.extend(bolster_motion(outcomes));
     exhibits.extend(friction_law(outcomes));
@@ -22,10 +22,10 @@ pub fn exhibits(outcomes: &[Outcome]) -> Vec<Exhibit> {
 }
 
 /// Figure 4-1, and the yaw of figure 4-2.
-fn bolster_motion(outcomes: &[Outcome]) -> Option<Exhibit> {
+fn bolster_motion(outcomes: &[CaseOutcome]) -> Option<Exhibit> {
     let (_, result) = outcomes.first()?;
     let units = result.summary.units;
-    let mut yawing: Vec<Curve> = Vec::new();
+    let mut yawing: Vec<PlotCurve> = Vec::new();
     for (case, result) in outcomes {
         let label = format!("yaw {} rad", yaw(case));
         if yawing.iter().all(|curve| curve.label != label) {
@@ -69,7 +69,7 @@ fn bolster_motion(outcomes: &[Outcome]) -> Option<Exhibit> {
 
 /// Figure 3-9: the friction force over the slip speed, from the law's own code; beside it the law that
 /// sticks.
-fn friction_law(outcomes: &[Outcome]) -> Option<Exhibit> {
+fn friction_law(outcomes: &[CaseOutcome]) -> Option<Exhibit> {
     let (case, result) = outcomes.first()?;
     let units = result.summary.units;
     let FrictionLaw::Tanh { reference_speed } = case.parameters.column_friction.law else {
@@ -96,7 +96,7 @@ fn friction_law(outcomes: &[Outcome]) -> Option<Exhibit> {
                     title: "(a) tanh".to_owned(),
                     x_label: axis("slip speed", Kind::Speed, units),
                     y_label: "friction over its limit".to_owned(),
-                    curves: vec![Curve {
+                    curves: vec![PlotCurve {
                         label: "tanh".to_owned(),
                         colour: Colour::Blue,
                         line: Line::Solid,
@@ -108,7 +108,7 @@ fn friction_law(outcomes: &[Outcome]) -> Option<Exhibit> {
                     title: "(b) bristle".to_owned(),
                     x_label: axis("displacement", Kind::Length, units),
                     y_label: "friction over its limit".to_owned(),
-                    curves: vec![Curve {
+                    curves: vec![PlotCurve {
                         label: "bristle".to_owned(),
                         colour: Colour::Vermillion,
                         line: Line::DashDot,
@@ -150,8 +150,8 @@ fn bristle_loop(units: Units) -> Vec<(f64, f64)> {
 }
 
 /// Coil force over length (figures 2-3 and 2-4 show it for the comparison program) and over time.
-fn coil(outcomes: &[Outcome], damping: Damping) -> Option<Exhibit> {
-    let runs: Vec<&Outcome> = outcomes
+fn coil(outcomes: &[CaseOutcome], damping: Damping) -> Option<Exhibit> {
+    let runs: Vec<&CaseOutcome> = outcomes
         .iter()
         .filter(|(case, _)| case.parameters.damping == damping && yaw(case) == 0.0)
         .collect();
@@ -170,7 +170,7 @@ fn coil(outcomes: &[Outcome], damping: Damping) -> Option<Exhibit> {
                 converted(stiffness * (coil.free_length - length), Kind::Force, units),
             )
         });
-        over_length.push(Curve {
+        over_length.push(PlotCurve {
             label: "law".to_owned(),
             colour: Colour::Grey,
             line: Line::Solid,

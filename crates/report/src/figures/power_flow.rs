@@ -6,7 +6,7 @@ use ::study::losses::{EnergySummary, STATES};
 use super::digits;
 use crate::drawing::Colour;
 use crate::drawing::Figure;
-use crate::drawing::flow::{Band, FlowChart, Node};
+use crate::drawing::flow::{Band, FlowChart, FlowNode};
 
 /// How the contact states are called and colored.
 const NAMED: [(&str, Colour); STATES.len()] = [
@@ -59,7 +59,7 @@ fn chart(flow: &PowerFlow) -> FlowChart {
     };
     let mut chart = FlowChart::default();
     let mut node = |column, name: &str, value: f64, colour| {
-        chart.nodes.push(Node {
+        chart.nodes.push(FlowNode {
             column,
             label: if name.is_empty() {
                 String::new()

@@ -7,16 +7,16 @@ use wedge::face::{FaceProperties, Rectangle};
 use wedge::outputs::FACES;
 
 use super::study::contour_curves;
-use super::{Exhibit, Outcome, capital, digits};
-use crate::contour::{Grid, round_levels};
+use super::{CaseOutcome, Exhibit, capital, digits};
+use crate::contour::{HeightGrid, round_levels};
 use crate::csv::converted;
-use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 /// Lines of equal pressure in a map.
 const LEVELS: usize = 6;
 
 /// Returns the map of each face with a grid; `None` if there is none.
-pub(super) fn exhibit((case, result): &Outcome) -> Option<Exhibit> {
+pub(super) fn exhibit((case, result): &CaseOutcome) -> Option<Exhibit> {
     Some(Exhibit {
         name: format!("{}_pressure", case.name),
         thesis: String::new(),
@@ -112,13 +112,13 @@ pub(crate) fn over_face(
         .map(|place| length(rectangle.length() * part(place, face.grid.up)))
         .collect();
     let unit = Kind::Length.label(units);
-    let grid = Grid {
+    let grid = HeightGrid {
         x: &x,
         y: &y,
         heights,
     };
     let (right, left, top) = (x[0], x[x.len() - 1], y[y.len() - 1]);
-    let edge = Curve {
+    let edge = PlotCurve {
         colour: Colour::Grey,
         points: vec![
             (right, y[0]),
@@ -127,7 +127,7 @@ pub(crate) fn over_face(
             (right, top),
             (right, y[0]),
         ],
-        ..Curve::default()
+        ..PlotCurve::default()
     };
     let (mut curves, mut marks) = (vec![edge], Vec::new());
     for (mut curve, mark) in contour_curves(&grid, &round_levels(heights, LEVELS)) {

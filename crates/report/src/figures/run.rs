@@ -6,13 +6,13 @@ use study::metrics::Cycle;
 use study::result::RunResult;
 use wedge::outputs::{CORNERS, FACES};
 
-use super::{Exhibit, Outcome, axis, column, curve, digits, lowered, points, power_flow};
+use super::{CaseOutcome, Exhibit, axis, column, curve, digits, lowered, points, power_flow};
 use crate::csv::converted;
-use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 
 /// Returns the figures of one run.
 #[must_use]
-pub fn exhibits(outcome: &Outcome) -> Vec<Exhibit> {
+pub fn exhibits(outcome: &CaseOutcome) -> Vec<Exhibit> {
     let (case, result) = outcome;
     let name = case.name.as_str();
     let mut exhibits = vec![
@@ -100,9 +100,9 @@ fn contact_states(name: &str, result: &RunResult) -> Exhibit {
         ("slip", Colour::Orange),
     ];
     let mut names = Vec::new();
-    let mut curves: Vec<Curve> = STATES
+    let mut curves: Vec<PlotCurve> = STATES
         .into_iter()
-        .map(|(label, colour)| Curve {
+        .map(|(label, colour)| PlotCurve {
             label: label.to_owned(),
             colour,
             line: Line::Bar,
@@ -170,7 +170,7 @@ fn corner_forces(name: &str, result: &RunResult) -> Exhibit {
                         let column = format!("{stem}_normal_force");
                         return curve(result, "time", &column, (&label, colour, line));
                     }
-                    Curve {
+                    PlotCurve {
                         label,
                         colour,
                         line,
@@ -270,7 +270,7 @@ fn stick_and_wear(name: &str, result: &RunResult, cycles: &[CycleShare]) -> Exhi
     let faces = [(0, "column"), (1, "slope")];
     let stick = faces.map(|(face, label)| {
         let (colour, line) = distinct(face);
-        Curve {
+        PlotCurve {
             label: label.to_owned(),
             colour,
             line,
@@ -279,7 +279,7 @@ fn stick_and_wear(name: &str, result: &RunResult, cycles: &[CycleShare]) -> Exhi
     });
     let wear = faces.map(|(face, label)| {
         let (colour, line) = distinct(face);
-        Curve {
+        PlotCurve {
             label: label.to_owned(),
             colour,
             line,

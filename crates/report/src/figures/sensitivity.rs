@@ -1,8 +1,8 @@
 //! How many of the thesis's statements hold over the contact stiffness.
 
 use super::Exhibit;
-use crate::drawing::{Colour, Curve, Figure, Line, Panel};
-use crate::sensitivity::{Alone, Mean, Part, Sensitivity};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
+use crate::sensitivity::{Alone, Mean, Sensitivity, StiffnessPart};
 
 /// Returns the figure; nothing without the stiffnesses that are run alone.
 #[must_use]
@@ -11,7 +11,7 @@ pub fn exhibits(found: &Sensitivity) -> Vec<Exhibit> {
     if stiffness.alone.is_empty() {
         return Vec::new();
     }
-    let panel = |title: &str, alone: fn(&Alone) -> usize, mean: fn(&Part) -> Mean| {
+    let panel = |title: &str, alone: fn(&Alone) -> usize, mean: fn(&StiffnessPart) -> Mean| {
         let steps = |shift: f64| -> Vec<(f64, f64)> {
             let parts = stiffness.parts.iter();
             let ends = parts.flat_map(|part| {
@@ -22,7 +22,7 @@ pub fn exhibits(found: &Sensitivity) -> Vec<Exhibit> {
             });
             ends.collect()
         };
-        let curve = |label: &str, colour: Colour, line: Line, points: Vec<(f64, f64)>| Curve {
+        let curve = |label: &str, colour: Colour, line: Line, points: Vec<(f64, f64)>| PlotCurve {
             label: label.to_owned(),
             colour,
             line,

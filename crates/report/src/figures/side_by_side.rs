@@ -7,7 +7,7 @@ use ::study::truck::WEDGE_NAMES;
 use quantity::System as Units;
 
 use super::{Exhibit, axis};
-use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 use crate::overlay::{self, words};
 use crate::run_folder::{AnySummary, RunFolder};
 use crate::table::TableColumn;
@@ -82,7 +82,7 @@ fn exhibit(wanted: &Wanted, runs: &[RunFolder], units: Units) -> Option<Exhibit>
             drawn[number] = true;
             let (colour, line) = look(number);
             let points = abscissa.in_units(units).into_iter().zip(ordinate.in_units(units));
-            panel.curves.push(Curve {
+            panel.curves.push(PlotCurve {
                 label: run.label.clone(),
                 colour,
                 line,

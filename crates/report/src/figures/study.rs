@@ -4,10 +4,10 @@ use study::design::Study;
 use study::measures::Measure;
 
 use super::{Exhibit, axis, jam};
-use crate::contour::{self, Grid};
-use crate::drawing::{Colour, Curve, Figure, Line, Mark, Panel, distinct};
+use crate::contour::{self, HeightGrid};
+use crate::drawing::{Colour, Figure, Line, Mark, Panel, PlotCurve, distinct};
 use crate::overlay::words;
-use crate::study_digest::{Axis, Digest, Gathered, Pair};
+use crate::study_digest::{Digest, Gathered, ParameterAxis, ParameterPair};
 
 /// Measures of wedges whose main effects are drawn; of other models the first ones are.
 const EFFECTS: [&str; MOST_EFFECTS] = [
@@ -104,7 +104,7 @@ pub fn main_effects(study: &Study, digest: &Digest, name: &str) -> Option<Exhibi
                 .map(|(x, cell)| (*x, of(&cell[place]) * factor))
                 .collect()
         };
-        let curve = |label: &str, colour, line, points| Curve {
+        let curve = |label: &str, colour, line, points| PlotCurve {
             label: label.to_owned(),
             colour,
             line,
@@ -116,7 +116,7 @@ pub fn main_effects(study: &Study, digest: &Digest, name: &str) -> Option<Exhibi
             curve("mean", Colour::Blue, Line::Solid, points(Gathered::mean)),
         ];
         let marks = match (own, &middles) {
-            (Axis::Values { values, .. }, None) => {
+            (ParameterAxis::Values { values, .. }, None) => {
                 let low = all.least * factor;
                 let names = values.iter().enumerate();
                 names
@@ -160,7 +160,7 @@ pub fn main_effects(study: &Study, digest: &Digest, name: &str) -> Option<Exhibi
 }
 
 /// Means over the cells of a pair, in output units.
-fn heights(pair: &Pair, place: usize, factor: f64) -> Vec<f64> {
+fn heights(pair: &ParameterPair, place: usize, factor: f64) -> Vec<f64> {
     pair.cells
         .iter()
         .map(|cell| {
@@ -174,7 +174,7 @@ fn heights(pair: &Pair, place: usize, factor: f64) -> Vec<f64> {
 }
 
 /// Contour lines as curves with their heights as marks, in the order of the levels.
-pub(crate) fn contour_curves(grid: &Grid<'_>, levels: &[f64]) -> Vec<(Curve, Mark)> {
+pub(crate) fn contour_curves(grid: &HeightGrid<'_>, levels: &[f64]) -> Vec<(PlotCurve, Mark)> {
     let ends = |values: &[f64]| (values[0], values[values.len() - 1]);
     let (x, y) = (ends(grid.x), ends(grid.y));
     // How far a point lies from the frame, of the frame's size.
@@ -203,7 +203,7 @@ pub(crate) fn contour_curves(grid: &Grid<'_>, levels: &[f64]) -> Vec<(Curve, Mar
             points.push((f64::NAN, f64::NAN));
         }
         let (colour, line) = distinct(number);
-        let curve = Curve {
+        let curve = PlotCurve {
             label: String::new(),
             colour,
             line,
@@ -216,7 +216,7 @@ pub(crate) fn contour_curves(grid: &Grid<'_>, levels: &[f64]) -> Vec<(Curve, Mar
 }
 
 /// Contour maps over a pair of parameters.
-fn contours(study: &Study, digest: &Digest, pair: &Pair) -> Option<Exhibit> {
+fn contours(study: &Study, digest: &Digest, pair: &ParameterPair) -> Option<Exhibit> {
     let [first, second] = pair.factors;
     let (x, y) = (digest.axes[first].middles()?, digest.axes[second].middles()?);
     if x.len() < 3 || y.len() < 3 {
@@ -228,7 +228,7 @@ fn contours(study: &Study, digest: &Digest, pair: &Pair) -> Option<Exhibit> {
         .filter_map(|name| {
             let (place, measure) = measure(study, name)?;
             let heights = heights(pair, place, measure.kind.from_si(units));
-            let grid = Grid {
+            let grid = HeightGrid {
                 x: &x,
                 y: &y,
                 heights: &heights,

@@ -4,8 +4,8 @@ use quantity::{Kind, System as Units};
 use study::metrics::Cycle;
 use wedge::parameters::Damping;
 
-use super::{Exhibit, Outcome, axis, capital, curve, digits, points, toe_style, yaw};
-use crate::drawing::{Colour, Curve, Figure, Line, Mark, Panel};
+use super::{CaseOutcome, Exhibit, axis, capital, curve, digits, points, toe_style, yaw};
+use crate::drawing::{Colour, Figure, Line, Mark, Panel, PlotCurve};
 use crate::thin::window;
 
 /// What a series of figures shows.
@@ -162,7 +162,7 @@ pub(super) fn windows(number: usize) -> &'static Windows {
 }
 
 /// Returns the remark about the beginning of the curves that is not drawn.
-pub(super) fn cut_text(curves: &[Curve], start: f64, kind: Kind, units: Units) -> String {
+pub(super) fn cut_text(curves: &[PlotCurve], start: f64, kind: Kind, units: Units) -> String {
     let before = curves.iter().flat_map(|curve| {
         let points = curve.points.iter();
         points.filter(move |point| point.0 < start).map(|point| point.1)
@@ -188,7 +188,7 @@ struct Group<'o> {
     number: usize,
     damping: Damping,
     yaw: f64,
-    runs: Vec<&'o Outcome>,
+    runs: Vec<&'o CaseOutcome>,
     units: Units,
 }
 
@@ -206,7 +206,7 @@ pub struct Chapter {
 /// Returns all figures that these runs allow. Figure 6-14, which needs runs without and with yaw, stands at
 /// the end of constant damping with yaw.
 #[must_use]
-pub fn chapters(outcomes: &[Outcome]) -> Vec<Chapter> {
+pub fn chapters(outcomes: &[CaseOutcome]) -> Vec<Chapter> {
     let mut chapters: Vec<Chapter> = groups(outcomes).iter().map(Group::chapter).collect();
     let last = chapters
         .iter_mut()
@@ -216,7 +216,7 @@ pub fn chapters(outcomes: &[Outcome]) -> Vec<Chapter> {
     }
     chapters
 }
-fn groups(outcomes: &[Outcome]) -> Vec<Group<'_>> {
+fn groups(outcomes: &[CaseOutcome]) -> Vec<Group<'_>> {
     let mut groups: Vec<Group<'_>> = Vec::new();
     for outcome in outcomes {
         let (damping, yaw) = (outcome.0.parameters.damping, yaw(&outcome.0));
@@ -268,7 +268,7 @@ impl Group<'_> {
         format!("{} damping, {yaw}: {what}", capital(self.damping.name()))
     }
 
-    fn curves(&self, x: &str, y: &str) -> Vec<Curve> {
+    fn curves(&self, x: &str, y: &str) -> Vec<PlotCurve> {
         self.runs
             .iter()
             .map(|(case, result)| {
@@ -367,7 +367,12 @@ impl Group<'_> {
     }
 
     /// Returns the numbers of the phases at the curve of toe out, or at the first one.
-    fn marks(&self, curves: &[Curve], shift: impl Fn(f64) -> f64, (left, right): (f64, f64)) -> Vec<Mark> {
+    fn marks(
+        &self,
+        curves: &[PlotCurve],
+        shift: impl Fn(f64) -> f64,
+        (left, right): (f64, f64),
+    ) -> Vec<Mark> {
         let chosen = self.runs.iter().position(|(case, _)| case.parameters.toe > 0.0);
         let Some(curve) = curves.get(chosen.unwrap_or(0)) else {
             return Vec::new();
@@ -467,8 +472,8 @@ impl Group<'_> {
 }
 
 /// Figure 6-14: the longitudinal force of constant damping, toe out, without and with yaw.
-fn with_and_without_yaw(outcomes: &[Outcome]) -> Option<Exhibit> {
-    let runs: Vec<&Outcome> = outcomes
+fn with_and_without_yaw(outcomes: &[CaseOutcome]) -> Option<Exhibit> {
+    let runs: Vec<&CaseOutcome> = outcomes
         .iter()
         .filter(|(case, _)| case.parameters.damping == Damping::Constant && case.parameters.toe > 0.0)
         .collect();

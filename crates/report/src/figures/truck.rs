@@ -10,7 +10,7 @@ use quantity::Kind;
 use truck::HALVES;
 
 use super::{Exhibit, axis, curve, lowered, power_flow};
-use crate::drawing::{Colour, Curve, Figure, Line, Panel, distinct};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 use crate::warp_files::Tested;
 use crate::{curves_files, warp_files};
 
@@ -155,7 +155,7 @@ fn contact_states(run: &TruckRun, contacts: &ContactTable) -> Figure {
                             None => points.push((*time, now)),
                         }
                     }
-                    Curve {
+                    PlotCurve {
                         label: label.to_owned(),
                         colour,
                         line,
@@ -196,7 +196,7 @@ fn ledger(run: &TruckRun) -> Figure {
         let (colour, line) = distinct(number);
         curve(&run.result, "time", name, (label, colour, line))
     };
-    let panel = |title: &str, curves: Vec<Curve>| Panel {
+    let panel = |title: &str, curves: Vec<PlotCurve>| Panel {
         title: title.to_owned(),
         x_label: "time (s)".to_owned(),
         y_label: axis("energy", Kind::Energy, units),

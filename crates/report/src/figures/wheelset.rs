@@ -6,7 +6,7 @@ use quantity::{Kind, System as Units};
 
 use super::{Exhibit, axis};
 use crate::csv::converted;
-use crate::drawing::{Colour, Curve, Figure, Line, Panel};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::track_files::degree;
 
 const BLUE: (Colour, Line) = (Colour::Blue, Line::Solid);
@@ -29,14 +29,14 @@ fn along(units: Units) -> String {
 }
 
 /// Curves of columns (with their labels) over the distance, in output units.
-fn curves(result: &WheelsetResult, columns: &[(&str, &str)], kind: Kind) -> Vec<Curve> {
+fn curves(result: &WheelsetResult, columns: &[(&str, &str)], kind: Kind) -> Vec<PlotCurve> {
     let units = result.summary.units;
     let distances = result.column("distance").unwrap_or_default();
     let own = columns.iter().zip([BLUE, RED]);
     own.map(|((name, label), (colour, line))| {
         let values = result.column(name).unwrap_or_default();
         let point = |(at, value): (&f64, &f64)| (distance(*at, units), converted(*value, kind, units));
-        Curve {
+        PlotCurve {
             label: (*label).to_owned(),
             colour,
             line,
@@ -84,7 +84,7 @@ pub fn exhibits(case: &WheelsetCase, result: &WheelsetResult) -> Vec<Exhibit> {
         title: "(a) curvature".to_owned(),
         x_label: along(units),
         y_label: "degree of curve".to_owned(),
-        curves: vec![Curve {
+        curves: vec![PlotCurve {
             label: String::new(),
             colour: BLUE.0,
             line: BLUE.1,

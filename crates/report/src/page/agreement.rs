@@ -7,14 +7,14 @@ use study::metrics::{WINDOWS, window_of};
 use study::plausibility;
 use study::summary::SummaryValue;
 
-use crate::agreement::{COMPONENT, Group, TruckOutcome, mean_yaw, percent};
+use crate::agreement::{AgreementGroup, COMPONENT, TruckOutcome, mean_yaw, percent};
 use crate::figures::{capital, digits};
 
 /// The comparison with the comparison program's wedges.
 #[derive(Clone, Copy, Debug)]
 pub struct Comparison<'c> {
     /// How far the models agree.
-    pub groups: &'c [Group],
+    pub groups: &'c [AgreementGroup],
     /// All runs of the half-truck.
     pub trucks: &'c [TruckOutcome],
     /// Units of the numbers.
@@ -48,7 +48,7 @@ pub(super) fn section(comparison: &Comparison<'_>) -> Markup {
     }
 }
 
-fn agreement(group: &Group, units: Units) -> Markup {
+fn agreement(group: &AgreementGroup, units: Units) -> Markup {
     let yaw = if group.yawed { "with yaw" } else { "without yaw" };
     let kinds = [Kind::Force, Kind::Force, Kind::Energy, Kind::Energy];
     let window = window_of(group.damping);

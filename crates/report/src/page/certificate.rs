@@ -2,11 +2,11 @@
 
 use maud::{Markup, html};
 use quantity::System as Units;
-use study::car::certificate::{Certificate, Verdict, worst_run};
+use study::car::certificate::{Certificate, LimitVerdict, worst_run};
 use study::car::limits::Bound;
 
 use super::{Viewer, document, moving_as, shown_in};
-use crate::certificate_files::{Findings, NAMES};
+use crate::certificate_files::{CertificateFindings, NAMES};
 use crate::figures::car::{CarRun, exhibits};
 use crate::figures::certificate::over_speed;
 use crate::figures::{Exhibit, capital, digits};
@@ -60,7 +60,7 @@ pub struct Against {
 /// What the writer of JSON says.
 pub fn render(
     certificate: &Certificate,
-    findings: &Findings,
+    findings: &CertificateFindings,
     worst: &[WorstRun],
     against: Option<&Against>,
     viewer: Option<Viewer>,
@@ -149,7 +149,7 @@ fn second(own: &WorstRun) -> Recording {
     Recording::of_car(&run.case, &result, motions.as_ref(), Detail::Thinned)
 }
 
-fn summary(certificate: &Certificate, findings: &Findings) -> Markup {
+fn summary(certificate: &Certificate, findings: &CertificateFindings) -> Markup {
     let [kept, exceeded, unknown] = findings.counts();
     let unsound = findings
         .runs
@@ -198,12 +198,12 @@ fn percent(margin: f64) -> String {
 
 fn limits(
     certificate: &Certificate,
-    findings: &Findings,
+    findings: &CertificateFindings,
     condition: usize,
     against: Option<&Against>,
 ) -> Markup {
     let own = findings.verdicts.iter().filter(|own| own.condition == condition);
-    let other = |own: &Verdict| {
+    let other = |own: &LimitVerdict| {
         let key = [
             &certificate.regimes[own.regime].name,
             &certificate.conditions[own.condition].name,
@@ -268,7 +268,7 @@ fn limits(
 }
 
 /// Returns a verdict in words.
-fn said(own: &Verdict) -> Markup {
+fn said(own: &LimitVerdict) -> Markup {
     html! {
         @match own.word() {
             "exceeded" => strong { "exceeded" },
@@ -280,7 +280,7 @@ fn said(own: &Verdict) -> Markup {
 }
 
 /// Returns the least margin by regime and condition.
-fn conditions(certificate: &Certificate, findings: &Findings) -> Markup {
+fn conditions(certificate: &Certificate, findings: &CertificateFindings) -> Markup {
     let least = |regime: usize, condition: usize| {
         let own = findings
             .verdicts
@@ -331,7 +331,12 @@ fn conditions(certificate: &Certificate, findings: &Findings) -> Markup {
 }
 
 /// Returns the worst run of a regime: what is worst, its wedges, where its files are.
-fn worst_of(certificate: &Certificate, findings: &Findings, own: &WorstRun, moves: bool) -> Markup {
+fn worst_of(
+    certificate: &Certificate,
+    findings: &CertificateFindings,
+    own: &WorstRun,
+    moves: bool,
+) -> Markup {
     let Some(run) = worst_run(&findings.runs, own.regime) else {
         return html! {};
     };

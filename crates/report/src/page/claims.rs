@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::sensitivity::extent;
-use crate::claims::{Claims, Group, Row, Shown, Verdict};
+use crate::claims::{ClaimGroup, ClaimRow, ClaimVerdict, Claims, ShownValue};
 use crate::sensitivity::Sensitivity;
 
 /// Returns the tables, one a group; nothing without claims.
@@ -48,15 +48,15 @@ pub(super) fn tables(claims: &Claims, sensitivity: Option<&Sensitivity>) -> Mark
                  Chapter 5's vertical force is the one that its figures draw: the vertical force on the \
                  side frame, coil included; chapter 6's is the column's friction."
             }
-            @for group in Group::ALL {
-                @let rows: Vec<&Row> = claims.claims.iter().filter(|row| row.group == group).collect();
+            @for group in ClaimGroup::ALL {
+                @let rows: Vec<&ClaimRow> = claims.claims.iter().filter(|row| row.group == group).collect();
                 @if !rows.is_empty() { (table(group, &rows, sensitivity)) }
             }
         }
     }
 }
 
-fn table(group: Group, rows: &[&Row], sensitivity: Option<&Sensitivity>) -> Markup {
+fn table(group: ClaimGroup, rows: &[&ClaimRow], sensitivity: Option<&Sensitivity>) -> Markup {
     html! {
         h3 { (group.title()) }
         div.wide {
@@ -103,16 +103,16 @@ fn table(group: Group, rows: &[&Row], sensitivity: Option<&Sensitivity>) -> Mark
     }
 }
 
-fn class(verdict: Verdict) -> &'static str {
+fn class(verdict: ClaimVerdict) -> &'static str {
     match verdict {
-        Verdict::Holds => "holds",
-        Verdict::DoesNot => "fails",
-        Verdict::CannotBeDecided => "open",
+        ClaimVerdict::Holds => "holds",
+        ClaimVerdict::DoesNot => "fails",
+        ClaimVerdict::CannotBeDecided => "open",
     }
 }
 
 /// Returns a value with its unit, to four digits.
-fn shown(value: &Shown) -> String {
+fn shown(value: &ShownValue) -> String {
     let number = crate::figures::digits(value.measure.value);
     match value.measure.unit.as_str() {
         "" => number,

@@ -25,7 +25,7 @@ pub use agreement::Comparison;
 
 use crate::claims::Claims;
 use crate::drawing::Figure;
-use crate::figures::{Exhibit, Outcome, capital};
+use crate::figures::{CaseOutcome, Exhibit, capital};
 use crate::sensitivity::Sensitivity;
 use crate::view::View;
 use crate::view::run::Recording;
@@ -42,7 +42,7 @@ const SCRIPT: &str = include_str!("page.js");
 
 /// A figure with its drawing.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Drawn {
+pub struct DrawnFigure {
     /// The figure.
     pub exhibit: Exhibit,
     /// Its drawing.
@@ -51,7 +51,7 @@ pub struct Drawn {
 
 /// Figures that belong together.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Section {
+pub struct PageSection {
     /// Its name in links.
     pub id: String,
     /// Its heading.
@@ -59,7 +59,7 @@ pub struct Section {
     /// What to look at; may be empty.
     pub intro: String,
     /// Its figures.
-    pub figures: Vec<Drawn>,
+    pub figures: Vec<DrawnFigure>,
     /// Whether it begins folded.
     pub folded: bool,
     /// The run that it is about, if it is about one.
@@ -72,15 +72,15 @@ pub struct Section {
 #[derive(Clone, Copy, Debug)]
 pub struct Contents<'c> {
     /// The runs of the thesis.
-    pub outcomes: &'c [Outcome],
+    pub outcomes: &'c [CaseOutcome],
     /// Those beyond it.
-    pub beyond: &'c [Outcome],
+    pub beyond: &'c [CaseOutcome],
     /// The thesis's statements and what was found.
     pub claims: &'c Claims,
     /// Where they hold over what the thesis leaves open, if points of that were run.
     pub sensitivity: Option<&'c Sensitivity>,
     /// The figures.
-    pub sections: &'c [Section],
+    pub sections: &'c [PageSection],
     /// The page's interactive part with its data, JSON of [`crate::view::View`]; without it the page is
     /// static.
     pub interactive: Option<(Viewer, &'c str)>,
@@ -99,7 +99,7 @@ pub fn render(contents: &Contents<'_>) -> String {
         .chain(contents.beyond)
         .next()
         .map_or(String::new(), |(_, result)| result.summary.program.clone());
-    let (open, folded): (Vec<&Section>, Vec<&Section>) =
+    let (open, folded): (Vec<&PageSection>, Vec<&PageSection>) =
         contents.sections.iter().partition(|section| !section.folded);
     let lead = html! {
         "One friction wedge of a three-piece truck between the column of the side frame and the slope of \
@@ -173,14 +173,14 @@ pub fn render(contents: &Contents<'_>) -> String {
     )
 }
 
-fn body(section: &Section) -> Markup {
+fn body(section: &PageSection) -> Markup {
     html! {
         @if !section.intro.is_empty() { p { (section.intro) } }
         @for figure in &section.figures { (shown(figure)) }
     }
 }
 
-fn shown(drawn: &Drawn) -> Markup {
+fn shown(drawn: &DrawnFigure) -> Markup {
     shown_in(&drawn.exhibit, &drawn.svg, Some(FIGURES))
 }
 

@@ -5,11 +5,11 @@ use study::metrics::WINDOWS;
 use study::summary::{Summary, SummaryValue};
 
 use super::{Contents, FIGURES};
-use crate::figures::{Outcome, toe_style, yaw};
+use crate::figures::{CaseOutcome, toe_style, yaw};
 use crate::run_files;
 
 /// Returns the table of runs.
-pub(super) fn table(outcomes: &[Outcome]) -> Markup {
+pub(super) fn table(outcomes: &[CaseOutcome]) -> Markup {
     let unit = |of: fn(&Summary) -> Option<&SummaryValue>| {
         let found = outcomes.iter().find_map(|(_, result)| of(&result.summary));
         found.map_or(String::new(), |measure| measure.unit.clone())
@@ -96,7 +96,7 @@ fn equivalent(summary: &Summary) -> Option<&SummaryValue> {
 
 /// Returns the assumptions: those of all runs, then those of some.
 pub(super) fn assumptions(contents: &Contents<'_>) -> Markup {
-    let outcomes: Vec<&Outcome> = contents.outcomes.iter().chain(contents.beyond).collect();
+    let outcomes: Vec<&CaseOutcome> = contents.outcomes.iter().chain(contents.beyond).collect();
     let mut texts: Vec<(&str, Vec<&str>)> = Vec::new();
     for (case, result) in outcomes.iter().copied() {
         for text in &result.summary.assumptions {

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::claims::{Group, REQUIRED};
+use crate::claims::{ClaimGroup, REQUIRED};
 use crate::figures::capital;
 use crate::sensitivity::{AXES, Extent, Mean, Sensitivity, Side, Split, Statement, Tally};
 
@@ -152,7 +152,7 @@ fn groups(found: &Sensitivity) -> Markup {
                     }
                 }
                 tbody {
-                    @for group in Group::ALL {
+                    @for group in ClaimGroup::ALL {
                         tr {
                             th scope="row" { (group.title()) }
                             @for count in counts(&|one| one.group == group) { td.number { (count) } }

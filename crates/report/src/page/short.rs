@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use study::summary::SummaryValue;
 
 use super::{Contents, anchor};
-use crate::figures::{Outcome, digits};
+use crate::figures::{CaseOutcome, digits};
 use crate::run_folder::branch_window;
 
 /// The run that is seen first where it is there: it lifts off, so that everything there is happens in it.
@@ -52,7 +52,7 @@ pub(super) fn section(contents: &Contents<'_>) -> Markup {
 }
 
 /// Means and energy of the run.
-fn numbers((_, result): &Outcome) -> Vec<(String, SummaryValue)> {
+fn numbers((_, result): &CaseOutcome) -> Vec<(String, SummaryValue)> {
     let averages = &result.summary.averages;
     let mean = |branch: &str, value: Option<&SummaryValue>| {
         let what = format!("mean vertical wedge force, bolster going {branch}");

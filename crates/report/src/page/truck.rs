@@ -6,10 +6,10 @@ use study::truck::WEDGE_NAMES;
 use study::truck::run::TruckResult;
 
 use super::truck_run::loss;
-use super::{Drawn, Viewer, anchor, document, doubts, shown};
+use super::{DrawnFigure, Viewer, anchor, document, doubts, shown};
 use crate::figures::{capital, digits};
 use crate::run_files;
-use crate::three_piece::{Basis, Check, Findings, Sensitivity};
+use crate::three_piece::{Basis, Check, Sensitivity, TruckFindings};
 
 /// The page's file name.
 pub const FILE_NAME: &str = "truck.html";
@@ -20,9 +20,9 @@ pub struct TruckContents<'c> {
     /// The rigs.
     pub rigs: &'c [TruckResult],
     /// What they say.
-    pub findings: &'c Findings,
+    pub findings: &'c TruckFindings,
     /// The figures.
-    pub figures: &'c [Drawn],
+    pub figures: &'c [DrawnFigure],
     /// The page's interactive part with its data.
     pub interactive: Option<(Viewer, &'c str)>,
 }

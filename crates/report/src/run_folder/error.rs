@@ -150,7 +150,7 @@ pub(super) fn folder_of(path: &Path) -> Result<PathBuf, RunFolderError> {
     }
     if path.is_file() {
         // Says what the file is, and which command takes it; a table is no run.
-        crate::table::Table::read(path)?;
+        crate::table::ResultTable::read(path)?;
         let advice = "a report needs the folder with result.csv and summary.json; `wedgelab compare` and \
                       `wedgelab plot` take tables alone";
         return Err(no_run("a table", advice.to_owned()));

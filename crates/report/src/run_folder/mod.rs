@@ -19,7 +19,7 @@ pub use key_numbers::{KeyNumber, branch_window};
 use crate::figures::car::CarRun;
 use crate::figures::truck::TruckRun;
 use crate::run_files::CASE_FILE_NAME;
-use crate::table::Table;
+use crate::table::ResultTable;
 use crate::view::kept::KeptView;
 use crate::view::run::{Detail, Recording};
 use crate::{csv, mat, page, summary};
@@ -52,7 +52,7 @@ pub struct RunFolder {
     /// The folder.
     pub folder: PathBuf,
     /// Its table.
-    pub table: Table,
+    pub table: ResultTable,
     /// Its summary.
     pub summary: AnySummary,
     /// Its case; a half-truck and a wheelset have no file of it.
@@ -79,7 +79,7 @@ impl RunFolder {
     /// There is no run, or its files are damaged or of another version: see [`RunFolderError`].
     pub fn read(path: &Path) -> Result<Self, RunFolderError> {
         let folder = error::folder_of(path)?;
-        let table = Table::read(&folder)?;
+        let table = ResultTable::read(&folder)?;
         let file = folder.join(summary::FILE_NAME);
         let bytes = read(&file, &SUMMARY_FILE).map_err(|error| match error.reason {
             Reason::NotFound => RunFolderError::NoSummary {

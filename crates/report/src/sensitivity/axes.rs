@@ -14,7 +14,7 @@ const FROM: f64 = 0.5;
 
 /// An axis.
 #[derive(Clone, Copy, Debug)]
-pub struct Axis {
+pub struct FigureAxis {
     /// What it is.
     pub name: &'static str,
     /// The column that is drawn.
@@ -27,29 +27,29 @@ pub struct Axis {
 }
 
 /// The axes that could be passed.
-pub const AXES: [Axis; 4] = [
-    Axis {
+pub const AXES: [FigureAxis; 4] = [
+    FigureAxis {
         name: "vertical wedge force within -2100 to 2600 lbf (constant damping, toe out)",
         column: "vertical_wedge_force",
         kind: Kind::Force,
         ends: [-2100.0, 2600.0],
         draws: |run| run.constant && run.toe == Toe::Out,
     },
-    Axis {
+    FigureAxis {
         name: "longitudinal wedge force within 0 to 8000 lbf (constant damping)",
         column: "longitudinal_wedge_force",
         kind: Kind::Force,
         ends: [0.0, 8000.0],
         draws: |run| run.constant,
     },
-    Axis {
+    FigureAxis {
         name: "longitudinal wedge force within 0 to 6000 lbf (variable damping, yawed)",
         column: "longitudinal_wedge_force",
         kind: Kind::Force,
         ends: [0.0, 6000.0],
         draws: |run| !run.constant && run.yawed,
     },
-    Axis {
+    FigureAxis {
         name: "friction power at the side frame above -6000 lbf in/s (all runs)",
         column: "side_frame_friction_power",
         kind: Kind::Power,
@@ -58,7 +58,7 @@ pub const AXES: [Axis; 4] = [
     },
 ];
 
-impl Axis {
+impl FigureAxis {
     /// Returns whether the runs that it draws stay within it; `false` if one of them is missing or not
     /// complete.
     fn holds(&self, runs: &[(Case, RunResult)]) -> bool {

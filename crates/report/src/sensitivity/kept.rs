@@ -18,9 +18,9 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::axes::AXES;
-use super::point::Found;
-use super::space::{FRICTIONS, Place, Space};
-use crate::claims::{Verdict, claims};
+use super::point::PointOutcome;
+use super::space::{FRICTIONS, PointPlace, Space};
+use crate::claims::{ClaimVerdict, claims};
 use crate::files::Locked;
 
 /// The folder, beside the report.
@@ -76,38 +76,42 @@ pub enum KeptError {
 /// A line.
 #[derive(Debug, Serialize, Deserialize)]
 struct Line {
-    /// [`Place::key`].
+    /// [`PointPlace::key`].
     point: String,
     /// What is set there.
     set: Vec<String>,
     /// A letter for each statement: h holds, n does not, u cannot be decided.
     verdicts: String,
-    /// [`Found::axes`].
+    /// [`PointOutcome::axes`].
     axes: Vec<bool>,
-    /// [`Found::unsound`].
+    /// [`PointOutcome::unsound`].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     unsound: Vec<String>,
 }
 
-fn letter(verdict: Verdict) -> char {
+fn letter(verdict: ClaimVerdict) -> char {
     match verdict {
-        Verdict::Holds => 'h',
-        Verdict::DoesNot => 'n',
-        Verdict::CannotBeDecided => 'u',
+        ClaimVerdict::Holds => 'h',
+        ClaimVerdict::DoesNot => 'n',
+        ClaimVerdict::CannotBeDecided => 'u',
     }
 }
 
-fn verdict(letter: char) -> Option<Verdict> {
-    [Verdict::Holds, Verdict::DoesNot, Verdict::CannotBeDecided]
-        .into_iter()
-        .find(|verdict| self::letter(*verdict) == letter)
+fn verdict(letter: char) -> Option<ClaimVerdict> {
+    [
+        ClaimVerdict::Holds,
+        ClaimVerdict::DoesNot,
+        ClaimVerdict::CannotBeDecided,
+    ]
+    .into_iter()
+    .find(|verdict| self::letter(*verdict) == letter)
 }
 
 /// The points of a folder.
 #[derive(Debug)]
 pub struct Kept {
     folder: PathBuf,
-    found: BTreeMap<String, Found>,
+    found: BTreeMap<String, PointOutcome>,
     points: Mutex<Locked>,
 }
 
@@ -162,7 +166,7 @@ impl Kept {
 
     /// Those of these places that are not there.
     #[must_use]
-    pub fn missing(&self, places: &[Place]) -> Vec<Place> {
+    pub fn missing(&self, places: &[PointPlace]) -> Vec<PointPlace> {
         let missing = places
             .iter()
             .filter(|place| !self.found.contains_key(&place.key()));
@@ -171,7 +175,7 @@ impl Kept {
 
     /// Returns the stored outcome at a place.
     #[must_use]
-    pub fn found(&self, place: Place) -> Option<&Found> {
+    pub fn found(&self, place: PointPlace) -> Option<&PointOutcome> {
         self.found.get(&place.key())
     }
 
@@ -179,7 +183,7 @@ impl Kept {
     ///
     /// # Errors
     /// It cannot be written.
-    pub fn keep(&self, space: &Space, place: Place, found: &Found) -> Result<(), KeptError> {
+    pub fn keep(&self, space: &Space, place: PointPlace, found: &PointOutcome) -> Result<(), KeptError> {
         let line = Line {
             point: place.key(),
             set: space.set(place),
@@ -209,15 +213,15 @@ fn reason(error: ReadError) -> io::Error {
 }
 
 /// Returns a line's point with what was found; `None` if it is cut off or damaged.
-fn point(line: &[u8], space: &Space) -> Option<(String, Found)> {
+fn point(line: &[u8], space: &Space) -> Option<(String, PointOutcome)> {
     let line: Line = serde_json::from_slice(line).ok()?;
-    let verdicts: Vec<Verdict> = line.verdicts.chars().map(verdict).collect::<Option<_>>()?;
+    let verdicts: Vec<ClaimVerdict> = line.verdicts.chars().map(verdict).collect::<Option<_>>()?;
     // What is set tells of a point that another version numbered otherwise.
-    let is_own = Place::of_key(&line.point).is_some_and(|place| space.set(place) == line.set);
+    let is_own = PointPlace::of_key(&line.point).is_some_and(|place| space.set(place) == line.set);
     let is_whole = verdicts.len() == claims().count() && line.axes.len() == AXES.len();
     (is_own && is_whole).then_some((
         line.point,
-        Found {
+        PointOutcome {
             verdicts,
             axes: line.axes,
             unsound: line.unsound,

@@ -17,12 +17,12 @@ mod space;
 mod split;
 mod stiffness;
 
-pub use axes::{AXES, Axis};
+pub use axes::{AXES, FigureAxis};
 pub use kept::{FOLDER, Kept, KeptError, POINTS_FILE};
 pub use outcome::{
     Extent, FILE_NAME, OfFriction, ParameterShown, SCHEMA, Sensitivity, Statement, Tally, UnderFriction,
 };
-pub use point::{Found, compute};
-pub use space::{FRICTIONS, OpenParameter, OtherFriction, Place, Space, open_parameters};
+pub use point::{PointOutcome, compute};
+pub use space::{FRICTIONS, OpenParameter, OtherFriction, PointPlace, Space, open_parameters};
 pub use split::{Side, Split, deciding};
-pub use stiffness::{Alone, Mean, OfStiffness, Part};
+pub use stiffness::{Alone, Mean, OfStiffness, StiffnessPart};

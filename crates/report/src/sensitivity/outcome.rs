@@ -6,11 +6,11 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::axes::AXES;
-use super::point::Found;
-use super::space::{FRICTIONS, OpenParameter, OtherFriction, Place, Space};
+use super::point::PointOutcome;
+use super::space::{FRICTIONS, OpenParameter, OtherFriction, PointPlace, Space};
 use super::split::{Split, deciding};
 use super::stiffness::{OfStiffness, of_stiffness};
-use crate::claims::{Group, Verdict, claims};
+use crate::claims::{ClaimGroup, ClaimVerdict, claims};
 use crate::summary::write_json;
 
 /// The file of the outcome.
@@ -79,10 +79,10 @@ pub struct Tally {
 }
 
 impl Tally {
-    fn of(verdicts: impl Iterator<Item = Verdict>) -> Self {
+    fn of(verdicts: impl Iterator<Item = ClaimVerdict>) -> Self {
         verdicts.fold(Self::default(), |tally, verdict| Self {
-            decided: tally.decided + usize::from(verdict != Verdict::CannotBeDecided),
-            holds: tally.holds + usize::from(verdict == Verdict::Holds),
+            decided: tally.decided + usize::from(verdict != ClaimVerdict::CannotBeDecided),
+            holds: tally.holds + usize::from(verdict == ClaimVerdict::Holds),
         })
     }
 
@@ -125,14 +125,14 @@ pub struct Statement {
     /// [`Claim::id`](crate::claims::Claim::id).
     pub id: &'static str,
     /// Where it belongs.
-    pub group: Group,
+    pub group: ClaimGroup,
     /// The part of the space in which it holds.
     pub extent: Extent,
     /// The points of the space.
     #[serde(flatten)]
     pub tally: Tally,
     /// The verdict with all as decided.
-    pub as_decided: Verdict,
+    pub as_decided: ClaimVerdict,
     /// The cut that decides, if one does.
     pub decides: Option<Split>,
     /// Under other frictions.
@@ -194,8 +194,8 @@ pub struct Sensitivity {
 impl Sensitivity {
     /// Returns the outcome of these points, of which the first `points` of the space count.
     #[must_use]
-    pub fn of(space: &Space, points: u64, found: &BTreeMap<Place, Found>) -> Self {
-        let verdict = |place: Place, statement: usize| {
+    pub fn of(space: &Space, points: u64, found: &BTreeMap<PointPlace, PointOutcome>) -> Self {
+        let verdict = |place: PointPlace, statement: usize| {
             let found = found.get(&place)?;
             found.verdicts.get(statement).copied()
         };
@@ -203,20 +203,20 @@ impl Sensitivity {
         let statements: Vec<Statement> = claims()
             .enumerate()
             .map(|(number, claim)| {
-                let at = |place: Place| verdict(place, number);
-                let tally = Tally::of(points.clone().filter_map(|point| at(Place::Space(point))));
+                let at = |place: PointPlace| verdict(place, number);
+                let tally = Tally::of(points.clone().filter_map(|point| at(PointPlace::Space(point))));
                 let decided: Vec<(u64, bool)> = points
                     .clone()
-                    .filter_map(|point| Some((point, at(Place::Space(point))?)))
-                    .filter(|(_, verdict)| *verdict != Verdict::CannotBeDecided)
-                    .map(|(point, verdict)| (point, verdict == Verdict::Holds))
+                    .filter_map(|point| Some((point, at(PointPlace::Space(point))?)))
+                    .filter(|(_, verdict)| *verdict != ClaimVerdict::CannotBeDecided)
+                    .map(|(point, verdict)| (point, verdict == ClaimVerdict::Holds))
                     .collect();
                 let frictions = FRICTIONS.iter().enumerate().map(|(index, friction)| {
                     let both = points.clone().filter_map(|point| {
-                        let with = at(Place::OtherFriction(index, point))?;
-                        Some((with, at(Place::Space(point))?))
+                        let with = at(PointPlace::OtherFriction(index, point))?;
+                        Some((with, at(PointPlace::Space(point))?))
                     });
-                    let (with, without): (Vec<Verdict>, Vec<Verdict>) = both.unzip();
+                    let (with, without): (Vec<ClaimVerdict>, Vec<ClaimVerdict>) = both.unzip();
                     UnderFriction {
                         friction: friction.name,
                         with: Tally::of(with.into_iter()),
@@ -228,14 +228,14 @@ impl Sensitivity {
                     group: claim.group,
                     extent: Extent::of(tally.holds, tally.decided),
                     tally,
-                    as_decided: at(Place::Decided).unwrap_or(Verdict::CannotBeDecided),
+                    as_decided: at(PointPlace::Decided).unwrap_or(ClaimVerdict::CannotBeDecided),
                     decides: deciding(space, &decided),
                     frictions: frictions.collect(),
                 }
             })
             .collect();
         let axes = AXES.iter().enumerate().map(|(number, axis)| {
-            let at = |point| Some((point, *found.get(&Place::Space(point))?.axes.get(number)?));
+            let at = |point| Some((point, *found.get(&PointPlace::Space(point))?.axes.get(number)?));
             let within: Vec<(u64, bool)> = points.clone().filter_map(at).collect();
             let tally = Tally {
                 decided: within.len(),

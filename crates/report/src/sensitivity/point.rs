@@ -8,13 +8,13 @@ use study::run::Run;
 
 use super::axes;
 use crate::agreement::TruckOutcome;
-use crate::claims::{Evidence, Verdict, verdicts};
+use crate::claims::{ClaimVerdict, Evidence, verdicts};
 
 /// What was found at a point.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct PointOutcome {
     /// The verdict on each statement, in the order of the thesis.
-    pub verdicts: Vec<Verdict>,
+    pub verdicts: Vec<ClaimVerdict>,
     /// Whether the runs stay within each of the axes of the thesis's figures ([`super::AXES`]).
     pub axes: Vec<bool>,
     /// Runs that failed or did not come to their end, with why. What needs them is not decided there.
@@ -24,7 +24,7 @@ pub struct Found {
 /// Makes the twelve runs with these values over the cases', and decides. `trucks` are runs of the half-truck,
 /// which has nothing of what is open.
 #[must_use]
-pub fn compute(set: &[String], trucks: &[TruckOutcome]) -> Found {
+pub fn compute(set: &[String], trucks: &[TruckOutcome]) -> PointOutcome {
     let (mut runs, mut unsound) = (Vec::new(), Vec::new());
     for name in builtin::thesis_names() {
         // A mistake of ours in one run must not take the others with it.
@@ -43,7 +43,7 @@ pub fn compute(set: &[String], trucks: &[TruckOutcome]) -> Found {
     }
     let evidence = Evidence::new(runs.iter().map(|(case, result)| (case, result)))
         .with_trucks(trucks.iter().map(|(entry, result)| (entry, result)));
-    Found {
+    PointOutcome {
         verdicts: verdicts(&evidence),
         axes: axes::within(&runs),
         unsound,

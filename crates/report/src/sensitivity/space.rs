@@ -236,7 +236,7 @@ pub const FRICTIONS: [OtherFriction; 3] = [
 
 /// Which point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Place {
+pub enum PointPlace {
     /// All as decided.
     Decided,
     /// A point of the space, by number.
@@ -266,16 +266,16 @@ impl Default for Space {
 impl Space {
     /// Returns the points with so many in the space.
     #[must_use]
-    pub fn places(&self, points: u64) -> Vec<Place> {
+    pub fn places(&self, points: u64) -> Vec<PointPlace> {
         let others = 0..points.div_ceil(OTHER_FRICTION);
         let others = (0..FRICTIONS.len()).flat_map(|friction| {
             let points = others.clone();
-            points.map(move |point| Place::OtherFriction(friction, point))
+            points.map(move |point| PointPlace::OtherFriction(friction, point))
         });
-        [Place::Decided]
+        [PointPlace::Decided]
             .into_iter()
-            .chain((0..LADDER.len()).map(Place::Stiffness))
-            .chain((0..points).map(Place::Space))
+            .chain((0..LADDER.len()).map(PointPlace::Stiffness))
+            .chain((0..points).map(PointPlace::Space))
             .chain(others)
             .collect()
     }
@@ -290,11 +290,11 @@ impl Space {
 
     /// Returns the contact stiffness at a place, lbf/in a corner; `None` where all is as decided.
     #[must_use]
-    pub fn stiffness(&self, place: Place) -> Option<f64> {
+    pub fn stiffness(&self, place: PointPlace) -> Option<f64> {
         match place {
-            Place::Decided => None,
-            Place::Stiffness(number) => LADDER.get(number).copied(),
-            Place::Space(point) | Place::OtherFriction(_, point) => {
+            PointPlace::Decided => None,
+            PointPlace::Stiffness(number) => LADDER.get(number).copied(),
+            PointPlace::Space(point) | PointPlace::OtherFriction(_, point) => {
                 let coordinate = self.sobol.coordinate(point, STIFFNESS);
                 self.parameters[STIFFNESS].factor.at(coordinate).in_unit("lbf/in")
             }
@@ -303,7 +303,7 @@ impl Space {
 
     /// Returns the settings there, as `--set` takes them.
     #[must_use]
-    pub fn set(&self, place: Place) -> Vec<String> {
+    pub fn set(&self, place: PointPlace) -> Vec<String> {
         let of_point = |point: u64| {
             let coordinates = self.coordinates(point);
             let set = self
@@ -319,14 +319,14 @@ impl Space {
             set.collect::<Vec<String>>()
         };
         match place {
-            Place::Decided => Vec::new(),
-            Place::Space(point) => of_point(point),
-            Place::OtherFriction(friction, point) => {
+            PointPlace::Decided => Vec::new(),
+            PointPlace::Space(point) => of_point(point),
+            PointPlace::OtherFriction(friction, point) => {
                 let mut set = of_point(point);
                 set.extend(FRICTIONS.get(friction).map(|friction| friction.set.to_owned()));
                 set
             }
-            Place::Stiffness(number) => LADDER
+            PointPlace::Stiffness(number) => LADDER
                 .get(number)
                 .map(|stiffness| format!("{STIFFNESS_KEY}=\"{} lbf/in\"", Number(*stiffness)))
                 .into_iter()
@@ -335,7 +335,7 @@ impl Space {
     }
 }
 
-impl Place {
+impl PointPlace {
     /// Returns its name in files.
     #[must_use]
     pub fn key(self) -> String {

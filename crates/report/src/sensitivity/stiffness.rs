@@ -14,9 +14,9 @@ use std::ops::Range;
 use serde::Serialize;
 
 use super::axes::AXES;
-use super::point::Found;
-use super::space::{Place, STIFFNESS, Space};
-use crate::claims::{REQUIRED, Verdict, claims};
+use super::point::PointOutcome;
+use super::space::{PointPlace, STIFFNESS, Space};
+use crate::claims::{ClaimVerdict, REQUIRED, claims};
 
 /// Parts of the range.
 const PARTS: usize = 5;
@@ -64,7 +64,7 @@ pub struct Alone {
 
 /// A part of the range, over all else that is open.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Part {
+pub struct StiffnessPart {
     /// From and to this stiffness a corner, lbf/in.
     pub stiffness: [f64; 2],
     /// Points in it.
@@ -83,15 +83,15 @@ pub struct OfStiffness {
     /// Stiffness by stiffness, all else as decided.
     pub alone: Vec<Alone>,
     /// Parts of the range; empty with too few points.
-    pub parts: Vec<Part>,
+    pub parts: Vec<StiffnessPart>,
     /// The part that the rule chooses.
     pub chosen: Option<usize>,
 }
 
 /// Returns the part that the rule chooses.
-fn choose(parts: &[Part]) -> Option<usize> {
+fn choose(parts: &[StiffnessPart]) -> Option<usize> {
     let middle = parts.get(MIDDLE)?;
-    let is_better = |one: &Part, other: &Part| {
+    let is_better = |one: &StiffnessPart, other: &StiffnessPart| {
         let worse = other.required.exceeds(one.required);
         one.required.exceeds(other.required) || (!worse && one.holds.exceeds(other.holds))
     };
@@ -112,18 +112,24 @@ fn choose(parts: &[Part]) -> Option<usize> {
 }
 
 /// Returns the outcome of these points.
-pub(super) fn of_stiffness(space: &Space, points: Range<u64>, found: &BTreeMap<Place, Found>) -> OfStiffness {
+pub(super) fn of_stiffness(
+    space: &Space,
+    points: Range<u64>,
+    found: &BTreeMap<PointPlace, PointOutcome>,
+) -> OfStiffness {
     let required: Vec<bool> = claims().map(|claim| REQUIRED.contains(&claim.id)).collect();
-    let counts = |found: &Found| {
+    let counts = |found: &PointOutcome| {
         let axes = found.axes.iter().filter(|within| **within).count();
         let holds = found.verdicts.iter().zip(&required);
-        let holds = holds.filter(|(verdict, _)| **verdict == Verdict::Holds);
+        let holds = holds.filter(|(verdict, _)| **verdict == ClaimVerdict::Holds);
         holds.fold((0, axes), |(all, needed), (_, required)| {
             (all + 1, needed + usize::from(*required))
         })
     };
     let alone = space.places(0).into_iter().filter_map(|place| {
-        let Place::Stiffness(_) = place else { return None };
+        let PointPlace::Stiffness(_) = place else {
+            return None;
+        };
         let (holds, required) = counts(found.get(&place)?);
         let stiffness = space.stiffness(place)?;
         Some(Alone {
@@ -138,19 +144,19 @@ pub(super) fn of_stiffness(space: &Space, points: Range<u64>, found: &BTreeMap<P
             let coordinate = space.coordinates(*point)[STIFFNESS];
             (ends[0]..ends[1]).contains(&coordinate)
         });
-        let counted = own.filter_map(|point| found.get(&Place::Space(point)).map(counts));
+        let counted = own.filter_map(|point| found.get(&PointPlace::Space(point)).map(counts));
         let (all, needed): (Vec<f64>, Vec<f64>) = counted
             .map(|(holds, required)| (holds as f64, required as f64))
             .unzip();
         let factor = &space.parameters[STIFFNESS].factor;
-        Some(Part {
+        Some(StiffnessPart {
             stiffness: ends.map(|end| factor.at(end).in_unit("lbf/in").unwrap_or(f64::NAN)),
             points: all.len(),
             holds: Mean::of(&all)?,
             required: Mean::of(&needed)?,
         })
     };
-    let parts: Vec<Part> = (0..PARTS).map(part).collect::<Option<_>>().unwrap_or_default();
+    let parts: Vec<StiffnessPart> = (0..PARTS).map(part).collect::<Option<_>>().unwrap_or_default();
     OfStiffness {
         of_required: REQUIRED.len() + AXES.len(),
         alone: alone.collect(),

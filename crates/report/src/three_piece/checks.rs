@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use mechanics::quasi_static::{Direction, QuasiStaticWedge};
+use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection};
 use mechanics::system::{Held, StaticFriction};
 use serde::Serialize;
 use study::truck::loop_curve::LoopCurve;
@@ -390,7 +390,8 @@ fn in_the_middle(result: &TruckResult, name: &str, period: f64) -> Option<[f64; 
 
 /// The vertical rigs at the middle of the stroke against steady sliding of a massless wedge.
 fn massless(found: &mut Found, rigs: &Rigs) {
-    const WAYS: [(&str, Direction); 2] = [("up", Direction::Up), ("down", Direction::Down)];
+    const WAYS: [(&str, SlidingDirection); 2] =
+        [("up", SlidingDirection::Up), ("down", SlidingDirection::Down)];
     for (rig, damping, toe) in [
         ("much toe, constant", "constant", "toe out 2°"),
         ("much toe, variable", "variable", "toe out 2°"),

@@ -26,7 +26,7 @@ pub const SCHEMA: &str = "wedgelab.truck_checks/1";
 
 /// All that is said.
 #[derive(Clone, Debug, Serialize)]
-pub struct Findings {
+pub struct TruckFindings {
     /// [`SCHEMA`].
     pub schema: &'static str,
     /// What was found against what is expected.
@@ -35,7 +35,7 @@ pub struct Findings {
     pub sensitivities: Vec<Sensitivity>,
 }
 
-impl Findings {
+impl TruckFindings {
     /// Returns the findings of these runs. A check whose runs are missing is left out.
     #[must_use]
     pub fn of(rigs: &Rigs) -> Self {

@@ -24,7 +24,7 @@ pub struct Sensitivity {
 }
 
 /// What a rig is asked for.
-type Quantity = (&'static str, &'static str, fn(&TruckResult) -> Option<f64>);
+type RigResult = (&'static str, &'static str, fn(&TruckResult) -> Option<f64>);
 
 /// Returns the warp moment where 20 mrad are reached first, kip·in.
 fn warp_moment(result: &TruckResult) -> Option<f64> {
@@ -49,7 +49,7 @@ fn loss(result: &TruckResult) -> Option<f64> {
     (!losses.is_empty()).then_some(sum / (POUND * INCH))
 }
 
-const WARP: [Quantity; 3] = [
+const WARP: [RigResult; 3] = [
     ("warp moment at 20 mrad", "kip·in", warp_moment),
     ("largest normal force of a column", "lbf", normal),
     ("energy lost in a cycle", "in·lbf", loss),

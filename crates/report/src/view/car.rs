@@ -15,7 +15,7 @@ use wheelrail::track::RailLines;
 
 use super::carriage::less;
 use super::run::Plot;
-use super::scene::{Look, Role, Scene, SceneBody, Solid, SolidPose, extruded};
+use super::scene::{Look, Scene, SceneBody, Solid, SolidPose, SolidRole, extruded};
 use super::{rolling, truck as three_piece};
 
 const INCH: f64 = 0.0254;
@@ -153,7 +153,7 @@ fn add_body(scene: &mut Scene, own: &Parameters) {
         ],
         steady: [None, column("chord_lateral"), column("chord_vertical")],
     });
-    let block = |id: &str, name: &str, role: Role, at: [f64; 3], [length, width, high]: [f64; 3]| {
+    let block = |id: &str, name: &str, role: SolidRole, at: [f64; 3], [length, width, high]: [f64; 3]| {
         let (l, h) = (0.5 * length, 0.5 * high);
         Solid {
             mount: SolidPose {
@@ -175,7 +175,7 @@ fn add_body(scene: &mut Scene, own: &Parameters) {
     scene.solids.push(block(
         "floor",
         "floor of the car",
-        Role::Body,
+        SolidRole::Body,
         at,
         [length, width, thick],
     ));
@@ -183,7 +183,7 @@ fn add_body(scene: &mut Scene, own: &Parameters) {
     let mut hull = block(
         "walls",
         "walls of the car",
-        Role::Glass,
+        SolidRole::Glass,
         [0.0, half_width, middle],
         [length, WALL, walls],
     );
@@ -193,7 +193,7 @@ fn add_body(scene: &mut Scene, own: &Parameters) {
         ([0.5 * length, -half_width, 0.0], [WALL, width, walls]),
         ([-0.5 * length, -half_width, 0.0], [WALL, width, walls]),
     ] {
-        let mut wall = block("", "", Role::Glass, [0.0; 3], size);
+        let mut wall = block("", "", SolidRole::Glass, [0.0; 3], size);
         for vertex in &mut wall.vertices {
             *vertex = std::array::from_fn(|k| vertex[k] + at[k]);
         }
@@ -201,7 +201,7 @@ fn add_body(scene: &mut Scene, own: &Parameters) {
     }
     for (number, mass) in own.lading.iter().enumerate() {
         let id = format!("lading_{}", number + 1);
-        let part = block(&id, &mass.name, Role::Lading, mass.place, edges(mass));
+        let part = block(&id, &mass.name, SolidRole::Lading, mass.place, edges(mass));
         scene.solids.push(part);
     }
     scene.solids.push(hull);

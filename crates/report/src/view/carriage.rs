@@ -11,7 +11,7 @@ use study::contacts::Corner;
 
 use super::pressure::of_contacts;
 use super::scene::{
-    End, FACTOR, Look, Role, Scene, SceneBody, SceneCoil, SceneContact, Solid, SolidPose, extruded,
+    CoilEnd, FACTOR, Look, Scene, SceneBody, SceneCoil, SceneContact, Solid, SolidPose, SolidRole, extruded,
 };
 
 const INCH: f64 = 0.0254;
@@ -27,7 +27,7 @@ pub(super) const CORNER_ARROW: f64 = 0.6;
 
 /// Bolster or side frame.
 #[derive(Clone, Debug)]
-pub(super) struct Part {
+pub(super) struct CarriagePart {
     /// Its name in the scene.
     pub id: String,
     /// Its name for people.
@@ -94,7 +94,7 @@ impl DrawnWedge {
         if ahead > 0.0 {
             outline.swap(0, 1);
         }
-        let mut solid = extruded((id, &self.name, Role::Wedge, id), &outline, width);
+        let mut solid = extruded((id, &self.name, SolidRole::Wedge, id), &outline, width);
         let (sine, cosine) = libm::sincos(self.angle);
         for [x, y, z] in &mut solid.vertices {
             let aside = libm::tan(self.across) * *y;
@@ -150,9 +150,9 @@ pub(super) struct DrawnSpring {
 #[derive(Clone, Debug)]
 pub(super) struct Carriage {
     /// The bolsters.
-    pub bolsters: Vec<Part>,
+    pub bolsters: Vec<CarriagePart>,
     /// The side frames.
-    pub side_frames: Vec<Part>,
+    pub side_frames: Vec<CarriagePart>,
     /// The wedges.
     pub wedges: Vec<DrawnWedge>,
     /// The springs.
@@ -172,7 +172,7 @@ impl Carriage {
     pub fn scene(&self, contacts: Vec<SceneContact>) -> Option<Scene> {
         let first = self.wedges.first()?;
         let [height, width] = first.size;
-        let body = |part: &Part| SceneBody {
+        let body = |part: &CarriagePart| SceneBody {
             id: part.id.clone(),
             on: None,
             along: None,
@@ -217,11 +217,11 @@ impl Carriage {
             let [x, y] = spring.at;
             scene.coils.push(SceneCoil {
                 name: spring.name.clone(),
-                from: End {
+                from: CoilEnd {
                     body: side_frame.id.clone(),
                     point: less([x, y, seat], side_frame.center),
                 },
-                to: End {
+                to: CoilEnd {
                     body: bolster.id.clone(),
                     point: less([x, y, bottom], bolster.center),
                 },
@@ -340,7 +340,7 @@ impl Carriage {
                     (
                         &format!("seat_{}", wedge.key),
                         "seat of the coil in the bolster",
-                        Role::Seat,
+                        SolidRole::Seat,
                         &bolster.id,
                     ),
                     &[
@@ -360,11 +360,11 @@ impl Carriage {
         let [x, y, z] = wedge.offset;
         scene.coils.push(SceneCoil {
             name: format!("control coil of {}", wedge.name),
-            from: End {
+            from: CoilEnd {
                 body: on.id.clone(),
                 point: less([at, wedge.point[1], foot], on.center),
             },
-            to: End {
+            to: CoilEnd {
                 body: id.clone(),
                 point: [x - 0.5 * ahead * length, y, z - half],
             },
@@ -410,7 +410,11 @@ impl Carriage {
 }
 
 /// Returns a beam across the track, whose sides are the slopes.
-fn bolster_solid(part: &Part, own: &[&DrawnWedge], (bottom, height, width): (f64, f64, f64)) -> Solid {
+fn bolster_solid(
+    part: &CarriagePart,
+    own: &[&DrawnWedge],
+    (bottom, height, width): (f64, f64, f64),
+) -> Solid {
     let center = part.center;
     let side = |ahead: bool| -> Option<[[f64; 2]; 2]> {
         let wedge = own.iter().find(|wedge| (wedge.ahead > 0.0) == ahead)?;
@@ -435,7 +439,7 @@ fn bolster_solid(part: &Part, own: &[&DrawnWedge], (bottom, height, width): (f64
     Solid {
         name: part.name.clone(),
         ..extruded(
-            (&part.id, "", Role::Pocket, &part.id),
+            (&part.id, "", SolidRole::Pocket, &part.id),
             &[half(0, 0), half(1, 0), half(1, 1), half(0, 1)],
             2.0 * reach + 1.1 * width.max(10.0 * INCH),
         )
@@ -444,7 +448,7 @@ fn bolster_solid(part: &Part, own: &[&DrawnWedge], (bottom, height, width): (f64
 
 /// Columns, seat of the springs, top chord and arms to the axles.
 fn side_frame_solids(
-    part: &Part,
+    part: &CarriagePart,
     own: &[&DrawnWedge],
     axles: &[[f64; 3]],
     (seat, height): (f64, f64),
@@ -478,7 +482,7 @@ fn side_frame_solids(
                 (
                     &wedge.column(),
                     &format!("column at {}", wedge.name),
-                    Role::Column,
+                    SolidRole::Column,
                     id,
                 ),
                 &[[from, -below], [to, -below], [to, above], [from, above]],
@@ -496,7 +500,11 @@ fn side_frame_solids(
             (
                 &format!("{id}_{what}"),
                 &format!("{what} of the side frame"),
-                if what == "seat" { Role::Seat } else { Role::Column },
+                if what == "seat" {
+                    SolidRole::Seat
+                } else {
+                    SolidRole::Column
+                },
                 id,
             ),
             &[[from, below], [to, below], [to, above], [from, above]],

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::data::{Data, Precision};
 use super::kind_name;
-use crate::drawing::{Curve, Figure, Panel};
+use crate::drawing::{Figure, Panel, PlotCurve};
 use crate::thin::thin;
 
 /// Curves keep what can be seen over this many columns: four times the widest screen in use.
@@ -26,7 +26,7 @@ pub struct Chart {
 
 /// An axis's name, and what it measures if that has a unit that can be switched.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Axis {
+pub struct ChartAxis {
     /// The name, without the unit if there is a quantity.
     pub name: String,
     /// The kind of quantity, a key of `quantities`.
@@ -39,9 +39,9 @@ pub struct ChartPanel {
     /// Its title; may be empty.
     pub title: String,
     /// Abscissa.
-    pub x: Axis,
+    pub x: ChartAxis,
     /// Ordinate.
-    pub y: Axis,
+    pub y: ChartAxis,
     /// The window that is shown of the abscissa first, SI.
     pub x_window: Option<(f64, f64)>,
     /// Names of the ordinates 0, 1, ..., from bottom to top, where the ordinate is not a number.
@@ -110,7 +110,7 @@ fn panel(panel: &Panel, units: Units, data: &mut Data) -> ChartPanel {
     }
 }
 
-fn curve(curve: &Curve, (to_x, to_y): (f64, f64), data: &mut Data) -> ChartCurve {
+fn curve(curve: &PlotCurve, (to_x, to_y): (f64, f64), data: &mut Data) -> ChartCurve {
     let points = thin(&curve.points, COLUMNS);
     let list = |axis: usize| -> Vec<f64> {
         let value = |point: &(f64, f64)| [point.0 * to_x, point.1 * to_y][axis];
@@ -132,7 +132,7 @@ fn curve(curve: &Curve, (to_x, to_y): (f64, f64), data: &mut Data) -> ChartCurve
 
 /// Splits a label such as `force (lbf)` into its name and kind; gives the factor that makes SI of its numbers
 /// too. A unit that is none of ours, such as `%`, stays in the name.
-fn axis(label: &str, units: Units) -> (Axis, f64) {
+fn axis(label: &str, units: Units) -> (ChartAxis, f64) {
     let split = label.strip_suffix(')').and_then(|rest| rest.rsplit_once(" ("));
     let found = split.and_then(|(name, unit)| {
         // An energy has the label of a moment in US customary units: the name tells them apart.
@@ -143,14 +143,14 @@ fn axis(label: &str, units: Units) -> (Axis, f64) {
     });
     match found {
         Some((name, kind)) => {
-            let axis = Axis {
+            let axis = ChartAxis {
                 name: name.to_owned(),
                 quantity: Some(kind_name(kind)),
             };
             (axis, 1.0 / kind.from_si(units))
         }
         None => {
-            let axis = Axis {
+            let axis = ChartAxis {
                 name: label.to_owned(),
                 quantity: None,
             };

@@ -16,7 +16,7 @@ use study::contacts::corners;
 use study::half_truck::{HalfTruckCase, HalfTruckResult};
 use wedge::parameters::Damping;
 
-use super::carriage::{CORNER_ARROW, Carriage, DrawnSpring, DrawnWedge, Part, less};
+use super::carriage::{CORNER_ARROW, Carriage, CarriagePart, DrawnSpring, DrawnWedge, less};
 use super::run::Plot;
 use super::scene::{Scene, SceneBody, SceneContact};
 
@@ -191,7 +191,7 @@ pub fn scene(case: &HalfTruckCase) -> Option<Scene> {
         let id = body_id(truck, body);
         model.bodies[body].free[k].then(|| format!("{id}_{}", names[k]))
     };
-    let part = |place: &usize| Part {
+    let part = |place: &usize| CarriagePart {
         id: body_id(truck, *place),
         name: model.bodies[*place].name.clone(),
         center: model.bodies[*place].frame.origin,

@@ -37,7 +37,7 @@ pub const SCHEMA: &str = "wedgelab.view/1";
 
 /// How a kind of quantity is shown.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Shown {
+pub struct KindUnits {
     /// Its US customary unit; empty for pure numbers.
     pub us: &'static str,
     /// Its SI unit.
@@ -54,7 +54,7 @@ pub struct View {
     /// The system of units that is shown first: `us` or `si`.
     pub units: &'static str,
     /// How each kind of quantity is shown.
-    pub quantities: BTreeMap<String, Shown>,
+    pub quantities: BTreeMap<String, KindUnits>,
     /// Lists of numbers. All others name them by their place.
     pub data: Vec<List>,
     /// The figures by name.
@@ -133,8 +133,8 @@ pub fn kind_name(kind: Kind) -> String {
     }
 }
 
-fn quantities() -> BTreeMap<String, Shown> {
-    let shown = |kind: Kind| Shown {
+fn quantities() -> BTreeMap<String, KindUnits> {
+    let shown = |kind: Kind| KindUnits {
         us: kind.label(Units::Us),
         si: kind.label(Units::Si),
         us_from_si: kind.from_si(Units::Us),

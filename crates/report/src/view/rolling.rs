@@ -12,7 +12,7 @@ use wheelrail::contact::Side;
 use wheelrail::profile::Profile;
 use wheelrail::track::{Line, RailLines};
 
-use super::scene::{Role, SceneBody, ScenePatch, SceneTrack, Solid, SolidPose};
+use super::scene::{SceneBody, ScenePatch, SceneTrack, Solid, SolidPose, SolidRole};
 
 const INCH: f64 = 0.0254;
 /// Distance between samples of a track, m, and the most samples.
@@ -148,7 +148,7 @@ pub fn wheelset_bodies(id: &str, radius: f64, column: &dyn Fn(&str) -> String) -
 #[must_use]
 pub fn wheelset_solids(id: &str, name: &str, wheel: &Profile, radius: f64, tape_distance: f64) -> Vec<Solid> {
     let body = format!("{id}_spin");
-    let solid = |what: &str, role: Role, revolved: Vec<[f64; 2]>| Solid {
+    let solid = |what: &str, role: SolidRole, revolved: Vec<[f64; 2]>| Solid {
         id: format!("{id}_{}", what.replace(' ', "_")),
         name: format!("{what} of the {name}"),
         role,
@@ -166,9 +166,9 @@ pub fn wheelset_solids(id: &str, name: &str, wheel: &Profile, radius: f64, tape_
     let end = half + beyond;
     let axle = vec![[-end, 0.0], [-end, thick], [end, thick], [end, 0.0]];
     vec![
-        solid("left wheel", Role::Wheel, left),
-        solid("right wheel", Role::Wheel, right),
-        solid("axle", Role::Wheelset, axle),
+        solid("left wheel", SolidRole::Wheel, left),
+        solid("right wheel", SolidRole::Wheel, right),
+        solid("axle", SolidRole::Wheelset, axle),
     ]
 }
 

@@ -18,7 +18,7 @@ use wedge::outputs::{CORNERS, FACES};
 use super::data::{Data, Precision};
 use super::scene::{self, Scene};
 use super::{car, half_truck, kind_name, truck, wheelset};
-use crate::figures::Outcome;
+use crate::figures::CaseOutcome;
 use crate::overlay::moves;
 
 /// The most rows of a thinned run.
@@ -101,7 +101,7 @@ type Table<'t> = Vec<(&'t Column, &'t [f64])>;
 impl Recording {
     /// Makes the view of a stand-alone wedge.
     #[must_use]
-    pub fn of_wedge((case, result): &Outcome, detail: Detail) -> Self {
+    pub fn of_wedge((case, result): &CaseOutcome, detail: Detail) -> Self {
         let table = table(&result.columns, &result.values);
         let scene = scene::stand_alone(&case.parameters, result);
         Self::new((&case.name, &case.title), &table, plots(), scene, detail)

@@ -117,7 +117,7 @@ pub struct SolidPose {
 /// What a solid is, for its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Role {
+pub enum SolidRole {
     /// A friction wedge.
     Wedge,
     /// A column of a side frame.
@@ -146,7 +146,7 @@ pub struct Solid {
     /// Its name for people.
     pub name: String,
     /// What it is.
-    pub role: Role,
+    pub role: SolidRole,
     /// Its body.
     pub body: String,
     /// Where it sits.
@@ -205,7 +205,7 @@ pub struct SceneTrack {
 
 /// An end of a coil.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct End {
+pub struct CoilEnd {
     /// The body.
     pub body: String,
     /// The point, body axes.
@@ -218,9 +218,9 @@ pub struct SceneCoil {
     /// Its name.
     pub name: String,
     /// Its seat.
-    pub from: End,
+    pub from: CoilEnd,
     /// Its other end.
-    pub to: End,
+    pub to: CoilEnd,
     /// Length in the nominal position.
     pub nominal_length: f64,
     /// Free length.
@@ -392,7 +392,7 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
     let wedge_solid = Solid {
         mount: SolidPose::default(),
         ..extruded(
-            ("wedge", "wedge", Role::Wedge, "wedge"),
+            ("wedge", "wedge", SolidRole::Wedge, "wedge"),
             &[[face_x, 0.0], [face_x + bottom, 0.0], [face_x, height]],
             width,
         )
@@ -404,7 +404,12 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
             angles: [0.0, parameters.toe, 0.0],
         },
         ..extruded(
-            ("column", "column of the side frame", Role::Column, "side_frame"),
+            (
+                "column",
+                "column of the side frame",
+                SolidRole::Column,
+                "side_frame",
+            ),
             &[
                 [-0.2 * height, -half],
                 [0.0, -half],
@@ -430,7 +435,7 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
             angles: [0.0; 3],
         },
         ..extruded(
-            ("pocket", "pocket of the bolster", Role::Pocket, "bolster"),
+            ("pocket", "pocket of the bolster", SolidRole::Pocket, "bolster"),
             &[top, low, [back, low[1]], [back, top[1]]],
             1.1 * width,
         )
@@ -447,7 +452,7 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
             angles: [0.0; 3],
         },
         ..extruded(
-            ("seat", "seat of the coil", Role::Seat, seat_body),
+            ("seat", "seat of the coil", SolidRole::Seat, seat_body),
             &[
                 [-1.4 * radius, -0.06 * height],
                 [1.4 * radius, -0.06 * height],
@@ -459,11 +464,11 @@ pub fn stand_alone(parameters: &Parameters, result: &RunResult) -> Option<Scene>
     };
     let coil = SceneCoil {
         name: "control coil".to_owned(),
-        from: End {
+        from: CoilEnd {
             body: seat_body.to_owned(),
             point: control.marker.origin.0,
         },
-        to: End {
+        to: CoilEnd {
             body: "wedge".to_owned(),
             point: control.element.end.0,
         },
@@ -534,7 +539,7 @@ fn looks() -> Vec<Look> {
 /// Returns a convex outline in the plane of x and z, anticlockwise with x to the right and z up, drawn out to
 /// both sides along y.
 pub(super) fn extruded(
-    (id, name, role, body): (&str, &str, Role, &str),
+    (id, name, role, body): (&str, &str, SolidRole, &str),
     outline: &[[f64; 2]],
     width: f64,
 ) -> Solid {
@@ -570,7 +575,7 @@ mod tests {
     #[test]
     fn solids_are_closed_and_look_outwards() {
         let outline = [[0.0, 0.0], [3.0, 0.0], [0.0, 5.0]];
-        let solid = extruded(("a", "a", Role::Body, "b"), &outline, 2.0);
+        let solid = extruded(("a", "a", SolidRole::Body, "b"), &outline, 2.0);
         let six_volumes: f64 = solid
             .triangles
             .iter()

@@ -15,9 +15,9 @@ use study::truck::run::TruckResult;
 use study::truck::warp::PARTS;
 use wedge::parameters::Damping;
 
-use super::carriage::{CORNER_ARROW, Carriage, DrawnSpring, DrawnWedge, Part};
+use super::carriage::{CORNER_ARROW, Carriage, CarriagePart, DrawnSpring, DrawnWedge};
 use super::run::Plot;
-use super::scene::{Role, Scene, SceneBody, Solid, SolidPose, extruded};
+use super::scene::{Scene, SceneBody, Solid, SolidPose, SolidRole, extruded};
 
 const INCH: f64 = 0.0254;
 /// How much displacements are exaggerated at first: a warp of 20 mrad is then as large as the eye takes for
@@ -55,7 +55,7 @@ pub(super) fn carriage(parameters: &Parameters, prefix: &str, travel: &[Option<S
     let bodies = ::truck::bodies(parameters, [0.0; 3]);
     let part = |name: &str, body: usize, steady: &[Option<String>; 3]| {
         let id = format!("{prefix}{name}");
-        Part {
+        CarriagePart {
             name: words(&id),
             center: nominal(&bodies[body]),
             coordinates: columns_of(&id),
@@ -198,7 +198,7 @@ fn cylinder(id: &str, body: &str, radius: f64, y: f64, width: f64) -> Solid {
             [radius * cosine, radius * sine]
         })
         .collect();
-    let mut solid = extruded((id, "wheelset", Role::Wheelset, body), &outline, width);
+    let mut solid = extruded((id, "wheelset", SolidRole::Wheelset, body), &outline, width);
     for vertex in &mut solid.vertices {
         vertex[1] += y;
     }
@@ -226,7 +226,7 @@ fn floor(body: &str, name: &str, center: [f64; 3]) -> Solid {
             angles: [0.0; 3],
         },
         ..extruded(
-            ("floor", name, Role::Body, body),
+            ("floor", name, SolidRole::Body, body),
             &[[-length, 0.0], [length, 0.0], [length, thick], [-length, thick]],
             2.0 * width,
         )

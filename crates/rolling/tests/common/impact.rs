@@ -1,7 +1,7 @@
 //! A wheel that meets its rail at a velocity: loads by the elements, by two masses, by closed forms.
 
 use integrate::{Integrator, Options};
-use rolling::rig::{Rig, Setup, Start, WHEELSET};
+use rolling::rig::{Rig, RigStart, Setup, WHEELSET};
 use rolling::track::RailSupport;
 use rolling::wheelset::coordinate;
 use wheelrail::contact::{ContactLaw, CreepLaw, Side};
@@ -121,9 +121,9 @@ pub fn meeting(velocity: f64) -> [[f64; 2]; 3] {
     let looks = [(0.0, 0.0, 1.5e-3), (DAMPED, 3e-3, 0.02)];
     for (number, (damping, from, to)) in looks.into_iter().enumerate() {
         let setup = setup(Vec::new(), 0.0, damping);
-        let start = Start {
+        let start = RigStart {
             distance: 100.0,
-            ..Start::default()
+            ..RigStart::default()
         };
         let mut rig = Rig::new(&setup, start).unwrap();
         let mut stiffness = 0.0;
@@ -169,9 +169,9 @@ pub fn joint(angle: f64, speed: f64) -> f64 {
     let from = 50.0;
     let rig = Rig::new(
         &setup,
-        Start {
+        RigStart {
             distance: from,
-            ..Start::default()
+            ..RigStart::default()
         },
     )
     .unwrap();

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use integrate::{Integrator, Options};
 use rolling::carriage::Carriage;
-use rolling::rig::{Rig, Setup, Start, Wheels};
+use rolling::rig::{Rig, RigStart, Setup, Wheels};
 use rolling::wheel::Search;
 use rolling::wheelset::WheelsetBody;
 use wheelrail::conicity::LinearGeometry;
@@ -185,7 +185,7 @@ pub fn coned_wheelset(slope: f64, crown: f64) -> (Setup, f64) {
 }
 
 /// Runs to a time from a start; gives the rig, which begins there then, and its state.
-pub fn after(setup: &Setup, start: Start, relative_tolerance: f64, time: f64) -> (Rig, Vec<f64>) {
+pub fn after(setup: &Setup, start: RigStart, relative_tolerance: f64, time: f64) -> (Rig, Vec<f64>) {
     let mut rig = Rig::new(setup, start).unwrap();
     let options = Options {
         relative_tolerance,

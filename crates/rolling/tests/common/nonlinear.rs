@@ -2,7 +2,7 @@
 //! where the limit cycle ends.
 
 use integrate::{Integrator, Method, Options};
-use rolling::rig::{Rig, Setup, Start};
+use rolling::rig::{Rig, RigStart, Setup};
 use wheelrail::track::Segment;
 
 use super::suspended::{growth_by_steps, hunting};
@@ -30,7 +30,7 @@ pub fn critical() -> [f64; 2] {
 /// (m).
 pub fn amplitude(speed: f64, start: f64, duration: f64) -> f64 {
     let setup = suspended(speed);
-    let start = Start {
+    let start = RigStart {
         distance: 50.0,
         lateral: start,
         yaw: 0.0,

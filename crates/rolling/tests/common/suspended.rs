@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use integrate::{Integrator, Options};
-use rolling::rig::{Rig, Setup, Start};
+use rolling::rig::{Rig, RigStart, Setup};
 
 use super::{bisection, linear};
 
-pub const START: Start = Start {
+pub const START: RigStart = RigStart {
     distance: 50.0,
     lateral: 0.0,
     yaw: 0.0,
@@ -52,7 +52,7 @@ pub fn critical_speed((suspension, creep, geometry): &([f64; 4], [f64; 2], [f64;
 pub fn growth_by_steps(setup: &Setup, frequency: f64) -> f64 {
     let mut rig = Rig::new(
         setup,
-        Start {
+        RigStart {
             lateral: 1e-4,
             ..START
         },

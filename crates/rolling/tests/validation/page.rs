@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 
 use integrate::{Integrator, Options};
-use rolling::rig::{Rig, Start};
+use rolling::rig::{Rig, RigStart};
 use wheelrail::contact::{ContactLaw, CreepLaw, Side};
 use wheelrail::track::shape::Shape;
 use wheelrail::track::{CurveElements, Direction, Irregularity, Placed, Rails, Segment};
@@ -215,9 +215,9 @@ fn bump(out: &mut String) {
     setup.carriage.damping = [0.0; 2];
     setup.carriage.load = 0.0;
     setup.carriage.drive = 0.0;
-    let start = Start {
+    let start = RigStart {
         distance: 1.0,
-        ..Start::default()
+        ..RigStart::default()
     };
     let mut rig = Rig::new(&setup, start).unwrap();
     let stored = rig.system.observe(0.0, &rig.start).energies.total();
@@ -259,9 +259,9 @@ fn forces(heading: f64, time: f64) -> [f64; 4] {
     let mut setup = on_rails(&freight(), circle, POLACH, 60.0 / 3.6);
     setup.carriage.stiffness = [2e6, 2e7];
     setup.heading = heading;
-    let start = Start {
+    let start = RigStart {
         distance: 1.0,
-        ..Start::default()
+        ..RigStart::default()
     };
     let (mut rig, x) = after(&setup, start, 1e-4, time);
     let seen = rig.system.observe(time, &x);

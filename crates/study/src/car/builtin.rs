@@ -7,7 +7,7 @@ use quantity::Quantity;
 
 use super::CarCase;
 use super::regime::Regime;
-use crate::case::builtin::{BuiltIn, Group, names_in, text_in};
+use crate::case::builtin::{BuiltIn, CaseGroup, names_in, text_in};
 use crate::case::{CaseError, Tables};
 
 /// Irregularities of a track of FRA class 4 by spectra, tapered at the start.
@@ -74,7 +74,7 @@ fn held(speed: f64) -> String {
     format!("speed.value = \"{speed} mph\"")
 }
 
-static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
+static GROUPS: LazyLock<Vec<CaseGroup>> = LazyLock::new(|| {
     let rough = format!("{}{CLASS_4}", tangent(2500.0));
     let both = |name: &str, title: &str, speed: f64, duration: f64, track: &str| {
         ["loaded", "empty"].map(|lading| case(name, title, lading, &held(speed), duration, track))
@@ -108,7 +108,7 @@ start.axle_shift = \"0.4 in\"";
         .iter()
         .filter_map(|(name, lading, place)| in_regime(name, lading, *place));
     vec![
-        Group {
+        CaseGroup {
             name: "car",
             title: "A freight car on track",
             look_at: "Tangent: accelerations at the truck centers, losses of the wedges. Curves: lateral \
@@ -133,7 +133,7 @@ start.axle_shift = \"0.4 in\"";
             ]
             .concat(),
         },
-        Group {
+        CaseGroup {
             name: "car_regimes",
             title: "Regimes of freight cars",
             look_at: "Spiral: the least wheel load. Hunting: where the lateral motion dies while the car \
@@ -190,7 +190,7 @@ start.axle_shift = \"0.4 in\"";
 });
 
 /// Returns the groups.
-pub fn groups() -> &'static [Group] {
+pub fn groups() -> &'static [CaseGroup] {
     &GROUPS
 }
 

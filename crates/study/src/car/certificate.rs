@@ -53,7 +53,7 @@ pub struct Certificate {
 
 /// How one limit is kept by a run.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Check {
+pub struct KeptLimit {
     /// Its number in the set.
     pub limit: usize,
     /// What is measured, in its unit; `None` if the run has none.
@@ -82,7 +82,7 @@ pub struct Assessed {
     /// Whether a wheel left its rail: no limit is kept then.
     pub derailed: bool,
     /// The limits.
-    pub checks: Vec<Check>,
+    pub checks: Vec<KeptLimit>,
     /// Measures, SI, in the study's order; none if it has none.
     pub measures: Vec<f64>,
 }
@@ -90,7 +90,7 @@ pub struct Assessed {
 impl Assessed {
     /// Returns whether a limit is kept.
     #[must_use]
-    pub fn keeps(&self, check: &Check) -> Option<bool> {
+    pub fn keeps(&self, check: &KeptLimit) -> Option<bool> {
         match self.derailed {
             true => Some(false),
             false => check.margin.map(|margin| margin >= 0.0),
@@ -175,7 +175,7 @@ impl Certificate {
             let usable = record.status == Status::Complete;
             let found = measured(limit.measure.name).filter(|_| usable);
             let value = found.map(|own| limit.in_unit(own));
-            Check {
+            KeptLimit {
                 limit: number,
                 value,
                 margin: value.map(|own| limit.margin(own)),
@@ -206,7 +206,7 @@ impl Certificate {
 
 /// How a limit is kept in a regime and a condition, over all speeds.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Verdict {
+pub struct LimitVerdict {
     /// The number of the regime.
     pub regime: usize,
     /// The number of the condition.
@@ -214,7 +214,7 @@ pub struct Verdict {
     /// The number of the limit.
     pub limit: usize,
     /// The run with the least margin, its speed, value and margin; `None` if no run has one.
-    pub worst: Option<Worst>,
+    pub worst: Option<WorstSpeed>,
     /// Speeds at which a wheel left its rail.
     pub derailed: Vec<String>,
     /// Speeds of runs without a value.
@@ -223,7 +223,7 @@ pub struct Verdict {
 
 /// The run that keeps a limit least.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Worst {
+pub struct WorstSpeed {
     /// Its number.
     pub run: u64,
     /// Its speed as typed.
@@ -234,7 +234,7 @@ pub struct Worst {
     pub margin: f64,
 }
 
-impl Verdict {
+impl LimitVerdict {
     /// Returns `kept`, `exceeded`, or `unknown` if a run is missing and none exceeds it.
     #[must_use]
     pub fn word(&self) -> &'static str {
@@ -251,8 +251,8 @@ impl Verdict {
 
 /// Returns how each limit is kept, by regime, condition and limit.
 #[must_use]
-pub fn verdicts(runs: &[Assessed]) -> Vec<Verdict> {
-    let mut found: Vec<Verdict> = Vec::new();
+pub fn verdicts(runs: &[Assessed]) -> Vec<LimitVerdict> {
+    let mut found: Vec<LimitVerdict> = Vec::new();
     for run in runs {
         for check in &run.checks {
             let key = (run.regime, run.condition, check.limit);
@@ -260,7 +260,7 @@ pub fn verdicts(runs: &[Assessed]) -> Vec<Verdict> {
                 .iter()
                 .position(|own| (own.regime, own.condition, own.limit) == key);
             let place = place.unwrap_or_else(|| {
-                found.push(Verdict {
+                found.push(LimitVerdict {
                     regime: run.regime,
                     condition: run.condition,
                     limit: check.limit,
@@ -279,7 +279,7 @@ pub fn verdicts(runs: &[Assessed]) -> Vec<Verdict> {
                 continue;
             };
             if own.worst.as_ref().is_none_or(|worst| margin < worst.margin) {
-                own.worst = Some(Worst {
+                own.worst = Some(WorstSpeed {
                     run: run.run,
                     speed: run.speed.clone(),
                     value,

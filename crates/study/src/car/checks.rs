@@ -9,7 +9,7 @@ use wheelrail::track::CenterLine;
 use super::lading::LadingKind;
 use crate::case::Simulation;
 use crate::case::problem::Problem;
-use crate::reader::Reader;
+use crate::reader::CaseReader;
 
 const FOOT: f64 = 0.3048;
 const INCH: f64 = 0.0254;
@@ -22,7 +22,7 @@ const LEAST_RADIUS: f64 = 150.0 * FOOT;
 
 /// Notes what is wrong. Returns what is doubtful.
 pub(super) fn all(
-    r: &mut Reader<'_>,
+    r: &mut CaseReader<'_>,
     parameters: &Parameters,
     simulation: &Simulation,
     lading: LadingKind,
@@ -36,7 +36,7 @@ pub(super) fn all(
 }
 
 /// A center of gravity outside of what carries the body.
-fn balance(r: &mut Reader<'_>, parameters: &Parameters, lading: LadingKind) {
+fn balance(r: &mut CaseReader<'_>, parameters: &Parameters, lading: LadingKind) {
     let [forward, left, _] = parameters.center_of_gravity();
     let key = lading.key();
     let half = 0.5 * parameters.truck_distance;
@@ -114,7 +114,7 @@ fn height(parameters: &Parameters) -> Option<String> {
 }
 
 /// Where the car starts, and whether the track is long and wide enough for it.
-fn way(r: &mut Reader<'_>, parameters: &Parameters, simulation: &Simulation) {
+fn way(r: &mut CaseReader<'_>, parameters: &Parameters, simulation: &Simulation) {
     let line = &parameters.track.center_line;
     let (start, reach) = (parameters.start.distance, parameters.reach());
     if start < reach {

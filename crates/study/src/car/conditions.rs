@@ -11,10 +11,10 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use super::CarCase;
-use super::named::{self, Named, find};
+use super::named::{self, BuiltInOrFile, find};
 use crate::case::problem::{Problem, Problems, TomlSource};
-use crate::case::section::Section;
-use crate::case::tree::{self, Table, Value};
+use crate::case::section::CaseSection;
+use crate::case::tree::{self, NodeValue, TableNode};
 use crate::case::{CaseError, name};
 use crate::design::settings;
 
@@ -54,8 +54,8 @@ impl Condition {
         let mut chosen: Vec<Self> = Vec::new();
         for text in texts {
             let found = match find("there is no condition", text, Self::all(), |own| &own.name)? {
-                Named::BuiltIn(own) => vec![own.clone()],
-                Named::File(path) => read(path)?,
+                BuiltInOrFile::BuiltIn(own) => vec![own.clone()],
+                BuiltInOrFile::File(path) => read(path)?,
             };
             for own in found {
                 if chosen.iter().any(|other| other.name == own.name) {
@@ -109,8 +109,8 @@ pub fn parse(source: &str, text: &str) -> Result<Vec<Condition>, CaseError> {
     }
 }
 
-fn conditions(tree: &Table, problems: &mut Problems) -> Vec<Condition> {
-    let top = Section {
+fn conditions(tree: &TableNode, problems: &mut Problems) -> Vec<Condition> {
+    let top = CaseSection {
         path: String::new(),
         table: tree,
         place: None,
@@ -124,7 +124,7 @@ fn conditions(tree: &Table, problems: &mut Problems) -> Vec<Condition> {
     };
     let mut found = Vec::new();
     for entry in &section.table.entries {
-        let Value::Table(table) = &entry.node.value else {
+        let NodeValue::Table(table) = &entry.node.value else {
             let message = format!("`conditions.{}` is {}", entry.key, entry.node.value.describe());
             let problem = Problem::new(message).at(&entry.node.place);
             problems.push(problem.label("a table is expected").help(HELP));
@@ -133,7 +133,7 @@ fn conditions(tree: &Table, problems: &mut Problems) -> Vec<Condition> {
         if let Some(problem) = name::problem(&entry.key) {
             problems.push(problem.at(&entry.key_place));
         }
-        let own = Section {
+        let own = CaseSection {
             path: format!("conditions.{}", entry.key),
             table,
             place: Some(entry.key_place.clone()),

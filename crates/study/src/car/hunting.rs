@@ -40,7 +40,7 @@ const DIP: [f64; 3] = [0.02 * 0.0254, 30.0 * 0.3048, 200.0 * 0.3048];
 
 /// What is asked.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct HuntingSettings {
     /// Lowest and highest speed, m/s.
     pub speeds: [f64; 2],
     /// How long each ramp takes, s.
@@ -98,7 +98,7 @@ pub struct Ramp {
 #[derive(Clone, Debug)]
 pub struct Hunting {
     /// What was asked.
-    pub settings: Settings,
+    pub settings: HuntingSettings,
     /// From the highest speed down.
     pub falling: Ramp,
     /// From the lowest speed up; none where the user stopped it before.
@@ -146,7 +146,7 @@ pub enum HuntingError {
     },
 }
 
-impl Settings {
+impl HuntingSettings {
     /// Checks that a case can be run so.
     ///
     /// # Errors
@@ -181,7 +181,7 @@ impl Settings {
 /// [`HuntingError`].
 pub fn hunting(
     case: &CarCase,
-    settings: Settings,
+    settings: HuntingSettings,
     mut go_on: impl FnMut(f64) -> ControlFlow<String>,
 ) -> Result<Hunting, HuntingError> {
     settings.check(case)?;
@@ -203,7 +203,7 @@ pub fn hunting(
 /// Runs one ramp. Returns it, and whether the run came to its end.
 fn one(
     case: &CarCase,
-    settings: &Settings,
+    settings: &HuntingSettings,
     falls: bool,
     go_on: impl FnMut(f64) -> ControlFlow<String>,
 ) -> Result<(Ramp, bool), HuntingError> {
@@ -244,7 +244,7 @@ fn one(
 }
 
 /// Returns the same car on a track for a ramp.
-fn parameters(own: &Parameters, settings: &Settings, falls: bool) -> Option<Parameters> {
+fn parameters(own: &Parameters, settings: &HuntingSettings, falls: bool) -> Option<Parameters> {
     let mut own = own.clone();
     let [low, high] = settings.speeds;
     let [from, to] = if falls { [high, low] } else { [low, high] };

@@ -6,9 +6,9 @@ use truck::Lading;
 
 use crate::case::field::{Reach, Written, quoted};
 use crate::case::problem::{Problem, Problems};
-use crate::case::section::{Names, Range, Section};
-use crate::case::tree::Value;
-use crate::reader::{Form, LENGTH, Reader};
+use crate::case::section::{CaseSection, Names, Range};
+use crate::case::tree::NodeValue;
+use crate::reader::{CaseReader, LENGTH, QuantityForm};
 use crate::truck::sections;
 
 /// What a car carries.
@@ -26,7 +26,7 @@ const KINDS: Names<LadingKind> = &[
 ];
 
 /// Reads `lading.kind`, on which defaults of other sections hang.
-pub(super) fn kind(r: &mut Reader<'_>) -> LadingKind {
+pub(super) fn kind(r: &mut CaseReader<'_>) -> LadingKind {
     let mut kind = LadingKind::Loaded;
     r.section("lading", "What the car carries.");
     let comment =
@@ -52,7 +52,7 @@ struct Typed {
 }
 
 /// Reads the masses of the lading; the section has begun.
-pub(super) fn masses(r: &mut Reader<'_>, kind: LadingKind) -> Vec<Mass> {
+pub(super) fn masses(r: &mut CaseReader<'_>, kind: LadingKind) -> Vec<Mass> {
     if kind != LadingKind::Masses {
         if r.has("lading.masses") {
             let problem = Problem::new("`lading.masses` has no effect: the lading is another");
@@ -81,26 +81,26 @@ pub(super) fn masses(r: &mut Reader<'_>, kind: LadingKind) -> Vec<Mass> {
     read.into_iter().map(|own| own.mass).collect()
 }
 
-fn list(section: &Section<'_>, problems: &mut Problems) -> Option<Vec<Typed>> {
+fn list(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Vec<Typed>> {
     let node = section.table.get("masses")?;
     let wrong = |found: &str| {
         Problem::new(format!("`lading.masses` holds {found}; tables are expected"))
             .label("not a list of tables")
             .help("write [[lading.masses]] on a line of its own and the keys below it")
     };
-    let Value::List(items) = &node.value else {
+    let NodeValue::List(items) = &node.value else {
         problems.push(wrong(node.value.describe()).at(&node.place));
         return None;
     };
     let mut list = Vec::new();
     for (number, item) in items.iter().enumerate() {
-        let Value::Table(table) = &item.value else {
+        let NodeValue::Table(table) = &item.value else {
             problems.push(wrong(item.value.describe()).at(&item.place));
             return None;
         };
         let mut place = item.place.clone();
         place.span.end = place.span.end.min(place.span.start + 1);
-        let own = Section {
+        let own = CaseSection {
             path: format!("lading.masses[{number}]"),
             table,
             place: Some(place),
@@ -143,7 +143,7 @@ fn list(section: &Section<'_>, problems: &mut Problems) -> Option<Vec<Typed>> {
 }
 
 /// The section of the body.
-pub(super) fn body(r: &mut Reader<'_>, parameters: &mut Parameters) {
+pub(super) fn body(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
     r.section(
         "car",
         "The car body without lading. Axes: x forward, y left, z up from the top of rail, origin midway \
@@ -156,7 +156,7 @@ pub(super) fn body(r: &mut Reader<'_>, parameters: &mut Parameters) {
         &mut parameters.truck_distance,
         "from the center of one truck to that of the other",
     );
-    let gravity: Form = (
+    let gravity: QuantityForm = (
         Kind::Acceleration,
         Range::NotNegative,
         Reach::FromZero(STANDARD_GRAVITY),

@@ -21,13 +21,13 @@ use std::sync::LazyLock;
 use quantity::{Kind, Quantity, System as Units, nearest};
 use serde::{Deserialize, Serialize};
 
-use super::named::{self, Named, find};
+use super::named::{self, BuiltInOrFile, find};
 use super::statistics::Statistic;
 use super::worst::{WORST, Worst};
 use crate::case::CaseError;
 use crate::case::problem::{Problem, Problems, TomlSource};
-use crate::case::section::{Range, Section};
-use crate::case::tree::{self, Table, Value};
+use crate::case::section::{CaseSection, Range};
+use crate::case::tree::{self, NodeValue, TableNode};
 
 const KEYS: [&str; 3] = ["title", "source", "limits"];
 const LIMIT_KEYS: [&str; 7] = [
@@ -203,8 +203,8 @@ impl LimitSet {
     /// There is neither; or something in the file is wrong: all mistakes are reported together.
     pub fn named_or_read(text: &str) -> Result<Self, CaseError> {
         match find("there are no limits", text, Self::built_in(), |own| &own.name)? {
-            Named::BuiltIn(own) => Ok(own.clone()),
-            Named::File(path) => Self::read(path),
+            BuiltInOrFile::BuiltIn(own) => Ok(own.clone()),
+            BuiltInOrFile::File(path) => Self::read(path),
         }
     }
 
@@ -234,8 +234,8 @@ impl LimitSet {
     }
 }
 
-fn read(tree: &Table, name: &str, text: &str, problems: &mut Problems) -> Option<LimitSet> {
-    let top = Section {
+fn read(tree: &TableNode, name: &str, text: &str, problems: &mut Problems) -> Option<LimitSet> {
+    let top = CaseSection {
         path: String::new(),
         table: tree,
         place: None,
@@ -246,21 +246,21 @@ fn read(tree: &Table, name: &str, text: &str, problems: &mut Problems) -> Option
     let source = top.text("source", problems).map(|(text, _)| text.to_owned());
     let node = top.require("limits", HELP, problems)?;
     let items = match &node.value {
-        Value::List(items) if !items.is_empty() => items.as_slice(),
+        NodeValue::List(items) if !items.is_empty() => items.as_slice(),
         _ => {
             let problem = Problem::new("`limits` is no list of limits").at(&node.place);
             problems.push(problem.label("tables are expected").help(HELP));
             &[]
         }
     };
-    let mut found: Vec<(Limit, &tree::Node)> = Vec::new();
+    let mut found: Vec<(Limit, &tree::TreeNode)> = Vec::new();
     for (number, item) in items.iter().enumerate() {
-        let Value::Table(table) = &item.value else {
+        let NodeValue::Table(table) = &item.value else {
             let problem = Problem::new("a limit is no table").at(&item.place);
             problems.push(problem.label("a table is expected").help(HELP));
             continue;
         };
-        let own = Section {
+        let own = CaseSection {
             path: format!("limits[{number}]"),
             table,
             place: Some(item.place.clone()),
@@ -283,7 +283,7 @@ fn read(tree: &Table, name: &str, text: &str, problems: &mut Problems) -> Option
 }
 
 /// Reads a limit.
-fn limit(own: &Section<'_>, problems: &mut Problems) -> Option<Limit> {
+fn limit(own: &CaseSection<'_>, problems: &mut Problems) -> Option<Limit> {
     own.allow(&LIMIT_KEYS, &[], problems);
     let text = |key: &str, problems: &mut Problems| own.text(key, problems).map(|(text, _)| text.to_owned());
     let name = text("name", problems);
@@ -339,7 +339,7 @@ fn limit(own: &Section<'_>, problems: &mut Problems) -> Option<Limit> {
 
 /// Reads the value of a limit, its unit, and that in SI.
 fn value(
-    own: &Section<'_>,
+    own: &CaseSection<'_>,
     key: &str,
     measure: &Worst,
     problems: &mut Problems,
@@ -379,15 +379,15 @@ fn value(
 }
 
 /// Reads the regimes of a limit; `None` inside: all.
-fn regimes(own: &Section<'_>, problems: &mut Problems) -> Option<Option<Vec<String>>> {
+fn regimes(own: &CaseSection<'_>, problems: &mut Problems) -> Option<Option<Vec<String>>> {
     let help = "write regimes = \"all\", or names of regimes: [\"twist_and_roll\"]";
     let node = own.require("regimes", help, problems)?;
     let names = match &node.value {
-        Value::Text(text) if text == "all" => return Some(None),
-        Value::List(items) if !items.is_empty() => items
+        NodeValue::Text(text) if text == "all" => return Some(None),
+        NodeValue::List(items) if !items.is_empty() => items
             .iter()
             .map(|item| match &item.value {
-                Value::Text(text) => Some(text.clone()),
+                NodeValue::Text(text) => Some(text.clone()),
                 _ => None,
             })
             .collect::<Option<Vec<String>>>(),
@@ -401,7 +401,7 @@ fn regimes(own: &Section<'_>, problems: &mut Problems) -> Option<Option<Vec<Stri
 }
 
 /// Notes what two limits cannot both be.
-fn contradiction(first: &Limit, second: &Limit, own: &Section<'_>, problems: &mut Problems) {
+fn contradiction(first: &Limit, second: &Limit, own: &CaseSection<'_>, problems: &mut Problems) {
     let place = own.table.entry("name").map(|entry| &entry.key_place);
     let mut note = |message: String, label: &str, help: &str| {
         let problem = Problem::new(message).label(label);

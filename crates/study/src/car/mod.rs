@@ -35,9 +35,9 @@ use car::Parameters;
 use crate::case::field::FieldSection;
 use crate::case::model::{Model, model};
 use crate::case::problem::{Problem, Problems};
-use crate::case::tree::Table;
+use crate::case::tree::TableNode;
 use crate::case::{self, CaseError, Simulation, Tables, name};
-use crate::reader::{CaseText, Reader};
+use crate::reader::{CaseReader, CaseText};
 use statistics::Rules;
 
 /// The case of a car, ready to run.
@@ -111,7 +111,7 @@ impl CarCase {
 
     /// Reads a tree; `problems` are those found on the way to it.
     fn of_tree(
-        mut tree: Table,
+        mut tree: TableNode,
         source: &str,
         tables: Tables<'_>,
         mut problems: Problems,
@@ -166,12 +166,17 @@ impl CarCase {
 }
 
 /// Reads a case, section by section.
-fn read(tree: &Table, default_name: &str, tables: Tables<'_>, problems: &mut Problems) -> Option<CarCase> {
-    let mut r = Reader::new(tree, tables, problems);
+fn read(
+    tree: &TableNode,
+    default_name: &str,
+    tables: Tables<'_>,
+    problems: &mut Problems,
+) -> Option<CarCase> {
+    let mut r = CaseReader::new(tree, tables, problems);
     let [name, title] = r.head(default_name, Model::Car, "\"car\": a freight car on track")?;
     let drawn = sections::everything(&mut r);
     let text = r.finish("a car's case");
-    let sections::Drawn {
+    let sections::CarSections {
         parameters,
         rules,
         simulation,

@@ -10,7 +10,7 @@ use crate::case::CaseError;
 use crate::case::problem::Problem;
 
 /// What a text names.
-pub(super) enum Named<'a, T> {
+pub(super) enum BuiltInOrFile<'a, T> {
     /// Something built in.
     BuiltIn(&'a T),
     /// A file.
@@ -23,13 +23,13 @@ pub(super) fn find<'a, T>(
     text: &'a str,
     all: &'a [T],
     name: fn(&T) -> &str,
-) -> Result<Named<'a, T>, CaseError> {
+) -> Result<BuiltInOrFile<'a, T>, CaseError> {
     let path = Path::new(text);
     if let (false, Some(own)) = (path.is_file(), all.iter().find(|own| name(own) == text)) {
-        return Ok(Named::BuiltIn(own));
+        return Ok(BuiltInOrFile::BuiltIn(own));
     }
     if path.exists() || path.extension().is_some() {
-        return Ok(Named::File(path));
+        return Ok(BuiltInOrFile::File(path));
     }
     let names = all.iter().map(name);
     let help = match nearest(text, names.clone()) {

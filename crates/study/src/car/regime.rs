@@ -26,11 +26,11 @@ use std::sync::LazyLock;
 use quantity::{Kind, Quantity};
 
 use super::CarCase;
-use super::named::{self, Named, find};
+use super::named::{self, BuiltInOrFile, find};
 use crate::case::field::quoted;
 use crate::case::problem::{Problem, Problems, TomlLocation, TomlSource};
-use crate::case::section::{Names, Range, Section, quantity};
-use crate::case::tree::{self, Entry, Node, Table, Value};
+use crate::case::section::{CaseSection, Names, Range, quantity};
+use crate::case::tree::{self, NodeValue, TableEntry, TableNode, TreeNode};
 use crate::case::{CaseError, Tables, name};
 use crate::track::{TrackFile, of_section};
 
@@ -138,8 +138,8 @@ impl Regime {
     /// There is neither; or something in the file is wrong: all mistakes are reported together.
     pub fn named_or_read(text: &str) -> Result<Regime, CaseError> {
         match find("there is no regime", text, Self::all(), |own| &own.name)? {
-            Named::BuiltIn(own) => Ok(own.clone()),
-            Named::File(path) => Self::read(path),
+            BuiltInOrFile::BuiltIn(own) => Ok(own.clone()),
+            BuiltInOrFile::File(path) => Self::read(path),
         }
     }
 
@@ -249,8 +249,8 @@ impl Regime {
     }
 }
 
-fn read(tree: &Table, source: &str, text: &str, problems: &mut Problems) -> Option<Regime> {
-    let top = Section {
+fn read(tree: &TableNode, source: &str, text: &str, problems: &mut Problems) -> Option<Regime> {
+    let top = CaseSection {
         path: String::new(),
         table: tree,
         place: None,
@@ -316,21 +316,21 @@ fn read(tree: &Table, source: &str, text: &str, problems: &mut Problems) -> Opti
 }
 
 /// A speed as typed, and where it stands.
-type Speed<'t> = (Quantity, &'t Node);
+type Speed<'t> = (Quantity, &'t TreeNode);
 
 /// Returns a list of speeds in rising order, at least one.
-fn speeds<'t>(top: &Section<'t>, key: &str, problems: &mut Problems) -> Option<Vec<Speed<'t>>> {
+fn speeds<'t>(top: &CaseSection<'t>, key: &str, problems: &mut Problems) -> Option<Vec<Speed<'t>>> {
     let help = format!("write for example {key} = [\"10 mph\", \"70 mph\"]");
     let node = top.require(key, &help, problems)?;
-    let mut wrong = |node: &Node, message: String| {
+    let mut wrong = |node: &TreeNode, message: String| {
         let problem = Problem::new(message)
             .at(&node.place)
             .label("speeds in rising order");
         problems.push(problem.help(help.clone()));
     };
     let items = match &node.value {
-        Value::List(items) if (1..=MOST_SPEEDS).contains(&items.len()) => items,
-        Value::List(items) => {
+        NodeValue::List(items) if (1..=MOST_SPEEDS).contains(&items.len()) => items,
+        NodeValue::List(items) => {
             let message = format!(
                 "`{key}` has {} entries; 1 to {MOST_SPEEDS} are expected",
                 items.len()
@@ -366,7 +366,7 @@ fn speeds<'t>(top: &Section<'t>, key: &str, problems: &mut Problems) -> Option<V
 }
 
 /// Returns the least and the greatest speed.
-fn ends(top: &Section<'_>, speeds: Vec<Speed<'_>>, problems: &mut Problems) -> Option<[Quantity; 2]> {
+fn ends(top: &CaseSection<'_>, speeds: Vec<Speed<'_>>, problems: &mut Problems) -> Option<[Quantity; 2]> {
     let count = speeds.len();
     let ends: Result<[Speed<'_>; 2], _> = speeds.try_into();
     match ends {
@@ -385,7 +385,7 @@ fn ends(top: &Section<'_>, speeds: Vec<Speed<'_>>, problems: &mut Problems) -> O
 }
 
 /// Returns the keys of the case below `[set]`.
-fn set(top: &Section<'_>, problems: &mut Problems) -> Option<Vec<String>> {
+fn set(top: &CaseSection<'_>, problems: &mut Problems) -> Option<Vec<String>> {
     if top.table.entry("set").is_none() {
         return Some(Vec::new());
     }
@@ -402,7 +402,7 @@ fn set(top: &Section<'_>, problems: &mut Problems) -> Option<Vec<String>> {
 }
 
 /// Returns the place of the key at exactly this path.
-fn place_at<'t>(table: &'t Table, path: &str) -> Option<&'t TomlLocation> {
+fn place_at<'t>(table: &'t TableNode, path: &str) -> Option<&'t TomlLocation> {
     match path.split_once('.') {
         Some((first, rest)) => place_at(table.table(first)?, rest),
         None => table.entry(path).map(|entry| &entry.key_place),
@@ -410,10 +410,10 @@ fn place_at<'t>(table: &'t Table, path: &str) -> Option<&'t TomlLocation> {
 }
 
 /// Every value below a table, as `--set` takes it.
-fn assignments(table: &Table, before: &str, out: &mut Vec<String>) {
-    for Entry { key, node, .. } in &table.entries {
+fn assignments(table: &TableNode, before: &str, out: &mut Vec<String>) {
+    for TableEntry { key, node, .. } in &table.entries {
         match &node.value {
-            Value::Table(inner) if !inner.entries.is_empty() => {
+            NodeValue::Table(inner) if !inner.entries.is_empty() => {
                 assignments(inner, &format!("{before}{key}."), out);
             }
             value => out.push(format!("{before}{key}={}", value.to_toml())),
@@ -422,7 +422,7 @@ fn assignments(table: &Table, before: &str, out: &mut Vec<String>) {
 }
 
 /// Returns the track, as TOML in one value; files are named by their whole paths.
-fn track(top: &Section<'_>, source: &str, problems: &mut Problems) -> Option<String> {
+fn track(top: &CaseSection<'_>, source: &str, problems: &mut Problems) -> Option<String> {
     let help = "write [track] on a line of its own, and below it the keys of a track file";
     top.require("track", help, problems)?;
     let section = top.section("track", problems)?;
@@ -447,21 +447,21 @@ fn track(top: &Section<'_>, source: &str, problems: &mut Problems) -> Option<Str
     for entry in &mut track.entries {
         name_whole(entry, folder);
     }
-    Some(Value::Table(track).to_toml())
+    Some(NodeValue::Table(track).to_toml())
 }
 
 /// Names a file by its whole path: a case looks for files from its own folder.
-fn name_whole(entry: &mut Entry, folder: &Path) {
+fn name_whole(entry: &mut TableEntry, folder: &Path) {
     match &mut entry.node.value {
-        Value::Text(file) if matches!(entry.key.as_str(), "file" | "table") => {
+        NodeValue::Text(file) if matches!(entry.key.as_str(), "file" | "table") => {
             if let Ok(whole) = absolute(folder.join(&*file)) {
                 *file = whole.display().to_string();
             }
         }
-        Value::Table(inner) => inner.entries.iter_mut().for_each(|own| name_whole(own, folder)),
-        Value::List(items) => {
+        NodeValue::Table(inner) => inner.entries.iter_mut().for_each(|own| name_whole(own, folder)),
+        NodeValue::List(items) => {
             for item in items {
-                if let Value::Table(inner) = &mut item.value {
+                if let NodeValue::Table(inner) = &mut item.value {
                     inner.entries.iter_mut().for_each(|own| name_whole(own, folder));
                 }
             }

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use integrate::{Integrator, Options, Problem};
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
-use mechanics::plausibility::Finding;
+use mechanics::plausibility::PlausibilityFinding;
 use mechanics::system::{ContactState, System};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
@@ -224,7 +224,7 @@ impl Recorder for CarRecorder {
         Ok(system.ledger_entries(&observation, row.start_energy))
     }
 
-    fn describe(&self, system: &System, finding: &Finding, units: Units) -> String {
+    fn describe(&self, system: &System, finding: &PlausibilityFinding, units: Units) -> String {
         plausibility::in_truck(system, finding, [&[], &[]], units)
     }
 

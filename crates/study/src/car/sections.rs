@@ -11,14 +11,14 @@ use super::statistics::Rules;
 use super::{track, trucks, wheels};
 use crate::case::field::{Reach, Written, quoted};
 use crate::case::problem::{Problem, Problems};
-use crate::case::section::{Names, Range, Section, quantity};
-use crate::case::tree::Value;
+use crate::case::section::{CaseSection, Names, Range, quantity};
+use crate::case::tree::NodeValue;
 use crate::case::{Simulation, write};
-use crate::reader::{DAMPING, Form, Reader};
+use crate::reader::{CaseReader, DAMPING, QuantityForm};
 use crate::track::Support;
 
 /// What the sections say.
-pub(super) struct Drawn {
+pub(super) struct CarSections {
     pub parameters: Parameters,
     pub rules: Rules,
     pub simulation: Simulation,
@@ -48,10 +48,10 @@ const STARTS: Names<StartKind> = &[
 /// Speed of a car that none is given for, mph.
 const USUAL_SPEED: f64 = 40.0;
 const MILE_PER_HOUR: f64 = 0.447_04;
-const SHIFT: Form = (Kind::Length, Range::Any, Reach::Signed(0.0127));
+const SHIFT: QuantityForm = (Kind::Length, Range::Any, Reach::Signed(0.0127));
 
 /// Reads all sections; `None` if there is no car to speak of: what is wrong has been noted.
-pub(super) fn everything(r: &mut Reader<'_>) -> Option<Drawn> {
+pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     let carried = lading::kind(r);
     let masses = lading::masses(r, carried);
     let straight = track::tangent(1000.0)?;
@@ -78,7 +78,7 @@ pub(super) fn everything(r: &mut Reader<'_>) -> Option<Drawn> {
     // Without a track there is no place to look at.
     line?;
     let doubts = checks::all(r, &parameters, &simulation, carried);
-    Some(Drawn {
+    Some(CarSections {
         parameters,
         rules,
         simulation,
@@ -95,7 +95,7 @@ fn rail_support(support: &Support, gravity: f64) -> Option<RailSupport> {
 }
 
 /// Reads `[speed]`.
-fn speed(r: &mut Reader<'_>, parameters: &mut Parameters) {
+fn speed(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
     r.section("speed", "How fast it goes.");
     let mut kind = DriveKind::Held;
     let comment = "\"held\": a force on the body along the track holds the value; \"over_distance\", \
@@ -127,7 +127,7 @@ fn speed(r: &mut Reader<'_>, parameters: &mut Parameters) {
     };
     if kind == DriveKind::Held
         && let Some(node) = r.at("speed.value")
-        && let Value::Text(text) = &node.value
+        && let NodeValue::Text(text) = &node.value
         && Quantity::parse_as(text, Kind::TravelSpeed).is_ok_and(|own| own.to_si() == 0.0)
     {
         let problem = Problem::new("`speed.value` is zero, but a car that is held at a speed rolls");
@@ -178,9 +178,9 @@ const TIMES: Over = Over {
 type Pairs = Vec<[Quantity; 2]>;
 
 /// Reads speeds over something, SI; `None` notes what is wrong.
-fn speeds_over(r: &mut Reader<'_>, over: &'static Over) -> Option<Vec<[f64; 2]>> {
+fn speeds_over(r: &mut CaseReader<'_>, over: &'static Over) -> Option<Vec<[f64; 2]>> {
     let key = over.key;
-    let read = |section: &Section<'_>, problems: &mut Problems| pairs(section, over, problems).map(Some);
+    let read = |section: &CaseSection<'_>, problems: &mut Problems| pairs(section, over, problems).map(Some);
     let typed = r.other(key, over.comment, None, read, write_speeds);
     let Some(typed) = typed.filter(|typed| !typed.is_empty()) else {
         if !r.has(&format!("speed.{key}")) {
@@ -194,7 +194,7 @@ fn speeds_over(r: &mut Reader<'_>, over: &'static Over) -> Option<Vec<[f64; 2]>>
     Some(si.collect())
 }
 
-fn pairs(section: &Section<'_>, over: &Over, problems: &mut Problems) -> Option<Pairs> {
+fn pairs(section: &CaseSection<'_>, over: &Over, problems: &mut Problems) -> Option<Pairs> {
     let Over { key, kind, range, .. } = over;
     let node = section.table.get(key)?;
     let what_it_is = match kind {
@@ -206,13 +206,13 @@ fn pairs(section: &Section<'_>, over: &Over, problems: &mut Problems) -> Option<
             .label(format!("pairs of {what_it_is} and speed"))
             .help(format!("write {}", over.example))
     };
-    let Value::List(items) = &node.value else {
+    let NodeValue::List(items) = &node.value else {
         problems.push(wrong("is no list").at(&node.place));
         return None;
     };
     let mut pairs: Pairs = Vec::new();
     for (number, item) in items.iter().enumerate() {
-        let Value::List(pair) = &item.value else {
+        let NodeValue::List(pair) = &item.value else {
             problems.push(wrong("holds what is no pair").at(&item.place));
             return None;
         };
@@ -244,7 +244,7 @@ fn write_speeds(pairs: &Option<Pairs>) -> Written {
     Written::toml(format!("[{}]", texts.collect::<Vec<_>>().join(", ")))
 }
 
-fn start(r: &mut Reader<'_>, parameters: &mut Parameters) {
+fn start(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
     r.section("start", "Where the run starts.");
     let speed = parameters.start.speed;
     parameters.start = Start::at(parameters.reach() + 1.0, speed);
@@ -252,14 +252,14 @@ fn start(r: &mut Reader<'_>, parameters: &mut Parameters) {
     let comment =
         "\"equilibrium\": at rest on straight track, without friction; \"nominal\": the loaded layout";
     r.choice("kind", STARTS, &mut own.kind, comment);
-    let distance: Form = (Kind::Distance, Range::NotNegative, Reach::Positive);
+    let distance: QuantityForm = (Kind::Distance, Range::NotNegative, Reach::Positive);
     r.quantity(
         "distance",
         distance,
         &mut own.distance,
         "of the middle of the car along the track",
     );
-    let settle: Form = (Kind::Time, Range::NotNegative, Reach::FromZero(2.0));
+    let settle: QuantityForm = (Kind::Time, Range::NotNegative, Reach::FromZero(2.0));
     r.quantity(
         "settle",
         settle,
@@ -284,7 +284,7 @@ fn start(r: &mut Reader<'_>, parameters: &mut Parameters) {
         &mut own.body_shift,
         "of the car body to the left",
     );
-    let heading: Form = (Kind::Angle, Range::Any, Reach::Signed(write::TURN));
+    let heading: QuantityForm = (Kind::Angle, Range::Any, Reach::Signed(write::TURN));
     r.quantity(
         "heading",
         heading,
@@ -298,14 +298,14 @@ fn start(r: &mut Reader<'_>, parameters: &mut Parameters) {
     }
 }
 
-fn output(r: &mut Reader<'_>, rules: &mut Rules) {
+fn output(r: &mut CaseReader<'_>, rules: &mut Rules) {
     r.section(
         "output",
         "What statistics are taken, and how. All values are remembered: check them against your edition of \
          the rules.",
     );
-    let time: Form = (Kind::Time, Range::Positive, Reach::Positive);
-    let distance: Form = (Kind::Distance, Range::Positive, Reach::Positive);
+    let time: QuantityForm = (Kind::Time, Range::Positive, Reach::Positive);
+    let distance: QuantityForm = (Kind::Distance, Range::Positive, Reach::Positive);
     let comment = "low-pass filter of wheel forces: fourth order, no phase, -3 dB there";
     frequency(r, "wheel_filter", &mut rules.wheel_filter, comment);
     let comment = "wheel L/V, axle sums and wheel loads that last so long";
@@ -358,11 +358,11 @@ fn output(r: &mut Reader<'_>, rules: &mut Rules) {
 }
 
 /// A cutoff in Hz; frequencies are angular inside.
-fn frequency(r: &mut Reader<'_>, key: &'static str, hertz: &mut f64, comment: &str) {
+fn frequency(r: &mut CaseReader<'_>, key: &'static str, hertz: &mut f64, comment: &str) {
     let turn = 2.0 * std::f64::consts::PI;
-    let form: Form = (Kind::Frequency, Range::Positive, Reach::Positive);
+    let form: QuantityForm = (Kind::Frequency, Range::Positive, Reach::Positive);
     let default = format!("{hertz} Hz");
-    let read = |section: &Section<'_>, problems: &mut Problems| {
+    let read = |section: &CaseSection<'_>, problems: &mut Problems| {
         let (kind, range, _) = form;
         section.quantity(key, kind, range, problems)
     };
@@ -376,7 +376,7 @@ fn frequency(r: &mut Reader<'_>, key: &'static str, hertz: &mut f64, comment: &s
     *hertz = (own.to_si() / turn * 1e9).round() / 1e9;
 }
 
-fn simulation(r: &mut Reader<'_>) -> Simulation {
+fn simulation(r: &mut CaseReader<'_>) -> Simulation {
     let usual = Simulation {
         duration: 20.0,
         output_interval: 0.005,

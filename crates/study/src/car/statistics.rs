@@ -24,7 +24,7 @@ use std::collections::BTreeMap;
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
-use crate::signal::{Found, LowPass, largest_deviation, largest_rms, percentile, sustained};
+use crate::signal::{LowPass, WindowValue, largest_deviation, largest_rms, percentile, sustained};
 use crate::summary::SummaryValue;
 
 const FOOT: f64 = 0.3048;
@@ -73,12 +73,12 @@ impl Default for Rules {
 }
 
 /// A column of a run by name (without unit), SI.
-pub type Column<'c> = &'c dyn Fn(&str) -> &'c [f64];
+pub type StatisticColumn<'c> = &'c dyn Fn(&str) -> &'c [f64];
 
 /// What statistics are taken of.
 pub struct Histories<'c> {
     /// The columns.
-    pub column: Column<'c>,
+    pub column: StatisticColumn<'c>,
     /// Time between two rows, s.
     pub interval: f64,
     /// Where statistics begin, s.
@@ -340,7 +340,7 @@ impl Taker<'_, '_> {
         if load <= 0.0 {
             return;
         }
-        let percent = |found: Found| SummaryValue {
+        let percent = |found: WindowValue| SummaryValue {
             value: -100.0 * found.value / load,
             unit: "%".to_owned(),
         };
@@ -400,9 +400,9 @@ impl Taker<'_, '_> {
     }
 
     /// Takes a number of raw and of filtered values.
-    fn set(&mut self, name: &str, own: &Pair, kind: Kind, take: impl Fn(&[f64]) -> Option<Found>) {
+    fn set(&mut self, name: &str, own: &Pair, kind: Kind, take: impl Fn(&[f64]) -> Option<WindowValue>) {
         let found = own.each().map(|values| take(values?));
-        let value = |found: Found| SummaryValue::new(found.value, kind, self.units);
+        let value = |found: WindowValue| SummaryValue::new(found.value, kind, self.units);
         let remark = match found[0] {
             Some(_) => String::new(),
             None => format!(
@@ -431,14 +431,14 @@ pub fn ratio(lateral: f64, vertical: f64, static_load: f64) -> f64 {
 }
 
 /// Greatest less least value of all rows, with the time from the first of both to the second.
-fn whole(rows: Rows<'_>) -> impl Fn(&[f64]) -> Option<Found> {
+fn whole(rows: Rows<'_>) -> impl Fn(&[f64]) -> Option<WindowValue> {
     move |values| {
         let extreme = |worse: fn(&f64, &f64) -> bool| {
             let pairs = values.iter().zip(rows.time);
             pairs.reduce(|most, own| if worse(own.0, most.0) { own } else { most })
         };
         let (greatest, least) = (extreme(|a, b| a > b)?, extreme(|a, b| a < b)?);
-        Some(Found {
+        Some(WindowValue {
             value: greatest.0 - least.0,
             start: greatest.1.min(*least.1),
             length: (greatest.1 - least.1).abs(),
@@ -448,7 +448,7 @@ fn whole(rows: Rows<'_>) -> impl Fn(&[f64]) -> Option<Found> {
 
 /// Returns the largest value that lasts over a distance, with its time. Where the car stands or goes back
 /// there is none.
-fn over_distance(rows: Rows<'_>, values: &[f64], distance: f64) -> Option<Found> {
+fn over_distance(rows: Rows<'_>, values: &[f64], distance: f64) -> Option<WindowValue> {
     if rows.distance.windows(2).any(|pair| pair[1] <= pair[0]) {
         return None;
     }
@@ -456,9 +456,9 @@ fn over_distance(rows: Rows<'_>, values: &[f64], distance: f64) -> Option<Found>
 }
 
 /// Returns a value at a distance with its time.
-fn timed(rows: Rows<'_>, found: Found) -> Found {
+fn timed(rows: Rows<'_>, found: WindowValue) -> WindowValue {
     let row = rows.distance.partition_point(|own| *own < found.start);
-    Found {
+    WindowValue {
         start: rows.time[row.min(rows.time.len() - 1)],
         ..found
     }

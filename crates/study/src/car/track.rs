@@ -6,10 +6,10 @@ use wheelrail::track::{CenterLine, Segment, Track};
 
 use crate::case::field::quoted;
 use crate::case::problem::{Problem, TomlSource};
-use crate::case::section::Section;
+use crate::case::section::CaseSection;
 use crate::case::text_of;
-use crate::case::tree::{self, Table, Value};
-use crate::reader::Reader;
+use crate::case::tree::{self, NodeValue, TableNode};
+use crate::reader::CaseReader;
 use crate::track::{Support, of_section};
 
 /// Length of a track that is not given, ft.
@@ -24,7 +24,7 @@ pub(super) fn tangent(length: f64) -> Option<Track> {
 }
 
 /// Reads the track.
-pub(super) fn track(r: &mut Reader<'_>) -> Option<(Track, Support)> {
+pub(super) fn track(r: &mut CaseReader<'_>) -> Option<(Track, Support)> {
     r.section(
         "track",
         "The track: the keys of a track file, or file = \"my_track.toml\". Rails are at rest; what they lie \
@@ -40,7 +40,7 @@ pub(super) fn track(r: &mut Reader<'_>) -> Option<(Track, Support)> {
     r.known_elsewhere();
     if let Some(entry) = section.table.entry("file") {
         section.allow_in(&["file"], &[], "a track that is a file", r.problems);
-        let Value::Text(file) = &entry.node.value else {
+        let NodeValue::Text(file) = &entry.node.value else {
             let message = format!(
                 "`track.file` is {}; a name is expected",
                 entry.node.value.describe()
@@ -75,10 +75,10 @@ fn meaning(key: &str) -> &'static str {
 }
 
 /// Reads a track file; measured tables that it names are looked for from its folder.
-fn from_file(r: &mut Reader<'_>, file: &str) -> Option<(Table, (Track, Support))> {
+fn from_file(r: &mut CaseReader<'_>, file: &str) -> Option<(TableNode, (Track, Support))> {
     let tables = r.tables();
     let shown = tables.shown(file);
-    let refuse = |r: &mut Reader<'_>, reason: String, help: &str| {
+    let refuse = |r: &mut CaseReader<'_>, reason: String, help: &str| {
         let problem = Problem::new(format!("`track.file`: {shown} {reason}")).label("this file");
         r.problem("track.file", problem.help(help));
     };
@@ -104,7 +104,7 @@ fn from_file(r: &mut Reader<'_>, file: &str) -> Option<(Table, (Track, Support))
             return None;
         }
     };
-    let top = Section {
+    let top = CaseSection {
         path: String::new(),
         table: &tree,
         place: None,

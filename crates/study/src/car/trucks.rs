@@ -7,8 +7,8 @@ use truck::{CarBody, Lading, Parameters, SideBearings};
 use wedge::parameters::Damping;
 
 use crate::case::problem::{Problem, Problems};
-use crate::case::tree::{Entry, Node, Table, Value};
-use crate::reader::Reader;
+use crate::case::tree::{NodeValue, TableEntry, TableNode, TreeNode};
+use crate::reader::CaseReader;
 use crate::truck::sections::{self, Condition};
 use crate::truck::wedges;
 
@@ -17,16 +17,16 @@ const EACH: [&str; 2] = ["front_truck", "rear_truck"];
 
 /// Lays `[truck]` below `[front_truck]` and `[rear_truck]` where one of them is given: then both stand for
 /// themselves. Notes values for both trucks that each truck has its own of.
-pub(super) fn complete(tree: &mut Table, problems: &mut Problems) {
+pub(super) fn complete(tree: &mut TableNode, problems: &mut Problems) {
     if EACH.iter().all(|name| tree.table(name).is_none()) {
         return;
     }
-    let own: Vec<Option<Table>> = EACH.iter().map(|name| tree.table(name).cloned()).collect();
+    let own: Vec<Option<TableNode>> = EACH.iter().map(|name| tree.table(name).cloned()).collect();
     let shared = match tree.entry(BOTH).map(|entry| &entry.node.value) {
-        Some(Value::Table(shared)) => shared.clone(),
+        Some(NodeValue::Table(shared)) => shared.clone(),
         // The reader reports what is no table.
         Some(_) => return,
-        None => Table::default(),
+        None => TableNode::default(),
     };
     if let [Some(front), Some(rear)] = own.as_slice() {
         unused(&shared, BOTH, [front, rear], problems);
@@ -34,10 +34,10 @@ pub(super) fn complete(tree: &mut Table, problems: &mut Problems) {
     let model = tree.entry(EACH[0]).or(tree.entry(EACH[1])).cloned();
     for name in EACH {
         match tree.entries.iter_mut().find(|entry| entry.key == name) {
-            Some(Entry {
+            Some(TableEntry {
                 node:
-                    Node {
-                        value: Value::Table(own),
+                    TreeNode {
+                        value: NodeValue::Table(own),
                         ..
                     },
                 ..
@@ -46,7 +46,7 @@ pub(super) fn complete(tree: &mut Table, problems: &mut Problems) {
             None => {
                 if let Some(mut entry) = model.clone() {
                     name.clone_into(&mut entry.key);
-                    entry.node.value = Value::Table(shared.clone());
+                    entry.node.value = NodeValue::Table(shared.clone());
                     tree.entries.push(entry);
                 }
             }
@@ -56,14 +56,14 @@ pub(super) fn complete(tree: &mut Table, problems: &mut Problems) {
 }
 
 /// Notes the values of a table that both others have too.
-fn unused(shared: &Table, path: &str, [front, rear]: [&Table; 2], problems: &mut Problems) {
+fn unused(shared: &TableNode, path: &str, [front, rear]: [&TableNode; 2], problems: &mut Problems) {
     for entry in &shared.entries {
         let (Some(front), Some(rear)) = (front.get(&entry.key), rear.get(&entry.key)) else {
             continue;
         };
         let path = format!("{path}.{}", entry.key);
         match (&entry.node.value, &front.value, &rear.value) {
-            (Value::Table(shared), Value::Table(front), Value::Table(rear)) => {
+            (NodeValue::Table(shared), NodeValue::Table(front), NodeValue::Table(rear)) => {
                 unused(shared, &path, [front, rear], problems);
             }
             _ => {
@@ -82,7 +82,7 @@ fn unused(shared: &Table, path: &str, [front, rear]: [&Table; 2], problems: &mut
 }
 
 /// Reads both trucks, front and rear.
-pub(super) fn trucks(r: &mut Reader<'_>, lading: Lading) -> [Parameters; 2] {
+pub(super) fn trucks(r: &mut CaseReader<'_>, lading: Lading) -> [Parameters; 2] {
     if EACH.iter().all(|name| !r.has(name)) {
         let own = truck(
             r,
@@ -99,7 +99,7 @@ pub(super) fn trucks(r: &mut Reader<'_>, lading: Lading) -> [Parameters; 2] {
 }
 
 /// Reads one truck, or both.
-fn truck(r: &mut Reader<'_>, name: &'static str, about: &str, lading: Lading) -> Parameters {
+fn truck(r: &mut CaseReader<'_>, name: &'static str, about: &str, lading: Lading) -> Parameters {
     r.within(name);
     r.section("", about);
     let (mut condition, mut damping) = (Condition::New, Damping::Variable);

@@ -7,16 +7,16 @@ use car::{Parameters, ProfiledWheels, Wheels};
 use quantity::Kind as Measure;
 use wheelrail::conicity::LinearGeometry;
 use wheelrail::contact::{ContactLaw, CreepCoefficients, CreepLaw, LinearWheelset};
-use wheelrail::creep::fastsim::Grid;
+use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
 use wheelrail::hertz::Material;
-use wheelrail::profile::{Kind, Profile, ProfileError, nominal};
+use wheelrail::profile::{Profile, ProfileError, ProfileKind, nominal};
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
 use crate::case::field::{Reach, Written};
 use crate::case::problem::Problem;
 use crate::case::section::{Names, Range};
-use crate::reader::{Form, LENGTH, Reader};
+use crate::reader::{CaseReader, LENGTH, QuantityForm};
 
 const INCH: f64 = 0.0254;
 /// How far splines may lie from the points of a file, m.
@@ -54,7 +54,7 @@ pub(super) struct Rails {
 }
 
 /// Reads `[rails]`.
-pub(super) fn rails(r: &mut Reader<'_>) -> Rails {
+pub(super) fn rails(r: &mut CaseReader<'_>) -> Rails {
     r.section("rails", "The rails: one profile, the same on both sides.");
     let name = text(
         r,
@@ -74,10 +74,10 @@ pub(super) fn rails(r: &mut Reader<'_>) -> Rails {
     let comment = "below the top of rail, where gauge is measured";
     r.quantity("gauge_depth", LENGTH, &mut gauge_depth, comment);
     let mut deviation = DEVIATION;
-    let form: Form = (Measure::Length, Range::NotNegative, Reach::FromZero(1e-4));
+    let form: QuantityForm = (Measure::Length, Range::NotNegative, Reach::FromZero(1e-4));
     let comment = "how far a spline may lie from the points of a file";
     r.quantity("deviation", form, &mut deviation, comment);
-    let profile = profile(r, "rails.profile", &name, Kind::Rail, deviation);
+    let profile = profile(r, "rails.profile", &name, ProfileKind::Rail, deviation);
     Rails {
         profile: profile.map(|own| match inclination {
             0.0 => own,
@@ -89,14 +89,14 @@ pub(super) fn rails(r: &mut Reader<'_>) -> Rails {
 }
 
 /// Reads `[wheels]`; `sprung` tells whether rails give way.
-pub(super) fn wheels(r: &mut Reader<'_>, parameters: &mut Parameters, rails: Rails, sprung: bool) {
+pub(super) fn wheels(r: &mut CaseReader<'_>, parameters: &mut Parameters, rails: Rails, sprung: bool) {
     r.section(
         "wheels",
         "The wheelsets, their wheels, and what happens where they touch the rails.",
     );
     let own = &mut parameters.wheelset;
     r.weight(&mut own.mass, "of a wheelset with its bearings and adapters");
-    let inertia: Form = (Measure::Inertia, Range::Positive, Reach::Positive);
+    let inertia: QuantityForm = (Measure::Inertia, Range::Positive, Reach::Positive);
     r.quantity(
         "inertia_about_axle",
         inertia,
@@ -131,14 +131,15 @@ pub(super) fn wheels(r: &mut Reader<'_>, parameters: &mut Parameters, rails: Rai
     let mut tape_distance = 59.21875 * INCH;
     r.quantity("tape_distance", LENGTH, &mut tape_distance, "of the tape circles");
     let mut deviation = DEVIATION;
-    let form: Form = (Measure::Length, Range::NotNegative, Reach::FromZero(1e-4));
+    let form: QuantityForm = (Measure::Length, Range::NotNegative, Reach::FromZero(1e-4));
     let comment = "how far a spline may lie from the points of a file";
     r.quantity("deviation", form, &mut deviation, comment);
     let mut tables = false;
     let comment = "true: patches from tables over lateral shift, faster, for motion on treads only";
     r.truth("tables", &mut tables, comment);
     let law = contact_law(r, sprung);
-    let Some((wheel, rail)) = profile(r, "wheels.profile", &name, Kind::Wheel, deviation).zip(rails.profile)
+    let Some((wheel, rail)) =
+        profile(r, "wheels.profile", &name, ProfileKind::Wheel, deviation).zip(rails.profile)
     else {
         return;
     };
@@ -161,7 +162,7 @@ pub(super) fn wheels(r: &mut Reader<'_>, parameters: &mut Parameters, rails: Rai
     }
 }
 
-fn contact_law(r: &mut Reader<'_>, sprung: bool) -> ContactLaw {
+fn contact_law(r: &mut CaseReader<'_>, sprung: bool) -> ContactLaw {
     let mut friction = 0.4;
     let range = crate::case::read::COEFFICIENT;
     r.number(
@@ -185,7 +186,7 @@ fn contact_law(r: &mut Reader<'_>, sprung: bool) -> ContactLaw {
         comment,
     );
     let mut slowest = 0.1;
-    let speed: Form = (Measure::Speed, Range::Positive, Reach::Wide);
+    let speed: QuantityForm = (Measure::Speed, Range::Positive, Reach::Wide);
     let comment = "creepages are velocities over the root of the sum of squares of this and the car's speed";
     r.quantity("slowest", speed, &mut slowest, comment);
     ContactLaw {
@@ -194,7 +195,7 @@ fn contact_law(r: &mut Reader<'_>, sprung: bool) -> ContactLaw {
         creep: match creep {
             Creep::Polach => CreepLaw::Polach(polach::DRY),
             Creep::ShenHedrickElkins => CreepLaw::ShenHedrickElkins,
-            Creep::Fastsim => CreepLaw::Fastsim(Grid {
+            Creep::Fastsim => CreepLaw::Fastsim(StripGrid {
                 cells: 20,
                 strips: 20,
             }),
@@ -207,7 +208,7 @@ fn contact_law(r: &mut Reader<'_>, sprung: bool) -> ContactLaw {
 
 /// Linear geometry and creep: defaults are those of a cone of 1:20 with Kalker's coefficients of a loaded
 /// wheel, rounded.
-fn linear_wheels(r: &mut Reader<'_>, radius: f64, axle_load: f64) -> Wheels {
+fn linear_wheels(r: &mut CaseReader<'_>, radius: f64, axle_load: f64) -> Wheels {
     let slope = Range::Between(0.0, 1.0, "between 0 and 1");
     let mut conicity = 0.05;
     r.number(
@@ -220,7 +221,7 @@ fn linear_wheels(r: &mut Reader<'_>, radius: f64, axle_load: f64) -> Wheels {
     let mut half_distance = 29.75 * INCH;
     r.quantity("half_distance", LENGTH, &mut half_distance, "of the contacts");
     let mut contact_angle = 0.05;
-    let angle: Form = (
+    let angle: QuantityForm = (
         Measure::Angle,
         Range::Between(-FRAC_PI_2, FRAC_PI_2, "less than a right angle"),
         Reach::Signed(0.1),
@@ -241,7 +242,7 @@ fn linear_wheels(r: &mut Reader<'_>, radius: f64, axle_load: f64) -> Wheels {
         f23: 2e4,
         f33: 50.0,
     };
-    let force: Form = (Measure::Force, Range::NotNegative, Reach::Wide);
+    let force: QuantityForm = (Measure::Force, Range::NotNegative, Reach::Wide);
     r.quantity(
         "f11",
         force,
@@ -254,7 +255,7 @@ fn linear_wheels(r: &mut Reader<'_>, radius: f64, axle_load: f64) -> Wheels {
         &mut creep.f22,
         "lateral creep coefficient of a contact",
     );
-    let moment: Form = (Measure::Moment, Range::NotNegative, Reach::Wide);
+    let moment: QuantityForm = (Measure::Moment, Range::NotNegative, Reach::Wide);
     r.quantity("f23", moment, &mut creep.f23, "of spin to lateral force");
     let range = Range::NotNegative;
     r.number(
@@ -273,7 +274,7 @@ fn linear_wheels(r: &mut Reader<'_>, radius: f64, axle_load: f64) -> Wheels {
         "whether the axle load acts by the contact angles",
     );
     let mut support = [1e9, 5e8];
-    let stiffness: Form = (Measure::Stiffness, Range::Positive, Reach::Wide);
+    let stiffness: QuantityForm = (Measure::Stiffness, Range::Positive, Reach::Wide);
     r.quantity(
         "support",
         stiffness,
@@ -300,8 +301,8 @@ fn linear_wheels(r: &mut Reader<'_>, radius: f64, axle_load: f64) -> Wheels {
 }
 
 /// Returns a text, such as the name of a profile.
-fn text(r: &mut Reader<'_>, key: &'static str, default: &str, comment: &str) -> String {
-    let read = |section: &crate::case::section::Section<'_>,
+fn text(r: &mut CaseReader<'_>, key: &'static str, default: &str, comment: &str) -> String {
+    let read = |section: &crate::case::section::CaseSection<'_>,
                 problems: &mut crate::case::problem::Problems| {
         section.text(key, problems).map(|(text, _)| text.to_owned())
     };
@@ -309,15 +310,21 @@ fn text(r: &mut Reader<'_>, key: &'static str, default: &str, comment: &str) -> 
 }
 
 /// Returns a nominal profile, or one from a file.
-fn profile(r: &mut Reader<'_>, path: &str, name: &str, kind: Kind, deviation: f64) -> Option<Profile> {
+fn profile(
+    r: &mut CaseReader<'_>,
+    path: &str,
+    name: &str,
+    kind: ProfileKind,
+    deviation: f64,
+) -> Option<Profile> {
     let nominal = match (kind, name) {
-        (Kind::Wheel, "aar_1b") => Some(nominal::aar_1b()),
-        (Kind::Rail, "136re") => Some(nominal::rail_136re()),
-        (Kind::Wheel, name) if name.starts_with("aar_1b_1:") => {
+        (ProfileKind::Wheel, "aar_1b") => Some(nominal::aar_1b()),
+        (ProfileKind::Rail, "136re") => Some(nominal::rail_136re()),
+        (ProfileKind::Wheel, name) if name.starts_with("aar_1b_1:") => {
             let run = name.trim_start_matches("aar_1b_1:").trim().parse::<f64>();
             Some(nominal::aar_1b_with_tread(run.unwrap_or(f64::NAN)))
         }
-        (Kind::Wheel, name) => match name.strip_prefix("cone_") {
+        (ProfileKind::Wheel, name) => match name.strip_prefix("cone_") {
             Some(text) => {
                 let Some(slope) = slope(text) else {
                     let problem = Problem::new(format!("`{path}` is \"{name}\", which is no cone"));
@@ -333,7 +340,7 @@ fn profile(r: &mut Reader<'_>, path: &str, name: &str, kind: Kind, deviation: f6
             }
             None => None,
         },
-        (Kind::Rail, _) => None,
+        (ProfileKind::Rail, _) => None,
     };
     let made = match nominal {
         Some(made) => made,
@@ -345,8 +352,8 @@ fn profile(r: &mut Reader<'_>, path: &str, name: &str, kind: Kind, deviation: f6
                     let shown = tables.shown(name);
                     let problem = Problem::new(format!("`{path}`: there is no file {shown}"));
                     let names = match kind {
-                        Kind::Wheel => "\"aar_1b\", \"aar_1b_1:10\", \"cone_1:20\"",
-                        Kind::Rail => "\"136re\"",
+                        ProfileKind::Wheel => "\"aar_1b\", \"aar_1b_1:10\", \"cone_1:20\"",
+                        ProfileKind::Rail => "\"136re\"",
                     };
                     let help = format!("name a file of points from the folder of the case file, or {names}");
                     r.problem(
@@ -368,7 +375,7 @@ fn profile(r: &mut Reader<'_>, path: &str, name: &str, kind: Kind, deviation: f6
     made.map_err(|error| wrong(r, path, &error)).ok()
 }
 
-fn wrong(r: &mut Reader<'_>, path: &str, error: &ProfileError) {
+fn wrong(r: &mut CaseReader<'_>, path: &str, error: &ProfileError) {
     let problem = Problem::new(format!("`{path}`: {error}"));
     r.problem(path, problem.label("this profile").help(error.remedy()));
 }

@@ -115,7 +115,7 @@ pub const WORST: [Worst; 12] = [
 
 /// The worst statistic of a kind.
 #[derive(Clone, Copy, Debug)]
-pub struct Found<'s> {
+pub struct WorstStatistic<'s> {
     /// Its name.
     pub statistic: &'s str,
     /// Its value: filtered, or raw where nothing is filtered.
@@ -133,14 +133,14 @@ impl Worst {
 
     /// Finds it among the statistics of a run, if there is one of its kind.
     #[must_use]
-    pub fn of<'s>(&self, statistics: &'s BTreeMap<String, Statistic>) -> Option<Found<'s>> {
+    pub fn of<'s>(&self, statistics: &'s BTreeMap<String, Statistic>) -> Option<WorstStatistic<'s>> {
         let sum = self.ending.contains("_sum_");
         let own = statistics
             .iter()
             .filter(|(name, _)| name.ends_with(self.ending) && (sum || !name.contains("_sum_")));
         let found = own.filter_map(|(statistic, own)| {
             let value = own.filtered.as_ref().or(own.raw.as_ref())?;
-            Some(Found {
+            Some(WorstStatistic {
                 statistic,
                 value,
                 time: own.time,

@@ -17,7 +17,7 @@ use std::sync::LazyLock;
 
 /// Cases that belong together.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Group {
+pub struct CaseGroup {
     /// Its name, such as `warp`.
     pub name: &'static str,
     /// One line for people.
@@ -53,7 +53,7 @@ impl BuiltIn {
     }
 }
 
-static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
+static GROUPS: LazyLock<Vec<CaseGroup>> = LazyLock::new(|| {
     let mut groups = vec![thesis::group()];
     groups.extend(beyond::groups());
     groups
@@ -63,12 +63,12 @@ static CASES: LazyLock<Vec<&'static BuiltIn>> =
     LazyLock::new(|| GROUPS.iter().flat_map(|group| &group.cases).collect());
 
 /// Returns the groups, the thesis's runs first.
-pub fn groups() -> &'static [Group] {
+pub fn groups() -> &'static [CaseGroup] {
     &GROUPS
 }
 
 /// Returns the group of this name.
-pub fn group(name: &str) -> Option<&'static Group> {
+pub fn group(name: &str) -> Option<&'static CaseGroup> {
     groups().iter().find(|group| group.name == name)
 }
 
@@ -79,7 +79,7 @@ pub fn own_name(name: &str) -> Cow<'_, str> {
 }
 
 /// Returns the group that a built-in case belongs to.
-pub fn group_of(case: &str) -> Option<&'static Group> {
+pub fn group_of(case: &str) -> Option<&'static CaseGroup> {
     groups()
         .iter()
         .find(|group| group.cases.iter().any(|one| one.name == case))
@@ -165,7 +165,7 @@ fn of_another_model(name: &str) -> Option<Problem> {
 }
 
 /// Returns the names of all cases of groups.
-pub(crate) fn names_in(groups: &'static [Group]) -> impl Iterator<Item = &'static str> {
+pub(crate) fn names_in(groups: &'static [CaseGroup]) -> impl Iterator<Item = &'static str> {
     let cases = groups.iter().flat_map(|group| &group.cases);
     cases.map(|case| case.name.as_str())
 }
@@ -174,7 +174,11 @@ pub(crate) fn names_in(groups: &'static [Group]) -> impl Iterator<Item = &'stati
 ///
 /// # Errors
 /// There is none of this name; the help names the nearest.
-pub(crate) fn text_in(groups: &'static [Group], name: &str, what: &str) -> Result<&'static str, CaseError> {
+pub(crate) fn text_in(
+    groups: &'static [CaseGroup],
+    name: &str,
+    what: &str,
+) -> Result<&'static str, CaseError> {
     let mut cases = groups.iter().flat_map(|group| &group.cases);
     cases
         .find(|case| case.name == name)

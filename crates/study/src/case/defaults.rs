@@ -3,7 +3,7 @@
 use super::document::{Damping, METHODS};
 use super::problem::{Problems, TomlSource};
 use super::section::name_of;
-use super::tree::{self, Table};
+use super::tree::{self, TableNode};
 use integrate::Method;
 
 /// The name of these values as a source.
@@ -90,7 +90,7 @@ nominal_length = "5.379257200606367 in"
 "#;
 
 /// Returns the values that complete a case of this damping.
-pub(super) fn tree(damping: Damping) -> Result<Table, Problems> {
+pub(super) fn tree(damping: Damping) -> Result<TableNode, Problems> {
     let own = match damping {
         Damping::Variable => VARIABLE,
         Damping::Constant => CONSTANT,
@@ -99,7 +99,7 @@ pub(super) fn tree(damping: Damping) -> Result<Table, Problems> {
         "[simulation]\nmethod = \"{}\"\n",
         name_of(METHODS, &Method::default())
     );
-    let mut table = Table::default();
+    let mut table = TableNode::default();
     for text in [own, COMMON, &method] {
         table.complete_from(&tree::parse(&TomlSource::new(SOURCE, text))?);
     }

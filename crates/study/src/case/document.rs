@@ -5,7 +5,7 @@
 
 use super::face::FaceSection;
 use super::face_values::Surface;
-use super::motion::{Motion, Profile};
+use super::motion::{CaseMotion, MotionProfile};
 use super::section::{Names, name_of};
 use super::table::QuantityTable;
 use integrate::Method;
@@ -64,7 +64,7 @@ impl CaseDocument {
         let neighbours = [&self.side_frame, &self.bolster].into_iter();
         let tables = neighbours
             .flat_map(|neighbour| &neighbour.coordinates)
-            .flat_map(Motion::tables);
+            .flat_map(CaseMotion::tables);
         let surfaces = self
             .faces
             .iter()
@@ -213,7 +213,7 @@ pub struct NeighbourSection {
     /// The point it turns about; left out, the centre of its face.
     pub center: Option<[Quantity; 3]>,
     /// Motions in the order of [`NeighbourSection::COORDINATES`].
-    pub coordinates: [Motion; 6],
+    pub coordinates: [CaseMotion; 6],
 }
 
 impl NeighbourSection {
@@ -336,8 +336,8 @@ pub(crate) const METHODS: Names<Method> = &[
 ];
 
 /// Names of the ramp profiles.
-pub(crate) const PROFILES: Names<Profile> = &[
-    ("smooth", Profile::Smooth),
-    ("linear", Profile::Linear),
-    ("half_cosine", Profile::HalfCosine),
+pub(crate) const PROFILES: Names<MotionProfile> = &[
+    ("smooth", MotionProfile::Smooth),
+    ("linear", MotionProfile::Linear),
+    ("half_cosine", MotionProfile::HalfCosine),
 ];

@@ -5,8 +5,8 @@ use super::face_values::{self as values, PadSection, Surface};
 use super::field::{Reach, Written};
 use super::problem::Problems;
 use super::read::COEFFICIENT;
-use super::section::{self, Range, Section};
-use super::table::{self, Form};
+use super::section::{self, CaseSection, Range};
+use super::table::{self, TableForm};
 use super::tables::Tables;
 use super::write::FRICTION;
 use quantity::{Kind, Quantity};
@@ -78,7 +78,7 @@ impl FaceSection {
     /// Reads what a section says over these values.
     pub(crate) fn read_over(
         &self,
-        s: &Section<'_>,
+        s: &CaseSection<'_>,
         tables: Tables<'_>,
         problems: &mut Problems,
     ) -> Option<Self> {
@@ -94,7 +94,7 @@ impl FaceSection {
         let wedge_surface = surface("wedge_surface", &self.wedge_surface);
         let counterface = surface("counterface", &self.counterface);
         let mut worn = |key: &str, own: &Option<super::QuantityTable<3>>| match node(key) {
-            Some((node, path)) => table::read(node, &path, &Form::map(), tables, problems).map(Some),
+            Some((node, path)) => table::read(node, &path, &TableForm::map(), tables, problems).map(Some),
             None => Some(own.clone()),
         };
         let wedge_wear = worn("wedge_wear", &self.wedge_wear);

@@ -4,13 +4,13 @@ use super::QuantityTable;
 use super::field::Written;
 use super::problem::{Problem, Problems};
 use super::read::COEFFICIENT;
-use super::section::{self, Names, Range, Section, name_of};
-use super::table::{self, Form};
+use super::section::{self, CaseSection, Names, Range, name_of};
+use super::table::{self, TableForm};
 use super::tables::Tables;
-use super::tree::{Node, Table, Value};
+use super::tree::{NodeValue, TableNode, TreeNode};
 use super::units::in_system;
 use mechanics::spline::{Spline, SplineError};
-use mechanics::surface::Profile;
+use mechanics::surface::SurfaceProfile;
 use quantity::{Kind, Quantity, System};
 use wedge::face::{FaceDirection, FaceProfile, FrictionMap, Grid, LARGEST_GRID, Pad};
 
@@ -71,8 +71,8 @@ enum Shape {
 }
 
 /// Returns the table that stands in a node, as a section of its own.
-fn section_of<'n>(node: &'n Node, path: &str, table: &'n Table) -> Section<'n> {
-    Section {
+fn section_of<'n>(node: &'n TreeNode, path: &str, table: &'n TableNode) -> CaseSection<'n> {
+    CaseSection {
         path: path.to_owned(),
         table,
         place: Some(node.place.clone()),
@@ -80,10 +80,15 @@ fn section_of<'n>(node: &'n Node, path: &str, table: &'n Table) -> Section<'n> {
 }
 
 impl Surface {
-    pub(super) fn read(node: &Node, path: &str, tables: Tables<'_>, problems: &mut Problems) -> Option<Self> {
-        let Value::Table(own) = &node.value else {
+    pub(super) fn read(
+        node: &TreeNode,
+        path: &str,
+        tables: Tables<'_>,
+        problems: &mut Problems,
+    ) -> Option<Self> {
+        let NodeValue::Table(own) = &node.value else {
             const FLAT: Names<()> = &[("flat", ())];
-            if matches!(&node.value, Value::Text(text) if text == "flat") {
+            if matches!(&node.value, NodeValue::Text(text) if text == "flat") {
                 return Some(Self::Flat);
             }
             section::choice(node, path, FLAT, problems);
@@ -102,7 +107,7 @@ impl Surface {
         }
         let direction = s.choice("direction", DIRECTIONS, problems);
         if shape == Shape::Table {
-            let table = table::read_either(&s, "file", "points", &Form::profile(), tables, problems)?;
+            let table = table::read_either(&s, "file", "points", &TableForm::profile(), tables, problems)?;
             return Some(Self::Table {
                 table,
                 direction: direction?,
@@ -158,7 +163,7 @@ impl Surface {
             } => {
                 let sign = if *hollow { -1.0 } else { 1.0 };
                 FaceProfile {
-                    profile: Profile::Arc {
+                    profile: SurfaceProfile::Arc {
                         curvature: sign / radius.to_si(),
                     },
                     direction: *direction,
@@ -167,7 +172,7 @@ impl Surface {
             Self::Table { table, direction } => {
                 let (places, depths) = table.rows.iter().map(|[a, b]| (a.to_si(), b.to_si())).unzip();
                 FaceProfile {
-                    profile: Profile::Table(Spline::new(places, depths)?),
+                    profile: SurfaceProfile::Table(Spline::new(places, depths)?),
                     direction: *direction,
                 }
             }
@@ -196,8 +201,8 @@ impl PadSection {
                                       = \"0.1 in\", friction = 0.5, shear_stiffness = \"1e5 lbf/in\", \
                                       shear_damping = \"100 lbf s/in\" }";
 
-    pub(super) fn read(node: &Node, path: &str, problems: &mut Problems) -> Option<Self> {
-        let Value::Table(own) = &node.value else {
+    pub(super) fn read(node: &TreeNode, path: &str, problems: &mut Problems) -> Option<Self> {
+        let NodeValue::Table(own) = &node.value else {
             let message = format!("`{path}` is {}; a table is expected", node.value.describe());
             let help = format!("write for example pad = {}", Self::EXAMPLE);
             problems.push(Problem::new(message).at(&node.place).label("a pad").help(help));
@@ -301,21 +306,21 @@ fn text(quantity: &Quantity, kind: Kind, system: Option<System>) -> String {
     }
 }
 
-pub(super) fn grid(node: &Node, path: &str, problems: &mut Problems) -> Option<Grid> {
-    let count = |node: &Node| match node.value {
-        Value::Number(value) if value.fract() == 0.0 && (2.0..=LARGEST_GRID as f64).contains(&value) => {
+pub(super) fn grid(node: &TreeNode, path: &str, problems: &mut Problems) -> Option<Grid> {
+    let count = |node: &TreeNode| match node.value {
+        NodeValue::Number(value) if value.fract() == 0.0 && (2.0..=LARGEST_GRID as f64).contains(&value) => {
             Some(value as usize)
         }
         _ => None,
     };
-    if let Value::List(items) = &node.value
+    if let NodeValue::List(items) = &node.value
         && let [up, across] = items.as_slice()
         && let (Some(up), Some(across)) = (count(up), count(across))
     {
         return Some(Grid { up, across });
     }
     let found = match &node.value {
-        Value::List(_) => node.place.text().to_owned(),
+        NodeValue::List(_) => node.place.text().to_owned(),
         other => other.describe().to_owned(),
     };
     let message = format!("`{path}` is {found}; two whole numbers from 2 to {LARGEST_GRID} are expected");
@@ -329,18 +334,18 @@ pub(super) fn grid(node: &Node, path: &str, problems: &mut Problems) -> Option<G
 }
 
 /// Returns a map of friction: rows of factors.
-pub(super) fn map(node: &Node, path: &str, problems: &mut Problems) -> Option<FrictionMap> {
-    let row = |node: &Node| -> Option<Vec<f64>> {
-        let Value::List(items) = &node.value else {
+pub(super) fn map(node: &TreeNode, path: &str, problems: &mut Problems) -> Option<FrictionMap> {
+    let row = |node: &TreeNode| -> Option<Vec<f64>> {
+        let NodeValue::List(items) = &node.value else {
             return None;
         };
-        let factor = |item: &Node| match item.value {
-            Value::Number(value) if (0.0..=10.0).contains(&value) => Some(value),
+        let factor = |item: &TreeNode| match item.value {
+            NodeValue::Number(value) if (0.0..=10.0).contains(&value) => Some(value),
             _ => None,
         };
         items.iter().map(factor).collect()
     };
-    if let Value::List(rows) = &node.value {
+    if let NodeValue::List(rows) = &node.value {
         let rows: Option<Vec<Vec<f64>>> = rows.iter().map(row).collect();
         if let Some(rows) = rows {
             let width = rows.first().map_or(0, Vec::len);

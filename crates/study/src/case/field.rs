@@ -38,11 +38,11 @@ pub struct Field {
 #[serde(tag = "type", rename_all = "snake_case")]
 pub enum Input {
     /// A number, with a unit or without.
-    Number(Measured),
+    Number(TypedNumber),
     /// Three numbers in a list.
     Triple {
         /// The numbers.
-        numbers: Box<[Measured; 3]>,
+        numbers: Box<[TypedNumber; 3]>,
     },
     /// One of several names.
     Choice {
@@ -71,7 +71,7 @@ pub enum Input {
 
 /// A number as typed, and a range about it for a slider.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Measured {
+pub struct TypedNumber {
     /// The number before the unit.
     pub value: f64,
     /// The unit as typed; empty for pure numbers.
@@ -133,7 +133,7 @@ pub(crate) struct Written {
     pub input: Input,
 }
 
-impl Measured {
+impl TypedNumber {
     pub(crate) fn of(quantity: &Quantity, kind: Kind, reach: Reach) -> Self {
         let (value, si) = (quantity.value(), quantity.to_si());
         // All units that can be typed are multiples of the SI unit.
@@ -186,7 +186,7 @@ impl Written {
     pub fn quantity(quantity: &Quantity, kind: Kind, reach: Reach) -> Self {
         Self {
             toml: quoted(quantity.text()),
-            input: Input::Number(Measured::of(quantity, kind, reach)),
+            input: Input::Number(TypedNumber::of(quantity, kind, reach)),
         }
     }
 
@@ -195,7 +195,7 @@ impl Written {
         Self {
             toml: format!("[{a}, {b}, {c}]"),
             input: Input::Triple {
-                numbers: Box::new(quantities.each_ref().map(|one| Measured::of(one, kind, reach))),
+                numbers: Box::new(quantities.each_ref().map(|one| TypedNumber::of(one, kind, reach))),
             },
         }
     }
@@ -204,7 +204,14 @@ impl Written {
     pub fn number(number: f64, reach: Reach) -> Self {
         Self {
             toml: format!("{number:?}"),
-            input: Input::Number(Measured::new(number, "", number, 1.0, Kind::Dimensionless, reach)),
+            input: Input::Number(TypedNumber::new(
+                number,
+                "",
+                number,
+                1.0,
+                Kind::Dimensionless,
+                reach,
+            )),
         }
     }
 

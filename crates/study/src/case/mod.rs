@@ -36,8 +36,8 @@ pub use document::{
 };
 pub use face::FaceSection;
 pub use face_values::{PadSection, Surface};
-pub use field::{Field, FieldSection, Input, Measured};
-pub use motion::{Motion, Profile};
+pub use field::{Field, FieldSection, Input, TypedNumber};
+pub use motion::{CaseMotion, MotionProfile};
 pub use problem::{CaseError, Problem};
 pub use table::QuantityTable;
 pub use tables::Tables;
@@ -135,7 +135,7 @@ impl Case {
 
     /// Completes, reads and checks a tree; `problems` are those found on the way to it.
     fn of_tree(
-        mut tree: tree::Table,
+        mut tree: tree::TableNode,
         source: &str,
         tables: Tables<'_>,
         mut problems: Problems,
@@ -195,7 +195,7 @@ pub(crate) fn tree_with_overrides(
     source: &str,
     text: &str,
     overrides: &[String],
-) -> Result<(tree::Table, Problems), CaseError> {
+) -> Result<(tree::TableNode, Problems), CaseError> {
     let mut tree = tree_of(source, text)?;
     let problems = overrides::apply(&mut tree, overrides);
     Ok((tree, problems))
@@ -206,7 +206,7 @@ pub(crate) fn tree_with_values(
     source: &str,
     text: &str,
     values: Option<&str>,
-) -> Result<tree::Table, CaseError> {
+) -> Result<tree::TableNode, CaseError> {
     let below = tree_of(source, text)?;
     let Some(values) = values else {
         return Ok(below);
@@ -216,7 +216,7 @@ pub(crate) fn tree_with_values(
     Ok(tree)
 }
 
-fn tree_of(source: &str, text: &str) -> Result<tree::Table, CaseError> {
+fn tree_of(source: &str, text: &str) -> Result<tree::TableNode, CaseError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let tree = tree::parse(&TomlSource::new(source, text)).map_err(CaseError::new)?;
     refuse_study(&tree, source)?;
@@ -224,7 +224,7 @@ fn tree_of(source: &str, text: &str) -> Result<tree::Table, CaseError> {
 }
 
 /// Refuses a study file, or a track file, where a case is expected.
-fn refuse_study(tree: &tree::Table, source: &str) -> Result<(), CaseError> {
+fn refuse_study(tree: &tree::TableNode, source: &str) -> Result<(), CaseError> {
     if let Some(segments) = tree.entry("segments") {
         let problem = Problem::new(format!("{source} is a track file; a case file is expected"));
         let problem = problem.at(&segments.key_place).label("only a track has this");

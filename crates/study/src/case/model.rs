@@ -1,8 +1,8 @@
 //! The models that a case may be about.
 
 use super::problem::Problems;
-use super::section::{Names, Section};
-use super::tree::Table;
+use super::section::{CaseSection, Names};
+use super::tree::TableNode;
 
 /// The models that a case file may be about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,8 +20,8 @@ pub(crate) const MODELS: Names<Model> = &[
 ];
 
 /// Returns the model of a case; a wedge if none is named.
-pub(crate) fn model(tree: &Table, problems: &mut Problems) -> Option<Model> {
-    let top = Section {
+pub(crate) fn model(tree: &TableNode, problems: &mut Problems) -> Option<Model> {
+    let top = CaseSection {
         path: String::new(),
         table: tree,
         place: None,

@@ -2,17 +2,17 @@
 
 use super::document::PROFILES;
 use super::problem::{Problem, Problems};
-use super::section::{self, Range, Section, name_of};
+use super::section::{self, CaseSection, Range, name_of};
 use super::table::{self, QuantityTable};
 use super::tables::Tables;
-use super::tree::{Node, Value};
+use super::tree::{NodeValue, TreeNode};
 use super::units::in_system;
 use quantity::{Kind, Quantity, System, nearest};
 use std::fmt::Write;
 
 /// How one coordinate of a neighbour moves, as typed. Lengths or angles, by the coordinate.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Motion {
+pub enum CaseMotion {
     /// It is held.
     Constant(Quantity),
     /// `amplitude sin(frequency t + phase)`
@@ -51,24 +51,24 @@ pub enum Motion {
         /// Time it takes.
         duration: Quantity,
         /// Its shape.
-        profile: Profile,
+        profile: MotionProfile,
     },
     /// A cubic spline through time and value.
     Table(QuantityTable),
     /// A sum of motions.
-    Sum(Vec<Motion>),
+    Sum(Vec<CaseMotion>),
     /// Nothing until a time, then a motion that counts its time from there.
     From {
         /// When it begins.
         start: Quantity,
         /// The motion.
-        motion: Box<Motion>,
+        motion: Box<CaseMotion>,
     },
 }
 
 /// The shape of a ramp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Profile {
+pub enum MotionProfile {
     /// Rate and acceleration are zero at both ends.
     Smooth,
     /// Constant rate.
@@ -83,50 +83,50 @@ const EXAMPLE: &str = "write for example { shape = \"sine\", amplitude = \"1 in\
 
 /// Reads a motion whose values measure `kind`. `tables` says where those in files lie.
 pub(crate) fn read(
-    node: &Node,
+    node: &TreeNode,
     path: &str,
     kind: Kind,
     tables: Tables<'_>,
     problems: &mut Problems,
-) -> Option<Motion> {
+) -> Option<CaseMotion> {
     match &node.value {
-        Value::List(items) if items.is_empty() => {
+        NodeValue::List(items) if items.is_empty() => {
             let problem = Problem::new(format!("`{path}` is an empty sum of motions"));
             problems.push(problem.at(&node.place).label("nothing to add up").help(EXAMPLE));
             None
         }
-        Value::List(items) => {
+        NodeValue::List(items) => {
             let mut parts = Vec::new();
             for (at, item) in items.iter().enumerate() {
                 let path = format!("{path}[{at}]");
-                if matches!(item.value, Value::List(_)) {
+                if matches!(item.value, NodeValue::List(_)) {
                     let problem = Problem::new(format!("`{path}` is a list; a motion is expected"));
                     problems.push(problem.at(&item.place).label("a sum within a sum").help(EXAMPLE));
                 } else {
                     parts.push(read(item, &path, kind, tables, problems));
                 }
             }
-            Some(Motion::Sum(parts.into_iter().collect::<Option<_>>()?))
+            Some(CaseMotion::Sum(parts.into_iter().collect::<Option<_>>()?))
         }
-        Value::Table(table) => {
+        NodeValue::Table(table) => {
             let place = Some(node.place.clone());
-            let section = Section {
+            let section = CaseSection {
                 path: path.into(),
                 table,
                 place,
             };
             read_shape(&section, kind, tables, problems)
         }
-        _ => section::quantity(node, path, kind, Range::Any, problems).map(Motion::Constant),
+        _ => section::quantity(node, path, kind, Range::Any, problems).map(CaseMotion::Constant),
     }
 }
 
 fn read_shape(
-    section: &Section<'_>,
+    section: &CaseSection<'_>,
     kind: Kind,
     tables: Tables<'_>,
     problems: &mut Problems,
-) -> Option<Motion> {
+) -> Option<CaseMotion> {
     section.require("shape", EXAMPLE, problems)?;
     let (shape, node) = section.text("shape", problems)?;
     let (keys, optional): (&[&str], &[&str]) = match shape {
@@ -155,7 +155,7 @@ fn read_shape(
     if shape != "ramp" && section.table.get("start").is_some() {
         let start = section.quantity("start", Kind::Time, Range::NotNegative, problems);
         let motion = Box::new(read_known_shape(shape, section, kind, tables, problems)?);
-        return Some(Motion::From {
+        return Some(CaseMotion::From {
             start: start?,
             motion,
         });
@@ -166,19 +166,19 @@ fn read_shape(
 /// Reads a motion of this shape, without the time that it starts at.
 fn read_known_shape(
     shape: &str,
-    section: &Section<'_>,
+    section: &CaseSection<'_>,
     kind: Kind,
     tables: Tables<'_>,
     problems: &mut Problems,
-) -> Option<Motion> {
+) -> Option<CaseMotion> {
     let mut quantity = |key: &str, kind, range| section.quantity(key, kind, range, problems);
     match shape {
-        "constant" => Some(Motion::Constant(quantity("value", kind, Range::Any)?)),
+        "constant" => Some(CaseMotion::Constant(quantity("value", kind, Range::Any)?)),
         "sine" | "triangle" => {
             let amplitude = quantity("amplitude", kind, Range::Any);
             let frequency = quantity("frequency", Kind::Frequency, Range::Positive);
             if shape == "triangle" {
-                return Some(Motion::Triangle {
+                return Some(CaseMotion::Triangle {
                     amplitude: amplitude?,
                     frequency: frequency?,
                 });
@@ -187,7 +187,7 @@ fn read_known_shape(
                 Some(_) => quantity("phase", Kind::Angle, Range::Any),
                 None => Quantity::new(0.0, "deg").ok(),
             };
-            Some(Motion::Sine {
+            Some(CaseMotion::Sine {
                 amplitude: amplitude?,
                 frequency: frequency?,
                 phase: phase?,
@@ -198,7 +198,7 @@ fn read_known_shape(
             let start_frequency = quantity("start_frequency", Kind::Frequency, Range::NotNegative);
             let end_frequency = quantity("end_frequency", Kind::Frequency, Range::NotNegative);
             let duration = quantity("duration", Kind::Time, Range::Positive);
-            Some(Motion::SweptSine {
+            Some(CaseMotion::SweptSine {
                 amplitude: amplitude?,
                 start_frequency: start_frequency?,
                 end_frequency: end_frequency?,
@@ -214,9 +214,9 @@ fn read_known_shape(
             };
             let profile = match section.table.get("profile") {
                 Some(_) => section.choice("profile", PROFILES, problems),
-                None => Some(Profile::Smooth),
+                None => Some(MotionProfile::Smooth),
             };
-            Some(Motion::Ramp {
+            Some(CaseMotion::Ramp {
                 amplitude: amplitude?,
                 start: start?,
                 duration: duration?,
@@ -224,13 +224,13 @@ fn read_known_shape(
             })
         }
         _ => {
-            let form = table::Form::motion(kind);
-            table::read_either(section, "file", "points", &form, tables, problems).map(Motion::Table)
+            let form = table::TableForm::motion(kind);
+            table::read_either(section, "file", "points", &form, tables, problems).map(CaseMotion::Table)
         }
     }
 }
 
-impl Motion {
+impl CaseMotion {
     /// Returns it as written in a case file, without the key; its values measure `kind`. In the units of a
     /// system, or as typed.
     pub(crate) fn to_toml_in(&self, kind: Kind, system: Option<System>) -> String {
@@ -241,18 +241,18 @@ impl Motion {
     fn in_system(&self, kind: Kind, system: System) -> Self {
         let mut own = self.clone();
         match &mut own {
-            Motion::Constant(value)
-            | Motion::Sine { amplitude: value, .. }
-            | Motion::Triangle { amplitude: value, .. }
-            | Motion::SweptSine { amplitude: value, .. }
-            | Motion::Ramp { amplitude: value, .. } => *value = in_system(value, kind, system),
-            Motion::Table(table) => *table = table.in_system([Kind::Time, kind], system),
-            Motion::Sum(parts) => {
+            CaseMotion::Constant(value)
+            | CaseMotion::Sine { amplitude: value, .. }
+            | CaseMotion::Triangle { amplitude: value, .. }
+            | CaseMotion::SweptSine { amplitude: value, .. }
+            | CaseMotion::Ramp { amplitude: value, .. } => *value = in_system(value, kind, system),
+            CaseMotion::Table(table) => *table = table.in_system([Kind::Time, kind], system),
+            CaseMotion::Sum(parts) => {
                 for part in parts {
                     *part = part.in_system(kind, system);
                 }
             }
-            Motion::From { motion, .. } => **motion = motion.in_system(kind, system),
+            CaseMotion::From { motion, .. } => **motion = motion.in_system(kind, system),
         }
         own
     }
@@ -269,8 +269,8 @@ impl Motion {
             line + " }"
         };
         match self {
-            Motion::Constant(value) => text(value),
-            Motion::Sine {
+            CaseMotion::Constant(value) => text(value),
+            CaseMotion::Sine {
                 amplitude,
                 frequency,
                 phase,
@@ -282,11 +282,11 @@ impl Motion {
                     ("phase", text(phase)),
                 ],
             ),
-            Motion::Triangle { amplitude, frequency } => shape(
+            CaseMotion::Triangle { amplitude, frequency } => shape(
                 "triangle",
                 &[("amplitude", text(amplitude)), ("frequency", text(frequency))],
             ),
-            Motion::SweptSine {
+            CaseMotion::SweptSine {
                 amplitude,
                 start_frequency,
                 end_frequency,
@@ -300,7 +300,7 @@ impl Motion {
                     ("duration", text(duration)),
                 ],
             ),
-            Motion::Ramp {
+            CaseMotion::Ramp {
                 amplitude,
                 start,
                 duration,
@@ -314,15 +314,15 @@ impl Motion {
                     ("profile", format!("\"{}\"", name_of(PROFILES, profile))),
                 ],
             ),
-            Motion::Table(table) => match &table.file {
+            CaseMotion::Table(table) => match &table.file {
                 Some(file) => shape("table", &[("file", toml::Value::from(file.as_str()).to_string())]),
                 None => shape("table", &[("points", table.points_to_toml())]),
             },
-            Motion::Sum(parts) => {
-                let parts: Vec<String> = parts.iter().map(Motion::to_toml).collect();
+            CaseMotion::Sum(parts) => {
+                let parts: Vec<String> = parts.iter().map(CaseMotion::to_toml).collect();
                 format!("[\n    {},\n]", parts.join(",\n    "))
             }
-            Motion::From { start, motion } => {
+            CaseMotion::From { start, motion } => {
                 let line = motion.to_toml();
                 let open = line.strip_suffix(" }").unwrap_or(&line);
                 format!("{open}, start = {} }}", text(start))
@@ -333,7 +333,7 @@ impl Motion {
     /// Returns the quantities of its shape, by their keys; none of a held value, a table, or a sum.
     pub(super) fn parts(&self) -> Vec<(&'static str, &Quantity)> {
         match self {
-            Motion::Sine {
+            CaseMotion::Sine {
                 amplitude,
                 frequency,
                 phase,
@@ -342,10 +342,10 @@ impl Motion {
                 ("frequency", frequency),
                 ("phase", phase),
             ],
-            Motion::Triangle { amplitude, frequency } => {
+            CaseMotion::Triangle { amplitude, frequency } => {
                 vec![("amplitude", amplitude), ("frequency", frequency)]
             }
-            Motion::SweptSine {
+            CaseMotion::SweptSine {
                 amplitude,
                 start_frequency,
                 end_frequency,
@@ -356,27 +356,27 @@ impl Motion {
                 ("end_frequency", end_frequency),
                 ("duration", duration),
             ],
-            Motion::Ramp {
+            CaseMotion::Ramp {
                 amplitude,
                 start,
                 duration,
                 ..
             } => vec![("amplitude", amplitude), ("start", start), ("duration", duration)],
-            Motion::From { start, motion } => {
+            CaseMotion::From { start, motion } => {
                 let mut parts = motion.parts();
                 parts.push(("start", start));
                 parts
             }
-            Motion::Constant(_) | Motion::Table(_) | Motion::Sum(_) => Vec::new(),
+            CaseMotion::Constant(_) | CaseMotion::Table(_) | CaseMotion::Sum(_) => Vec::new(),
         }
     }
 
     /// Returns the tables in it, to be changed.
     pub(crate) fn tables_mut(&mut self) -> Vec<&mut QuantityTable> {
         match self {
-            Motion::Table(table) => vec![table],
-            Motion::Sum(parts) => parts.iter_mut().flat_map(Motion::tables_mut).collect(),
-            Motion::From { motion, .. } => motion.tables_mut(),
+            CaseMotion::Table(table) => vec![table],
+            CaseMotion::Sum(parts) => parts.iter_mut().flat_map(CaseMotion::tables_mut).collect(),
+            CaseMotion::From { motion, .. } => motion.tables_mut(),
             _ => Vec::new(),
         }
     }
@@ -384,9 +384,9 @@ impl Motion {
     /// Returns the tables in it.
     pub(crate) fn tables(&self) -> Vec<&QuantityTable> {
         match self {
-            Motion::Table(table) => vec![table],
-            Motion::Sum(parts) => parts.iter().flat_map(Motion::tables).collect(),
-            Motion::From { motion, .. } => motion.tables(),
+            CaseMotion::Table(table) => vec![table],
+            CaseMotion::Sum(parts) => parts.iter().flat_map(CaseMotion::tables).collect(),
+            CaseMotion::From { motion, .. } => motion.tables(),
             _ => Vec::new(),
         }
     }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::problem::{Problem, Problems};
-use super::section::Section;
+use super::section::CaseSection;
 
 /// Names that Windows keeps for itself, whatever their ending.
 const RESERVED: [&str; 4] = ["con", "prn", "aux", "nul"];
@@ -17,7 +17,7 @@ pub(crate) fn of_source(source: &str) -> &str {
 }
 
 /// Reads the name of a case.
-pub(crate) fn read(top: &Section<'_>, default: &str, problems: &mut Problems) -> Option<String> {
+pub(crate) fn read(top: &CaseSection<'_>, default: &str, problems: &mut Problems) -> Option<String> {
     if top.table.get("name").is_none() {
         return Some(default.to_owned());
     }

@@ -1,14 +1,14 @@
 //! `--set path.key=value`: single values laid over a case.
 
 use super::problem::{Problem, Problems, TomlLocation, TomlSource};
-use super::tree::{self, Entry, Table, Value};
+use super::tree::{self, NodeValue, TableEntry, TableNode};
 use std::sync::Arc;
 
 /// What overrides are called as a source.
 pub(super) const SOURCE: &str = "--set";
 
 /// Lays every override over the tree; the problems are those of the overrides themselves.
-pub(crate) fn apply(tree: &mut Table, overrides: &[String]) -> Problems {
+pub(crate) fn apply(tree: &mut TableNode, overrides: &[String]) -> Problems {
     let mut problems = Problems::new();
     for text in overrides {
         match parse(text).and_then(|(path, entry)| set(tree, &path, entry)) {
@@ -28,7 +28,7 @@ pub(crate) fn to_toml(text: &str) -> Result<String, Problems> {
 }
 
 /// Returns the tables on the way, and the last key with its value.
-fn parse(text: &str) -> Result<(Vec<Entry>, Entry), Problems> {
+fn parse(text: &str) -> Result<(Vec<TableEntry>, TableEntry), Problems> {
     let source = TomlSource::new(SOURCE, text);
     let whole = TomlLocation {
         source: Arc::clone(&source),
@@ -71,7 +71,7 @@ fn parse(text: &str) -> Result<(Vec<Entry>, Entry), Problems> {
             return Err(malformed("the key is missing").into());
         };
         match entry.node.value {
-            Value::Table(ref inner)
+            NodeValue::Table(ref inner)
                 if inner
                     .entries
                     .first()
@@ -99,14 +99,14 @@ fn equals_sign(text: &str) -> Option<usize> {
     None
 }
 
-fn set(tree: &mut Table, path: &[Entry], entry: Entry) -> Result<(), Problems> {
+fn set(tree: &mut TableNode, path: &[TableEntry], entry: TableEntry) -> Result<(), Problems> {
     let Some((first, rest)) = path.split_first() else {
         tree.set(entry);
         return Ok(());
     };
     if tree.entry(&first.key).is_none() {
         let mut empty = first.clone();
-        empty.node.value = Value::Table(Table::default());
+        empty.node.value = NodeValue::Table(TableNode::default());
         tree.entries.push(empty);
     }
     let Some(own) = tree.entries.iter_mut().find(|own| own.key == first.key) else {
@@ -116,10 +116,15 @@ fn set(tree: &mut Table, path: &[Entry], entry: Entry) -> Result<(), Problems> {
 }
 
 /// Sets a key of a table, or an item of a list by its number, counted from 0: `bolster.vertical.1.amplitude`.
-fn set_inside(within: &mut Value, named: &Entry, path: &[Entry], entry: Entry) -> Result<(), Problems> {
+fn set_inside(
+    within: &mut NodeValue,
+    named: &TableEntry,
+    path: &[TableEntry],
+    entry: TableEntry,
+) -> Result<(), Problems> {
     match within {
-        Value::Table(table) => set(table, path, entry),
-        Value::List(items) => {
+        NodeValue::Table(table) => set(table, path, entry),
+        NodeValue::List(items) => {
             let key = path.first().unwrap_or(&entry);
             let (count, number) = (items.len(), key.key.parse::<usize>().ok());
             let Some(item) = number.and_then(|number| items.get_mut(number)) else {

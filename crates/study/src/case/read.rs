@@ -5,10 +5,10 @@ use super::document::*;
 use super::face::{self, FaceSection};
 use super::motion;
 use super::problem::{Problem, Problems, TomlLocation};
-use super::section::{self, Range, Section, inner_place, unit_problem};
-use super::table::{self, Form};
+use super::section::{self, CaseSection, Range, inner_place, unit_problem};
+use super::table::{self, TableForm};
 use super::tables::Tables;
-use super::tree::{Node, Table, Value};
+use super::tree::{NodeValue, TableNode, TreeNode};
 use super::{defaults, name};
 use input::limits;
 use quantity::{Kind, Quantity, System};
@@ -120,13 +120,13 @@ const OF_TRUCKS: [(&str, &str, &str); 2] = [
 
 /// Completes the tree and reads it; notes what is wrong.
 pub(super) fn document(
-    tree: &mut Table,
+    tree: &mut TableNode,
     default_name: &str,
     tables: Tables<'_>,
     problems: &mut Problems,
 ) -> Option<CaseDocument> {
     complete(tree, problems);
-    let top = Section {
+    let top = CaseSection {
         path: String::new(),
         table: tree,
         place: None,
@@ -144,7 +144,7 @@ pub(super) fn document(
     }
     top.allow(&known, KEYS, problems);
     for (section, keys) in KEYS {
-        if let Some(section) = tree.table(section).map(|table| Section {
+        if let Some(section) = tree.table(section).map(|table| CaseSection {
             path: (*section).into(),
             table,
             place: None,
@@ -225,7 +225,7 @@ pub(super) fn document(
 }
 
 /// Takes over what is left out from the thesis's values of the damping.
-fn complete(tree: &mut Table, problems: &mut Problems) {
+fn complete(tree: &mut TableNode, problems: &mut Problems) {
     let damping = tree.table("wedge").and_then(|wedge| wedge.text("damping"));
     let damping = Damping::NAMES.iter().find(|(name, _)| Some(*name) == damping);
     // A damping that is wrong is noted when it is read.
@@ -236,7 +236,7 @@ fn complete(tree: &mut Table, problems: &mut Problems) {
     }
 }
 
-fn read_wedge(s: &Section<'_>, problems: &mut Problems) -> Option<WedgeSection> {
+fn read_wedge(s: &CaseSection<'_>, problems: &mut Problems) -> Option<WedgeSection> {
     let damping = s.choice("damping", Damping::NAMES, problems);
     let angle = s.quantity("angle", Kind::Angle, ANGLE, problems);
     let height = s.quantity("height", Kind::Length, Range::Positive, problems);
@@ -261,7 +261,7 @@ fn read_wedge(s: &Section<'_>, problems: &mut Problems) -> Option<WedgeSection> 
     })
 }
 
-fn read_free_coordinates(s: &Section<'_>, problems: &mut Problems) -> Option<Vec<Coordinate>> {
+fn read_free_coordinates(s: &CaseSection<'_>, problems: &mut Problems) -> Option<Vec<Coordinate>> {
     let help = "list the free ones of \"x\", \"y\", \"z\", \"roll\", \"pitch\", \"yaw\", for example \
                 free_coordinates = [\"x\", \"z\", \"pitch\", \"yaw\"]";
     let node = s.require("free_coordinates", help, problems)?;
@@ -270,7 +270,7 @@ fn read_free_coordinates(s: &Section<'_>, problems: &mut Problems) -> Option<Vec
         problems.push(Problem::new(message).at(place).label(label).help(help));
         None
     };
-    let Value::List(items) = &node.value else {
+    let NodeValue::List(items) = &node.value else {
         return bad(
             format!("`{path}` is {}; a list is expected", node.value.describe()),
             &node.place,
@@ -302,7 +302,7 @@ fn read_free_coordinates(s: &Section<'_>, problems: &mut Problems) -> Option<Vec
     Some(coordinates)
 }
 
-fn read_coil(s: &Section<'_>, tables: Tables<'_>, problems: &mut Problems) -> Option<CoilSection> {
+fn read_coil(s: &CaseSection<'_>, tables: Tables<'_>, problems: &mut Problems) -> Option<CoilSection> {
     let force = match (s.table.entry("stiffness"), s.table.entry("table")) {
         (Some(_), Some(table)) => {
             let problem =
@@ -314,8 +314,14 @@ fn read_coil(s: &Section<'_>, tables: Tables<'_>, problems: &mut Problems) -> Op
             );
             None
         }
-        (_, Some(table)) => table::read(&table.node, &s.path_of("table"), &Form::coil(), tables, problems)
-            .map(CoilForce::Table),
+        (_, Some(table)) => table::read(
+            &table.node,
+            &s.path_of("table"),
+            &TableForm::coil(),
+            tables,
+            problems,
+        )
+        .map(CoilForce::Table),
         _ => s
             .quantity("stiffness", Kind::Stiffness, Range::Positive, problems)
             .map(CoilForce::Stiffness),
@@ -356,7 +362,7 @@ fn rotational_damping(damping: &Quantity) -> Option<Quantity> {
     Quantity::new(number, Kind::RotationalDamping.unit(System::Us)).ok()
 }
 
-fn read_friction(s: &Section<'_>, problems: &mut Problems) -> Option<FrictionSection> {
+fn read_friction(s: &CaseSection<'_>, problems: &mut Problems) -> Option<FrictionSection> {
     let laws = read_laws(s, problems);
     let column = s.number("column", COEFFICIENT, "0.4", problems);
     let slope = s.number("slope", COEFFICIENT, "0.4", problems);
@@ -376,11 +382,11 @@ fn read_friction(s: &Section<'_>, problems: &mut Problems) -> Option<FrictionSec
 }
 
 /// Reads the laws of friction at column and slope.
-pub(crate) fn read_laws(s: &Section<'_>, problems: &mut Problems) -> Option<[FrictionLaw; 2]> {
+pub(crate) fn read_laws(s: &CaseSection<'_>, problems: &mut Problems) -> Option<[FrictionLaw; 2]> {
     match &s.table.get("law")?.value {
-        Value::Table(table) => {
+        NodeValue::Table(table) => {
             let place = s.table.entry("law").map(|entry| entry.key_place.clone());
-            let faces = Section {
+            let faces = CaseSection {
                 path: s.path_of("law"),
                 table,
                 place,
@@ -394,17 +400,17 @@ pub(crate) fn read_laws(s: &Section<'_>, problems: &mut Problems) -> Option<[Fri
     }
 }
 
-pub(crate) fn read_toe(s: &Section<'_>, problems: &mut Problems) -> Option<Toe> {
+pub(crate) fn read_toe(s: &CaseSection<'_>, problems: &mut Problems) -> Option<Toe> {
     const HELP: &str = "write for example \"0.2 deg out\" (the gap between column and bolster opens \
                         downwards), \"0.2 deg in\", or \"0 deg\"";
     let node = s.require("toe", HELP, problems)?;
     let path = s.path_of("toe");
-    if let Value::Number(angle) = node.value
+    if let NodeValue::Number(angle) = node.value
         && node.place.source.bare_numbers_are_si
     {
         return signed_toe(angle, node, &path, problems);
     }
-    let Value::Text(text) = &node.value else {
+    let NodeValue::Text(text) = &node.value else {
         let message = format!(
             "`{path}` is {}; an angle with its direction is expected",
             node.value.describe()
@@ -456,9 +462,9 @@ pub(crate) fn read_toe(s: &Section<'_>, problems: &mut Problems) -> Option<Toe> 
 }
 
 /// Returns a toe that a program gives: a number in rad, positive out.
-fn signed_toe(angle: f64, node: &Node, path: &str, problems: &mut Problems) -> Option<Toe> {
+fn signed_toe(angle: f64, node: &TreeNode, path: &str, problems: &mut Problems) -> Option<Toe> {
     let mut size = node.clone();
-    size.value = Value::Number(angle.abs());
+    size.value = NodeValue::Number(angle.abs());
     Some(Toe {
         angle: section::quantity(&size, path, Kind::Angle, TOE, problems)?,
         direction: match angle {
@@ -469,7 +475,11 @@ fn signed_toe(angle: f64, node: &Node, path: &str, problems: &mut Problems) -> O
     })
 }
 
-fn read_neighbour(s: &Section<'_>, tables: Tables<'_>, problems: &mut Problems) -> Option<NeighbourSection> {
+fn read_neighbour(
+    s: &CaseSection<'_>,
+    tables: Tables<'_>,
+    problems: &mut Problems,
+) -> Option<NeighbourSection> {
     let center = match s.table.get("center") {
         Some(_) => Some(s.triple("center", Kind::Length, Range::Any, problems)?),
         None => None,
@@ -477,7 +487,7 @@ fn read_neighbour(s: &Section<'_>, tables: Tables<'_>, problems: &mut Problems) 
     let mut motions = Vec::with_capacity(6);
     for (at, key) in NeighbourSection::COORDINATES.into_iter().enumerate() {
         let kind = if at < 3 { Kind::Length } else { Kind::Angle };
-        let node: Option<&Node> = s.require(key, "write a motion", problems);
+        let node: Option<&TreeNode> = s.require(key, "write a motion", problems);
         motions.push(node.and_then(|node| motion::read(node, &s.path_of(key), kind, tables, problems)));
     }
     let motions: Vec<_> = motions.into_iter().collect::<Option<_>>()?;
@@ -487,7 +497,7 @@ fn read_neighbour(s: &Section<'_>, tables: Tables<'_>, problems: &mut Problems) 
     })
 }
 
-fn read_simulation(s: &Section<'_>, problems: &mut Problems) -> Option<SimulationSection> {
+fn read_simulation(s: &CaseSection<'_>, problems: &mut Problems) -> Option<SimulationSection> {
     let duration = s.quantity("duration", Kind::Time, Range::Positive, problems);
     let output_interval = s.quantity("output_interval", Kind::Time, Range::Positive, problems);
     let relative_tolerance = s.number("relative_tolerance", TOLERANCE, "1e-6", problems);
@@ -508,7 +518,12 @@ fn read_simulation(s: &Section<'_>, problems: &mut Problems) -> Option<Simulatio
 }
 
 /// Notes an output interval that is longer than the run, or gives too many rows.
-pub(crate) fn check_rows(s: &Section<'_>, duration: &Quantity, interval: &Quantity, problems: &mut Problems) {
+pub(crate) fn check_rows(
+    s: &CaseSection<'_>,
+    duration: &Quantity,
+    interval: &Quantity,
+    problems: &mut Problems,
+) {
     let problem = if interval.to_si() > duration.to_si() {
         let message =
             format!("`simulation.output_interval` ({interval}) is longer than the duration ({duration})");
@@ -539,7 +554,7 @@ fn check_cover(
     section: &str,
     neighbour: &NeighbourSection,
     duration: &Quantity,
-    tree: &Table,
+    tree: &TableNode,
     tables: Tables<'_>,
     problems: &mut Problems,
 ) {
@@ -558,9 +573,9 @@ fn check_cover(
 /// Notes a table in a motion that does not last as long as the run.
 pub(crate) fn check_motion_covers(
     path: &str,
-    motion: &motion::Motion,
+    motion: &motion::CaseMotion,
     duration: &Quantity,
-    tree: &Table,
+    tree: &TableNode,
     tables: Tables<'_>,
     problems: &mut Problems,
 ) {

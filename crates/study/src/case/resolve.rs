@@ -3,7 +3,7 @@
 use super::Simulation;
 use super::document as typed;
 use super::face::SECTIONS;
-use super::motion::{Motion as TypedMotion, Profile};
+use super::motion::{CaseMotion as TypedMotion, MotionProfile};
 use super::table::QuantityTable;
 use mechanics::characteristic::Characteristic;
 use mechanics::coil::{CoilLaw, CoilLine};
@@ -210,9 +210,9 @@ pub(crate) fn motion(typed: &TypedMotion) -> Result<Motion, String> {
             start: start.to_si(),
             duration: duration.to_si(),
             profile: match profile {
-                Profile::Smooth => RampProfile::Smooth,
-                Profile::Linear => RampProfile::Linear,
-                Profile::HalfCosine => RampProfile::HalfCosine,
+                MotionProfile::Smooth => RampProfile::Smooth,
+                MotionProfile::Linear => RampProfile::Linear,
+                MotionProfile::HalfCosine => RampProfile::HalfCosine,
             },
         },
         TypedMotion::Table(table) => Motion::Table(spline(table)?),

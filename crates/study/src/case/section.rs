@@ -2,7 +2,7 @@
 
 use super::bounds;
 use super::problem::{Problem, Problems, TomlLocation};
-use super::tree::{Node, Table, Value};
+use super::tree::{NodeValue, TableNode, TreeNode};
 use input::shortened;
 use quantity::{Kind, Quantity, System, UnitError, nearest};
 
@@ -54,15 +54,15 @@ pub(crate) fn name_of<T: PartialEq>(names: Names<T>, choice: &T) -> &'static str
 }
 
 /// One table of the case, by its path. Its readers note what is wrong and return nothing then.
-pub(crate) struct Section<'a> {
+pub(crate) struct CaseSection<'a> {
     /// `wedge`, `bolster.vertical`; empty at the top.
     pub path: String,
-    pub table: &'a Table,
+    pub table: &'a TableNode,
     /// Where the table is named.
     pub place: Option<TomlLocation>,
 }
 
-impl<'a> Section<'a> {
+impl<'a> CaseSection<'a> {
     pub fn path_of(&self, key: &str) -> String {
         if self.path.is_empty() {
             key.into()
@@ -72,9 +72,9 @@ impl<'a> Section<'a> {
     }
 
     /// Returns the table under a key.
-    pub fn section(&self, key: &str, problems: &mut Problems) -> Option<Section<'a>> {
+    pub fn section(&self, key: &str, problems: &mut Problems) -> Option<CaseSection<'a>> {
         let entry = self.table.entry(key)?;
-        let Value::Table(table) = &entry.node.value else {
+        let NodeValue::Table(table) = &entry.node.value else {
             let found = entry.node.value.describe();
             problems.push(
                 Problem::new(format!("`{}` is {found}; a table is expected", self.path_of(key)))
@@ -87,7 +87,7 @@ impl<'a> Section<'a> {
             );
             return None;
         };
-        Some(Section {
+        Some(CaseSection {
             path: self.path_of(key),
             table,
             place: Some(entry.key_place.clone()),
@@ -95,7 +95,7 @@ impl<'a> Section<'a> {
     }
 
     /// Returns the value of a key that must be there.
-    pub fn require(&self, key: &str, help: &str, problems: &mut Problems) -> Option<&'a Node> {
+    pub fn require(&self, key: &str, help: &str, problems: &mut Problems) -> Option<&'a TreeNode> {
         let node = self.table.get(key);
         if node.is_none() {
             let mut problem = Problem::new(format!("`{}` is missing", self.path_of(key)))
@@ -175,7 +175,7 @@ impl<'a> Section<'a> {
         let node = self.require(key, &help, problems)?;
         let path = self.path_of(key);
         match &node.value {
-            Value::List(items) if items.len() == 3 => {
+            NodeValue::List(items) if items.len() == 3 => {
                 let mut read =
                     |at: usize| quantity(&items[at], &format!("{path}[{at}]"), kind, range, problems);
                 let triple = [read(0), read(1), read(2)];
@@ -184,7 +184,7 @@ impl<'a> Section<'a> {
                 };
                 Some([a, b, c])
             }
-            Value::List(items) => {
+            NodeValue::List(items) => {
                 let message = format!("`{path}` has {} entries; three are expected", items.len());
                 problems.push(
                     Problem::new(message)
@@ -216,8 +216,8 @@ impl<'a> Section<'a> {
         let node = self.require(key, &help, problems)?;
         let path = self.path_of(key);
         match node.value {
-            Value::Number(value) if range.holds(value) => Some(value),
-            Value::Number(_) => {
+            NodeValue::Number(value) if range.holds(value) => Some(value),
+            NodeValue::Number(_) => {
                 let message = format!("`{path}` is {}; it must be {}", node.place.text(), range.words());
                 problems.push(
                     Problem::new(message)
@@ -246,7 +246,7 @@ impl<'a> Section<'a> {
     pub fn truth(&self, key: &str, problems: &mut Problems) -> Option<bool> {
         let help = format!("write {key} = true or {key} = false, without quotes");
         let node = self.require(key, &help, problems)?;
-        if let Value::Truth(truth) = node.value {
+        if let NodeValue::Truth(truth) = node.value {
             return Some(truth);
         }
         let message = format!(
@@ -263,10 +263,10 @@ impl<'a> Section<'a> {
         None
     }
 
-    pub fn text(&self, key: &str, problems: &mut Problems) -> Option<(&'a str, &'a Node)> {
+    pub fn text(&self, key: &str, problems: &mut Problems) -> Option<(&'a str, &'a TreeNode)> {
         let help = format!("write {key} = \"...\"");
         let node = self.require(key, &help, problems)?;
-        if let Value::Text(text) = &node.value {
+        if let NodeValue::Text(text) = &node.value {
             return Some((text, node));
         }
         let message = format!(
@@ -291,20 +291,20 @@ impl<'a> Section<'a> {
 
 /// Reads one of several names.
 pub(crate) fn choice<T: Copy>(
-    node: &Node,
+    node: &TreeNode,
     path: &str,
     names: Names<T>,
     problems: &mut Problems,
 ) -> Option<T> {
     let message = match &node.value {
-        Value::Text(text) => match names.iter().find(|(name, _)| name == text) {
+        NodeValue::Text(text) => match names.iter().find(|(name, _)| name == text) {
             Some((_, choice)) => return Some(*choice),
             None => format!("`{path}` cannot be \"{text}\""),
         },
         other => format!("`{path}` is {}; a name in quotes is expected", other.describe()),
     };
     let near = match &node.value {
-        Value::Text(text) => nearest(text, names.iter().map(|(name, _)| *name)),
+        NodeValue::Text(text) => nearest(text, names.iter().map(|(name, _)| *name)),
         _ => None,
     };
     let help = match near {
@@ -327,18 +327,18 @@ fn one_of<T>(names: Names<T>) -> String {
 
 /// Returns a quantity written in a node.
 pub(crate) fn quantity(
-    node: &Node,
+    node: &TreeNode,
     path: &str,
     kind: Kind,
     range: Range,
     problems: &mut Problems,
 ) -> Option<Quantity> {
     let read = match &node.value {
-        Value::Text(text) => Quantity::parse_as(text, kind),
-        Value::Number(value) if node.place.source.bare_numbers_are_si && value.is_finite() => {
+        NodeValue::Text(text) => Quantity::parse_as(text, kind),
+        NodeValue::Number(value) if node.place.source.bare_numbers_are_si && value.is_finite() => {
             Quantity::new(*value, kind.unit(System::Si))
         }
-        Value::Number(value) => {
+        NodeValue::Number(value) => {
             let (text, span) = (node.place.text().to_string(), 0..node.place.span.len());
             Err(if value.is_finite() {
                 UnitError::MissingUnit {
@@ -397,10 +397,10 @@ pub(crate) fn unit_problem(error: &UnitError, path: &str, kind: Kind, place: &To
 }
 
 /// Returns the part of a text in quotes that an error speaks of.
-pub(crate) fn inner_place(node: &Node, error: &UnitError) -> TomlLocation {
+pub(crate) fn inner_place(node: &TreeNode, error: &UnitError) -> TomlLocation {
     let raw = node.place.text();
     let mut place = node.place.clone();
-    if let Value::Text(text) = &node.value
+    if let NodeValue::Text(text) = &node.value
         && !text.trim().is_empty()
         && raw.len() == text.len() + 2
         && raw.get(1..raw.len() - 1) == Some(text)

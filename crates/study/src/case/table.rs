@@ -5,9 +5,9 @@
 
 use super::bounds;
 use super::problem::{CaseError, Problem, Problems, TomlLocation, TomlSource};
-use super::section::{self, Range, Section};
+use super::section::{self, CaseSection, Range};
 use super::tables::Tables;
-use super::tree::{Node, Value};
+use super::tree::{NodeValue, TreeNode};
 use super::units::in_system;
 use input::file::{Expected, Reason, read_text};
 use input::{FileType, limits, shortened, structure};
@@ -30,7 +30,7 @@ impl QuantityTable {
     /// # Errors
     /// The text is no such table.
     pub fn parse_motion(name: &str, text: &str, kind: Kind) -> Result<Self, CaseError> {
-        Self::parse(name, text, &Form::motion(kind))
+        Self::parse(name, text, &TableForm::motion(kind))
     }
 
     /// Reads the text of a CSV file with compressions and forces, as a coil takes it. Messages call it
@@ -39,10 +39,10 @@ impl QuantityTable {
     /// # Errors
     /// The text is no such table.
     pub fn parse_coil(name: &str, text: &str) -> Result<Self, CaseError> {
-        Self::parse(name, text, &Form::coil())
+        Self::parse(name, text, &TableForm::coil())
     }
 
-    fn parse(name: &str, text: &str, form: &Form) -> Result<Self, CaseError> {
+    fn parse(name: &str, text: &str, form: &TableForm) -> Result<Self, CaseError> {
         let source = TomlSource::new(name, text.strip_prefix('\u{feff}').unwrap_or(text));
         let begin = TomlLocation {
             source: Arc::clone(&source),
@@ -84,7 +84,7 @@ impl<const N: usize> QuantityTable<N> {
 }
 
 /// What a table must look like.
-pub(super) struct Form<const N: usize = 2> {
+pub(super) struct TableForm<const N: usize = 2> {
     names: [&'static str; N],
     kinds: [Kind; N],
     least: usize,
@@ -94,10 +94,10 @@ pub(super) struct Form<const N: usize = 2> {
     may_fall: bool,
 }
 
-impl Form {
+impl TableForm {
     /// Time against a value of this kind, for a cubic spline.
     pub fn motion(kind: Kind) -> Self {
-        Form {
+        TableForm {
             names: ["time", "value"],
             kinds: [Kind::Time, kind],
             least: 4,
@@ -108,7 +108,7 @@ impl Form {
 
     /// Place against depth, for a cubic spline.
     pub fn profile() -> Self {
-        Form {
+        TableForm {
             names: ["place", "depth"],
             kinds: [Kind::Length; 2],
             least: 4,
@@ -120,7 +120,7 @@ impl Form {
     /// Compression against force.
     pub fn coil() -> Self {
         let names = ["compression", "force"];
-        Form {
+        TableForm {
             names,
             kinds: [Kind::Length, Kind::Force],
             least: 2,
@@ -130,10 +130,10 @@ impl Form {
     }
 }
 
-impl Form<3> {
+impl TableForm<3> {
     /// Depths over two places.
     pub fn map() -> Self {
-        Form {
+        TableForm {
             names: ["up", "across", "depth"],
             kinds: [Kind::Length; 3],
             least: 4,
@@ -143,7 +143,7 @@ impl Form<3> {
     }
 }
 
-impl<const N: usize> Form<N> {
+impl<const N: usize> TableForm<N> {
     fn units(&self) -> [&'static str; N] {
         self.kinds.map(|kind| kind.unit(System::Us))
     }
@@ -176,10 +176,10 @@ struct Row<const N: usize> {
 
 /// Reads the table under one of two keys: the name of a file, or the points.
 pub(super) fn read_either<const N: usize>(
-    section: &Section<'_>,
+    section: &CaseSection<'_>,
     file: &str,
     points: &str,
-    form: &Form<N>,
+    form: &TableForm<N>,
     tables: Tables<'_>,
     problems: &mut Problems,
 ) -> Option<QuantityTable<N>> {
@@ -208,14 +208,14 @@ pub(super) fn read_either<const N: usize>(
 /// Reads a table from the name of a file or from points. Of a file that must not be quoted, messages tell the
 /// place and the kind of a mistake.
 pub(super) fn read<const N: usize>(
-    node: &Node,
+    node: &TreeNode,
     path: &str,
-    form: &Form<N>,
+    form: &TableForm<N>,
     tables: Tables<'_>,
     problems: &mut Problems,
 ) -> Option<QuantityTable<N>> {
     match &node.value {
-        Value::Text(file) if !tables.may_quote() => {
+        NodeValue::Text(file) if !tables.may_quote() => {
             let mut found = Problems::new();
             let table = read_quoting(node, path, form, tables, &mut found);
             problems.append(found.map(|problem| problem.without_quoting(file, path, &node.place)));
@@ -226,18 +226,18 @@ pub(super) fn read<const N: usize>(
 }
 
 fn read_quoting<const N: usize>(
-    node: &Node,
+    node: &TreeNode,
     path: &str,
-    form: &Form<N>,
+    form: &TableForm<N>,
     tables: Tables<'_>,
     problems: &mut Problems,
 ) -> Option<QuantityTable<N>> {
     let (file, rows) = match &node.value {
-        Value::Text(file) => (
+        NodeValue::Text(file) => (
             Some(file.clone()),
             read_file(node, file, path, form, tables, problems)?,
         ),
-        Value::List(items) => (None, read_points(items, path, form, problems)?),
+        NodeValue::List(items) => (None, read_points(items, path, form, problems)?),
         other => {
             let message = format!("`{path}` is {}; a table is expected", other.describe());
             let help = format!("write the name of a CSV file, or {}", form.example_rows());
@@ -258,9 +258,9 @@ fn read_quoting<const N: usize>(
 }
 
 fn read_points<const N: usize>(
-    items: &[Node],
+    items: &[TreeNode],
     path: &str,
-    form: &Form<N>,
+    form: &TableForm<N>,
     problems: &mut Problems,
 ) -> Option<Vec<Row<N>>> {
     let mut rows = Vec::with_capacity(items.len());
@@ -268,7 +268,7 @@ fn read_points<const N: usize>(
     for (at, item) in items.iter().enumerate() {
         let path = format!("{path}[{at}]");
         match &item.value {
-            Value::List(cells) if cells.len() == N => {
+            NodeValue::List(cells) if cells.len() == N => {
                 let cells = cells.iter().zip(form.kinds);
                 let values: Vec<Quantity> = cells
                     .filter_map(|(cell, kind)| section::quantity(cell, &path, kind, Range::Any, problems))
@@ -298,10 +298,10 @@ fn read_points<const N: usize>(
 }
 
 fn read_file<const N: usize>(
-    node: &Node,
+    node: &TreeNode,
     file: &str,
     path: &str,
-    form: &Form<N>,
+    form: &TableForm<N>,
     tables: Tables<'_>,
     problems: &mut Problems,
 ) -> Option<Vec<Row<N>>> {
@@ -349,7 +349,7 @@ const TABLE_FILE: Expected = Expected {
 
 fn read_csv<const N: usize>(
     source: &Arc<TomlSource>,
-    form: &Form<N>,
+    form: &TableForm<N>,
     problems: &mut Problems,
 ) -> Option<Vec<Row<N>>> {
     if let Err(excess) = structure::lines(source.text()) {
@@ -488,7 +488,7 @@ fn check<const N: usize>(
     rows: &[Row<N>],
     place: &TomlLocation,
     path: &str,
-    form: &Form<N>,
+    form: &TableForm<N>,
     problems: &mut Problems,
 ) -> Option<()> {
     let (first, second) = (form.names[0], form.names[1]);

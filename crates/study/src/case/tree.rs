@@ -12,39 +12,39 @@ use toml::de::{DeTable, DeValue};
 
 /// A value and its place.
 #[derive(Clone, Debug)]
-pub(crate) struct Node {
+pub(crate) struct TreeNode {
     pub place: TomlLocation,
-    pub value: Value,
+    pub value: NodeValue,
 }
 
 /// What TOML can hold.
 #[derive(Clone, Debug)]
-pub(crate) enum Value {
+pub(crate) enum NodeValue {
     Text(String),
     Number(f64),
     Truth(bool),
     Date,
-    List(Vec<Node>),
-    Table(Table),
+    List(Vec<TreeNode>),
+    Table(TableNode),
 }
 
 /// A table, in the order of the text.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Table {
-    pub entries: Vec<Entry>,
+pub(crate) struct TableNode {
+    pub entries: Vec<TableEntry>,
 }
 
 /// A key and what it holds.
 #[derive(Clone, Debug)]
-pub(crate) struct Entry {
+pub(crate) struct TableEntry {
     pub key: String,
     pub key_place: TomlLocation,
-    pub node: Node,
+    pub node: TreeNode,
 }
 
 /// Reads TOML; every mistake of syntax becomes a problem. What is too long or nested too deeply is not
 /// parsed.
-pub(crate) fn parse(source: &Arc<TomlSource>) -> Result<Table, Problems> {
+pub(crate) fn parse(source: &Arc<TomlSource>) -> Result<TableNode, Problems> {
     structure::toml(source.text()).map_err(|excess| {
         let place = TomlLocation {
             source: Arc::clone(source),
@@ -90,10 +90,10 @@ fn syntax(error: &toml::de::Error, source: &Arc<TomlSource>) -> Problem {
         .help(help)
 }
 
-fn table_of(table: &DeTable<'_>, source: &Arc<TomlSource>) -> Table {
-    let mut entries: Vec<Entry> = table
+fn table_of(table: &DeTable<'_>, source: &Arc<TomlSource>) -> TableNode {
+    let mut entries: Vec<TableEntry> = table
         .iter()
-        .map(|(key, value)| Entry {
+        .map(|(key, value)| TableEntry {
             key: key.get_ref().to_string(),
             key_place: TomlLocation {
                 source: Arc::clone(source),
@@ -103,39 +103,39 @@ fn table_of(table: &DeTable<'_>, source: &Arc<TomlSource>) -> Table {
         })
         .collect();
     entries.sort_by_key(|entry| entry.key_place.span.start);
-    Table { entries }
+    TableNode { entries }
 }
 
-fn node_of(value: &Spanned<DeValue<'_>>, source: &Arc<TomlSource>) -> Node {
+fn node_of(value: &Spanned<DeValue<'_>>, source: &Arc<TomlSource>) -> TreeNode {
     let place = TomlLocation {
         source: Arc::clone(source),
         span: value.span(),
     };
     let value = match value.get_ref() {
-        DeValue::String(text) => Value::Text(text.to_string()),
+        DeValue::String(text) => NodeValue::Text(text.to_string()),
         DeValue::Integer(number) => {
             let digits = i128::from_str_radix(number.as_str(), number.radix());
-            Value::Number(digits.map_or(f64::INFINITY, |number| number as f64))
+            NodeValue::Number(digits.map_or(f64::INFINITY, |number| number as f64))
         }
-        DeValue::Float(number) => Value::Number(number.as_str().parse().unwrap_or(f64::NAN)),
-        DeValue::Boolean(truth) => Value::Truth(*truth),
-        DeValue::Datetime(_) => Value::Date,
-        DeValue::Array(items) => Value::List(items.iter().map(|item| node_of(item, source)).collect()),
-        DeValue::Table(table) => Value::Table(table_of(table, source)),
+        DeValue::Float(number) => NodeValue::Number(number.as_str().parse().unwrap_or(f64::NAN)),
+        DeValue::Boolean(truth) => NodeValue::Truth(*truth),
+        DeValue::Datetime(_) => NodeValue::Date,
+        DeValue::Array(items) => NodeValue::List(items.iter().map(|item| node_of(item, source)).collect()),
+        DeValue::Table(table) => NodeValue::Table(table_of(table, source)),
     };
-    Node { place, value }
+    TreeNode { place, value }
 }
 
-impl Value {
+impl NodeValue {
     /// Returns the type of the node, in words.
     pub fn describe(&self) -> &'static str {
         match self {
-            Value::Text(_) => "text",
-            Value::Number(_) => "a number",
-            Value::Truth(_) => "true or false",
-            Value::Date => "a date",
-            Value::List(_) => "a list",
-            Value::Table(_) => "a table",
+            NodeValue::Text(_) => "text",
+            NodeValue::Number(_) => "a number",
+            NodeValue::Truth(_) => "true or false",
+            NodeValue::Date => "a date",
+            NodeValue::List(_) => "a list",
+            NodeValue::Table(_) => "a table",
         }
     }
 
@@ -143,21 +143,23 @@ impl Value {
     /// reads, is empty text.
     pub fn to_toml(&self) -> String {
         match self {
-            Value::Text(text) => quoted(text),
-            Value::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => format!("{number:.0}"),
-            Value::Number(number) => format!("{number:?}"),
-            Value::Truth(truth) => truth.to_string(),
-            Value::Date => quoted(""),
-            Value::List(items) => {
+            NodeValue::Text(text) => quoted(text),
+            NodeValue::Number(number) if number.fract() == 0.0 && number.abs() < 1e15 => {
+                format!("{number:.0}")
+            }
+            NodeValue::Number(number) => format!("{number:?}"),
+            NodeValue::Truth(truth) => truth.to_string(),
+            NodeValue::Date => quoted(""),
+            NodeValue::List(items) => {
                 let all: Vec<String> = items.iter().map(|item| item.value.to_toml()).collect();
-                if items.iter().any(|item| matches!(item.value, Value::Table(_))) {
+                if items.iter().any(|item| matches!(item.value, NodeValue::Table(_))) {
                     let lines: Vec<String> = all.iter().map(|one| format!("\n    {one},")).collect();
                     format!("[{}\n]", lines.concat())
                 } else {
                     format!("[{}]", all.join(", "))
                 }
             }
-            Value::Table(table) => {
+            NodeValue::Table(table) => {
                 let pairs = table.entries.iter();
                 let all: Vec<String> = pairs
                     .map(|entry| format!("{} = {}", key(&entry.key), entry.node.value.to_toml()))
@@ -178,19 +180,19 @@ fn key(key: &str) -> String {
     }
 }
 
-impl Table {
-    pub fn entry(&self, key: &str) -> Option<&Entry> {
+impl TableNode {
+    pub fn entry(&self, key: &str) -> Option<&TableEntry> {
         self.entries.iter().find(|entry| entry.key == key)
     }
 
-    pub fn get(&self, key: &str) -> Option<&Node> {
+    pub fn get(&self, key: &str) -> Option<&TreeNode> {
         self.entry(key).map(|entry| &entry.node)
     }
 
     /// Returns the table under a key, if it is one.
-    pub fn table(&self, key: &str) -> Option<&Table> {
+    pub fn table(&self, key: &str) -> Option<&TableNode> {
         match &self.get(key)?.value {
-            Value::Table(table) => Some(table),
+            NodeValue::Table(table) => Some(table),
             _ => None,
         }
     }
@@ -198,7 +200,7 @@ impl Table {
     /// Returns the text under a key, if it is text.
     pub fn text(&self, key: &str) -> Option<&str> {
         match &self.get(key)?.value {
-            Value::Text(text) => Some(text),
+            NodeValue::Text(text) => Some(text),
             _ => None,
         }
     }
@@ -209,7 +211,7 @@ impl Table {
         let beside = |key: &str| matches!(key, "name" | "title" | "simulation");
         self.entries.iter().any(|entry| match &entry.node.value {
             _ if beside(&entry.key) => false,
-            Value::Table(table) => !table.entries.is_empty(),
+            NodeValue::Table(table) => !table.entries.is_empty(),
             _ => true,
         })
     }
@@ -221,17 +223,17 @@ impl Table {
             .map_or((path, None), |(key, rest)| (key, Some(rest)));
         let entry = self.entry(key)?;
         let inner = match (&entry.node.value, rest) {
-            (Value::Table(table), Some(rest)) => table.place_of(rest),
+            (NodeValue::Table(table), Some(rest)) => table.place_of(rest),
             _ => None,
         };
         match entry.node.value {
-            Value::Table(_) => inner.or(Some(&entry.key_place)),
+            NodeValue::Table(_) => inner.or(Some(&entry.key_place)),
             _ => Some(&entry.node.place),
         }
     }
 
     /// Sets one key, replacing what was there.
-    pub fn set(&mut self, entry: Entry) {
+    pub fn set(&mut self, entry: TableEntry) {
         match self.entries.iter_mut().find(|old| old.key == entry.key) {
             Some(old) => *old = entry,
             None => self.entries.push(entry),
@@ -242,14 +244,14 @@ impl Table {
     ///
     /// Tables are completed key by key, but for motions of another `shape` and for keys that
     /// exclude each other.
-    pub fn complete_from(&mut self, defaults: &Table) {
+    pub fn complete_from(&mut self, defaults: &TableNode) {
         let has_table = self.entry("table").is_some();
         for default in &defaults.entries {
             match self.entries.iter_mut().find(|entry| entry.key == default.key) {
                 None if default.key == "stiffness" && has_table => {}
                 None => self.entries.push(default.clone()),
                 Some(own) => {
-                    if let (Value::Table(own), Value::Table(default)) =
+                    if let (NodeValue::Table(own), NodeValue::Table(default)) =
                         (&mut own.node.value, &default.node.value)
                     {
                         let shapes = (own.get("shape"), own.text("shape"), default.text("shape"));

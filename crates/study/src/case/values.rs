@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::problem::{Problems, TomlSource};
-use super::tree::{Table, Value};
+use super::tree::{NodeValue, TableNode};
 use super::{Case, CaseError, tree};
 
 /// Keys of which a section has one or the other.
@@ -42,12 +42,12 @@ impl Case {
 }
 
 /// Takes `other` from a section below if the one above has `one`.
-fn drop_other(below: &mut Table, above: &Table, section: &str, one: &str, other: &str) {
+fn drop_other(below: &mut TableNode, above: &TableNode, section: &str, one: &str, other: &str) {
     if above.table(section).is_none_or(|table| table.get(one).is_none()) {
         return;
     }
     let entry = below.entries.iter_mut().find(|entry| entry.key == section);
-    if let Some(Value::Table(table)) = entry.map(|entry| &mut entry.node.value) {
+    if let Some(NodeValue::Table(table)) = entry.map(|entry| &mut entry.node.value) {
         table.entries.retain(|entry| entry.key != other);
     }
 }

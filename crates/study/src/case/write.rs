@@ -5,8 +5,8 @@ use super::document::{
     SYSTEMS, Start, Toe, ToeDirection,
 };
 use super::face::{self, FaceSection};
-use super::field::{Field, FieldSection, Input, Measured, Reach, Written, quoted};
-use super::motion::Motion;
+use super::field::{Field, FieldSection, Input, Reach, TypedNumber, Written, quoted};
+use super::motion::CaseMotion;
 use super::table::QuantityTable;
 use quantity::{Kind, System};
 use std::fmt::Write;
@@ -343,7 +343,7 @@ pub(crate) const TURN: f64 = 0.02;
 pub(crate) const FRICTION: Reach = Reach::Between(0.0, 1.0);
 
 pub(crate) fn toe(toe: &Toe) -> Written {
-    let mut number = Measured::of(&toe.angle, Kind::Angle, Reach::Signed(TURN));
+    let mut number = TypedNumber::of(&toe.angle, Kind::Angle, Reach::Signed(TURN));
     if toe.direction == Some(ToeDirection::In) {
         number.value = -number.value;
         number.si = -number.si;
@@ -377,7 +377,7 @@ fn write_neighbour(page: &mut Page, section: &NeighbourSection, center: &str) {
         } else {
             (Kind::Angle, TURN)
         };
-        if let Motion::Constant(value) = motion {
+        if let CaseMotion::Constant(value) = motion {
             page.line(key, Written::quantity(value, kind, Reach::Signed(most)), "");
             continue;
         }
@@ -392,7 +392,7 @@ fn write_neighbour(page: &mut Page, section: &NeighbourSection, center: &str) {
 
 /// Fields of the quantities of a motion, also of each part of a sum: `vertical.amplitude`,
 /// `vertical.0.amplitude`.
-pub(crate) fn write_motion(page: &mut Page, path: &str, motion: &Motion, kind: Kind, most: f64) {
+pub(crate) fn write_motion(page: &mut Page, path: &str, motion: &CaseMotion, kind: Kind, most: f64) {
     let signed = Reach::Signed(most);
     for (part, value) in motion.parts() {
         let written = match part {
@@ -405,21 +405,21 @@ pub(crate) fn write_motion(page: &mut Page, path: &str, motion: &Motion, kind: K
         page.field(&format!("{path}.{part}"), &written, "");
     }
     match motion {
-        Motion::Ramp { profile, .. } => {
+        CaseMotion::Ramp { profile, .. } => {
             page.field(
                 &format!("{path}.profile"),
                 &Written::choice(PROFILES, profile),
                 "",
             );
         }
-        Motion::Table(table) if table.file.is_none() => {
+        CaseMotion::Table(table) if table.file.is_none() => {
             write_points(page, &format!("{path}.points"), table, kind, signed);
         }
-        Motion::Sum(parts) => {
+        CaseMotion::Sum(parts) => {
             for (number, part) in parts.iter().enumerate() {
                 let path = format!("{path}.{number}");
                 match part {
-                    Motion::Constant(value) => {
+                    CaseMotion::Constant(value) => {
                         page.field(&path, &Written::quantity(value, kind, signed), "");
                     }
                     _ => write_motion(page, &path, part, kind, most),

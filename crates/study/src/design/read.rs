@@ -16,8 +16,8 @@ use crate::car;
 use crate::case::builtin;
 use crate::case::name;
 use crate::case::problem::{Problem, Problems, TomlLocation, TomlSource};
-use crate::case::section::{Names, Section};
-use crate::case::tree::{self, Node, Table, Value as Toml};
+use crate::case::section::{CaseSection, Names};
+use crate::case::tree::{self, NodeValue as Toml, TableNode, TreeNode};
 use crate::case::{CASE_FILE, CaseDocument, CaseError};
 use crate::truck;
 use vary::{RANGE_HELP, TRIED, assignments, check_paths, factors, variants};
@@ -112,7 +112,7 @@ pub(super) fn text(
         return Err(failed(problem.help(FileType::Case.advice(file)).into()));
     }
     let mut problems = Problems::new();
-    let top = Section {
+    let top = CaseSection {
         path: String::new(),
         table: &tree,
         place: None,
@@ -343,7 +343,7 @@ pub(super) fn text(
 }
 
 /// Returns all values below a table, as `--set` takes them; a table in braces is one value.
-pub(crate) fn settings(table: &Table) -> Vec<String> {
+pub(crate) fn settings(table: &TableNode) -> Vec<String> {
     let mut assigned = Vec::new();
     assignments(table, "", &mut assigned);
     assigned.iter().map(overriding).collect()
@@ -379,13 +379,13 @@ fn moved<'w>(
 }
 
 /// Returns a table under a key; nothing if it is left out.
-fn section<'t>(top: &Section<'t>, key: &str, problems: &mut Problems) -> Option<&'t Table> {
+fn section<'t>(top: &CaseSection<'t>, key: &str, problems: &mut Problems) -> Option<&'t TableNode> {
     top.table.entry(key)?;
     top.section(key, problems).map(|section| section.table)
 }
 
 /// Notes a key that must not be there.
-fn refuse(top: &Section<'_>, key: &str, what: &str, help: &str, problems: &mut Problems) {
+fn refuse(top: &CaseSection<'_>, key: &str, what: &str, help: &str, problems: &mut Problems) {
     if let Some(entry) = top.table.entry(key) {
         let problem = Problem::new(format!("{what} has no `{key}`")).at(&entry.key_place);
         problems.push(problem.label("not here").help(help));
@@ -393,7 +393,7 @@ fn refuse(top: &Section<'_>, key: &str, what: &str, help: &str, problems: &mut P
 }
 
 /// Returns a whole number that may be left out.
-fn whole(top: &Section<'_>, key: &str, least: f64, problems: &mut Problems) -> Option<u64> {
+fn whole(top: &CaseSection<'_>, key: &str, least: f64, problems: &mut Problems) -> Option<u64> {
     let node = top.table.get(key)?;
     match node.value {
         Toml::Number(value) if value.fract() == 0.0 && value >= least && value <= MOST_RUNS => {
@@ -417,7 +417,7 @@ fn whole(top: &Section<'_>, key: &str, least: f64, problems: &mut Problems) -> O
 }
 
 /// Returns the text of the case that is varied.
-fn case_source(case: &str, node: &Node, folder: &Path, problems: &mut Problems) -> Option<CaseSource> {
+fn case_source(case: &str, node: &TreeNode, folder: &Path, problems: &mut Problems) -> Option<CaseSource> {
     let path = folder.join(case);
     match CaseSource::half_truck(folder, Path::new(case)) {
         Ok(None) => {}

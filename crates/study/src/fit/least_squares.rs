@@ -11,7 +11,7 @@ pub type Evaluate<'e> = &'e dyn Fn(&[Vec<f64>]) -> Vec<Result<Vec<f64>, String>>
 
 /// Settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct SearchSettings {
     /// Half the distance of central differences, of the range, at first; later it is the parameter's own
     /// standard deviation, if that is more.
     pub difference: f64,
@@ -21,7 +21,7 @@ pub struct Settings {
     pub least_move: f64,
 }
 
-impl Default for Settings {
+impl Default for SearchSettings {
     fn default() -> Self {
         Self {
             difference: 2e-3,
@@ -59,7 +59,7 @@ pub fn minimize(
     evaluate: Evaluate<'_>,
     data: &[f64],
     start: &[f64],
-    settings: &Settings,
+    settings: &SearchSettings,
 ) -> Result<Minimum, String> {
     let count = start.len();
     let place = start.to_vec();
@@ -137,7 +137,12 @@ impl State {
     }
 
     /// Goes down until nothing helps; whether that was within the rounds allowed.
-    fn descend(&mut self, evaluate: Evaluate<'_>, data: &[f64], settings: &Settings) -> Result<bool, String> {
+    fn descend(
+        &mut self,
+        evaluate: Evaluate<'_>,
+        data: &[f64],
+        settings: &SearchSettings,
+    ) -> Result<bool, String> {
         let mut damping = 1e-3;
         for _ in 0..settings.most_rounds {
             self.rounds += 1;
@@ -154,7 +159,7 @@ impl State {
         &mut self,
         evaluate: Evaluate<'_>,
         data: &[f64],
-        settings: &Settings,
+        settings: &SearchSettings,
         damping: &mut f64,
     ) -> Result<bool, String> {
         let residuals: Vec<f64> = data

@@ -18,7 +18,7 @@ use crate::case::CaseError;
 use crate::design::Value;
 use crate::energy;
 use crate::plausibility::{self, at_bound};
-use least_squares::{Evaluate, Settings, minimize};
+use least_squares::{Evaluate, SearchSettings, minimize};
 
 pub use student::two_sided;
 
@@ -162,7 +162,7 @@ pub enum FitError {
 
 /// A parameter found.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct FittedParameter {
     /// What was free.
     pub free: Free,
     /// Its value, in its unit.
@@ -177,7 +177,7 @@ pub struct Found {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
     /// The parameters.
-    pub parameters: Vec<Found>,
+    pub parameters: Vec<FittedParameter>,
     /// Correlations of the parameters; `None` where the data do not determine them.
     pub correlations: Option<Vec<Vec<f64>>>,
     /// Values of the model at the measured times, SI.
@@ -301,7 +301,7 @@ pub fn fit(
     })
 }
 
-fn bound_warning(found: &Found) -> String {
+fn bound_warning(found: &FittedParameter) -> String {
     let value = Value::Number {
         value: found.value,
         unit: found.free.unit.clone(),
@@ -333,7 +333,8 @@ fn finish(
     start: &[f64],
     confidence: f64,
 ) -> Result<Fit, FitError> {
-    let found = minimize(evaluate, &measured.values, start, &Settings::default()).map_err(FitError::Model)?;
+    let found =
+        minimize(evaluate, &measured.values, start, &SearchSettings::default()).map_err(FitError::Model)?;
     if !found.sum.is_finite() {
         return Err(FitError::NotFinite);
     }
@@ -345,7 +346,7 @@ fn finish(
             .as_ref()
             .map(|covariance| covariance[k][k].sqrt())
     };
-    let parameters = free.iter().enumerate().map(|(k, free)| Found {
+    let parameters = free.iter().enumerate().map(|(k, free)| FittedParameter {
         value: free.at(found.place[k]),
         half_interval: deviation(k)
             .filter(|_| !found.at_bound[k])

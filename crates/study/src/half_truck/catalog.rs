@@ -12,7 +12,7 @@ use nucars::truck::{Choices, Yaw};
 use wedge::parameters::Damping;
 
 use super::HalfTruckCase;
-use super::files::{self, Files, FilesError, Settings};
+use super::files::{self, FileTrees, FilesError, Settings};
 
 /// The type of the wedges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -70,7 +70,7 @@ pub enum YawCase {
 
 /// A run of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Entry {
+pub struct CatalogEntry {
     /// The type of the wedges.
     pub wedges: WedgeType,
     /// Their damping.
@@ -83,14 +83,14 @@ pub struct Entry {
 
 /// Returns all runs: the 24 of the table, and the four yawed ones as printed.
 #[must_use]
-pub fn entries() -> Vec<Entry> {
+pub fn entries() -> Vec<CatalogEntry> {
     let mut entries = Vec::new();
     for wedges in [WedgeType::Plain, WedgeType::Spatial] {
         for damping in [Damping::Variable, Damping::Constant] {
             for yaw in [YawCase::Straight, YawCase::Intended, YawCase::Printed] {
                 for toe in [ToeCase::Out, ToeCase::None, ToeCase::In] {
                     if yaw != YawCase::Printed || toe == ToeCase::Out {
-                        entries.push(Entry {
+                        entries.push(CatalogEntry {
                             wedges,
                             damping,
                             toe,
@@ -104,7 +104,7 @@ pub fn entries() -> Vec<Entry> {
     entries
 }
 
-impl Entry {
+impl CatalogEntry {
     /// Returns its name, such as `nucars_69_constant_toe_out_yaw`.
     #[must_use]
     pub fn name(&self) -> String {
@@ -198,7 +198,7 @@ impl Entry {
             (YawCase::Intended, own) => own,
             _ => Yaw::AsPrinted,
         };
-        let files = Files {
+        let files = FileTrees {
             system: &system,
             input: Some(&input),
             data: Some(&data),
@@ -221,7 +221,7 @@ pub const OUTPUT_INTERVAL: f64 = 0.1;
 
 /// Returns the run of this name.
 #[must_use]
-pub fn entry(name: &str) -> Option<Entry> {
+pub fn entry(name: &str) -> Option<CatalogEntry> {
     entries().into_iter().find(|entry| entry.name() == name)
 }
 

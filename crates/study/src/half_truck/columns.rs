@@ -4,17 +4,17 @@ use mechanics::output::Column;
 use mechanics::system::{Observation, System};
 
 use super::HalfTruckCase;
-use super::table::Table;
+use super::table::OutputTable;
 
 /// The columns of the results of a half-truck, to be evaluated at any instant.
-pub struct Columns(Table);
+pub struct Columns(OutputTable);
 
 impl Columns {
     /// Returns the columns that a run of the case writes; `system` is that of its model. The residual of the
     /// energy ledger is not meaningful among them: it counts from a start with no stored energy.
     #[must_use]
     pub fn new(case: &HalfTruckCase, system: &System) -> Self {
-        Self(Table::new(case, system))
+        Self(OutputTable::new(case, system))
     }
 
     /// Returns what the columns are.

@@ -18,7 +18,7 @@ use super::{HalfTruckCase, HalfTruckStart, requests, yaw};
 
 /// The trees of the files of a run.
 #[derive(Clone, Copy, Debug)]
-pub struct Files<'t> {
+pub struct FileTrees<'t> {
     /// The system file.
     pub system: &'t SystemFile,
     /// The input file; without it input bodies rest.
@@ -113,7 +113,7 @@ pub enum FilesError {
 pub fn case(
     name: &str,
     title: &str,
-    files: Files<'_>,
+    files: FileTrees<'_>,
     settings: &Settings,
 ) -> Result<HalfTruckCase, FilesError> {
     let (mut settings, mut system, mut input) = (
@@ -219,7 +219,7 @@ pub fn case_of_run(path: &Path, files: &RunFiles, settings: &Settings) -> Result
     if settings.choices.yaw != Yaw::AsPrinted {
         name.push_str("_yaw_as_intended");
     }
-    let trees = Files {
+    let trees = FileTrees {
         system: files.system().ok_or(FilesError::NoSystem)?,
         input: files.input(),
         data: files.data(),
@@ -260,7 +260,7 @@ mod tests {
     fn durations_and_intervals_are_checked() {
         let source = builtin::source("Bolst_wedge_sf_68_constant.sys").unwrap();
         let system = read_system(&source).strict().unwrap();
-        let files = Files {
+        let files = FileTrees {
             system: &system,
             input: None,
             data: None,

@@ -8,14 +8,14 @@ use mechanics::body::COORDINATES;
 use mechanics::connection::Law;
 use mechanics::energy_balance::Entries;
 use mechanics::motion::Motion;
-use mechanics::plausibility::Finding;
+use mechanics::plausibility::PlausibilityFinding;
 use mechanics::system::{ContactState, NoEquilibrium, StaticFriction, System};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 use wedge::outputs::CORNERS;
 use wedge::parameters::Damping;
 
-use super::table::{Table, input_motion, ledger_name};
+use super::table::{OutputTable, input_motion, ledger_name};
 use super::wedge_seen::friction_loss;
 use super::{HalfTruckCase, HalfTruckResult, HalfTruckStart, HalfTruckSummary, SCHEMA, WedgeSummary};
 use crate::contacts::{ContactTable, TakesCorners};
@@ -50,8 +50,8 @@ pub fn run(case: &HalfTruckCase, progress: impl FnMut(f64)) -> Result<HalfTruckR
     Ok(Run::new(case)?.finish(progress))
 }
 
-/// As [`run`], but asks after each step, with the time reached, whether to go on. If not, the answer says why,
-/// and the result is incomplete for that reason.
+/// As [`run`], but asks after each step, with the time reached, whether to go on. If not, the answer says
+/// why, and the result is incomplete for that reason.
 ///
 /// # Errors
 /// The run cannot begin.
@@ -64,7 +64,7 @@ pub fn run_while(
 
 /// Records a half-truck's run: its table, and the work of its wedges' friction.
 pub struct HalfTruckRecorder {
-    table: Table,
+    table: OutputTable,
     values: Vec<Vec<f64>>,
     works: Works,
     /// The corners of wedges' bodies, by their names.
@@ -112,7 +112,7 @@ impl RunCase for HalfTruckCase {
             HalfTruckStart::Equilibrium if !self.wedge_bodies.is_empty() => self.rest()?,
             other => start(&mut system, other)?,
         };
-        let table = Table::new(self, &system);
+        let table = OutputTable::new(self, &system);
         let frictional = system.frictional_connections().iter();
         let faces = system.faces().iter().map(|face| &face.element);
         let points = faces.flat_map(|face| {
@@ -192,7 +192,7 @@ impl Recorder for HalfTruckRecorder {
         Ok(system.ledger_entries(&seen, row.start_energy))
     }
 
-    fn describe(&self, system: &System, finding: &Finding, units: Units) -> String {
+    fn describe(&self, system: &System, finding: &PlausibilityFinding, units: Units) -> String {
         plausibility::in_truck(system, finding, self.numbers(), units)
     }
 

@@ -19,12 +19,12 @@ use super::wedge_seen::{Source, column_moment, friction_loss};
 type Value = Box<dyn Fn(&Observation, f64) -> f64 + Send + Sync>;
 
 /// The table: descriptions and how values are taken from an observation.
-pub(super) struct Table {
+pub(super) struct OutputTable {
     pub columns: Vec<Column>,
     values: Vec<Value>,
 }
 
-impl Table {
+impl OutputTable {
     pub fn new(case: &HalfTruckCase, system: &System) -> Self {
         let truck = &case.truck;
         let mut table = Self {

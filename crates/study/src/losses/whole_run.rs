@@ -2,8 +2,8 @@
 //!
 //! Works and losses are the terms of the energy ledger from the start to the end of the run. Terms of one
 //! kind on elements that differ only in where they are (axle, truck, side, end) stand together, with what
-//! each of these elements lost beside them, so that a vehicle of a hundred elements is described in a dozen lines;
-//! which elements there are is not asked.
+//! each of these elements lost beside them, so that a vehicle of a hundred elements is described in a dozen
+//! lines; which elements there are is not asked.
 
 use std::collections::BTreeMap;
 

@@ -5,9 +5,9 @@ use std::ops::ControlFlow;
 
 use integrate::{Integrator, Options};
 use mechanics::energy_balance::Entries;
-use mechanics::plausibility::Finding;
-use mechanics::quasi_static::Direction;
-use mechanics::system::{Loads, System};
+use mechanics::plausibility::PlausibilityFinding;
+use mechanics::quasi_static::SlidingDirection;
+use mechanics::system::{System, SystemLoads};
 use quantity::System as Units;
 use wedge::outputs::{FACES, Ledger, PointNames};
 use wedge::parameters::Parameters;
@@ -160,7 +160,7 @@ struct Measuring {
     contact_times: ContactTimeCounter,
     /// Friction losses at the ends of the window, by face, J.
     probes: Vec<[f64; 2]>,
-    loads: Loads,
+    loads: SystemLoads,
     /// Sums and counts of the branches: down, up.
     sums: [[f64; 4]; 2],
     counts: [u64; 2],
@@ -183,7 +183,7 @@ impl Measuring {
             cycle,
             window,
             probes: Vec::with_capacity(2),
-            loads: Loads::default(),
+            loads: SystemLoads::default(),
             sums: [[0.0; 4]; 2],
             counts: [0; 2],
             peaks: [0.0; 6],
@@ -232,7 +232,7 @@ impl Recorder for Measuring {
         Ok(Ledger::new(system, stored, quadratures).entries())
     }
 
-    fn describe(&self, system: &System, finding: &Finding, units: Units) -> String {
+    fn describe(&self, system: &System, finding: &PlausibilityFinding, units: Units) -> String {
         plausibility::in_wedge(system, &self.points, finding, units)
     }
 
@@ -283,12 +283,15 @@ impl Measuring {
                 self.contact_times.sticking[face] / self.contact_times.touching[face];
         }
         let quasi_static = closed_form::wedge(&self.parameters);
-        for (side, direction) in [Direction::Up, Direction::Down].into_iter().enumerate() {
+        for (side, direction) in [SlidingDirection::Up, SlidingDirection::Down]
+            .into_iter()
+            .enumerate()
+        {
             if let Some(slide) = quasi_static.slide(direction, quasi_static.branch(direction), 1.0) {
                 values[place::QUASI_STATIC_RATIOS + side] = slide.column_normal * libm::cos(quasi_static.toe);
             }
         }
-        let margins = [Direction::Down, Direction::Up]
+        let margins = [SlidingDirection::Down, SlidingDirection::Up]
             .map(|direction| quasi_static.jam_margin(direction, quasi_static.branch(direction)));
         values[place::JAM_MARGIN] = margins[0].min(margins[1]);
         values[place::JAM_MARGIN + 1..=place::JAM_MARGIN + 2].copy_from_slice(&margins);

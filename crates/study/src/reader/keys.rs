@@ -2,19 +2,19 @@
 
 use quantity::{Kind, Quantity, STANDARD_GRAVITY, System};
 
-use super::{Form, Reader, WEIGHT};
+use super::{CaseReader, QuantityForm, WEIGHT};
 use crate::case::document::Coordinate;
 use crate::case::face::FaceSection;
 use crate::case::field::{Reach, Written};
 use crate::case::problem::{Problem, Problems};
-use crate::case::section::{self, Names, Range, Section};
-use crate::case::tree::Value;
+use crate::case::section::{self, CaseSection, Names, Range};
+use crate::case::tree::NodeValue;
 
-impl Reader<'_> {
+impl CaseReader<'_> {
     pub fn quantity(
         &mut self,
         key: &'static str,
-        form: Form,
+        form: QuantityForm,
         value: &mut f64,
         comment: &str,
     ) -> Option<Quantity> {
@@ -38,7 +38,7 @@ impl Reader<'_> {
     pub fn optional(
         &mut self,
         key: &'static str,
-        form: Form,
+        form: QuantityForm,
         value: &mut Option<f64>,
         example: &str,
         comment: &str,
@@ -67,7 +67,7 @@ impl Reader<'_> {
         *mass = weight / STANDARD_GRAVITY;
     }
 
-    pub fn triple(&mut self, key: &'static str, form: Form, values: &mut [f64; 3], comment: &str) {
+    pub fn triple(&mut self, key: &'static str, form: QuantityForm, values: &mut [f64; 3], comment: &str) {
         let (kind, range, reach) = form;
         let given = self.node(key).is_some();
         let triple = match self.given().filter(|_| given) {
@@ -133,7 +133,7 @@ impl Reader<'_> {
         let node = self.node(key);
         if let Some(node) = node {
             let path = self.path(key);
-            let Value::List(items) = &node.value else {
+            let NodeValue::List(items) = &node.value else {
                 let found = node.value.describe();
                 let problem = Problem::new(format!("`{path}` is {found}; a list is expected"));
                 let known: Vec<&str> = names.iter().map(|(name, _)| *name).collect();
@@ -187,7 +187,7 @@ impl Reader<'_> {
         key: &'static str,
         comment: &str,
         default: T,
-        read: impl FnOnce(&Section<'_>, &mut Problems) -> Option<T>,
+        read: impl FnOnce(&CaseSection<'_>, &mut Problems) -> Option<T>,
         write: impl FnOnce(&T) -> Written,
     ) -> T {
         let given = self.node(key).is_some();

@@ -17,30 +17,30 @@ use quantity::Kind;
 use crate::case::field::{Reach, Written};
 use crate::case::model::{MODELS, Model};
 use crate::case::problem::{Problem, Problems};
-use crate::case::section::{Range, Section};
-use crate::case::tree::{Node, Table, Value};
+use crate::case::section::{CaseSection, Range};
+use crate::case::tree::{NodeValue, TableNode, TreeNode};
 use crate::case::write::Page;
 use crate::case::{Tables, motion, name};
 
 /// Kind, range and suggested reach of a quantity.
-pub(crate) type Form = (Kind, Range, Reach);
+pub(crate) type QuantityForm = (Kind, Range, Reach);
 
 /// A length that is not negative.
-pub(crate) const CLEARANCE: Form = (Kind::Length, Range::NotNegative, Reach::FromZero(0.025));
+pub(crate) const CLEARANCE: QuantityForm = (Kind::Length, Range::NotNegative, Reach::FromZero(0.025));
 /// A length.
-pub(crate) const LENGTH: Form = (Kind::Length, Range::Positive, Reach::Positive);
+pub(crate) const LENGTH: QuantityForm = (Kind::Length, Range::Positive, Reach::Positive);
 /// A stiffness.
-pub(crate) const STIFFNESS: Form = (Kind::Stiffness, Range::Positive, Reach::Wide);
+pub(crate) const STIFFNESS: QuantityForm = (Kind::Stiffness, Range::Positive, Reach::Wide);
 /// A damping.
-pub(crate) const DAMPING: Form = (Kind::Damping, Range::NotNegative, Reach::FromZero(5000.0));
+pub(crate) const DAMPING: QuantityForm = (Kind::Damping, Range::NotNegative, Reach::FromZero(5000.0));
 /// A static load.
-pub(crate) const PRELOAD: Form = (Kind::Force, Range::NotNegative, Reach::Positive);
+pub(crate) const PRELOAD: QuantityForm = (Kind::Force, Range::NotNegative, Reach::Positive);
 /// A force that a mass weighs.
-const WEIGHT: Form = (Kind::Force, Range::Positive, Reach::Positive);
+const WEIGHT: QuantityForm = (Kind::Force, Range::Positive, Reach::Positive);
 
 /// Reads sections and writes them down.
-pub(crate) struct Reader<'r> {
-    tree: &'r Table,
+pub(crate) struct CaseReader<'r> {
+    tree: &'r TableNode,
     tables: Tables<'r>,
     pub problems: &'r mut Problems,
     /// As typed, and with the points of tables in files.
@@ -56,11 +56,11 @@ pub(crate) struct Reader<'r> {
     /// Sections whose keys others read.
     elsewhere: Vec<String>,
     /// The motions that were given, with their paths.
-    pub motions: Vec<(String, motion::Motion)>,
+    pub motions: Vec<(String, motion::CaseMotion)>,
 }
 
-impl<'r> Reader<'r> {
-    pub fn new(tree: &'r Table, tables: Tables<'r>, problems: &'r mut Problems) -> Self {
+impl<'r> CaseReader<'r> {
+    pub fn new(tree: &'r TableNode, tables: Tables<'r>, problems: &'r mut Problems) -> Self {
         Self {
             tree,
             tables,
@@ -130,7 +130,7 @@ impl<'r> Reader<'r> {
     }
 
     /// Returns the node at a path.
-    pub fn at(&self, path: &str) -> Option<&'r Node> {
+    pub fn at(&self, path: &str) -> Option<&'r TreeNode> {
         let path = &self.full(path);
         let (section, key) = path.rsplit_once('.').unwrap_or(("", path));
         self.table_at(section)?.get(key)
@@ -149,7 +149,7 @@ impl<'r> Reader<'r> {
         });
     }
 
-    fn table_at(&self, path: &str) -> Option<&'r Table> {
+    fn table_at(&self, path: &str) -> Option<&'r TableNode> {
         let mut table = self.tree;
         for key in path.split('.').filter(|key| !key.is_empty()) {
             table = table.table(key)?;
@@ -158,10 +158,10 @@ impl<'r> Reader<'r> {
     }
 
     /// Returns the current section, if the case has it.
-    pub fn given(&self) -> Option<Section<'r>> {
+    pub fn given(&self) -> Option<CaseSection<'r>> {
         let (outer, key) = self.section.rsplit_once('.').unwrap_or(("", &self.section));
         let place = self.table_at(outer).and_then(|table| table.entry(key));
-        Some(Section {
+        Some(CaseSection {
             path: self.section.clone(),
             table: self.table_at(&self.section)?,
             place: place.map(|entry| entry.key_place.clone()),
@@ -169,7 +169,7 @@ impl<'r> Reader<'r> {
     }
 
     /// Takes note of a key. Returns what stands there.
-    fn node(&mut self, key: &'static str) -> Option<&'r Node> {
+    fn node(&mut self, key: &'static str) -> Option<&'r TreeNode> {
         if let Some((_, keys)) = self.known.last_mut() {
             keys.push(key);
         }
@@ -225,7 +225,7 @@ impl<'r> Reader<'r> {
 
     /// Reads and writes down the top of a case: name, title and model. Returns name and title.
     pub fn head(&mut self, default_name: &str, model: Model, comment: &str) -> Option<[String; 2]> {
-        let top = Section {
+        let top = CaseSection {
             path: String::new(),
             table: self.tree,
             place: None,
@@ -270,7 +270,7 @@ impl<'r> Reader<'r> {
             let outer = self.table_at(outer);
             let entry = outer.and_then(|table| table.entry(key));
             if let Some(entry) = entry
-                && !matches!(entry.node.value, Value::Table(_))
+                && !matches!(entry.node.value, NodeValue::Table(_))
             {
                 let message = format!("`{path}` is {}; a table is expected", entry.node.value.describe());
                 let problem = Problem::new(message).at(&entry.node.place).label("not a table");
@@ -278,7 +278,7 @@ impl<'r> Reader<'r> {
                 self.problems.push(problem.help(help));
             }
             if let Some(table) = self.table_at(path) {
-                let section = Section {
+                let section = CaseSection {
                     path: path.clone(),
                     table,
                     place: None,

@@ -4,7 +4,7 @@ use mechanics::motion::Motion;
 use quantity::{Kind, Quantity};
 use wedge::parameters::NeighbourMotion;
 
-use super::Reader;
+use super::CaseReader;
 use super::keys::in_customary_units;
 use crate::case::document::{Coordinate, NeighbourSection};
 use crate::case::field::{Reach, Written};
@@ -13,7 +13,7 @@ use crate::case::section::Range;
 use crate::case::write::{TURN, write_motion};
 use crate::case::{self, motion, resolve};
 
-impl Reader<'_> {
+impl CaseReader<'_> {
     /// The motions of a body; `free` says that it has free coordinates and must not be moved.
     pub fn motions(&mut self, own: &mut NeighbourMotion, free: bool) {
         let given = self.node("center").is_some();
@@ -103,7 +103,7 @@ impl Reader<'_> {
             self.problems
                 .push(problem.label("this would have no effect").help(help));
         }
-        if let motion::Motion::Constant(held) = &typed {
+        if let motion::CaseMotion::Constant(held) = &typed {
             self.line(key, true, Written::quantity(held, kind, Reach::Signed(most)), "");
         } else {
             let mut embedded = typed.clone();
@@ -124,7 +124,7 @@ impl Reader<'_> {
 }
 
 /// The check of tables in motions against the duration.
-pub(crate) fn check_motions(reader: &mut Reader<'_>, duration: &Quantity) {
+pub(crate) fn check_motions(reader: &mut CaseReader<'_>, duration: &Quantity) {
     let (tree, tables) = (reader.tree, reader.tables);
     let mut rows = 0;
     for (path, motion) in &reader.motions {

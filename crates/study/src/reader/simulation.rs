@@ -2,16 +2,16 @@
 
 use quantity::{Kind, Quantity};
 
-use super::{Form, Reader};
+use super::{CaseReader, QuantityForm};
 use crate::case::Simulation;
 use crate::case::document::{METHODS, SYSTEMS};
 use crate::case::field::Reach;
 use crate::case::read::{TOLERANCE, check_rows};
 use crate::case::section::Range;
 
-const TIME: Form = (Kind::Time, Range::Positive, Reach::Positive);
+const TIME: QuantityForm = (Kind::Time, Range::Positive, Reach::Positive);
 
-impl Reader<'_> {
+impl CaseReader<'_> {
     /// Reads `[simulation]`; the texts say what interval and units mean. Returns the duration as typed too.
     pub fn simulation(
         &mut self,

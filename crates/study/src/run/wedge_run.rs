@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use integrate::{Family, Integrator, Options};
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
-use mechanics::plausibility::Finding;
+use mechanics::plausibility::PlausibilityFinding;
 use mechanics::system::{ContactState, EnergyTermKind, System};
 use quantity::System as Units;
 use serde::{Deserialize, Serialize};
@@ -168,7 +168,7 @@ impl Recorder for WedgeRecorder {
         Ok(ledger.entries())
     }
 
-    fn describe(&self, system: &System, finding: &Finding, units: Units) -> String {
+    fn describe(&self, system: &System, finding: &PlausibilityFinding, units: Units) -> String {
         plausibility::in_wedge(system, &self.points, finding, units)
     }
 

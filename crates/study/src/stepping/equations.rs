@@ -6,8 +6,8 @@ use std::fmt;
 use integrate::{Problem, SetupError};
 use mechanics::output::Column;
 use mechanics::system::{
-    ContactState, Contacts, Direction, ElementEvaluation, Energies, InputError, JacobianVectorProduct,
-    MotionChange, Observation, System,
+    ContactState, Contacts, ElementEvaluation, Energies, InputError, JacobianVectorProduct, MotionChange,
+    Observation, StateDirection, System,
 };
 use thiserror::Error;
 use wedge::inputs::{COIL, CoilInput, Neighbours, Reading};
@@ -377,7 +377,7 @@ impl Equations {
             change(SIDE_FRAME, &neighbours.side_frame),
             change(BOLSTER, &neighbours.bolster),
         ];
-        let direction = Direction {
+        let direction = StateDirection {
             state: states,
             motions: &motions,
             coil_forces: &[coil_force],

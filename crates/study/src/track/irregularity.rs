@@ -6,7 +6,7 @@ use wheelrail::track::{Direction, Irregularity, Placed, Rails};
 
 use super::{length, optional, optional_length, spectrum};
 use crate::case::problem::{Problem, Problems};
-use crate::case::section::{Names, Range, Section};
+use crate::case::section::{CaseSection, Names, Range};
 
 const RAILS: Names<Rails> = &[
     ("left", Rails::Left),
@@ -21,7 +21,7 @@ const RAIL: f64 = 39.0 * 0.3048;
 
 /// Returns an irregularity; `end` is the length of the track, m.
 pub(super) fn irregularity(
-    section: &Section<'_>,
+    section: &CaseSection<'_>,
     end: Option<f64>,
     problems: &mut Problems,
 ) -> Option<Placed> {
@@ -57,7 +57,7 @@ pub(super) fn irregularity(
 
 /// Returns the text of a name among others.
 pub(super) fn named<'t>(
-    section: &Section<'t>,
+    section: &CaseSection<'t>,
     key: &str,
     names: &[&str],
     problems: &mut Problems,
@@ -77,7 +77,12 @@ pub(super) fn named<'t>(
 }
 
 /// Returns a whole number.
-pub(super) fn whole(section: &Section<'_>, key: &str, default: u64, problems: &mut Problems) -> Option<u64> {
+pub(super) fn whole(
+    section: &CaseSection<'_>,
+    key: &str,
+    default: u64,
+    problems: &mut Problems,
+) -> Option<u64> {
     if section.table.get(key).is_none() {
         return Some(default);
     }
@@ -98,14 +103,14 @@ pub(super) fn whole(section: &Section<'_>, key: &str, default: u64, problems: &m
 }
 
 /// Returns an amplitude, depth or offset, m: either sign.
-fn size(section: &Section<'_>, key: &str, problems: &mut Problems) -> Option<f64> {
+fn size(section: &CaseSection<'_>, key: &str, problems: &mut Problems) -> Option<f64> {
     let range = Range::Between(-1.0, 1.0, "below 1 m");
     section
         .quantity(key, Kind::Length, range, problems)
         .map(|size| size.to_si())
 }
 
-fn shaped(section: &Section<'_>, problems: &mut Problems) -> Option<Shape> {
+fn shaped(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Shape> {
     let shape = named(section, "shape", &SHAPES, problems)?;
     let common = ["shape", "rails", "direction", "start"];
     let own: &[&str] = match shape {

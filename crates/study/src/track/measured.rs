@@ -6,14 +6,14 @@ use super::irregularity::named;
 use super::{length, optional_length};
 use crate::case::Tables;
 use crate::case::problem::{Problem, Problems};
-use crate::case::section::{Names, Section};
+use crate::case::section::{CaseSection, Names};
 
 const FORMS: [&str; 2] = ["space_curve", "mid_chord"];
 const SIGNS: Names<bool> = &[("row", false), ("usual", true)];
 const BEYOND: Names<bool> = &[("level", true)];
 
 /// Returns a mistake in a measured table, shown where the track file names it.
-fn wrong(section: &Section<'_>, error: &MeasuredError) -> Problem {
+fn wrong(section: &CaseSection<'_>, error: &MeasuredError) -> Problem {
     let problem = Problem::new(format!("`{}`: {error}", section.path_of("table"))).help(error.remedy());
     match section.table.place_of("table") {
         Some(place) => problem.at(place).label("this table"),
@@ -22,7 +22,7 @@ fn wrong(section: &Section<'_>, error: &MeasuredError) -> Problem {
 }
 
 /// Returns the table that a section names, beside the track file.
-fn table(section: &Section<'_>, tables: Tables<'_>, problems: &mut Problems) -> Option<MeasuredTable> {
+fn table(section: &CaseSection<'_>, tables: Tables<'_>, problems: &mut Problems) -> Option<MeasuredTable> {
     let (text, _) = section.text("table", problems)?;
     let signs_known = match section.table.get("signs") {
         Some(_) => section.choice("signs", SIGNS, problems)?,
@@ -52,7 +52,7 @@ fn table(section: &Section<'_>, tables: Tables<'_>, problems: &mut Problems) -> 
 
 /// Returns the irregularities of a measured table; `end` is the length of the track, m.
 pub(super) fn irregularities(
-    section: &Section<'_>,
+    section: &CaseSection<'_>,
     tables: Tables<'_>,
     end: Option<f64>,
     problems: &mut Problems,
@@ -115,7 +115,7 @@ pub(super) fn irregularities(
 
 /// Returns the center line of a measured table.
 pub(super) fn center_line(
-    section: &Section<'_>,
+    section: &CaseSection<'_>,
     tables: Tables<'_>,
     rail_distance: f64,
     problems: &mut Problems,

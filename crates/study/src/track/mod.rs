@@ -34,8 +34,8 @@ use quantity::{Kind, Quantity};
 use wheelrail::track::{CLEARANCE, CenterLine, CurveElements, Placed, Segment, Track, TrackError};
 
 use crate::case::problem::{Problem, Problems, TomlSource};
-use crate::case::section::{Names, Range, Section};
-use crate::case::tree::{self, Node, Table, Value};
+use crate::case::section::{CaseSection, Names, Range};
+use crate::case::tree::{self, NodeValue, TableNode, TreeNode};
 use crate::case::{CaseDocument, CaseError, STUDY_KEYS, Tables, name, text_of};
 
 use irregularity::irregularity;
@@ -104,8 +104,8 @@ impl TrackFile {
     }
 }
 
-fn read(tree: &Table, source: &str, problems: &mut Problems) -> Option<TrackFile> {
-    let top = Section {
+fn read(tree: &TableNode, source: &str, problems: &mut Problems) -> Option<TrackFile> {
+    let top = CaseSection {
         path: String::new(),
         table: tree,
         place: None,
@@ -129,7 +129,7 @@ fn read(tree: &Table, source: &str, problems: &mut Problems) -> Option<TrackFile
 /// Reads what a track file says of the track and of what its rails lie on, from the file or from a table of a
 /// case; `tables` says where measured tables are looked for.
 pub(crate) fn of_section(
-    top: &Section<'_>,
+    top: &CaseSection<'_>,
     tables: Tables<'_>,
     problems: &mut Problems,
 ) -> Option<(Track, Support)> {
@@ -210,7 +210,7 @@ pub(crate) fn of_section(
 }
 
 /// Returns a track that comes back near itself at two distances (m).
-fn near_itself(tree: &Table, distances: [f64; 2]) -> Problem {
+fn near_itself(tree: &TableNode, distances: [f64; 2]) -> Problem {
     let [first, second] = distances.map(|distance| format!("{:.0} ft ({distance:.0} m)", distance / FOOT));
     let problem = Problem::new(format!(
         "at {second} the track comes within {:.0} ft of where it lies at {first}",
@@ -228,7 +228,7 @@ fn near_itself(tree: &Table, distances: [f64; 2]) -> Problem {
 }
 
 /// Returns a track that cannot be, shown at its segments.
-fn impossible(tree: &Table, error: &TrackError) -> Problem {
+fn impossible(tree: &TableNode, error: &TrackError) -> Problem {
     let problem = Problem::new(error.to_string());
     let problem = match tree.place_of("segments") {
         Some(place) => problem.at(place).label("these segments"),
@@ -238,11 +238,11 @@ fn impossible(tree: &Table, error: &TrackError) -> Problem {
 }
 
 /// Returns the tables of a list, `[[key]]`.
-fn list<'t>(top: &Section<'t>, key: &str, problems: &mut Problems) -> Vec<Section<'t>> {
+fn list<'t>(top: &CaseSection<'t>, key: &str, problems: &mut Problems) -> Vec<CaseSection<'t>> {
     let Some(node) = top.table.get(key) else {
         return Vec::new();
     };
-    let not_a_list = |node: &Node, problems: &mut Problems| {
+    let not_a_list = |node: &TreeNode, problems: &mut Problems| {
         let problem = Problem::new(format!(
             "`{}` holds {}; tables are expected",
             top.path_of(key),
@@ -255,18 +255,18 @@ fn list<'t>(top: &Section<'t>, key: &str, problems: &mut Problems) -> Vec<Sectio
                 .help(format!("write [[{}]] on a line of its own", top.path_of(key))),
         );
     };
-    let Value::List(items) = &node.value else {
+    let NodeValue::List(items) = &node.value else {
         not_a_list(node, problems);
         return Vec::new();
     };
     let mut found = Vec::new();
     for (number, item) in items.iter().enumerate() {
         match &item.value {
-            Value::Table(table) => {
+            NodeValue::Table(table) => {
                 let mut place = item.place.clone();
                 // Its first bracket: the rest may be long.
                 place.span.end = place.span.end.min(place.span.start + 1);
-                found.push(Section {
+                found.push(CaseSection {
                     path: format!("{}[{number}]", top.path_of(key)),
                     table,
                     place: Some(place),
@@ -279,11 +279,11 @@ fn list<'t>(top: &Section<'t>, key: &str, problems: &mut Problems) -> Vec<Sectio
 }
 
 /// Returns a length along a track, m: positive, or zero if it may be.
-fn length(section: &Section<'_>, key: &str, or_zero: bool, problems: &mut Problems) -> Option<f64> {
+fn length(section: &CaseSection<'_>, key: &str, or_zero: bool, problems: &mut Problems) -> Option<f64> {
     let node = section.require(key, &format!("write for example {key} = \"100 ft\""), problems)?;
     let path = section.path_of(key);
     let text = match &node.value {
-        Value::Text(text) => text.clone(),
+        NodeValue::Text(text) => text.clone(),
         other => {
             let problem = Problem::new(format!(
                 "`{path}` is {}; a length in quotes is expected",
@@ -322,7 +322,12 @@ fn length(section: &Section<'_>, key: &str, or_zero: bool, problems: &mut Proble
     None
 }
 
-fn optional_length(section: &Section<'_>, key: &str, default: f64, problems: &mut Problems) -> Option<f64> {
+fn optional_length(
+    section: &CaseSection<'_>,
+    key: &str,
+    default: f64,
+    problems: &mut Problems,
+) -> Option<f64> {
     match section.table.get(key) {
         Some(_) => length(section, key, false, problems),
         None => Some(default),
@@ -330,10 +335,10 @@ fn optional_length(section: &Section<'_>, key: &str, default: f64, problems: &mu
 }
 
 fn optional<T>(
-    section: &Section<'_>,
+    section: &CaseSection<'_>,
     key: &str,
     default: T,
-    read: impl FnOnce(&Section<'_>) -> Option<T>,
+    read: impl FnOnce(&CaseSection<'_>) -> Option<T>,
 ) -> Option<T> {
     match section.table.get(key) {
         Some(_) => read(section),
@@ -341,7 +346,7 @@ fn optional<T>(
     }
 }
 
-fn segment(section: &Section<'_>, problems: &mut Problems) -> Option<Segment> {
+fn segment(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Segment> {
     let kinds = ["tangent", "spiral", "curve"];
     let given: Vec<&str> = kinds
         .into_iter()

@@ -6,8 +6,8 @@ use wheelrail::track::spectrum::{Realization, Spectrum};
 use super::irregularity::{named, whole};
 use super::optional_length;
 use crate::case::problem::{Problem, Problems};
-use crate::case::section::Section;
-use crate::case::tree::Value;
+use crate::case::section::CaseSection;
+use crate::case::tree::NodeValue;
 
 /// The names of spectra.
 pub(super) const SPECTRA: [&str; 6] = [
@@ -33,16 +33,16 @@ const KEYS: [&str; 8] = [
 const RATIONAL: [&str; 4] = ["numerator", "denominator", "wavenumber", "density"];
 
 /// Coefficients by rising powers of the wavenumber.
-fn coefficients(section: &Section<'_>, key: &str, problems: &mut Problems) -> Option<Vec<f64>> {
+fn coefficients(section: &CaseSection<'_>, key: &str, problems: &mut Problems) -> Option<Vec<f64>> {
     let help = format!(
         "write for example {key} = [0.68, 0, 1]: the coefficients by rising powers of the wavenumber"
     );
     let node = section.require(key, &help, problems)?;
     let numbers = match &node.value {
-        Value::List(items) => items
+        NodeValue::List(items) => items
             .iter()
             .map(|item| match item.value {
-                Value::Number(number) if number.is_finite() => Some(number),
+                NodeValue::Number(number) if number.is_finite() => Some(number),
                 _ => None,
             })
             .collect::<Option<Vec<f64>>>(),
@@ -67,7 +67,7 @@ fn coefficients(section: &Section<'_>, key: &str, problems: &mut Problems) -> Op
 }
 
 /// Returns a density of the user's own, with both of its units.
-fn rational(section: &Section<'_>, problems: &mut Problems) -> Option<Rational> {
+fn rational(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Rational> {
     let names = WavenumberUnit::ALL.map(|(name, _)| name);
     let help = format!(
         "write the unit in which the coefficients take the wavenumber, one of \"{}\": a density over rad/m \
@@ -101,7 +101,7 @@ fn rational(section: &Section<'_>, problems: &mut Problems) -> Option<Rational> 
 
 /// Returns a realization; `end` is the length of the track, m.
 pub(super) fn realized(
-    section: &Section<'_>,
+    section: &CaseSection<'_>,
     end: Option<f64>,
     problems: &mut Problems,
 ) -> Option<Realization> {

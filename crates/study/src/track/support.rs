@@ -5,7 +5,7 @@ use rolling::track::RailSupport;
 
 use super::irregularity::named;
 use crate::case::problem::Problems;
-use crate::case::section::{Range, Section};
+use crate::case::section::{CaseSection, Range};
 
 /// What the rails lie on.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +35,7 @@ impl Support {
 }
 
 /// Returns the section `[support]`.
-pub(super) fn support(section: &Section<'_>, problems: &mut Problems) -> Option<Support> {
+pub(super) fn support(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Support> {
     let kind = named(section, "kind", &["sprung", "rigid"], problems)?;
     if kind == "rigid" {
         section.allow_in(&["kind"], &[], "a track", problems);

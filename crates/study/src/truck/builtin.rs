@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use super::TruckCase;
-use crate::case::builtin::{BuiltIn, Group, names_in, text_in};
+use crate::case::builtin::{BuiltIn, CaseGroup, names_in, text_in};
 use crate::case::{CaseError, Tables};
 
 /// Dampings, each with the height by which an empty car stands above the loaded one, in.
@@ -340,7 +340,7 @@ fn extremes(damping: &'static str) -> Vec<Rig> {
     ]
 }
 
-static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
+static GROUPS: LazyLock<Vec<CaseGroup>> = LazyLock::new(|| {
     let all = |rigs: fn(&'static str) -> Vec<Rig>, empty: bool| -> Vec<BuiltIn> {
         let dampings = DAMPINGS.iter();
         dampings
@@ -349,7 +349,7 @@ static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
             .collect()
     };
     vec![
-        Group {
+        CaseGroup {
             name: "truck",
             title: "A three-piece truck on rigs, loaded",
             look_at: "Warp: the moment over the angle, its parts, and the normal forces of the columns, \
@@ -358,14 +358,14 @@ static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
                       constant damping; with variable damping they follow the coil.",
             cases: all(rigs, false),
         },
-        Group {
+        CaseGroup {
             name: "truck_empty",
             title: "The same rigs with an empty car",
             look_at: "Coils are longer by the height that an empty car rises, and with variable damping \
                       columns carry a third of the loaded car's forces. Constant damping keeps them.",
             cases: all(rigs, true),
         },
-        Group {
+        CaseGroup {
             name: "truck_limits",
             title: "Rigs that reach lands, gibs, solid coils, pocket sides and adapter stops",
             look_at: "Each stop shows as a corner in the loop: warp moment at 30 mrad (lands), lateral \
@@ -373,7 +373,7 @@ static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
                       must close there too.",
             cases: all(limits, false),
         },
-        Group {
+        CaseGroup {
             name: "truck_kinds",
             title: "Spatial wedges, whose slopes are inclined across, and split wedges of two halves",
             look_at: "Each wedge bears on slope, column and a side of its pocket. Vertical: the column's \
@@ -381,7 +381,7 @@ static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
                       beside that of the slopes, and how far the halves of a split wedge turn.",
             cases: kinds(),
         },
-        Group {
+        CaseGroup {
             name: "truck_extreme",
             title: "Loads and motions beyond what a truck is made for",
             look_at: "Bottomed nests carry 1,000 kip more for each inch, warp locks the nests until the load \
@@ -394,7 +394,7 @@ static GROUPS: LazyLock<Vec<Group>> = LazyLock::new(|| {
 });
 
 /// Returns the groups.
-pub fn groups() -> &'static [Group] {
+pub fn groups() -> &'static [CaseGroup] {
     &GROUPS
 }
 

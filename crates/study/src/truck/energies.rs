@@ -18,7 +18,7 @@ const NO_BOUNCE: f64 = 1e-9;
 
 /// What the cycles of a truck are taken from: its first periodic motion, or else its first periodic load.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Drive {
+pub(super) struct CycleDrive {
     pub stroke: Stroke,
     /// The coordinate that moves or is loaded: 0 to 5 for x, y, z, roll, pitch, yaw.
     coordinate: usize,
@@ -27,7 +27,7 @@ pub(super) struct Drive {
 }
 
 /// Returns the drive of a truck, if something is periodic.
-pub(super) fn drive(parameters: &Parameters) -> Option<Drive> {
+pub(super) fn drive(parameters: &Parameters) -> Option<CycleDrive> {
     let Parameters {
         bolster,
         side_frames,
@@ -46,7 +46,7 @@ pub(super) fn drive(parameters: &Parameters) -> Option<Drive> {
         let mut coordinates = course.iter().enumerate();
         coordinates.find_map(|(coordinate, motion)| {
             let stroke = Stroke::of(motion)?;
-            Some(Drive {
+            Some(CycleDrive {
                 stroke,
                 coordinate,
                 below,

@@ -25,9 +25,9 @@ use crate::case::field::{FieldSection, Reach};
 use crate::case::model::{Model, model};
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::Range;
-use crate::case::tree::Table;
+use crate::case::tree::TableNode;
 use crate::case::{self, CaseError, Simulation, Tables, name};
-use crate::reader::{CaseText, Reader, check_motions};
+use crate::reader::{CaseReader, CaseText, check_motions};
 pub use ::truck::WEDGE_NAMES;
 pub use sections::{Condition, Load};
 
@@ -93,7 +93,7 @@ impl TruckCase {
 
     /// Reads a tree; `problems` are those found on the way to it.
     pub(crate) fn of_tree(
-        tree: &Table,
+        tree: &TableNode,
         source: &str,
         tables: Tables<'_>,
         mut problems: Problems,
@@ -146,8 +146,13 @@ impl TruckCase {
 }
 
 /// Reads a case, section by section.
-fn read(tree: &Table, default_name: &str, tables: Tables<'_>, problems: &mut Problems) -> Option<TruckCase> {
-    let mut r = Reader::new(tree, tables, problems);
+fn read(
+    tree: &TableNode,
+    default_name: &str,
+    tables: Tables<'_>,
+    problems: &mut Problems,
+) -> Option<TruckCase> {
+    let mut r = CaseReader::new(tree, tables, problems);
     let [name, title] = r.head(
         default_name,
         Model::Truck,
@@ -198,7 +203,7 @@ fn read(tree: &Table, default_name: &str, tables: Tables<'_>, problems: &mut Pro
     })
 }
 
-fn simulation(r: &mut Reader<'_>) -> Simulation {
+fn simulation(r: &mut CaseReader<'_>) -> Simulation {
     let usual = Simulation {
         duration: 10.0,
         output_interval: 0.01,

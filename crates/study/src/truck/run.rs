@@ -6,7 +6,7 @@ use integrate::{Integrator, Options};
 use mechanics::energy_balance::Entries;
 use mechanics::motion::Motion;
 use mechanics::output::Column;
-use mechanics::plausibility::Finding;
+use mechanics::plausibility::PlausibilityFinding;
 use mechanics::quasi_static::QuasiStaticWedge;
 use mechanics::system::{ContactState, EnergyTermKind, System};
 use quantity::{Kind, System as Units};
@@ -237,7 +237,7 @@ impl Recorder for TruckRecorder {
         Ok(system.ledger_entries(&observation, row.start_energy))
     }
 
-    fn describe(&self, system: &System, finding: &Finding, units: Units) -> String {
+    fn describe(&self, system: &System, finding: &PlausibilityFinding, units: Units) -> String {
         plausibility::in_truck(system, finding, [&[], &[]], units)
     }
 

@@ -21,7 +21,7 @@ use crate::case::problem::Problem;
 use crate::case::read::COEFFICIENT;
 use crate::case::section::{Names, Range, choice};
 use crate::case::write::FRICTION;
-use crate::reader::{CLEARANCE, DAMPING, Form, Reader, STIFFNESS};
+use crate::reader::{CLEARANCE, CaseReader, DAMPING, QuantityForm, STIFFNESS};
 
 /// A named condition of a truck.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,12 +71,12 @@ const STARTS: Names<Start> = &[
 /// kip·in, in N·m.
 const KIP_INCH: f64 = 112.984_829_027_616_7;
 /// A height above the top of rail.
-const HEIGHT: Form = (Kind::Length, Range::Positive, Reach::Positive);
-const INERTIA: Form = (Kind::Inertia, Range::Positive, Reach::Positive);
-const LIFT: Form = (Kind::Length, Range::Any, Reach::Signed(0.0254));
-const TIME: Form = (Kind::Time, Range::NotNegative, Reach::FromZero(1.0));
+const HEIGHT: QuantityForm = (Kind::Length, Range::Positive, Reach::Positive);
+const INERTIA: QuantityForm = (Kind::Inertia, Range::Positive, Reach::Positive);
+const LIFT: QuantityForm = (Kind::Length, Range::Any, Reach::Signed(0.0254));
+const TIME: QuantityForm = (Kind::Time, Range::NotNegative, Reach::FromZero(1.0));
 
-pub(crate) fn rigid_body(r: &mut Reader<'_>, body: &mut RigidBody) {
+pub(crate) fn rigid_body(r: &mut CaseReader<'_>, body: &mut RigidBody) {
     r.weight(
         &mut body.mass,
         "a force; the mass is the weight over standard gravity",
@@ -91,7 +91,7 @@ pub(crate) fn rigid_body(r: &mut Reader<'_>, body: &mut RigidBody) {
     r.quantity("height", HEIGHT, &mut body.height, comment);
 }
 
-fn clearance(r: &mut Reader<'_>, stop: &mut Clearance) {
+fn clearance(r: &mut CaseReader<'_>, stop: &mut Clearance) {
     r.quantity(
         "clearance",
         CLEARANCE,
@@ -107,7 +107,7 @@ fn clearance(r: &mut Reader<'_>, stop: &mut Clearance) {
     );
 }
 
-pub(crate) fn contact(r: &mut Reader<'_>, contact: &mut Contact, of: &str) {
+pub(crate) fn contact(r: &mut CaseReader<'_>, contact: &mut Contact, of: &str) {
     r.quantity("stiffness", STIFFNESS, &mut contact.stiffness, of);
     r.quantity(
         "damping",
@@ -118,7 +118,7 @@ pub(crate) fn contact(r: &mut Reader<'_>, contact: &mut Contact, of: &str) {
 }
 
 /// Friction with a bristle.
-fn friction(r: &mut Reader<'_>, friction: &mut FaceFriction) {
+fn friction(r: &mut CaseReader<'_>, friction: &mut FaceFriction) {
     r.number(
         "friction",
         COEFFICIENT,
@@ -137,7 +137,7 @@ fn friction(r: &mut Reader<'_>, friction: &mut FaceFriction) {
     }
 }
 
-pub(crate) fn bolster(r: &mut Reader<'_>, parameters: &mut Parameters, load: Load, lading: Lading) {
+pub(crate) fn bolster(r: &mut CaseReader<'_>, parameters: &mut Parameters, load: Load, lading: Lading) {
     if load == Load::HalfCar {
         parameters.bolster = Bolster::with_half_car(lading);
     }
@@ -168,9 +168,9 @@ pub(crate) fn bolster(r: &mut Reader<'_>, parameters: &mut Parameters, load: Loa
 }
 
 pub(crate) fn side_frames(
-    r: &mut Reader<'_>,
+    r: &mut CaseReader<'_>,
     parameters: &mut Parameters,
-    toe: impl FnOnce(&mut Reader<'_>),
+    toe: impl FnOnce(&mut CaseReader<'_>),
 ) {
     let mut base = parameters.side_frames[0].clone();
     r.section(
@@ -206,7 +206,7 @@ enum WarpSpring {
     Stiff,
 }
 
-pub(crate) fn warp_spring(r: &mut Reader<'_>, parameters: &mut Parameters) {
+pub(crate) fn warp_spring(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
     r.section(
         "warp_spring",
         "An empirical spring in each nest between the yaw of bolster and side frame, with a stop at 30 \
@@ -236,7 +236,7 @@ pub(crate) fn warp_spring(r: &mut Reader<'_>, parameters: &mut Parameters) {
     parameters.warp_spring = empirical_warp(moment).ok();
 }
 
-pub(crate) fn stops(r: &mut Reader<'_>, parameters: &mut Parameters) {
+pub(crate) fn stops(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
     r.section("gib", "Gibs: lateral stops between bolster and side frame.");
     clearance(r, &mut parameters.gib);
     let about = "Lands: longitudinal stops between bolster and side frame, four a column.";
@@ -245,7 +245,7 @@ pub(crate) fn stops(r: &mut Reader<'_>, parameters: &mut Parameters) {
 }
 
 /// Reads where a run starts. Returns the time for which the truck settles first, s.
-pub(crate) fn start(r: &mut Reader<'_>, parameters: &mut Parameters) -> f64 {
+pub(crate) fn start(r: &mut CaseReader<'_>, parameters: &mut Parameters) -> f64 {
     r.section(
         "start",
         "Where the run starts; simulation.start is read as start.kind.",
@@ -283,7 +283,7 @@ pub(crate) fn start(r: &mut Reader<'_>, parameters: &mut Parameters) -> f64 {
 }
 
 /// Wedges without mass between prescribed neighbors leave nothing that moves.
-pub(crate) fn check_something_moves(r: &mut Reader<'_>, parameters: &Parameters) {
+pub(crate) fn check_something_moves(r: &mut CaseReader<'_>, parameters: &Parameters) {
     let massless = |wedge: &truck::Wedge| wedge.kind == WedgeKind::Massless;
     let held = |free: [bool; 6]| free == [false; 6];
     let frames = parameters.side_frames.iter().all(|own| held(own.free));

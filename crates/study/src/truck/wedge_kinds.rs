@@ -9,7 +9,7 @@ use crate::case::problem::Problem;
 use crate::case::read::COEFFICIENT;
 use crate::case::section::Range;
 use crate::case::write::FRICTION;
-use crate::reader::{CLEARANCE, Reader};
+use crate::reader::{CLEARANCE, CaseReader};
 
 /// Keys that only a split wedge has, in a section of their own.
 const OF_SPLIT: [&str; 5] = ["angle", "gap", "friction", "outboard_share", "coil_distance"];
@@ -22,7 +22,7 @@ pub(super) const ACROSS: Range = Range::Between(
 
 impl Draft {
     /// Checks the angle across, whose key stands below this path.
-    pub(super) fn check_across(&self, r: &mut Reader<'_>, path: &str) {
+    pub(super) fn check_across(&self, r: &mut CaseReader<'_>, path: &str) {
         let (wedge, key) = (&self.wedge, format!("{path}slope_across"));
         let most = wedge.greatest_slope_across();
         if wedge.slope_across.abs() >= most {
@@ -46,7 +46,7 @@ impl Draft {
     }
 
     /// What stands between the halves; `path` is that of the section.
-    pub(super) fn split(&mut self, r: &mut Reader<'_>, path: &str) {
+    pub(super) fn split(&mut self, r: &mut CaseReader<'_>, path: &str) {
         if self.wedge.kind != WedgeKind::Split {
             let message = format!("`{path}` is of no effect: this wedge has no halves");
             let owner = path.rsplit_once('.').map_or("wedge", |(owner, _)| owner);
@@ -89,7 +89,7 @@ impl Draft {
     }
 
     /// Checks what the size of a split wedge allows; its keys stand below this path.
-    pub(super) fn check_split(&self, r: &mut Reader<'_>, path: &str) {
+    pub(super) fn check_split(&self, r: &mut CaseReader<'_>, path: &str) {
         let wedge = &self.wedge;
         if wedge.kind != WedgeKind::Split {
             return;

@@ -16,7 +16,7 @@ use crate::case::problem::Problem;
 use crate::case::read::{ANGLE, COEFFICIENT, read_toe};
 use crate::case::section::{Names, Range};
 use crate::case::write::{ANGLES, FRICTION, WEAR, toe};
-use crate::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
+use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, PRELOAD, STIFFNESS};
 
 /// A wedge while its sections are read: laws of friction keep their numbers while another one is chosen.
 #[derive(Clone)]
@@ -143,7 +143,7 @@ impl Draft {
     }
 
     /// Checks the faces, whose sections stand below this path.
-    fn check_faces(&self, r: &mut Reader<'_>, path: &str) {
+    fn check_faces(&self, r: &mut CaseReader<'_>, path: &str) {
         let wedge = &self.wedge;
         let bottom = wedge.height * libm::tan(wedge.angle);
         let width = match wedge.kind {
@@ -181,7 +181,7 @@ impl Draft {
         }
     }
 
-    fn toe(&mut self, r: &mut Reader<'_>) {
+    fn toe(&mut self, r: &mut CaseReader<'_>) {
         let degrees = self.wedge.toe.to_degrees();
         let direction = match degrees {
             _ if degrees > 0.0 => Some(ToeDirection::Out),
@@ -196,7 +196,7 @@ impl Draft {
         self.wedge.toe = read.to_si();
     }
 
-    fn body(&mut self, r: &mut Reader<'_>) {
+    fn body(&mut self, r: &mut CaseReader<'_>) {
         let wedge = &mut self.wedge;
         const KINDS: Names<WedgeKind> = &[
             ("body", WedgeKind::Body),
@@ -254,7 +254,7 @@ impl Draft {
         );
     }
 
-    fn friction(&mut self, r: &mut Reader<'_>) {
+    fn friction(&mut self, r: &mut CaseReader<'_>) {
         let comment = "\"bristle\" (holds) or \"tanh\" (the thesis's; creeps under load); or { column = \
                        ..., slope = ... }";
         let laws = r.other(
@@ -302,7 +302,7 @@ impl Draft {
         );
     }
 
-    fn coil(&mut self, r: &mut Reader<'_>, path: &str) {
+    fn coil(&mut self, r: &mut CaseReader<'_>, path: &str) {
         let comment = "\"shear\": a coil with shear stiffness; \"thesis\": a line from seat to wedge \
                        (Steets 2007); \"nothing\": broken";
         r.choice("kind", COIL_KINDS, &mut self.kind, comment);
@@ -371,7 +371,7 @@ impl Draft {
 
 /// Reads the sections that all four wedges share, in their places among the others: first `wedge`, then those
 /// that come after it.
-pub(crate) fn all(r: &mut Reader<'_>, parameters: &Parameters, friction: f64) -> Draft {
+pub(crate) fn all(r: &mut CaseReader<'_>, parameters: &Parameters, friction: f64) -> Draft {
     let mut draft = Draft::new(parameters, friction);
     r.section(
         "wedge",
@@ -424,12 +424,12 @@ pub(crate) fn all(r: &mut Reader<'_>, parameters: &Parameters, friction: f64) ->
 }
 
 /// Reads the toe of all columns.
-pub(crate) fn toe_of_all(r: &mut Reader<'_>, draft: &mut Draft) {
+pub(crate) fn toe_of_all(r: &mut CaseReader<'_>, draft: &mut Draft) {
     draft.toe(r);
 }
 
 /// Reads the sections of single wedges over `base`.
-pub(crate) fn single(r: &mut Reader<'_>, parameters: &mut Parameters, base: &Draft) {
+pub(crate) fn single(r: &mut CaseReader<'_>, parameters: &mut Parameters, base: &Draft) {
     for (name, wedge) in WEDGE_NAMES.into_iter().zip(&mut parameters.wedges) {
         let mut draft = base.clone();
         let path = format!("wedge.{name}");

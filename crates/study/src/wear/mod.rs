@@ -57,7 +57,7 @@ impl WearLaw {
 
 /// How far wear is to be advanced.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plan {
+pub struct WearPlan {
     /// Cycles of the bolster.
     pub cycles: f64,
     /// Steps at least.
@@ -177,7 +177,7 @@ pub struct WearHistory {
 /// There is not even the state at the start, or the steps would be too many.
 pub fn advance(
     case: &Case,
-    plan: &Plan,
+    plan: &WearPlan,
     mut go_on: impl FnMut(f64, f64) -> ControlFlow<String>,
 ) -> Result<WearHistory, WearStop> {
     let areas = areas(case);
@@ -280,7 +280,7 @@ fn start(case: &Case) -> [Vec<f64>; FACES.len()] {
 }
 
 /// Returns the greatest depth that one cycle wears at a point, relative to its penetration.
-fn largest_part(case: &Case, work: &CycleWork, plan: &Plan, areas: &[Vec<f64>; 2]) -> f64 {
+fn largest_part(case: &Case, work: &CycleWork, plan: &WearPlan, areas: &[Vec<f64>; 2]) -> f64 {
     let (rectangles, faces) = (case.parameters.rectangles(), faces(case));
     let mut largest = 0.0_f64;
     for face in 0..FACES.len() {
@@ -303,7 +303,7 @@ fn state(
     work: &CycleWork,
     wear: &[Vec<f64>; 2],
     volumes: [f64; 2],
-    plan: &Plan,
+    plan: &WearPlan,
     cycles: f64,
     first_height: f64,
 ) -> WearState {

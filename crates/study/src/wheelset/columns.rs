@@ -140,7 +140,7 @@ pub fn columns() -> Vec<Column> {
 
 /// Reads the rows of a rig.
 #[derive(Clone, Debug)]
-pub struct Reader {
+pub struct RigReader {
     rig: Rig,
     setup: Setup,
     radius: f64,
@@ -148,7 +148,7 @@ pub struct Reader {
     elements: [usize; 2],
 }
 
-impl Reader {
+impl RigReader {
     /// Returns the reader of a rig, whose wheels have a nominal radius (m).
     #[must_use]
     pub fn new(rig: Rig, setup: Setup, radius: f64) -> Self {

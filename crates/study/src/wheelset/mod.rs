@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use quantity::{STANDARD_GRAVITY, System as Units};
 use rolling::carriage::Carriage;
-use rolling::rig::{Rig, RigError, Setup, Start, Wheels};
+use rolling::rig::{Rig, RigError, RigStart, Setup, Wheels};
 use rolling::wheel::Search;
 use rolling::wheelset::WheelsetBody;
 use thiserror::Error;
@@ -78,7 +78,7 @@ pub struct Wheelset {
     /// How contact is found.
     pub search: SearchMode,
     /// Where it begins.
-    pub start: Start,
+    pub start: RigStart,
     /// How long the run is, s; none: to the end of the track.
     pub duration: Option<f64>,
     /// Time between two rows, s.
@@ -211,9 +211,9 @@ impl WheelsetCase {
             irregularities: Vec::new(),
         };
         let setup = setup(&self.wheelset, straight).ok()?;
-        let start = Start {
+        let start = RigStart {
             distance: 50.0,
-            ..Start::default()
+            ..RigStart::default()
         };
         let mut rig = Rig::new(&setup, start).ok()?;
         let found = rig.system.eigenvalues(0.0, &rig.start.clone(), SHIFT).ok()?;

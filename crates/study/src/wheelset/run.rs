@@ -8,14 +8,14 @@ use std::collections::BTreeMap;
 use integrate::{Integrator, Options};
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
-use mechanics::plausibility::Finding;
+use mechanics::plausibility::PlausibilityFinding;
 use mechanics::system::System;
 use quantity::{Kind, SixDigits, System as Units};
 use rolling::rig::Rig;
 use wheelrail::loaded::Seat;
 
 use super::WheelsetCase;
-use super::columns::{Reader, SIDES, columns};
+use super::columns::{RigReader, SIDES, columns};
 use super::summary::{Derailment, Hunting, SCHEMA, WheelsetSummary};
 use crate::energy;
 use crate::metrics::Extremes;
@@ -41,7 +41,7 @@ struct Derailed {
 
 /// Records a wheelset's run: its table, and where it derails.
 pub struct WheelsetRecorder {
-    reader: Reader,
+    reader: RigReader,
     columns: Vec<Column>,
     values: Vec<Vec<f64>>,
     row: Vec<f64>,
@@ -83,7 +83,7 @@ impl RunCase for WheelsetCase {
             recorder: WheelsetRecorder {
                 values: vec![Vec::new(); columns.len()],
                 row: Vec::with_capacity(columns.len()),
-                reader: Reader::new(rig, self.setup.clone(), self.wheelset.radius),
+                reader: RigReader::new(rig, self.setup.clone(), self.wheelset.radius),
                 columns,
                 derailed: None,
             },
@@ -126,7 +126,7 @@ impl Recorder for WheelsetRecorder {
         Ok(entries)
     }
 
-    fn describe(&self, system: &System, finding: &Finding, units: Units) -> String {
+    fn describe(&self, system: &System, finding: &PlausibilityFinding, units: Units) -> String {
         plausibility::in_truck(system, finding, [&[], &[]], units)
     }
 

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use study::car::builtin;
-use study::car::hunting::{HuntingError, Settings, hunting};
+use study::car::hunting::{HuntingError, HuntingSettings, hunting};
 use study::car::stability::stability;
 
 /// The empty car on linear wheels: with stuck friction it does not hunt at 30 mph; vibrations are sorted and
@@ -40,23 +40,23 @@ fn limits_modes_of_the_empty_car_on_profiles() {
 #[test]
 fn input_ramps_that_are_none_are_refused() {
     let go_on = |_| ControlFlow::Break("must not run".to_owned());
-    let usual = Settings {
+    let usual = HuntingSettings {
         speeds: [10.0, 20.0],
         ramp: 10.0,
         threshold: 1e-3,
     };
     let case = builtin::case_with("car_hunting_empty", &[]).unwrap();
     for settings in [
-        Settings {
+        HuntingSettings {
             speeds: [20.0, 10.0],
             ..usual
         },
-        Settings {
+        HuntingSettings {
             speeds: [0.0, 10.0],
             ..usual
         },
-        Settings { ramp: 0.0, ..usual },
-        Settings {
+        HuntingSettings { ramp: 0.0, ..usual },
+        HuntingSettings {
             threshold: f64::NAN,
             ..usual
         },
@@ -74,7 +74,7 @@ fn input_ramps_that_are_none_are_refused() {
 #[test]
 fn limits_a_stopped_ramp_is_incomplete() {
     let case = builtin::case_with("car_hunting_roller_empty", &[]).unwrap();
-    let settings = Settings {
+    let settings = HuntingSettings {
         speeds: [20.0, 30.0],
         ramp: 10.0,
         threshold: 1e-3,

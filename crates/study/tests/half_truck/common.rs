@@ -2,7 +2,7 @@
 #![allow(dead_code, clippy::unwrap_used)]
 
 use nucars::truck::Choices;
-use study::half_truck::catalog::{Entry, entries, entry};
+use study::half_truck::catalog::{CatalogEntry, entries, entry};
 use study::half_truck::files::Settings;
 use study::half_truck::run::run;
 use study::half_truck::{HalfTruckCase, HalfTruckResult};
@@ -12,7 +12,7 @@ pub const POUND: f64 = 4.448_221_615_260_5;
 pub const POUND_INCH: f64 = POUND * INCH;
 
 pub fn case(name: &str, duration: f64) -> HalfTruckCase {
-    let entry: Entry = entry(name).unwrap();
+    let entry: CatalogEntry = entry(name).unwrap();
     entry.case(&Choices::default(), duration).unwrap()
 }
 
@@ -53,15 +53,18 @@ pub fn run_cases(cases: &[HalfTruckCase]) -> Vec<HalfTruckResult> {
 }
 
 /// Runs all entries that are chosen, several at a time.
-pub fn run_all(duration: f64, choose: impl Fn(&Entry) -> bool) -> Vec<(Entry, HalfTruckResult)> {
-    let chosen: Vec<Entry> = entries().into_iter().filter(choose).collect();
+pub fn run_all(
+    duration: f64,
+    choose: impl Fn(&CatalogEntry) -> bool,
+) -> Vec<(CatalogEntry, HalfTruckResult)> {
+    let chosen: Vec<CatalogEntry> = entries().into_iter().filter(choose).collect();
     let half = chosen.len().div_ceil(2);
     std::thread::scope(|scope| {
         let parts: Vec<_> = chosen
             .chunks(half.max(1))
             .map(|part| {
                 scope.spawn(move || {
-                    let run = |entry: &Entry| (*entry, result(&entry.name(), duration));
+                    let run = |entry: &CatalogEntry| (*entry, result(&entry.name(), duration));
                     part.iter().map(run).collect::<Vec<_>>()
                 })
             })

@@ -1,14 +1,14 @@
 //! The energy ledger of all runs closes.
 
 use mechanics::system::EnergyTermKind;
-use study::half_truck::catalog::{Entry, ToeCase, YawCase};
+use study::half_truck::catalog::{CatalogEntry, ToeCase, YawCase};
 
 use crate::common::run_all;
 
 #[test]
 fn all_runs_close_their_ledgers() {
     // Jammed wedges that flutter, in tens of thousands of steps a second: a shorter run.
-    let flutters = |entry: &Entry| entry.name() == "nucars_69_variable_toe_in_yaw";
+    let flutters = |entry: &CatalogEntry| entry.name() == "nucars_69_variable_toe_in_yaw";
     let mut results = run_all(7.0, |entry| !flutters(entry));
     results.extend(run_all(3.5, flutters));
     assert_eq!(results.len(), 28);

@@ -14,7 +14,7 @@ use super::run::built_in_names;
 use crate::failure::Failure;
 use crate::folders;
 use crate::select::select;
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// List the built-in cases, or print one as a case file
 ///
@@ -47,7 +47,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         for (index, group) in groups.enumerate() {
             let between = if index == 0 { "" } else { "\n" };
             writeln!(out, "{between}{}: {}", group.name, group.title)?;
-            let mut table = Table::new(2, &[]);
+            let mut table = TerminalTable::new(2, &[]);
             for case in &group.cases {
                 table.row([format!("  {}", case.name), case.title.clone()]);
             }

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use quantity::{Kind, Quantity};
-use report::certificate_files::{Findings, NAMES};
+use report::certificate_files::{CertificateFindings, NAMES};
 use report::certificate_work;
 use report::page::certificate::{self as page, Against};
 use report::study_folder::TABLE_FILE;
@@ -20,7 +20,7 @@ use crate::failure::{Failure, Message, say};
 use crate::interrupt;
 use crate::json;
 use crate::progress::Steady;
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// Run a car in all regimes of the assessment of freight cars, beside the limits of rules
 ///
@@ -226,9 +226,9 @@ fn other(folder: &Path) -> Result<Against, Failure> {
 }
 
 /// Prints the table of limits.
-fn print(certificate: &Certificate, findings: &Findings, path: &Path) -> io::Result<()> {
+fn print(certificate: &Certificate, findings: &CertificateFindings, path: &Path) -> io::Result<()> {
     let several = certificate.conditions.len() > 1;
-    let mut table = Table::new(
+    let mut table = TerminalTable::new(
         if several { 3 } else { 2 },
         &[
             ("regime", ""),

@@ -5,16 +5,16 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use report::comparison::{Comparison, Entry, FILE_NAME};
+use report::comparison::{ComparedResult, Comparison, FILE_NAME};
 use serde_json::{Value, json};
 
-use crate::adjust::{Names, Span};
+use crate::adjust::{Names, TimeSpan};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
 use crate::json;
 use crate::select::read_table;
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// Compare results: overlay figures and a table of differences
 ///
@@ -41,7 +41,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", num_args = 1..)]
     columns: Vec<String>,
     #[command(flatten)]
-    span: Span,
+    span: TimeSpan,
     #[command(flatten)]
     names: Names,
     /// Overwrite existing results
@@ -109,7 +109,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 }
 
 /// Returns the comparison as JSON; what is compared is named by its label.
-fn document(comparison: &Comparison, entries: &[Entry], folder: &Path, names: &[&str]) -> Value {
+fn document(comparison: &Comparison, entries: &[ComparedResult], folder: &Path, names: &[&str]) -> Value {
     let differences = comparison.differences.iter().map(|one| {
         json!({
             "column": one.column,
@@ -146,15 +146,15 @@ fn document(comparison: &Comparison, entries: &[Entry], folder: &Path, names: &[
 }
 
 /// Reads the results and gives them names that differ.
-fn read(paths: &[PathBuf]) -> Result<Vec<Entry>, Failure> {
-    let mut entries: Vec<Entry> = Vec::new();
+fn read(paths: &[PathBuf]) -> Result<Vec<ComparedResult>, Failure> {
+    let mut entries: Vec<ComparedResult> = Vec::new();
     for path in paths {
         let table = read_table(path)?;
         if entries.iter().any(|entry| entry.table.file == table.file) {
             let message = format!("`{}` is named twice", path.display());
             return Err(Message::new(message, "name two different results").into());
         }
-        entries.push(Entry {
+        entries.push(ComparedResult {
             label: label(&table.file),
             table,
         });
@@ -195,9 +195,9 @@ pub fn label(file: &Path) -> String {
     )
 }
 
-fn differences(comparison: &Comparison, entries: &[Entry]) -> Table {
+fn differences(comparison: &Comparison, entries: &[ComparedResult]) -> TerminalTable {
     let first = &entries[0].label;
-    let mut table = Table::new(
+    let mut table = TerminalTable::new(
         3,
         &[
             ("column", ""),
@@ -237,9 +237,9 @@ fn differences(comparison: &Comparison, entries: &[Entry]) -> Table {
     table
 }
 
-fn energies(comparison: &Comparison, entries: &[Entry]) -> Table {
+fn energies(comparison: &Comparison, entries: &[ComparedResult]) -> TerminalTable {
     let first = &entries[0].label;
-    let mut table = Table::new(
+    let mut table = TerminalTable::new(
         3,
         &[
             ("friction energy per cycle", ""),

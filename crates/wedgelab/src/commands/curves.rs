@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use clap::Args;
 use quantity::{Kind, System as Units};
 use report::csv::converted;
-use report::curves_files::{self, NAMES, Named};
+use report::curves_files::{self, LabeledLoop, NAMES};
 use study::truck::loop_curve::{LoopCurve, LoopKind};
 
 use super::warp::{STOPPING, Varied, interrupted, run};
@@ -16,7 +16,7 @@ use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// Stiffness, friction and energy of a truck whose bolster moves up and down or rolls
 ///
@@ -61,7 +61,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let folder = folders::check(path, &NAMES, arguments.force)?;
     let progress = Progress::new(cases.len(), arguments.quiet);
     interrupt::stops(STOPPING, "nothing was written");
-    let mut loops: Vec<Named> = Vec::new();
+    let mut loops: Vec<LabeledLoop> = Vec::new();
     for (label, case) in &cases {
         let Some(result) = run(label, case, &progress)? else {
             break;
@@ -103,7 +103,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 }
 
 /// Returns the table of loops.
-fn table(name: &str, loops: &[Named]) -> Table {
+fn table(name: &str, loops: &[LabeledLoop]) -> TerminalTable {
     let vertical = loops
         .first()
         .is_none_or(|(_, own)| own.kind == LoopKind::Vertical);
@@ -112,7 +112,7 @@ fn table(name: &str, loops: &[Named]) -> Table {
     } else {
         ["mrad", "kip·in/mrad", "kip·in", "lbf·in"]
     };
-    let mut table = Table::new(
+    let mut table = TerminalTable::new(
         1,
         &[
             ("test", ""),

@@ -23,7 +23,7 @@ use crate::folders;
 use crate::interrupt;
 use crate::json;
 use crate::progress::Progress;
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// The files that are written on request.
 const NAMES: [&str; 3] = ["energy.json", "power_flow.svg", "power_flow.png"];
@@ -230,7 +230,7 @@ fn write(energy: &EnergySummary, units: Units, out: &mut impl Write) -> io::Resu
             ("energy", &loss.unit),
             ("share", "%"),
         ];
-        let mut table = Table::new(2, &head);
+        let mut table = TerminalTable::new(2, &head);
         for (name, own, total) in rows {
             let lost_in = words(if run { name } else { &own.kind });
             for (point, value) in &own.by_point {
@@ -270,7 +270,7 @@ fn percent(value: f64, of: f64) -> String {
 
 /// Adds a row for each loss, from the largest on, those below [`SMALL`] together.
 fn losses(
-    table: &mut Table,
+    table: &mut TerminalTable,
     energy: &EnergySummary,
     loss: &SummaryValue,
     more: impl Fn(&LossSplit, f64) -> Vec<String>,
@@ -291,8 +291,8 @@ fn losses(
 }
 
 /// Returns the losses of a cycle, by contact state and part of the stroke.
-fn of_cycle(energy: &EnergySummary, loss: &SummaryValue) -> Table {
-    let mut table = Table::new(
+fn of_cycle(energy: &EnergySummary, loss: &SummaryValue) -> TerminalTable {
+    let mut table = TerminalTable::new(
         1,
         &[
             ("lost in", ""),
@@ -323,7 +323,7 @@ fn of_cycle(energy: &EnergySummary, loss: &SummaryValue) -> Table {
 }
 
 /// Returns the losses of a run, with the resistance that each makes.
-fn of_run(energy: &EnergySummary, loss: &SummaryValue, units: Units) -> Table {
+fn of_run(energy: &EnergySummary, loss: &SummaryValue, units: Units) -> TerminalTable {
     let resistance = |total: f64| {
         let force = energy.by_distance(total, units);
         force.map_or("-".to_owned(), |force| format!("{:.2}", force.value))
@@ -335,7 +335,7 @@ fn of_run(energy: &EnergySummary, loss: &SummaryValue, units: Units) -> Table {
         ("share", "%"),
         ("resistance", force),
     ];
-    let mut table = Table::new(1, &head);
+    let mut table = TerminalTable::new(1, &head);
     losses(&mut table, energy, loss, |_, total| vec![resistance(total)]);
     let all = ["all".to_owned(), format!("{:.2}", loss.value), "100.0".to_owned()];
     table.row(all.into_iter().chain([resistance(loss.value)]));
@@ -343,8 +343,8 @@ fn of_run(energy: &EnergySummary, loss: &SummaryValue, units: Units) -> Table {
 }
 
 /// Returns the table of what goes in and out.
-fn balance(energy: &EnergySummary, loss: &SummaryValue) -> Table {
-    let mut table = Table::new(1, &[("balance", ""), ("energy", &loss.unit)]);
+fn balance(energy: &EnergySummary, loss: &SummaryValue) -> TerminalTable {
+    let mut table = TerminalTable::new(1, &[("balance", ""), ("energy", &loss.unit)]);
     for (name, work) in &energy.supplied {
         table.row([words(name), format!("{:.3}", work.value)]);
     }

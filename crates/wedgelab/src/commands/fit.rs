@@ -7,9 +7,9 @@ use std::process::ExitCode;
 
 use clap::Args;
 use rayon::prelude::*;
-use report::fit_files::{self, Shown};
+use report::fit_files::{self, FitFigure};
 use report::run_files;
-use report::table::{Table as Measurements, TableColumn};
+use report::table::{ResultTable as Measurements, TableColumn};
 use study::any_case::{AnyCase, CaseSource};
 use study::case::CaseError;
 use study::fit::{Fit, FitError, Free, FreeError, Measured, fit};
@@ -22,7 +22,7 @@ use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
 use crate::select::read_table;
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// Columns of a wedge or a truck that may hold the measured force, the first one found being taken.
 const FORCES: [&str; 7] = [
@@ -224,7 +224,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         None => case_with(arguments, &[arguments.set.clone(), values].concat())?.to_toml(),
     };
     let displacement = displacement.map(|values| pick(&values));
-    let shown = Shown {
+    let shown = FitFigure {
         measured: &measured,
         kind: force.kind,
         displacement: displacement.as_deref(),
@@ -317,13 +317,13 @@ fn compare_stroke(cycle: Option<Cycle>, displacement: &[f64]) {
 
 fn print_fit(
     found: &Fit,
-    shown: &Shown<'_>,
+    shown: &FitFigure<'_>,
     folder: &std::path::Path,
     names: &[&str],
 ) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     let interval = format!("interval, {} %", 100.0 * shown.confidence);
-    let mut table = Table::new(
+    let mut table = TerminalTable::new(
         1,
         &[
             ("parameter", ""),

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use report::lock_up_files::{self, NAMES};
-use study::lock_up::{Found, LockUpMap, MapError, Span, map};
+use study::lock_up::{LockUpMap, MapError, MapRange, RigOutcome, map};
 
 use super::run::read;
 use crate::drawn::Drawn;
@@ -39,8 +39,8 @@ pub struct Arguments {
     case: PathBuf,
     /// The two axes, each with its ends
     #[arg(long, value_name = "AXIS=FROM..TO", num_args = 1..,
-          default_values = ["angle=20 deg..50 deg", "friction=0.1..0.6"], value_parser = Span::parse)]
-    over: Vec<Span>,
+          default_values = ["angle=20 deg..50 deg", "friction=0.1..0.6"], value_parser = MapRange::parse)]
+    over: Vec<MapRange>,
     /// Number of points along each axis, 2 to 200
     #[arg(long, value_name = "N", default_value = "15", value_parser = points)]
     points: usize,
@@ -132,7 +132,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return Ok(ExitCode::SUCCESS);
     };
     let left = found.cells.iter().filter(|cell| match &cell.found {
-        Found::Unknown(why) => why == reason,
+        RigOutcome::Unknown(why) => why == reason,
         _ => false,
     });
     let message = format!("{reason}: {} of {all} rigs were not run", left.count());

@@ -8,11 +8,11 @@ use std::process::ExitCode;
 use clap::Args;
 use quantity::{Kind, Quantity, SixDigits};
 use report::plot;
-use report::table::Table;
+use report::table::ResultTable;
 use study::signal::{Spectrum, SpectrumError};
 
 use super::compare::label;
-use crate::adjust::Span;
+use crate::adjust::TimeSpan;
 use crate::drawn::png;
 use crate::failure::{Failure, Message};
 use crate::folders;
@@ -54,7 +54,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FREQUENCY", value_parser = frequency, allow_hyphen_values = true)]
     resolution: Option<f64>,
     #[command(flatten)]
-    span: Span,
+    span: TimeSpan,
     /// File to write, ending in .svg or .png, with --psd also in .csv [default: Y_over_X.svg, NAME_psd.svg]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -105,7 +105,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 }
 
 /// Draws or writes the power spectral density of a column.
-fn density(arguments: &Arguments, table: &Table, name: &str) -> Result<ExitCode, Failure> {
+fn density(arguments: &Arguments, table: &ResultTable, name: &str) -> Result<ExitCode, Failure> {
     let column = table.column(name)?;
     let file = match &arguments.out {
         Some(file) => file.clone(),
@@ -158,7 +158,7 @@ fn frequency(text: &str) -> Result<f64, String> {
 }
 
 /// Returns the reason why there is no spectrum, and the advice.
-fn refused(table: &Table, error: &SpectrumError) -> Message {
+fn refused(table: &ResultTable, error: &SpectrumError) -> Message {
     let advice = match error {
         SpectrumError::TooShort { .. } => {
             "ask for a coarser --resolution, or for a longer span of time; a run's rows are as near as its \

@@ -4,14 +4,14 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
-use mechanics::quasi_static::{Direction, QuasiStaticWedge, SlopeFriction};
+use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection, SlopeFriction};
 use quantity::{Kind, Quantity, System as Units};
 use serde_json::{Value, json};
 use study::case::bounds;
 
 use crate::failure::Failure;
 use crate::json;
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// Forces of the massless wedge in steady sliding, and its jam margin
 ///
@@ -124,8 +124,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 
 /// Returns both directions of the bolster, each with the slope's friction that the motion chooses, and the
 /// other.
-fn branches(wedge: &QuasiStaticWedge) -> impl Iterator<Item = (Direction, SlopeFriction, bool)> {
-    [Direction::Down, Direction::Up]
+fn branches(wedge: &QuasiStaticWedge) -> impl Iterator<Item = (SlidingDirection, SlopeFriction, bool)> {
+    [SlidingDirection::Down, SlidingDirection::Up]
         .into_iter()
         .flat_map(|direction| {
             let chosen = wedge.branch(direction);
@@ -137,10 +137,10 @@ fn branches(wedge: &QuasiStaticWedge) -> impl Iterator<Item = (Direction, SlopeF
         })
 }
 
-fn direction_in_words(direction: Direction) -> &'static str {
+fn direction_in_words(direction: SlidingDirection) -> &'static str {
     match direction {
-        Direction::Down => "down",
-        Direction::Up => "up",
+        SlidingDirection::Down => "down",
+        SlidingDirection::Up => "up",
     }
 }
 
@@ -173,9 +173,9 @@ fn document(wedge: &QuasiStaticWedge, coil_force: f64, units: Units) -> Value {
     })
 }
 
-fn forces(wedge: &QuasiStaticWedge, coil_force: f64, units: Units) -> Table {
+fn forces(wedge: &QuasiStaticWedge, coil_force: f64, units: Units) -> TerminalTable {
     let unit = Kind::Force.label(units);
-    let mut table = Table::new(
+    let mut table = TerminalTable::new(
         2,
         &[
             ("bolster", "goes"),

@@ -15,7 +15,7 @@ use clap::Args;
 use rayon::prelude::*;
 use report::agreement::{self, TruckOutcome};
 use report::claims::{self, Claims, Evidence};
-use report::figures::{Exhibit, Outcome};
+use report::figures::{CaseOutcome, Exhibit};
 use report::files::{FileError, Folder};
 use report::page::{self, Contents, Viewer};
 use report::sensitivity::Sensitivity;
@@ -82,7 +82,7 @@ pub struct Arguments {
 
 /// A run whose files are written.
 struct ReproducedRun {
-    outcome: Outcome,
+    outcome: CaseOutcome,
     /// What the page shows of it, if it is interactive.
     recording: Option<Recording>,
     wall: Duration,
@@ -151,7 +151,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let (half_trucks, of_trucks): (Vec<TruckOutcome>, Vec<_>) = half_trucks.into_iter().flatten().unzip();
     let kept: Vec<ReproducedRun> = kept.into_iter().flatten().collect();
     let walls: Vec<Duration> = kept.iter().map(|kept| kept.wall).collect();
-    let (outcomes, recordings): (Vec<Outcome>, Vec<_>) = kept
+    let (outcomes, recordings): (Vec<CaseOutcome>, Vec<_>) = kept
         .into_iter()
         .map(|kept| (kept.outcome, kept.recording))
         .unzip();
@@ -289,7 +289,7 @@ fn draw(exhibits: &[&Exhibit], folder: &Folder) -> Result<Vec<String>, Failure> 
 
 /// Draws all figures and writes them and the page; gives the number of figures.
 fn write_report(
-    outcomes: &[Outcome],
+    outcomes: &[CaseOutcome],
     half_trucks: &[TruckOutcome],
     recordings: Vec<Recording>,
     places: &Places,
@@ -322,7 +322,7 @@ fn write_report(
             Failure::Failed(Message::new(message, "").into())
         })?;
     let mut svgs = svgs.into_iter();
-    let sections: Vec<page::Section> = plans
+    let sections: Vec<page::PageSection> = plans
         .iter()
         .map(|plan| sections::drawn(plan, svgs.by_ref().take(plan.exhibits.len())))
         .collect();

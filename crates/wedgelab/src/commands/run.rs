@@ -33,7 +33,7 @@ use crate::json;
 use crate::progress::Progress;
 use crate::saved::{self, Parts, Saved};
 use crate::select::built_in_elsewhere;
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// Run one case
 ///
@@ -124,7 +124,7 @@ fn begin(name: &str, files: &[&str], arguments: &Arguments) -> Result<(Folder, P
 fn run<C: RunFiles>(
     case: &C,
     arguments: &Arguments,
-    shown: impl FnOnce(&Done<C::Output>) -> (Table, String),
+    shown: impl FnOnce(&Done<C::Output>) -> (TerminalTable, String),
 ) -> Result<ExitCode, Failure> {
     let (folder, progress) = begin(case.name(), &case.names(), arguments)?;
     let done =
@@ -163,7 +163,7 @@ fn run_in_parts<C: RunFiles>(
     case: &C,
     text: &str,
     arguments: &Arguments,
-    shown: impl FnOnce(&Done<C::Output>) -> (Table, String),
+    shown: impl FnOnce(&Done<C::Output>) -> (TerminalTable, String),
 ) -> Result<ExitCode, Failure> {
     let (folder, progress) = begin(case.name(), &case.names(), arguments)?;
     let parts = Parts {
@@ -262,7 +262,7 @@ fn print_run(
     folder: &Folder,
     names: &[&str],
     summary: &impl Serialize,
-    words: impl FnOnce() -> (Table, String),
+    words: impl FnOnce() -> (TerminalTable, String),
 ) -> Result<(), Failure> {
     let path = folder.path();
     if arguments.json {
@@ -282,9 +282,9 @@ fn print_run(
 }
 
 /// Returns the text about a car's run.
-fn limits_of_car(summary: &CarSummary) -> (Table, String) {
+fn limits_of_car(summary: &CarSummary) -> (TerminalTable, String) {
     if summary.limits.is_empty() {
-        (Table::new(1, &[]), NO_STATISTICS.to_owned())
+        (TerminalTable::new(1, &[]), NO_STATISTICS.to_owned())
     } else {
         (car_table(summary), CAR_NOTE.to_owned())
     }
@@ -301,8 +301,8 @@ them against your edition. A limit counts for its regimes only (summary.json nam
 left, in parts of it.";
 
 /// Returns the table of a car's limits.
-fn car_table(summary: &CarSummary) -> Table {
-    let mut table = Table::new(
+fn car_table(summary: &CarSummary) -> TerminalTable {
+    let mut table = TerminalTable::new(
         2,
         &[
             ("quantity", ""),
@@ -335,10 +335,10 @@ friction at column and
 slope, over whole cycles of the first periodic motion after the first one.";
 
 /// Returns the table of a truck's wedges.
-fn truck_table(result: &TruckResult) -> Table {
+fn truck_table(result: &TruckResult) -> TerminalTable {
     let summary = &result.summary;
     let [force, energy] = [Kind::Force, Kind::Energy].map(|kind| kind.label(summary.units));
-    let mut table = Table::new(
+    let mut table = TerminalTable::new(
         1,
         &[
             ("wedge", ""),

@@ -11,7 +11,7 @@ use report::stability_files::NAMES;
 use report::{hunting_files, stability_files};
 use study::any_case::AnyCase;
 use study::car::CarCase;
-use study::car::hunting::{Boundary, Hunting, HuntingError, Settings, hunting};
+use study::car::hunting::{Boundary, Hunting, HuntingError, HuntingSettings, hunting};
 use study::car::stability::{FRICTION, Stability, stability};
 
 use super::run::read_any;
@@ -20,7 +20,7 @@ use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// Stability of a car over speed: growth and frequency of its vibrations, critical speeds, hunting
 ///
@@ -133,7 +133,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .out
         .clone()
         .unwrap_or_else(|| PathBuf::from(format!("{}_stability", case.name)));
-    let settings = Settings {
+    let settings = HuntingSettings {
         speeds: arguments.speeds,
         ramp: arguments.ramp_time,
         threshold: arguments.threshold,
@@ -290,9 +290,9 @@ fn lines_of(runs: &Hunting, units: Units) -> Vec<String> {
 }
 
 /// Returns the vibration that grows most at each speed.
-fn table(found: &Stability, units: Units) -> Table {
+fn table(found: &Stability, units: Units) -> TerminalTable {
     let unit = Kind::TravelSpeed.label(units);
-    let mut table = Table::new(
+    let mut table = TerminalTable::new(
         0,
         &[
             ("speed", unit),

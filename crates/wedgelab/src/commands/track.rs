@@ -12,7 +12,7 @@ use study::track::TrackFile;
 use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// Tracks: curves, spirals, superelevation, grades and irregularities
 #[derive(Debug, Args)]
@@ -105,7 +105,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         length / FOOT,
         track.irregularities.len()
     )?;
-    let mut table = Table::new(
+    let mut table = TerminalTable::new(
         1,
         &[
             ("largest mid-chord offset, in", ""),

@@ -18,7 +18,7 @@ use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// Warp moment of a truck over the warp angle, its parts and stiffness
 ///
@@ -220,8 +220,8 @@ pub fn run(label: &str, case: &TruckCase, progress: &Progress) -> Result<Option<
 }
 
 /// Returns the table of stiffnesses.
-fn table(tests: &[Tested]) -> Table {
-    let mut table = Table::new(
+fn table(tests: &[Tested]) -> TerminalTable {
+    let mut table = TerminalTable::new(
         1,
         &[
             ("test", ""),

@@ -9,7 +9,7 @@ use quantity::{Kind, Quantity};
 use report::wear_files::{self as files, Given, NAMES};
 use study::wear::archard::Archard;
 use study::wear::energy::WearByEnergy;
-use study::wear::{Plan, WearError, WearHistory, WearLaw, WearStop, advance};
+use study::wear::{WearError, WearHistory, WearLaw, WearPlan, WearStop, advance};
 
 use super::run::read;
 use crate::drawn::Drawn;
@@ -105,7 +105,7 @@ enum Law {
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let case = read(&arguments.case, &arguments.set)?;
-    let plan = Plan {
+    let plan = WearPlan {
         cycles: arguments.cycles,
         steps: arguments.steps,
         most_steps: arguments.most_steps.max(arguments.steps),
@@ -218,7 +218,7 @@ fn advice(error: &WearError) -> &'static str {
 }
 
 /// Returns the exit of the command when its files are written.
-fn stopped(history: &WearHistory, plan: &Plan) -> Result<ExitCode, Failure> {
+fn stopped(history: &WearHistory, plan: &WearPlan) -> Result<ExitCode, Failure> {
     let Some(stop) = &history.stopped else {
         return Ok(ExitCode::SUCCESS);
     };

@@ -9,14 +9,14 @@ use quantity::{Kind as Measure, Quantity};
 use report::wheelrail_files::{self, NAMES};
 use wheelrail::conicity::RollingRadiusDifference;
 use wheelrail::hertz::Material;
-use wheelrail::profile::{Kind, Profile, ProfileError, nominal};
+use wheelrail::profile::{Profile, ProfileError, ProfileKind, nominal};
 use wheelrail::wheelset::{Layout, RigidPosition, RigidWheelset};
 
 use super::{wheelrail_contact, wheelrail_run};
 use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// Profiles of wheels and rails: checks, rolling radius difference, contact angles, equivalent conicity,
 /// contact; a wheelset that runs
@@ -38,11 +38,11 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Reads and checks both profiles, and prints how a wheelset rolls on them
-    Check(Pair),
+    Check(WheelRailPair),
     /// Does the same, and writes wheelrail.csv, wheelrail.svg and wheelrail.png
     Plot {
         #[command(flatten)]
-        pair: Pair,
+        pair: WheelRailPair,
         /// Folder to write into
         #[arg(long, value_name = "DIR", default_value = "wheelrail")]
         out: PathBuf,
@@ -62,7 +62,7 @@ enum Command {
 
 /// A wheel and a rail, and where they are.
 #[derive(Debug, Args)]
-pub(super) struct Pair {
+pub(super) struct WheelRailPair {
     /// Wheel profile
     wheel: String,
     /// Rail profile
@@ -224,7 +224,7 @@ pub(super) fn wrong(error: &ProfileError) -> Failure {
     Message::new(error.to_string(), error.remedy()).into()
 }
 
-impl Pair {
+impl WheelRailPair {
     /// Returns the names of wheel and rail.
     pub(super) fn names(&self) -> [&str; 2] {
         [&self.wheel, &self.rail]
@@ -267,16 +267,16 @@ impl Pair {
                         .map_err(|reason| Message::new(format!("`{name}`: {reason}"), "write cone_1:20"))?;
                     nominal::cone(slope, TREAD).map_err(|error| wrong(&error))
                 }
-                None => self.of_file(name, Kind::Wheel, "aar_1b, cylinder, cone_1:20", deviation),
+                None => self.of_file(name, ProfileKind::Wheel, "aar_1b, cylinder, cone_1:20", deviation),
             },
         }
     }
 
-    /// As [`Pair::wheel`].
+    /// As [`WheelRailPair::wheel`].
     pub(super) fn rail(&self, deviation: f64) -> Result<Profile, Failure> {
         let (rail, usual) = match self.rail.as_str() {
             "136re" => (nominal::rail_136re().map_err(|error| wrong(&error))?, 1.0 / 40.0),
-            name => (self.of_file(name, Kind::Rail, "136re", deviation)?, 0.0),
+            name => (self.of_file(name, ProfileKind::Rail, "136re", deviation)?, 0.0),
         };
         Ok(match self.inclination.unwrap_or(usual) {
             0.0 => rail,
@@ -284,7 +284,13 @@ impl Pair {
         })
     }
 
-    fn of_file(&self, name: &str, kind: Kind, nominal: &str, deviation: f64) -> Result<Profile, Failure> {
+    fn of_file(
+        &self,
+        name: &str,
+        kind: ProfileKind,
+        nominal: &str,
+        deviation: f64,
+    ) -> Result<Profile, Failure> {
         let path = Path::new(name);
         if !path.exists() {
             let message = format!("there is neither a file nor a nominal {} `{name}`", kind.word());
@@ -297,8 +303,8 @@ impl Pair {
 }
 
 /// Returns a row for some shifts.
-fn table(positions: &[RigidPosition], conicity: &[(f64, f64)], largest: f64) -> Table {
-    let mut table = Table::new(
+fn table(positions: &[RigidPosition], conicity: &[(f64, f64)], largest: f64) -> TerminalTable {
+    let mut table = TerminalTable::new(
         0,
         &[
             ("shift", "in"),

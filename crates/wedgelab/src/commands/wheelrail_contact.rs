@@ -7,16 +7,16 @@ use clap::{Args, ValueEnum};
 use quantity::{Kind, Quantity};
 use serde_json::{Value, json};
 use wheelrail::contact::{ContactLaw, CreepLaw, Side};
-use wheelrail::creep::fastsim::Grid;
+use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
 use wheelrail::hertz::Material;
 use wheelrail::loaded::{Attitude, LoadedPatch, LoadedWheel, Seat};
 use wheelrail::wheelset::RigidWheelset;
 
-use super::wheelrail::{Pair, wrong};
+use super::wheelrail::{WheelRailPair, wrong};
 use crate::failure::{Failure, Message};
 use crate::json;
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// How the answer is to be read: in the help, the table and the JSON.
 const FRAME: &str = "CONTACT's: x forward, y to the right, z down, from the middle of the track at the \
@@ -46,7 +46,7 @@ Examples:
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
     #[command(flatten)]
-    pair: Pair,
+    pair: WheelRailPair,
     /// Lateral place of the wheelset, to the right
     #[arg(
         long,
@@ -207,7 +207,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             Creep::Linear => CreepLaw::Linear,
             Creep::ShenHedrickElkins => CreepLaw::ShenHedrickElkins,
             Creep::Polach => CreepLaw::Polach(polach::DRY),
-            Creep::Fastsim => CreepLaw::Fastsim(Grid { cells, strips: cells }),
+            Creep::Fastsim => CreepLaw::Fastsim(StripGrid { cells, strips: cells }),
         },
         slowest: 0.0,
     };
@@ -289,7 +289,7 @@ fn whole(wheel: &LoadedWheel) -> Value {
 }
 
 fn write(wheels: &[LoadedWheel; 2], out: &mut impl Write) -> io::Result<()> {
-    let mut table = Table::new(
+    let mut table = TerminalTable::new(
         1,
         &[
             ("wheel", ""),

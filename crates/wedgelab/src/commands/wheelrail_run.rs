@@ -10,24 +10,24 @@ use quantity::{Kind, Quantity, System as Units};
 use report::files::Folder;
 use report::page::{self, Viewer};
 use report::run_files::RunFiles;
-use rolling::rig::Start;
+use rolling::rig::RigStart;
 use rolling::wheelset::WheelsetBody;
 use study::track::TrackFile;
 use study::wheelset::summary::WheelsetSummary;
 use study::wheelset::{SearchMode, Wheelset, WheelsetCase};
 use wheelrail::contact::CreepLaw;
-use wheelrail::creep::fastsim::Grid;
+use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
 use wheelrail::hertz::Material;
 
-use super::wheelrail::{DEVIATION, Pair};
+use super::wheelrail::{DEVIATION, WheelRailPair};
 use super::wheelrail_contact::{Creep, of_angle, of_length, of_speed};
 use crate::execute::{compute, unsound, write};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// Prints them with the long help of the command.
 const EXAMPLES: &str = "\
@@ -56,7 +56,7 @@ const STEEL: Material = Material {
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
     #[command(flatten)]
-    pair: Pair,
+    pair: WheelRailPair,
     /// Track file
     track: PathBuf,
     /// Speed
@@ -281,13 +281,13 @@ fn wheelset(arguments: &Arguments, track: TrackFile, name: String) -> Result<Whe
             Creep::Linear => CreepLaw::Linear,
             Creep::ShenHedrickElkins => CreepLaw::ShenHedrickElkins,
             Creep::Polach => CreepLaw::Polach(polach::DRY),
-            Creep::Fastsim => CreepLaw::Fastsim(Grid { cells, strips: cells }),
+            Creep::Fastsim => CreepLaw::Fastsim(StripGrid { cells, strips: cells }),
         },
         search: match arguments.search {
             How::Search => SearchMode::Search,
             How::Table => SearchMode::Table,
         },
-        start: Start {
+        start: RigStart {
             distance: arguments.start.to_si(),
             lateral: arguments.lateral.to_si(),
             yaw: arguments.yaw.to_si(),
@@ -375,7 +375,7 @@ fn print_summary(summary: &WheelsetSummary, out: &mut impl Write) -> io::Result<
         };
         summary.extremes.get(&name)
     };
-    let mut table = Table::new(
+    let mut table = TerminalTable::new(
         1,
         &[
             ("wheel", ""),

@@ -7,7 +7,7 @@
 
 use numerics::scalar::Real;
 
-use crate::hertz::{Hertz, HertzError, Material, Shape};
+use crate::hertz::{EllipseShape, Hertz, HertzError, Material};
 
 /// Largest |ln(B/A)|.
 const LARGEST: f64 = 9.0;
@@ -42,7 +42,7 @@ impl Ellipses {
         // The constants are checked there.
         Hertz::new(material, 1.0, 1.0)?;
         let exact = |x: f64| {
-            let shape = Shape::of(libm::exp(-x.abs()));
+            let shape = EllipseShape::of(libm::exp(-x.abs()));
             let along = if x > 0.0 { shape.major } else { shape.minor };
             [libm::log(along), libm::log(shape.approach)]
         };

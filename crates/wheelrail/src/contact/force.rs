@@ -15,7 +15,7 @@ use numerics::scalar::{Dual, Real};
 use super::patch::ContactPatch;
 use super::pose::{Side, WheelPose};
 use super::search::FindPatches;
-use crate::creep::fastsim::Grid;
+use crate::creep::fastsim::StripGrid;
 use crate::creep::polach::Reduction;
 use crate::creep::{
     Coefficients, CreepForces, Creepage, Patch, fastsim, linear, polach, shen_hedrick_elkins,
@@ -34,7 +34,7 @@ pub enum CreepLaw {
     /// Polach.
     Polach(Reduction),
     /// FASTSIM with a grid.
-    Fastsim(Grid),
+    Fastsim(StripGrid),
 }
 
 /// The laws of a contact.

@@ -22,7 +22,7 @@
 use numerics::scalar::Real;
 
 use super::ellipse::Ellipse;
-use super::pose::{Frame, Node};
+use super::pose::{Frame, ProfileNode};
 use super::search::{ContactPair, Interval, NOTHING, Scan};
 use super::section::STATIONS;
 
@@ -194,7 +194,7 @@ impl ContactPair {
     /// Returns the patch of an interval of the parameter.
     fn patch<S: Real>(&self, frame: &Frame<S>, from: S, to: S, share: S) -> Option<ContactPatch<S>> {
         let zero = S::zero();
-        let mut nodes = [Node {
+        let mut nodes = [ProfileNode {
             overlap: zero,
             overlap_slope: zero,
             place: [zero; 3],
@@ -253,7 +253,7 @@ impl ContactPair {
 
 /// Square and cube of the overlap at a node, each with its derivative by y.
 #[inline(always)]
-fn powers<S: Real>(node: &Node<S>) -> [[S; 2]; 2] {
+fn powers<S: Real>(node: &ProfileNode<S>) -> [[S; 2]; 2] {
     let (h, slope) = (node.overlap, node.overlap_slope);
     let square = h * h;
     [[square, h * slope * 2.0], [square * h, square * slope * 3.0]]

@@ -99,7 +99,7 @@ const LARGEST_SINE: f64 = 0.9;
 
 /// A point of the silhouette over the rail.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Node<S> {
+pub(super) struct ProfileNode<S> {
     /// Height of the rail above the wheel there, m.
     pub overlap: S,
     /// Its derivative by y.
@@ -145,7 +145,7 @@ impl<S: Real> Frame<S> {
 
     /// Returns the point of the silhouette at a parameter of the wheel's profile. Its sine θ is limited.
     #[inline(always)]
-    pub fn node(&self, wheel: &WheelSection, rail: &RailSection, parameter: S) -> Node<S> {
+    pub fn node(&self, wheel: &WheelSection, rail: &RailSection, parameter: S) -> ProfileNode<S> {
         let point = wheel.at(parameter);
         let mut sine = self.tangent * point.slope;
         if sine.value().abs() > LARGEST_SINE {
@@ -164,7 +164,7 @@ impl<S: Real> Frame<S> {
         let y = self.center[0] + point.y * self.axle[1] + point.radius * out[0];
         let z = self.center[1] + point.y * self.axle[2] + point.radius * out[1];
         let [height, slope] = rail.at(y);
-        Node {
+        ProfileNode {
             overlap: height - z,
             overlap_slope: slope + normal[0] / normal[1],
             place: [point.y * self.axle[0] + point.radius * sine * self.along[0], y, z],

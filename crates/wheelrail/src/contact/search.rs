@@ -12,7 +12,7 @@ use numerics::scalar::{Dual, Real};
 
 use super::ellipse::Ellipses;
 use super::patch::ContactPatch;
-use super::pose::{Frame, Node, WheelPose};
+use super::pose::{Frame, ProfileNode, WheelPose};
 use super::section::{RailSection, STATIONS, WheelSection};
 use crate::hertz::Material;
 use crate::profile::{Profile, ProfileError};
@@ -41,7 +41,7 @@ pub struct ContactPair {
 /// An interval of overlap by the parameter of the wheel's profile.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Interval {
-    pub ends: [End; 2],
+    pub ends: [IntervalEnd; 2],
     /// Largest overlap at its stations.
     pub peak: f64,
     /// Its first and last station.
@@ -50,7 +50,7 @@ pub(super) struct Interval {
 
 /// An end of an interval.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum End {
+pub(super) enum IntervalEnd {
     /// The overlap is zero between a parameter outside and one inside.
     Root([f64; 2]),
     /// The wheel ends there.
@@ -314,8 +314,8 @@ impl ContactPair {
                 let end = |inside: usize, outside: Option<usize>| {
                     let at = self.wheel.parameter(inside);
                     match outside.filter(|outside| scan.overlap[*outside] > f64::NEG_INFINITY) {
-                        Some(outside) => End::Root([self.wheel.parameter(outside), at]),
-                        None => End::Cut(at),
+                        Some(outside) => IntervalEnd::Root([self.wheel.parameter(outside), at]),
+                        None => IntervalEnd::Cut(at),
                     }
                 };
                 take(Interval {
@@ -362,7 +362,7 @@ impl ContactPair {
                 let peak = frame.node(&self.wheel, &self.rail, at).overlap;
                 if peak > NOTHING {
                     take(Interval {
-                        ends: [before.0, after.0].map(|end| End::Root([end, at])),
+                        ends: [before.0, after.0].map(|end| IntervalEnd::Root([end, at])),
                         peak,
                         stations: [k, k],
                     });
@@ -384,7 +384,7 @@ impl ContactPair {
 
     /// Returns the node at a parameter with derivatives by the parameter.
     #[inline(always)]
-    pub(super) fn along(&self, frame: &Frame<f64>, parameter: f64) -> Node<Dual<1>> {
+    pub(super) fn along(&self, frame: &Frame<f64>, parameter: f64) -> ProfileNode<Dual<1>> {
         let lifted = frame.lifted::<Dual<1>>();
         lifted.node(&self.wheel, &self.rail, Dual::variable(parameter, 0))
     }
@@ -417,10 +417,10 @@ impl ContactPair {
     }
 
     /// Returns an end of an interval.
-    pub(super) fn end<S: Real>(&self, frame: &Frame<S>, plain: &Frame<f64>, end: End) -> S {
+    pub(super) fn end<S: Real>(&self, frame: &Frame<S>, plain: &Frame<f64>, end: IntervalEnd) -> S {
         match end {
-            End::Cut(at) => S::from(at),
-            End::Root(ends) => {
+            IntervalEnd::Cut(at) => S::from(at),
+            IntervalEnd::Root(ends) => {
                 let overlap = |parameter| self.along(plain, parameter).overlap;
                 let at = zero(ends, |parameter| {
                     let found = overlap(parameter);

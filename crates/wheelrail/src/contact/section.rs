@@ -8,7 +8,7 @@
 
 use numerics::scalar::Real;
 
-use crate::profile::{Curve, Kind, Profile, ProfileError};
+use crate::profile::{Profile, ProfileCurve, ProfileError, ProfileKind};
 
 /// Steepest direction that is part of a section, rad: 82°.
 pub(super) const STEEPEST: f64 = 1.431_169_986_635_35;
@@ -45,7 +45,7 @@ fn second([_, _, c, d]: &[f64; 4], t: f64) -> f64 {
 }
 
 /// Returns the range of parameters around `datum` in which the curve is not steeper than [`STEEPEST`].
-fn visible(curve: &Curve, datum: f64) -> [f64; 2] {
+fn visible(curve: &ProfileCurve, datum: f64) -> [f64; 2] {
     let [low, high] = curve.range();
     let level = |parameter: f64| curve.at(parameter).angle().abs() <= STEEPEST;
     let walk = |direction: f64| {
@@ -74,7 +74,7 @@ fn visible(curve: &Curve, datum: f64) -> [f64; 2] {
 }
 
 /// Returns the parameter at which y is zero.
-fn datum(curve: &Curve) -> Option<f64> {
+fn datum(curve: &ProfileCurve) -> Option<f64> {
     let sample = curve.sample(SPACING);
     sample.windows(2).find_map(|pair| {
         let ([y0, _], [y1, _]) = (pair[0].1.position, pair[1].1.position);
@@ -83,8 +83,8 @@ fn datum(curve: &Curve) -> Option<f64> {
 }
 
 /// Checks kind and datum of a profile; returns the range that is visible.
-fn prepared(profile: &Profile, expected: Kind) -> Result<[f64; 2], ProfileError> {
-    let place = || crate::profile::Place::whole(profile.name());
+fn prepared(profile: &Profile, expected: ProfileKind) -> Result<[f64; 2], ProfileError> {
+    let place = || crate::profile::ProfilePlace::whole(profile.name());
     if profile.kind() != expected {
         return Err(ProfileError::Kind {
             place: place(),
@@ -139,7 +139,7 @@ pub(super) struct WheelSection {
 
 impl WheelSection {
     pub fn new(profile: &Profile, radius: f64) -> Result<Self, ProfileError> {
-        let [start, end] = prepared(profile, Kind::Wheel)?;
+        let [start, end] = prepared(profile, ProfileKind::Wheel)?;
         let count = libm::ceil((end - start) / SPACING).max(1.0) as usize;
         let step = (end - start) / count as f64;
         let points: Vec<_> = (0..=count)
@@ -237,7 +237,7 @@ pub(super) struct RailSection {
 
 impl RailSection {
     pub fn new(profile: &Profile) -> Result<Self, ProfileError> {
-        let [start, end] = prepared(profile, Kind::Rail)?;
+        let [start, end] = prepared(profile, ProfileKind::Rail)?;
         let count = libm::ceil((end - start) / SPACING).max(1.0) as usize;
         let points: Vec<_> = (0..=count)
             .map(|i| {

@@ -19,7 +19,7 @@
 use numerics::scalar::Real;
 
 use super::patch::ContactPatch;
-use super::pose::{Frame, Node, WheelPose};
+use super::pose::{Frame, ProfileNode, WheelPose};
 use super::search::{ContactPair, FindPatches};
 use crate::hertz::Material;
 use crate::profile::ProfileError;
@@ -161,7 +161,7 @@ fn sample(
         axle: [0.0, level, inclination],
     });
     let count = ((to - from) / SAMPLE).ceil().max(1.0) as usize;
-    let at = |i: usize| -> Node<f64> {
+    let at = |i: usize| -> ProfileNode<f64> {
         let parameter = from + (to - from) * i as f64 / count as f64;
         frame.node(&pair.wheel, &pair.rail, parameter)
     };
@@ -174,7 +174,7 @@ fn sample(
     let offset = nominal - highest;
     let (mut squares, mut cubes) = (0.0, 0.0);
     let mut means = [0.0; 4];
-    let mut before: Option<(Node<f64>, f64)> = None;
+    let mut before: Option<(ProfileNode<f64>, f64)> = None;
     for i in 0..=count {
         let node = at(i);
         let overlap = (node.overlap + offset).max(0.0);

@@ -16,7 +16,7 @@ use super::{CreepForces, Creepage, Patch};
 
 /// Cells along the rolling direction, and strips across it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Grid {
+pub struct StripGrid {
     /// Cells of a strip, at least 1.
     pub cells: usize,
     /// Strips, at least 1.
@@ -24,7 +24,7 @@ pub struct Grid {
 }
 
 /// Returns the creep forces.
-pub fn forces<S: Real>(patch: &Patch<S>, creepage: &Creepage<S>, grid: Grid) -> CreepForces<S> {
+pub fn forces<S: Real>(patch: &Patch<S>, creepage: &Creepage<S>, grid: StripGrid) -> CreepForces<S> {
     let [a, b] = patch.axes;
     let c = &patch.coefficients;
     let flexibility = a * (8.0 / (3.0 * patch.shear_modulus));

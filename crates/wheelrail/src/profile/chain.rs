@@ -3,18 +3,18 @@
 //! A chain is a list of directed lines and circles, along the direction in which y grows overall. A radius is
 //! positive where the chain turns from y towards z (to the left of its direction), so the center lies at
 //! `point + radius · normal` with the normal to the left. Neighbors must touch with the same direction; a
-//! [`Element::Fillet`] between two of them is given by its radius alone, and its center is solved for: it
-//! lies at the signed distance `radius` from a line, and `|radius - other radius|` from the center of a
+//! [`ChainElement::Fillet`] between two of them is given by its radius alone, and its center is solved for:
+//! it lies at the signed distance `radius` from a line, and `|radius - other radius|` from the center of a
 //! circle.
 
 use std::f64::consts::{PI, TAU};
 
-use super::curve::{Curve, Form, Piece};
-use super::error::{Place, ProfileError};
+use super::curve::{CurveForm, Piece, ProfileCurve};
+use super::error::{ProfileError, ProfilePlace};
 
 /// An element of a chain.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Element {
+pub enum ChainElement {
     /// A line through a point (m) in a direction (rad from the y axis).
     Line {
         /// A point of it.
@@ -47,11 +47,11 @@ const TOUCHING: f64 = 1e-8;
 pub fn chain(
     name: &str,
     start: [f64; 2],
-    elements: &[Element],
+    elements: &[ChainElement],
     end: [f64; 2],
-) -> Result<Curve, ProfileError> {
+) -> Result<ProfileCurve, ProfileError> {
     let error = |element: usize, found: String, remedy| ProfileError::Joint {
-        place: Place::whole(name),
+        place: ProfilePlace::whole(name),
         element: element + 1,
         found,
         remedy,
@@ -61,12 +61,14 @@ pub fn chain(
     }
     for (number, element) in elements.iter().enumerate() {
         let numbers = match *element {
-            Element::Line { point, angle } => [point[0], point[1], angle],
-            Element::Circle { center, radius } => [center[0], center[1], radius],
-            Element::Fillet { radius } => [radius, 0.0, 0.0],
+            ChainElement::Line { point, angle } => [point[0], point[1], angle],
+            ChainElement::Circle { center, radius } => [center[0], center[1], radius],
+            ChainElement::Fillet { radius } => [radius, 0.0, 0.0],
         };
-        let flat =
-            matches!(*element, Element::Circle { radius, .. } | Element::Fillet { radius } if radius == 0.0);
+        let flat = matches!(
+            *element,
+            ChainElement::Circle { radius, .. } | ChainElement::Fillet { radius } if radius == 0.0
+        );
         if flat || !numbers.iter().all(|number| number.is_finite()) {
             return Err(error(
                 number,
@@ -78,7 +80,7 @@ pub fn chain(
     let mut fixed = Vec::with_capacity(elements.len());
     for (number, element) in elements.iter().enumerate() {
         let solved = match *element {
-            Element::Fillet { radius } => {
+            ChainElement::Fillet { radius } => {
                 let (before, after) = (
                     number.checked_sub(1).map(|i| elements[i]),
                     elements.get(number + 1),
@@ -97,7 +99,7 @@ pub fn chain(
                         "change the radius, or one of the neighbors",
                     )
                 })?;
-                Element::Circle { center, radius }
+                ChainElement::Circle { center, radius }
             }
             other => other,
         };
@@ -120,12 +122,12 @@ pub fn chain(
     for (number, element) in fixed.iter().enumerate() {
         let (from, to) = (points[number], points[number + 1]);
         let (angle, curvature, length) = match *element {
-            Element::Line { angle, .. } => {
+            ChainElement::Line { angle, .. } => {
                 let (sine, cosine) = libm::sincos(angle);
                 let length = (to[0] - from[0]) * cosine + (to[1] - from[1]) * sine;
                 (angle, 0.0, length)
             }
-            Element::Circle { center, radius } => {
+            ChainElement::Circle { center, radius } => {
                 let [first, last] = [from, to].map(|point| direction_on(center, radius, point));
                 let mut turn = (last - first) * radius.signum();
                 turn -= TAU * libm::floor((turn + 1e-9) / TAU);
@@ -135,7 +137,7 @@ pub fn chain(
                     if turn > PI { f64::NAN } else { turn * radius.abs() },
                 )
             }
-            Element::Fillet { .. } => unreachable!("fillets have become circles"),
+            ChainElement::Fillet { .. } => unreachable!("fillets have become circles"),
         };
         if length.is_nan() || length <= -TOUCHING {
             return Err(error(
@@ -145,7 +147,7 @@ pub fn chain(
             ));
         }
         if length > TOUCHING {
-            let form = Form::Arc {
+            let form = CurveForm::Arc {
                 start: from,
                 angle,
                 curvature,
@@ -160,7 +162,7 @@ pub fn chain(
     if pieces.is_empty() {
         return Err(error(0, "has no length".into(), "move start and end apart"));
     }
-    Ok(Curve::new(pieces, parameter))
+    Ok(ProfileCurve::new(pieces, parameter))
 }
 
 /// Returns the direction (rad) of a directed circle at a point of it.
@@ -171,33 +173,33 @@ fn direction_on(center: [f64; 2], radius: f64, point: [f64; 2]) -> f64 {
 }
 
 /// Returns the point of an element nearest to a point.
-fn nearest(element: &Element, point: [f64; 2]) -> [f64; 2] {
+fn nearest(element: &ChainElement, point: [f64; 2]) -> [f64; 2] {
     match *element {
-        Element::Line { point: own, angle } => {
+        ChainElement::Line { point: own, angle } => {
             let (sine, cosine) = libm::sincos(angle);
             let along = (point[0] - own[0]) * cosine + (point[1] - own[1]) * sine;
             [own[0] + along * cosine, own[1] + along * sine]
         }
-        Element::Circle { center, radius } => {
+        ChainElement::Circle { center, radius } => {
             let away = [point[0] - center[0], point[1] - center[1]];
             let factor = radius.abs() / libm::hypot(away[0], away[1]);
             [center[0] + away[0] * factor, center[1] + away[1] * factor]
         }
-        Element::Fillet { .. } => point,
+        ChainElement::Fillet { .. } => point,
     }
 }
 
 /// Returns the point where two neighbors touch with the same direction.
-fn joint(before: &Element, after: &Element) -> Option<[f64; 2]> {
+fn joint(before: &ChainElement, after: &ChainElement) -> Option<[f64; 2]> {
     match (*before, *after) {
-        (Element::Line { point, angle }, Element::Circle { center, radius })
-        | (Element::Circle { center, radius }, Element::Line { point, angle }) => {
+        (ChainElement::Line { point, angle }, ChainElement::Circle { center, radius })
+        | (ChainElement::Circle { center, radius }, ChainElement::Line { point, angle }) => {
             let (sine, cosine) = libm::sincos(angle);
             let distance = (center[1] - point[1]) * cosine - (center[0] - point[0]) * sine;
             let foot = [center[0] + radius * sine, center[1] - radius * cosine];
             ((distance - radius).abs() < TOUCHING).then_some(foot)
         }
-        (Element::Circle { center: c, radius: r }, Element::Circle { center: d, radius: s }) => {
+        (ChainElement::Circle { center: c, radius: r }, ChainElement::Circle { center: d, radius: s }) => {
             let apart = libm::hypot(d[0] - c[0], d[1] - c[1]);
             if r == s || (apart - (r - s).abs()).abs() > TOUCHING {
                 return None;
@@ -210,7 +212,7 @@ fn joint(before: &Element, after: &Element) -> Option<[f64; 2]> {
 }
 
 /// Returns the center of a circle that touches two neighbors; of several, the one whose arc turns least.
-fn fillet(before: &Element, radius: f64, after: &Element) -> Option<[f64; 2]> {
+fn fillet(before: &ChainElement, radius: f64, after: &ChainElement) -> Option<[f64; 2]> {
     let candidates = match (locus(before, radius)?, locus(after, radius)?) {
         (Locus::Line(p, a), Locus::Line(q, b)) => {
             let determinant = libm::sin(b - a);
@@ -256,7 +258,7 @@ fn fillet(before: &Element, radius: f64, after: &Element) -> Option<[f64; 2]> {
         }
     };
     let turn = |center: &[f64; 2]| {
-        let own = Element::Circle {
+        let own = ChainElement::Circle {
             center: *center,
             radius,
         };
@@ -279,16 +281,16 @@ enum Locus {
     Circle([f64; 2], f64),
 }
 
-fn locus(element: &Element, radius: f64) -> Option<Locus> {
+fn locus(element: &ChainElement, radius: f64) -> Option<Locus> {
     match *element {
-        Element::Line { point, angle } => {
+        ChainElement::Line { point, angle } => {
             let (sine, cosine) = libm::sincos(angle);
             Some(Locus::Line(
                 [point[0] - radius * sine, point[1] + radius * cosine],
                 angle,
             ))
         }
-        Element::Circle { center, radius: own } => Some(Locus::Circle(center, (own - radius).abs())),
-        Element::Fillet { .. } => None,
+        ChainElement::Circle { center, radius: own } => Some(Locus::Circle(center, (own - radius).abs())),
+        ChainElement::Fillet { .. } => None,
     }
 }

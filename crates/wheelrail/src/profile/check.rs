@@ -1,29 +1,29 @@
 //! Checks of points before a profile is made of them.
 
-use super::error::{Place, ProfileError};
+use super::error::{ProfileError, ProfilePlace};
 use super::points::Points;
-use super::{Kind, SMALLEST_SPACING};
+use super::{ProfileKind, SMALLEST_SPACING};
 
 /// A flange or a rail's side reaches at least this far from the tread, m.
 pub(super) const FLANGE: f64 = 0.015;
 
 /// Widths that occur, m, and their words.
-fn widths(kind: Kind) -> ([f64; 2], &'static str) {
+fn widths(kind: ProfileKind) -> ([f64; 2], &'static str) {
     match kind {
-        Kind::Wheel => ([0.05, 0.2], "50 to 200 mm"),
-        Kind::Rail => ([0.02, 0.2], "20 to 200 mm"),
+        ProfileKind::Wheel => ([0.05, 0.2], "50 to 200 mm"),
+        ProfileKind::Rail => ([0.02, 0.2], "20 to 200 mm"),
     }
 }
 
 /// Orders points from the gauge side to the field side, takes away those closer than [`SMALLEST_SPACING`] to
 /// their neighbor, and checks number, size, crossings and orientation.
-pub(super) fn checked(points: &Points, kind: Kind) -> Result<Points, ProfileError> {
+pub(super) fn checked(points: &Points, kind: ProfileKind) -> Result<Points, ProfileError> {
     let name = &points.name;
     if let Some(found) = points.kind
         && found != kind
     {
         return Err(ProfileError::Kind {
-            place: Place::whole(name),
+            place: ProfilePlace::whole(name),
             found: found.word(),
             expected: kind.word(),
         });
@@ -31,7 +31,7 @@ pub(super) fn checked(points: &Points, kind: Kind) -> Result<Points, ProfileErro
     let kept = ordered(points);
     if kept.points.len() < 5 {
         return Err(ProfileError::TooFew {
-            place: Place::whole(name),
+            place: ProfilePlace::whole(name),
             points: kept.points.len(),
         });
     }
@@ -74,7 +74,7 @@ fn extent(points: &Points, axis: usize) -> [f64; 2] {
     })
 }
 
-fn units(points: &Points, kind: Kind) -> Result<(), ProfileError> {
+fn units(points: &Points, kind: ProfileKind) -> Result<(), ProfileError> {
     let [low, high] = extent(points, 0);
     let (range, expected) = widths(kind);
     let width = high - low;
@@ -94,7 +94,7 @@ fn units(points: &Points, kind: Kind) -> Result<(), ProfileError> {
         .find(|(factor, _)| fits(*factor))
         .map_or("it belongs to another kind of profile", |(_, words)| words);
     Err(ProfileError::Units {
-        place: Place::whole(&points.name),
+        place: ProfilePlace::whole(&points.name),
         kind: kind.word(),
         width,
         expected,
@@ -127,11 +127,11 @@ fn height(points: &Points) -> Result<(), ProfileError> {
     })
 }
 
-fn orientation(points: &Points, kind: Kind) -> Result<(), ProfileError> {
+fn orientation(points: &Points, kind: ProfileKind) -> Result<(), ProfileError> {
     let [low, high] = extent(points, 0);
     let refused = |found: &str, remedy: &str| {
         Err(ProfileError::Orientation {
-            place: Place::whole(&points.name),
+            place: ProfilePlace::whole(&points.name),
             found: found.into(),
             remedy: remedy.into(),
         })
@@ -140,10 +140,10 @@ fn orientation(points: &Points, kind: Kind) -> Result<(), ProfileError> {
         return refused(
             "y = 0, the datum, lies outside of the points",
             match kind {
-                Kind::Wheel => {
+                ProfileKind::Wheel => {
                     "shift y so that y = 0 is the tape circle, where the nominal radius is measured"
                 }
-                Kind::Rail => "shift y so that y = 0 lies in the rail head",
+                ProfileKind::Rail => "shift y so that y = 0 lies in the rail head",
             },
         );
     }
@@ -155,7 +155,7 @@ fn orientation(points: &Points, kind: Kind) -> Result<(), ProfileError> {
     let [bottom, top] = extent(points, 1);
     let upside_down = "z must point up: name its column z_down (CSV) or set mirror.z (Simpack)";
     match kind {
-        Kind::Wheel => {
+        ProfileKind::Wheel => {
             if top - datum > FLANGE && datum - bottom < FLANGE {
                 return refused("the flange points up", upside_down);
             }
@@ -169,7 +169,7 @@ fn orientation(points: &Points, kind: Kind) -> Result<(), ProfileError> {
                 );
             }
         }
-        Kind::Rail => {
+        ProfileKind::Rail => {
             let ends = [points.points[0][1], points.points[points.points.len() - 1][1]];
             if ends.iter().all(|end| *end > datum) {
                 return refused("both sides of the rail rise above its top", upside_down);

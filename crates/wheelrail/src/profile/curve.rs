@@ -31,7 +31,7 @@ impl CurvePoint {
 
 /// The form of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Form {
+pub(super) enum CurveForm {
     /// A line or an arc: start, direction there (rad), signed curvature (1/m).
     Arc {
         start: [f64; 2],
@@ -47,14 +47,14 @@ pub(super) enum Form {
 pub(super) struct Piece {
     /// Parameter at its start, m.
     pub start: f64,
-    pub form: Form,
+    pub form: CurveForm,
 }
 
 impl Piece {
     fn at(&self, parameter: f64) -> CurvePoint {
         let t = parameter - self.start;
         match self.form {
-            Form::Arc {
+            CurveForm::Arc {
                 start: [y, z],
                 angle,
                 curvature,
@@ -73,7 +73,7 @@ impl Piece {
                     second: [-curvature * sin, curvature * cos],
                 }
             }
-            Form::Cubic(coefficients) => {
+            CurveForm::Cubic(coefficients) => {
                 let value = |c: &[f64; 4]| c[0] + t * (c[1] + t * (c[2] + t * c[3]));
                 let slope = |c: &[f64; 4]| c[1] + t * (2.0 * c[2] + t * 3.0 * c[3]);
                 let second = |c: &[f64; 4]| 2.0 * c[2] + 6.0 * t * c[3];
@@ -90,12 +90,12 @@ impl Piece {
 
 /// A curve.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Curve {
+pub struct ProfileCurve {
     pieces: Vec<Piece>,
     end: f64,
 }
 
-impl Curve {
+impl ProfileCurve {
     /// Returns the curve of pieces (at least one, by rising parameter) up to the parameter `end`.
     pub(super) fn new(pieces: Vec<Piece>, end: f64) -> Self {
         debug_assert!(!pieces.is_empty());
@@ -141,26 +141,26 @@ impl Curve {
         let rotate = |[y, z]: [f64; 2]| [y * cosine - z * sine, y * sine + z * cosine];
         let pieces = self.pieces.iter().map(|piece| {
             let form = match piece.form {
-                Form::Arc {
+                CurveForm::Arc {
                     start,
                     angle,
                     curvature,
                 } => {
                     let [y, z] = rotate(start);
-                    Form::Arc {
+                    CurveForm::Arc {
                         start: [y + shift[0], z + shift[1]],
                         angle: angle + turn,
                         curvature,
                     }
                 }
-                Form::Cubic([a, b]) => {
+                CurveForm::Cubic([a, b]) => {
                     let mut moved = [[0.0; 4]; 2];
                     for power in 0..4 {
                         [moved[0][power], moved[1][power]] = rotate([a[power], b[power]]);
                     }
                     moved[0][0] += shift[0];
                     moved[1][0] += shift[1];
-                    Form::Cubic(moved)
+                    CurveForm::Cubic(moved)
                 }
             };
             Piece { form, ..*piece }

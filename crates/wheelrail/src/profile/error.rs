@@ -8,14 +8,14 @@ use thiserror::Error;
 
 /// Where a mistake stands.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Place {
+pub struct ProfilePlace {
     /// The file as named, or the name of a profile that is no file.
     pub name: String,
     /// The line, from 1; none if the mistake concerns the whole.
     pub line: Option<usize>,
 }
 
-impl Place {
+impl ProfilePlace {
     /// Returns the whole of a file or profile.
     #[must_use]
     pub fn whole(name: &str) -> Self {
@@ -35,7 +35,7 @@ impl Place {
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for ProfilePlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.line {
             Some(line) => write!(f, "{}, line {line}", self.name),
@@ -60,7 +60,7 @@ pub enum ProfileError {
     #[error("{place}: {found}")]
     Line {
         /// Where.
-        place: Place,
+        place: ProfilePlace,
         /// What is wrong.
         found: String,
         /// What to do.
@@ -70,7 +70,7 @@ pub enum ProfileError {
     #[error("{place}: this is the profile of a {found}; a {expected} is expected")]
     Kind {
         /// Where.
-        place: Place,
+        place: ProfilePlace,
         /// What the file says it is.
         found: &'static str,
         /// What was asked for.
@@ -80,7 +80,7 @@ pub enum ProfileError {
     #[error("{place}: {points} different points are too few for a profile")]
     TooFew {
         /// Where.
-        place: Place,
+        place: ProfilePlace,
         /// How many there are.
         points: usize,
     },
@@ -91,7 +91,7 @@ pub enum ProfileError {
     )]
     Units {
         /// Where.
-        place: Place,
+        place: ProfilePlace,
         /// Wheel or rail.
         kind: &'static str,
         /// Their width, m.
@@ -108,9 +108,9 @@ pub enum ProfileError {
     )]
     SelfCrossing {
         /// Where one of the crossing pieces begins.
-        place: Place,
+        place: ProfilePlace,
         /// The other one.
-        other: Place,
+        other: ProfilePlace,
         /// The point of crossing, m.
         at: [f64; 2],
     },
@@ -118,7 +118,7 @@ pub enum ProfileError {
     #[error("{place}: {found}")]
     Orientation {
         /// Where.
-        place: Place,
+        place: ProfilePlace,
         /// What is wrong.
         found: String,
         /// What to do.
@@ -144,7 +144,7 @@ pub enum ProfileError {
     #[error("{place}: element {element} (from 1) {found}")]
     Joint {
         /// The profile.
-        place: Place,
+        place: ProfilePlace,
         /// The element, from 1.
         element: usize,
         /// What is wrong.

@@ -21,9 +21,9 @@ mod spline;
 
 use std::path::Path;
 
-pub use chain::Element;
-pub use curve::{Curve, CurvePoint};
-pub use error::{Place, ProfileError};
+pub use chain::ChainElement;
+pub use curve::{CurvePoint, ProfileCurve};
+pub use error::{ProfileError, ProfilePlace};
 pub use points::Points;
 pub use spline::Deviation;
 
@@ -38,14 +38,14 @@ const COARSE: f64 = 2e-4;
 
 /// Wheel or rail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ProfileKind {
     /// A wheel.
     Wheel,
     /// A rail.
     Rail,
 }
 
-impl Kind {
+impl ProfileKind {
     /// Returns its name.
     #[must_use]
     pub fn word(self) -> &'static str {
@@ -60,8 +60,8 @@ impl Kind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     name: String,
-    kind: Kind,
-    curve: Curve,
+    kind: ProfileKind,
+    curve: ProfileCurve,
     deviation: Deviation,
     note: &'static str,
 }
@@ -69,7 +69,7 @@ pub struct Profile {
 impl Profile {
     /// Returns the profile of a curve that leads from the gauge side to the field side.
     #[must_use]
-    pub fn of_curve(name: &str, kind: Kind, curve: Curve) -> Self {
+    pub fn of_curve(name: &str, kind: ProfileKind, curve: ProfileCurve) -> Self {
         Self {
             name: name.to_owned(),
             kind,
@@ -87,9 +87,9 @@ impl Profile {
     /// The elements do not join, or the profile crosses itself.
     pub fn of_chain(
         name: &str,
-        kind: Kind,
+        kind: ProfileKind,
         start: [f64; 2],
-        elements: &[Element],
+        elements: &[ChainElement],
         end: [f64; 2],
     ) -> Result<Self, ProfileError> {
         let curve = chain::chain(name, start, elements, end)?;
@@ -97,8 +97,8 @@ impl Profile {
         let points: Vec<[f64; 2]> = sample.iter().map(|(_, point)| point.position).collect();
         check::crossings(&Points::new(name, &points)).map_err(|error| match error {
             ProfileError::SelfCrossing { at, .. } => ProfileError::SelfCrossing {
-                place: Place::whole(name),
-                other: Place::whole("itself"),
+                place: ProfilePlace::whole(name),
+                other: ProfilePlace::whole("itself"),
                 at,
             },
             other => other,
@@ -112,7 +112,7 @@ impl Profile {
     /// # Errors
     /// The points are too few, cross themselves, have a wrong unit or orientation, or the deviation is
     /// negative.
-    pub fn of_points(points: &Points, kind: Kind, deviation: f64) -> Result<Self, ProfileError> {
+    pub fn of_points(points: &Points, kind: ProfileKind, deviation: f64) -> Result<Self, ProfileError> {
         if !(deviation >= 0.0 && deviation.is_finite()) {
             return Err(ProfileError::Number {
                 what: "deviation from the points",
@@ -133,7 +133,7 @@ impl Profile {
     ///
     /// # Errors
     /// The file is not read, or there are no good points in it.
-    pub fn read(path: &Path, kind: Kind, deviation: f64) -> Result<Self, ProfileError> {
+    pub fn read(path: &Path, kind: ProfileKind, deviation: f64) -> Result<Self, ProfileError> {
         Self::of_points(&Points::read(path)?, kind, deviation)
     }
 
@@ -145,7 +145,7 @@ impl Profile {
 
     /// Returns whether it is a wheel or a rail.
     #[must_use]
-    pub fn kind(&self) -> Kind {
+    pub fn kind(&self) -> ProfileKind {
         self.kind
     }
 
@@ -163,7 +163,7 @@ impl Profile {
 
     /// Returns its curve.
     #[must_use]
-    pub fn curve(&self) -> &Curve {
+    pub fn curve(&self) -> &ProfileCurve {
         &self.curve
     }
 
@@ -172,8 +172,8 @@ impl Profile {
     pub fn convexity(&self, parameter: f64) -> f64 {
         let curvature = self.curve.at(parameter).curvature();
         match self.kind {
-            Kind::Wheel => curvature,
-            Kind::Rail => -curvature,
+            ProfileKind::Wheel => curvature,
+            ProfileKind::Rail => -curvature,
         }
     }
 

@@ -28,8 +28,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use quantity::INCH;
 
-use super::chain::{Element, chain};
-use super::{Kind, Profile, ProfileError};
+use super::chain::{ChainElement, chain};
+use super::{Profile, ProfileError, ProfileKind};
 
 /// Depth below the top of the rail at which gauge is measured in North America, m (49 CFR 213.53).
 pub const GAUGE_DEPTH: f64 = 0.625 * INCH;
@@ -52,13 +52,13 @@ pub fn cone(slope: f64, half_width: f64) -> Result<Profile, ProfileError> {
             must: "positive",
         });
     }
-    let line = Element::Line {
+    let line = ChainElement::Line {
         point: [0.0, 0.0],
         angle: libm::atan(slope),
     };
     let ends = [-half_width, half_width].map(|y| [y, y * slope]);
     let curve = chain("cone", ends[0], &[line], ends[1])?;
-    Ok(Profile::of_curve("cone", Kind::Wheel, curve))
+    Ok(Profile::of_curve("cone", ProfileKind::Wheel, curve))
 }
 
 /// Returns a rail whose head is an arc of `radius` (m), from `-half_width` to `half_width` (m, less than the
@@ -75,12 +75,12 @@ pub fn cylinder(radius: f64, half_width: f64) -> Result<Profile, ProfileError> {
         });
     }
     let drop = radius - (radius * radius - half_width * half_width).sqrt();
-    let circle = Element::Circle {
+    let circle = ChainElement::Circle {
         center: [0.0, -radius],
         radius: -radius,
     };
     let curve = chain("cylinder", [-half_width, -drop], &[circle], [half_width, -drop])?;
-    Ok(Profile::of_curve("cylinder", Kind::Rail, curve))
+    Ok(Profile::of_curve("cylinder", ProfileKind::Rail, curve))
 }
 
 /// Returns the nominal wheel AAR-1B with narrow flange; see the head of this module for the source of each
@@ -108,13 +108,13 @@ pub fn aar_1b_with_tread(run: f64) -> Result<Profile, ProfileError> {
     let back = -(3.0 + 1.0 / 16.0) * INCH;
     let rim = (5.0 + 23.0 / 32.0) * INCH + back;
     let tread_angle = libm::atan(1.0 / run);
-    let tread = Element::Line {
+    let tread = ChainElement::Line {
         point: [0.0, 0.0],
         angle: tread_angle,
     };
     let face_angle = 75f64.to_radians();
     let face_point = [back + (1.0 + 5.0 / 32.0) * INCH, -0.625 * INCH];
-    let face = Element::Line {
+    let face = ChainElement::Line {
         point: face_point,
         angle: face_angle,
     };
@@ -144,17 +144,17 @@ pub fn aar_1b_with_tread(run: f64) -> Result<Profile, ProfileError> {
     let t = (small - at_zero) / rate;
     let large_center = [p[0] + t * cos_tread, p[1] + t * sin_tread];
     let elements = [
-        Element::Circle {
+        ChainElement::Circle {
             center: [tip[0], bottom + back_radius],
             radius: back_radius,
         },
-        Element::Circle {
+        ChainElement::Circle {
             center: tip,
             radius: tip_radius,
         },
         face,
-        Element::Fillet { radius: small },
-        Element::Circle {
+        ChainElement::Fillet { radius: small },
+        ChainElement::Circle {
             center: large_center,
             radius: large,
         },
@@ -168,7 +168,7 @@ pub fn aar_1b_with_tread(run: f64) -> Result<Profile, ProfileError> {
     )?;
     Ok(Profile {
         note: REMEMBERED,
-        ..Profile::of_curve("AAR-1B (nominal)", Kind::Wheel, curve)
+        ..Profile::of_curve("AAR-1B (nominal)", ProfileKind::Wheel, curve)
     })
 }
 
@@ -188,25 +188,25 @@ pub fn rail_136re() -> Result<Profile, ProfileError> {
     let steep = FRAC_PI_2 - libm::atan(INCLINATION);
     let side = half_width + (end_depth - side_depth) * INCLINATION;
     let elements = [
-        Element::Line {
+        ChainElement::Line {
             point: [-half_width, -side_depth],
             angle: steep,
         },
-        Element::Fillet { radius: -corner },
-        Element::Circle {
+        ChainElement::Fillet { radius: -corner },
+        ChainElement::Circle {
             center: [-center[0], center[1]],
             radius: -shoulder,
         },
-        Element::Circle {
+        ChainElement::Circle {
             center: [0.0, -crown],
             radius: -crown,
         },
-        Element::Circle {
+        ChainElement::Circle {
             center,
             radius: -shoulder,
         },
-        Element::Fillet { radius: -corner },
-        Element::Line {
+        ChainElement::Fillet { radius: -corner },
+        ChainElement::Line {
             point: [half_width, -side_depth],
             angle: -steep,
         },
@@ -219,6 +219,6 @@ pub fn rail_136re() -> Result<Profile, ProfileError> {
     )?;
     Ok(Profile {
         note: REMEMBERED,
-        ..Profile::of_curve("136RE (nominal)", Kind::Rail, curve)
+        ..Profile::of_curve("136RE (nominal)", ProfileKind::Rail, curve)
     })
 }

@@ -23,8 +23,8 @@ use input::file::Expected;
 use input::{limits, shortened};
 use quantity::{Kind as Dimension, Quantity};
 
-use super::Kind;
-use super::error::{Place, ProfileError};
+use super::ProfileKind;
+use super::error::{ProfileError, ProfilePlace};
 
 /// Points of a profile, m: y to the field side, z up.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +32,7 @@ pub struct Points {
     /// The file as named, or a name.
     pub name: String,
     /// What the file says it is.
-    pub kind: Option<Kind>,
+    pub kind: Option<ProfileKind>,
     /// y and z, m.
     pub points: Vec<[f64; 2]>,
     /// The line of each point, from 1; the number of the point where there is no file.
@@ -78,8 +78,8 @@ impl Points {
 
     /// Returns where a point stands.
     #[must_use]
-    pub fn place(&self, point: usize) -> Place {
-        Place::line(&self.name, self.lines[point])
+    pub fn place(&self, point: usize) -> ProfilePlace {
+        ProfilePlace::line(&self.name, self.lines[point])
     }
 
     /// Reads CSV; `name` is what messages call it.
@@ -200,7 +200,7 @@ const HEADER: &str = "write a header such as: y [mm], z [mm] (y to the field sid
 
 fn line_error(name: &str, line: usize, found: String, remedy: &str) -> ProfileError {
     ProfileError::Line {
-        place: Place::line(name, line),
+        place: ProfilePlace::line(name, line),
         found,
         remedy: remedy.to_owned(),
     }
@@ -247,7 +247,7 @@ fn column(cell: &str) -> Option<(usize, f64, Option<&str>)> {
 /// The keys that change points.
 #[derive(Clone, Debug)]
 struct SimpackKeys {
-    kind: Option<Kind>,
+    kind: Option<ProfileKind>,
     shift: [f64; 2],
     rotate: f64,
     bounds: [[f64; 2]; 2],
@@ -282,8 +282,8 @@ impl SimpackKeys {
         match (block, key) {
             ("header", "type") => {
                 self.kind = Some(match number()? {
-                    0.0 => Kind::Rail,
-                    1.0 => Kind::Wheel,
+                    0.0 => ProfileKind::Rail,
+                    1.0 => ProfileKind::Wheel,
                     other => {
                         let found = format!("the type {other} is unknown");
                         return Err(line_error(name, line, found, "0 is a rail, 1 is a wheel"));

@@ -4,7 +4,7 @@
 //! with the least `∫ (y''² + z''²) dt + Σ |fit - point|² / λ`. λ is the largest one at which no point lies
 //! farther from its fit than the stated deviation. A deviation of zero gives the spline through the points.
 
-use super::curve::{Curve, Form, Piece};
+use super::curve::{CurveForm, Piece, ProfileCurve};
 
 /// How far a curve lies from the points it was made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -22,7 +22,7 @@ const BISECTIONS: usize = 50;
 
 /// Returns the spline along different points (m, at least three) and how far it lies from them: at most
 /// `deviation` (m).
-pub(super) fn fit(points: &[[f64; 2]], deviation: f64) -> (Curve, Deviation) {
+pub(super) fn fit(points: &[[f64; 2]], deviation: f64) -> (ProfileCurve, Deviation) {
     let mut parameters = Vec::with_capacity(points.len());
     let mut length = 0.0;
     for (i, point) in points.iter().enumerate() {
@@ -58,7 +58,7 @@ struct Fitted {
 }
 
 impl Fitted {
-    fn curve(&self, parameters: &[f64]) -> Curve {
+    fn curve(&self, parameters: &[f64]) -> ProfileCurve {
         let pieces = parameters.windows(2).enumerate().map(|(i, ends)| {
             let h = ends[1] - ends[0];
             let coefficients = [0, 1].map(|axis| {
@@ -73,10 +73,10 @@ impl Fitted {
             });
             Piece {
                 start: ends[0],
-                form: Form::Cubic(coefficients),
+                form: CurveForm::Cubic(coefficients),
             }
         });
-        Curve::new(pieces.collect(), parameters[parameters.len() - 1])
+        ProfileCurve::new(pieces.collect(), parameters[parameters.len() - 1])
     }
 }
 

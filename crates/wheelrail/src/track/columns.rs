@@ -5,7 +5,7 @@ use quantity::{Kind, Quantity};
 
 /// A quantity of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Column {
+pub(super) enum TrackColumn {
     Distance,
     LeftProfile,
     RightProfile,
@@ -28,21 +28,21 @@ const HIGH: [&str; 2] = ["right_high", "left_high"];
 const WIDE: [&str; 2] = ["wide", "tight"];
 
 /// Names and signs (positive, negative) of the quantities.
-const COLUMNS: [(&str, Column, [&str; 2]); 14] = [
-    ("distance", Column::Distance, ["forward", "nothing"]),
-    ("left_profile", Column::LeftProfile, VERTICAL),
-    ("right_profile", Column::RightProfile, VERTICAL),
-    ("profile", Column::Profile, VERTICAL),
-    ("left_alignment", Column::LeftAlignment, LATERAL),
-    ("right_alignment", Column::RightAlignment, LATERAL),
-    ("alignment", Column::Alignment, LATERAL),
-    ("cross_level", Column::CrossLevel, HIGH),
-    ("superelevation", Column::Superelevation, HIGH),
-    ("gauge_deviation", Column::GaugeDeviation, WIDE),
-    ("gauge", Column::Gauge, WIDE),
-    ("curvature", Column::Curvature, LATERAL),
-    ("degree_of_curve", Column::DegreeOfCurve, LATERAL),
-    ("grade", Column::Grade, VERTICAL),
+const COLUMNS: [(&str, TrackColumn, [&str; 2]); 14] = [
+    ("distance", TrackColumn::Distance, ["forward", "nothing"]),
+    ("left_profile", TrackColumn::LeftProfile, VERTICAL),
+    ("right_profile", TrackColumn::RightProfile, VERTICAL),
+    ("profile", TrackColumn::Profile, VERTICAL),
+    ("left_alignment", TrackColumn::LeftAlignment, LATERAL),
+    ("right_alignment", TrackColumn::RightAlignment, LATERAL),
+    ("alignment", TrackColumn::Alignment, LATERAL),
+    ("cross_level", TrackColumn::CrossLevel, HIGH),
+    ("superelevation", TrackColumn::Superelevation, HIGH),
+    ("gauge_deviation", TrackColumn::GaugeDeviation, WIDE),
+    ("gauge", TrackColumn::Gauge, WIDE),
+    ("curvature", TrackColumn::Curvature, LATERAL),
+    ("degree_of_curve", TrackColumn::DegreeOfCurve, LATERAL),
+    ("grade", TrackColumn::Grade, VERTICAL),
 ];
 
 /// Units at the end of names.
@@ -59,13 +59,13 @@ const ENDINGS: [(&str, &str); 7] = [
 /// A column as its header says it.
 pub(super) struct Head {
     pub index: usize,
-    pub column: Column,
+    pub column: TrackColumn,
     pub chord: Option<String>,
     pub factor: f64,
 }
 
 /// Returns the words for the positive and the negative sign of a quantity.
-pub(super) fn signs_of(column: Column) -> [&'static str; 2] {
+pub(super) fn signs_of(column: TrackColumn) -> [&'static str; 2] {
     COLUMNS
         .iter()
         .find(|(_, own, _)| *own == column)
@@ -73,7 +73,7 @@ pub(super) fn signs_of(column: Column) -> [&'static str; 2] {
 }
 
 /// Returns the name of a quantity.
-pub(super) fn name_of(column: Column) -> &'static str {
+pub(super) fn name_of(column: TrackColumn) -> &'static str {
     COLUMNS
         .iter()
         .find(|(_, own, _)| *own == column)
@@ -115,11 +115,11 @@ pub(super) fn head(index: usize, cell: &str) -> Result<Option<Head>, String> {
     let column = *column;
     let shown = shortened(cell);
     let factor = match (column, unit) {
-        (Column::Grade, None) => 1.0,
-        (Column::Grade, Some(unit)) if unit == "%" => 0.01,
-        (Column::DegreeOfCurve, None) => 1f64.to_radians(),
+        (TrackColumn::Grade, None) => 1.0,
+        (TrackColumn::Grade, Some(unit)) if unit == "%" => 0.01,
+        (TrackColumn::DegreeOfCurve, None) => 1f64.to_radians(),
         (_, None) => return Err(format!("the column {shown} has no unit")),
-        (Column::Curvature, Some(unit)) => {
+        (TrackColumn::Curvature, Some(unit)) => {
             let Some(length) = unit.strip_prefix("1/") else {
                 return Err(format!(
                     "the unit of the column {shown} is none of curvature, such as 1/ft"
@@ -132,8 +132,8 @@ pub(super) fn head(index: usize, cell: &str) -> Result<Option<Head>, String> {
         }
         (_, Some(unit)) => {
             let kind = match column {
-                Column::DegreeOfCurve => Kind::Angle,
-                Column::Grade => Kind::Dimensionless,
+                TrackColumn::DegreeOfCurve => Kind::Angle,
+                TrackColumn::Grade => Kind::Dimensionless,
                 _ => Kind::Length,
             };
             let one = Quantity::parse_as(&format!("1 {unit}"), kind);

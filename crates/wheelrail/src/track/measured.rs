@@ -27,7 +27,7 @@ use thiserror::Error;
 
 use super::center_line::{CenterLine, TrackError};
 use super::chord::{self, ChordError};
-use super::columns::{Column, Head, head, name_of, signs_of};
+use super::columns::{Head, TrackColumn, head, name_of, signs_of};
 use super::layout::{Direction, Irregularity, Placed, Rails};
 use super::samples::Samples;
 
@@ -125,9 +125,9 @@ pub enum Form {
 pub struct MeasuredTable {
     name: String,
     distances: Vec<f64>,
-    columns: Vec<(Column, Vec<f64>)>,
+    columns: Vec<(TrackColumn, Vec<f64>)>,
     /// Columns of mid-chord offsets: what they are of, the chord's name (such as `62_ft`), values.
-    offsets: Vec<(Column, String, Vec<f64>)>,
+    offsets: Vec<(TrackColumn, String, Vec<f64>)>,
 }
 
 impl MeasuredTable {
@@ -186,9 +186,9 @@ impl MeasuredTable {
                 let cell = cells.get(head.index).copied().unwrap_or("");
                 let [plus, minus] = signs_of(head.column);
                 let sign = match cell.trim_matches('"').to_ascii_lowercase().as_str() {
-                    "" if head.column == Column::Distance => 1.0,
+                    "" if head.column == TrackColumn::Distance => 1.0,
                     own if own == plus => 1.0,
-                    own if own == minus && head.column != Column::Distance => -1.0,
+                    own if own == minus && head.column != TrackColumn::Distance => -1.0,
                     _ => {
                         let found = format!(
                             "the sign row has {} under {}; {plus} or {minus} is expected",
@@ -202,7 +202,7 @@ impl MeasuredTable {
             }
         }
         let mut columns: Vec<Vec<f64>> = heads.iter().map(|_| Vec::new()).collect();
-        let distance = heads.iter().position(|head| head.column == Column::Distance);
+        let distance = heads.iter().position(|head| head.column == TrackColumn::Distance);
         let distance =
             distance.ok_or_else(|| wrong(number, "the header has no column distance".into(), HEADER))?;
         for (number, line) in lines {
@@ -245,10 +245,10 @@ impl MeasuredTable {
         };
         for (head, mut values) in heads.into_iter().zip(columns) {
             match (head.column, head.chord) {
-                (Column::Distance, _) => {}
+                (TrackColumn::Distance, _) => {}
                 (column, Some(chord)) => table.offsets.push((column, chord, values)),
                 (column, None) => {
-                    if column == Column::Gauge {
+                    if column == TrackColumn::Gauge {
                         // The sign of a gauge is that of its deviation.
                         values
                             .iter_mut()
@@ -270,7 +270,7 @@ impl MeasuredTable {
         }
     }
 
-    fn column(&self, wanted: Column) -> Option<&[f64]> {
+    fn column(&self, wanted: TrackColumn) -> Option<&[f64]> {
         let found = self.columns.iter().find(|(column, _)| *column == wanted);
         found.map(|(_, values)| values.as_slice())
     }
@@ -283,11 +283,11 @@ impl MeasuredTable {
     /// There are no irregularities, they are mid-chord offsets, or these cannot be inverted.
     pub fn irregularities(&self, form: Form, start: f64, taper: f64) -> Result<Vec<Placed>, MeasuredError> {
         let distances: Vec<f64> = self.distances.iter().map(|own| own + start).collect();
-        let values = |column: Column| -> Option<Vec<f64>> {
+        let values = |column: TrackColumn| -> Option<Vec<f64>> {
             if let Form::MidChord { chord, .. } = form
                 && !matches!(
                     column,
-                    Column::CrossLevel | Column::GaugeDeviation | Column::Gauge
+                    TrackColumn::CrossLevel | TrackColumn::GaugeDeviation | TrackColumn::Gauge
                 )
             {
                 let name = format!("{:.0}_ft", chord / 0.3048);
@@ -301,15 +301,15 @@ impl MeasuredTable {
             }
             let own = self.column(column)?.to_vec();
             let design = self
-                .column(Column::Superelevation)
-                .filter(|_| column == Column::CrossLevel);
+                .column(TrackColumn::Superelevation)
+                .filter(|_| column == TrackColumn::CrossLevel);
             Some(match design {
                 Some(design) => own.iter().zip(design).map(|(own, design)| own - design).collect(),
                 None => own,
             })
         };
         let mut placed = Vec::new();
-        let mut add = |column: Column, rails, direction, sign: f64| -> Result<bool, MeasuredError> {
+        let mut add = |column: TrackColumn, rails, direction, sign: f64| -> Result<bool, MeasuredError> {
             let Some(own) = values(column) else {
                 return Ok(false);
             };
@@ -330,18 +330,18 @@ impl MeasuredTable {
         for (direction, left, right, mean, [difference, other], sign) in [
             (
                 Direction::Vertical,
-                Column::LeftProfile,
-                Column::RightProfile,
-                Column::Profile,
-                [Column::CrossLevel; 2],
+                TrackColumn::LeftProfile,
+                TrackColumn::RightProfile,
+                TrackColumn::Profile,
+                [TrackColumn::CrossLevel; 2],
                 -1.0,
             ),
             (
                 Direction::Lateral,
-                Column::LeftAlignment,
-                Column::RightAlignment,
-                Column::Alignment,
-                [Column::GaugeDeviation, Column::Gauge],
+                TrackColumn::LeftAlignment,
+                TrackColumn::RightAlignment,
+                TrackColumn::Alignment,
+                [TrackColumn::GaugeDeviation, TrackColumn::Gauge],
                 1.0,
             ),
         ] {
@@ -396,19 +396,19 @@ impl MeasuredTable {
     /// The table has no curvature and no superelevation, does not begin at zero, or its track cannot be.
     pub fn center_line(&self, rail_distance: f64) -> Result<CenterLine, MeasuredError> {
         let zeros = vec![0.0; self.distances.len()];
-        let degrees: Option<Vec<f64>> = self.column(Column::DegreeOfCurve).map(|degrees| {
+        let degrees: Option<Vec<f64>> = self.column(TrackColumn::DegreeOfCurve).map(|degrees| {
             let curvature = |degree: &f64| 2.0 * libm::sin(0.5 * degree) / 30.48;
             degrees.iter().map(curvature).collect()
         });
-        let curvature = self.column(Column::Curvature).or(degrees.as_deref());
-        let superelevation = self.column(Column::Superelevation);
+        let curvature = self.column(TrackColumn::Curvature).or(degrees.as_deref());
+        let superelevation = self.column(TrackColumn::Superelevation);
         if curvature.is_none() && superelevation.is_none() {
             return Err(MeasuredError::Missing {
                 name: self.name.clone(),
                 needed: "curvature, degree_of_curve or superelevation",
             });
         }
-        let grades: Vec<[f64; 2]> = match self.column(Column::Grade) {
+        let grades: Vec<[f64; 2]> = match self.column(TrackColumn::Grade) {
             Some(grades) => self
                 .distances
                 .iter()

@@ -20,5 +20,5 @@ pub use center_line::{CenterLine, CurveElements, Segment, Station, TrackError};
 pub use layout::{Direction, Irregularity, Placed, RailPlace, Rails, Track};
 pub use measured::{Form, MeasuredError, MeasuredTable};
 pub use near_itself::CLEARANCE;
-pub use rails::{Foot, Line, RailLines, Section};
+pub use rails::{Foot, Line, RailLines, TrackSection};
 pub use samples::Samples;

@@ -71,7 +71,7 @@ pub struct RailLines {
 
 /// A section of a line: origin (m) and axes along, left, up, in the fixed axes of the track.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Section<S> {
+pub struct TrackSection<S> {
     /// Distance along the track, m.
     pub distance: S,
     /// Its origin, m.
@@ -101,7 +101,7 @@ struct At {
     curvature: f64,
 }
 
-impl<S: Real> Section<S> {
+impl<S: Real> TrackSection<S> {
     /// Returns a vector in the axes of the section.
     #[inline(always)]
     pub fn of(&self, vector: [S; 3]) -> [S; 3] {
@@ -244,9 +244,9 @@ impl RailLines {
 
     /// Returns the section of a line at a distance (m).
     #[must_use]
-    pub fn section_at(&self, line: Line, distance: f64) -> Section<f64> {
+    pub fn section_at(&self, line: Line, distance: f64) -> TrackSection<f64> {
         let at = self.at(line, distance);
-        Section {
+        TrackSection {
             distance,
             origin: at.origin.map(Real::value),
             axes: at.axes.map(|axis| axis.map(Real::value)),
@@ -315,7 +315,7 @@ impl RailLines {
 
     /// Returns the section of a line that holds a point (m, fixed axes of the track).
     #[inline(always)]
-    pub fn section<S: Real>(&self, line: Line, point: [S; 3]) -> Section<S> {
+    pub fn section<S: Real>(&self, line: Line, point: [S; 3]) -> TrackSection<S> {
         self.foot(line, point.map(Real::value)).section(point)
     }
 }
@@ -323,7 +323,7 @@ impl RailLines {
 impl Foot {
     /// Returns the section that holds the point, with the derivatives of the point.
     #[inline(always)]
-    pub fn section<S: Real>(&self, point: [S; 3]) -> Section<S> {
+    pub fn section<S: Real>(&self, point: [S; 3]) -> TrackSection<S> {
         let at = &self.at;
         let mut step = S::zero();
         for i in 0..3 {
@@ -334,7 +334,7 @@ impl Foot {
             let slope = value.derivative[0];
             step.chain(value.value + slope * step.value(), slope)
         };
-        Section {
+        TrackSection {
             distance: step + self.distance,
             origin: at.origin.map(lift),
             axes: at.axes.map(|axis| axis.map(lift)),

@@ -4,7 +4,7 @@
 use numerics::scalar::Real;
 use wheelrail::contact::{ContactLaw, ContactPair, CreepLaw, Side, WheelForces, WheelMotion, WheelPose};
 use wheelrail::hertz::Material;
-use wheelrail::profile::{Kind, Profile, nominal};
+use wheelrail::profile::{Profile, ProfileKind, nominal};
 
 pub const STEEL: Material = Material {
     youngs_modulus: 207e9,
@@ -27,8 +27,8 @@ pub fn conformal_pair() -> ContactPair {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/manchester");
     let read = |file: &str, kind| Profile::read(&folder.join(file), kind, 0.0).unwrap();
     let (wheel, rail) = (
-        read("MBench_S1002_v3.prw", Kind::Wheel),
-        read("MBench_UIC60_v3.prr", Kind::Rail),
+        read("MBench_S1002_v3.prw", ProfileKind::Wheel),
+        read("MBench_UIC60_v3.prr", ProfileKind::Rail),
     );
     ContactPair::new(&wheel, RADIUS, &rail, STEEL).unwrap()
 }

@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 
 use wheelrail::contact::{ContactLaw, CreepLaw, Side};
-use wheelrail::creep::fastsim::Grid;
+use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::hertz::Material;
 use wheelrail::loaded::Attitude;
-use wheelrail::profile::{Kind, Profile};
+use wheelrail::profile::{Profile, ProfileKind};
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
 use super::{POISSON, SHEAR, data, line, row, table};
@@ -53,8 +53,8 @@ pub fn manchester(out: &mut String) {
     let folder = data("manchester");
     let profile = |file: &str, kind| Profile::read(&folder.join(file), kind, 0.0);
     let (Ok(wheel), Ok(rail)) = (
-        profile("MBench_S1002_v3.prw", Kind::Wheel),
-        profile("MBench_UIC60_v3.prr", Kind::Rail),
+        profile("MBench_S1002_v3.prw", ProfileKind::Wheel),
+        profile("MBench_UIC60_v3.prr", ProfileKind::Rail),
     ) else {
         return;
     };
@@ -73,7 +73,7 @@ pub fn manchester(out: &mut String) {
     let law = ContactLaw {
         friction: 0.3,
         damping: 0.0,
-        creep: CreepLaw::Fastsim(Grid {
+        creep: CreepLaw::Fastsim(StripGrid {
             cells: 50,
             strips: 50,
         }),

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use wheelrail::conicity::RollingRadiusDifference;
-use wheelrail::creep::fastsim::Grid;
+use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::{Coefficients, Creepage, Patch, fastsim, linear, polach, shen_hedrick_elkins};
-use wheelrail::hertz::{Hertz, Material, Shape};
+use wheelrail::hertz::{EllipseShape, Hertz, Material};
 use wheelrail::profile::nominal;
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
@@ -119,7 +119,7 @@ fn hertz(out: &mut String) {
         (85.0, [1.0609, 0.9442, 0.9983]),
     ] {
         let cosine = libm::cos(f64::to_radians(degrees));
-        let shape = Shape::of((1.0 - cosine) / (1.0 + cosine));
+        let shape = EllipseShape::of((1.0 - cosine) / (1.0 + cosine));
         let mut cells = vec![format!("{degrees}")];
         for (found, source) in [shape.major, shape.minor, shape.approach].into_iter().zip(source) {
             cells.extend([format!("{found:.4}"), format!("{source:.4}")]);
@@ -194,7 +194,7 @@ fn fastsim_limit(out: &mut String) {
     };
     let expected = linear::forces(&free, &along(1e-6)).x;
     for strips in [5_usize, 11, 21] {
-        let found = fastsim::forces(&free, &along(1e-6), Grid { cells: 400, strips }).x / expected;
+        let found = fastsim::forces(&free, &along(1e-6), StripGrid { cells: 400, strips }).x / expected;
         let formula = 1.0 + (2.0 / strips as f64).powi(2) / 8.0;
         row(
             out,
@@ -234,7 +234,7 @@ fn traction(out: &mut String) {
         ],
     );
     let patch = traction_patch();
-    let grid = Grid {
+    let grid = StripGrid {
         cells: 30,
         strips: 30,
     };
@@ -285,7 +285,7 @@ fn spin(out: &mut String) {
         lateral: -6.25e-4,
         spin: 0.625,
     };
-    let grid = Grid {
+    let grid = StripGrid {
         cells: 200,
         strips: 200,
     };

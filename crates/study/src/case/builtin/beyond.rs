@@ -5,7 +5,7 @@
 //! sines at 90° of phase, which begin at rest. Everything else is the thesis's wedge. Where numbers of a car
 //! or a track had to be assumed, the case's title says so.
 
-use super::{BuiltIn, Group};
+use super::{BuiltIn, CaseGroup};
 
 /// What the cases share.
 const COMMON: &str = r#"
@@ -25,7 +25,7 @@ const DAMPINGS: [(&str, &str); 2] = [("constant", "0 in"), ("variable", LOADED)]
 const LOADED: &str = "-2.4333 in";
 const EMPTY: &str = "-0.45 in";
 
-pub(super) fn groups() -> Vec<Group> {
+pub(super) fn groups() -> Vec<CaseGroup> {
     vec![
         warp(),
         rig(),
@@ -39,7 +39,7 @@ pub(super) fn groups() -> Vec<Group> {
     ]
 }
 
-fn warp() -> Group {
+fn warp() -> CaseGroup {
     let case = |(name, friction, free, title): (&str, &str, &str, &str)| {
         BuiltIn::new(
             format!("warp_{name}"),
@@ -66,7 +66,7 @@ start = "equilibrium"
         r#""x", "z", "pitch", "yaw""#,
         r#""x", "y", "z", "roll", "pitch", "yaw""#,
     );
-    Group {
+    CaseGroup {
         name: "warp",
         title: "Warp test: the pocket yaws slowly against the side frame",
         look_at: "With friction 0.2 the wedge is squeezed down until the column bears on one edge: the \
@@ -88,7 +88,7 @@ start = "equilibrium"
     }
 }
 
-fn rig() -> Group {
+fn rig() -> CaseGroup {
     let case = |(damping, middle): (&str, &str)| {
         BuiltIn::new(
             format!("rig_{damping}"),
@@ -109,7 +109,7 @@ start = "equilibrium"
             ),
         )
     };
-    Group {
+    CaseGroup {
         name: "rig",
         title: "Rig test: a triangle at 0.1 Hz, as truck springs and snubbers are tested",
         look_at: "The loop leans away from the straight lines of the quasi-static wedge and comes to them \
@@ -120,7 +120,7 @@ start = "equilibrium"
     }
 }
 
-fn sweep() -> Group {
+fn sweep() -> CaseGroup {
     let mut cases = Vec::new();
     for (damping, middle) in DAMPINGS {
         for amplitude in ["0.25", "0.5", "1"] {
@@ -133,7 +133,7 @@ fn sweep() -> Group {
             }
         }
     }
-    Group {
+    CaseGroup {
         name: "sweep",
         title: "Amplitude and frequency: equivalent stiffness and damping",
         look_at: "The equivalent damping falls with one over the frequency and one over the amplitude, as \
@@ -145,7 +145,7 @@ fn sweep() -> Group {
     }
 }
 
-fn twist_and_roll() -> Group {
+fn twist_and_roll() -> CaseGroup {
     let case = |(damping, middle): (&str, &str)| {
         BuiltIn::new(
             format!("twist_and_roll_{damping}"),
@@ -171,7 +171,7 @@ start = "equilibrium"
             ),
         )
     };
-    Group {
+    CaseGroup {
         name: "twist_and_roll",
         title: "Motion of the pocket as in twist and roll: vertical and roll together",
         look_at: "The vertical force on the bolster jumps at each reversal and, with constant damping, \
@@ -182,7 +182,7 @@ start = "equilibrium"
     }
 }
 
-fn yaw_and_sway() -> Group {
+fn yaw_and_sway() -> CaseGroup {
     let case = |(damping, middle): (&str, &str)| {
         BuiltIn::new(
             format!("yaw_and_sway_{damping}"),
@@ -208,7 +208,7 @@ start = "equilibrium"
             ),
         )
     };
-    Group {
+    CaseGroup {
         name: "yaw_and_sway",
         title: "Motion of the pocket as in yaw and sway: the side frame slides across, the bolster yaws",
         look_at: "The lateral force is the column's friction, which points where the side frame slides: it \
@@ -218,7 +218,7 @@ start = "equilibrium"
     }
 }
 
-fn load() -> Group {
+fn load() -> CaseGroup {
     let mut cases = Vec::new();
     for (damping, _) in DAMPINGS {
         for (load, height) in [("empty", EMPTY), ("loaded", LOADED)] {
@@ -233,7 +233,7 @@ fn load() -> Group {
             ));
         }
     }
-    Group {
+    CaseGroup {
         name: "load",
         title: "Empty and loaded car: small motions about two heights of the bolster",
         look_at: "With variable damping the loaded car's loop holds more than five times the energy of the \
@@ -244,7 +244,7 @@ fn load() -> Group {
     }
 }
 
-fn wear() -> Group {
+fn wear() -> CaseGroup {
     let mut cases = Vec::new();
     for (damping, middle) in DAMPINGS {
         for depth in ["0", "0.1", "0.2", "0.3"] {
@@ -258,7 +258,7 @@ fn wear() -> Group {
             ));
         }
     }
-    Group {
+    CaseGroup {
         name: "wear",
         title: "Wear of the faces: how far the wedge rises, and what damping is left",
         look_at: "The wedge rises by (w_c cos θ + w_s cos φ)/sin(θ + φ), three to three and a half times \
@@ -270,7 +270,7 @@ fn wear() -> Group {
 
 /// Returns a case in which the bolster presses the wedge against the column, pushes it down while it is
 /// pressed, and rises.
-fn lock_up() -> Group {
+fn lock_up() -> CaseGroup {
     let ramp = |amplitude: &str, start: &str| {
         format!(
             "{{ shape = \"ramp\", amplitude = \"{amplitude} in\", start = \"{start} s\", duration = \"1 s\", \
@@ -301,7 +301,7 @@ start = "equilibrium"
             ),
         )
     };
-    Group {
+    CaseGroup {
         name: "lock_up",
         title: "Lock-up and release: the bolster presses, is forced down, and rises",
         look_at: "With friction 0.2 the pressed wedge slides down until its force is that of the \
@@ -313,7 +313,7 @@ start = "equilibrium"
 }
 
 /// Returns a column that leans in by more than the wedge's angle: the faces open upwards.
-fn overturned_toe() -> Group {
+fn overturned_toe() -> CaseGroup {
     let case = BuiltIn::new(
         "overturned_toe".to_owned(),
         "constant damping, wedge of 18 deg and a column with 20 deg of toe in: the faces open upwards"
@@ -338,7 +338,7 @@ start = "touching"
 "#
         ),
     );
-    Group {
+    CaseGroup {
         name: "overturned_toe",
         title: "Overturned toe: the column leans in by more than the wedge's angle",
         look_at: "Nothing holds the wedge: the coil throws it out, and what the coil had stored is found in \

@@ -6,7 +6,7 @@
 
 use std::borrow::Cow;
 
-use super::{BuiltIn, Group};
+use super::{BuiltIn, CaseGroup};
 
 /// The name of the group.
 pub(super) const NAME: &str = "thesis";
@@ -61,8 +61,8 @@ pub(super) fn own_name(name: &str) -> Cow<'_, str> {
     name.into()
 }
 
-pub(super) fn group() -> Group {
-    Group {
+pub(super) fn group() -> CaseGroup {
+    CaseGroup {
         name: NAME,
         title: "The twelve runs of the thesis (table 4-1)",
         look_at: "Compare the width of the loops by toe: going up with constant damping, toe out gives the \

@@ -3,8 +3,8 @@
 use super::vary::assignments;
 use super::{Draft, overriding};
 use crate::case::problem::{Problem, Problems};
-use crate::case::section::Section;
-use crate::case::tree::Value as Toml;
+use crate::case::section::CaseSection;
+use crate::case::tree::NodeValue as Toml;
 use crate::design::Group;
 use crate::design::factor::Levels;
 
@@ -12,7 +12,7 @@ const HELP: &str = "write [groups.condition.worn] and below it for example truck
                     condition = [\"new\", \"worn\"] below [vary]; [groups.condition.new] may be empty";
 
 /// Finds the groups that the values of factors name.
-pub(super) fn find(top: &Section<'_>, drafts: &mut [Draft], problems: &mut Problems) {
+pub(super) fn find(top: &CaseSection<'_>, drafts: &mut [Draft], problems: &mut Problems) {
     if top.table.get("groups").is_none() {
         return;
     }

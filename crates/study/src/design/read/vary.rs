@@ -6,8 +6,8 @@ use input::limits;
 
 use super::{Assigned, Draft, Kind, Written};
 use crate::case::problem::{Problem, Problems, TomlLocation};
-use crate::case::section::{Names, Section};
-use crate::case::tree::{Node, Table, Value as Toml};
+use crate::case::section::{CaseSection, Names};
+use crate::case::tree::{NodeValue as Toml, TableNode, TreeNode};
 use crate::design::factor::{Factor, Levels, Value};
 
 const RANGE_KEYS: [&str; 6] = ["from", "to", "values", "count", "scale", "also"];
@@ -19,7 +19,7 @@ pub(super) const TRIED: usize = 200;
 const SCALES: Names<bool> = &[("linear", false), ("logarithmic", true)];
 
 /// Returns a value as written.
-fn value(path: &str, node: &Node) -> Value {
+fn value(path: &str, node: &TreeNode) -> Value {
     match &node.value {
         Toml::Number(number) if number.is_finite() => Value::Number {
             value: *number,
@@ -40,12 +40,12 @@ fn below(path: &str, key: &str) -> String {
 }
 
 /// Returns whether a table is a value of its own, written in braces, rather than the way to others.
-fn in_braces(node: &Node) -> bool {
+fn in_braces(node: &TreeNode) -> bool {
     node.place.text().starts_with('{')
 }
 
 /// Values by path, from tables that lead to them.
-pub(super) fn assignments(table: &Table, path: &str, out: &mut Assigned) {
+pub(super) fn assignments(table: &TableNode, path: &str, out: &mut Assigned) {
     for entry in &table.entries {
         let path = below(path, &entry.key);
         match &entry.node.value {
@@ -59,7 +59,13 @@ pub(super) fn assignments(table: &Table, path: &str, out: &mut Assigned) {
 }
 
 /// The factors of `[vary]`.
-pub(super) fn factors(table: &Table, path: &str, kind: Kind, out: &mut Vec<Draft>, problems: &mut Problems) {
+pub(super) fn factors(
+    table: &TableNode,
+    path: &str,
+    kind: Kind,
+    out: &mut Vec<Draft>,
+    problems: &mut Problems,
+) {
     for entry in &table.entries {
         let path = below(path, &entry.key);
         let draft = match &entry.node.value {
@@ -104,8 +110,8 @@ pub(super) fn factors(table: &Table, path: &str, kind: Kind, out: &mut Vec<Draft
 /// Returns a list of values.
 fn listed(
     path: &str,
-    items: &[Node],
-    node: &Node,
+    items: &[TreeNode],
+    node: &TreeNode,
     problems: &mut Problems,
 ) -> Option<(Levels, Vec<Written>)> {
     if items.is_empty() {
@@ -136,12 +142,12 @@ fn listed(
 /// Returns a range in braces.
 fn range(
     path: &str,
-    table: &Table,
+    table: &TableNode,
     key: &TomlLocation,
     kind: Kind,
     problems: &mut Problems,
 ) -> Option<(Vec<String>, Levels, Vec<Written>)> {
-    let section = Section {
+    let section = CaseSection {
         path: path.to_owned(),
         table,
         place: Some(key.clone()),
@@ -279,7 +285,7 @@ fn range(
 type Variants = (Vec<Draft>, Vec<Vec<Option<Value>>>, Vec<Assigned>);
 
 /// Returns the variants of a list.
-pub(super) fn variants(top: &Section<'_>, problems: &mut Problems) -> Variants {
+pub(super) fn variants(top: &CaseSection<'_>, problems: &mut Problems) -> Variants {
     const HELP: &str = "write [[variants]] for each of them and below it for example friction.column = 0.3";
     let mut drafts: Vec<Draft> = Vec::new();
     let mut rows: Vec<Assigned> = Vec::new();

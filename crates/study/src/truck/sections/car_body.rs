@@ -5,10 +5,10 @@ use truck::{CarBody, CenterPlate, Lading, Parameters, SideBearing, SideBearings}
 use super::{HEIGHT, Load, clearance, contact, friction, rigid_body};
 use crate::case::problem::Problem;
 use crate::case::section::Names;
-use crate::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
+use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, PRELOAD, STIFFNESS};
 
 pub(in crate::truck) fn car_body(
-    r: &mut Reader<'_>,
+    r: &mut CaseReader<'_>,
     parameters: &mut Parameters,
     load: Load,
     lading: Lading,
@@ -54,7 +54,7 @@ pub(in crate::truck) fn car_body(
 }
 
 /// The section of a center plate.
-pub(crate) fn center_plate(r: &mut Reader<'_>, plate: &mut CenterPlate) {
+pub(crate) fn center_plate(r: &mut CaseReader<'_>, plate: &mut CenterPlate) {
     r.section(
         "center_plate",
         "The center plate: two rings of points with friction, and a rim.",
@@ -87,7 +87,7 @@ pub(crate) fn center_plate(r: &mut Reader<'_>, plate: &mut CenterPlate) {
 }
 
 /// The section of side bearings.
-pub(crate) fn side_bearings(r: &mut Reader<'_>, bearings: &mut SideBearings) {
+pub(crate) fn side_bearings(r: &mut CaseReader<'_>, bearings: &mut SideBearings) {
     r.section("side_bearing", "Side bearings.");
     let mut rolls = matches!(bearings.kind, SideBearing::Roller(_));
     const KINDS: Names<bool> = &[("roller", true), ("constant_contact", false)];

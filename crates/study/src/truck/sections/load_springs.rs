@@ -7,7 +7,7 @@ use truck::{NestCoil, Parameters, Spring};
 use crate::case::field::Reach;
 use crate::case::problem::Problem;
 use crate::case::section::{Names, Range};
-use crate::reader::{DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
+use crate::reader::{CaseReader, DAMPING, LENGTH, PRELOAD, STIFFNESS};
 
 /// Whether load coils are groups or single coils.
 #[derive(Clone, Copy, PartialEq)]
@@ -69,7 +69,7 @@ const COILS: Names<(CatalogCoil, [i8; 2])> = &{
     all
 };
 
-pub(crate) fn load_springs(r: &mut Reader<'_>, parameters: &mut Parameters) {
+pub(crate) fn load_springs(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
     r.section("load_springs", "Load coils between bolster and side frames.");
     const KINDS: Names<NestKind> = &[
         ("groups", NestKind::Groups),
@@ -160,7 +160,7 @@ pub(crate) fn load_springs(r: &mut Reader<'_>, parameters: &mut Parameters) {
 }
 
 /// The keys of a spring's stiffnesses.
-pub(in crate::truck) fn spring_stiffnesses(r: &mut Reader<'_>, spring: &mut Spring, quarter: bool) {
+pub(in crate::truck) fn spring_stiffnesses(r: &mut CaseReader<'_>, spring: &mut Spring, quarter: bool) {
     let of = if quarter {
         "of a quarter of a nest"
     } else {

@@ -5,7 +5,7 @@ use truck::{Adapter, FrictionAdapter, Parameters, Wheelsets};
 use super::{contact, friction};
 use crate::case::problem::Problem;
 use crate::case::section::Names;
-use crate::reader::{CLEARANCE, DAMPING, LENGTH, PRELOAD, Reader, STIFFNESS};
+use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, PRELOAD, STIFFNESS};
 
 /// Kinds of adapters.
 #[derive(Clone, Copy, PartialEq)]
@@ -15,7 +15,7 @@ enum AdapterKind {
     Nothing,
 }
 
-pub(in crate::truck) fn wheelsets(r: &mut Reader<'_>, parameters: &mut Parameters) {
+pub(in crate::truck) fn wheelsets(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
     let mut wheelsets = Wheelsets {
         motions: std::array::from_fn(|_| wedge::parameters::NeighbourMotion::fixed()),
         adapter: Adapter::friction(),
@@ -66,7 +66,7 @@ pub(in crate::truck) fn wheelsets(r: &mut Reader<'_>, parameters: &mut Parameter
 }
 
 /// The section of the adapters of a truck that cannot do without.
-pub(crate) fn adapter(r: &mut Reader<'_>, own: &mut Adapter) {
+pub(crate) fn adapter(r: &mut CaseReader<'_>, own: &mut Adapter) {
     const KINDS: Names<AdapterKind> = &[("friction", AdapterKind::Friction), ("pad", AdapterKind::Pad)];
     let comment = "\"friction\": steel on steel; \"pad\": elastomeric";
     if let Some(adapter) = read_adapter(r, KINDS, comment) {
@@ -75,7 +75,7 @@ pub(crate) fn adapter(r: &mut Reader<'_>, own: &mut Adapter) {
 }
 
 /// Returns the section of the adapters; `None` if there are none.
-fn read_adapter(r: &mut Reader<'_>, kinds: Names<AdapterKind>, comment: &str) -> Option<Adapter> {
+fn read_adapter(r: &mut CaseReader<'_>, kinds: Names<AdapterKind>, comment: &str) -> Option<Adapter> {
     r.section("adapter", "Where side frames stand on the bearings.");
     let mut kind = AdapterKind::Friction;
     r.choice("kind", kinds, &mut kind, comment);
@@ -114,7 +114,7 @@ fn read_adapter(r: &mut Reader<'_>, kinds: Names<AdapterKind>, comment: &str) ->
     Some(own)
 }
 
-fn friction_adapter(r: &mut Reader<'_>, adapter: &mut FrictionAdapter) {
+fn friction_adapter(r: &mut CaseReader<'_>, adapter: &mut FrictionAdapter) {
     let FrictionAdapter {
         preload,
         contact: own,

@@ -9,7 +9,7 @@ use report::run_files;
 use report::view::View;
 use serde::{Deserialize, Serialize};
 use study::any_case::AnyCase;
-use study::case::builtin::Group;
+use study::case::builtin::CaseGroup;
 use study::case::{CaseError, FieldSection, builtin};
 use study::{car, truck};
 
@@ -218,7 +218,7 @@ impl Explorer {
     /// A table that the case names has changed since the start and is wrong now.
     pub fn opening(&self) -> Result<Opening, Refused> {
         let case = self.case(&Wanted::default())?;
-        let presets = |group: &'static Group| Presets {
+        let presets = |group: &'static CaseGroup| Presets {
             name: group.name,
             title: group.title,
             look_at: group.look_at,

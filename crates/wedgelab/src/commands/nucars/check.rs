@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use nucars::file_sets::{Files, find};
+use nucars::file_sets::{ReadFiles, find};
 use nucars::read::FileKind;
 use nucars::{Finding, Severity};
 use serde_json::{Value, json};
@@ -45,7 +45,7 @@ pub struct Arguments {
 /// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let instead = arguments.instead.files();
-    let mut files = Files::default();
+    let mut files = ReadFiles::default();
     for file in &arguments.files {
         files.add(&find(file)?, None)?;
     }
@@ -60,7 +60,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 }
 
 /// Tells all, a line for each file at the end.
-fn report(files: &Files, arguments: &Arguments) -> Result<ExitCode, Failure> {
+fn report(files: &ReadFiles, arguments: &Arguments) -> Result<ExitCode, Failure> {
     let all = files.all();
     let wrong = all.iter().any(|(_, _, findings)| findings.has_errors());
     let code = ExitCode::from(if wrong { INPUT } else { 0 });

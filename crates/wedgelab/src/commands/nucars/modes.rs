@@ -15,7 +15,7 @@ use nucars::truck::{Choices, Truck};
 
 use super::load::print_findings;
 use crate::failure::{Failure, INPUT, Message};
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// Print natural frequencies and shapes of a system
 ///
@@ -101,7 +101,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .collect();
     let mut head = vec![("frequency", "Hz")];
     head.extend(bodies.iter().map(|(_, name)| (name.as_str(), "% of energy")));
-    let mut table = Table::new(0, &head);
+    let mut table = TerminalTable::new(0, &head);
     for mode in &vibrations.modes {
         let mut row = vec![frequency(mode)];
         let all = bodies.iter().map(|(body, _)| energies(&system, mode, *body));

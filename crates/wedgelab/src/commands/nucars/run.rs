@@ -11,7 +11,7 @@ use nucars::truck::{Choices, Wedges, Yaw};
 use quantity::{Kind, Quantity, System as Units, nearest};
 use report::half_truck_files;
 use report::page::{self, Viewer};
-use study::half_truck::catalog::{self, Entry, YawCase};
+use study::half_truck::catalog::{self, CatalogEntry, YawCase};
 use study::half_truck::files::{Settings, case_of_run};
 use study::half_truck::{HalfTruckCase, HalfTruckStart, HalfTruckSummary, options};
 
@@ -23,7 +23,7 @@ use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// Run a half-truck from its files
 ///
@@ -234,7 +234,7 @@ impl Arguments {
         })
     }
 
-    fn built_in(&self, entry: Entry, settings: Settings) -> Result<HalfTruckCase, Message> {
+    fn built_in(&self, entry: CatalogEntry, settings: Settings) -> Result<HalfTruckCase, Message> {
         check_built_in(entry, &self.instead, self.yaw)?;
         entry.case_with(&settings).map_err(|error| {
             let advice = "choose another interval, option or value; `wedgelab nucars run --help` lists them";
@@ -273,7 +273,11 @@ pub fn choices(yaw: Option<YawArgument>, typed: &[String]) -> Result<Choices, Me
 }
 
 /// Checks whether a built-in run can be made without other files, and yaw so.
-pub fn check_built_in(entry: Entry, instead: &Instead, yaw: Option<YawArgument>) -> Result<(), Message> {
+pub fn check_built_in(
+    entry: CatalogEntry,
+    instead: &Instead,
+    yaw: Option<YawArgument>,
+) -> Result<(), Message> {
     if let Some(option) = instead.files().given().first() {
         return Err(Message::new(
             format!(
@@ -345,14 +349,14 @@ pub fn read_run(file: &Path, instead: &file_sets::Instead) -> Result<RunToMake, 
 }
 
 /// Returns the built-in run of this name, unless there is such a file.
-pub fn built_in(file: &Path) -> Result<Option<Entry>, Message> {
+pub fn built_in(file: &Path) -> Result<Option<CatalogEntry>, Message> {
     let name = file.to_str().unwrap_or("");
     let exists = file.is_file();
     if let Some(entry) = catalog::entry(name).filter(|_| !exists) {
         return Ok(Some(entry));
     }
     if !exists && name.starts_with("nucars_") && file.extension().is_none() {
-        let names: Vec<String> = catalog::entries().iter().map(Entry::name).collect();
+        let names: Vec<String> = catalog::entries().iter().map(CatalogEntry::name).collect();
         let advice = match nearest(name, names.iter().map(String::as_str)) {
             Some(near) => format!("did you mean {near}? `wedgelab nucars run --list` lists all"),
             None => "`wedgelab nucars run --list` lists the built-in runs".to_owned(),
@@ -366,7 +370,7 @@ pub fn built_in(file: &Path) -> Result<Option<Entry>, Message> {
 }
 
 fn list() -> Result<ExitCode, Failure> {
-    let mut shown = Table::new(2, &[("name", ""), ("what", "")]);
+    let mut shown = TerminalTable::new(2, &[("name", ""), ("what", "")]);
     for entry in catalog::entries() {
         shown.row([entry.name(), entry.title()]);
     }
@@ -386,10 +390,10 @@ friction at the column.
 Jammed: share of the output times without steady sliding, held by the limit alone.";
 
 /// Returns the table of wedges.
-fn table(summary: &HalfTruckSummary) -> Table {
+fn table(summary: &HalfTruckSummary) -> TerminalTable {
     let units = summary.units;
     let (force, energy) = (Kind::Force.label(units), Kind::Energy.label(units));
-    let mut table = Table::new(
+    let mut table = TerminalTable::new(
         2,
         &[
             ("wedge", ""),

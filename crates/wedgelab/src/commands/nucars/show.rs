@@ -12,7 +12,7 @@ use nucars::show;
 
 use super::load::print_findings;
 use crate::failure::{Failure, INPUT, Message};
-use crate::table::Table;
+use crate::table::TerminalTable;
 
 /// Print bodies, connections, characteristics and functions of a system file as tables
 ///
@@ -42,7 +42,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     writeln!(out, "{}", read.tree.title.text.value)?;
     for table in show::system(&read.tree) {
         writeln!(out, "\n{}", table.title)?;
-        let mut shown = Table::new(table.words, &table.columns);
+        let mut shown = TerminalTable::new(table.words, &table.columns);
         for row in table.rows {
             shown.row(row);
         }

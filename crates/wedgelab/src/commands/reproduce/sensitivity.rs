@@ -7,7 +7,9 @@ use nucars::truck::Choices;
 use rayon::prelude::*;
 use report::agreement::TruckOutcome;
 use report::claims::needs_truck;
-use report::sensitivity::{self, FILE_NAME, FOLDER, Found, Kept, KeptError, Place, Sensitivity, Space};
+use report::sensitivity::{
+    self, FILE_NAME, FOLDER, Kept, KeptError, PointOutcome, PointPlace, Sensitivity, Space,
+};
 use study::half_truck::catalog;
 
 use super::Arguments;
@@ -41,14 +43,14 @@ pub fn explore(arguments: &Arguments, points: u64, pool: &rayon::ThreadPool) -> 
         "stopping: the points under way are finished and kept (once more: ends at once)",
         &stopped(&folder),
     );
-    let mut found: BTreeMap<Place, Found> = places
+    let mut found: BTreeMap<PointPlace, PointOutcome> = places
         .iter()
         .filter_map(|place| Some((*place, kept.found(*place)?.clone())))
         .collect();
     if !missing.is_empty() {
         let trucks = pool.install(half_trucks)?;
         let progress = Steady::new("points", places.len() as u64, before as u64, arguments.quiet);
-        let one = |place: Place| -> Result<Option<(Place, Found)>, Failure> {
+        let one = |place: PointPlace| -> Result<Option<(PointPlace, PointOutcome)>, Failure> {
             if interrupt::wanted() {
                 return Ok(None);
             }
@@ -57,7 +59,7 @@ pub fn explore(arguments: &Arguments, points: u64, pool: &rayon::ThreadPool) -> 
             progress.done();
             Ok(Some((place, found)))
         };
-        let computed: Vec<Result<Option<(Place, Found)>, Failure>> =
+        let computed: Vec<Result<Option<(PointPlace, PointOutcome)>, Failure>> =
             pool.install(|| missing.into_par_iter().with_max_len(1).map(one).collect());
         progress.finish();
         for computed in computed {

@@ -7,9 +7,9 @@ use report::figures::Exhibit;
 use report::figures::truck::{TruckRun, of_rigs};
 use report::files::{FileError, Files, Folder};
 use report::page::truck::{self, TruckContents};
-use report::page::{Drawn, Viewer};
+use report::page::{DrawnFigure, Viewer};
 use report::run_files;
-use report::three_piece::{self, Findings, Rigs, Variant};
+use report::three_piece::{self, Rigs, TruckFindings, Variant};
 use report::view::View;
 use report::view::run::{Detail, Recording};
 use study::truck::{TruckCase, builtin};
@@ -124,7 +124,7 @@ fn one(planned: Planned, progress: &Progress) -> Result<Option<Made>, Failure> {
 /// The report: the page, its numbers, and what may be wrong with a run.
 pub struct TruckReport {
     pub page: String,
-    pub findings: Findings,
+    pub findings: TruckFindings,
     pub figures: usize,
     pub runs: Vec<TruckRun>,
 }
@@ -157,12 +157,12 @@ pub fn report_on(made: Vec<Made>, figures: &Folder) -> Result<TruckReport, Failu
             let message = format!("cannot write the data of the truck's page: {error}");
             Failure::Failed(Message::new(message, "").into())
         })?;
-    let drawn: Vec<Drawn> = exhibits
+    let drawn: Vec<DrawnFigure> = exhibits
         .into_iter()
         .zip(svgs)
-        .map(|(exhibit, svg)| Drawn { exhibit, svg })
+        .map(|(exhibit, svg)| DrawnFigure { exhibit, svg })
         .collect();
-    let findings = Findings::of(&rigs);
+    let findings = TruckFindings::of(&rigs);
     let results: Vec<_> = runs.iter().map(|run| run.result.clone()).collect();
     let page = truck::render(&TruckContents {
         rigs: &results,

@@ -12,7 +12,7 @@ use report::page::Viewer;
 use report::view::run::{Detail, Recording};
 use study::energy;
 use study::half_truck::HalfTruckCase;
-use study::half_truck::catalog::{self, Entry};
+use study::half_truck::catalog::{self, CatalogEntry};
 use study::plausibility;
 
 use crate::failure::{Failure, Message, say};
@@ -25,7 +25,7 @@ pub const DURATION: f64 = 10.0;
 
 /// A run to be made, and where it is written.
 pub struct Planned {
-    entry: Entry,
+    entry: CatalogEntry,
     case: HalfTruckCase,
     folder: Folder,
 }
