@@ -10,7 +10,7 @@ use crate::shell;
 pub struct Machine {
     /// The processor as it reports itself.
     pub processor: String,
-    /// How many processors a program may use.
+    /// Number of processors that a program may use.
     pub cores: usize,
     /// The day (UTC), such as 2026-11-25.
     pub date: String,

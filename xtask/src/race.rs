@@ -31,7 +31,7 @@ square
   --short SECONDS     simulated time of Octave's runs (1); 10: minutes a run
   --kept-only yes     run nothing, judge what was kept";
 
-/// What `--quick` runs.
+/// The runs of `--quick`.
 const QUICK: [&str; 8] = [
     "--cases",
     "vdrun_toe_out_0.2_psi_0.012,cdrun_toe_0_psi_0.012,planar_constant,stick",

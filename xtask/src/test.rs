@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 use crate::shell::{self, Workspace};
 pub use python::path_with;
 
-/// What a passed check wants to say in the table, or why it failed.
+/// The remark of a passed check in the table, or the reason why it failed.
 type Outcome = Result<Option<String>, String>;
 
 /// One check.
@@ -208,7 +208,7 @@ fn component(workspace: &Workspace, command: &str, component: &str) -> Result<()
     shell::run(&mut rustup).map_err(|error| format!("`cargo {command}` is missing, and {error}"))
 }
 
-/// What the command line asks for.
+/// The request of the command line.
 #[derive(Debug, PartialEq, Eq)]
 enum Request {
     Help,

@@ -16,7 +16,7 @@ that holds it. Needs Node.js 20.19 or later with npm; fetches the packages of it
 
 const LOCK: &str = "package-lock.json";
 
-/// What to say where Node.js is missing.
+/// The message where Node.js is missing.
 const NODE: &str = "The viewer needs Node.js 20.19 or later with npm, and network the first time \
                     (https://nodejs.org; Debian: apt-get install nodejs npm).";
 

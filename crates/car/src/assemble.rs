@@ -62,7 +62,7 @@ pub struct Numbers {
     pub carriers: [usize; 4],
     /// The sprung rails under each wheelset, left and right.
     pub rails: Option<[[usize; 2]; 4]>,
-    /// What the rails under each wheelset lie on, if that can be moved, left and right: displacements along
+    /// The beds of the rails under each wheelset, if that can be moved, left and right: displacements along
     /// the track's own axes.
     pub beds: Option<[[usize; 2]; 4]>,
 }

@@ -23,7 +23,7 @@ pub(crate) struct SpeedControl {
     pub gain: f64,
     /// Distances (m, rising) and speeds (m/s); at least one pair.
     pub speeds: Vec<[f64; 2]>,
-    /// What is linear in the distance between two pairs.
+    /// The quantity that is linear in the distance between two pairs.
     pub between: Between,
 }
 

@@ -24,7 +24,7 @@ impl InvalidParameter {
     }
 }
 
-/// Why parameters make no car.
+/// Reasons why parameters make no car.
 #[derive(Debug, Error)]
 pub enum BuildError {
     /// A value makes none.

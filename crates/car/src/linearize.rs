@@ -46,7 +46,7 @@ pub struct CriticalSpeed {
     pub frequency: f64,
 }
 
-/// Why there is no linearization.
+/// Reasons why there is no linearization.
 #[derive(Debug, Error)]
 pub enum LinearizeError {
     /// There is no car.
@@ -83,7 +83,7 @@ const SLOWEST: f64 = 0.05;
 const FASTEST: f64 = 30.0;
 /// Growth below this is none, 1/s: that of undamped vibrations in rounding.
 const NONE: f64 = 1e-5;
-/// How long a car runs before it is linearized, s.
+/// Time that a car runs before it is linearized, s.
 const SETTLED: f64 = 1.0;
 /// About which eigenvalues are found best, 1/s.
 const SHIFT: f64 = 20.0;

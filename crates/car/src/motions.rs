@@ -18,8 +18,8 @@ use crate::body::angles;
 pub struct BodyMotion {
     /// Displacement forward, left, up (m), and roll, pitch, yaw (rad).
     pub coordinates: [f64; 6],
-    /// How far the middle between the feet of both bolsters lies to the left and up from the center line
-    /// where the body is, m: that of the chord in a curve.
+    /// Offsets to the left and up of the middle between the feet of both bolsters from the center line where
+    /// the body is, m: that of the chord in a curve.
     pub chord: [f64; 2],
 }
 

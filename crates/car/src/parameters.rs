@@ -89,7 +89,7 @@ pub enum Drive {
     Coasting,
 }
 
-/// Where and how a run begins.
+/// Place and speed at which a run begins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
     /// Distance along the track of the middle between the trucks, m.
@@ -98,15 +98,14 @@ pub struct Start {
     pub speed: f64,
     /// Heading of the track's own axes in the fixed frame, rad: of no consequence.
     pub heading: f64,
-    /// How far each wheelset, front to rear, is moved to the left from the middle of the track, m: a
-    /// disturbance.
+    /// Shift of each wheelset, front to rear, to the left from the middle of the track, m: a disturbance.
     pub wheelset_shifts: [f64; 4],
-    /// How far the body is moved to the left from the middle of the track, m: a disturbance.
+    /// Shift of the body to the left from the middle of the track, m: a disturbance.
     pub body_shift: f64,
     /// Whether coils, plates and wheels start in the equilibrium of the car at rest without friction, or in
     /// the nominal layout.
     pub kind: StartKind,
-    /// How long the car settles after the start, s: statistics leave this out.
+    /// Time that the car settles after the start, s: statistics leave this out.
     pub settle: f64,
 }
 
@@ -150,7 +149,7 @@ pub struct Parameters {
     /// The car body without lading; its height is that of the center of gravity above the top of rail in
     /// the nominal layout, which is that of the loaded car.
     pub body: RigidBody,
-    /// What it carries.
+    /// Its load.
     pub lading: Vec<Mass>,
     /// From the center of one truck to that of the other, m.
     pub truck_distance: f64,
@@ -160,7 +159,7 @@ pub struct Parameters {
     pub trucks: [truck::Parameters; 2],
     /// Each of the four wheelsets.
     pub wheelset: WheelsetBody,
-    /// What they roll on.
+    /// The rails or the ground that they roll on.
     pub wheels: Wheels,
     /// The track.
     pub track: Track,
@@ -169,7 +168,7 @@ pub struct Parameters {
     /// Whether what each rail lies on can be moved (`mechanics::system::System::set_motions`): a bridge, a
     /// rig. Rails under linear wheels cannot.
     pub movable_rails: bool,
-    /// What keeps it moving.
+    /// The drive that keeps it moving.
     pub drive: Drive,
     /// The start.
     pub start: Start,

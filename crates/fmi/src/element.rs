@@ -23,7 +23,7 @@ pub enum Interface {
 pub struct QuantityEntry {
     /// Its name.
     pub name: String,
-    /// What it is.
+    /// The description.
     pub text: String,
     /// Its unit.
     pub unit: Option<Unit>,
@@ -98,7 +98,7 @@ pub struct Entries {
     pub outputs_of_states: bool,
     /// Continuous states.
     pub states: Vec<QuantityEntry>,
-    /// How many of them, at the end of the list, are only accumulated: nothing depends on them.
+    /// Number of them, at the end of the list, that are only accumulated: nothing depends on them.
     pub accumulators: usize,
     /// States whose rate is another state, by number; the others' rates depend on everything.
     pub kinematic: Vec<(usize, usize)>,
@@ -110,10 +110,10 @@ pub struct Entries {
     pub indicators: Vec<QuantityEntry>,
 }
 
-/// What an element starts from.
+/// The setting from which an element starts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
-    /// How it is used.
+    /// The interface by which it is used.
     pub interface: Interface,
     /// Values of the real parameters.
     pub parameters: Vec<f64>,

@@ -3,7 +3,7 @@
 use input::bounded;
 use thiserror::Error;
 
-/// How bad it is.
+/// The severity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
     /// Done, with a remark.
@@ -59,7 +59,7 @@ impl Category {
     }
 }
 
-/// Why a call is refused, or has failed.
+/// The reason why a call is refused, or has failed.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{message}")]
 pub struct Error {

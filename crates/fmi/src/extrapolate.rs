@@ -2,7 +2,7 @@
 
 use crate::element::QuantityEntry;
 
-/// How inputs of a communication step are to be understood.
+/// The interpretation of inputs of a communication step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Understanding {
     /// Rates of neighbours are found from their positions.
@@ -11,7 +11,7 @@ pub(crate) struct Understanding {
     pub at_end: bool,
 }
 
-/// What is known of the inputs.
+/// The known values of the inputs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known<'k> {
     /// Their values.

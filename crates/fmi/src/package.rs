@@ -102,7 +102,7 @@ impl Platform {
 /// The library of FMUs.
 #[derive(Clone, Debug)]
 pub struct Library {
-    /// What it is called in messages.
+    /// Its name in messages.
     name: String,
     bytes: Cow<'static, [u8]>,
 }

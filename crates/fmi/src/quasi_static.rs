@@ -21,7 +21,7 @@ use crate::wedge::parameters;
 const PLACES: usize = 8;
 const COIL_STIFFNESS: usize = PLACES;
 const COIL_FORCE: usize = PLACES + 1;
-/// How many parts a step is cut into to accumulate work and losses (Simpson's rule on each).
+/// Number of parts of a step to accumulate work and losses (Simpson's rule on each).
 const PARTS: usize = 8;
 /// Work and losses.
 const STATES: usize = 3;

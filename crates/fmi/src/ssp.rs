@@ -28,7 +28,7 @@ const TRUCK: &str = "truck";
 const PARAMETERS: &str = "resources/parameters.ssv";
 /// Parameters of each wedge that the file with values holds.
 const OF_WEDGES: [&str; 3] = ["toe", "column_friction", "slope_friction"];
-/// How fast the truck moves up at the start, m/s: about 8 mm of bounce.
+/// Velocity of the truck upwards at the start, m/s: about 8 mm of bounce.
 const BOUNCE: f64 = 0.1;
 /// Length of the default experiment, s.
 const STOP_TIME: f64 = 1.0;

@@ -100,9 +100,9 @@ pub struct Variable {
     pub reference: u32,
     /// Its name.
     pub name: String,
-    /// What it is, in one line.
+    /// The description, one line.
     pub text: String,
-    /// What stands behind it.
+    /// The quantity behind it.
     pub role: VariableRole,
     /// Its unit; `None` for numbers without one.
     pub unit: Option<Unit>,

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 /// One input that does.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Finding {
-    /// What it is, the same for inputs that do the same as far as can be told.
+    /// The kind of the finding, the same for inputs that do the same as far as is known.
     pub what: String,
-    /// What is said of this input.
+    /// The description of this input.
     pub detail: String,
     /// The input's number.
     pub number: u64,
@@ -20,7 +20,7 @@ pub struct Finding {
 /// Findings that are the same as far as can be told.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FindingGroup {
-    /// How many inputs did it.
+    /// Number of inputs that did it.
     pub count: u64,
     /// The shortest of them.
     pub shortest: Finding,

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
-/// How the folders are called.
+/// The names of the folders.
 const NAME: &str = "wedgelab-fuzz-";
 /// The file that is locked while a folder is used.
 const LOCK: &str = ".lock";

@@ -4,7 +4,7 @@ use crate::limits::LONGEST_INPUT;
 use crate::mutate::{Material, Mutation, Random};
 use crate::readers::{self, Reader};
 
-/// How many mutations are stacked: mostly one, so that many inputs are nearly right.
+/// Number of stacked mutations: mostly one, so that many inputs are nearly right.
 const STACKED: [usize; 8] = [1, 1, 1, 1, 2, 2, 3, 5];
 
 /// The inputs of one reader.

@@ -8,7 +8,7 @@ pub const LONGEST_INPUT: usize = 1 << 20;
 /// Bytes of the longest text of a refusal.
 pub const LONGEST_MESSAGE: usize = 64 << 10;
 
-/// How many mistakes of one input may be printed at most; `None`: any number.
+/// Largest number of mistakes of one input that may be printed; `None`: any number.
 pub const MOST_MISTAKES: Option<usize> = Some(input::limits::MISTAKES);
 
 /// Whether numbers that a comparison gives must be finite.

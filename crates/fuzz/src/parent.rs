@@ -17,19 +17,19 @@ use crate::folder::Folder;
 use crate::tally::Tally;
 use crate::worker::{FINDINGS, GIVEN_UP, TALLY};
 
-/// How much longer than the processor time of an input its wall time may be, where other programs compute
+/// The factor by which the wall time of an input may exceed its processor time, where other programs compute
 /// beside it.
 const WALL: u32 = 20;
-/// How often workers are looked at.
+/// The interval of checking the workers.
 const LOOK: Duration = Duration::from_millis(10);
 
-/// What is to be done.
+/// The settings of a run over readers.
 pub struct FuzzPlan {
     /// The readers.
     pub readers: Vec<&'static Reader>,
     /// Which inputs.
     pub seed: u64,
-    /// How many readers work at a time.
+    /// Number of readers that work at a time.
     pub jobs: usize,
     /// Processor time after which an input is given up.
     pub patience: Duration,
@@ -39,13 +39,13 @@ pub struct FuzzPlan {
     pub executions: Option<u64>,
 }
 
-/// What came out for a reader.
+/// The result of a reader.
 pub struct ReaderResult {
     /// The reader.
     pub reader: &'static Reader,
     /// Its counts.
     pub tally: Tally,
-    /// What was found.
+    /// The findings.
     pub found: Groups,
 }
 
@@ -141,22 +141,22 @@ pub enum WorkerEnd {
     Failed(String),
     /// The input broke it.
     Broke {
-        /// What it is.
+        /// The description.
         what: String,
-        /// What is said of it.
+        /// The description of it.
         detail: String,
     },
     /// One input took too long.
     Hung,
 }
 
-/// What a worker leaves.
+/// The end of a worker.
 pub struct Ended {
     /// Its counts.
     pub tally: Tally,
     /// Its findings.
     pub findings: Vec<Finding>,
-    /// How it ended.
+    /// The way in which it ended.
     pub end: WorkerEnd,
 }
 

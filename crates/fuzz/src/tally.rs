@@ -11,7 +11,7 @@ const FIELDS: usize = 8;
 pub struct Tally {
     /// The number of the input that is being read.
     pub number: u64,
-    /// How often it has been begun: the time of an execution is taken twice before it is called too long.
+    /// The number of attempts: the time of an execution is taken twice before it is called too long.
     pub attempt: u64,
     /// Executions that ended.
     pub executions: u64,

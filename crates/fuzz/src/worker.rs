@@ -28,7 +28,7 @@ pub const FINDINGS: &str = "findings";
 /// The file of the messages about a single input.
 pub const MESSAGES: &str = "messages";
 
-/// What the parent asks of a worker.
+/// The arguments of a worker.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The reader

@@ -9,7 +9,7 @@ use thiserror::Error;
 use crate::FileType;
 use crate::file_type::HEAD;
 
-/// What a command expects a file to be.
+/// The type of file that a command expects.
 #[derive(Clone, Copy, Debug)]
 pub struct Expected {
     /// Its name in messages, such as `case file`.
@@ -20,11 +20,11 @@ pub struct Expected {
     pub most: u64,
 }
 
-/// Why a file was not read. It names the file.
+/// The reason why a file was not read. It names the file.
 #[derive(Debug, Error)]
 #[error("{}", self.message())]
 pub struct ReadError {
-    /// What it was to be.
+    /// The expected type.
     pub what: &'static str,
     /// The file as named.
     pub path: PathBuf,
@@ -32,7 +32,7 @@ pub struct ReadError {
     pub reason: Reason,
 }
 
-/// Why a file was not read.
+/// Reasons why a file was not read.
 #[derive(Debug)]
 pub enum Reason {
     /// There is none.

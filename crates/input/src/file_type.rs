@@ -29,7 +29,7 @@ pub enum FileType {
     Binary,
 }
 
-/// How many bytes at the beginning of a file [`FileType::of`] needs at most.
+/// Largest number of bytes at the beginning of a file that [`FileType::of`] needs.
 pub const HEAD: usize = 1 << 16;
 
 impl FileType {

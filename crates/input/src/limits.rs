@@ -68,5 +68,5 @@ pub const MESSAGE: usize = 1000;
 /// Longest piece of a user's text quoted in a message, in characters.
 pub const QUOTED: usize = 60;
 
-/// How much of a long line is shown on either side of a mistake, in bytes.
+/// Length of a long line shown on either side of a mistake, bytes.
 pub const EXCERPT: usize = 120;

@@ -9,7 +9,7 @@ use toml_parser::lexer::TokenKind;
 
 use crate::limits;
 
-/// Why a text is not parsed at all.
+/// Reasons why a text is not parsed at all.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum Excess {
     /// The text is too long.

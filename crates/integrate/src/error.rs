@@ -12,13 +12,13 @@ pub enum SetupError {
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What it must be.
+        /// The condition on it.
         must: &'static str,
     },
     /// A length does not fit.
     #[error("the problem has {expected} {what}, but {found} were given")]
     Dimension {
-        /// What is counted.
+        /// The counted things.
         what: &'static str,
         /// The number that the problem has.
         expected: usize,
@@ -101,7 +101,7 @@ pub enum SetupError {
     },
 }
 
-/// Why a step was not accepted.
+/// Reasons why a step was not accepted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reason {
     /// The local error was too large.

@@ -15,13 +15,13 @@ pub struct Characteristic {
     zero: f64,
 }
 
-/// Why points define no characteristic.
+/// Reasons why points define no characteristic.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum CharacteristicError {
     /// Too few points.
     #[error("{got} points; a characteristic needs at least 2")]
     TooFew {
-        /// How many there are.
+        /// Their number.
         got: usize,
     },
     /// A value is infinite or not a number.

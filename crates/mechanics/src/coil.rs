@@ -79,7 +79,7 @@ struct Pull<S> {
     loss: S,
 }
 
-/// What a coil does.
+/// The force of a coil.
 #[derive(Clone, Copy, Debug)]
 pub struct CoilForce<S> {
     /// Force on the body, marker axes, N.

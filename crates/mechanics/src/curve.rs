@@ -20,7 +20,7 @@ pub struct Curve {
     integrals: Vec<f64>,
 }
 
-/// Why points define no curve.
+/// Reasons why points define no curve.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum CurveError {
     /// There is no point.

@@ -132,7 +132,7 @@ impl EnergyBalance {
     }
 }
 
-/// How far a run can be trusted by its energy ledger.
+/// The verdict on a run by its energy ledger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
     /// The ledger closes.

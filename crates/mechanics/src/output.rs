@@ -5,12 +5,12 @@ use std::borrow::Cow;
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
-/// What a column of a result holds. Values are kept in SI units.
+/// The contents of a column of a result. Values are kept in SI units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Column {
     /// Its name without the unit, such as `wedge_x`.
     pub name: String,
-    /// What kind of quantity it is.
+    /// The kind of quantity.
     pub kind: Kind,
     /// The axes in which components are given.
     pub frame: Cow<'static, str>,

@@ -21,21 +21,21 @@ struct Points {
     ordinates: Vec<f64>,
 }
 
-/// Why points define no spline.
+/// Reasons why points define no spline.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SplineError {
     /// Too few points.
     #[error("{got} points; a cubic spline needs at least 4")]
     TooFew {
-        /// How many there are.
+        /// Their number.
         got: usize,
     },
     /// Unequal numbers of abscissae and ordinates.
     #[error("{abscissae} abscissae, but {ordinates} ordinates")]
     Unequal {
-        /// How many abscissae.
+        /// Number of abscissae.
         abscissae: usize,
-        /// How many ordinates.
+        /// Number of ordinates.
         ordinates: usize,
     },
     /// The abscissae do not increase strictly.

@@ -76,11 +76,11 @@ pub struct SurfaceShape {
     pub profile: SurfaceProfile,
     /// Along which tangent the profile runs.
     pub direction: ProfileDirection,
-    /// How it recedes further, as by wear.
+    /// The further recession of it, as by wear.
     pub worn: Option<DepthSurface>,
 }
 
-/// What a surface is like next to a point (or to four in lanes): see the head of the module.
+/// The local geometry of a surface at a point (or at four in lanes): see the head of the module.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bend<P> {
     /// Signed distance, m: positive outside.

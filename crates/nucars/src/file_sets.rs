@@ -19,9 +19,9 @@ use crate::{Findings, Severity, check};
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("{message}")]
 pub struct LoadError {
-    /// What is wrong.
+    /// The mistake.
     pub message: String,
-    /// What to do; may be empty.
+    /// The advice; may be empty.
     pub advice: String,
 }
 
@@ -61,7 +61,7 @@ pub fn find(path: &Path) -> Result<PathBuf, LoadError> {
     })
 }
 
-/// What a file of NUCARS must be.
+/// The expected file of NUCARS.
 const NUCARS_FILE: Expected = Expected {
     what: "file of NUCARS",
     types: &[FileType::Nucars],

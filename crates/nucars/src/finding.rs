@@ -144,7 +144,7 @@ impl Diagnostic for Finding {
 pub struct Findings {
     source: Arc<SourceText>,
     list: Vec<Finding>,
-    /// How many of each severity were found.
+    /// Number of findings of each severity.
     found: [usize; 3],
 }
 

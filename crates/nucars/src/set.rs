@@ -40,12 +40,12 @@ pub enum SetError {
         path: String,
         /// As typed.
         value: String,
-        /// What would do.
+        /// The admissible values.
         expected: String,
     },
 }
 
-/// What the first part of a path can be.
+/// The possible first parts of a path.
 pub const SECTIONS: [&str; 6] = [
     "body",
     "connection",
@@ -55,7 +55,7 @@ pub const SECTIONS: [&str; 6] = [
     "history",
 ];
 
-/// What can be set.
+/// The targets of overrides.
 enum Target<'t> {
     /// A number in the file's unit.
     Number(&'t mut Spanned<f64>, &'static Expected),
@@ -67,7 +67,7 @@ enum Target<'t> {
 
 /// Which numbers are admissible.
 struct Expected {
-    /// What they may measure, with the factors from the file's units to SI.
+    /// The kinds that they may have, with the factors from the file's units to SI.
     kinds: &'static [(Kind, f64)],
     /// The least of them, in the file's unit.
     least: f64,

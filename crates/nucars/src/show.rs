@@ -15,7 +15,7 @@ pub struct SystemTable {
     pub title: String,
     /// Names and units of the columns; no unit is an empty text.
     pub columns: Vec<(&'static str, &'static str)>,
-    /// How many columns from the left hold words.
+    /// Number of columns from the left that hold words.
     pub words: usize,
     /// The cells.
     pub rows: Vec<Vec<String>>,

@@ -98,13 +98,13 @@ impl PartialEq for At {
     }
 }
 
-/// Why a text cannot be read at all.
+/// The reason why a text cannot be read at all.
 #[derive(Clone, Debug, Error)]
 #[error("{name}: {excess}")]
 pub struct SourceError {
     /// The file.
     pub name: String,
-    /// What is beyond the limits of readers.
+    /// The excess over the limits of readers.
     pub excess: Excess,
 }
 

@@ -4,14 +4,14 @@ use crate::{Dimension, Kind, System};
 use std::ops::Range;
 use thiserror::Error;
 
-/// What is wrong with the text of a quantity. Its message says what was found and what was
-/// expected, [`UnitError::help`] what to write instead, [`UnitError::span`] where.
+/// The mistakes in the text of a quantity. Its message says what was found and what was expected,
+/// [`UnitError::help`] what to write instead, [`UnitError::span`] where.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum UnitError {
     /// There is nothing.
     #[error("a number with a unit is missing")]
     Empty {
-        /// What is expected, if that is known.
+        /// The expected kind, if that is known.
         expected: Option<Kind>,
     },
     /// A number stands alone.
@@ -19,7 +19,7 @@ pub enum UnitError {
     MissingUnit {
         /// The number as typed.
         number: String,
-        /// What is expected, if that is known.
+        /// The expected kind, if that is known.
         expected: Option<Kind>,
         /// Where, in bytes of the text.
         span: Range<usize>,
@@ -27,11 +27,11 @@ pub enum UnitError {
     /// The text does not begin with a number.
     #[error("\"{text}\" is not a number: {reason}")]
     BadNumber {
-        /// What stands in place of a number.
+        /// The text in place of a number.
         text: String,
         /// Why it is none.
         reason: String,
-        /// What is expected, if that is known.
+        /// The expected kind, if that is known.
         expected: Option<Kind>,
         /// Where, in bytes of the text.
         span: Range<usize>,
@@ -49,7 +49,7 @@ pub enum UnitError {
     UnknownUnit {
         /// The name as typed.
         unit: String,
-        /// What may have been meant.
+        /// The name that may have been meant.
         nearest: Option<String>,
         /// Where, in bytes of the text.
         span: Range<usize>,

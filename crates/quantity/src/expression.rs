@@ -57,7 +57,7 @@ struct Parser<'a> {
     text: &'a str,
     at: usize,
     offset: usize,
-    /// How many brackets are open: the parser recurses at each of them.
+    /// Number of open brackets: the parser recurses at each of them.
     depth: usize,
 }
 

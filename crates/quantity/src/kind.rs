@@ -25,7 +25,7 @@ impl System {
     }
 }
 
-/// What a number stands for.
+/// The kind of quantity that a number stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {

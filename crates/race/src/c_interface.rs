@@ -12,7 +12,7 @@ use std::slice::{from_raw_parts, from_raw_parts_mut};
 use crate::equations::Equations;
 use crate::problem::RaceProblem;
 
-/// What a handle points to.
+/// The target of a handle.
 pub struct Handle {
     equations: Equations,
     rows: usize,

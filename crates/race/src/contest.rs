@@ -46,7 +46,7 @@ pub struct Solver {
     pub name: &'static str,
     /// Its program.
     pub program: Program,
-    /// What the program calls it.
+    /// Its name in the program.
     pub method: &'static str,
     /// Whether it is ours.
     pub ours: bool,
@@ -184,7 +184,7 @@ pub const SOLVERS: &[Solver] = &[
     },
 ];
 
-/// What holds for all solvers.
+/// The remarks that hold for all solvers.
 pub const COMMON_OPTIONS: &str = SAME;
 
 /// Returns the solver of this name in programs and tables.

@@ -120,7 +120,7 @@ pub fn run(
     Ok((outcome, states))
 }
 
-/// What a solver needs to know of a run.
+/// The settings of a run for a solver.
 struct Each<'r> {
     problem: &'r RaceProblem,
     rows: usize,

@@ -6,7 +6,7 @@ use wedge::outputs::Outputs;
 use crate::equations::Equations;
 use crate::problem::{Judged, RaceProblem};
 
-/// What a run is judged by, SI.
+/// The quantities by which a run is judged, SI.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Quantities {
     /// Time series: vertical and longitudinal wedge force, or the position.

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-/// What a driver prints.
+/// The output of a driver.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
     /// CPU time of the integration, s: the least of the repetitions. Without starting the program, without
@@ -13,7 +13,7 @@ pub struct Outcome {
     pub cpu: f64,
     /// Wall time of the same repetition, s.
     pub wall: f64,
-    /// How often it was run.
+    /// The number of its runs.
     pub repeats: u32,
     /// Accepted steps.
     pub steps: u64,

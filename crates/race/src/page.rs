@@ -43,9 +43,9 @@ pub struct Race {
     pub solvers: String,
     /// Where and when it was measured.
     pub measured: MeasuredOn,
-    /// What else a reader must know of these numbers; may be empty.
+    /// Further remarks on these numbers; may be empty.
     pub remarks: Vec<String>,
-    /// How many times longer the others take at equal error.
+    /// The ratios of the others' times to ours at equal error.
     pub ratios: MarkdownTable,
     /// Runs at one tolerance; empty where there are none.
     pub usual: MarkdownTable,
@@ -185,7 +185,7 @@ impl Race {
     }
 }
 
-/// What stands before all numbers.
+/// The text before all numbers.
 const ABOUT: &str = "\
 # The race
 

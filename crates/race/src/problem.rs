@@ -20,10 +20,10 @@ const TOE: f64 = 0.2 * std::f64::consts::PI / 180.0;
 /// Where the mass of the stick test comes to rest for ever, m: from 0.2 m, each half cycle loses 2 μmg/k.
 pub const STICK_REST: f64 = -0.00601;
 
-/// How much lower the wedge starts from one start of a case to the next, m.
+/// Height by which the wedge starts lower from one start of a case to the next, m.
 pub const START_STEP: f64 = 1e-5;
 
-/// What stands between the name of a case and the number of its start.
+/// The separator of a case's name and the number of its start.
 const START_MARK: char = '@';
 
 /// On what a solver is judged.
@@ -55,13 +55,13 @@ pub struct RaceProblem {
     pub judged: Judged,
 }
 
-/// Why there is no problem.
+/// Reasons why there is no problem.
 #[derive(Debug, Error)]
 pub enum ProblemError {
     /// There is none of this name.
     #[error("there is no problem `{name}` in the race; there are {}", names().join(", "))]
     Unknown {
-        /// What was asked for.
+        /// The requested thing.
         name: String,
     },
     /// It has nothing that could start elsewhere.

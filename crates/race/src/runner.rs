@@ -32,11 +32,11 @@ pub struct RaceEntry {
     pub tolerance: String,
     /// Rows asked for, the start included.
     pub rows: usize,
-    /// What the solver reports.
+    /// The solver's report.
     pub outcome: Outcome,
 }
 
-/// What is to be run.
+/// The runs to make.
 #[derive(Clone, Debug)]
 pub struct RacePlan {
     /// Problems.

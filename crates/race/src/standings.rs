@@ -42,7 +42,7 @@ pub struct Standing {
     pub span: f64,
     /// On what it is judged.
     pub judged: String,
-    /// How well the reference is known: smaller errors say nothing.
+    /// The error of the reference: smaller errors say nothing.
     pub floor: f64,
     /// From how many starts each run was made: errors and the floor are root mean squares over them, times
     /// and counts their means; the floor then has twice the scatter of such a root mean square on top.

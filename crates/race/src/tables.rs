@@ -18,7 +18,7 @@ pub struct MarkdownTable {
     pub rows: Vec<Vec<String>>,
 }
 
-/// What stands between the cells of a line.
+/// The separator of the cells of a line.
 const BETWEEN: &str = " | ";
 
 impl From<Vec<String>> for MarkdownTable {

@@ -10,7 +10,7 @@ use crate::problem::RaceProblem;
 /// A wedge with its start, for `drivers/wedge_case.m`. SI units; the state is that of [`Equations`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WedgeCase {
-    /// What the wedge is made of.
+    /// Parameters of the wedge.
     pub parameters: Parameters,
     /// The state at the start.
     pub start: Vec<f64>,

@@ -71,7 +71,7 @@ pub fn truck_column<'r>(result: &'r HalfTruckResult, name: &str) -> Option<&'r [
     }
 }
 
-/// What is compared.
+/// The compared model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ComparedModel {
     /// The stand-alone wedge.
@@ -125,7 +125,7 @@ impl Numbers {
     }
 }
 
-/// What becomes of a type's loop in the half-truck: SI.
+/// The change of a type's loop in the half-truck: SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
     /// Which type.
@@ -136,7 +136,7 @@ pub struct Stroke {
     /// The same under the stroke that it has, J: from the mean lowest to the mean highest stroke of the
     /// cycles.
     pub shortened: f64,
-    /// What it is in the half-truck, J.
+    /// The loop's energy in the half-truck, J.
     pub found: f64,
     /// Mean lowest and highest stroke of the cycles, m.
     pub ends: [f64; 2],
@@ -155,7 +155,7 @@ pub struct AgreementGroup {
     pub yawed: bool,
     /// The models, the stand-alone one first.
     pub models: Vec<Numbers>,
-    /// What became of the types' loops.
+    /// The changes of the types' loops.
     pub strokes: Vec<Stroke>,
     /// Where they do not agree, and why.
     pub remarks: Vec<String>,

@@ -25,12 +25,12 @@ pub const NAMES: [&str; 4] = [
     page::FILE_NAME,
 ];
 
-/// What all runs say.
+/// The findings of all runs.
 #[derive(Clone, Debug)]
 pub struct CertificateFindings {
     /// The runs in their order.
     pub runs: Vec<Assessed>,
-    /// How each limit is kept.
+    /// The verdict on each limit.
     pub verdicts: Vec<LimitVerdict>,
 }
 

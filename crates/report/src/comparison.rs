@@ -56,7 +56,7 @@ pub struct ComparedResult {
     pub table: ResultTable,
 }
 
-/// How a column of one result differs from the first result's, in the first one's units.
+/// The difference of a column of one result from the first result's, in the first one's units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
     /// The column, without unit.
@@ -109,7 +109,7 @@ pub struct Energy {
     pub first: f64,
 }
 
-/// What came out of comparing results with the first one.
+/// The outcome of comparing results with the first one.
 #[derive(Clone, Debug)]
 pub struct Comparison {
     /// Units of all numbers: the first result's.
@@ -118,7 +118,7 @@ pub struct Comparison {
     pub span: (f64, f64),
     /// The first result's rows within it.
     pub rows: usize,
-    /// What was converted, interpolated or left out, in words.
+    /// Conversions, interpolations and omissions, in words.
     pub notes: Vec<String>,
     /// The columns compared, without units.
     pub columns: Vec<String>,

@@ -22,7 +22,7 @@ pub(crate) use staging::PREFIX as HIDDEN;
 use staging::Staging;
 pub use staging::{Abandoned, abandon, remove_left_over};
 
-/// Why files cannot be written.
+/// Reasons why files cannot be written.
 #[derive(Debug, Error, Diagnostic)]
 pub enum FileError {
     /// There are results already.
@@ -36,7 +36,7 @@ pub enum FileError {
     #[error("`{}` is not a folder, so `{}` cannot be written", .path.display(), .folder.display())]
     #[diagnostic(help("choose another folder with --out"))]
     NotAFolder {
-        /// What is in the way.
+        /// The obstacle.
         path: PathBuf,
         /// The folder that was wanted.
         folder: PathBuf,

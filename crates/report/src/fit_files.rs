@@ -20,12 +20,12 @@ pub const PICTURE: &str = "residuals.png";
 /// The version of the numbers' layout.
 pub const SCHEMA: &str = "wedgelab.fit/1";
 
-/// What the figure shows beside the fit.
+/// The data that the figure shows beside the fit.
 #[derive(Clone, Copy, Debug)]
 pub struct FitFigure<'s> {
-    /// What was measured.
+    /// The measured data.
     pub measured: &'s Measured,
-    /// What it measures.
+    /// The kind of quantity that it measures.
     pub kind: Kind,
     /// The displacement at the measured times, SI, if it was measured.
     pub displacement: Option<&'s [f64]>,

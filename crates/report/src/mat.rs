@@ -45,7 +45,8 @@ use crate::mat5;
 /// The file's name.
 pub const FILE_NAME: &str = "result.mat";
 
-/// What the thesis's script of the yawed, constantly damped run subtracts from q2 (appendix D.2.2), in.
+/// The height that the thesis's script of the yawed, constantly damped run subtracts from q2 (appendix
+/// D.2.2), in.
 pub const CONSTANT_NOMINAL_HEIGHT: f64 = 9.95;
 
 /// A column in the thesis's units.

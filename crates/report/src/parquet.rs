@@ -22,7 +22,7 @@ pub const COLUMNS_KEY: &str = "wedgelab.columns";
 /// Rows of a group.
 const GROUP: usize = 16_384;
 
-/// What a column holds.
+/// The contents of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Content {
@@ -41,7 +41,7 @@ pub struct ParquetColumn {
     pub name: String,
     /// Its unit, such as `lbf·in`; empty for pure numbers and texts.
     pub unit: String,
-    /// What it is, in a few words.
+    /// The description, a few words.
     pub text: String,
     /// What it holds.
     pub content: Content,

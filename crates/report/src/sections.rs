@@ -16,7 +16,7 @@ pub struct SectionPlan {
     pub id: String,
     /// Its heading.
     pub title: String,
-    /// What to look at; may be empty.
+    /// The features to look at; may be empty.
     pub intro: String,
     /// Its figures.
     pub exhibits: Vec<Exhibit>,
@@ -24,7 +24,7 @@ pub struct SectionPlan {
     pub folded: bool,
     /// The run that it is about, if it is about one.
     pub run: Option<String>,
-    /// What folded sections of one kind are put under; may be empty.
+    /// The heading of folded sections of one kind; may be empty.
     pub group: String,
 }
 

@@ -171,7 +171,7 @@ impl ParameterAxis {
 /// Mean and extremes of values that come one by one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gathered {
-    /// How many.
+    /// Their number.
     pub count: u64,
     /// Their sum.
     pub sum: f64,
@@ -205,7 +205,7 @@ impl Gathered {
     }
 }
 
-/// What is gathered of each measure.
+/// The digests of all metrics in a cell.
 pub type MetricCell = Vec<Gathered>;
 
 /// A pair of parameters: means over the places of both.
@@ -219,7 +219,7 @@ pub struct ParameterPair {
     pub failed: Vec<u64>,
 }
 
-/// What the jam map needs of runs whose slope friction acts the same way.
+/// The cells of the jam map from runs whose slope friction acts the same way.
 #[derive(Clone, Debug)]
 pub struct JamCells {
     /// Whether these are runs with toe in; the others have toe out or none.
@@ -287,7 +287,7 @@ fn factor_of(study: &Study, path: &str) -> Option<usize> {
     factors.position(|factor| factor.paths.iter().any(|own| own == path))
 }
 
-/// What is gathered of a study.
+/// The digest of a study.
 #[derive(Clone, Debug)]
 pub struct Digest {
     /// The parameters.

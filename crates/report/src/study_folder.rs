@@ -47,13 +47,13 @@ pub const SERIES: &str = "series";
 const PARTS: &str = "parts";
 const LOCK_FILE: &str = ".lock";
 
-/// What the file that says what a study is must be.
+/// The expected file of a study's description.
 const MANIFEST: Expected = Expected {
     what: "description of the study",
     types: &[FileType::Json],
     most: limits::RECORD_FILE,
 };
-/// What a part must be. Damage at its beginning may look like anything.
+/// The expected file of a part. Damage at its beginning may look like anything.
 const RECORDS: Expected = Expected {
     what: "part of the study",
     types: &FileType::ALL,
@@ -85,7 +85,7 @@ pub struct StudyFolder {
     writing: Mutex<()>,
 }
 
-/// What a part holds.
+/// The contents of a part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyPart {
     /// Its records by number, each once.

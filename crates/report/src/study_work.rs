@@ -10,7 +10,7 @@ use crate::page::study as page;
 use crate::study_digest::Digest;
 use crate::study_folder::{StudyFolder, StudyFolderError};
 
-/// What a folder holds before anything is computed.
+/// The runs that a folder holds before anything is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct KeptRuns {
     /// Runs that are there.
@@ -37,7 +37,7 @@ pub fn kept(folder: &StudyFolder) -> Result<KeptRuns, StudyFolderError> {
     Ok(kept)
 }
 
-/// What is still to be done: the runs of one part, then of the next.
+/// The queue of work: the runs of one part, then of the next.
 struct Queue {
     part: u64,
     numbers: std::vec::IntoIter<u64>,

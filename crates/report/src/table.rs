@@ -23,7 +23,7 @@ use header::{Header, HeaderLocation};
 mod error;
 mod header;
 
-/// What the file of a result must be.
+/// The expected file of a result.
 const RESULT_FILE: Expected = Expected {
     what: "table of results",
     types: &[FileType::Results],
@@ -35,8 +35,8 @@ const RESULT_FILE: Expected = Expected {
 pub struct TableColumn {
     /// Its name without unit, such as `wedge_x`.
     pub name: String,
-    /// What kind of quantity it is. Where moments and energies are written alike and the name is none of
-    /// ours, a moment.
+    /// The kind of quantity. Where moments and energies are written alike and the name is none of ours, a
+    /// moment.
     pub kind: Kind,
     /// The system of units of [`TableColumn::written`].
     pub units: Units,
@@ -186,14 +186,14 @@ impl ResultTable {
     }
 }
 
-/// What has been read so far.
+/// The rows that have been read so far.
 struct Rows<'f> {
     file: &'f Path,
     header: Option<(Header, u64)>,
     columns: Vec<Vec<f64>>,
     /// A line with too few cells: cut off if no other follows.
     short: Option<(u64, usize)>,
-    /// How many cells there are.
+    /// Number of cells.
     cells: usize,
 }
 

@@ -31,7 +31,7 @@ pub const KIP_INCH: f64 = 112.984_829_027_616_7;
 /// One warp test.
 #[derive(Clone, Debug)]
 pub struct Tested {
-    /// What sets it apart from the others, such as `friction 0.25`; empty if there is one only.
+    /// Its label among the others, such as `friction 0.25`; empty if there is one only.
     pub label: String,
     /// Its run.
     pub result: TruckResult,

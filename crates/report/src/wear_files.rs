@@ -26,7 +26,7 @@ pub const CASE: &str = "worn.toml";
 pub const FIGURE: &str = "wear.svg";
 /// The same as a picture.
 pub const PICTURE: &str = "wear.png";
-/// What it comes to, in words.
+/// The result in words.
 pub const WORDS: &str = "wear.txt";
 /// All of them, but for those of counterfaces.
 pub const NAMES: [&str; 8] = [COURSE, POINTS, DEPTHS[0], DEPTHS[1], CASE, FIGURE, PICTURE, WORDS];

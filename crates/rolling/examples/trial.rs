@@ -129,7 +129,7 @@ fn setup(track: Track, sprung: bool, table: bool) -> Result<Setup, Failure> {
     })
 }
 
-/// What came of a run.
+/// The outcome of a run.
 struct Run {
     steps: u64,
     rejected: u64,

@@ -17,7 +17,7 @@ use crate::track::{RailSupport, rail_body};
 use crate::wheel::{PatchState, Search, WheelOnRail, motion_of};
 use crate::wheelset::{WheelsetBody, WheelsetPlace, coordinate, leave_spin_uncontrolled, marker};
 
-/// What carries the wheelset.
+/// The support of the wheelset.
 #[derive(Clone, Debug)]
 pub enum Wheels {
     /// Wheels on rails with patches.
@@ -43,7 +43,7 @@ pub enum Wheels {
 pub struct Setup {
     /// The wheelset's mass properties.
     pub body: WheelsetBody,
-    /// What carries it.
+    /// The support.
     pub wheels: Wheels,
     /// The track.
     pub lines: Arc<RailLines>,

@@ -12,7 +12,7 @@ use wheelrail::loaded::Seat;
 use crate::rig::Rig;
 use crate::wheel::{Search, WheelOnRail};
 
-/// How near to its outer edge a rim stands on its edge, m.
+/// Distance to its outer edge within which a rim stands on its edge, m.
 const EDGE: f64 = 1e-3;
 
 impl Search {

@@ -35,7 +35,7 @@ use wheelrail::track::{Line, RailLines, TrackSection};
 
 use crate::ahead::ahead;
 
-/// How patches are found.
+/// The search for patches.
 #[derive(Clone, Debug)]
 pub enum Search {
     /// By the search.
@@ -119,7 +119,7 @@ fn pose_in<S: Real>(section: &TrackSection<S>, side: Side, center: [S; 3], axle:
     }
 }
 
-/// What an evaluation works with.
+/// The inputs of an evaluation.
 pub(crate) struct Placed<S> {
     section: TrackSection<S>,
     pub(crate) pose: WheelPose<S>,

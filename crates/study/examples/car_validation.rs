@@ -22,7 +22,7 @@ type Failure = Box<dyn std::error::Error + Send + Sync>;
 const MPH: f64 = 0.447_04;
 const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
-/// How long the speed falls, and rises, s.
+/// Duration for which the speed falls, and rises, s.
 const RAMP: f64 = 50.0;
 /// Amplitude from which on a wheelset hunts, m.
 const THRESHOLD: f64 = 0.05 * INCH;

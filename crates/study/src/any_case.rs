@@ -192,7 +192,7 @@ fn named(source: &str, text: &str, overrides: &[String]) -> Option<Model> {
     model(&tree, &mut Problems::new())
 }
 
-/// What came out of a run of any model.
+/// The result of a run of any model.
 #[derive(Clone, Debug)]
 pub struct AnyResult {
     columns: Vec<Column>,
@@ -266,7 +266,7 @@ pub enum CaseSource {
     HalfTruck {
         /// The run file.
         path: PathBuf,
-        /// What it and the files that it names hold.
+        /// The contents of it and of the files that it names.
         texts: Box<Texts>,
     },
 }

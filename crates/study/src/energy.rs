@@ -6,7 +6,7 @@
 use mechanics::energy_balance::{DOUBTFUL, EnergyBalance, FAILED, Verdict};
 use quantity::SixDigits;
 
-/// How warnings about the energy ledger begin.
+/// The beginning of warnings about the energy ledger.
 const BEGINNING: &str = "the energy ledger does not close";
 
 /// Returns those of a run's warnings that are about its energy ledger.
@@ -37,7 +37,7 @@ pub fn failure(balance: &EnergyBalance, what_to_do: &str) -> Option<String> {
     warning(balance, what_to_do).filter(|_| balance.verdict() == Verdict::Failed)
 }
 
-/// What to do about a wedge's ledger that does not close.
+/// Advice on a wedge's ledger that does not close.
 pub const WHAT_TO_DO: &str = "lower simulation.relative_tolerance, and look for values out of all proportion";
 
 /// The same with a method that damps the vibrations of contacts.
@@ -45,6 +45,6 @@ pub const WHAT_TO_DO_WHERE_DAMPED: &str = "the method damps the vibrations of co
                                            lost to the ledger: lower simulation.relative_tolerance, or take \
                                            the default method where they carry a part of the force";
 
-/// What to do about a half-truck's ledger that does not close.
+/// Advice on a half-truck's ledger that does not close.
 pub const WHAT_TO_DO_WITH_FILES: &str =
     "lower the relative tolerance, and look for values out of all proportion in the files";

@@ -24,7 +24,7 @@ pub struct JamMargins {
     pub down: SummaryValue,
     /// The same while it goes up.
     pub up: SummaryValue,
-    /// What they say, in words.
+    /// Their message in words.
     pub statement: String,
 }
 

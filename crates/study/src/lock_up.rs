@@ -26,10 +26,10 @@ use crate::closed_form;
 use crate::result::RunResult;
 use crate::run::Run;
 
-/// How far the bolster presses, and for how long.
+/// Travel and duration of the bolster's press.
 const PRESS: &str = "bolster.longitudinal={ shape = \"ramp\", amplitude = \"-0.3 in\", duration = \"1.5 s\", \
                      profile = \"linear\" }";
-/// What the rig sets beside it.
+/// The other settings of the rig.
 const RIG: [&str; 12] = [
     PRESS,
     "bolster.lateral=0 in",
@@ -226,7 +226,7 @@ impl MapRange {
     }
 }
 
-/// What a rig found.
+/// The outcome of a rig.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RigOutcome {
     /// The wedge holds at a face: it is locked.
@@ -262,7 +262,7 @@ pub struct MapPoint {
     /// The column's normal force along the track over the load, of the massless wedge on which the faces
     /// close; none where it locks up.
     pub expected_ratio: Option<f64>,
-    /// What the rig found.
+    /// The outcome of the rig.
     pub found: RigOutcome,
     /// Parts of the normal forces of column and slope that are carried by points that stick, at the rig's
     /// end.
@@ -505,7 +505,7 @@ fn holding(result: &RunResult, face: &str, grid: &Grid) -> f64 {
     if all > 0.0 { sticking / all } else { 0.0 }
 }
 
-/// Why there is no map.
+/// Reasons why there is no map.
 #[derive(Debug, thiserror::Error)]
 pub enum MapError {
     /// Both axes are the same.

@@ -9,7 +9,7 @@ use wedge::outputs::{CORNERS, FACES, PointNames};
 
 use crate::run::{Recorder, Run, RunCase};
 
-/// How warnings about what is implausible begin.
+/// The beginning of warnings about what is implausible.
 const BEGINNING: &str = "implausible: ";
 
 /// The warning about a case file that gives no values.

@@ -31,7 +31,7 @@ pub fn most_attempts(advance: f64) -> u64 {
     SURE_ATTEMPTS.saturating_add((ATTEMPTS_A_SECOND * advance) as u64)
 }
 
-/// How far a run has come since it was looked at last.
+/// The progress of a run since the last check.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Pace {
     /// Attempted steps until then.
@@ -92,19 +92,19 @@ pub struct Stalled {
     pub time: f64,
     /// Attempted steps since it was looked at last.
     pub attempts: u64,
-    /// How far they brought it, s.
+    /// The time that they reached, s.
     pub advance: f64,
-    /// How far they must bring it, s.
+    /// The time that they must reach, s.
     pub required: f64,
     /// The state with the largest error.
     pub state: Option<usize>,
 }
 
-/// What to try where a run of a wedge cannot go on.
+/// Advice where a run of a wedge cannot go on.
 pub const WHAT_TO_TRY: &str = "try a softer contact.stiffness, a larger friction.reference_speed, or another \
      simulation.relative_tolerance, and look for values out of all proportion";
 
-/// What to try where a run of a half-truck cannot go on.
+/// Advice where a run of a half-truck cannot go on.
 pub const WHAT_TO_TRY_WITH_FILES: &str = "look at this body or connection with `wedgelab nucars show`: a \
                                           stiffness or a damping out of all proportion, or a mass that is \
                                           too small, makes steps so short";

@@ -33,7 +33,7 @@ const LONGEST_REASON: usize = 1000;
 /// with the square of its length.
 const LONGEST: usize = FIXED + 8 * MOST_MEASURES + LONGEST_REASON + '…'.len_utf8();
 
-/// How a variant ended.
+/// The end of a variant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// It came to its end.
@@ -66,12 +66,12 @@ impl Status {
     }
 }
 
-/// What came out of a variant.
+/// The outcome of a variant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
     /// The variant's number.
     pub number: u64,
-    /// How it ended.
+    /// The way in which it ended.
     pub status: Status,
     /// Why it has no measures, or has failed; empty if it is complete.
     pub reason: String,
@@ -220,7 +220,7 @@ impl Record {
     }
 }
 
-/// What bytes hold.
+/// The records that bytes hold.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadRecords {
     /// The study's sound records, in the order in which they were written.

@@ -5,7 +5,7 @@ use integrate::{Integrator, Problem};
 /// The rows of a run: at multiples of the output interval, and at the end.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rows {
-    /// How many there are.
+    /// Their number.
     pub count: u64,
     /// The end of the run, s.
     pub end: f64,

@@ -34,7 +34,7 @@ pub use state::{RUN_STATE_VERSION, RunState};
 pub(crate) use state::{check_finite, check_length, check_size, damaged};
 pub use wedge_run::{Counts, EVENT_CAP};
 
-/// Why a run cannot begin or go on.
+/// Reasons why a run cannot begin or go on.
 #[derive(Debug, Error)]
 pub enum RunError {
     /// The parameters make no wedge.
@@ -106,9 +106,9 @@ pub enum RunError {
     Damaged {
         /// The member.
         member: &'static str,
-        /// What it is.
+        /// The description.
         found: String,
-        /// What it must be.
+        /// The condition on it.
         expected: String,
     },
 }
@@ -153,14 +153,14 @@ pub(crate) fn append(
 
 /// A case that can be run: a model with all that a run needs besides.
 pub trait RunCase: Clone {
-    /// What takes the results from the run.
+    /// The recorder of the run's results.
     type Recorder: Recorder;
     /// The results.
     type Output;
 
-    /// What to try where a run cannot begin.
+    /// Advice where a run cannot begin.
     const WHERE_TO_LOOK: &'static str;
-    /// What to try where a run cannot go on.
+    /// Advice where a run cannot go on.
     const WHAT_TO_TRY: &'static str;
 
     /// Returns the name of the case.
@@ -180,20 +180,20 @@ pub trait RunCase: Clone {
     fn output(run: Run<Self>, stopped: Option<Stopped>) -> Self::Output;
 }
 
-/// What a run begins with.
+/// The values with which a run begins.
 #[derive(Debug)]
 pub struct Beginning<R> {
     /// The equations of motion.
     pub system: System,
     /// The state at time zero.
     pub x: Vec<f64>,
-    /// What takes the results from the run.
+    /// The recorder of the run's results.
     pub recorder: R,
 }
 
 /// Takes the results from a run.
 pub trait Recorder {
-    /// What it has counted along the run, saved with the run's state.
+    /// The counts along the run, saved with the run's state.
     type Counts: Clone + PartialEq + Serialize + DeserializeOwned;
 
     /// Returns what it has counted so far.

@@ -125,7 +125,7 @@ pub struct WindowValue {
     pub value: f64,
     /// Where the stretch begins.
     pub start: f64,
-    /// How long it is.
+    /// Its length.
     pub length: f64,
 }
 

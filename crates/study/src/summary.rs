@@ -41,7 +41,7 @@ impl SummaryValue {
     }
 }
 
-/// What the summaries of all models have.
+/// The part that the summaries of all models have.
 pub trait RunSummary {
     /// Returns the case's name.
     fn name(&self) -> &str;
@@ -112,7 +112,7 @@ pub struct Summary {
     /// Why its numbers are not to be used, although they are kept: its energy ledger does not close to 1e-2.
     #[serde(default)]
     pub failed: Option<String>,
-    /// What makes the numbers doubtful; empty for a sound run.
+    /// Warnings about the numbers; empty for a sound run.
     #[serde(default)]
     pub warnings: Vec<String>,
     /// Number of rows of the result.
@@ -125,7 +125,7 @@ pub struct Summary {
     pub events: Events,
     /// The active friction laws, by face, and how far they crept.
     pub friction: BTreeMap<String, FrictionSummary>,
-    /// How far the wedge is from locking up.
+    /// Margins of the wedge to lock-up.
     #[serde(default)]
     pub jam: Option<JamMargins>,
     /// The energy ledger at the end.
@@ -133,9 +133,9 @@ pub struct Summary {
     /// Where the energy of a cycle comes from and goes.
     #[serde(default)]
     pub energy: EnergySummary,
-    /// What the integrator did.
+    /// Counters of the integrator.
     pub solver: Solver,
-    /// What the numbers rest on.
+    /// The assumptions of the numbers.
     pub assumptions: Vec<String>,
 }
 
@@ -212,7 +212,7 @@ pub struct Averages {
 /// Changes of contact states.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Events {
-    /// How many there were in all.
+    /// Their number in all.
     pub total: u64,
     /// Counts by face and kind: `column` → `opens`, `closes`, `sticks`, `slips`.
     pub counts: BTreeMap<String, BTreeMap<String, u64>>,
@@ -224,7 +224,7 @@ pub struct Events {
     pub thresholds: Vec<String>,
     /// The first ones, up to the cap.
     pub listed: Vec<ContactEvent>,
-    /// How many are listed at most.
+    /// Largest number listed.
     pub cap: usize,
 }
 
@@ -295,7 +295,7 @@ impl LedgerSummary {
     }
 }
 
-/// What the integrator did.
+/// Counters of the integrator.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Solver {
     /// The method.

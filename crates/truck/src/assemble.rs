@@ -23,7 +23,7 @@ pub const WEDGES: usize = 5;
 pub const CAR_BODY: usize = 9;
 /// Number of the inboard half of the first wedge; those of wedges that are not split are no bodies.
 pub const INBOARD_HALVES: usize = 10;
-/// How many numbers there are.
+/// Number of numbers.
 pub(crate) const NUMBERS: usize = 14;
 
 /// A truck, ready to be integrated.
@@ -38,7 +38,7 @@ pub struct Truck {
     pub(crate) mounted: MountedTruck,
 }
 
-/// Why parameters define no truck.
+/// Reasons why parameters define no truck.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum BuildError {
     /// Bodies and elements make no system: a mass that is zero, say, or nothing that is free.

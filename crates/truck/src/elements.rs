@@ -32,7 +32,7 @@ const ADAPTER_POINTS: f64 = 3.0 * INCH;
 const ADAPTER_STOPS: f64 = 1.56 * INCH;
 const LANDS: [f64; 2] = [7.0 * INCH, 3.0 * INCH];
 
-/// What an element of the suspension is to the truck.
+/// The role of an element of the suspension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
     LoadCoil,
@@ -75,7 +75,7 @@ pub(crate) struct Suspended {
     pub ends: [(usize, Marker); 2],
 }
 
-/// What was added to a model, for the results.
+/// The objects added to a model, for the results.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Added {
     pub suspension: Vec<Suspended>,
@@ -118,7 +118,7 @@ pub struct Mount {
     pub bodies: [usize; NUMBERS],
     /// Its center, m.
     pub center: [f64; 3],
-    /// What the names of its elements begin with.
+    /// The prefix of the names of its elements.
     pub prefix: &'static str,
 }
 
@@ -224,7 +224,7 @@ pub(crate) fn join(model: &mut Model, suspension: &[Suspended]) {
 struct Builder<'p> {
     parameters: &'p Parameters,
     mount: &'p Mount,
-    /// How far column and slope of each wedge are moved away, m.
+    /// Shifts of column and slope of each wedge away from it, m.
     gaps: [[f64; 2]; 4],
     model: &'p mut Model,
     added: Added,

@@ -8,7 +8,7 @@ use crate::assemble::{BOLSTER, SIDE_FRAMES};
 use crate::elements::WedgePlace;
 use crate::mounted::{MountedTruck, TruckFrame, TruckView};
 
-/// What a face exerts on its wedge.
+/// The force of a face on its wedge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceForce {
     /// Sum of the normal forces, N.

@@ -24,7 +24,7 @@ pub struct MountedTruck {
     pub(crate) axle: f64,
     /// Nominal places of the wedges' centers of gravity from the truck's center, m.
     pub(crate) wedge_places: [Vector<f64>; 4],
-    /// How far the centers of gravity of their halves lie outboard and inboard of them, m.
+    /// Distances of the centers of gravity of their halves outboard and inboard of them, m.
     pub(crate) half_shifts: [f64; 4],
     /// Those of the bolster, the left and the right side frame.
     pub(crate) part_places: [Vector<f64>; 3],

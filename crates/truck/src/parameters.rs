@@ -106,7 +106,7 @@ pub struct Clearance {
     pub damping: f64,
 }
 
-/// What stands between side frame and bearing.
+/// The adapter between side frame and bearing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Adapter {
     /// Steel on steel.
@@ -146,7 +146,7 @@ pub struct FrictionAdapter {
     pub lateral: Clearance,
 }
 
-/// What a wedge is in the model.
+/// The kind of a wedge's model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum WedgeKind {
     /// A rigid body with faces in contact.
@@ -175,15 +175,15 @@ pub struct Split {
     pub friction: FaceFriction,
     /// The outboard half's share of the mass.
     pub outboard_share: f64,
-    /// How far from the wedge's middle each half is pressed by its half of the control coil, m: a quarter of
-    /// the width for a coil under each half, 2/π of its mean radius for one coil under both.
+    /// Distance from the wedge's middle at which each half of the control coil presses, m: a quarter of the
+    /// width for a coil under each half, 2/π of its mean radius for one coil under both.
     pub coil_distance: f64,
 }
 
 /// A wedge and what it touches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wedge {
-    /// What it is in the model.
+    /// The kind of its model.
     pub kind: WedgeKind,
     /// Wedge angle θ between the vertical and the slope in the plane along the track, rad.
     pub angle: f64,
@@ -218,7 +218,7 @@ pub struct Wedge {
     pub control_coil: ControlCoil,
     /// The sides of its pocket.
     pub pocket_sides: Clearance,
-    /// What halves have between them, of a wedge that is [`WedgeKind::Split`].
+    /// The plane between the halves of a wedge that is [`WedgeKind::Split`].
     pub split: Split,
 }
 
@@ -334,7 +334,7 @@ pub struct Parameters {
     /// An empirical warp spring in each nest: its moment (N·m) by the yaw of bolster against side frame
     /// (rad). In the industry's models it stands for what massless wedges leave out.
     pub warp_spring: Option<Curve>,
-    /// What stands on the bolster, as a body of its own.
+    /// The load on the bolster, as a body of its own.
     pub car_body: Option<CarBody>,
     /// Where a run starts.
     pub start: Start,

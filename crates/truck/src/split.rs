@@ -48,7 +48,7 @@ pub struct WedgePart {
     pub number: usize,
     /// Which wedge it belongs to.
     pub wedge: usize,
-    /// How far its center of gravity lies towards +y from that of the wedge, m.
+    /// Offset of its center of gravity towards +y from that of the wedge, m.
     pub shift: f64,
     /// It as a wedge in one piece.
     pub own: Wedge,

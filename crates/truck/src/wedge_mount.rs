@@ -40,7 +40,7 @@ pub struct WedgeMount<'n> {
     pub center: [f64; 3],
     /// The place from which its center of gravity is counted, m.
     pub from: [f64; 3],
-    /// How far column and slope are moved away along their normals, m.
+    /// Shifts of column and slope along their normals, m.
     pub gaps: [f64; 2],
 }
 
@@ -87,7 +87,7 @@ pub(crate) struct Lies {
     pub pushed: f64,
     /// Clearances of its pocket's sides towards -y and +y, m.
     pub sides: [f64; 2],
-    /// How far towards +y from its center of gravity the control coil acts, m.
+    /// Offset of the control coil towards +y from its center of gravity, m.
     pub coil: f64,
 }
 

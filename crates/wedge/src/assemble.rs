@@ -35,7 +35,7 @@ pub const COLUMN: usize = 0;
 /// The slope's number among the faces.
 pub const SLOPE: usize = 1;
 
-/// Why parameters define no wedge.
+/// Reasons why parameters define no wedge.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum BuildError {
     /// A parameter is outside its range.
@@ -56,9 +56,9 @@ pub struct Wedge {
     pub parameters: Parameters,
     /// Its equations of motion.
     pub system: System,
-    /// How far the column was moved away along -x for a touching start, m.
+    /// Shift of the column along -x for a touching start, m.
     pub column_shift: f64,
-    /// How far the pocket was moved away along the bolster's x axis for a touching start, m.
+    /// Shift of the pocket along the bolster's x axis for a touching start, m.
     pub pocket_shift: f64,
     /// The state at time zero.
     pub initial_state: Vec<f64>,

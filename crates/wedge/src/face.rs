@@ -22,13 +22,13 @@ use crate::parameters::{Contact, FaceFriction, ParameterError, check, not_negati
 pub struct FaceProperties {
     /// Its points.
     pub grid: Grid,
-    /// How the wedge's face recedes from a flat one.
+    /// The profile of the wedge's face.
     pub wedge_surface: FaceProfile,
-    /// How the wedge's face recedes further, as by wear: a map over the face.
+    /// The further recession of the wedge's face, as by wear: a map over the face.
     pub wedge_wear: Option<DepthMap>,
-    /// How the surface recedes that it touches: of the column, or of the slope of the pocket.
+    /// The profile of the surface that it touches: of the column, or of the slope of the pocket.
     pub counterface: FaceProfile,
-    /// How it recedes further, as by wear: a map over the face in its nominal place.
+    /// The further recession of it, as by wear: a map over the face in its nominal place.
     pub counterface_wear: Option<DepthMap>,
     /// Coefficient of sliding; without one it is that of rest.
     pub sliding_friction: Option<f64>,

@@ -15,7 +15,7 @@ use crate::outcome::{NativeResult, Origin};
 use crate::run::{Progress, run_one};
 use crate::values;
 
-/// What values given from Python are called in messages.
+/// The name of values given from Python, in messages.
 const VALUES: &str = "values";
 
 /// A case, completed and checked.

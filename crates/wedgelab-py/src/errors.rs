@@ -36,7 +36,7 @@ pub fn shown(diagnostic: &dyn Diagnostic) -> String {
     }
 }
 
-/// What the command line advises, and what a Python user does instead.
+/// The advice of the command line, and that for Python instead.
 const ADVICE: [(&str, &str); 9] = [
     (
         "`wedgelab case NAME` prints a built-in case",

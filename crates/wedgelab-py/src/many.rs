@@ -19,7 +19,7 @@ use crate::model_case::NativeTruckCase;
 use crate::outcome::{NativeResult, Origin, Table};
 use crate::run::{Failure, table};
 
-/// How often Python is asked for signals.
+/// The interval of asking Python for signals.
 const INTERVAL: Duration = Duration::from_millis(50);
 
 /// A case of any model.

@@ -151,7 +151,7 @@ pub fn from_saved<T: serde::de::DeserializeOwned>(bytes: &[u8]) -> Result<T, Str
 pub struct NativeResult {
     /// The case that it came from.
     pub origin: Origin,
-    /// What came out.
+    /// The outcome.
     pub table: Table,
 }
 

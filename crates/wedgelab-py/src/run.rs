@@ -13,7 +13,7 @@ use crate::outcome::{AnySummary, NativeResult, Origin, Table};
 
 /// The interval of asking Python for signals and of reporting progress.
 const INTERVAL: Duration = Duration::from_millis(50);
-/// How many steps are made before the clock is read.
+/// Number of steps between readings of the clock.
 const STEPS: u32 = 64;
 
 /// What Python wants to know of a run, and what it says to it.
@@ -72,7 +72,7 @@ impl Progress {
     }
 }
 
-/// Why there is no result.
+/// Reasons why there is no result.
 #[derive(Debug)]
 pub enum Failure {
     /// The run cannot begin.

@@ -193,7 +193,7 @@ impl NativeStudyFolder {
     }
 }
 
-/// What came out: runs complete, refused, stopped, failed; the first reasons; a warning about energy ledgers.
+/// The outcome: runs complete, refused, stopped, failed; the first reasons; a warning about energy ledgers.
 type Ended = ([u64; 4], Vec<(u64, String)>, Option<String>);
 
 #[pymethods]

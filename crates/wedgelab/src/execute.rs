@@ -24,9 +24,9 @@ use crate::table::TerminalTable;
 /// A run that has ended, perhaps before its time.
 #[derive(Debug)]
 pub struct Done<R = RunResult> {
-    /// What came out.
+    /// The outcome.
     pub result: R,
-    /// How long it took, without writing.
+    /// The wall time, without writing.
     pub wall: Duration,
 }
 
@@ -257,7 +257,7 @@ pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone
     table
 }
 
-/// What the columns of the table are.
+/// The note on the columns of the table.
 pub const TABLE_NOTE: &str = "\
 Mean force: vertical wedge force (column friction on the side frame, positive up), averaged while the \
 bolster goes up or down, over

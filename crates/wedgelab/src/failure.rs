@@ -19,7 +19,7 @@ pub const FAILED: u8 = 1;
 /// Exit code: the input is wrong.
 pub const INPUT: u8 = 2;
 
-/// Why the program stops.
+/// Reasons why the program stops.
 #[derive(Debug)]
 pub enum Failure {
     /// The input is wrong.

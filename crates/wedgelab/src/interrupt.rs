@@ -23,10 +23,10 @@ pub const REASON: &str = "interrupted";
 /// What a signal leads to.
 #[derive(Debug)]
 struct Reaction {
-    /// What a first signal says if the command ends by itself.
+    /// The message on a first signal if the command ends by itself.
     stop: Option<String>,
-    /// What is kept when the program ends at once. Without it, all files that are in their place are whole
-    /// results.
+    /// The message about files kept when the program ends at once. Without it, all files that are in their
+    /// place are whole results.
     kept: Option<String>,
 }
 

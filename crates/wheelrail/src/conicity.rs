@@ -20,7 +20,7 @@ const POINTS: usize = 400;
 /// Relative rounding errors of shifts and integrals that are let pass.
 const ROUNDING: f64 = 1e-10;
 
-/// Why there is no conicity.
+/// Reasons why there is no conicity.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ConicityError {
     /// Too few positions, or shifts that do not rise.

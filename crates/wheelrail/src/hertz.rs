@@ -64,7 +64,7 @@ pub enum HertzError {
         what: &'static str,
         /// Its value.
         value: f64,
-        /// What it must be.
+        /// The condition on it.
         must: &'static str,
     },
 }

@@ -22,9 +22,9 @@ use crate::wheelset::RigidWheelset;
 const DEEPEST: f64 = 1e-3;
 /// Smallest overlap of the search, m.
 const SHALLOWEST: f64 = 1e-7;
-/// How near the vertical force comes to the load.
+/// Relative tolerance of the vertical force against the load.
 const WITHIN: f64 = 1e-10;
-/// How near to its outer edge a rim stands on its edge, m.
+/// Distance to its outer edge within which a rim stands on its edge, m.
 const EDGE: f64 = 1e-3;
 
 /// Where a wheelset is and how it moves, in the frame of CONTACT.
@@ -110,7 +110,7 @@ pub struct LoadedWheel {
     pub patches: Vec<LoadedPatch>,
 }
 
-/// Why there is no loaded wheel.
+/// Reasons why there is no loaded wheel.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum LoadError {
     /// A number is not admissible.
@@ -120,7 +120,7 @@ pub enum LoadError {
         what: &'static str,
         /// Its value, in SI units.
         value: f64,
-        /// What it must be.
+        /// The condition on it.
         must: &'static str,
     },
     /// No height carries the load.

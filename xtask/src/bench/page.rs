@@ -19,7 +19,7 @@ pub struct Printed {
 pub struct Section {
     /// Its heading.
     pub heading: &'static str,
-    /// How the lines are to be read.
+    /// The explanation of the lines.
     pub about: &'static str,
     /// The program of the package `benchmarks`, with its arguments; none: the benchmark `wedge` of
     /// `cargo bench`.
@@ -131,7 +131,7 @@ pub const SECTIONS: [Section; 13] = [
 /// No program of its own: what callgrind counts.
 pub const INSTRUCTIONS: &[&str] = &["callgrind"];
 
-/// What stands before all numbers.
+/// The text before all numbers.
 const ABOUT: &str = "\
 # Benchmarks
 
@@ -152,7 +152,7 @@ without yaw are chaotic in detail: their means scatter.
 TOLERANCE NAME-PART`.
 ";
 
-/// What other commands measure.
+/// Measurements of other commands.
 const OTHERS: &str = "
 ## What other commands measure
 

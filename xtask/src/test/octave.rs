@@ -9,14 +9,14 @@ use crate::debian;
 use crate::shell::{self, Workspace};
 use crate::venv;
 
-/// What Octave needs to draw, though nobody sees it: a toolkit, and a font to measure texts with. About 280
-/// MB.
+/// The packages that Octave needs to draw, though nobody sees it: a toolkit, and a font to measure texts
+/// with. About 280 MB.
 const PACKAGES: [&str; 3] = ["octave", "gnuplot-nox", "fonts-freefont-otf"];
 
 /// Draws an unseen curve.
 const DRAW: &str = "set (0, 'defaultfigurevisible', 'off'); plot (1:2); close all";
 
-/// What Python needs.
+/// The requirements of Python.
 const REQUIREMENTS: &str = "crates/wedgelab/tests/octave/requirements.txt";
 
 /// Installs what is missing and runs the tests.

@@ -7,7 +7,7 @@ use std::path::Path;
 use super::Outcome;
 use crate::shell::Workspace;
 
-/// What no file may contain. Written in pieces, so that this file does not find itself.
+/// Texts that no file may contain. Written in pieces, so that this file does not find itself.
 const FORBIDDEN: &[&str] = &[
     concat!("..", "/shared"),
     concat!("/", "work/"),

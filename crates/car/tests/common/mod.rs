@@ -53,7 +53,7 @@ pub fn massless(mut parameters: Parameters) -> Parameters {
     parameters
 }
 
-/// What came of a run.
+/// The outcome of a run.
 pub struct Ran {
     pub car: Car,
     pub time: f64,

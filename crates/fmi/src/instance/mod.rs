@@ -28,9 +28,9 @@ use crate::{Category, Error, Severity, resources};
 /// A message for the importer's log.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
-    /// How bad it is.
+    /// The severity.
     pub severity: Severity,
-    /// What it is about.
+    /// The subject.
     pub category: Category,
     /// The text.
     pub text: String,
@@ -44,7 +44,7 @@ struct Experiment {
     tolerance: Option<f64>,
 }
 
-/// What an importer has set.
+/// The values that an importer has set.
 #[derive(Clone, Debug, PartialEq)]
 struct Values {
     parameters: Vec<f64>,

@@ -5,7 +5,7 @@ use crate::element::Interface;
 use crate::extrapolate::{Known, Understanding, end_of_step};
 use crate::{Category, Error, Severity};
 
-/// What handling events has changed.
+/// The changes by handling events.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EventUpdate {
     /// Another update is needed.

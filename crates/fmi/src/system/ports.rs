@@ -119,9 +119,9 @@ pub struct Ports {
     pub loads: Vec<LoadPort>,
     /// Inputs that move prescribed bodies.
     pub motions: Vec<MotionPort>,
-    /// What each parameter is.
+    /// The kind of each parameter.
     pub starts: Vec<StartPort>,
-    /// What each output reads.
+    /// The reading of each output.
     pub outputs: Vec<Reading>,
     /// The values in the table that are columns, before the three of the energy ledger.
     pub columns: Vec<usize>,
@@ -136,7 +136,7 @@ pub struct Plant {
     pub entries: Entries,
     /// Its ports.
     pub ports: Ports,
-    /// What the table says of an instant; none if no port reads it.
+    /// The reader of the table at an instant; none if no port reads it.
     pub table: Option<TableReader>,
     /// Whether the table reads the rates of the state, which cost an evaluation more.
     pub table_takes_rates: bool,
@@ -144,7 +144,7 @@ pub struct Plant {
     pub numbers: [Vec<u32>; 2],
     /// Whether the residual of the ledger is what is stored and lost less the work; else it is its negative.
     pub residual_of_stored: bool,
-    /// How it is integrated; its relative tolerance holds if the importer gives none.
+    /// Options of its integration; their relative tolerance holds if the importer gives none.
     pub options: Options,
     /// The state at the start; none: that of the system.
     pub initial: Option<Vec<f64>>,

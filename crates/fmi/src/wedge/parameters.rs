@@ -9,7 +9,7 @@ use wedge::parameters::FaceFriction;
 use crate::element::QuantityEntry;
 use crate::unit::Unit;
 
-/// How to read and write one parameter.
+/// The access to one parameter.
 struct Access {
     name: &'static str,
     kind: Kind,

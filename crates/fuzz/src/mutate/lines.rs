@@ -17,7 +17,7 @@ fn lines(bytes: &[u8]) -> Vec<Range<usize>> {
         .collect()
 }
 
-/// What a line may be made longer by.
+/// The texts that may lengthen a line.
 const FILL: [&str; 8] = [" ", "a", "9", "\t", "#", "é", "\u{1f600}", ", 1"];
 
 pub fn long(bytes: &mut Vec<u8>, random: &mut Random) {

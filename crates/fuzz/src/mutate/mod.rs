@@ -10,7 +10,7 @@ pub use random::Random;
 
 use crate::limits::LONGEST_INPUT;
 
-/// What mutations take from.
+/// The material of mutations.
 pub struct Material {
     /// The reader's own corpus.
     pub own: Vec<Vec<u8>>,

@@ -89,7 +89,7 @@ const MARKS: [&[u8]; 24] = [
     b"#", b"\\", b"/", b"^", b"-", b"\t", b"\n", b"true",
 ];
 
-/// What opens and what closes. Keys with dots, signs and operators nest without closing.
+/// Opening and closing brackets. Keys with dots, signs and operators nest without closing.
 const NESTS: [(&[u8], &[u8]); 16] = [
     (b"(", b")"),
     (b"[", b"]"),

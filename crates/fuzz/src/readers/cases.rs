@@ -22,7 +22,7 @@ pub const VALUES: Reader = Reader {
     read: values,
 };
 
-/// What `--set` lays over a case, one a line.
+/// The overrides of `--set`, one a line.
 pub const OVERRIDES: Reader = Reader {
     name: "overrides",
     about: "--set over a built-in case, one a line",

@@ -84,7 +84,7 @@ pub fn read(name: &str, input: &[u8]) -> ReadOutcome {
     }
 }
 
-/// What became of an input.
+/// The outcome of reading an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReadOutcome {
     /// Whether it was accepted.

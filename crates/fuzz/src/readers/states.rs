@@ -237,7 +237,7 @@ fn instance(input: &[u8]) -> ReadOutcome {
     }
 }
 
-/// What tells the FMUs apart: token and kind of interface.
+/// The marks that distinguish the FMUs: token and kind of interface.
 static TOKENS: LazyLock<Vec<Option<[String; 2]>>> = LazyLock::new(|| {
     let saved = (0..MODELS.len()).map(|place| new_instance(place)?.save().to_bytes().ok());
     saved.map(|bytes| token_of(&bytes?)).collect()

@@ -3,7 +3,7 @@
 use crate::discontinuity::Prediction;
 use crate::error::Reason;
 
-/// Why an attempt failed, and the index of the state to blame.
+/// The reason why an attempt failed, and the index of the state to blame.
 pub(super) struct AttemptFailure {
     pub reason: Reason,
     pub index: Option<usize>,

@@ -34,7 +34,7 @@ pub struct Tableau {
     pub name: &'static str,
     /// Source of the coefficients.
     pub citation: &'static str,
-    /// How the stages are computed.
+    /// The family of methods that computes the stages.
     pub family: Family,
     /// Order of the solution.
     pub order: u32,

@@ -32,7 +32,7 @@ impl LinearizationPoint {
     }
 }
 
-/// What is known of the matrix; the problem itself stores it.
+/// The state of the matrix; the problem itself stores it.
 #[derive(Debug, Default)]
 pub(crate) struct JacobianCache {
     /// Whether there is a matrix.

@@ -6,7 +6,7 @@ use numerics::scalar::Real;
 use crate::friction::Friction as Slip;
 use crate::friction::bristle;
 
-/// How a friction element holds.
+/// The tangential law of a friction element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Accumulator {
     /// A bristle in series with the slider, two states, see [`crate::friction::bristle`].

@@ -55,7 +55,7 @@ pub(super) struct Levers<S, const D: usize> {
     pub by_coordinates: [[S; 12]; D],
 }
 
-/// What changes with the coordinates where they are differentiated.
+/// The derivatives of the geometry by the coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Change<const D: usize> {
     /// Derivatives of the extensions by the coordinates, and of their rates by the rates.

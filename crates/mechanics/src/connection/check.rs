@@ -8,7 +8,7 @@ use super::wedge::ColumnFace;
 use super::{Connection, Law};
 use crate::body::Body;
 
-/// Why a connection makes no element.
+/// Reasons why a connection makes no element.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ConnectionError {
     /// A connection names a body that does not exist.
@@ -22,7 +22,7 @@ pub enum ConnectionError {
         name: String,
         /// The number that it names.
         number: usize,
-        /// How many bodies there are.
+        /// Number of bodies.
         count: usize,
     },
     /// A connection joins two bodies of which none can move.

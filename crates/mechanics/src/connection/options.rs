@@ -43,7 +43,7 @@ pub enum NegativeRise {
     Stop,
 }
 
-/// What a damper behind a gap does while the gap closes and opens.
+/// The action of a damper in series with a gap while the gap closes and opens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GapTension {

@@ -123,7 +123,7 @@ pub(crate) struct WedgeLaw {
     own_slip: Option<f64>,
 }
 
-/// What happens at the column, and the slope's coefficient (signed: positive up the slope).
+/// The contact at the column, and the slope's coefficient (signed: positive up the slope).
 struct Contact<S: Real> {
     slip: Slip<S>,
     x: S,
@@ -132,7 +132,7 @@ struct Contact<S: Real> {
     inside: WedgeState,
 }
 
-/// What a wedge does beyond its forces on the bodies, N and m.
+/// The internal forces and deflections of a wedge, N and m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WedgeState {
     /// Force of the coil.

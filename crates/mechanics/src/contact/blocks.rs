@@ -59,7 +59,7 @@ pub(super) struct PointDerivatives {
 pub(crate) struct Points {
     pub(super) blocks: Vec<PointBlock>,
     pub(super) kinematics: Vec<PointKinematics<Lanes>>,
-    /// What a curved surface is like at the points; none for a plane.
+    /// The bend of a curved surface at the points; none for a plane.
     pub(super) bends: Vec<Bend<Lanes>>,
     /// Whether the surface is curved.
     curved: bool,

@@ -23,7 +23,7 @@ use super::PointProperties;
 use crate::friction::dot;
 use crate::surface::SurfaceShape;
 
-/// How friction depends on slip speed and load.
+/// The dependence of friction on slip speed and load.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sliding {
     /// Coefficient of sliding over that of rest.
@@ -50,7 +50,7 @@ impl Default for Sliding {
 pub struct Interface {
     /// The shape of the surface that the points touch.
     pub shape: SurfaceShape,
-    /// How friction depends on slip speed and load; the coefficient of the face is that of rest.
+    /// The dependence of friction on slip speed and load; the coefficient of the face is that of rest.
     pub sliding: Sliding,
     /// A factor of the coefficient for each point; empty: 1 for all.
     pub friction_factors: Vec<f64>,

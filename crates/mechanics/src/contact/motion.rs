@@ -10,7 +10,7 @@ use crate::link::{RelativeFrame, RelativeMotion};
 use crate::surface::Bend;
 use crate::vector::{Matrix, Vector};
 
-/// What gives four points their contact kinematics, and the body the wrench of their forces.
+/// The motion that gives four points their contact kinematics, and the body the wrench of their forces.
 pub(crate) trait FaceMotion {
     /// Whether the surface is curved: then it has a normal for each point, in a [`Bend`].
     const CURVED: bool;

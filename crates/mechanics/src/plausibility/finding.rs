@@ -51,7 +51,7 @@ impl Location {
     }
 }
 
-/// What is implausible.
+/// The kinds of implausible values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FindingKind {
     /// All points of a face are farther from its surface than the face is long. The value is the least gap,

@@ -42,7 +42,7 @@ pub const LARGEST_FRICTION: f64 = 1.0;
 /// than a third of its free length.
 pub const LARGEST_COMPRESSION_SHARE: f64 = 2.0 / 3.0;
 
-/// How much longer than its free length a coil may be, as a share of it: up to 2 % it stays on its seat.
+/// Admissible lengthening of a coil, as a share of its free length: up to 2 % it stays on its seat.
 pub const LIFTED_SHARE: f64 = 0.02;
 
 /// Largest scatter of the normal force of a face between output times: the mean absolute second difference

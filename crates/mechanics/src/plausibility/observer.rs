@@ -30,7 +30,7 @@ pub struct WorstValue {
     pub point: usize,
 }
 
-/// What is followed of a face along a run (SI).
+/// The record of a face along a run (SI).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FaceRecord {
     /// Energy in the contact springs at the start, J.
@@ -45,7 +45,7 @@ pub struct FaceRecord {
     pub sum: f64,
 }
 
-/// What a run has shown so far, to be saved with it.
+/// The plausibility record of a run so far, to be saved with it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlausibilityRecord {
     /// Output times seen.

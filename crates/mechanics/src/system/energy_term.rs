@@ -1,6 +1,6 @@
 //! The quadratures of a system: work of the motions, and every dissipation.
 
-/// What a quadrature integrates.
+/// The description of the integrand of a quadrature.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EnergyTerm {
     /// Its kind.

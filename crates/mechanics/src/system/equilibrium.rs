@@ -25,7 +25,7 @@ pub struct NoEquilibrium {
     pub acceleration: f64,
 }
 
-/// What friction does in a static equilibrium, where its force is not determined by the positions alone.
+/// The role of friction in a static equilibrium, where its force is not determined by the positions alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StaticFriction {
     /// None: accumulators and bristles are relaxed to zero. The result depends on positions only, and is what

@@ -10,7 +10,7 @@ use super::System;
 use crate::coil::CoilLaw;
 use crate::motion::Motion;
 
-/// Why an input is refused.
+/// Reasons why an input is refused.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum InputError {
     /// There is no such body, coil or face.
@@ -20,7 +20,7 @@ pub enum InputError {
         what: &'static str,
         /// Its number.
         number: usize,
-        /// How many there are.
+        /// Their number.
         count: usize,
     },
     /// A load is given to a body without free coordinates.

@@ -108,7 +108,7 @@ struct FreeBody {
     body: usize,
     /// Its free coordinates.
     free: Vec<usize>,
-    /// How many of them are translations; the others are angles.
+    /// Number of translations among them; the others are angles.
     translations: usize,
     /// Mass properties and free coordinates.
     rigid: Rigid,

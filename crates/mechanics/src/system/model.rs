@@ -75,7 +75,7 @@ impl Model {
     }
 }
 
-/// Why a model cannot be assembled.
+/// Reasons why a model cannot be assembled.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ModelError {
     /// An element names a body that does not exist.
@@ -83,7 +83,7 @@ pub enum ModelError {
     NoSuchBody {
         /// The number that it names.
         number: usize,
-        /// How many bodies there are.
+        /// Number of bodies.
         count: usize,
     },
     /// A face or a coil carries a body without free coordinates, or an element joins two such bodies.
@@ -106,11 +106,11 @@ pub enum ModelError {
     Interface {
         /// The number of the face that it names.
         face: usize,
-        /// How many faces there are.
+        /// Number of faces.
         faces: usize,
-        /// How many factors it has; none stand for 1 at all points.
+        /// Number of factors; none stand for 1 at all points.
         factors: usize,
-        /// How many points the face has.
+        /// Number of points of the face.
         points: usize,
     },
     /// No coordinate at all is free.

@@ -90,7 +90,7 @@ pub fn data_of_system(read: &Read<DataFile>, system: &SystemFile) -> Findings {
     findings
 }
 
-/// What the system has.
+/// The objects that the system has.
 struct Known<'a> {
     system: &'a SystemFile,
     bodies: HashMap<u32, HashSet<Dof>>,

@@ -22,7 +22,8 @@ pub struct SpringDrive {
     pub input_body: u32,
     /// The connections between the body and input bodies whose displacements hold it.
     pub held_by: Vec<u32>,
-    /// What they hold it with, in·lb/rad: stiffness times lever squared, about the point where that is least.
+    /// Their rotational stiffness on it, in·lb/rad: stiffness times lever squared, about the point where that
+    /// is least.
     pub holding: f64,
     place: Span,
 }
@@ -147,7 +148,7 @@ fn drive(body: u32, axis: DofKind, springs: &[Spring<'_>]) -> Option<SpringDrive
     })
 }
 
-/// How much stiffer the holding springs must be for a warning.
+/// The ratio by which the holding springs must be stiffer for a warning.
 const MUCH: f64 = 20.0;
 
 fn list(connections: &[u32]) -> String {

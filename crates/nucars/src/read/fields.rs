@@ -27,9 +27,9 @@ pub struct Fields<'a, 'f> {
     pub findings: &'f mut Findings,
     text: &'a str,
     wrap: Wrap,
-    /// How many values the record still lacks.
+    /// Number of values that the record still lacks.
     lacking: usize,
-    /// What the record is, for messages.
+    /// The record's name in messages.
     record: &'static str,
     /// Its number once it is known, or else its place in the list, from 1.
     id: Option<u32>,

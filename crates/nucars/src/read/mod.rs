@@ -26,7 +26,7 @@ pub use system::read_system;
 /// A tree, the text it was read from, and what was found on the way.
 #[derive(Clone, Debug)]
 pub struct Read<T> {
-    /// What could be read.
+    /// The tree as far as it could be read.
     pub tree: T,
     /// The text.
     pub source: Arc<SourceText>,

@@ -9,7 +9,7 @@ use crate::source::{At, Spanned};
 /// A data file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DataFile {
-    /// What is asked for, in the order of the file, also what is switched off.
+    /// The requests in the order of the file, also those switched off.
     pub sections: Vec<DataSection>,
     /// Sections with unknown keywords.
     pub other: Vec<RawSection>,
@@ -30,12 +30,12 @@ pub struct DataSection {
     /// Switched off by `$` before the `\`: NUCARS does not read it. What it says is kept as far as it can be
     /// read.
     pub off: bool,
-    /// What it asks for.
+    /// The request.
     pub request: DataRequest,
 }
 
-/// What a section asks for. Counts are as typed and may disagree with the lists in sections that are switched
-/// off; `None`: there is none.
+/// The request of a section. Counts are as typed and may disagree with the lists in sections that are
+/// switched off; `None`: there is none.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DataRequest {
     /// `\EQUILIBRIUM`.
@@ -44,7 +44,7 @@ pub enum DataRequest {
     Dofs {
         /// Which quantity.
         quantity: DofQuantity,
-        /// How many degrees of freedom in all.
+        /// Number of all degrees of freedom.
         count: Option<Spanned<u32>>,
         /// Bodies with their degrees of freedom.
         bodies: Vec<BodyDofs>,
@@ -53,14 +53,14 @@ pub enum DataRequest {
     Components {
         /// Which quantity.
         quantity: ElementQuantity,
-        /// How many components.
+        /// Number of components.
         count: Option<Spanned<u32>>,
         /// The components.
         components: Vec<Spanned<Component>>,
     },
     /// `\CONNECTION FORCE SUM`.
     Sums {
-        /// How many sums NUCARS reads.
+        /// Number of sums that NUCARS reads.
         count: Option<Spanned<u32>>,
         /// All that stand there, also those beyond the count.
         sums: Vec<Sum>,
@@ -169,7 +169,7 @@ impl fmt::Display for Component {
 pub struct Sum {
     /// Its name, 25 characters.
     pub name: Spanned<String>,
-    /// What is summed.
+    /// The terms of the sum.
     pub terms: Terms,
     /// The factor of each term.
     pub coefficients: Vec<Spanned<f64>>,
@@ -177,7 +177,7 @@ pub struct Sum {
     pub span: At,
 }
 
-/// What a sum is made of.
+/// The terms of a sum.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Terms {
     /// Kind 1: forces of connections.

@@ -180,7 +180,7 @@ pub enum Law {
     },
     /// No connection uses it, so its form is not known.
     Unused {
-        /// What its line says.
+        /// The values of its line.
         values: Vec<Spanned<UnknownValue>>,
     },
 }

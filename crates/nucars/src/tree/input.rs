@@ -22,7 +22,7 @@ impl InputFile {
     }
 }
 
-/// What a history is a function of.
+/// The argument of a history.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Argument {
     /// 1: time, s.
@@ -36,7 +36,7 @@ pub enum Argument {
 pub struct History {
     /// Its number, which input bodies use.
     pub number: Spanned<u32>,
-    /// What it is a function of.
+    /// The argument of the function.
     pub argument: Spanned<Argument>,
     /// Its segments.
     pub segments: Vec<Segment>,

@@ -64,7 +64,7 @@ impl SystemFile {
     }
 }
 
-/// What can move, by the code in the file.
+/// The kind of degree of freedom, by the code in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum DofKind {
     /// 1: x, forward, in.
@@ -167,7 +167,7 @@ pub struct Body {
     pub name: Spanned<String>,
     /// Centre of gravity x, y, z, in.
     pub position: [Spanned<f64>; 3],
-    /// How it can move.
+    /// Its degrees of freedom.
     pub dofs: Vec<Spanned<Dof>>,
     /// Mass, lb·s²/in.
     pub mass: Spanned<f64>,
@@ -186,7 +186,7 @@ pub struct InputBody {
     pub name: Spanned<String>,
     /// Position x, y, z, in.
     pub position: [Spanned<f64>; 3],
-    /// How it can move.
+    /// Its degrees of freedom.
     pub dofs: Vec<Spanned<Dof>>,
     /// The input history that drives each of them.
     pub histories: Vec<Spanned<u32>>,

@@ -21,16 +21,16 @@ use crate::tree::{self, Dof, Element, InputFile, SystemFile, Toe};
 /// Standard gravity, m/s², which is the files' 386.09 in/s².
 const GRAVITY: f64 = 9.806_65;
 
-/// Why files make no model. Checking the files ([`check`](crate::check)) tells most of these with their
-/// places.
+/// Reasons why files make no model. Checking the files ([`check`](crate::check)) tells most of these with
+/// their places.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum BuildError {
     /// A reference leads nowhere.
     #[error("{by} refers to {what} {number}, which is not there; `wedgelab nucars check` shows where")]
     Missing {
-        /// What refers to it.
+        /// The thing that refers to it.
         by: String,
-        /// What kind of thing is missing.
+        /// The kind of the missing thing.
         what: &'static str,
         /// Its number.
         number: u32,
@@ -38,7 +38,7 @@ pub enum BuildError {
     /// A characteristic does not serve the element that names it.
     #[error("characteristic {number} has the values of another type than {by}")]
     WrongCharacteristic {
-        /// What refers to it.
+        /// The thing that refers to it.
         by: String,
         /// Its number.
         number: u32,
@@ -62,7 +62,7 @@ pub enum BuildError {
     /// Something needs a speed along the track.
     #[error("{what}, which needs a speed along the track: give one with --speed")]
     NoSpeed {
-        /// What needs it.
+        /// The thing that needs it.
         what: String,
     },
 }

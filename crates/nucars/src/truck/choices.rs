@@ -40,7 +40,7 @@ impl Yaw {
     }
 }
 
-/// What stands for the wedges of types 6.8 and 6.9.
+/// The model of the wedges of types 6.8 and 6.9.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Wedges {
@@ -52,8 +52,8 @@ pub enum Wedges {
     Bodies,
 }
 
-/// What a wedge's body has that the files do not say; what is left open takes a default of what adds the
-/// body.
+/// The properties of a wedge's body that the files do not give; those left open take a default of what adds
+/// the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct WedgeBody {
@@ -81,9 +81,9 @@ pub struct Choices {
     pub yaw: Yaw,
     /// Speed along the track, m/s; only distance-based histories and inputs with lag need it.
     pub speed: Option<f64>,
-    /// What stands for the wedges of types 6.8 and 6.9.
+    /// The model of the wedges of types 6.8 and 6.9.
     pub wedges: Wedges,
-    /// What the wedges' bodies have.
+    /// Properties of the wedges' bodies.
     pub wedge_body: WedgeBody,
 }
 

@@ -6,7 +6,7 @@ use wide::f64x2;
 
 use super::{Blend, Number, Real, tanh_ratio};
 
-/// What values and derivatives are made of: real numbers, or lanes of them.
+/// The components of values and derivatives: real numbers, or lanes of them.
 pub trait Component: Number<Plain = Self> + Mul<Self, Output = Self> {
     /// Returns [`Number::tanh_ratio`] and its derivative.
     fn tanh_ratio_and_slope(self) -> (Self, Self);

@@ -288,11 +288,11 @@ pub struct NotedValue {
     pub label: String,
     /// The value, SI.
     pub value: f64,
-    /// What it stands for.
+    /// The quantity that it stands for.
     pub kind: Kind,
 }
 
-/// What predicates note down as they are evaluated.
+/// The notes that predicates make as they are evaluated.
 #[derive(Debug, Default)]
 struct Notes {
     values: RefCell<Vec<NotedValue>>,
@@ -406,7 +406,7 @@ impl ClaimVerdict {
     }
 }
 
-/// What came out of a predicate.
+/// The outcome of a predicate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClaimFinding {
     /// Whether it holds.

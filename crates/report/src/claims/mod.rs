@@ -105,7 +105,7 @@ pub struct Claim {
     pub group: ClaimGroup,
     /// Where it stands in the thesis.
     pub place: &'static str,
-    /// What it says, in our words.
+    /// The statement in our words.
     pub statement: &'static str,
     /// The predicate in words, with its numbers.
     pub predicate: &'static str,
@@ -155,11 +155,11 @@ pub struct ShownValue {
 pub struct Claims {
     /// [`SCHEMA`].
     pub schema: &'static str,
-    /// How many hold.
+    /// Number of those that hold.
     pub hold: usize,
-    /// How many do not.
+    /// Number of those that do not hold.
     pub do_not: usize,
-    /// How many cannot be decided.
+    /// Number of those that cannot be decided.
     pub undecided: usize,
     /// The claims in the order of the thesis.
     pub claims: Vec<ClaimRow>,
@@ -223,7 +223,7 @@ pub fn claims() -> impl Iterator<Item = &'static Claim> {
     .flatten()
 }
 
-/// What is said of a claim that comes out otherwise than when its reasons were looked for.
+/// The text on a claim that comes out otherwise than when its reasons were found.
 const NOT_LOOKED_INTO: &str =
     "Why is not known: with the thesis's twelve runs as this program makes them it holds.";
 

@@ -110,7 +110,7 @@ pub(super) const upper_gap: ClaimQuantity = column(
     Kind::Length,
     |run| gap(run, "column_upper_right_gap"),
 );
-/// How many of the four column corners touch.
+/// Number of the four column corners that touch.
 pub(super) const corners_touching: ClaimQuantity =
     column("column corners that touch", Kind::Dimensionless, |run| {
         corners(run, "column", |open, _, _| (CORNERS.len() - open) as f64)

@@ -12,14 +12,14 @@ use study::summary::SummaryValue;
 use super::{ComparedResult, Energy};
 use crate::{csv, summary};
 
-/// What the file of a summary must be.
+/// The expected file of a summary.
 const SUMMARY_FILE: Expected = Expected {
     what: "summary",
     types: &[FileType::Json],
     most: limits::RECORD_FILE,
 };
 
-/// What is wanted of a summary.
+/// The part of a summary that is read.
 #[derive(Deserialize)]
 struct SummaryPart {
     averages: AveragesPart,

@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use crate::table::TableError;
 
-/// Why results cannot be compared.
+/// Reasons why results cannot be compared.
 #[derive(Debug, Error, Diagnostic)]
 pub enum ComparisonError {
     /// A result has not the column.

@@ -13,7 +13,7 @@ pub struct FlowNode {
     pub column: usize,
     /// Its text, number and unit included; may be empty, or have several lines.
     pub label: String,
-    /// What flows through it.
+    /// The flow through it.
     pub value: f64,
     /// Its colour.
     pub colour: Colour,
@@ -26,7 +26,7 @@ pub struct Band {
     pub from: usize,
     /// The number of the node that it goes to.
     pub to: usize,
-    /// What flows.
+    /// The flow.
     pub value: f64,
 }
 

@@ -62,7 +62,7 @@ pub enum Line {
     Bar,
 }
 
-/// How [`distinct`] tells up to eight curves apart.
+/// The styles by which [`distinct`] distinguishes up to eight curves.
 const STYLES: [(Colour, Line); 8] = [
     (Colour::Blue, Line::Solid),
     (Colour::Black, Line::Dashed),
@@ -120,7 +120,7 @@ pub struct Panel {
     pub y_names: Vec<String>,
     /// Texts at points.
     pub marks: Vec<Mark>,
-    /// How many cells of the figure's grid it is wide; 0 counts as 1.
+    /// Its width in cells of the figure's grid; 0 counts as 1.
     pub span: usize,
 }
 
@@ -129,7 +129,7 @@ pub struct Panel {
 pub struct Figure {
     /// Its title.
     pub title: String,
-    /// What it shows, in full sentences; it goes into the file as its description.
+    /// The description in full sentences; it goes into the file as its description.
     pub caption: String,
     /// Its panels, from left to right and from top to bottom.
     pub panels: Vec<Panel>,

@@ -29,7 +29,7 @@ const LEGEND_HEIGHT: f64 = 24.0;
 const LEGEND_LINE: f64 = 40.0;
 /// Pixels of a picture for each unit of the drawing.
 const PICTURE_SCALE: f32 = 1.5;
-/// How the names of clip paths begin.
+/// The prefix of the names of clip paths.
 pub(super) const CLIP: &str = "clip-";
 pub(super) const FONT: &str = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 

@@ -16,7 +16,7 @@ use crate::drawing::{Figure, Panel, PlotCurve, distinct};
 pub struct CarRun {
     /// Its case.
     pub case: CarCase,
-    /// What came out.
+    /// The outcome.
     pub result: CarResult,
     /// The motions of its bodies, if the run took them along.
     pub motions: Option<MotionTable>,

@@ -19,13 +19,13 @@ use crate::agreement::{Set, TruckOutcome, equation_5_1, sets, truck_column};
 use crate::csv::converted;
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
-/// What a figure shows.
+/// The quantity that a figure shows.
 struct Quantity {
     /// The stand-alone wedge's column.
     column: &'static str,
     name: &'static str,
     kind: Kind,
-    /// What is compared, for the caption.
+    /// The subject of the comparison, for the caption.
     about: &'static str,
     /// The thesis's figures: variable damping without and with yaw, constant damping without and with yaw.
     thesis: [&'static str; 4],
@@ -101,7 +101,7 @@ fn style(wedges: WedgeType) -> (&'static str, Colour, Line) {
 }
 
 const ALONE: (&str, Colour, Line) = ("stand-alone model", Colour::Blue, Line::Solid);
-/// How finely eq. 5-1 is drawn over the stroke.
+/// Number of points of eq. 5-1 over the stroke.
 const BRANCH_POINTS: u32 = 100;
 const EQUATION: (&str, Colour, Line) = ("eq. 5-1", Colour::Green, Line::Dotted);
 

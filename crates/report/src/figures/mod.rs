@@ -45,7 +45,7 @@ pub type CaseOutcome = (Case, RunResult);
 pub struct Exhibit {
     /// Its name, as in file names and links.
     pub name: String,
-    /// What it is called in the thesis, such as `figure 5-3`; empty if the thesis does not have it.
+    /// Its name in the thesis, such as `figure 5-3`; empty if the thesis does not have it.
     pub thesis: String,
     /// The figure.
     pub figure: Figure,

@@ -8,13 +8,13 @@ use crate::drawing::Colour;
 use crate::drawing::Figure;
 use crate::drawing::flow::{Band, FlowChart, FlowNode};
 
-/// How the contact states are called and colored.
+/// Names and colors of the contact states.
 const NAMED: [(&str, Colour); STATES.len()] = [
     ("in open contacts", Colour::Sky),
     ("while sticking", Colour::Black),
     ("while slipping", Colour::Orange),
 ];
-/// What is smaller than this share of the inflow is not drawn: it would be thinner than a line.
+/// A flow smaller than this share of the inflow is not drawn: it would be thinner than a line.
 const THIN: f64 = 1e-3;
 
 /// Returns the figure of a run; `None` if it has no energies.

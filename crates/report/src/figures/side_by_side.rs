@@ -16,7 +16,7 @@ use crate::table::TableColumn;
 struct Wanted {
     name: String,
     title: String,
-    /// What is seen, without the runs.
+    /// The caption without the runs.
     caption: String,
     /// Columns along both axes, and the panel's title.
     panels: Vec<[String; 3]>,

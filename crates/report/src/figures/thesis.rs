@@ -8,12 +8,12 @@ use super::{CaseOutcome, Exhibit, axis, capital, curve, digits, points, toe_styl
 use crate::drawing::{Colour, Figure, Line, Mark, Panel, PlotCurve};
 use crate::thin::window;
 
-/// What a series of figures shows.
+/// The quantity that a series of figures shows.
 struct Quantity {
     column: &'static str,
     name: &'static str,
     kind: Kind,
-    /// What it is, for the caption.
+    /// The description for the caption.
     about: &'static str,
     /// The thesis's figures: variable damping without and with yaw, constant damping without and with yaw.
     thesis: [&'static str; 4],
@@ -147,7 +147,7 @@ const WINDOWS: [Windows; 4] = [
     },
 ];
 
-/// What the phases are, in words.
+/// The phases in words.
 const PHASES: [&str; 2] = [
     "(1) wedge and bolster move up, (2) the bolster has lifted off, (3) the wedge slips down the column, \
      (4) it sticks at the lowest place before the motion turns",

@@ -19,7 +19,7 @@ use crate::{curves_files, warp_files};
 pub struct TruckRun {
     /// Its case.
     pub case: TruckCase,
-    /// What came out.
+    /// The outcome.
     pub result: TruckResult,
     /// The corners of its wedges, if the run took them along.
     pub contacts: Option<ContactTable>,

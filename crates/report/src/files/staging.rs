@@ -14,9 +14,9 @@ use std::time::Duration;
 
 use super::{FileError, Folder};
 
-/// How the names of hidden folders begin.
+/// The prefix of the names of hidden folders.
 pub(crate) const PREFIX: &str = ".wedgelab-";
-/// How many letters and digits follow.
+/// Number of letters and digits that follow.
 const RANDOM: usize = 6;
 /// The locked file in a hidden folder.
 const LOCK: &str = "lock";
@@ -24,10 +24,11 @@ const LOCK: &str = "lock";
 const RESULT: &str = "result";
 /// A hidden folder without a lock, as earlier versions made them, is left over when it is older than this.
 const OLD: Duration = Duration::from_secs(24 * 3600);
-/// How often a hidden folder is made anew when another program that looks for leftovers takes it.
+/// Largest number of times that a hidden folder is made anew when another program that looks for leftovers
+/// takes it.
 const ATTEMPTS: u32 = 20;
 
-/// What this program is writing, and where it wrote last.
+/// The folders that this program is writing, and the one written last.
 struct Register {
     open: Vec<Open>,
     placed: Option<PathBuf>,

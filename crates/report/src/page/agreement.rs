@@ -13,7 +13,7 @@ use crate::figures::{capital, digits};
 /// The comparison with the comparison program's wedges.
 #[derive(Clone, Copy, Debug)]
 pub struct Comparison<'c> {
-    /// How far the models agree.
+    /// The agreement of the models.
     pub groups: &'c [AgreementGroup],
     /// All runs of the half-truck.
     pub trucks: &'c [TruckOutcome],
@@ -21,7 +21,7 @@ pub struct Comparison<'c> {
     pub units: Units,
 }
 
-/// What stands before the tables.
+/// The text before the tables.
 const ABOUT: &str = "The thesis compares its wedge with types 6.8 and 6.9 of the comparison program, which \
                      are massless: friction of the column and coil in balance at every instant. No output \
                      of that program is at hand. What is compared here is our reading of these types, in \

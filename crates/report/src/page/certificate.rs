@@ -16,7 +16,7 @@ use crate::view::run::{Detail, Recording};
 
 /// The page's file name.
 pub const FILE_NAME: &str = super::FILE_NAME;
-/// What is shown moving: this long around the worst, s.
+/// The duration around the worst value that is shown moving, s.
 const SECOND: f64 = 1.0;
 /// Figures over the distance of the worst run of a regime.
 const OVER_DISTANCE: [&str; 3] = ["wheel_loads", "l_over_v", "body_roll"];
@@ -34,14 +34,14 @@ pub struct WorstRun {
     pub worst: Option<(f64, String)>,
 }
 
-/// What another certificate says of a limit.
+/// The verdict of another certificate on a limit.
 #[derive(Clone, Debug)]
 pub struct Other {
     /// Regime, condition, limit.
     pub key: [String; 3],
     /// The worst value, in the limit's unit.
     pub value: f64,
-    /// What is left, in parts of the limit.
+    /// The margin, in parts of the limit.
     pub margin: f64,
 }
 

@@ -8,7 +8,7 @@ const SCRIPT: &str = include_str!(concat!(env!("OUT_DIR"), "/explorer.js"));
 /// Its style; empty if it was not there when this crate was built.
 const STYLE: &str = include_str!(concat!(env!("OUT_DIR"), "/explorer.css"));
 
-/// What to tell people whose program was built without it.
+/// The message for people whose program was built without it.
 pub const MISSING: &str = "This program was built without the explorer's page. To get it, install Node.js \
                            20.19 or later, run `cargo xtask viewer`, and build again. Everything else works \
                            without: `wedgelab run CASE --set PATH.KEY=VALUE` changes a case and runs it.";

@@ -37,7 +37,7 @@ pub const FILE_NAME: &str = "index.html";
 pub const FIGURES: &str = "figures";
 
 const STYLE: &str = include_str!("style.css");
-/// What pages do without the viewer.
+/// The script of pages without the viewer.
 const SCRIPT: &str = include_str!("page.js");
 
 /// A figure with its drawing.
@@ -56,7 +56,7 @@ pub struct PageSection {
     pub id: String,
     /// Its heading.
     pub title: String,
-    /// What to look at; may be empty.
+    /// The features to look at; may be empty.
     pub intro: String,
     /// Its figures.
     pub figures: Vec<DrawnFigure>,
@@ -64,11 +64,11 @@ pub struct PageSection {
     pub folded: bool,
     /// The run that it is about, if it is about one.
     pub run: Option<String>,
-    /// What folded sections of one kind are put under; may be empty.
+    /// The heading of folded sections of one kind; may be empty.
     pub group: String,
 }
 
-/// What the page tells.
+/// The contents of the page.
 #[derive(Clone, Copy, Debug)]
 pub struct Contents<'c> {
     /// The runs of the thesis.
@@ -203,7 +203,7 @@ fn shown_in(exhibit: &Exhibit, svg: &str, folder: Option<&str>) -> Markup {
     }
 }
 
-/// What is said of a run that has failed, behind its name.
+/// The text on a run that has failed, after its name.
 const FAILED: &str = " has failed: do not use its numbers";
 
 /// Returns the list of what makes the numbers of a run doubtful.

@@ -53,17 +53,17 @@ fn about(found: &Sensitivity) -> String {
     )
 }
 
-/// What is meant by a parameter that decides.
+/// The definition of a parameter that decides.
 const DECIDES: &str = "A parameter decides if one cut of it (a range at a quarter, half or three quarters; \
                        a choice against the others) tells best where the statement holds, and better than \
                        chance would: the cut whose \u{3c6}\u{b2} is largest, the square of the correlation \
                        of two yes-or-no quantities, if the number of points times \u{3c6}\u{b2} is above 12.";
 
-/// What the axes are.
+/// The text about the axes.
 const AXES_OF_FIGURES: &str = "The thesis's curves stay within the axes of its figures, which begin at 0.1 \
                                to 0.5 s. Where these runs do, after 0.5 s:";
 
-/// How the other frictions were run.
+/// The text about runs with the other frictions.
 const FRICTION: &str = "The same points once more with another reference speed, and with bristles in place \
                         of tanh: how many statements hold at a point, on average, and how many hold at half \
                         of the points with one friction and not with the other.";

@@ -14,7 +14,7 @@ use crate::three_piece::{Basis, Check, Sensitivity, TruckFindings};
 /// The page's file name.
 pub const FILE_NAME: &str = "truck.html";
 
-/// What the page tells.
+/// The contents of the page.
 #[derive(Clone, Copy, Debug)]
 pub struct TruckContents<'c> {
     /// The rigs.

@@ -5,7 +5,7 @@ const SCRIPT: &str = include_str!(concat!(env!("OUT_DIR"), "/viewer.js"));
 /// Its style; empty if it was not there when this crate was built.
 const STYLE: &str = include_str!(concat!(env!("OUT_DIR"), "/viewer.css"));
 
-/// What to tell people whose program was built without it.
+/// The message for people whose program was built without it.
 pub const MISSING: &str = "The page is static: this program was built without its interactive part (plots \
                            that zoom, the 3D view). To get it, install Node.js 20.19 or later, run `cargo \
                            xtask viewer`, and build again.";

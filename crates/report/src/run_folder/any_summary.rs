@@ -61,7 +61,7 @@ pub struct Ledger<'s> {
     pub largest_residual_time: f64,
 }
 
-/// What every document of the program says of itself.
+/// The schema that every document of the program names.
 #[derive(Deserialize)]
 struct Named {
     schema: Option<String>,

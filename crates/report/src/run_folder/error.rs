@@ -12,7 +12,7 @@ use super::any_summary::SCHEMAS;
 use crate::table::TableError;
 use crate::{claims, csv, study_folder, summary};
 
-/// Why there is no run to read. Lines and columns count from one.
+/// Reasons why there is no run to read. Lines and columns count from one.
 #[derive(Debug, Error, Diagnostic)]
 pub enum RunFolderError {
     /// The table cannot be read.
@@ -23,11 +23,11 @@ pub enum RunFolderError {
     #[error("`{}` is {what}; the folder of a run is expected", .path.display())]
     #[diagnostic(help("{advice}"))]
     NoRun {
-        /// What was named.
+        /// The name given.
         path: PathBuf,
-        /// What it seems to be.
+        /// The type that it seems to have.
         what: &'static str,
-        /// What takes it, or what to name instead.
+        /// The command that takes it, or the file to name instead.
         advice: String,
     },
     /// A table without a summary.
@@ -52,7 +52,7 @@ pub enum RunFolderError {
         found: String,
         /// Those that are read.
         expected: String,
-        /// What to do.
+        /// The advice.
         advice: String,
     },
     /// The summary is not what its schema says.
@@ -65,7 +65,7 @@ pub enum RunFolderError {
         line: usize,
         /// The column.
         column: usize,
-        /// What is wrong there.
+        /// The mistake there.
         reason: String,
     },
 }

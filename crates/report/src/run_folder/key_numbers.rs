@@ -17,7 +17,7 @@ use crate::figures::digits;
 /// A number of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeyNumber {
-    /// What it is.
+    /// The description.
     pub what: String,
     /// Over what it is taken.
     pub window: String,
@@ -27,7 +27,7 @@ pub struct KeyNumber {
     pub kind: Option<Kind>,
 }
 
-/// What every whole-run extreme is taken over.
+/// The window of every whole-run extreme.
 const ALL_TIMES: &str = "all output times";
 
 impl KeyNumber {

@@ -28,7 +28,7 @@ mod any_summary;
 mod error;
 mod key_numbers;
 
-/// What the file of a summary must be.
+/// The expected file of a summary.
 const SUMMARY_FILE: Expected = Expected {
     what: "summary",
     types: &[FileType::Json],
@@ -59,7 +59,7 @@ pub struct RunFolder {
     pub case: Option<AnyCase>,
     /// Its files, as far as they are there.
     pub files: Vec<&'static str>,
-    /// What is missing, or does not fit together.
+    /// The mistake in the set.
     pub notes: Vec<String>,
 }
 

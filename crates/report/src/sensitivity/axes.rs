@@ -9,13 +9,13 @@ use study::result::RunResult;
 
 use crate::claims::{RunId, Toe};
 
-/// What is before is not shown, s.
+/// The time before which nothing is shown, s.
 const FROM: f64 = 0.5;
 
 /// An axis.
 #[derive(Clone, Copy, Debug)]
 pub struct FigureAxis {
-    /// What it is.
+    /// The description.
     pub name: &'static str,
     /// The column that is drawn.
     column: &'static str,

@@ -36,14 +36,14 @@ const SPACE_EXPECTED: Expected = Expected {
     types: &[FileType::Json],
     most: limits::RECORD_FILE,
 };
-/// What the points must be. Damage at the beginning may look like anything.
+/// The expected file of points. Damage at the beginning may look like anything.
 const POINTS_EXPECTED: Expected = Expected {
     what: "file of points",
     types: &FileType::ALL,
     most: limits::RECORD_FILE,
 };
 
-/// Why points cannot be kept.
+/// Reasons why points cannot be kept.
 #[derive(Debug, Error, Diagnostic)]
 pub enum KeptError {
     /// A file or folder cannot be read or written.
@@ -78,7 +78,7 @@ pub enum KeptError {
 struct Line {
     /// [`PointPlace::key`].
     point: String,
-    /// What is set there.
+    /// The settings there.
     set: Vec<String>,
     /// A letter for each statement: h holds, n does not, u cannot be decided.
     verdicts: String,

@@ -104,14 +104,14 @@ pub struct UnderFriction {
     pub without: Tally,
 }
 
-/// What another friction does to all statements together.
+/// The effect of another friction on all statements together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OfFriction {
     /// The friction.
     pub friction: &'static str,
     /// Points with it.
     pub points: usize,
-    /// How many statements hold at a point, on average: with it, and at the same points without it.
+    /// Mean number of statements that hold at a point: with it, and at the same points without it.
     pub mean: [f64; 2],
     /// Statements that hold at half of the points or more with it, and do not without it.
     pub only_with: usize,
@@ -156,17 +156,17 @@ pub struct WithinAxis {
 /// An open parameter, for readers.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ParameterShown {
-    /// What it is.
+    /// The description.
     pub name: &'static str,
     /// Its key in case files.
     pub key: String,
     /// Its values.
     pub range: String,
-    /// What the cases take.
+    /// The settings that the cases take.
     pub decided: &'static str,
     /// Why it is open, and why this range.
     pub reason: &'static str,
-    /// How many statements it decides.
+    /// Number of statements that it decides.
     pub statements: usize,
 }
 
@@ -179,13 +179,13 @@ pub struct Sensitivity {
     pub points: usize,
     /// What is open.
     pub parameters: Vec<ParameterShown>,
-    /// How many statements there are of each extent, in the order of [`Extent::ALL`].
+    /// Number of statements of each extent, in the order of [`Extent::ALL`].
     pub extents: [usize; 5],
     /// The statements, in the order of the thesis.
     pub statements: Vec<Statement>,
     /// The axes of the thesis's figures.
     pub axes: Vec<WithinAxis>,
-    /// How many statements hold over the contact stiffness, and the stiffness that the rule chooses.
+    /// Number of statements that hold over the contact stiffness, and the stiffness that the rule chooses.
     pub stiffness: OfStiffness,
     /// Runs that failed or stopped, with the names of their points.
     pub unsound: BTreeMap<String, Vec<String>>,

@@ -10,7 +10,7 @@ use super::axes;
 use crate::agreement::TruckOutcome;
 use crate::claims::{ClaimVerdict, Evidence, verdicts};
 
-/// What was found at a point.
+/// The outcome at a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointOutcome {
     /// The verdict on each statement, in the order of the thesis.

@@ -26,19 +26,19 @@ const STIFFNESS_KEY: &str = "contact.stiffness";
 /// A parameter that the thesis leaves open.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpenParameter {
-    /// What it is.
+    /// The description.
     pub name: &'static str,
     /// Its key and its values.
     pub factor: Factor,
-    /// What its values are called, if they are no range.
+    /// The names of its values, if they are no range.
     pub labels: &'static [&'static str],
-    /// What the cases take.
+    /// The settings that the cases take.
     pub decided: &'static str,
     /// Why the range is what it is.
     pub reason: &'static str,
 }
 
-/// How a parameter divides points into two sides.
+/// The division of points into two sides by a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Cut {
     /// Coordinates below this, and the others.
@@ -212,9 +212,9 @@ pub fn open_parameters() -> Vec<OpenParameter> {
 /// Another law or speed of friction, apart from the space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct OtherFriction {
-    /// What it is.
+    /// The description.
     pub name: &'static str,
-    /// What is set for it.
+    /// The settings of it.
     pub set: &'static str,
 }
 

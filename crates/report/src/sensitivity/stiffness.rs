@@ -58,7 +58,7 @@ pub struct Alone {
     pub stiffness: f64,
     /// Statements that hold.
     pub holds: usize,
-    /// What is required and holds.
+    /// The requirements that hold.
     pub required: usize,
 }
 
@@ -71,14 +71,14 @@ pub struct StiffnessPart {
     pub points: usize,
     /// Statements that hold.
     pub holds: Mean,
-    /// What is required and holds.
+    /// The requirements that hold.
     pub required: Mean,
 }
 
-/// What holds over the contact stiffness.
+/// The statements that hold over the contact stiffness.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OfStiffness {
-    /// How much is required: statements and axes.
+    /// Numbers of requirements: statements and axes.
     pub of_required: usize,
     /// Stiffness by stiffness, all else as decided.
     pub alone: Vec<Alone>,

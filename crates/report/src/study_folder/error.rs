@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use crate::files::FileError;
 
-/// Why a study's folder cannot be used.
+/// Reasons why a study's folder cannot be used.
 #[derive(Debug, Error, Diagnostic)]
 pub enum StudyFolderError {
     /// It cannot be made or written to.
@@ -42,7 +42,7 @@ pub enum StudyFolderError {
     Changed {
         /// The folder.
         folder: PathBuf,
-        /// What is different, in words.
+        /// The difference in words.
         changed: String,
     },
     /// A file cannot be read or understood.
@@ -108,7 +108,7 @@ pub enum StudyFolderError {
     #[error("{missing} runs are missing")]
     #[diagnostic(help("give the command again to compute them"))]
     Incomplete {
-        /// How many, at least.
+        /// Their least number.
         missing: usize,
     },
 }

@@ -9,16 +9,17 @@ use miette::Diagnostic;
 use quantity::nearest;
 use thiserror::Error;
 
-/// Why a table of results cannot be read, or has not what is wanted of it. Lines and columns count from one.
+/// Reasons why a table of results cannot be read, or has not what is wanted of it. Lines and columns count
+/// from one.
 #[derive(Debug, Error, Diagnostic)]
 pub enum TableError {
     /// There is no such file or folder.
     #[error("there is no result `{}`", .path.display())]
     #[diagnostic(help("{advice}"))]
     NotFound {
-        /// What was asked for.
+        /// The requested thing.
         path: PathBuf,
-        /// What may have been meant.
+        /// The name that may have been meant.
         advice: String,
     },
     /// A folder without a result.
@@ -46,9 +47,9 @@ pub enum TableError {
     Foreign {
         /// The file.
         file: PathBuf,
-        /// What it seems to be.
+        /// The type that it seems to have.
         what: &'static str,
-        /// What takes such a file, or what to name instead.
+        /// The command that takes such a file, or the file to name instead.
         advice: String,
     },
     /// It is larger than what is read, or has more numbers.
@@ -77,9 +78,9 @@ pub enum TableError {
         file: PathBuf,
         /// The line of names.
         line: u64,
-        /// What was found.
+        /// The findings.
         problem: String,
-        /// What to write instead.
+        /// The advice.
         advice: String,
     },
     /// Two columns have the same name.
@@ -126,9 +127,9 @@ pub enum TableError {
         file: PathBuf,
         /// The line.
         line: u64,
-        /// How many numbers it has.
+        /// Number of its numbers.
         found: usize,
-        /// How many there are to be.
+        /// The expected number.
         expected: usize,
     },
     /// A line with too few or too many numbers.
@@ -139,9 +140,9 @@ pub enum TableError {
         file: PathBuf,
         /// The line.
         line: u64,
-        /// How many cells it has.
+        /// Number of its cells.
         found: usize,
-        /// How many there are to be.
+        /// The expected number.
         expected: usize,
     },
     /// A cell that is no finite number.
@@ -157,7 +158,7 @@ pub enum TableError {
         column: usize,
         /// The column's name as in the file.
         name: String,
-        /// What stands there.
+        /// The value there.
         text: String,
     },
     /// Time stands still or runs back.
@@ -188,7 +189,7 @@ pub enum TableError {
         file: PathBuf,
         /// The column wanted.
         name: String,
-        /// What may have been meant.
+        /// The name that may have been meant.
         advice: String,
     },
 }

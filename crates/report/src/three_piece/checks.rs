@@ -13,7 +13,7 @@ use wedge::parameters::Damping;
 
 use super::rigs::{INCH, KIP_INCH, POUND, Rigs, at};
 
-/// What an expected value rests on.
+/// The basis of an expected value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Basis {
@@ -47,13 +47,13 @@ impl Basis {
 /// A number of the truck against what is expected of it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Check {
-    /// What is compared.
+    /// The compared model.
     pub what: String,
-    /// What the expectation rests on.
+    /// The basis of the expectation.
     pub basis: Basis,
     /// What runs say.
     pub found: f64,
-    /// What is expected, from and to; the same twice where it is one number.
+    /// The expected value, from and to; the same twice where it is one number.
     pub expected: [f64; 2],
     /// The unit of both.
     pub unit: &'static str,

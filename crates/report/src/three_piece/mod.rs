@@ -29,9 +29,9 @@ pub const SCHEMA: &str = "wedgelab.truck_checks/1";
 pub struct TruckFindings {
     /// [`SCHEMA`].
     pub schema: &'static str,
-    /// What was found against what is expected.
+    /// The value found against the expected one.
     pub checks: Vec<Check>,
-    /// What stiffness of contacts and bristles moves.
+    /// The effect of the stiffness of contacts and bristles.
     pub sensitivities: Vec<Sensitivity>,
 }
 

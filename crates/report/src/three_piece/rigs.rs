@@ -27,7 +27,7 @@ pub fn shown() -> Vec<&'static str> {
 /// A run for comparison.
 #[derive(Clone, Debug)]
 pub struct Variant {
-    /// What it is asked for by.
+    /// The name by which it is asked for.
     pub key: String,
     /// Its case.
     pub case: TruckCase,
@@ -44,7 +44,7 @@ pub(super) const SENSITIVE: [(&str, &str, &[&str]); 4] = [
     ("vertical, constant", "truck_vertical_constant", &[]),
     ("vertical, variable", "truck_vertical_variable", &[]),
 ];
-/// What is made twice as stiff: its name, and the value that is set.
+/// The stiffness that is doubled: its name, and the value that is set.
 pub(super) const STIFFENED: [(&str, &str); 2] = [
     ("contacts", "contact.stiffness=500000 lbf/in"),
     ("bristles", "friction.bristle_stiffness=2000000 lbf/in"),

@@ -19,7 +19,7 @@ use super::scene::{Look, Scene, SceneBody, Solid, SolidPose, SolidRole, extruded
 use super::{rolling, truck as three_piece};
 
 const INCH: f64 = 0.0254;
-/// How much of the track is drawn behind the start and beyond the end, m.
+/// Lengths of the track drawn behind the start and beyond the end, m.
 const BEYOND: [f64; 2] = [60.0, 100.0];
 /// Length of the arrow of a force that few exceed, m, and near a truck and a wedge.
 const ARROWS: [f64; 3] = [0.5, 0.4, 0.25];

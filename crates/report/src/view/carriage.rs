@@ -43,7 +43,7 @@ pub(super) struct CarriagePart {
 /// A wedge with what is drawn of it.
 #[derive(Clone, Debug)]
 pub(super) struct DrawnWedge {
-    /// What sets its solids apart from those of others, such as its number.
+    /// The suffix of its solids' names, such as its number.
     pub key: String,
     /// Its name for people.
     pub name: String,
@@ -59,11 +59,11 @@ pub(super) struct DrawnWedge {
     pub angle: f64,
     /// Angle of the slope's normal with the plane along the track, positive towards +y, rad.
     pub across: f64,
-    /// How far its right and its left side lean towards +y, by the height.
+    /// Inclination of its right and its left side towards +y, by the height.
     pub leans: [f64; 2],
     /// The column's inclination against the vertical: a turn about y, rad.
     pub toe: f64,
-    /// How far the column has worn away along its normal, m.
+    /// Depth of wear of the column along its normal, m.
     pub wear: f64,
     /// Height and width as drawn, m.
     pub size: [f64; 2],

@@ -48,7 +48,7 @@ pub struct ChartPanel {
     pub y_names: Vec<String>,
     /// Texts at points, SI.
     pub marks: Vec<(f64, f64, String)>,
-    /// How many cells it is wide.
+    /// Its width in cells.
     pub span: usize,
     /// Its curves, the first one lowest.
     pub curves: Vec<ChartCurve>,

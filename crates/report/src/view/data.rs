@@ -22,7 +22,7 @@ pub enum List {
     },
 }
 
-/// How exactly lists are kept.
+/// The precision of lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precision {
     /// To 32-bit floating point, seven digits.

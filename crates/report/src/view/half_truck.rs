@@ -26,7 +26,7 @@ struct Seen {
     angle: f64,
     /// The column's inclination against the vertical: a turn about y, rad.
     toe: f64,
-    /// How far its column lies behind its vertical face, m.
+    /// Distance of its column from its vertical face, m.
     wear: f64,
     /// Height and width as drawn, m.
     size: [f64; 2],

@@ -12,14 +12,14 @@ use serde_json::Value;
 
 use super::SCHEMA;
 
-/// What the file of a page must be.
+/// The expected file of a page.
 const PAGE: Expected = Expected {
     what: "page",
     types: &[FileType::Page],
     most: limits::RECORD_FILE,
 };
 
-/// What stands before and after the data in a page.
+/// The markup before and after the data in a page.
 const BEFORE: &str = "<script type=\"application/json\" id=\"wedgelab-view\">";
 const AFTER: &str = "</script>";
 

@@ -35,7 +35,7 @@ use run::Recording;
 /// The name and version of what is written.
 pub const SCHEMA: &str = "wedgelab.view/1";
 
-/// How a kind of quantity is shown.
+/// The units in which a kind of quantity is shown.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct KindUnits {
     /// Its US customary unit; empty for pure numbers.
@@ -53,7 +53,7 @@ pub struct View {
     pub schema: &'static str,
     /// The system of units that is shown first: `us` or `si`.
     pub units: &'static str,
-    /// How each kind of quantity is shown.
+    /// The units of each kind of quantity.
     pub quantities: BTreeMap<String, KindUnits>,
     /// Lists of numbers. All others name them by their place.
     pub data: Vec<List>,

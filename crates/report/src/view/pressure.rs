@@ -11,7 +11,7 @@ pub struct ScenePressure {
     pub name: String,
     /// The body that has the face.
     pub body: String,
-    /// How many points lie across it.
+    /// Number of points across it.
     pub across: usize,
     /// Its points, body axes: place by place across, each from the lower edge up.
     pub points: Vec<[f64; 3]>,

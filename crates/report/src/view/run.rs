@@ -29,7 +29,7 @@ const ROWS: usize = 1251;
 pub struct RunView {
     /// Its name.
     pub name: String,
-    /// What it is, in one line.
+    /// The description, one line.
     pub title: String,
     /// The output times: a place in `data`.
     pub time: usize,
@@ -40,14 +40,14 @@ pub struct RunView {
     /// Loops: one column over another, the first one shown first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub loops: Vec<Loop>,
-    /// What it looks like; missing if it cannot be built.
+    /// The view of it; missing if it cannot be built.
     pub scene: Option<Scene>,
 }
 
 /// A column.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ViewColumn {
-    /// What it is, in a few words; left out of thinned runs.
+    /// The description, a few words; left out of thinned runs.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub text: String,
     /// Its kind, a key of `quantities`.
@@ -78,7 +78,7 @@ pub struct Loop {
     pub curves: Vec<[String; 3]>,
 }
 
-/// How much of a run is kept.
+/// The detail of a run that is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detail {
     /// Every row, to seven digits.

@@ -18,13 +18,13 @@ use wedge::{BOLSTER, COLUMN, SIDE_FRAME, SLOPE, WEDGE, Wedge};
 
 pub use super::pressure::ScenePressure;
 
-/// How much displacements are exaggerated at first.
+/// The factor by which displacements are exaggerated at first.
 pub(super) const FACTOR: f64 = 10.0;
 
 /// Bodies, solids, coils and contacts; m, rad; x longitudinal, y lateral, z up.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Scene {
-    /// How much displacements are exaggerated at first.
+    /// The factor by which displacements are exaggerated at first.
     pub factor: f64,
     /// The exaggerated size (m) beyond which displacements grow to scale.
     pub limit: f64,
@@ -62,7 +62,7 @@ pub struct Look {
     pub name: String,
     /// From what is looked at towards the eye; any length.
     pub from: [f64; 3],
-    /// What is looked at: a point and the radius (m) about it that is to be seen; none: everything.
+    /// The target of the view: a point and the radius (m) about it that is to be seen; none: everything.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<([f64; 3], f64)>,
     /// The length (m) of the arrow of a force that few exceed; none: the scene's.
@@ -114,7 +114,7 @@ pub struct SolidPose {
     pub angles: [f64; 3],
 }
 
-/// What a solid is, for its colour.
+/// The role of a solid, for its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SolidRole {
@@ -134,7 +134,7 @@ pub enum SolidRole {
     Body,
     /// Walls that others are seen through.
     Glass,
-    /// What a car carries.
+    /// The kinds of lading.
     Lading,
 }
 
@@ -145,7 +145,7 @@ pub struct Solid {
     pub id: String,
     /// Its name for people.
     pub name: String,
-    /// What it is.
+    /// The description.
     pub role: SolidRole,
     /// Its body.
     pub body: String,

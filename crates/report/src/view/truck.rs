@@ -20,8 +20,8 @@ use super::run::Plot;
 use super::scene::{Scene, SceneBody, Solid, SolidPose, SolidRole, extruded};
 
 const INCH: f64 = 0.0254;
-/// How much displacements are exaggerated at first: a warp of 20 mrad is then as large as the eye takes for
-/// small.
+/// The factor by which displacements are exaggerated at first: a warp of 20 mrad is then as large as the eye
+/// takes for small.
 const FACTOR: f64 = 5.0;
 /// The exaggerated size beyond which displacements grow to scale, m.
 const LIMIT: f64 = 4.0 * INCH;

@@ -8,7 +8,7 @@ use super::rolling;
 use super::run::Plot;
 use super::scene::{Look, Scene};
 
-/// How much of the track is drawn behind the start and beyond the end, m.
+/// Lengths of the track drawn behind the start and beyond the end, m.
 const BEYOND: [f64; 2] = [30.0, 60.0];
 /// Length of the arrow of a force that few exceed, m.
 const ARROW: f64 = 0.35;

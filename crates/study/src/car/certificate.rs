@@ -19,7 +19,7 @@ use crate::case::{self, CaseError, overrides};
 use crate::design::{Study, StudySource, Value};
 use crate::records::{Record, Status};
 
-/// What is asked for.
+/// The request.
 #[derive(Clone, Debug)]
 pub struct Request {
     /// The car: a case file, or the name of a built-in case.
@@ -51,14 +51,14 @@ pub struct Certificate {
     pub limits: LimitSet,
 }
 
-/// How one limit is kept by a run.
+/// The verdict on one limit in a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeptLimit {
     /// Its number in the set.
     pub limit: usize,
-    /// What is measured, in its unit; `None` if the run has none.
+    /// The measured value, in its unit; `None` if the run has none.
     pub value: Option<f64>,
-    /// What is left, in parts of the limit; negative where it is not kept.
+    /// The margin, in parts of the limit; negative where it is not kept.
     pub margin: Option<f64>,
 }
 
@@ -75,9 +75,9 @@ pub struct Assessed {
     pub speed: String,
     /// The same, m/s.
     pub speed_si: f64,
-    /// How it ended.
+    /// The way in which it ended.
     pub status: &'static str,
-    /// What is to be said: why it has no numbers, or where the car derailed; may be empty.
+    /// The remark: why it has no numbers, or where the car derailed; may be empty.
     pub note: String,
     /// Whether a wheel left its rail: no limit is kept then.
     pub derailed: bool,
@@ -204,7 +204,7 @@ impl Certificate {
     }
 }
 
-/// How a limit is kept in a regime and a condition, over all speeds.
+/// The verdict on a limit in a regime and a condition, over all speeds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LimitVerdict {
     /// The number of the regime.
@@ -228,9 +228,9 @@ pub struct WorstSpeed {
     pub run: u64,
     /// Its speed as typed.
     pub speed: String,
-    /// What is measured, in the limit's unit.
+    /// The measured value, in the limit's unit.
     pub value: f64,
-    /// What is left, in parts of the limit.
+    /// The margin, in parts of the limit.
     pub margin: f64,
 }
 

@@ -35,7 +35,7 @@ pub struct Condition {
     pub name: String,
     /// One line for people.
     pub title: String,
-    /// What it sets, as `--set` takes it.
+    /// Its settings, as `--set` takes them.
     pub set: Vec<String>,
 }
 

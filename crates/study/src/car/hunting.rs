@@ -32,18 +32,18 @@ const WINDOW: f64 = 1.5;
 const HOLD: f64 = 10.0;
 /// Time between two rows, s.
 const INTERVAL: f64 = 0.01;
-/// How far wheelsets start to the left, if the case does not say, m: 0.4 in, near the flange; a smaller
-/// one may miss the limit cycle.
+/// Shift of wheelsets to the left at the start, if the case does not say, m: 0.4 in, near the flange; a
+/// smaller one may miss the limit cycle.
 const SHIFT: f64 = 0.4 * 0.0254;
 /// Depth and length of the rails' lateral dips, and from one to the next, m: 0.02 in, 30 ft, 200 ft.
 const DIP: [f64; 3] = [0.02 * 0.0254, 30.0 * 0.3048, 200.0 * 0.3048];
 
-/// What is asked.
+/// The settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HuntingSettings {
     /// Lowest and highest speed, m/s.
     pub speeds: [f64; 2],
-    /// How long each ramp takes, s.
+    /// Duration of each ramp, s.
     pub ramp: f64,
     /// Amplitude of a wheelset from which on a motion is hunting, m.
     pub threshold: f64,
@@ -90,14 +90,14 @@ pub struct Ramp {
     pub points: Vec<Point>,
     /// The speed at which hunting ends (falling) or begins (rising).
     pub boundary: Boundary,
-    /// What makes its numbers doubtful: warnings of the run, a derailment.
+    /// Warnings about its numbers: warnings of the run, a derailment.
     pub warnings: Vec<String>,
 }
 
-/// What was found.
+/// The findings.
 #[derive(Clone, Debug)]
 pub struct Hunting {
-    /// What was asked.
+    /// The settings asked for.
     pub settings: HuntingSettings,
     /// From the highest speed down.
     pub falling: Ramp,
@@ -107,7 +107,7 @@ pub struct Hunting {
     pub complete: bool,
 }
 
-/// Why there is none.
+/// Reasons why there is none.
 #[derive(Debug, Error)]
 pub enum HuntingError {
     /// Linear wheels have no limit cycle.

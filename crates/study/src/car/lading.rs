@@ -11,7 +11,7 @@ use crate::case::tree::NodeValue;
 use crate::reader::{CaseReader, LENGTH, QuantityForm};
 use crate::truck::sections;
 
-/// What a car carries.
+/// The kinds of lading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum LadingKind {
     Loaded,

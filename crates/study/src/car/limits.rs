@@ -78,9 +78,9 @@ impl Bound {
 pub struct Limit {
     /// Its name.
     pub name: String,
-    /// What is limited, in words.
+    /// The limited quantity in words.
     pub quantity: String,
-    /// What is measured.
+    /// The measured data.
     pub measure: &'static Worst,
     /// The regimes that it is set for; `None`: all.
     pub regimes: Option<Vec<String>>,
@@ -90,7 +90,7 @@ pub struct Limit {
     pub value: f64,
     /// Its unit as typed.
     pub unit: String,
-    /// What else is to be said; may be empty.
+    /// Further remarks; may be empty.
     pub remark: String,
     /// Its unit in SI.
     si: f64,
@@ -114,7 +114,7 @@ pub struct LimitSet {
 /// A limit beside the worst statistic of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LimitCheck {
-    /// What is limited.
+    /// The limited quantity.
     pub quantity: String,
     /// Regimes that it is set for.
     pub regimes: String,

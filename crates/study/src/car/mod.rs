@@ -49,11 +49,11 @@ pub struct CarCase {
     pub title: String,
     /// The car on its track, SI.
     pub parameters: Parameters,
-    /// What statistics are taken, and how.
+    /// The rules of statistics.
     pub rules: Rules,
-    /// How to run it.
+    /// The settings of the run.
     pub simulation: Simulation,
-    /// What reading found doubtful but not wrong.
+    /// Warnings of reading.
     pub doubts: Vec<String>,
     text: CaseText,
 }

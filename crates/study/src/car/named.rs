@@ -9,7 +9,7 @@ use quantity::nearest;
 use crate::case::CaseError;
 use crate::case::problem::Problem;
 
-/// What a text names.
+/// The target of a name.
 pub(super) enum BuiltInOrFile<'a, T> {
     /// Something built in.
     BuiltIn(&'a T),

@@ -96,9 +96,9 @@ pub struct Regime {
     pub title: String,
     /// Where track and speeds come from.
     pub source: String,
-    /// What it is meant for: `loaded` or `empty` cars; `None`: either.
+    /// The cars that it is meant for: `loaded` or `empty` cars; `None`: either.
     pub lading: Option<String>,
-    /// What to look at in its results; may be empty.
+    /// The features to look at in its results; may be empty.
     pub looks_at: String,
     /// The speeds at which it is run if none are given, at least one, in rising order.
     pub speeds: Vec<Quantity>,
@@ -106,7 +106,7 @@ pub struct Regime {
     pub range: [Quantity; 2],
     /// Why it bears no other.
     pub reason: String,
-    /// How far the car runs.
+    /// The distance that the car runs.
     pub distance: Quantity,
     /// Statistics leave out what is before this distance from the start; `None`: what is before the car's
     /// own `start.settle`.

@@ -30,7 +30,7 @@ use crate::result::RunResult;
 use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError, append};
 use crate::summary::{LedgerSummary, Stopped, SummaryValue};
 
-/// What came out of a run.
+/// The result of a run.
 pub type CarResult = RunResult<CarSummary>;
 
 /// Normal forces above this tear a truck apart, N: 5 million lbf.
@@ -59,7 +59,7 @@ pub struct CarRecorder {
     motions: Option<MotionTable>,
 }
 
-/// What is counted along a car's run.
+/// The counts along a car's run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CarCounts {
     /// Rows after settling.

@@ -17,7 +17,7 @@ use crate::case::{Simulation, write};
 use crate::reader::{CaseReader, DAMPING, QuantityForm};
 use crate::track::Support;
 
-/// What the sections say.
+/// The contents of the sections.
 pub(super) struct CarSections {
     pub parameters: Parameters,
     pub rules: Rules,
@@ -25,7 +25,7 @@ pub(super) struct CarSections {
     pub doubts: Vec<String>,
 }
 
-/// What keeps the car moving, by name.
+/// The drive of the car, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum DriveKind {
     Held,

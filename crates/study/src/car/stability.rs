@@ -30,7 +30,7 @@ pub struct Branch {
     pub critical: Option<CriticalSpeed>,
 }
 
-/// What was found.
+/// The findings.
 #[derive(Clone, Debug)]
 pub struct Stability {
     /// The speeds, m/s.

@@ -33,12 +33,12 @@ pub const LEAST_SHARE: f64 = 0.01;
 /// The names of the sides in columns.
 pub const SIDES: [&str; 2] = ["left", "right"];
 
-/// How statistics are taken.
+/// The rules of statistics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules {
     /// Cutoff of the filter of wheel forces, Hz.
     pub wheel_filter: f64,
-    /// How long an exceedance lasts, s.
+    /// Duration of an exceedance, s.
     pub hold_time: f64,
     /// The same over a distance, m.
     pub hold_distance: f64,
@@ -75,7 +75,7 @@ impl Default for Rules {
 /// A column of a run by name (without unit), SI.
 pub type StatisticColumn<'c> = &'c dyn Fn(&str) -> &'c [f64];
 
-/// What statistics are taken of.
+/// The histories that statistics are taken of.
 pub struct Histories<'c> {
     /// The columns.
     pub column: StatisticColumn<'c>,
@@ -110,13 +110,13 @@ pub struct Filtered {
     pub values: Vec<f64>,
 }
 
-/// What statistics say.
+/// The statistics.
 pub struct Statistics {
     /// By name.
     pub values: BTreeMap<String, Statistic>,
     /// Filtered columns.
     pub filtered: Vec<Filtered>,
-    /// What could not be done.
+    /// The action that failed.
     pub remarks: Vec<String>,
 }
 

@@ -15,7 +15,7 @@ use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
 /// The schema's name and version.
 pub const SCHEMA: &str = "wedgelab.car/1";
 
-/// What a run says in numbers.
+/// The numbers of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CarSummary {
     /// [`SCHEMA`].
@@ -36,7 +36,7 @@ pub struct CarSummary {
     pub derailed: Option<Derailed>,
     /// Why its numbers are not to be used, although they are kept: its energy ledger does not close to 1e-2.
     pub failed: Option<String>,
-    /// What makes the numbers doubtful; empty for a sound run.
+    /// Warnings about the numbers; empty for a sound run.
     pub warnings: Vec<String>,
     /// Number of rows.
     pub rows: usize,
@@ -66,9 +66,9 @@ pub struct CarSummary {
     pub method: String,
     /// Its relative tolerance.
     pub relative_tolerance: f64,
-    /// What the integrator did.
+    /// Counters of the integrator.
     pub solver: Counters,
-    /// What the numbers rest on.
+    /// The assumptions of the numbers.
     pub assumptions: Vec<String>,
 }
 

@@ -19,7 +19,7 @@ use crate::case::section::{Names, Range};
 use crate::reader::{CaseReader, LENGTH, QuantityForm};
 
 const INCH: f64 = 0.0254;
-/// How far splines may lie from the points of a file, m.
+/// Largest distance of splines from the points of a file, m.
 const DEVIATION: f64 = 0.0008 * INCH;
 /// Half width of a conical tread, m.
 const TREAD: f64 = 2.0 * INCH;

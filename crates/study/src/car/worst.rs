@@ -7,16 +7,16 @@ use quantity::Kind;
 use super::statistics::Statistic;
 use crate::summary::SummaryValue;
 
-/// What is taken from all statistics of one kind.
+/// The rule that selects from all statistics of one kind.
 #[derive(Debug, PartialEq)]
 pub struct Worst {
     /// The name of the measure that studies keep and limits name.
     pub name: &'static str,
-    /// What kind of quantity it is.
+    /// The kind of quantity.
     pub kind: Kind,
-    /// What it is, in a few words.
+    /// The description, a few words.
     pub text: &'static str,
-    /// How the names of the statistics end.
+    /// The endings of the names of the statistics.
     ending: &'static str,
     /// Whether the least is worst; else the greatest.
     least: bool,

@@ -9,7 +9,7 @@ use integrate::Method;
 /// The name of these values as a source.
 pub(crate) const SOURCE: &str = "the thesis's values";
 
-/// What both dampings share (Steets 2007, tables 3-1 to 3-4).
+/// The part that both dampings share (Steets 2007, tables 3-1 to 3-4).
 const COMMON: &str = r#"
 title = ""
 [wedge]

@@ -207,7 +207,7 @@ impl ToeDirection {
     }
 }
 
-/// How the side frame or the bolster moves.
+/// The motion of the side frame or the bolster.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NeighbourSection {
     /// The point it turns about; left out, the centre of its face.

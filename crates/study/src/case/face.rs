@@ -14,7 +14,7 @@ use wedge::face::{DepthMap, FaceProperties, FrictionMap, Grid, STRIBECK_SPEED};
 
 /// The names of the sections, in the order of [`wedge::outputs::FACES`].
 pub(crate) const SECTIONS: [&str; 2] = ["column_face", "slope_face"];
-/// What the sections are about.
+/// The subjects of the sections.
 pub(crate) const ABOUT: [&str; 2] = [
     "The wedge's vertical face at the column. A surface is \"flat\", or one of\n\
      # { shape = \"crown\", radius = \"60 in\", direction = \"up\" }       direction \"up\" the face \
@@ -53,9 +53,9 @@ pub struct FaceSection {
 /// A line of a section.
 pub(crate) struct FaceLine {
     pub key: &'static str,
-    /// What stands there; nothing if the key is left out.
+    /// The value there; nothing if the key is left out.
     pub value: Option<Written>,
-    /// What could stand there.
+    /// The admissible values.
     pub example: &'static str,
     pub comment: &'static str,
 }

@@ -25,15 +25,15 @@ pub struct FieldSection {
 pub struct Field {
     /// Its path, as `--set` takes it: `wedge.angle`.
     pub path: String,
-    /// What it means; may be empty.
+    /// The meaning; may be empty.
     pub help: String,
-    /// What stands there, as `--set` takes it; empty if it is left out.
+    /// The value there, as `--set` takes it; empty if it is left out.
     pub text: String,
-    /// What may stand there.
+    /// The admissible values.
     pub input: Input,
 }
 
-/// What may be typed into a field.
+/// The input that a field admits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub enum Input {
@@ -78,7 +78,7 @@ pub struct TypedNumber {
     pub unit: String,
     /// Its value in SI units.
     pub si: f64,
-    /// What it measures.
+    /// The kind of quantity that it measures.
     pub kind: Kind,
     /// Lower end of the suggested range, in the unit as typed.
     pub low: f64,
@@ -111,7 +111,7 @@ pub struct InUnits {
     pub high: f64,
 }
 
-/// How a range is suggested.
+/// The rule that suggests a range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Reach {
     /// From half of a positive value to its double.

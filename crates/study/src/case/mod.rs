@@ -59,18 +59,18 @@ pub struct Case {
     pub name: String,
     /// One line for people; may be empty.
     pub title: String,
-    /// What was typed, completed.
+    /// The typed case, completed.
     pub document: CaseDocument,
     /// The physical parameters, SI, valid.
     pub parameters: Parameters,
-    /// How to run it.
+    /// The settings of the run.
     pub simulation: Simulation,
     /// Whether the case file, with what `--set` lays over it, says nothing of wedge, coil, contact, friction
     /// and motions: they are defaults.
     pub nothing_given: bool,
 }
 
-/// How to run a case. The start is one of the [`Parameters`].
+/// The settings of a case's run. The start is one of the [`Parameters`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulation {
     /// Time the run ends, s; it begins at zero.
@@ -243,7 +243,7 @@ fn refuse_study(tree: &tree::TableNode, source: &str) -> Result<(), CaseError> {
 /// Keys that only a study has.
 pub(crate) const STUDY_KEYS: [&str; 4] = ["sampling", "vary", "variants", "case"];
 
-/// What a case file must be.
+/// The expected case file.
 pub(crate) const CASE_FILE: Expected = Expected {
     what: "case file",
     // Which of the two it is, the keys of its tree say.

@@ -10,7 +10,7 @@ use super::units::in_system;
 use quantity::{Kind, Quantity, System, nearest};
 use std::fmt::Write;
 
-/// How one coordinate of a neighbour moves, as typed. Lengths or angles, by the coordinate.
+/// The motion of one coordinate of a neighbour, as typed. Lengths or angles, by the coordinate.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CaseMotion {
     /// It is held.

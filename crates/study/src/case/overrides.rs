@@ -4,7 +4,7 @@ use super::problem::{Problem, Problems, TomlLocation, TomlSource};
 use super::tree::{self, NodeValue, TableEntry, TableNode};
 use std::sync::Arc;
 
-/// What overrides are called as a source.
+/// The name of overrides as a source.
 pub(super) const SOURCE: &str = "--set";
 
 /// Lays every override over the tree; the problems are those of the overrides themselves.

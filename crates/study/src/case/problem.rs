@@ -274,14 +274,14 @@ impl From<Problem> for Problems {
     }
 }
 
-/// What is wrong with an input, in the order of the text: at most 20 mistakes, and how many more there are.
+/// The mistakes in an input, in the order of the text: at most 20, and the number of others.
 ///
 /// As a [`Diagnostic`] it shows each mistake in its text; [`CaseError::problems`] gives them one
 /// by one.
 #[derive(Clone, Debug)]
 pub struct CaseError {
     problems: Problems,
-    /// What was read: `case`, `study`.
+    /// The kind that was read: `case`, `study`.
     subject: &'static str,
 }
 

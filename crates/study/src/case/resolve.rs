@@ -16,7 +16,7 @@ use wedge::parameters::{
     Contact, ControlCoil, Damping, FaceFriction, NeighbourMotion, Parameters, Start, Wear, WedgeBody,
 };
 
-/// What a document cannot be made into: the path of the value, and why.
+/// The mistake of a document that cannot be resolved: the path of the value, and why.
 pub(super) struct Unresolved {
     pub path: String,
     pub reason: String,

@@ -83,7 +83,7 @@ impl<const N: usize> QuantityTable<N> {
     }
 }
 
-/// What a table must look like.
+/// The form of a table.
 pub(super) struct TableForm<const N: usize = 2> {
     names: [&'static str; N],
     kinds: [Kind; N],
@@ -340,7 +340,7 @@ fn read_file<const N: usize>(
     read_csv(&TomlSource::new(shown, text), form, problems)
 }
 
-/// What the file of a table must be.
+/// The expected file of a table.
 const TABLE_FILE: Expected = Expected {
     what: "table",
     types: &[FileType::Results],

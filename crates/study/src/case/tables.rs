@@ -22,12 +22,12 @@ enum Access {
     Nowhere,
 }
 
-/// Why a table's file is not read.
+/// The reason why a table's file is not read.
 #[derive(Debug)]
 pub(crate) struct Refused {
-    /// What is wrong, after the name of the file.
+    /// The mistake, after the name of the file.
     pub reason: String,
-    /// What to write instead.
+    /// The advice.
     pub help: &'static str,
 }
 

@@ -17,7 +17,7 @@ pub(crate) struct TreeNode {
     pub value: NodeValue,
 }
 
-/// What TOML can hold.
+/// The values of TOML.
 #[derive(Clone, Debug)]
 pub(crate) enum NodeValue {
     Text(String),

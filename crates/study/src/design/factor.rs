@@ -118,7 +118,7 @@ pub enum Levels {
         unit: String,
         /// Whether steps are shares, not differences; both ends are positive then.
         logarithmic: bool,
-        /// How many, in a full factorial study.
+        /// Their number in a full factorial study.
         count: u64,
     },
 }
@@ -128,7 +128,7 @@ pub enum Levels {
 pub struct Group {
     /// Its name.
     pub name: String,
-    /// What it sets, as `--set` takes it.
+    /// Its settings, as `--set` takes them.
     pub set: Vec<String>,
 }
 
@@ -139,7 +139,7 @@ pub struct Factor {
     pub paths: Vec<String>,
     /// Its values; of groups, their names.
     pub levels: Levels,
-    /// What its values stand for, if they are names of groups.
+    /// The meanings of its values, if they are names of groups.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub groups: Vec<Group>,
 }

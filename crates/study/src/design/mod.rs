@@ -33,7 +33,7 @@ pub const STUDY_VERSION: u32 = 5;
 /// Studies of more runs than this are begun only if the user says so.
 pub const MANY: u64 = 1_000_000;
 
-/// How variants are chosen.
+/// The sampling of variants.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Sampling {
@@ -57,7 +57,7 @@ pub enum Sampling {
     List,
 }
 
-/// How tightly runs are integrated.
+/// The accuracy of the integration of runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Accuracy {
@@ -67,10 +67,10 @@ pub enum Accuracy {
     Engineering,
 }
 
-/// What [`Accuracy::Engineering`] sets, unless the study sets it itself. In the six yawed cases of the thesis
-/// branch forces and energies per cycle at the side frame are within 0.5 % of those at 1e-8. Over wide ranges
-/// of parameters nine of ten variants are. Wedges that rattle for as long as they run lose that rattling: 12
-/// % of a branch force in two of the thesis's runs without yaw.
+/// The settings of [`Accuracy::Engineering`], unless the study sets it itself. In the six yawed cases of the
+/// thesis branch forces and energies per cycle at the side frame are within 0.5 % of those at 1e-8. Over wide
+/// ranges of parameters nine of ten variants are. Wedges that rattle for as long as they run lose that
+/// rattling: 12 % of a branch force in two of the thesis's runs without yaw.
 pub const ENGINEERING: [&str; 2] = [
     "simulation.method=\"tr-bdf2\"",
     "simulation.relative_tolerance=1.5e-5",
@@ -83,11 +83,11 @@ pub struct Study {
     pub name: String,
     /// One line for people; may be empty.
     pub title: String,
-    /// How variants are chosen.
+    /// The sampling of variants.
     pub sampling: Sampling,
-    /// How tightly runs are integrated.
+    /// The accuracy of the integration of runs.
     pub accuracy: Accuracy,
-    /// What is varied.
+    /// The varied parameters.
     pub factors: Vec<Factor>,
     /// Values that hold for all variants, as `--set` takes them.
     pub set: Vec<String>,
@@ -113,7 +113,7 @@ pub struct StudySource {
     pub case: CaseSource,
 }
 
-/// What decides what a study computes; two studies with the same description have the same table.
+/// The values that decide the results of a study; two studies with the same description have the same table.
 #[derive(Clone, Debug, Serialize)]
 pub struct Description<'s> {
     /// [`STUDY_VERSION`].
@@ -122,11 +122,11 @@ pub struct Description<'s> {
     pub program: String,
     /// Number of variants.
     pub runs: u64,
-    /// How they are chosen.
+    /// Their sampling.
     pub sampling: &'s Sampling,
-    /// How tightly they are integrated.
+    /// The accuracy of their integration.
     pub accuracy: Accuracy,
-    /// What is varied.
+    /// The varied parameters.
     pub factors: &'s [Factor],
     /// The values of a list.
     #[serde(skip_serializing_if = "<[_]>::is_empty")]

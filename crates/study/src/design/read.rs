@@ -52,9 +52,9 @@ type Assigned = Vec<(String, Written)>;
 struct Draft {
     factor: Factor,
     key: TomlLocation,
-    /// What is tried out.
+    /// The values that are tried.
     written: Vec<Written>,
-    /// What the names of groups stand for.
+    /// The members of the groups by name.
     groups: Vec<(String, Assigned)>,
 }
 

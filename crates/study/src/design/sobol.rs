@@ -35,7 +35,7 @@ const DIRECTIONS: [(u32, u32, &[u64]); DIMENSIONS - 1] = [
     (7, 4, &[1, 3, 7, 13, 13, 15, 69]),
 ];
 
-/// How many dimensions there are direction numbers for.
+/// Number of dimensions with direction numbers.
 pub const DIMENSIONS: usize = 21;
 
 /// The Sobol' sequence in some dimensions.

@@ -31,7 +31,7 @@ impl Default for SearchSettings {
     }
 }
 
-/// What was found.
+/// The findings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Minimum {
     /// Scaled parameters.
@@ -102,7 +102,7 @@ pub fn minimize(
     })
 }
 
-/// How often differences are taken anew over the uncertainty found.
+/// Largest number of times that differences are taken anew over the uncertainty found.
 const WIDENINGS: usize = 4;
 /// Half the distance of central differences is never more than this part of the range.
 const WIDEST: f64 = 0.05;

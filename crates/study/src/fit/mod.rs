@@ -39,9 +39,9 @@ pub struct Free {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{problem}")]
 pub struct FreeError {
-    /// What is wrong.
+    /// The mistake.
     pub problem: String,
-    /// What to write instead.
+    /// The advice.
     pub advice: String,
 }
 
@@ -124,7 +124,7 @@ impl Free {
     }
 }
 
-/// What is measured.
+/// The measured data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
     /// Times, s, increasing.
@@ -135,7 +135,7 @@ pub struct Measured {
     pub column: String,
 }
 
-/// Why nothing can be fitted.
+/// Reasons why nothing can be fitted.
 #[derive(Debug, Error)]
 pub enum FitError {
     /// The case does not go with a free parameter.
@@ -173,7 +173,7 @@ pub struct FittedParameter {
     pub at_bound: bool,
 }
 
-/// What was found.
+/// The findings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
     /// The parameters.

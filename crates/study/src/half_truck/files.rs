@@ -29,16 +29,16 @@ pub struct FileTrees<'t> {
     pub run: Option<&'t RunFile>,
 }
 
-/// What is asked for besides the files.
+/// The settings besides the files.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// What the files leave open.
+    /// The choices that the files leave open.
     pub choices: Choices,
-    /// How the run begins.
+    /// The start of the run.
     pub start: HalfTruckStart,
     /// Whether sections of the data file that are switched off are written too.
     pub all_outputs: bool,
-    /// How long the run is, s; otherwise as the run file says.
+    /// Duration of the run, s; otherwise as the run file says.
     pub duration: Option<f64>,
     /// Time between two rows, s.
     pub interval: f64,
@@ -66,7 +66,7 @@ impl Default for Settings {
     }
 }
 
-/// Why files and settings make no run.
+/// Reasons why files and settings make no run.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum FilesError {
     /// The files make no model.

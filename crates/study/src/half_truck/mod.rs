@@ -29,7 +29,7 @@ use requests::Request;
 use wedge_bodies::MountedWedge;
 pub use yaw::YawSummary;
 
-/// How a run begins.
+/// The start of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum HalfTruckStart {
@@ -51,15 +51,15 @@ pub struct HalfTruckCase {
     pub truck: Truck,
     /// The wedges that are bodies with mass.
     pub wedge_bodies: Vec<MountedWedge>,
-    /// What these take from the files and what is added, in words; the assumptions have it too.
+    /// The values taken from the files and those added, in words; the assumptions have them too.
     pub wedge_notes: Vec<String>,
-    /// What it rests on, in words.
+    /// The basis in words.
     pub assumptions: Vec<String>,
-    /// What is written besides time, wedges and energies.
+    /// The quantities written besides time, wedges and energies.
     pub requests: Vec<Request>,
-    /// How it begins.
+    /// Its beginning.
     pub start: HalfTruckStart,
-    /// How long it is, s.
+    /// Its duration, s.
     pub duration: f64,
     /// Time between two rows, s.
     pub interval: f64,
@@ -72,7 +72,7 @@ pub struct HalfTruckCase {
     pub units: Units,
 }
 
-/// What came out of a run.
+/// The result of a run.
 pub type HalfTruckResult = RunResult<HalfTruckSummary>;
 
 /// The schema's name and version.
@@ -98,7 +98,7 @@ pub struct HalfTruckSummary {
     /// Why its numbers are not to be used, although they are kept: its energy ledger does not close to 1e-2.
     #[serde(default)]
     pub failed: Option<String>,
-    /// What makes the numbers doubtful; empty for a sound run.
+    /// Warnings about the numbers; empty for a sound run.
     #[serde(default)]
     pub warnings: Vec<String>,
     /// Number of rows.
@@ -125,7 +125,7 @@ pub struct HalfTruckSummary {
     pub statistics: Statistics,
     /// Its relative tolerance.
     pub relative_tolerance: f64,
-    /// What the numbers rest on.
+    /// The assumptions of the numbers.
     pub assumptions: Vec<String>,
 }
 

@@ -54,7 +54,7 @@ pub enum OptionError {
         name: &'static str,
         /// As typed.
         value: String,
-        /// What would do.
+        /// The admissible values.
         expected: &'static str,
     },
 }

@@ -31,7 +31,7 @@ pub enum Request {
     Sum {
         /// Its name.
         name: String,
-        /// What is summed.
+        /// The terms of the sum.
         terms: Vec<Term>,
     },
 }

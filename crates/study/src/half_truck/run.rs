@@ -312,7 +312,7 @@ struct Works {
     powers: [Vec<f64>; 3],
 }
 
-/// What is counted along a half-truck's run.
+/// The counts along a half-truck's run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HalfTruckCounts {
     /// Work of each wedge's friction at the column in the averaging window, J.

@@ -47,7 +47,7 @@ pub enum SetError {
         name: &'static str,
         /// As typed.
         value: String,
-        /// What would do.
+        /// The admissible values.
         expected: &'static str,
     },
 }

@@ -3,7 +3,7 @@
 use super::{EnergySummary, STATES};
 use crate::summary::SummaryValue;
 
-/// What is smaller than this share of all that flows in stands together with others.
+/// A loss smaller than this share of the inflow is added to others.
 const SMALL: f64 = 0.01;
 /// How dissipation terms of friction end.
 const FRICTION: [&str; 3] = ["friction_loss", "wedge_column_loss", "wedge_slope_loss"];
@@ -15,7 +15,7 @@ pub struct Flow {
     pub name: String,
     /// Its energy each cycle.
     pub energy: f64,
-    /// What of it is lost in friction by contact state ([`STATES`]).
+    /// The part of it lost in friction by contact state ([`STATES`]).
     pub by_state: [f64; STATES.len()],
 }
 
@@ -24,9 +24,9 @@ pub struct Flow {
 pub struct PowerFlow {
     /// Unit of the energies.
     pub unit: String,
-    /// What flows in: work, and stored energy that is given back.
+    /// Inflows: work, and stored energy that is given back.
     pub inflows: Vec<Flow>,
-    /// What flows out: losses, energy that is stored, work done on the surroundings.
+    /// Outflows: losses, energy that is stored, work done on the surroundings.
     pub outflows: Vec<Flow>,
     /// Inflow less outflow: the ledger's residual over a cycle.
     pub residual: f64,

@@ -53,7 +53,7 @@ pub(crate) struct LossRecorder {
     contact_states: Vec<u8>,
 }
 
-/// What the losses are so far.
+/// The losses so far.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LossCounts {
     /// The quadratures at the last end of a part of the stroke in the window, J; empty before the window.

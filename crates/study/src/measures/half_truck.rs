@@ -11,8 +11,7 @@ use crate::half_truck::{HalfTruckCase, HalfTruckSummary, WedgeSummary};
 use crate::plausibility;
 use crate::summary;
 
-/// What is measured of a wedge: its name after `wedge_NUMBER_`, kind, text, and where it stands in the
-/// summary.
+/// The metric of a wedge: its name after `wedge_NUMBER_`, kind, text, and where it stands in the summary.
 type OfWedge = (&'static str, Kind, &'static str, fn(&WedgeSummary) -> Option<f64>);
 
 const OF_WEDGES: [OfWedge; 5] = [

@@ -26,7 +26,7 @@ use crate::run::wedge_run::{contact_states_in_words, friction_losses, options};
 use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError};
 use crate::summary::{RunSummary, Stopped};
 
-/// Why a run has no measures.
+/// Reasons why a run has no measures.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unmeasured {
     /// It could not begin.
@@ -150,7 +150,7 @@ struct Series {
     on_bolster: Vec<f64>,
 }
 
-/// What is measured of a run on its way.
+/// The metrics of a run on its way.
 struct Measuring {
     parameters: Parameters,
     cycle: Option<Cycle>,

@@ -36,14 +36,14 @@ use quantity::Kind;
 
 pub use measuring::{Judged, Unmeasured, judge, measure};
 
-/// What a measure is.
+/// The description of a metric.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measure {
     /// Its name, without unit.
     pub name: Cow<'static, str>,
-    /// What it is, in a few words.
+    /// The description, a few words.
     pub text: Cow<'static, str>,
-    /// What kind of quantity it is; values are SI.
+    /// The kind of quantity; values are SI.
     pub kind: Kind,
     /// Whether every run has it.
     pub always: bool,

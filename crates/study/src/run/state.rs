@@ -27,11 +27,11 @@ pub struct RunState<N> {
     pub start_energy: f64,
     /// The energy balance at the output times.
     pub energy_balance: EnergyBalance,
-    /// What has been seen for the plausibility of the run.
+    /// The plausibility record of the run.
     pub plausibility: PlausibilityRecord,
-    /// How far it has come, and with how many steps.
+    /// The time reached, and the number of steps.
     pub pace: Pace,
-    /// What the recorder has counted so far.
+    /// The recorder's counts so far.
     pub counts: N,
 }
 

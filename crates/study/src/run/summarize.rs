@@ -21,7 +21,7 @@ use crate::summary::{
     Averages, Events, FrictionSummary, LedgerSummary, SCHEMA, Solver, Stopped, Summary, SummaryValue,
 };
 
-/// How many columns at the beginning of the table have fixed names; their extremes are reported.
+/// Number of columns at the beginning of the table with fixed names; their extremes are reported.
 const FIXED_COLUMNS: usize = 18;
 const EVENT_KINDS: [&str; 4] = ["opens", "closes", "sticks", "slips"];
 const BRANCH_COLUMNS: [&str; 5] = [

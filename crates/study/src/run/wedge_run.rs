@@ -23,10 +23,10 @@ use crate::progress;
 use crate::result::{ContactEvent, RunResult};
 use crate::summary::Stopped;
 
-/// How many events are listed at most.
+/// Largest number of listed events.
 pub const EVENT_CAP: usize = 500;
 
-/// What is counted along a wedge's run.
+/// The counts along a wedge's run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counts {
     /// Distance that each contact point has crept while stuck, m.

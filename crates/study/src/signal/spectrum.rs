@@ -24,7 +24,7 @@ pub struct Spectrum {
     pub rows: usize,
 }
 
-/// Why there is none.
+/// Reasons why there is none.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SpectrumError {
     /// Not as many rows as a segment needs.

@@ -14,7 +14,7 @@ use wedge::inputs::{COIL, CoilInput, Neighbours, Reading};
 use wedge::outputs::{Ledger, Outputs};
 use wedge::{BOLSTER, BuildError, COLUMN, Parameters, SIDE_FRAME, SLOPE, Wedge};
 
-/// Why a driven wedge cannot begin, go on or go back.
+/// Reasons why a driven wedge cannot begin, go on or go back.
 #[derive(Debug, Error)]
 pub enum SteppingError {
     /// The parameters make no wedge.
@@ -47,15 +47,15 @@ pub enum SteppingError {
         what: String,
         /// The value, SI.
         value: f64,
-        /// What it must be.
+        /// The condition on it.
         expected: &'static str,
     },
     /// A list of states that does not have the right length.
     #[error("{found} states are given; this wedge has {expected}")]
     Length {
-        /// How many there are.
+        /// Their number.
         expected: usize,
-        /// How many were given.
+        /// The number given.
         found: usize,
     },
     /// A communication step hardly progresses ([`crate::progress`]).
@@ -68,7 +68,7 @@ pub enum SteppingError {
         step: f64,
         /// The time at which it began, s.
         time: f64,
-        /// How little it progresses, and where.
+        /// The progress and its place.
         why: String,
     },
     /// An earlier step failed.

@@ -50,7 +50,7 @@ pub struct TrackFile {
     pub title: String,
     /// The track.
     pub track: Track,
-    /// What its rails lie on.
+    /// The support of its rails.
     pub support: Support,
 }
 

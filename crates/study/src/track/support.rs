@@ -7,7 +7,7 @@ use super::irregularity::named;
 use crate::case::problem::Problems;
 use crate::case::section::{CaseSection, Range};
 
-/// What the rails lie on.
+/// The support of the rails.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Support {
     /// Rails do not give way.

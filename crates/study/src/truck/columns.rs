@@ -11,7 +11,7 @@ use truck::{
 
 use super::TruckCase;
 
-/// What values are taken from: an observation, its loads, and the stored energy at the start, J.
+/// The source of values: an observation, its loads, and the stored energy at the start, J.
 struct Seen<'s> {
     observation: &'s Observation,
     loads: &'s Loads,
@@ -78,7 +78,7 @@ type Value = Box<dyn Fn(&Seen<'_>) -> f64 + Send + Sync>;
 /// The table: what its columns are, and how their values are taken.
 struct Columns {
     columns: Vec<Column>,
-    /// How many at the beginning have fixed names.
+    /// Number of columns at the beginning with fixed names.
     fixed: usize,
     values: Vec<Value>,
 }

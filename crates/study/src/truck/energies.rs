@@ -16,7 +16,8 @@ const VERTICAL: usize = 2;
 /// Bounce with a smaller amplitude is rounding, m.
 const NO_BOUNCE: f64 = 1e-9;
 
-/// What the cycles of a truck are taken from: its first periodic motion, or else its first periodic load.
+/// The motion or load that defines the cycles of a truck: its first periodic motion, or else its first
+/// periodic load.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CycleDrive {
     pub stroke: Stroke,

@@ -8,7 +8,7 @@ use quantity::Kind;
 use super::TruckCase;
 use super::run::{TruckResult, period_of};
 
-/// What moves, and what resists.
+/// The motion and the resistance of a loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LoopKind {
     /// The bolster moves up and down; the load of both nests resists.
@@ -62,9 +62,9 @@ pub struct LoopCurve {
     pub kind: LoopKind,
     /// Its rows in the result.
     pub rows: Range<usize>,
-    /// What moves, m or rad, at these rows.
+    /// The motion, m or rad, at these rows.
     pub motion: Vec<f64>,
-    /// What resists, N or N·m.
+    /// The resisting force or moment, N or N·m.
     pub resistance: Vec<f64>,
     /// Half the travel, m or rad.
     pub amplitude: f64,

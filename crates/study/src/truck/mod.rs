@@ -40,9 +40,9 @@ pub struct TruckCase {
     pub title: String,
     /// The truck, SI.
     pub parameters: Parameters,
-    /// How long its motions are held before time zero, s.
+    /// Time for which its motions are held before time zero, s.
     pub settle: f64,
-    /// How to run it. Its start is one of the parameters.
+    /// The settings of the run. Its start is one of the parameters.
     pub simulation: Simulation,
     text: CaseText,
 }

@@ -30,7 +30,7 @@ use crate::result::RunResult;
 use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError, append, check_finite, check_length};
 use crate::summary::{LedgerSummary, Stopped, SummaryValue};
 
-/// What came out of a run.
+/// The result of a run.
 pub type TruckResult = RunResult<TruckSummary>;
 
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
@@ -53,7 +53,7 @@ pub struct TruckRecorder {
     pub(super) losses: LossRecorder,
 }
 
-/// What is counted along a truck's run.
+/// The counts along a truck's run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TruckCounts {
     /// The quadratures at the ends of the whole cycles that were passed, J.

@@ -42,7 +42,7 @@ impl Condition {
     }
 }
 
-/// What a truck carries.
+/// The load of a truck.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Load {
     /// Nothing: the bolster is alone.

@@ -15,7 +15,7 @@ use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
 /// The schema's name and version.
 pub const SCHEMA: &str = "wedgelab.three_piece_truck/1";
 
-/// What a run says in numbers.
+/// The numbers of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TruckSummary {
     /// [`SCHEMA`].
@@ -34,7 +34,7 @@ pub struct TruckSummary {
     pub stopped: Option<Stopped>,
     /// Why its numbers are not to be used, although they are kept: its energy ledger does not close to 1e-2.
     pub failed: Option<String>,
-    /// What makes the numbers doubtful; empty for a sound run.
+    /// Warnings about the numbers; empty for a sound run.
     pub warnings: Vec<String>,
     /// Number of rows.
     pub rows: usize,
@@ -42,7 +42,7 @@ pub struct TruckSummary {
     pub cycles: Cycles,
     /// Warp stiffnesses: warp moment over warp angle where the angle is reached first, by the angle in mrad.
     pub warp_stiffness: BTreeMap<String, SummaryValue>,
-    /// How far each wedge is from locking up, by its name.
+    /// Margins of each wedge to lock-up, by its name.
     #[serde(default)]
     pub jam: BTreeMap<String, JamMargins>,
     /// Least and greatest values of all columns, by their names with units.
@@ -56,9 +56,9 @@ pub struct TruckSummary {
     pub method: String,
     /// Its relative tolerance.
     pub relative_tolerance: f64,
-    /// What the integrator did.
+    /// Counters of the integrator.
     pub statistics: Statistics,
-    /// What the numbers rest on.
+    /// The assumptions of the numbers.
     pub assumptions: Vec<String>,
 }
 

@@ -16,7 +16,7 @@ pub const NUCARS_STIFFNESS: [(&str, f64); 2] = [
 /// kip·in/mrad, in N·m/rad.
 const PER_MRAD: f64 = 112_984.829_027_616_7;
 
-/// How the moment goes on where warp grows.
+/// The course of the moment where warp grows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Growth {
     /// It stays at a plateau: it grows by less than 15 % from 10 to 20 mrad; the moment there, N·m.
@@ -49,7 +49,7 @@ pub struct WarpCurve {
     pub stiffness: Vec<(f64, f64)>,
     /// The parts of the moment at these angles, N·m, in the order of [`PARTS`].
     pub parts: Vec<[f64; PARTS.len()]>,
-    /// How the moment goes on.
+    /// The course of the moment.
     pub growth: Growth,
     /// Energy that a loop takes, J: the area of the moment over the angle, over the last whole cycle.
     pub loop_area: Option<f64>,

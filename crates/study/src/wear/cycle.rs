@@ -20,7 +20,7 @@ use crate::run::Run;
 use crate::run::wedge_run::friction_losses;
 use crate::summary::RunSummary;
 
-/// What one cycle does at a contact point.
+/// The work of one cycle at a contact point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PointWork {
     /// ∫ N |v| dt, J.
@@ -43,12 +43,12 @@ impl PointWork {
     }
 }
 
-/// What one cycle does to a wedge.
+/// The work of one cycle on a wedge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CycleWork {
     /// The points of each face, in the order of its grid.
     pub points: [Vec<PointWork>; FACES.len()],
-    /// What the points do to their counterfaces, by place; nothing where that is not asked for.
+    /// The work of the points on their counterfaces, by place; nothing where that is not asked for.
     pub counterfaces: Option<[Laid<PointWork>; FACES.len()]>,
     /// Energy lost in friction at each face by the ledger, J.
     pub losses: [f64; FACES.len()],

@@ -55,7 +55,7 @@ impl WearLaw {
     }
 }
 
-/// How far wear is to be advanced.
+/// The plan of advancing wear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WearPlan {
     /// Cycles of the bolster.
@@ -66,12 +66,12 @@ pub struct WearPlan {
     pub most_steps: u32,
     /// The law.
     pub law: WearLaw,
-    /// What the counterfaces lose, by what the wedge's faces lose: the ratio of their coefficients of wear;
+    /// The wear of the counterfaces over that of the wedge's faces: the ratio of their coefficients of wear;
     /// zero or positive.
     pub counterface: f64,
 }
 
-/// Why wear is not computed.
+/// Reasons why wear is not computed.
 #[derive(Debug, Error)]
 pub enum WearError {
     /// The bolster's motion does not repeat.
@@ -92,16 +92,16 @@ pub enum WearError {
          more than half of its penetration, which one cycle wears by {part:.2e} of it"
     )]
     TooManySteps {
-        /// How many.
+        /// Their number.
         needed: f64,
-        /// How many are allowed.
+        /// The number allowed.
         most: u32,
         /// Depth that one cycle wears, relative to the penetration.
         part: f64,
     },
 }
 
-/// Why wear goes no further.
+/// Reasons why wear goes no further.
 #[derive(Debug)]
 pub enum WearStop {
     /// The caller asked for it.

@@ -32,10 +32,10 @@ const SLOWEST: f64 = 0.1;
 const DRIVE: f64 = 1e4;
 /// Overlap of the rigid profiles at which contact tables are made, m.
 const TABLE_OVERLAP: f64 = 1e-4;
-/// How far before the end of the track a run ends, m.
+/// Distance before the end of the track at which a run ends, m.
 const BEFORE_THE_END: f64 = 1.0;
 
-/// How contact is found.
+/// The search for contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SearchMode {
     /// By the search at every evaluation.
@@ -44,7 +44,7 @@ pub enum SearchMode {
     Table,
 }
 
-/// What a user says of a wheelset on a track; SI.
+/// The parameters of a wheelset on a track as given; SI.
 #[derive(Clone, Debug)]
 pub struct Wheelset {
     /// Name of the run.
@@ -75,11 +75,11 @@ pub struct Wheelset {
     pub friction: f64,
     /// The creep law.
     pub creep: CreepLaw,
-    /// How contact is found.
+    /// The search for contact.
     pub search: SearchMode,
     /// Where it begins.
     pub start: RigStart,
-    /// How long the run is, s; none: to the end of the track.
+    /// Duration of the run, s; none: to the end of the track.
     pub duration: Option<f64>,
     /// Time between two rows, s.
     pub interval: f64,
@@ -87,7 +87,7 @@ pub struct Wheelset {
     pub relative_tolerance: f64,
     /// Units of the results.
     pub units: Units,
-    /// What was given, by its name, in words: the summary repeats it.
+    /// The given values by name, in words: the summary repeats it.
     pub given: BTreeMap<String, String>,
 }
 
@@ -98,7 +98,7 @@ pub struct WheelsetCase {
     pub wheelset: Wheelset,
     /// The model.
     pub setup: Setup,
-    /// How long the run is, s.
+    /// Duration of the run, s.
     pub duration: f64,
 }
 
@@ -118,7 +118,7 @@ pub enum WheelsetError {
         what: &'static str,
         /// Its value, SI.
         value: f64,
-        /// What it must be.
+        /// The condition on it.
         must: &'static str,
     },
     /// The run leaves the track.
@@ -135,7 +135,7 @@ pub enum WheelsetError {
         start: f64,
         /// Where it ends, m.
         end: f64,
-        /// How long it is, s.
+        /// Its duration, s.
         duration: f64,
         /// Its speed, m/s.
         speed: f64,

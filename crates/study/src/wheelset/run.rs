@@ -24,10 +24,10 @@ use crate::result::RunResult;
 use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError, append};
 use crate::summary::{LedgerSummary, Stopped, SummaryValue};
 
-/// What came out of a run.
+/// The result of a run.
 pub type WheelsetResult = RunResult<WheelsetSummary>;
 
-/// What to do about a ledger that does not close.
+/// Advice on a ledger that does not close.
 const LOWER_THE_TOLERANCE: &str = "lower the relative tolerance";
 
 /// A derailed wheel: its number, where it stands, time (s), distance (m).

@@ -12,7 +12,7 @@ use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
 /// The schema's name and version.
 pub const SCHEMA: &str = "wedgelab.wheelset/1";
 
-/// What a run says in numbers.
+/// The numbers of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WheelsetSummary {
     /// [`SCHEMA`].
@@ -23,7 +23,7 @@ pub struct WheelsetSummary {
     pub name: String,
     /// Units of the numbers.
     pub units: Units,
-    /// What was given, by its name, in words.
+    /// The given values by name, in words.
     pub given: BTreeMap<String, String>,
     /// Whether the run came to its end.
     pub complete: bool,
@@ -33,7 +33,7 @@ pub struct WheelsetSummary {
     pub stopped: Option<Stopped>,
     /// Why its numbers are not to be used, although they are kept: its energy ledger does not close to 1e-2.
     pub failed: Option<String>,
-    /// What makes the numbers doubtful; empty for a sound run.
+    /// Warnings about the numbers; empty for a sound run.
     pub warnings: Vec<String>,
     /// Number of rows.
     pub rows: usize,
@@ -45,9 +45,9 @@ pub struct WheelsetSummary {
     pub ledger: LedgerSummary,
     /// Relative tolerance of the integrator.
     pub relative_tolerance: f64,
-    /// What the integrator did.
+    /// Counters of the integrator.
     pub statistics: Statistics,
-    /// What the numbers rest on.
+    /// The assumptions of the numbers.
     pub assumptions: Vec<String>,
 }
 

@@ -24,7 +24,7 @@ pub struct DepthMap {
     depths: Vec<f64>,
 }
 
-/// Why points make no map.
+/// Reasons why points make no map.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum DepthMapError {
     /// A value is infinite or not a number.
@@ -47,7 +47,7 @@ pub enum DepthMapError {
          must have a depth at every place across"
     )]
     NotRectangle {
-        /// How many points there are.
+        /// Number of points.
         points: usize,
         /// Different places up.
         up: usize,

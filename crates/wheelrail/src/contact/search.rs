@@ -25,7 +25,7 @@ const BETWEEN_STATIONS: f64 = 2e-5;
 /// pieces.
 const BESIDE: f64 = 2e-6;
 const SUBDIVISIONS: usize = 4;
-/// How far beyond its ends the rail is compared, along its end slopes, m.
+/// Distance beyond its ends over which the rail is compared, along its end slopes, m.
 const BEYOND: f64 = 5e-3;
 /// Overlap below which there is no patch, m: a load of less than 1e-6 N.
 pub(super) const NOTHING: f64 = 1e-12;
@@ -81,7 +81,7 @@ pub struct RigidTouch {
     pub radius: f64,
 }
 
-/// What finds the patches of a wheel on its rail: the search, or tables.
+/// The finder of the patches of a wheel on its rail: the search, or tables.
 pub trait FindPatches {
     /// Gives each patch at a pose to `take`.
     fn search<S: Real>(&self, pose: &WheelPose<S>, take: impl FnMut(ContactPatch<S>));

@@ -48,7 +48,7 @@ pub const DRY: Reduction = Reduction {
     slip: 1.0,
 };
 
-/// How wide the smooth maximum is, as a share of the values.
+/// Width of the smooth maximum, as a share of the values.
 const SMOOTHING: f64 = 0.02;
 /// Square of the creepage that is added to roots.
 const SMALL: f64 = 1e-16;

@@ -44,7 +44,7 @@ impl fmt::Display for ProfilePlace {
     }
 }
 
-/// Why no profile was made. Each message names the place; [`ProfileError::remedy`] says what to do.
+/// Reasons why no profile was made. Each message names the place; [`ProfileError::remedy`] says what to do.
 #[derive(Debug, Error)]
 pub enum ProfileError {
     /// The file was not read.
@@ -61,9 +61,9 @@ pub enum ProfileError {
     Line {
         /// Where.
         place: ProfilePlace,
-        /// What is wrong.
+        /// The mistake.
         found: String,
-        /// What to do.
+        /// The advice.
         remedy: String,
     },
     /// A rail where a wheel is expected, or a wheel where a rail is.
@@ -71,9 +71,9 @@ pub enum ProfileError {
     Kind {
         /// Where.
         place: ProfilePlace,
-        /// What the file says it is.
+        /// The kind that the file names.
         found: &'static str,
-        /// What was asked for.
+        /// The requested thing.
         expected: &'static str,
     },
     /// Too few points.
@@ -81,7 +81,7 @@ pub enum ProfileError {
     TooFew {
         /// Where.
         place: ProfilePlace,
-        /// How many there are.
+        /// Their number.
         points: usize,
     },
     /// The size shows that the unit is not the one stated.
@@ -98,7 +98,7 @@ pub enum ProfileError {
         width: f64,
         /// Widths that occur.
         expected: &'static str,
-        /// What to do.
+        /// The advice.
         remedy: String,
     },
     /// The curve meets itself.
@@ -119,9 +119,9 @@ pub enum ProfileError {
     Orientation {
         /// Where.
         place: ProfilePlace,
-        /// What is wrong.
+        /// The mistake.
         found: String,
-        /// What to do.
+        /// The advice.
         remedy: String,
     },
     /// The wheelset does not fit between the rails.
@@ -147,9 +147,9 @@ pub enum ProfileError {
         place: ProfilePlace,
         /// The element, from 1.
         element: usize,
-        /// What is wrong.
+        /// The mistake.
         found: String,
-        /// What to do.
+        /// The advice.
         remedy: &'static str,
     },
     /// A number is not admissible.
@@ -159,7 +159,7 @@ pub enum ProfileError {
         what: &'static str,
         /// Its value, SI.
         value: f64,
-        /// What it must be.
+        /// The condition on it.
         must: &'static str,
     },
 }

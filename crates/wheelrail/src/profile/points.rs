@@ -31,7 +31,7 @@ use super::error::{ProfileError, ProfilePlace};
 pub struct Points {
     /// The file as named, or a name.
     pub name: String,
-    /// What the file says it is.
+    /// The kind that the file names.
     pub kind: Option<ProfileKind>,
     /// y and z, m.
     pub points: Vec<[f64; 2]>,

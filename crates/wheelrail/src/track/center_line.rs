@@ -57,7 +57,7 @@ pub enum Segment {
     Curve(f64, CurveElements),
 }
 
-/// Why a track cannot be.
+/// Reasons why a track cannot be.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum TrackError {
     /// There is no segment.

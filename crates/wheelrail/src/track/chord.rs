@@ -11,7 +11,7 @@ use thiserror::Error;
 
 /// Smallest factor that is inverted: errors of measurement grow tenfold.
 const LEAST: f64 = 0.1;
-/// How far beyond the band waves fade out, as a factor of the wavenumber.
+/// Width of the band's edge in which waves fade out, as a factor of the wavenumber.
 const FADE: f64 = 1.25;
 /// Most products of rows and waves: some seconds.
 const MOST: f64 = 1e9;
@@ -31,7 +31,7 @@ pub fn transfer(wavelength: f64, chord: f64) -> f64 {
     1.0 - libm::cos(PI * chord / wavelength)
 }
 
-/// Why offsets cannot be inverted.
+/// Reasons why offsets cannot be inverted.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum ChordError {
     /// The wavelengths are no range, or longer than the data.

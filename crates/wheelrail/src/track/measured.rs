@@ -35,10 +35,10 @@ use super::samples::Samples;
 const NOMINAL_GAUGE: f64 = 56.5 * 0.0254;
 /// Largest number of a table, in SI units: 10,000 km.
 const LARGEST: f64 = 1e7;
-/// How far spacings may differ where they must be equal.
+/// Relative tolerance of spacings that must be equal.
 const UNEQUAL: f64 = 1e-3;
 
-/// Why a measured table is no track.
+/// Reasons why a measured table is no track.
 #[derive(Debug, Error)]
 pub enum MeasuredError {
     /// The file cannot be read.
@@ -51,9 +51,9 @@ pub enum MeasuredError {
         name: String,
         /// The line, from 1.
         line: usize,
-        /// What is found there.
+        /// The kind found there.
         found: String,
-        /// What to do.
+        /// The advice.
         remedy: String,
     },
     /// Only mid-chord offsets where space curves are expected.
@@ -78,7 +78,7 @@ pub enum MeasuredError {
     /// Values cannot be a spline.
     #[error("{what}")]
     Samples {
-        /// What is wrong.
+        /// The mistake.
         what: String,
     },
     /// Offsets cannot be inverted.
@@ -106,7 +106,7 @@ impl MeasuredError {
     }
 }
 
-/// What the columns of rails are.
+/// The form of the columns of rails.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {
     /// The rails' own offsets.

@@ -3,8 +3,8 @@
 use super::center_line::CenterLine;
 use super::rails::{CLOSE, STRIDE};
 
-/// How far parts of a track must lie from each other in plan, m: a foot is looked for from places within
-/// 5 m, and wheels that run on the track lie within 1 m of its center line.
+/// Least distance in plan between parts of a track, m: a foot is looked for from places within 5 m, and
+/// wheels that run on the track lie within 1 m of its center line.
 pub const CLEARANCE: f64 = CLOSE + 1.0;
 
 impl CenterLine {

@@ -33,7 +33,8 @@ const SPACING: f64 = 0.125;
 pub(super) const STRIDE: f64 = 2.0;
 /// A place this near begins Newton's method, m.
 pub(super) const CLOSE: f64 = 5.0;
-/// What is looked for lies within this distance of the center line, m; less than [`CLOSE`] by half a stride.
+/// Points that are searched for lie within this distance of the center line, m; less than [`CLOSE`] by half a
+/// stride.
 const BESIDE: f64 = 4.0;
 /// Half the length over which superelevation is averaged, m.
 const ROUNDING: f64 = 1.0;

@@ -7,7 +7,7 @@
 
 use super::{BuiltIn, CaseGroup};
 
-/// What the cases share.
+/// The part that the cases share.
 const COMMON: &str = r#"
 [contact]
 damping = "10 lbf s/in"

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::words::rounded;
 
-/// Why a wedge of the files makes no body.
+/// Reasons why a wedge of the files makes no body.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum WedgeBodyError {
     /// No wedge is of type 6.8 or 6.9.
@@ -25,7 +25,7 @@ pub enum WedgeBodyError {
     NotPlane {
         /// The connection's number.
         connection: u32,
-        /// How many inclinations there are.
+        /// Number of inclinations.
         count: usize,
         /// The least, degrees, out positive.
         from: f64,

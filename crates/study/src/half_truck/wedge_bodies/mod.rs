@@ -58,12 +58,12 @@ pub struct MountedWedge {
     pub components: Vec<usize>,
 }
 
-/// What was replaced, and what was added in words.
+/// The replaced wedges, and the additions in words.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Replaced {
     /// The wedges.
     pub wedges: Vec<MountedWedge>,
-    /// What they rest on.
+    /// Their assumptions.
     pub assumptions: Vec<String>,
 }
 
