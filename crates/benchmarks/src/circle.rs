@@ -220,7 +220,7 @@ impl Carried {
         0.5 * (MASS * speed + spin) + self.bushing(time, x, &pose).energy
     }
 
-    /// Returns what an energy balance takes from a state; `start` is the energy at the start, J.
+    /// Returns the energies of a state for an energy balance; `start` is the energy at the start, J.
     #[must_use]
     pub fn ledger(&self, time: f64, x: &[f64; STATES], start: f64) -> Entries {
         let [.., work, losses] = *x;

@@ -118,7 +118,7 @@ fn least(calls: usize, mut call: impl FnMut()) -> f64 {
     rounds.fold(f64::INFINITY, f64::min)
 }
 
-/// Returns what an energy balance takes from an instant; `start` is the stored energy at the start, J.
+/// Returns the energies of an instant for an energy balance; `start` is the stored energy at the start, J.
 #[must_use]
 pub fn ledger(observation: &Observation, start: f64) -> Entries {
     let (work, losses) = observation

@@ -96,7 +96,7 @@ pub struct Loads {
 }
 
 impl Car {
-    /// Returns what one sees at an observation of [`Car::system`]; `rates` are the rates of its state there
+    /// Returns the loads at an observation of [`Car::system`]; `rates` are the rates of its state there
     /// (`integrate::Problem::derivative`), which the accelerations need.
     #[must_use]
     pub fn loads(&self, seen: &Observation, rates: &[f64]) -> Loads {

@@ -55,7 +55,7 @@ pub struct Motions {
 }
 
 impl Car {
-    /// Returns where the bodies are at an observation of [`Car::system`].
+    /// Returns the poses of the bodies at an observation of [`Car::system`].
     #[must_use]
     pub fn motions(&self, seen: &Observation) -> Motions {
         let body = &seen.bodies[self.numbers.body];
@@ -85,7 +85,7 @@ impl Car {
         }
     }
 
-    /// Returns how far a rail (of a wheelset from the front; left 0, right 1) has given way at an observation
+    /// Returns the displacement of a rail (of a wheelset from the front; left 0, right 1) at an observation
     /// of [`Car::system`], in the track's own axes, m.
     #[must_use]
     pub fn rail(&self, seen: &Observation, wheelset: usize, side: usize) -> Vector<f64> {

@@ -323,7 +323,7 @@ impl Parameters {
         self.trucks.iter().any(has)
     }
 
-    /// Returns how far the rails' origins are from the middle of the track, left and right, m.
+    /// Returns the distances of the rails' origins from the middle of the track, left and right, m.
     #[must_use]
     pub fn rail_offsets(&self) -> [f64; 2] {
         match &self.wheels {
@@ -341,7 +341,7 @@ impl Parameters {
         }
     }
 
-    /// Returns how far the outermost axles are from the middle of the car, m.
+    /// Returns the distance of the outermost axles from the middle of the car, m.
     #[must_use]
     pub fn reach(&self) -> f64 {
         let axles = self.trucks.iter().map(|own| own.distances[2]);

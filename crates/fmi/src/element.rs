@@ -1,4 +1,4 @@
-//! What stands behind the variables.
+//! The elements whose quantities the variables show.
 
 use serde::{Deserialize, Serialize};
 
@@ -102,7 +102,7 @@ pub struct Entries {
     pub accumulators: usize,
     /// States whose rate is another state, by number; the others' rates depend on everything.
     pub kinematic: Vec<(usize, usize)>,
-    /// Values to look at.
+    /// Values to observe.
     pub columns: Vec<QuantityEntry>,
     /// Contact states.
     pub modes: Vec<QuantityEntry>,
@@ -223,7 +223,7 @@ pub trait Element: Send {
     /// # Errors
     /// Never, with an element that was built here.
     fn outputs(&mut self, out: &mut [f64]) -> Result<(), Error>;
-    /// The values to look at.
+    /// Returns the values to observe.
     fn columns(&mut self, out: &mut [f64]);
     /// Derivatives along a direction of states and inputs.
     ///

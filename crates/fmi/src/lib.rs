@@ -4,9 +4,10 @@
 //!   version.
 //! - [`source`]: what an FMU is made of: the case of a wedge, a truck or a car, or the run of
 //!   a half-truck.
-//! - [`element`]: what stands behind the variables: the wedge ([`wedge`]), the quasi-static wedge
-//!   ([`quasi_static`]), and any system with named ports ([`system`]): the truck without wedges ([`truck`]),
-//!   the half-truck ([`half_truck`]), the three-piece truck ([`three_piece`]), the car ([`car`]).
+//! - [`element`]: the elements whose quantities the variables show: the wedge ([`wedge`]), the quasi-static
+//!   wedge ([`quasi_static`]), and any system with named ports ([`system`]): the truck without wedges
+//!   ([`truck`]), the half-truck ([`half_truck`]), the three-piece truck ([`three_piece`]), the car
+//!   ([`car`]).
 //! - [`instance`]: one instance, with the states of the standard's state machine, for both versions and both
 //!   kinds of interface.
 //! - [`package`], [`resources`]: writing a whole FMU, and finding the case again in an unpacked one;

@@ -13,7 +13,7 @@ pub enum Causality {
     Input,
     /// For others.
     Output,
-    /// To look at.
+    /// An observed value.
     Local,
 }
 
@@ -68,7 +68,7 @@ pub enum Start {
     Boolean(bool),
 }
 
-/// What stands behind a variable: the kind of quantity an element has, and its number among those.
+/// The quantity that a variable shows: the kind of quantity an element has, and its number among those.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VariableRole {
     /// Time.
@@ -85,7 +85,7 @@ pub enum VariableRole {
     State(usize),
     /// Its rate.
     Rate(usize),
-    /// A value that is only looked at.
+    /// A value that is only observed.
     Column(usize),
     /// A contact state.
     ContactState(usize),
@@ -102,7 +102,7 @@ pub struct Variable {
     pub name: String,
     /// The description, one line.
     pub text: String,
-    /// The quantity behind it.
+    /// The quantity that it shows.
     pub role: VariableRole,
     /// Its unit; `None` for numbers without one.
     pub unit: Option<Unit>,

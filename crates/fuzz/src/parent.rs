@@ -1,4 +1,4 @@
-//! The parent: starts workers, watches them, and goes on behind the inputs that break them.
+//! The parent: starts workers, watches them, and goes on after the inputs that break them.
 
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader};

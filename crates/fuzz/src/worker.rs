@@ -40,7 +40,7 @@ pub struct Arguments {
     /// The first number
     #[arg(long, default_value_t = 0)]
     from: u64,
-    /// One behind the last number
+    /// The number after the last one
     #[arg(long, default_value_t = u64::MAX)]
     until: u64,
     /// For how long

@@ -1,4 +1,4 @@
-//! Files, read up to a size, after a look at what they are.
+//! Files, read up to a size, after a check of their types.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -70,7 +70,7 @@ impl ReadError {
         }
     }
 
-    /// Returns what to do, if that follows from the reason alone.
+    /// Returns the advice, if it follows from the reason alone.
     #[must_use]
     pub fn help(&self) -> Option<String> {
         match &self.reason {

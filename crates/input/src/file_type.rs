@@ -49,7 +49,7 @@ impl FileType {
         Self::Binary,
     ];
 
-    /// Returns what the beginning of a file says it is; `None` if it says nothing.
+    /// Returns the type that the beginning of a file shows; `None` if it says nothing.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Option<Self> {
         let signatures: [(&[u8], Self); 9] = [
@@ -104,7 +104,7 @@ impl FileType {
         (has_time && names.contains(',')).then_some(Self::Results)
     }
 
-    /// Returns what it is, with its article, for messages.
+    /// Returns its name with its article, for messages.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -123,7 +123,7 @@ impl FileType {
         }
     }
 
-    /// Returns what takes such a file; `path` is the file as the user named it.
+    /// Returns the command that takes such a file; `path` is the file as the user named it.
     #[must_use]
     pub fn advice(self, path: &str) -> String {
         match self {

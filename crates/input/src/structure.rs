@@ -1,4 +1,4 @@
-//! The structure of TOML, looked at before it is parsed: the parser recurses, and where it recovers from
+//! The structure of TOML, checked before it is parsed: the parser recurses, and where it recovers from
 //! mistakes its time grows with the square of the nesting.
 
 use std::ops::Range;
@@ -41,7 +41,7 @@ pub enum Excess {
 }
 
 impl Excess {
-    /// Returns where it is, in bytes.
+    /// Returns the place, in bytes.
     #[must_use]
     pub fn span(&self) -> Range<usize> {
         match self {
@@ -50,7 +50,7 @@ impl Excess {
         }
     }
 
-    /// Returns what to do.
+    /// Returns the advice.
     #[must_use]
     pub fn help(&self) -> &'static str {
         match self {

@@ -276,8 +276,8 @@ fn combine(from: &DiscontinuityFunctions, directions: &[[f64; 2]], functions: &m
     }
 }
 
-/// Returns how far after a discontinuity a step should end, in lengths of the last step, if the error of that
-/// step has grown by `growth`.
+/// Returns the distance after a discontinuity at which a step should end, in lengths of the last step, if the
+/// error of that step has grown by `growth`.
 fn overshoot(error: f64, growth: f64) -> f64 {
     tuning::OVERSHOOT * (tuning::OVERSHOOT_SAFETY * error * growth).clamp(tuning::MINIMUM_OVERSHOOT, 1.0)
 }

@@ -271,7 +271,7 @@ impl EventDetector {
         self.search.ends().1
     }
 
-    /// Returns where the first event function of a group is expected to reach zero.
+    /// Returns the expected time of the first zero of a group's event functions.
     fn first_zero(&self, number: usize) -> f64 {
         let muted = &self.muted[self.groups[number].discrete_states.clone()];
         let all = self.search.high().iter().zip(muted).enumerate();

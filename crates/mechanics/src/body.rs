@@ -127,7 +127,7 @@ impl Body {
         self.is_prescribed() && !self.frame.is_fixed()
     }
 
-    /// Returns how many coordinates are free.
+    /// Returns the number of free coordinates.
     #[must_use]
     pub fn free_count(&self) -> usize {
         self.free.iter().filter(|free| **free).count()

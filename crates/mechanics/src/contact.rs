@@ -133,7 +133,7 @@ impl ContactFace<Plane> {
 }
 
 impl<F> ContactFace<F> {
-    /// Returns how many internal states the face has.
+    /// Returns the number of internal states of the face.
     #[must_use]
     pub fn state_count(&self) -> usize {
         self.points.len() * self.law.states_per_point()

@@ -125,7 +125,7 @@ impl EnergyBalance {
         relative_residual(self.largest_residual, self.work, self.losses, change)
     }
 
-    /// Returns how far the run can be trusted.
+    /// Returns the verdict on the run.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         Verdict::of(self.relative_residual())

@@ -233,7 +233,7 @@ impl SurfaceShape {
         self.profile.is_flat() && self.worn.is_none()
     }
 
-    /// Returns what the surface is like next to a point.
+    /// Returns the local geometry of the surface at a point.
     #[inline(always)]
     pub(crate) fn bend<P: Plain>(&self, position: Vector<P>) -> Bend<P> {
         let ([x, y, z], zero, one) = (position.0, P::zero(), P::from(1.0));
@@ -391,8 +391,8 @@ impl SurfaceShape {
 }
 
 impl<P: Plain> Bend<P> {
-    /// Returns by how much the normal tilts along the first and along the second tangent, and the tangents
-    /// turn about it, where the point moves by these components along the tangents.
+    /// Returns the angles by which the normal tilts along the first and along the second tangent, and the
+    /// tangents turn about it, where the point moves by these components along the tangents.
     #[inline(always)]
     pub fn tilt<S: Number>(&self, first: S, second: S) -> (S, S, S)
     where

@@ -61,7 +61,7 @@ impl<'a> Cursor<'a> {
         self.end - self.at
     }
 
-    /// Returns its end, as an empty piece behind the tokens taken.
+    /// Returns its end, as an empty piece after the tokens taken.
     pub fn here(&self) -> Span {
         Span::new(self.at, self.at)
     }

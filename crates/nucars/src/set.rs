@@ -320,7 +320,7 @@ fn numbers(system: &SystemFile, input: Option<&InputFile>, section: &str) -> Vec
     }
 }
 
-/// Returns what can be set in a record of a section, by names; `None` if there is no such record.
+/// Returns the targets of settings in a record of a section, by names; `None` if there is no such record.
 fn targets<'t>(
     system: &'t mut SystemFile,
     input: Option<&'t mut InputFile>,

@@ -48,7 +48,7 @@ impl CertificateFindings {
         Ok(Self { runs, verdicts })
     }
 
-    /// Returns how many limits are kept, exceeded, unknown.
+    /// Returns the numbers of limits that are kept, exceeded, unknown.
     #[must_use]
     pub fn counts(&self) -> [usize; 3] {
         ["kept", "exceeded", "unknown"]

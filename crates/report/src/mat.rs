@@ -104,7 +104,7 @@ pub fn write_columns<S: RunSummary>(
     Ok(())
 }
 
-/// Returns what the text on a run says if the run is incomplete or has failed.
+/// Returns the sentence on a run that is incomplete or has failed.
 pub fn soundness(summary: &impl RunSummary) -> String {
     let stopped = summary
         .stopped()

@@ -289,7 +289,7 @@ pub fn figure(history: &WearHistory) -> Figure {
     }
 }
 
-/// Returns what wear comes to, in words.
+/// Returns the result of wear in words.
 #[must_use]
 pub fn words(history: &WearHistory, plan: &WearPlan, given: Given) -> String {
     let units = history.case.simulation.output_units;

@@ -27,7 +27,7 @@ impl Search {
 }
 
 impl WheelOnRail {
-    /// Returns where the wheel stands.
+    /// Returns the seat of the wheel.
     #[must_use]
     pub fn seat(&self, motion: &RelativeMotion<f64>) -> Seat {
         let pair = self.search.pair();
@@ -58,7 +58,7 @@ impl WheelOnRail {
 }
 
 impl Rig {
-    /// Returns where the left and the right wheel stand; linear wheels stand on their rails always.
+    /// Returns the seats of the left and the right wheel; linear wheels stand on their rails always.
     #[must_use]
     pub fn seats(&self, seen: &Observation) -> [Seat; 2] {
         let Some(motions) = self.motions(seen) else {

@@ -222,19 +222,19 @@ impl AnyResult {
         Some(&self.values[index])
     }
 
-    /// Returns why and when the run stopped, if it did not come to its end.
+    /// Returns the reason and time of the run's stop, if it did not come to its end.
     #[must_use]
     pub fn stopped(&self) -> Option<&Stopped> {
         self.stopped.as_ref()
     }
 
-    /// Returns what makes the numbers doubtful.
+    /// Returns the warnings about the numbers.
     #[must_use]
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }
 
-    /// Returns why the numbers are not to be used, if so.
+    /// Returns the reason why the numbers are not to be used, if so.
     #[must_use]
     pub fn failed(&self) -> Option<&str> {
         self.failed.as_deref()
@@ -326,7 +326,7 @@ impl CaseSource {
         Ok(AnyCase::HalfTruck(Box::new(case)))
     }
 
-    /// Returns what decides which case it is, as text.
+    /// Returns the text that identifies the case.
     pub(crate) fn description(&self, base: &AnyCase) -> String {
         let files = || serde_json::to_string(self).unwrap_or_default();
         base.to_toml().unwrap_or_else(files)

@@ -10,7 +10,7 @@ use wedge::parameters::{Damping, FaceFriction, STANDARD_GRAVITY, Start, Wear};
 const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
 
-/// Returns the assumptions behind a run.
+/// Returns the assumptions of a run.
 #[must_use]
 pub fn of(wedge: &Wedge) -> Vec<String> {
     let p = &wedge.parameters;
@@ -103,8 +103,8 @@ pub fn of(wedge: &Wedge) -> Vec<String> {
     list
 }
 
-/// Returns what a face has beyond four corners, flat surfaces and one coefficient of friction; `None` if
-/// nothing.
+/// Returns the properties of a face beyond four corners, flat surfaces and one coefficient of friction;
+/// `None` if nothing.
 pub(crate) fn of_face(name: &str, face: &FaceProperties) -> Option<String> {
     let mut parts = Vec::new();
     if face.grid != Grid::default() {

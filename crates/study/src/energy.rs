@@ -31,7 +31,7 @@ pub fn warning(balance: &EnergyBalance, what_to_do: &str) -> Option<String> {
     ))
 }
 
-/// Returns why a run has failed by its energy ledger ([`FAILED`]); `None` if it has not.
+/// Returns the reason why a run has failed by its energy ledger ([`FAILED`]); `None` if it has not.
 #[must_use]
 pub fn failure(balance: &EnergyBalance, what_to_do: &str) -> Option<String> {
     warning(balance, what_to_do).filter(|_| balance.verdict() == Verdict::Failed)

@@ -44,7 +44,7 @@ impl JamMargins {
     }
 }
 
-/// Returns what the margins say, in one sentence, angles in degrees.
+/// Returns the margins in one sentence, angles in degrees.
 #[must_use]
 pub fn statement(wedge: &QuasiStaticWedge, yaw: f64) -> String {
     if let Some(warning) = expelled(wedge, yaw) {

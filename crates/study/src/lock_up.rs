@@ -82,7 +82,7 @@ impl MapAxis {
         }
     }
 
-    /// Returns what it is, for people.
+    /// Returns its name for people.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -104,7 +104,7 @@ impl MapAxis {
         }
     }
 
-    /// Returns what makes a case have this value (SI), as `--set` takes it.
+    /// Returns the settings that give a case this value (SI), as `--set` takes them.
     fn set(self, value: f64) -> Vec<String> {
         match self {
             Self::Angle => vec![format!("wedge.angle={value} rad")],
@@ -391,7 +391,7 @@ pub fn map(
 }
 
 impl LockUpMap {
-    /// Returns what the closed form says of a point of the map's plane (SI): the wedge and its yaw.
+    /// Returns the closed form at a point of the map's plane (SI): the wedge and its yaw.
     #[must_use]
     pub fn massless(&self, case: &Case, values: [f64; 2]) -> (QuasiStaticWedge, f64) {
         let mut wedge = closed_form::wedge(&case.parameters);
@@ -408,7 +408,7 @@ impl LockUpMap {
         (wedge, yaw)
     }
 
-    /// Returns how many rigs locked and slid, and how many of them contradict the margin.
+    /// Returns the numbers of rigs that locked and slid, and of those that contradict the margin.
     #[must_use]
     pub fn counts(&self) -> [usize; 3] {
         let count = |of: &dyn Fn(&MapPoint) -> bool| self.cells.iter().filter(|cell| of(cell)).count();
@@ -427,7 +427,7 @@ impl LockUpMap {
     }
 }
 
-/// Returns what the closed form says of a point whose rig was not run; `why` unless the faces open upwards.
+/// Returns the closed form at a point whose rig was not run; `why` unless the faces open upwards.
 fn closed(wedge: &QuasiStaticWedge, yaw: f64, why: RigOutcome) -> MapPoint {
     let slide = wedge.slide(SlidingDirection::Down, SlopeFriction::UpSlope, 1.0);
     let closing_angle = wedge.closing_angle(yaw);

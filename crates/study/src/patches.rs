@@ -12,7 +12,7 @@ pub const PATCHES: usize = 3;
 /// A patch with a smaller share is shown as a part of its neighbor.
 const HALF: f64 = 0.5;
 
-/// Columns of a patch, behind its side and number.
+/// Columns of a patch, after its side and number.
 const PATCH: [(&str, Kind, &str); 9] = [
     ("x", Kind::Length, "place from the wheelset's center, forward"),
     (
@@ -130,7 +130,7 @@ impl Patches {
         self.shown = kept;
     }
 
-    /// Returns how many there are.
+    /// Returns their number.
     pub fn count(&self) -> usize {
         self.shown.len()
     }

@@ -1,6 +1,6 @@
 //! What is implausible in a run, in words: the same for runs of wedges and of half-trucks, studies and fits.
 //!
-//! What is looked at, and the limits, are those of [`mechanics::plausibility`].
+//! The checks and their limits are those of [`mechanics::plausibility`].
 
 use mechanics::plausibility::{FindingKind, Location, PlausibilityFinding};
 use mechanics::system::System;
@@ -83,8 +83,8 @@ fn by_kind<C: RunCase>(run: &Run<C>, counts: impl Fn(FindingKind) -> bool) -> Ve
     warnings
 }
 
-/// Returns why a run is nonsense: the first finding after which results mean nothing. Returns `None` if there
-/// is none.
+/// Returns the reason why a run is nonsense: the first finding after which results mean nothing. Returns
+/// `None` if there is none.
 #[must_use]
 pub fn nonsense<C: RunCase>(run: &Run<C>) -> Option<String> {
     nonsense_among(run, |_| true)

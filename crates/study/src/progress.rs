@@ -25,7 +25,7 @@ pub const SURE_ATTEMPTS: u64 = 100_000;
 /// And for each second of it.
 pub const ATTEMPTS_A_SECOND: f64 = 1e7;
 
-/// Returns how many attempted steps a run may take for a way of `advance` (s).
+/// Returns the number of attempted steps that a run may take for a way of `advance` (s).
 #[must_use]
 pub fn most_attempts(advance: f64) -> u64 {
     SURE_ATTEMPTS.saturating_add((ATTEMPTS_A_SECOND * advance) as u64)
@@ -90,7 +90,7 @@ fn attempts<P: Problem>(integrator: &Integrator<P>) -> u64 {
 pub struct Stalled {
     /// The time reached, s.
     pub time: f64,
-    /// Attempted steps since it was looked at last.
+    /// Attempted steps since the last check.
     pub attempts: u64,
     /// The time that they reached, s.
     pub advance: f64,
@@ -109,7 +109,7 @@ pub const WHAT_TO_TRY_WITH_FILES: &str = "look at this body or connection with `
                                           stiffness or a damping out of all proportion, or a mass that is \
                                           too small, makes steps so short";
 
-/// Returns what the integrator says of a step that it cannot make, with the state in words; `name` names a
+/// Returns the integrator's message about a step that it cannot make, with the state in words; `name` names a
 /// state.
 #[must_use]
 pub fn describe(error: &StepError, name: impl Fn(usize) -> String) -> String {

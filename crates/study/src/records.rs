@@ -134,7 +134,7 @@ fn record(definitions: &Definitions, number: u64, outcome: Result<Judged, Unmeas
     }
 }
 
-/// Returns why a variant has failed whose energy ledger does not close.
+/// Returns the reason why a variant whose energy ledger does not close has failed.
 fn ledger(definitions: &Definitions, measures: &Measures) -> Option<String> {
     let residual = definitions.get(measures, "ledger_residual")?;
     (Verdict::of(residual) == Verdict::Failed).then(|| {

@@ -196,7 +196,7 @@ pub trait Recorder {
     /// The counts along the run, saved with the run's state.
     type Counts: Clone + PartialEq + Serialize + DeserializeOwned;
 
-    /// Returns what it has counted so far.
+    /// Returns the counts so far.
     fn counts(&self) -> Self::Counts;
     /// Goes on from what was counted until `time` (s).
     ///
@@ -211,7 +211,7 @@ pub trait Recorder {
     /// # Errors
     /// A value is not finite, or the model has been torn apart; the row has not been taken.
     fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError>;
-    /// Returns what is implausible in words, with the places as the user knows them.
+    /// Returns the findings in words, with the places as the user knows them.
     fn describe(&self, system: &System, finding: &PlausibilityFinding, units: Units) -> String;
     /// Returns these contact states in words, by contact.
     fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String>;
@@ -398,7 +398,8 @@ impl<C: RunCase> Run<C> {
         self.result(stopped)
     }
 
-    /// Goes on to the end, as [`Run::finish_while`]. Returns why the run stopped, if it did before.
+    /// Goes on to the end, as [`Run::finish_while`]. Returns the reason why the run stopped, if it did
+    /// before.
     pub(crate) fn go_on_while(
         &mut self,
         mut progress: impl FnMut(f64) -> ControlFlow<String>,
@@ -421,7 +422,7 @@ impl<C: RunCase> Run<C> {
         C::output(self, stopped)
     }
 
-    /// Returns what is said of a run that stops where it is now.
+    /// Returns the record of a run that stops at the present time.
     #[must_use]
     pub fn stopped(&self, reason: String) -> Stopped {
         Stopped {

@@ -73,7 +73,7 @@ impl LowPass {
         })
     }
 
-    /// Returns what it leaves of a sine of this frequency, Hz.
+    /// Returns the gain for a sine of this frequency, Hz.
     #[must_use]
     pub fn gain(&self, frequency: f64) -> f64 {
         let ratio = libm::tan(PI * frequency * self.interval) / libm::tan(PI * self.cutoff * self.interval);
@@ -157,7 +157,7 @@ pub fn sustained(places: &[f64], values: &[f64], length: f64) -> Option<WindowVa
     })
 }
 
-/// Returns where values begin to stay at a level or above it over a length; the first such place.
+/// Returns the first place from which values stay at a level or above it over a length.
 fn held_from(places: &[f64], values: &[f64], level: f64, length: f64) -> Option<f64> {
     let enough = |from: f64, to: f64| to - from >= length * (1.0 - 1e-12);
     let mut from = (*values.first()? >= level).then(|| places[0]);

@@ -1,7 +1,7 @@
 //! The summary of a run: what `summary.json` holds.
 //!
 //! Schema `wedgelab.summary/2`. Every dimensional number is a [`SummaryValue`] with its unit, in the case's
-//! output units; times are seconds. A reader should ignore keys that it does not know; the number behind the
+//! output units; times are seconds. A reader should ignore keys that it does not know; the number after the
 //! slash grows when a key changes its meaning or goes.
 
 use std::collections::BTreeMap;
@@ -47,11 +47,11 @@ pub trait RunSummary {
     fn name(&self) -> &str;
     /// Returns the units of its numbers.
     fn units(&self) -> Units;
-    /// Returns why and when the run stopped, if it did not come to its end.
+    /// Returns the reason and time of the run's stop, if it did not come to its end.
     fn stopped(&self) -> Option<&Stopped>;
-    /// Returns why the numbers are not to be used, if so.
+    /// Returns the reason why the numbers are not to be used, if so.
     fn failed(&self) -> Option<&str>;
-    /// Returns what makes the numbers doubtful.
+    /// Returns the warnings about the numbers.
     fn warnings(&self) -> &[String];
     /// Returns the relative residual of the energy ledger.
     fn largest_relative_residual(&self) -> f64;
@@ -140,7 +140,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Returns what is not finite among averages, extremes and ledger, in words: the first of them.
+    /// Returns the name of the first number among averages, extremes and ledger that is not finite.
     #[must_use]
     pub fn not_finite(&self) -> Option<String> {
         let averages = &self.averages;

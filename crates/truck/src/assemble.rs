@@ -90,7 +90,7 @@ impl Truck {
         }
     }
 
-    /// Returns how deep column and slope of each wedge are inside at the start, m.
+    /// Returns the penetrations of column and slope of each wedge at the start, m.
     fn depths(&mut self) -> [[f64; 2]; 4] {
         let observation = self.system.observe(0.0, &self.system.initial_state());
         let depth = |face: usize| -> f64 {

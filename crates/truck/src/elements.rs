@@ -301,7 +301,7 @@ impl Builder<'_> {
         (number, marker_on(&self.model.bodies[number], place, angles))
     }
 
-    /// Returns where a connection joins two bodies (their numbers in the model) at a place (m).
+    /// Returns the joint of a connection of two bodies (their numbers in the model) at a place (m).
     fn joint(&self, bodies: [usize; 2], at: [f64; 3]) -> Joint {
         let point = std::array::from_fn(|k| at[k] + self.mount.center[k]);
         let bodies = bodies.map(|body| &self.model.bodies[body]);

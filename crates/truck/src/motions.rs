@@ -33,7 +33,7 @@ pub struct Motions {
 }
 
 impl MountedTruck {
-    /// Returns where the parts are at an observation of the system in which the truck is, in the axes of a
+    /// Returns the poses of the parts at an observation of the system in which the truck is, in the axes of a
     /// frame.
     #[must_use]
     pub fn motions(&self, seen: &Observation, frame: &TruckFrame) -> Motions {

@@ -126,8 +126,8 @@ impl<'o> TruckView<'o> {
         }
     }
 
-    /// Returns how far a point of a body, whose axes were the fixed ones in the nominal layout, is from its
-    /// place (from the truck's center, m) there.
+    /// Returns the displacement of a point of a body, whose axes were the fixed ones in the nominal layout,
+    /// from its place (from the truck's center, m) there.
     pub fn moved(&self, body: &BodyState, place: Vector<f64>) -> Vector<f64> {
         let nominal = body.origin - body.travel;
         match &self.frame {

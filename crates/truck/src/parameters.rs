@@ -420,15 +420,15 @@ impl Parameters {
         coils.map(|coil| coil.spring.stiffness).sum()
     }
 
-    /// Returns what the load coils of both nests carry in the nominal layout, N.
+    /// Returns the force that the load coils of both nests carry in the nominal layout, N.
     #[must_use]
     pub fn load_preload(&self) -> f64 {
         let coils = self.load_coils.iter().flatten();
         coils.map(|coil| coil.spring.preload).sum()
     }
 
-    /// Returns how much more the coils carry in the nominal layout than stands on them, N: zero for a truck
-    /// that rests there. `None` if the bolster's motion is prescribed.
+    /// Returns the force of the coils in the nominal layout less the load on them, N: zero for a truck that
+    /// rests there. `None` if the bolster's motion is prescribed.
     #[must_use]
     pub fn surplus(&self) -> Option<f64> {
         if self.bolster.is_prescribed() {
@@ -466,8 +466,8 @@ impl Wedge {
         libm::atan(2.0 * self.height * libm::sin(self.angle) / width)
     }
 
-    /// Returns where the center of gravity is from the body's origin, in the axes of the truck, m; `end` is
-    /// that of the mount. Coordinates are those of the origin: the center of gravity, or the end of the
+    /// Returns the place of the center of gravity from the body's origin, in the axes of the truck, m; `end`
+    /// is that of the mount. Coordinates are those of the origin: the center of gravity, or the end of the
     /// thesis's coil, which the wedge of Steets (2007) turns about where y is locked.
     pub(crate) fn origin_to_center(&self, end: f64) -> [f64; 3] {
         match self.control_coil {

@@ -55,7 +55,7 @@ pub struct WedgePart {
 }
 
 impl WedgePart {
-    /// Returns where a positive angle across pushes it: +1 to +y, -1 to -y.
+    /// Returns the direction in which a positive angle across pushes it: +1 to +y, -1 to -y.
     #[must_use]
     pub fn pushed(&self) -> f64 {
         if self.shift == 0.0 {
@@ -64,8 +64,8 @@ impl WedgePart {
         self.shift.signum()
     }
 
-    /// Returns how far its right and its left side lean towards +y, by the height: those of the plane between
-    /// halves.
+    /// Returns the inclinations of its right and its left side towards +y, by the height: those of the plane
+    /// between halves.
     #[must_use]
     pub fn leans(&self) -> [f64; 2] {
         let lean = -PLACES[self.wedge][1] * libm::tan(self.own.split.angle);
@@ -137,7 +137,7 @@ impl Wedge {
         })
     }
 
-    /// Returns how far the centers of gravity of the halves lie from the wedge's middle across, m.
+    /// Returns the distances of the halves' centers of gravity from the wedge's middle across, m.
     #[must_use]
     pub fn half_shift(&self) -> f64 {
         0.25 * self.width

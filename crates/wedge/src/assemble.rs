@@ -93,8 +93,8 @@ impl Wedge {
     }
 }
 
-/// Returns how far column and pocket must move apart, each along the x axis of its body, until no corner
-/// penetrates at time zero, m.
+/// Returns the distances by which column and pocket must move apart, each along the x axis of its body, until
+/// no corner penetrates at time zero, m.
 fn touching_shifts(parameters: &Parameters) -> Result<[f64; 2], ModelError> {
     let faces = [&parameters.column_face, &parameters.slope_face];
     let mut shifts = more_shifts(parameters, [0.0; 2])?;
@@ -111,7 +111,7 @@ fn touching_shifts(parameters: &Parameters) -> Result<[f64; 2], ModelError> {
 /// Corrections of a touching start over curved counterfaces.
 const CORRECTIONS: usize = 4;
 
-/// Returns how much farther they must move apart.
+/// Returns the further distances by which they must move apart.
 fn more_shifts(parameters: &Parameters, shifts: [f64; 2]) -> Result<[f64; 2], ModelError> {
     let mut system = System::new(model(parameters, shifts))?;
     let start = system.initial_state();

@@ -123,7 +123,7 @@ impl Rectangle {
         libm::hypot(self.upper[0] - self.lower[0], self.upper[1] - self.lower[1])
     }
 
-    /// Returns how far a point lies from the middle, up and to the left, m.
+    /// Returns the offsets of a point from the middle, up and to the left, m.
     #[must_use]
     pub fn distances(&self, point: &GridPoint) -> (f64, f64) {
         (self.length() * (point.up - 0.5), 0.5 * self.width * point.across)
@@ -196,7 +196,7 @@ impl FaceProperties {
         self.counterface.profile.is_flat() && self.counterface_wear.is_none()
     }
 
-    /// Returns what part of the face (m²) each of its points stands for.
+    /// Returns the area of the face (m²) that each of its points stands for.
     #[must_use]
     pub fn areas(&self, face: &Rectangle) -> Vec<f64> {
         let area = face.length() * face.width;

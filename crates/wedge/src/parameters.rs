@@ -266,7 +266,7 @@ impl Parameters {
         })
     }
 
-    /// Returns how far a wedge with worn faces stands above an unworn one when both touch column and slope,
+    /// Returns the height of a wedge with worn faces above an unworn one when both touch column and slope,
     /// bolster and side frame being where they were, m: `(w_c cos θ + w_s cos φ) / sin(θ + φ)` with the
     /// depths of wear w_c and w_s.
     ///

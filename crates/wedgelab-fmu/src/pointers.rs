@@ -1,4 +1,4 @@
-//! What C means by its pointers and counts: looked at before it is used.
+//! Pointers and counts from C, checked before they are used.
 
 use std::ffi::{CStr, c_char};
 

@@ -142,7 +142,7 @@ pub enum LoadError {
 }
 
 impl LoadError {
-    /// Returns what to do.
+    /// Returns the advice.
     #[must_use]
     pub fn remedy(&self) -> &'static str {
         match self {

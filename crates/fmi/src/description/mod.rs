@@ -195,7 +195,7 @@ impl Description {
         self.variables.get(reference as usize)
     }
 
-    /// Returns the reference of what stands behind a variable.
+    /// Returns the reference of the quantity that a variable shows.
     #[must_use]
     pub fn reference(&self, role: VariableRole) -> Option<u32> {
         self.variables

@@ -213,7 +213,7 @@ fn of_texts(texts: &Texts, settings: &Settings) -> Result<HalfTruckCase, Error> 
     case_of_run(Path::new(name), &files, settings).map_err(|error| Error::new(error.to_string()))
 }
 
-/// Returns how an option says the start of a run.
+/// Returns the text of an option for the start of a run.
 fn start_option(start: HalfTruckStart) -> i32 {
     match start {
         HalfTruckStart::Drawn => 0,

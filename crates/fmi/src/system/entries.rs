@@ -248,7 +248,7 @@ pub(crate) fn internals(system: &System) -> Vec<QuantityEntry> {
         .collect()
 }
 
-/// Returns what a system accumulates, then the work of the loads. Of elements of one name the further ones
+/// Returns the quadratures of a system, then the work of the loads. Of elements of one name the further ones
 /// get a number.
 pub(crate) fn accumulators(system: &System) -> Vec<QuantityEntry> {
     let mut known: BTreeMap<String, usize> = BTreeMap::new();

@@ -23,7 +23,7 @@ pub struct Material {
 /// A kind of mutation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mutation {
-    /// All behind a place is cut off.
+    /// All after a place is cut off.
     Truncate,
     /// A bit is the other one.
     FlipBit,

@@ -41,7 +41,7 @@ const EXTREMES: [&str; 34] = [
     "0x7fffffffffffffff",
 ];
 
-/// Returns the number at or behind some place.
+/// Returns the number at or after some place.
 fn number(bytes: &[u8], random: &mut Random) -> Option<Range<usize>> {
     let from = random.below(bytes.len());
     let first = |range: Range<usize>| range.into_iter().find(|at| bytes[*at].is_ascii_digit());

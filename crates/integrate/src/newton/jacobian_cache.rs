@@ -121,7 +121,7 @@ impl JacobianCache {
         self.point.shift = shift;
     }
 
-    /// Returns where the matrix was evaluated for a saved state, with `dimension` states.
+    /// Returns the linearization point of the matrix for a saved state, with `dimension` states.
     pub fn saved_point(&self, dimension: usize) -> Option<LinearizationPoint> {
         self.filled.then(|| LinearizationPoint {
             x: self.point.x[..dimension].to_vec(),

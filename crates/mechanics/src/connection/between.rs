@@ -97,7 +97,7 @@ impl Reference {
 }
 
 impl<const D: usize> Between<D> {
-    /// Returns where a connection between markers on two bodies (their numbers) acts.
+    /// Returns the geometry of a connection between markers on two bodies (their numbers).
     pub(super) fn new(
         coordinates: [usize; D],
         numbers: [usize; 2],
@@ -176,7 +176,7 @@ impl<const D: usize> Between<D> {
         self.levers([positions[self.ends[0].body], positions[self.ends[1].body]])
     }
 
-    /// Returns what changes with the coordinates, at forces along the extensions.
+    /// Returns the derivatives of the geometry by the coordinates, at forces along the extensions.
     pub(super) fn change(&self, positions: &[[f64; 6]], rates: &[[f64; 6]], forces: &[f64]) -> Change<D> {
         // By the six angles; a displacement changes no lever but those of angles, as they change its own.
         let seeded = |end: usize| -> [Dual<6>; 6] {

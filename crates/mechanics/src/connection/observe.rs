@@ -53,7 +53,7 @@ impl Connections {
         }
     }
 
-    /// Returns what a wedge does inside, and the rates of its strokes.
+    /// Returns the internal state of a wedge, and the rates of its strokes.
     fn inside(
         &self,
         wedge: &Spatial<WedgeLaw>,

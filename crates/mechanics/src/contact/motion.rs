@@ -14,7 +14,7 @@ use crate::vector::{Matrix, Vector};
 pub(crate) trait FaceMotion {
     /// Whether the surface is curved: then it has a normal for each point, in a [`Bend`].
     const CURVED: bool;
-    /// Returns the contact kinematics of four points, and writes what the surface is like there.
+    /// Returns the contact kinematics of four points, and writes the local geometry of the surface there.
     fn kinematics(&self, block: &PointBlock, bend: Option<&mut Bend<Lanes>>) -> PointKinematics<Lanes>;
     /// Returns the wrench on the body: forces along the marker's axes, moments (body axes), losses in
     /// friction and in contact damping.

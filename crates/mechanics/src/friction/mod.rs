@@ -26,7 +26,7 @@ pub enum FrictionLaw {
 }
 
 impl FrictionLaw {
-    /// Returns how many internal states a contact point has under this law.
+    /// Returns the number of internal states of a contact point under this law.
     #[must_use]
     pub fn states_per_point(&self) -> usize {
         match self {

@@ -1,4 +1,4 @@
-//! What is looked at in a system, and the limits that follow from its geometry at the start.
+//! The quantities checked in a system, and the limits that follow from its geometry at the start.
 
 use super::{
     FindingKind, LARGEST_COMPRESSION_SHARE, LARGEST_SMALL_ANGLE, LARGEST_TILT, LIFTED_SHARE, Location,
@@ -32,7 +32,7 @@ pub(super) struct FaceStart {
     pub weight: f64,
 }
 
-/// All that is looked at, in the order in which [`super::Plausibility::note`] finds the values.
+/// All checks, in the order in which [`super::Plausibility::note`] finds the values.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Checks {
     pub all: Vec<PlausibilityCheck>,

@@ -111,7 +111,7 @@ impl FindingKind {
         }
     }
 
-    /// Returns what kind of quantity value and limit are.
+    /// Returns the kind of quantity of value and limit.
     #[must_use]
     pub fn quantity(self) -> Kind {
         match self {
@@ -123,7 +123,7 @@ impl FindingKind {
         }
     }
 
-    /// Returns what to do, in terms that hold for any model.
+    /// Returns the advice, in terms that hold for any model.
     #[must_use]
     pub fn advice(self) -> &'static str {
         match self {

@@ -73,7 +73,7 @@ impl PlausibilityRecord {
     }
 }
 
-/// Observes a run at its output times, and finds what is implausible in it.
+/// Observes a run at its output times, and finds implausible values in it.
 #[derive(Clone, Debug)]
 pub struct Plausibility {
     checks: Checks,
@@ -107,7 +107,7 @@ impl Plausibility {
         (fits && record.is_sound()).then_some(Self { checks, record })
     }
 
-    /// Returns what was seen so far.
+    /// Returns the record so far.
     #[must_use]
     pub fn record(&self) -> &PlausibilityRecord {
         &self.record
@@ -171,7 +171,7 @@ impl Plausibility {
         self.record.rows += 1;
     }
 
-    /// Returns what is implausible, by kind of element and place; `balance` is the run's energy balance, and
+    /// Returns the findings, by kind of element and place; `balance` is the run's energy balance, and
     /// `interval` its output interval, s.
     #[must_use]
     pub fn findings(

@@ -338,8 +338,8 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
     })
 }
 
-/// Returns where the derivatives of each body are gathered: first those of free bodies, then those of
-/// carriers.
+/// Returns the places at which the derivatives of each body are gathered: first those of free bodies, then
+/// those of carriers.
 fn gathered_at(free_number: &[Option<usize>], carriers: &[[usize; 2]], free: usize) -> Vec<usize> {
     let mut places: Vec<usize> = free_number.iter().map(|number| number.unwrap_or(0)).collect();
     for (i, [carrier, _]) in carriers.iter().enumerate() {

@@ -67,7 +67,7 @@ impl FreeBody {
         }
     }
 
-    /// Returns how many angles are free.
+    /// Returns the number of free angles.
     #[inline(always)]
     pub(super) fn angles(&self) -> usize {
         self.free.len() - self.translations

@@ -40,7 +40,7 @@ pub enum EnergyTermKind {
     ElementWork,
     /// Energy lost in dampers of springs.
     SpringDamping,
-    /// Energy lost behind gaps.
+    /// Energy lost in dampers in series with gaps.
     GapDamping,
     /// Energy lost in surface friction.
     SurfaceFriction,

@@ -172,7 +172,7 @@ impl Observation {
 }
 
 impl System {
-    /// Returns what the energy balance of a run takes from an observation, where the stored energy at the
+    /// Returns the energies of an observation for the energy balance of a run, where the stored energy at the
     /// start was `start` (J).
     #[must_use]
     pub fn ledger_entries(&self, seen: &Observation, start: f64) -> Entries {

@@ -29,7 +29,7 @@ impl System {
         self.bodies[body].mass * self.gravity.dot::<f64, f64>(self.gravity).sqrt()
     }
 
-    /// Returns how many force elements of other kinds there are.
+    /// Returns the number of force elements of other kinds.
     pub(crate) fn element_count(&self) -> usize {
         self.elements.len()
     }

@@ -22,7 +22,7 @@ pub enum Wrap {
 /// Takes values from a section.
 pub struct Fields<'a, 'f> {
     pub cursor: Cursor<'a>,
-    /// Behind the token that was looked at last.
+    /// The place after the token that was read last.
     ahead: Cursor<'a>,
     pub findings: &'f mut Findings,
     text: &'a str,
@@ -177,7 +177,7 @@ impl<'a, 'f> Fields<'a, 'f> {
         }
     }
 
-    /// Goes behind the token that was looked at.
+    /// Advances past the token that was read.
     fn accept(&mut self, token: Token) {
         self.cursor = self.ahead;
         self.start.get_or_insert(token.span);

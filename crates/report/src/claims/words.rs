@@ -1,4 +1,4 @@
-//! The words of predicates: quantities, and times at which they are looked at.
+//! The words of predicates: quantities, and times at which they are evaluated.
 //!
 //! All times are after the first half period of the bolster's motion, in which the wedge settles, unless a
 //! word says otherwise. They are known by the bolster's phase: its displacement over its amplitude, its speed

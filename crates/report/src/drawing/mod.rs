@@ -202,7 +202,7 @@ impl Figure {
     }
 }
 
-/// Puts title and description, which readers of screens tell, behind the first tag.
+/// Puts title and description, which screen readers read, after the first tag.
 fn describe(svg: &str, title: &str, caption: &str) -> String {
     let escape = |text: &str| {
         text.replace('&', "&amp;")

@@ -117,7 +117,7 @@ pub fn axis(name: &str, kind: Kind, units: Units) -> String {
     }
 }
 
-/// Returns a title behind a name.
+/// Returns a title after a name.
 pub(crate) fn lowered(title: &str) -> String {
     let mut letters = title.chars();
     letters.next().map_or(String::new(), |first| {

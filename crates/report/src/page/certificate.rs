@@ -388,7 +388,7 @@ fn files() -> Markup {
     }
 }
 
-/// Returns what is worst in a run: its time and what it is, of the limit that is kept least.
+/// Returns the worst value of a run with its time, that of the limit that is kept least.
 #[must_use]
 pub fn worst_second(certificate: &Certificate, regime: usize, run: &CarRun) -> Option<(f64, String)> {
     let summary = &run.result.summary;

@@ -7,7 +7,7 @@ use wheelrail::contact::CreepLaw;
 use super::CarCase;
 use crate::truck::assumptions::of_kinds;
 
-/// Returns the assumptions behind a run.
+/// Returns the assumptions of a run.
 pub(super) fn of(case: &CarCase) -> Vec<String> {
     let p = &case.parameters;
     let mut list = vec![

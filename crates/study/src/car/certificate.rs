@@ -145,7 +145,7 @@ impl Certificate {
         without.map(|regime| regime.name.as_str()).collect()
     }
 
-    /// Returns what a run says of the limits.
+    /// Returns the verdicts of a run on the limits.
     #[must_use]
     pub fn assess(&self, values: &[Option<Value>], record: &Record) -> Assessed {
         let value = |name: &str| {
@@ -249,7 +249,7 @@ impl LimitVerdict {
     }
 }
 
-/// Returns how each limit is kept, by regime, condition and limit.
+/// Returns the verdicts on the limits, by regime, condition and limit.
 #[must_use]
 pub fn verdicts(runs: &[Assessed]) -> Vec<LimitVerdict> {
     let mut found: Vec<LimitVerdict> = Vec::new();

@@ -20,7 +20,7 @@ const SMALL_RISE: f64 = 0.05 * INCH;
 /// cars name (remembered).
 const LEAST_RADIUS: f64 = 150.0 * FOOT;
 
-/// Notes what is wrong. Returns what is doubtful.
+/// Notes the mistakes. Returns the doubts.
 pub(super) fn all(
     r: &mut CaseReader<'_>,
     parameters: &Parameters,

@@ -45,7 +45,7 @@ impl CarTable {
         &self.columns.columns
     }
 
-    /// Returns how many columns at the beginning have fixed names: all up to the wedges.
+    /// Returns the number of columns at the beginning with fixed names: all up to the wedges.
     #[must_use]
     pub fn fixed(&self) -> usize {
         self.columns.fixed

@@ -179,7 +179,7 @@ impl Limit {
         Some((check, worst.time))
     }
 
-    /// Returns by how much a value in its unit keeps it, in parts of it: negative where it does not.
+    /// Returns the margin of a value in its unit, in parts of the limit: negative where it does not.
     #[must_use]
     pub fn margin(&self, value: f64) -> f64 {
         let left = match self.bound {

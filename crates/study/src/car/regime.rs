@@ -170,7 +170,7 @@ impl Regime {
         regime.ok_or_else(|| failed(problems))
     }
 
-    /// Returns what is set over a car's case at a speed, as `--set` takes it.
+    /// Returns the settings over a car's case at a speed, as `--set` takes them.
     ///
     /// # Errors
     /// The speed lies outside the range that the track bears.
@@ -183,7 +183,7 @@ impl Regime {
         Ok(settings)
     }
 
-    /// Returns what is set over a car's case at every speed.
+    /// Returns the settings over a car's case at every speed.
     #[must_use]
     pub fn everywhere(&self) -> Vec<String> {
         let mut settings = vec![
@@ -194,7 +194,8 @@ impl Regime {
         settings
     }
 
-    /// Returns what depends on the speed: first that, then the duration, and how much of it is settling.
+    /// Returns the settings that depend on the speed: first the speed, then the duration, and how much of it
+    /// is settling.
     ///
     /// # Errors
     /// The speed lies outside the range that the track bears.

@@ -63,7 +63,7 @@ pub(super) fn track(r: &mut CaseReader<'_>) -> Option<(Track, Support)> {
     found
 }
 
-/// Returns what a key of a track file means, in short.
+/// Returns the meaning of a key of a track file, in short.
 fn meaning(key: &str) -> &'static str {
     match key {
         "segments" => "one after the other: tangent, spiral, curve",

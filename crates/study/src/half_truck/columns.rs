@@ -17,7 +17,7 @@ impl Columns {
         Self(OutputTable::new(case, system))
     }
 
-    /// Returns what the columns are.
+    /// Returns the descriptions of the columns.
     #[must_use]
     pub fn columns(&self) -> &[Column] {
         &self.0.columns

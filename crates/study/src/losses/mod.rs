@@ -171,7 +171,7 @@ impl LossRecorder {
         self.counts.last.copy_from_slice(quadratures);
     }
 
-    /// Returns where the integrals of the powers of a part, point and contact state begin.
+    /// Returns the index of the first integral of the powers of a part, point and contact state.
     fn first_power(&self, part: usize, point: usize, state: ContactState) -> usize {
         ((part * self.points + point) * STATES.len() + state as usize) * KINDS
     }

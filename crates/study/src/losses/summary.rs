@@ -157,7 +157,7 @@ impl EnergySummary {
         (distance > 0.0).then(|| SummaryValue::new(force, Kind::Force, units))
     }
 
-    /// Returns what enters less what is stored and lost, from the entries alone, in their unit. If an entry
+    /// Returns the inflow less the stored and lost energy, from the entries alone, in their unit. If an entry
     /// is left out it is as large as that.
     #[must_use]
     pub fn balance(&self) -> f64 {

@@ -168,7 +168,7 @@ impl<'r> CaseReader<'r> {
         })
     }
 
-    /// Takes note of a key. Returns what stands there.
+    /// Takes note of a key. Returns the node there.
     fn node(&mut self, key: &'static str) -> Option<&'r TreeNode> {
         if let Some((_, keys)) = self.known.last_mut() {
             keys.push(key);

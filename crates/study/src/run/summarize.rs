@@ -198,7 +198,7 @@ fn on_bolster(run: &Run<Case>) -> Option<FirstHarmonic> {
     )
 }
 
-/// Returns where the energy of a cycle goes.
+/// Returns the losses of a cycle.
 fn energies(run: &Run<Case>, on_bolster: Option<FirstHarmonic>) -> EnergySummary {
     let units = run.case.simulation.output_units;
     let Some(cycle) = Cycle::of(&run.case.parameters) else {

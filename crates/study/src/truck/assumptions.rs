@@ -30,7 +30,7 @@ pub(crate) fn of_kinds(wedges: &[Wedge]) -> Vec<String> {
     list
 }
 
-/// Returns the assumptions behind a run.
+/// Returns the assumptions of a run.
 pub(super) fn of(case: &TruckCase) -> Vec<String> {
     let p = &case.parameters;
     let [wedge, ..] = &p.wedges;

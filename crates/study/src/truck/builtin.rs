@@ -24,7 +24,7 @@ struct Rig {
 }
 
 impl Rig {
-    /// Returns a rig with its name (behind `truck_`) and title.
+    /// Returns a rig with its name (after `truck_`) and title.
     fn new(
         damping: &'static str,
         (name, title): (&str, String),

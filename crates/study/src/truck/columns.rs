@@ -53,7 +53,7 @@ impl TruckTable {
         &self.columns.columns
     }
 
-    /// Returns how many columns at the beginning have fixed names: time, bolster, warp, nests, wedges.
+    /// Returns the number of columns at the beginning with fixed names: time, bolster, warp, nests, wedges.
     #[must_use]
     pub fn fixed(&self) -> usize {
         self.columns.fixed

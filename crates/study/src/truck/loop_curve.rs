@@ -36,7 +36,7 @@ impl LoopKind {
         }
     }
 
-    /// Returns what resists, SI: positive where it opposes a positive motion.
+    /// Returns the resistance, SI: positive where it opposes a positive motion.
     fn resistance(self, result: &TruckResult) -> Vec<f64> {
         let column = |name: &str| result.column(name).unwrap_or_default();
         match self {

@@ -78,8 +78,8 @@ pub struct Cycles {
 }
 
 impl Cycles {
-    /// Returns what friction takes at a wedge's face (`column` or `slope`) in a cycle, output units, whether
-    /// the wedge is a body, two halves, or has no mass.
+    /// Returns the energy that friction takes at a wedge's face (`column` or `slope`) in a cycle, output
+    /// units, whether the wedge is a body, two halves, or has no mass.
     #[must_use]
     pub fn loss_at(&self, wedge: &str, face: &str) -> Option<f64> {
         let [outboard, inboard] = HALVES.map(|half| format!("{wedge}_{half}_{face}_friction_loss"));
@@ -92,8 +92,8 @@ impl Cycles {
         found.or_else(|| Some(self.losses.get(&outboard)?.value + self.losses.get(&inboard)?.value))
     }
 
-    /// Returns what friction takes at both faces of these wedges in a cycle, output units; `None` without
-    /// whole cycles.
+    /// Returns the energy that friction takes at both faces of these wedges in a cycle, output units; `None`
+    /// without whole cycles.
     #[must_use]
     pub fn loss_of_wedges(&self, wedges: &[&str]) -> Option<f64> {
         let faces = wedges
@@ -107,8 +107,8 @@ impl Cycles {
 /// The angles at which warp stiffness is reported, mrad.
 pub const WARP_ANGLES: [f64; 6] = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0];
 
-/// Returns how a moment, or a part of it (N·m), grows until the rows reach a warp angle (rad) first, in
-/// either sense; positive where it resists, for on the bolster it has the sign of the warp angle then.
+/// Returns the growth of a moment, or of a part of it (N·m), until the rows reach a warp angle (rad) first,
+/// in either sense; positive where it resists, for on the bolster it has the sign of the warp angle then.
 /// Straight between two rows, from the values at the row before the warp begins: what is there before any
 /// warp is no part of its stiffness. `None` if the rows do not reach it.
 #[must_use]

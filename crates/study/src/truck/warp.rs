@@ -58,7 +58,7 @@ pub struct WarpCurve {
 }
 
 impl WarpCurve {
-    /// Returns what a run of a case says of warp. `None` if the warp angle stays below 0.5 mrad.
+    /// Returns the warp stiffness of a case's run. `None` if the warp angle stays below 0.5 mrad.
     #[must_use]
     pub fn of(case: &TruckCase, result: &TruckResult) -> Option<Self> {
         let period = period(&case.parameters);

@@ -199,7 +199,7 @@ impl<'l> Counterfaces<'l> {
         }
     }
 
-    /// Returns what is worn, over the maps that a case has from the start.
+    /// Returns the wear beyond the maps that a case has from the start.
     pub fn wear(&self, case: &Case) -> [CounterfaceWear; FACES.len()] {
         let faces = super::faces(case);
         [0, 1].map(|face| CounterfaceWear {

@@ -65,7 +65,7 @@ impl CycleWork {
         self.points[face].iter().map(|point| point.impulse).sum::<f64>() / self.period
     }
 
-    /// Returns by how much the energies of the points miss the losses of the ledger, relative to these.
+    /// Returns the difference of the points' energies from the losses of the ledger, relative to these.
     #[must_use]
     pub fn mismatch(&self) -> f64 {
         let points = self
@@ -183,7 +183,7 @@ impl CycleWork {
 /// The sign of the marker's axis z up each face: that of the slope points down.
 const UPWARDS: [f64; FACES.len()] = [1.0, -1.0];
 
-/// Returns what a point does in a time of 1 s.
+/// Returns the work of a point in a time of 1 s.
 fn of_point(point: &PointContact<f64>) -> PointWork {
     let [a, b] = point.slip;
     let speed = (a * a + b * b).sqrt();

@@ -259,7 +259,7 @@ fn faces(case: &Case) -> [&FaceProperties; FACES.len()] {
     [&case.parameters.column_face, &case.parameters.slope_face]
 }
 
-/// Returns what part of its face each point stands for, m².
+/// Returns the area of the face that each point stands for, m².
 fn areas(case: &Case) -> [Vec<f64>; FACES.len()] {
     let rectangles = case.parameters.rectangles();
     let faces = faces(case);

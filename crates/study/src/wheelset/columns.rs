@@ -42,7 +42,7 @@ const WHOLE: [(&str, Kind, &str); 8] = [
     ),
     ("spin", Kind::Angle, "angle of the spin about the axle"),
 ];
-/// Columns of a wheel, behind its side.
+/// Columns of a wheel, after its side.
 const WHEEL: [(&str, Kind, &str); 8] = [
     (
         "vertical_force",
@@ -152,7 +152,7 @@ impl RigReader {
     /// Returns the reader of a rig, whose wheels have a nominal radius (m).
     #[must_use]
     pub fn new(rig: Rig, setup: Setup, radius: f64) -> Self {
-        // The carriage comes first, then each wheel behind its sprung rail.
+        // The carriage comes first, then each wheel after its sprung rail.
         let elements = if setup.support.is_some() { [2, 4] } else { [1, 2] };
         Self {
             rig,

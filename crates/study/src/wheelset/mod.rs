@@ -149,7 +149,7 @@ pub enum WheelsetError {
 }
 
 impl WheelsetError {
-    /// Returns what to do.
+    /// Returns the advice.
     #[must_use]
     pub fn remedy(&self) -> String {
         let words = match self {
@@ -223,7 +223,7 @@ impl WheelsetCase {
             .find(|[_, frequency]| (low..high).contains(frequency))
     }
 
-    /// Returns what the numbers rest on, in words.
+    /// Returns the assumptions in words.
     #[must_use]
     pub fn assumptions(&self) -> Vec<String> {
         let own = &self.wheelset;

@@ -1,7 +1,7 @@
 //! Running a wheelset.
 //!
-//! At each output time it is looked at where the wheels stand. A wheel on the tip of its flange, on the edge
-//! of its rim or off its rail has derailed: the run ends there, and this is its result.
+//! At each output time the seats of the wheels are checked. A wheel on the tip of its flange, on the edge of
+//! its rim or off its rail has derailed: the run ends there, and this is its result.
 
 use std::collections::BTreeMap;
 

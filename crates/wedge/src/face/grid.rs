@@ -47,7 +47,7 @@ pub struct GridPoint {
 }
 
 impl Grid {
-    /// Returns how many points it has.
+    /// Returns the number of its points.
     #[must_use]
     pub fn count(self) -> usize {
         self.up * self.across

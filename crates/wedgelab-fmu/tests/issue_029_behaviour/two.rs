@@ -34,7 +34,7 @@ unsafe extern "C" fn note(
 /// Returns the callbacks of an importer, with a logger.
 pub fn callbacks(log: &Log) -> CallbackFunctions {
     CallbackFunctions {
-        // The one argument behind the format lies where a sixth one does.
+        // The one argument after the format lies where a sixth one does.
         logger: Some(unsafe { std::mem::transmute::<Fixed, Variadic>(note) }),
         allocate_memory: None,
         free_memory: None,

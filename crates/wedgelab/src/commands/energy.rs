@@ -152,7 +152,7 @@ fn energy_of<C: RunFiles>(
     Ok((energy(summary), case.units()))
 }
 
-/// Returns what `run` tells of the energy of a cycle, in a few lines; `None` if there is none.
+/// Returns the lines of `run` about the energy of a cycle; `None` if there is none.
 pub fn in_short(energy: &EnergySummary) -> Option<String> {
     const MOST: usize = 4;
     let flow = PowerFlow::of(energy)?;

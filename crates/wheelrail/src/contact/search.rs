@@ -203,7 +203,8 @@ impl ContactPair {
         found
     }
 
-    /// Returns where the rigid profiles overlap most, or are closest; none if the wheel is not over the rail.
+    /// Returns the place where the rigid profiles overlap most, or are closest; none if the wheel is not over
+    /// the rail.
     #[must_use]
     pub fn touch(&self, pose: &WheelPose<f64>) -> Option<RigidTouch> {
         let frame = Frame::new(pose);

@@ -281,7 +281,7 @@ impl RailSection {
         Ok(section)
     }
 
-    /// Returns where it begins and ends, m.
+    /// Returns its beginning and end, m.
     pub fn range(&self) -> [f64; 2] {
         [self.knots[0], self.knots[self.cells.len()]]
     }

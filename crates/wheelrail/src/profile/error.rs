@@ -165,7 +165,7 @@ pub enum ProfileError {
 }
 
 impl ProfileError {
-    /// Returns what to do.
+    /// Returns the remedy.
     #[must_use]
     pub fn remedy(&self) -> String {
         match self {

@@ -155,7 +155,7 @@ impl Profile {
         self.note
     }
 
-    /// Returns how far the curve lies from the points it was made of; zero for lines and arcs.
+    /// Returns the largest distance of the curve from the points it was made of; zero for lines and arcs.
     #[must_use]
     pub fn deviation(&self) -> Deviation {
         self.deviation

@@ -76,7 +76,7 @@ impl Points {
         parse(&path.display().to_string(), &text)
     }
 
-    /// Returns where a point stands.
+    /// Returns the place of a point.
     #[must_use]
     pub fn place(&self, point: usize) -> ProfilePlace {
         ProfilePlace::line(&self.name, self.lines[point])

@@ -68,7 +68,7 @@ pub struct RailPlace {
 }
 
 impl Track {
-    /// Returns how the left and the right rail lie at a distance (m).
+    /// Returns the displacements of the left and the right rail at a distance (m).
     #[must_use]
     pub fn rails(&self, distance: f64) -> [RailPlace; 2] {
         let mut rails = [RailPlace::default(); 2];

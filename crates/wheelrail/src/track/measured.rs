@@ -90,7 +90,7 @@ pub enum MeasuredError {
 }
 
 impl MeasuredError {
-    /// Returns what to do.
+    /// Returns the remedy.
     #[must_use]
     pub fn remedy(&self) -> String {
         match self {

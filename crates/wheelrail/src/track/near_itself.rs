@@ -13,7 +13,7 @@ impl CenterLine {
     /// where there are none: then every place on the track has one foot, which
     /// [`RailLines`](super::RailLines) finds.
     ///
-    /// What lies beyond start and end is not looked at.
+    /// Parts beyond start and end are not considered.
     #[must_use]
     pub fn near_itself(&self) -> Option<[f64; 2]> {
         let count = (self.length() / STRIDE).ceil() as usize + 1;

@@ -224,8 +224,8 @@ impl Made {
         })
     }
 
-    /// Returns how far an inclined column is moved away (m), so that corners of the upright face just touch
-    /// it.
+    /// Returns the distance by which an inclined column is moved away (m), so that corners of the upright
+    /// face just touch it.
     fn gap(&self) -> f64 {
         0.5 * self.wedge.height * libm::sin(self.wedge.toe).abs()
     }

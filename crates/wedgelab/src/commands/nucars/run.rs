@@ -255,7 +255,7 @@ impl Arguments {
     }
 }
 
-/// Returns what is chosen where the files leave something open.
+/// Returns the choices where the files leave something open.
 pub fn choices(yaw: Option<YawArgument>, typed: &[String]) -> Result<Choices, Message> {
     let mut choices = Choices {
         yaw: match yaw {
