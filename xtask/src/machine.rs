@@ -1,4 +1,4 @@
-//! Where and when something is measured: what stands beside every number on a page.
+//! Machine and date of a measurement, which stand beside every number on a page.
 
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};

@@ -1,4 +1,4 @@
-//! Where the workspace lies, and how other programs are started in it.
+//! The place of the workspace, and the start of other programs in it.
 
 use std::env;
 use std::ffi::OsStr;

@@ -1,4 +1,4 @@
-//! How parameters become a car, and where it starts.
+//! Assembly of a car from its parameters, and its start.
 //!
 //! The model is put together in the nominal layout on straight track, along the fixed axes; so elements
 //! know where on their bodies they act. Then the bodies are moved to where they start. Those that do not

@@ -1,4 +1,4 @@
-//! What keeps a car moving: a force on the car body along the track, proportional to what lacks in speed.
+//! The drive of a car: a force on the car body along the track, proportional to what lacks in speed.
 //!
 //! Marker A is on the car body at the height of the couplers, marker B the origin of the track's fixed
 //! axes. With the velocity v of A along the track where A is, and the speed V that is wanted there, `F =

@@ -1,4 +1,4 @@
-//! What can be wrong with a car.
+//! Errors in the parameters of a car.
 
 use mechanics::system::{ModelError, NoEquilibrium};
 use thiserror::Error;

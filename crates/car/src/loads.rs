@@ -1,5 +1,4 @@
-//! What one sees of a car at a state: forces of the wheels, places on the track, accelerations, and its
-//! trucks.
+//! Observation of a car at a state: forces of the wheels, places on the track, accelerations, and its trucks.
 //!
 //! Signs: the *vertical* force of a wheel is that on the rail, along the normal of the track's plane,
 //! positive down; the *lateral* one lies in that plane, positive where it spreads the gauge; the

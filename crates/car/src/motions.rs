@@ -1,4 +1,4 @@
-//! Where the bodies of a car are on its track: what a picture of it needs beyond [`crate::Loads`].
+//! Poses of the bodies of a car on its track, for pictures of it, beyond [`crate::Loads`].
 //!
 //! Each is given in the axes of the track (forward, left, up) at the foot of a place on the center line:
 //! the body at its center of gravity, a truck at that of its bolster. Displacements are those of centers of

@@ -1,4 +1,4 @@
-//! Where a car starts: the equilibrium at rest on straight track, moved along the track.
+//! The start of a car: the equilibrium at rest on straight track, moved along the track.
 
 use std::sync::Arc;
 

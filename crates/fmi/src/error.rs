@@ -1,4 +1,4 @@
-//! What an instance says when it cannot do what it is asked.
+//! Errors of calls that an instance refuses or fails to do.
 
 use input::bounded;
 use thiserror::Error;

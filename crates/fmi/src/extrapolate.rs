@@ -1,4 +1,4 @@
-//! Where inputs are at the end of a communication step, from what is known at its beginning.
+//! Extrapolation of inputs to the end of a communication step, from their values at its beginning.
 
 use crate::element::QuantityEntry;
 

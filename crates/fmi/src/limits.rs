@@ -1,4 +1,4 @@
-//! How much is read of what others have written, and the ways to read no more.
+//! Limits of reading files that others have written.
 //!
 //! The numbers are those of all readers ([`input::limits`]): far beyond what this program writes, and far
 //! below what fills a memory.

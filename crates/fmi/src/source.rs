@@ -1,4 +1,4 @@
-//! What an FMU is made of, and the file in its resources that says so.
+//! The source of an FMU, and the file in its resources that names it.
 
 use study::car::CarCase;
 use study::case::Case;

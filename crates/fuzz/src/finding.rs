@@ -1,4 +1,4 @@
-//! What breaks a promise.
+//! Findings: inputs that break a promise.
 
 use std::collections::BTreeMap;
 

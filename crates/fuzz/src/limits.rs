@@ -1,4 +1,4 @@
-//! What readers promise, in numbers.
+//! The promises of readers in numbers.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! What a worker counts, in a small file that outlives it.
+//! The counts of a worker, in a small file that outlives it.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};

@@ -1,4 +1,4 @@
-//! What a file seems to be, from its first bytes.
+//! The type of a file, from its first bytes.
 
 /// A type of file that users have around Wedgelab.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

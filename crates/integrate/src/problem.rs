@@ -1,4 +1,4 @@
-//! What an integrator needs to know about a problem.
+//! The functions of a problem that an integrator needs.
 
 use crate::discontinuity::DiscontinuityFunctions;
 use crate::event::EventGroup;

@@ -1,4 +1,4 @@
-//! What a half-truck with 18 coordinates and 50 connections costs: right-hand side, Jacobian, factorization,
+//! The cost of a half-truck with 18 coordinates and 50 connections: right-hand side, Jacobian, factorization,
 //! solution, a run.
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 

@@ -1,4 +1,4 @@
-//! What is wrong or doubtful with a file, where, and what to write instead.
+//! Findings: mistakes and doubts about a file, with place and advice.
 
 use std::fmt;
 use std::sync::Arc;

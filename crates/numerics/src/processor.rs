@@ -1,4 +1,4 @@
-//! Whether the processor has the instructions that the program was compiled for.
+//! Check that the processor has the instructions that the program was compiled for.
 //!
 //! The repository's `.cargo/config.toml` compiles for processors of the kind x86-64-v3 (AVX2; Intel since
 //! 2013, AMD since 2015). On an older one such a program would be stopped by the system at its first vector

@@ -1,4 +1,4 @@
-//! What can be wrong with the text of a quantity.
+//! Errors in the text of a quantity.
 
 use crate::{Dimension, Kind, System};
 use std::ops::Range;

@@ -1,4 +1,4 @@
-//! What a number stands for, and what it is called in each system of units.
+//! Kinds of quantities, and their names and units in each system of units.
 
 use crate::Dimension;
 use crate::units::{FOOT, INCH, MILE_PER_HOUR, POUND, POUND_FORCE, STANDARD_GRAVITY};

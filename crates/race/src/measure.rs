@@ -1,4 +1,5 @@
-//! What the states of a run say, computed by one program for all solvers, and how far two runs differ.
+//! Quantities of the states of a run, computed by one program for all solvers, and the differences of two
+//! runs.
 
 use study::metrics::{Cycle, mean};
 use wedge::outputs::Outputs;

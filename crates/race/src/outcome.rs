@@ -1,4 +1,4 @@
-//! What a solver reports of one run: the line of JSON that every driver prints, and the file of its states.
+//! The report of a solver on one run: the line of JSON that every driver prints, and the file of its states.
 
 use std::io::{self, Write};
 use std::path::Path;

@@ -1,5 +1,5 @@
-//! What a certificate says, as files: a table with a row each run and limit, as Parquet and CSV, and all of
-//! it as JSON.
+//! The files of a certificate: a table with a row each run and limit, as Parquet and CSV, and all of it as
+//! JSON.
 
 use std::borrow::Cow;
 use std::io::{self, Write};

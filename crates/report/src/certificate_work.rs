@@ -1,4 +1,4 @@
-//! What is made of a certificate's runs when all are kept: tables, the worst run of each regime, the page.
+//! The evaluation of a certificate's runs when all are kept: tables, the worst run of each regime, the page.
 
 use std::collections::VecDeque;
 use std::io;

@@ -1,4 +1,4 @@
-//! How the report is divided: which figures belong together, and what is said before them.
+//! The sections of the report: figures that belong together, and the text before them.
 
 use study::case::builtin;
 use wedge::parameters::Damping;

@@ -1,4 +1,4 @@
-//! What the summary page of a study needs of its rows, gathered in one pass and in memory that does not grow
+//! The digest of a study's rows for its summary page, gathered in one pass and in memory that does not grow
 //! with the study: means over the values of each parameter, and of each pair of parameters.
 
 use mechanics::energy_balance::{DOUBTFUL, Verdict};

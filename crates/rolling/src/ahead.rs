@@ -1,4 +1,4 @@
-//! Where a body is a moment later: numbers whose derivative is the rate along the motion.
+//! The pose of a body along its motion: numbers whose derivative is the rate along the motion.
 
 use mechanics::link::RelativeMotion;
 use mechanics::vector::Vector;

@@ -1,4 +1,4 @@
-//! Where a wheel stands: on its rail, on the tip of its flange, on the edge of its rim, or beside the rail.
+//! The seat of a wheel: on its rail, on the tip of its flange, on the edge of its rim, or beside the rail.
 //!
 //! By the patch that carries most: its place on the wheel's profile. A wheel without a patch is off its rail
 //! if the point at which the rigid profiles are nearest lies beside the rail's section; else it is lifted,

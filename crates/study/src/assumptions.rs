@@ -1,4 +1,4 @@
-//! What the numbers of a run rest on, in words.
+//! The assumptions of a run in words.
 
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;

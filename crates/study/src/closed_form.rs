@@ -1,4 +1,4 @@
-//! What the quasi-static massless wedge says of a case: reference lines for figures and tests.
+//! The closed form of the quasi-static massless wedge for a case: reference lines for figures and tests.
 //!
 //! The wedge follows the bolster in rigid contact, lifted by its wear, with the frictions of the branch that
 //! rigid kinematics choose (see [`mechanics::quasi_static`]). The coil carries the wedge's weight. Left out:

@@ -1,5 +1,5 @@
-//! What happens at each corner, or each point of a grid, of the wedges that are bodies in a run: taken along
-//! only where it is asked for, since a table of all corners has twice as many columns as the result.
+//! Contact at each corner, or each point of a grid, of the wedges that are bodies in a run: taken along only
+//! where it is asked for, since a table of all corners has twice as many columns as the result.
 
 use std::ops::ControlFlow;
 

@@ -1,5 +1,5 @@
-//! What friction does in each cycle of the bolster: how much of the contact sticks, and the power that wears
-//! the faces.
+//! Friction in each cycle of the bolster: the share of the contact that sticks, and the power that wears the
+//! faces.
 
 use wedge::outputs::FACES;
 

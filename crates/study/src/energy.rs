@@ -1,5 +1,5 @@
-//! What the energy ledger says of a run, in words: the same for runs of wedges and of half-trucks, studies
-//! and fits.
+//! The verdict of the energy ledger on a run, in words: the same for runs of wedges and of half-trucks,
+//! studies and fits.
 //!
 //! The measure and its limits are those of [`mechanics::energy_balance`].
 

@@ -1,5 +1,5 @@
-//! How far a wedge is from locking up: the jam margins of its angles and coefficients of friction, in numbers
-//! and in words.
+//! Margins of a wedge to lock-up: the jam margins of its angles and coefficients of friction, in numbers and
+//! in words.
 //!
 //! They are those of the massless wedge ([`mechanics::quasi_static`]), with the coefficients of rest of the
 //! faces as they are (a pad's where a face has one). Units: rad. Limits: coefficients that depend on speed,

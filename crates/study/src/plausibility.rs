@@ -1,4 +1,5 @@
-//! What is implausible in a run, in words: the same for runs of wedges and of half-trucks, studies and fits.
+//! Findings of implausible values in a run, in words: the same for runs of wedges and of half-trucks, studies
+//! and fits.
 //!
 //! The checks and their limits are those of [`mechanics::plausibility`].
 

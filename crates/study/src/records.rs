@@ -1,4 +1,4 @@
-//! What a study keeps of its variants: records, one a variant, as bytes that survive being cut off.
+//! Records of the variants of a study: records, one a variant, as bytes that survive being cut off.
 //!
 //! A record is written at once and stands for itself, so that files of records may be made by any number of
 //! programs that may die at any moment: a record is there, or what there is of it is recognized as none.

@@ -1,4 +1,4 @@
-//! How parameters become a truck, and where it starts.
+//! Assembly of a truck from its parameters, and its start.
 
 use mechanics::friction::FrictionLaw;
 use mechanics::motion::Motion;

@@ -1,4 +1,4 @@
-//! What a truck's elements do, from an observation of its system.
+//! Loads of a truck's elements, from an observation of its system.
 //!
 //! Signs: the *warp angle* is the mean yaw of the side frames less that of the bolster. The *warp moment*
 //! acts on the bolster, about z through the truck's center. The *inter-axle shear moment* is the axle's

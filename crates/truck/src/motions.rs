@@ -1,4 +1,4 @@
-//! Where the parts of a truck are, and what its wedges' faces exert: what a picture of it needs beyond
+//! Poses of the parts of a truck, and forces of its wedges' faces, for pictures of it, beyond
 //! [`crate::Loads`].
 
 use mechanics::system::{ContactState, FaceState, Observation};

@@ -1,4 +1,4 @@
-//! What came out of a run: columns, summary, and files.
+//! The result of a run: columns, summary, and files.
 
 use std::path::PathBuf;
 use std::sync::Arc;

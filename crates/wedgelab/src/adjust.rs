@@ -1,4 +1,4 @@
-//! What users ask of tables of results before they are used: a span of time, other names of columns.
+//! Adjustments of tables of results before they are used: a span of time, other names of columns.
 
 use clap::Args;
 use report::table::ResultTable;

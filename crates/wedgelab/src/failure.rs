@@ -1,4 +1,4 @@
-//! How the program says that it could not do what it was asked to.
+//! Failures: messages and exit codes of the program.
 
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;

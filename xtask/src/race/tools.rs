@@ -1,4 +1,4 @@
-//! What the race needs: its programs are built, and what they call is installed.
+//! The tools of the race: its programs are built, and the solvers that they call are installed.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};

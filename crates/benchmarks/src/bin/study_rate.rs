@@ -1,5 +1,5 @@
-//! How many yawed runs a study computes in a second on one core, and how far its branch means are from those
-//! of a tight tolerance.
+//! The number of yawed runs that a study computes in a second on one core, and the distance of its branch
+//! means from those of a tight tolerance.
 //!
 //! `study_rate [TOLERANCE] [OUTPUT-INTERVAL] [METHOD] [REPEATS]`, for example
 //! `study_rate 1.5e-5 "0.01 s" tr-bdf2 5` for engineering accuracy. Errors are against relative tolerance

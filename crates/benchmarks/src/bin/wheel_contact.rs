@@ -1,4 +1,4 @@
-//! What an evaluation of the contact of one wheel costs: search or table, normal force, creep forces; and
+//! The cost of an evaluation of the contact of one wheel: search or table, normal force, creep forces; and
 //! what the rails in space and creep laws alone do. Each number is the best of 40 batches: machines are
 //! shared.
 

@@ -1,4 +1,5 @@
-//! What an importer reads: variables in their order, structure, identity; and as `modelDescription.xml`.
+//! The description that an importer reads: variables in their order, structure, identity; and as
+//! `modelDescription.xml`.
 
 mod fmi2;
 mod fmi3;

@@ -1,4 +1,4 @@
-//! Where an instance stands, and what may be called there.
+//! The phases of an instance, and the calls that each admits.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! What the inputs do to a system: loads on bodies, and motions of prescribed bodies.
+//! The effect of inputs on a system: loads on bodies, and motions of prescribed bodies.
 
 use mechanics::motion::Motion;
 use mechanics::system::System;

@@ -6,7 +6,7 @@
 //! where the wedges are, are outputs. These depend on states alone, so that truck and wedges make no
 //! algebraic loop.
 //!
-//! Where wedges are: a wedge has x from the column towards the bolster. Trailing wedges (columns behind the
+//! Axes of wedges: a wedge has x from the column towards the bolster. Trailing wedges (columns behind the
 //! bolster) have the axes of the truck; leading ones are turned by 180° about z: x, y, roll and pitch change
 //! their signs, z and yaw do not. The points that the neighbours of a wedge turn about lie half the length of
 //! the wedge apart, as in the wedge itself, around the point of the connection in the file.

@@ -1,4 +1,4 @@
-//! What attempts of all methods share.
+//! The part of an attempt that all methods share.
 
 use super::Integrator;
 use super::memory::{AttemptFailure, AttemptOutcome};

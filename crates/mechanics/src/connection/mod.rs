@@ -9,9 +9,9 @@
 //! x forward, y left, z up. A connection acts on extensions (displacement of its point on body A less that on
 //! body B, extension positive): a force f in the direction of the extension acts as -f on A and +f on B.
 //!
-//! How connections of the comparison program's files become [`Law`]s (its tables give ordinates first; read
-//! with [`Curve::mirrored_from_origin`](crate::curve::Curve::mirrored_from_origin) as `[abscissa, ordinate]`;
-//! no table: none, or zero):
+//! Conversion of connections of the comparison program's files to [`Law`]s (its tables give ordinates first;
+//! read with [`Curve::mirrored_from_origin`](crate::curve::Curve::mirrored_from_origin) as `[abscissa,
+//! ordinate]`; no table: none, or zero):
 //!
 //! | type | law |
 //! |---|---|

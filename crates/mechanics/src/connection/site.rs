@@ -1,4 +1,4 @@
-//! Where connections act: displacements of a point of a body, linear in its six coordinates.
+//! Geometry of connections: displacements of a point of a body, linear in its six coordinates.
 //!
 //! `u = x + θ lz - ψ ly`, `v = y - φ lz + ψ lx`, `w = z + φ ly - θ lx`; rotations pass through. The offset l
 //! from the center of gravity is that of the drawn layout. Connections between markers: [`super::between`].

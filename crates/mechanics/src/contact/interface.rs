@@ -1,4 +1,4 @@
-//! What a face can have beyond a plane, linear springs and one coefficient of friction: the shape of the
+//! Properties of a face beyond a plane, linear springs and one coefficient of friction: the shape of the
 //! surface that its points touch, friction that depends on slip speed, load and place, a pad that hardens.
 //!
 //! Friction limit of a point with normal force N, slip speed |v|, share w of the face, and factor f of the

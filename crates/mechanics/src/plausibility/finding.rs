@@ -1,4 +1,4 @@
-//! What is implausible, where, when, by how much, and what to do about it.
+//! Findings of implausible values: what, where, when, by how much, and the advice.
 
 use std::fmt;
 

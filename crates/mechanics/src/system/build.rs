@@ -1,4 +1,4 @@
-//! How a model becomes a system: its bodies and elements are numbered, checked and assembled.
+//! Assembly of a system from a model: its bodies and elements are numbered, checked and assembled.
 
 use numerics::partitioned::Partitioned;
 

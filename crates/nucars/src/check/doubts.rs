@@ -1,4 +1,4 @@
-//! What can be computed but is probably not meant.
+//! Warnings of values that can be computed but are probably not meant.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! What trees lack or contradict: in themselves, and together with the files they belong to.
+//! Checks of trees for gaps and contradictions: in themselves, and together with the files they belong to.
 //!
 //! Errors are what NUCARS, or any program, could not make sense of. Warnings are what can be computed and is
 //! probably not meant: each of them is in one of the files printed with the thesis.

@@ -1,4 +1,4 @@
-//! What the files say, typed, with the place of every value.
+//! The contents of files, typed, with the place of every value.
 //!
 //! Values stay as typed, in the files' units: lb, in, s, rad (wedge angles: degrees), masses in lb·s²/in.
 //! Axes: x forward from the leading axle, y to the left, z up from the rail.

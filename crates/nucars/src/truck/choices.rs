@@ -1,4 +1,4 @@
-//! What the files leave open.
+//! Choices that the files leave open.
 
 use mechanics::connection::Options;
 use serde::{Deserialize, Serialize};

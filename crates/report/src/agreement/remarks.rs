@@ -1,5 +1,5 @@
-//! Where the models do not agree, and why, in sentences. The reasons were found by looking at the built-in
-//! runs (contact states, strokes, motions of the bodies); the numbers are those of the runs at hand.
+//! Sentences on where and why the models do not agree. The reasons were found in the built-in runs (contact
+//! states, strokes, motions of the bodies); the numbers are those of the runs at hand.
 
 use quantity::{Kind, System as Units};
 use study::half_truck::catalog::WedgeType;

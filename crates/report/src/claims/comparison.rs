@@ -1,4 +1,5 @@
-//! What chapters 5 to 7 say of the stand-alone wedge against types 6.8 and 6.9 of the comparison program.
+//! Statements of chapters 5 to 7 on the stand-alone wedge against types 6.8 and 6.9 of the comparison
+//! program.
 //!
 //! Decided from *our reading* of these types in the half-truck of the printed files, toe out, wedge 127: with
 //! yaw, the yaw that the files intend. Where a statement speaks of that program's output, a verdict here says

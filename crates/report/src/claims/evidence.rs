@@ -1,4 +1,4 @@
-//! What the claims are decided from: the runs, by what they are (not by what they are called).
+//! The runs from which claims are decided, identified by their parameters, not by their names.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! Why results cannot be compared.
+//! Reasons why results cannot be compared.
 
 use std::path::PathBuf;
 

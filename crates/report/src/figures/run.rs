@@ -1,4 +1,5 @@
-//! What the thesis lacks, for each run: the energy ledger, contact states, corner forces, stick and wear.
+//! Figures that the thesis lacks, for each run: the energy ledger, contact states, corner forces, stick and
+//! wear.
 
 use quantity::Kind;
 use study::cycles::{CycleShare, shares};

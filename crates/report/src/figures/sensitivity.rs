@@ -1,4 +1,4 @@
-//! How many of the thesis's statements hold over the contact stiffness.
+//! The number of the thesis's statements that hold, over the contact stiffness.
 
 use super::Exhibit;
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};

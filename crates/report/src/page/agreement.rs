@@ -1,4 +1,4 @@
-//! How far the models agree, and the table of the half-truck's runs.
+//! The agreement of the models, and the table of the half-truck's runs.
 
 use maud::{Markup, html};
 use quantity::{Kind, System as Units};

@@ -1,5 +1,5 @@
-//! How the report of all runs opens: one run moving with its loop, its key numbers, and how many statements
-//! hold.
+//! The opening of the report of all runs: one run moving with its loop, its key numbers, and how many
+//! statements hold.
 
 use maud::{Markup, html};
 use study::summary::SummaryValue;

@@ -1,4 +1,4 @@
-//! What can be wrong with the folder of a run.
+//! Errors in the folder of a run.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! How far the verdicts on the thesis's statements hang on what the thesis leaves open.
+//! Sensitivity of the verdicts on the thesis's statements to parameters that the thesis leaves open.
 //!
 //! The twelve runs are made at many points of a space of open parameters ([`open_parameters`]), and each
 //! statement is decided at each of them: of the points that decide it, it holds at all of them (*always*), at

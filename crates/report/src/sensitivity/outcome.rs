@@ -1,4 +1,4 @@
-//! What the points say of each statement, and of the contact stiffness.
+//! The outcome of the points for each statement, and for the contact stiffness.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};

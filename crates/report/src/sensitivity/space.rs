@@ -1,4 +1,4 @@
-//! What the thesis leaves open, with the range of each parameter; and the points at which the twelve runs are
+//! The parameters that the thesis leaves open, with their ranges; and the points at which the twelve runs are
 //! made.
 //!
 //! Points of the space are those of the Sobol' sequence, by number: more points keep the earlier ones. Every

@@ -1,4 +1,4 @@
-//! How many statements hold over the contact stiffness, and the rule that chooses it.
+//! The number of statements that hold over the contact stiffness, and the rule that chooses it.
 //!
 //! The thesis gives no contact stiffness. *Required* are the statements of [`REQUIRED`], and that runs stay
 //! within the axes of the thesis's figures ([`AXES`]). *The rule*: of five equal parts of the range (each a

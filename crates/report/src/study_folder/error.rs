@@ -1,4 +1,4 @@
-//! What can be wrong with the folder of a study.
+//! Errors in the folder of a study.
 
 use std::io;
 use std::path::{Path, PathBuf};

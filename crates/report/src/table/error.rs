@@ -1,4 +1,4 @@
-//! What can be wrong with a table of results.
+//! Errors in a table of results.
 
 use std::io;
 use std::path::{Path, PathBuf};

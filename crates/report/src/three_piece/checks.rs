@@ -1,4 +1,4 @@
-//! What was found in runs against what is expected, one number and one sentence each.
+//! Values found in runs against expected ones, one number and one sentence each.
 
 use std::f64::consts::PI;
 

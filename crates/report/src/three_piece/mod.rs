@@ -1,6 +1,5 @@
-//! What the report says of the three-piece truck: its rigs against closed forms, against the massless wedge,
-//! and against independent calculations, and how far its answers hang on the stiffness of contacts and
-//! bristles.
+//! The report on the three-piece truck: its rigs against closed forms, against the massless wedge, and
+//! against independent calculations, and how far its answers hang on the stiffness of contacts and bristles.
 //!
 //! Every number is computed from runs; nothing is stored. [`shown`] and [`variants`] say which runs are
 //! needed.

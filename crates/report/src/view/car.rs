@@ -1,5 +1,5 @@
-//! What a car's run looks like: the body with its lading on two trucks whose wheels roll on the track, and
-//! what its plots show.
+//! The view of a car's run: the body with its lading on two trucks whose wheels roll on the track, and what
+//! its plots show.
 //!
 //! Trucks are as in a truck's run ([`super::truck`]), wheels, patches and rails as in a wheelset's
 //! ([`super::rolling`]), each with the names of its columns. How far the body reaches is for the eye; a part

@@ -1,4 +1,4 @@
-//! What bolster, side frames, wedges and springs look like, of any model that has them.
+//! The solids of bolster, side frames, wedges and springs, of any model that has them.
 //!
 //! Models have places, angles and toes, but hardly sizes of bodies: how far columns, pockets, chords and
 //! seats reach is for the eye.

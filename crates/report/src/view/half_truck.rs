@@ -1,4 +1,4 @@
-//! What a half-truck's run looks like: bolster, side frames, wedges with their coils, springs.
+//! The view of a half-truck's run: bolster, side frames, wedges with their coils, springs.
 //!
 //! The comparison program's files have places, wedge angles and toes, but no sizes of bodies: its wedges are
 //! as large as the stand-alone one, all else is for the eye. They are massless and have no angles of their

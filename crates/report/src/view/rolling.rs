@@ -1,4 +1,4 @@
-//! What runs on a track looks like: the track with its rails and ties, wheels as bodies of revolution,
+//! The view of vehicles on a track: the track with its rails and ties, wheels as bodies of revolution,
 //! contact patches with their forces. One wheelset or the four of a car use the same functions, with the
 //! names of their columns.
 //!

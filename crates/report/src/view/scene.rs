@@ -1,4 +1,4 @@
-//! What a run looks like: bodies that move as columns say, solids and coils on them, contacts between them.
+//! The scene of a run: bodies that move as columns say, solids and coils on them, contacts between them.
 //!
 //! The scene knows no wedge: any number of bodies, solids, coils and contacts make one.
 //!

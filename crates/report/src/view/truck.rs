@@ -1,5 +1,5 @@
-//! What a truck's run looks like: bolster, side frames, wedges with their corners and coils, springs,
-//! wheelsets, and what stands on the bolster.
+//! The view of a truck's run: bolster, side frames, wedges with their corners and coils, springs, wheelsets,
+//! and what stands on the bolster.
 //!
 //! Wedges are as large as they are; wheelsets, car body and the rest are for the eye.
 

@@ -1,4 +1,4 @@
-//! What a wheelset's run looks like, and what its plots show.
+//! The view of a wheelset's run, and its plots.
 
 use study::wheelset::WheelsetCase;
 use study::wheelset::run::WheelsetResult;

@@ -1,4 +1,4 @@
-//! What a car's numbers rest on, in words.
+//! The assumptions of a car's run in words.
 
 use car::{Drive, StartKind, Wheels};
 use truck::{Wedge, WedgeKind};

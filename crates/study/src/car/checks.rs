@@ -1,5 +1,5 @@
-//! What no single key shows: a lading that tips the car, a track that is too short, a curve that is too
-//! tight.
+//! Checks of several keys together: a lading that tips the car, a track that is too short, a curve that is
+//! too tight.
 
 use car::{Drive, Parameters};
 use quantity::Number;

@@ -1,6 +1,6 @@
-//! Where the bodies of a car are in a run, what the faces of its wedges exert and where its wheels touch:
-//! what a picture of it needs beyond the result. It is taken along only where it is asked for, since it has
-//! more columns than the result.
+//! Poses of the bodies of a car in a run, forces of its wedges' faces and contact points of its wheels: what
+//! a picture of it needs beyond the result. It is taken along only where it is asked for, since it has more
+//! columns than the result.
 
 use std::array::from_fn;
 

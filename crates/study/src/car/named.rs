@@ -1,4 +1,4 @@
-//! What is chosen by the name of something built in, or by that of a file: regimes, conditions, limits.
+//! Things chosen by the name of a built-in one, or by that of a file: regimes, conditions, limits.
 
 use std::path::Path;
 

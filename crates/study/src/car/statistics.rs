@@ -1,4 +1,4 @@
-//! What rules for the assessment of freight cars ask of a run, from its columns.
+//! Statistics of a run that rules for the assessment of freight cars ask for, from its columns.
 //!
 //! All lengths of time and distance, frequencies and limits are those that are remembered of AAR M-1001,
 //! chapter XI (1993, and a later edition): **check them against your edition**. They are parameters

@@ -1,4 +1,4 @@
-//! What is wrong with an input, where, and what to write instead.
+//! Mistakes in an input, with place and advice.
 
 use input::{Text, bounded, limits};
 use miette::{Diagnostic, LabeledSpan, SourceCode};

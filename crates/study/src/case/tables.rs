@@ -1,4 +1,4 @@
-//! Where the tables that a case names are looked for, and which files may be read for them.
+//! The folder in which tables that a case names are searched, and the files that may be read for them.
 
 use std::fs;
 use std::io::ErrorKind;

@@ -1,4 +1,4 @@
-//! What a study varies: parameters by their paths, and the values that they take.
+//! The factors of a study: parameters by their paths, and the values that they take.
 
 use std::borrow::Cow;
 

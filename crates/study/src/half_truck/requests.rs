@@ -1,4 +1,4 @@
-//! What a data file asks for.
+//! The requests of a data file.
 
 use nucars::tree::{DataFile, DataRequest, DofQuantity, ElementQuantity, Terms};
 use nucars::truck::Truck;

@@ -1,4 +1,4 @@
-//! What is seen of a wedge, whether it is massless or a body.
+//! The observation of a wedge, massless or a body.
 
 use mechanics::system::{ContactState, FaceState, Observation, System};
 use mechanics::vector::Vector;

@@ -1,4 +1,4 @@
-//! How far the yaw that input bodies command is reached.
+//! The part of the yaw commanded by input bodies that is reached.
 
 use mechanics::connection::Law;
 use mechanics::system::Model;

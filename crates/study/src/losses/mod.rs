@@ -1,5 +1,5 @@
-//! Where the energy of a cycle goes: by dissipation term (so by face), by contact point, by contact state and
-//! by part of the stroke.
+//! The losses of a cycle: by dissipation term (so by face), by contact point, by contact state and by part of
+//! the stroke.
 //!
 //! The dissipation terms of the energy ledger are integrated with the state: one a face for friction, one for
 //! contact damping, one for each other element. Their increments over the four parts of the stroke

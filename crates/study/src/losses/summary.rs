@@ -1,4 +1,4 @@
-//! What the summary of a run says of the energy of a cycle.
+//! The energy of a cycle in the summary of a run.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;

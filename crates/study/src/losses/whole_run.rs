@@ -1,4 +1,4 @@
-//! Where the energy of a whole run goes, where nothing repeats: a car on track.
+//! The losses of a whole run in which nothing repeats: a car on track.
 //!
 //! Works and losses are the terms of the energy ledger from the start to the end of the run. Terms of one
 //! kind on elements that differ only in where they are (axle, truck, side, end) stand together, with what

@@ -1,5 +1,5 @@
-//! What a study keeps of a car's run: the worst of its statistics ([`crate::car::statistics`]), filtered, or
-//! raw where nothing is filtered.
+//! The metrics of a car's run in a study: the worst of its statistics ([`crate::car::statistics`]), filtered,
+//! or raw where nothing is filtered.
 
 use std::borrow::Cow;
 

@@ -1,4 +1,4 @@
-//! What a study keeps of a run: one number for each measure, without the table of the run.
+//! The metrics of a run in a study: one number each, without the table of the run. Files call them measures.
 //!
 //! Those of half-trucks are in [`half_truck`]. The definitions of wedges' measures are those of
 //! [`metrics`](crate::metrics) and of the summary, taken at the same output times from the same functions; a

@@ -1,4 +1,4 @@
-//! What a study keeps of a truck's run: the numbers of its summary.
+//! The metrics of a truck's run in a study: the numbers of its summary.
 //!
 //! Means and largest values are over the output times of the whole cycles after the first ([`Cycles`]), or of
 //! the whole run where there are none.

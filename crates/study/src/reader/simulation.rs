@@ -1,4 +1,4 @@
-//! How to run a case.
+//! The settings of a case's run.
 
 use quantity::{Kind, Quantity};
 

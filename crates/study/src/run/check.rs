@@ -1,4 +1,4 @@
-//! Whether saved counts can be those of a wedge's run.
+//! Check that saved counts can be those of a wedge's run.
 
 use mechanics::system::ContactState;
 use wedge::outputs::{FACES, PointNames};

@@ -1,4 +1,4 @@
-//! What a wedge's run records: the output table, contact events, creep of sticking corners, friction losses
+//! The records of a wedge's run: the output table, contact events, creep of sticking corners, friction losses
 //! of whole cycles.
 
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! What the rails lie on: rigid, or sprung under each wheel.
+//! The support of the rails: rigid, or sprung under each wheel.
 
 use quantity::{Kind, Quantity, STANDARD_GRAVITY};
 use rolling::track::RailSupport;

@@ -1,4 +1,4 @@
-//! What a truck's numbers rest on, in words.
+//! The assumptions of a truck's run in words.
 
 use truck::{Adapter, WEDGE_NAMES, Wedge, WedgeKind};
 use wedge::parameters::{Damping, Start};

@@ -1,4 +1,4 @@
-//! Where the energy of a cycle of a truck goes, and the equivalent damping of its bounce.
+//! The losses of a cycle of a truck, and the equivalent damping of its bounce.
 
 use mechanics::motion::Motion;
 use truck::Parameters;

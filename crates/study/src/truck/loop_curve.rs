@@ -1,4 +1,4 @@
-//! What the loop of a truck's vertical or roll motion says: stiffness, friction, energy.
+//! The loop of a truck's vertical or roll motion: stiffness, friction, energy.
 
 use std::f64::consts::PI;
 use std::ops::Range;

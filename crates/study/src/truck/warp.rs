@@ -1,4 +1,4 @@
-//! What a warp test says: warp moment over warp angle, its parts, its stiffness, whether the nest locks.
+//! The result of a warp test: warp moment over warp angle, its parts, its stiffness, whether the nest locks.
 
 use super::TruckCase;
 pub use super::columns::PARTS;

@@ -1,4 +1,4 @@
-//! What wears off a counterface: the work of all points, laid down where each of them is at the time.
+//! The wear of a counterface: the work of all points, laid down where each of them is at the time.
 //!
 //! A point of the wedge stands for the part of the face that is nearest to it (a cell, cut at the face's
 //! edges). What it does in an instant is spread evenly over this cell where it is on the counterface then,

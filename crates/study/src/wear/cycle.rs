@@ -1,4 +1,4 @@
-//! What the last whole cycle of a wedge's run does at each contact point: the integrals that wear it.
+//! The work of the last whole cycle of a wedge's run at each contact point: the integrals that wear it.
 //!
 //! Integrals are taken over the steps of the integrator, by Gauss's rule with two points on its dense output;
 //! so they do not depend on the times of the output table. The energies of the points are checked against the

@@ -1,4 +1,4 @@
-//! Where a wheel is relative to its rail, and which of its points can touch a rail.
+//! The pose of a wheel relative to its rail, and the points of it that can touch a rail.
 //!
 //! **Axes of a contact.** x along the rail, y to the field side, z up, at the origin of the rail's profile.
 //! On the left side these are forward, left, up; on the right side y is mirrored, so that one search serves

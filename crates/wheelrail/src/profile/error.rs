@@ -1,4 +1,4 @@
-//! Why no profile was made: what was found, where, and the remedy.
+//! Reasons why no profile was made: the mistake, its place, and the remedy.
 
 use std::fmt;
 use std::path::PathBuf;

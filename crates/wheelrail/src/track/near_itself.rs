@@ -1,4 +1,4 @@
-//! Whether a track comes back near itself, where places do not tell distances.
+//! Check that a track does not come back near itself, where places do not determine distances.
 
 use super::center_line::CenterLine;
 use super::rails::{CLOSE, STRIDE};

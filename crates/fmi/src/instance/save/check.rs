@@ -1,4 +1,4 @@
-//! Whether a saved state can be one of an instance: all that could lead it astray is looked at before it is
+//! Checks of a saved state against an instance: everything that could lead it astray is checked before it is
 //! taken over.
 
 use std::fmt::Display;

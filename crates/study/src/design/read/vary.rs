@@ -1,4 +1,4 @@
-//! What a study varies, as its file says it: lists, ranges, variants.
+//! The factors of a study in its file: lists, ranges, variants.
 
 use std::collections::HashSet;
 

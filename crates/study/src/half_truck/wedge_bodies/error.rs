@@ -1,4 +1,4 @@
-//! Why a wedge of the files makes no body.
+//! Reasons why a wedge of the files makes no body.
 
 use quantity::Number;
 use thiserror::Error;

@@ -1,4 +1,4 @@
-//! What a wedge's body takes from the files, and what is added to it, in words.
+//! The values that a wedge's body takes from the files, and those added, in words.
 
 use mechanics::connection::{Law, Wedge as Massless};
 use nucars::truck::Truck;

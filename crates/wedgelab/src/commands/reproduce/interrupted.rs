@@ -1,4 +1,4 @@
-//! What an interrupted `wedgelab reproduce` leaves, and how to go on.
+//! The state that an interrupted `wedgelab reproduce` leaves, and how to go on.
 
 use std::path::{Path, PathBuf};
 
