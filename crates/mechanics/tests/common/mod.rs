@@ -4,9 +4,10 @@
 use integrate::{Integrator, Method, Options, Problem};
 use mechanics::body::Body;
 use mechanics::coil::{Coil, CoilLaw};
-use mechanics::contact::{ContactFace, ContactPoint};
+use mechanics::contact::{ContactFace, ContactPoint, Interface};
 use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
+use mechanics::link::Marker;
 use mechanics::surface::Plane;
 use mechanics::system::{EnergyTermKind, Model, System};
 use mechanics::vector::Vector;
@@ -239,4 +240,14 @@ pub fn momenta(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
         }
     }
     [p, l].concat()
+}
+
+/// Returns a free body with points (body axes) over a surface whose normal points up at the origin.
+pub fn over(points: &[[f64; 3]], interface: Interface, law: FrictionLaw, initial: [f64; 6]) -> Model {
+    let block = body("block", 2.0, [0.3, 0.4, 0.5], [0.0; 3], ALL, initial);
+    let mut model = model(vec![ground(), block], [0.0, 0.0, -10.0]);
+    let points = face("face", points, 1e6, 0.0, 0.4, law);
+    model.faces.push((1, 0, Marker::new([0.0; 3], UP), points));
+    model.interfaces.push((0, interface));
+    model
 }

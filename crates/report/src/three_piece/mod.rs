@@ -4,7 +4,9 @@
 //! Every number is computed from runs; nothing is stored. [`shown`] and [`variants`] say which runs are
 //! needed.
 
+mod check;
 mod checks;
+mod massless;
 mod rigs;
 mod sensitivity;
 
@@ -14,7 +16,8 @@ use serde::Serialize;
 
 use crate::summary::write_json;
 
-pub use checks::{Basis, Check, checks};
+pub use check::{Basis, Check};
+pub use checks::checks;
 pub use rigs::{Rigs, Variant, shown, variants};
 pub use sensitivity::{Sensitivity, sensitivities};
 

@@ -161,3 +161,9 @@ pub(super) fn at(result: &TruckResult, name: &str, time: f64) -> Option<f64> {
         .min_by(|a, b| (times[*a] - time).abs().total_cmp(&(times[*b] - time).abs()))?;
     result.column(name)?.get(row).copied()
 }
+
+/// Preload and weight (N) of the leading left wedge's coil.
+pub(super) fn coil_and_weight(case: &TruckCase) -> [f64; 2] {
+    let wedge = &case.parameters.wedges[0];
+    [wedge.control_coil.preload(), wedge.mass * case.parameters.gravity]
+}

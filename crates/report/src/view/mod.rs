@@ -19,6 +19,7 @@ mod pressure;
 pub mod rolling;
 pub mod run;
 pub mod scene;
+mod stand_alone;
 pub mod truck;
 pub mod wheelset;
 

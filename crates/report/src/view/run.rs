@@ -16,7 +16,8 @@ use study::wheelset::run::WheelsetResult;
 use wedge::outputs::{CORNERS, FACES};
 
 use super::data::{Data, Precision};
-use super::scene::{self, Scene};
+use super::scene::Scene;
+use super::stand_alone;
 use super::{car, half_truck, kind_name, truck, wheelset};
 use crate::figures::CaseOutcome;
 use crate::overlay::moves;
@@ -103,7 +104,7 @@ impl Recording {
     #[must_use]
     pub fn of_wedge((case, result): &CaseOutcome, detail: Detail) -> Self {
         let table = table(&result.columns, &result.values);
-        let scene = scene::stand_alone(&case.parameters, result);
+        let scene = stand_alone::scene(&case.parameters, result);
         Self::new((&case.name, &case.title), &table, plots(), scene, detail)
     }
 

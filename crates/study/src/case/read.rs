@@ -2,12 +2,14 @@
 
 use super::bounds;
 use super::document::*;
+use super::duration::{check_cover, check_rows};
 use super::face::{self, FaceSection};
 use super::motion;
 use super::problem::{Problem, Problems, TomlLocation};
-use super::section::{self, CaseSection, Range, inner_place, unit_problem};
+use super::section::{self, CaseSection, Range};
 use super::table::{self, TableForm};
 use super::tables::Tables;
+use super::toe::read_toe;
 use super::tree::{NodeValue, TableNode, TreeNode};
 use super::{defaults, name};
 use input::limits;
@@ -96,10 +98,9 @@ const KEYS: &[(&str, &[&str])] = &[
     ),
 ];
 
-/// Wedge angles and toes that make sense, rad.
+/// Wedge angles that make sense, rad.
 const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
 pub(crate) const ANGLE: Range = Range::Between(0.0, RIGHT_ANGLE, "between 0 deg and 90 deg, both excluded");
-const TOE: Range = Range::Between(-RIGHT_ANGLE / 4.0, RIGHT_ANGLE / 4.0, "below 22.5 deg");
 pub(crate) const COEFFICIENT: Range = Range::UpTo(bounds::FRICTION, "between 0 and 10");
 /// Numbers have sixteen digits; a narrower tolerance is never met.
 pub(crate) const TOLERANCE: Range = Range::Between(1e-15, 1.0, "between 1e-15 and 1, both excluded");
@@ -400,81 +401,6 @@ pub(crate) fn read_laws(s: &CaseSection<'_>, problems: &mut Problems) -> Option<
     }
 }
 
-pub(crate) fn read_toe(s: &CaseSection<'_>, problems: &mut Problems) -> Option<Toe> {
-    const HELP: &str = "write for example \"0.2 deg out\" (the gap between column and bolster opens \
-                        downwards), \"0.2 deg in\", or \"0 deg\"";
-    let node = s.require("toe", HELP, problems)?;
-    let path = s.path_of("toe");
-    if let NodeValue::Number(angle) = node.value
-        && node.place.source.bare_numbers_are_si
-    {
-        return signed_toe(angle, node, &path, problems);
-    }
-    let NodeValue::Text(text) = &node.value else {
-        let message = format!(
-            "`{path}` is {}; an angle with its direction is expected",
-            node.value.describe()
-        );
-        problems.push(
-            Problem::new(message)
-                .at(&node.place)
-                .label("an angle in quotes")
-                .help(HELP),
-        );
-        return None;
-    };
-    let trimmed = text.trim_end();
-    let (angle, direction) = match trimmed.rsplit_once(char::is_whitespace) {
-        Some((angle, "out")) => (angle, Some(ToeDirection::Out)),
-        Some((angle, "in")) => (angle, Some(ToeDirection::In)),
-        _ => (trimmed, None),
-    };
-    let mut bad = |problem: Problem, place: &TomlLocation, label: &str| {
-        problems.push(problem.at(place).label(label).help(HELP));
-        None
-    };
-    let angle = match Quantity::parse_as(angle.trim(), Kind::Angle) {
-        Ok(angle) => angle,
-        Err(error) => {
-            let place = inner_place(node, &error);
-            return bad(
-                unit_problem(&error, &path, Kind::Angle, &place),
-                &place,
-                "an angle with its direction",
-            );
-        }
-    };
-    if angle.to_si() < 0.0 {
-        let message = format!("`{path}` is negative; its direction is said in words");
-        return bad(Problem::new(message), &node.place, "no sign is expected");
-    }
-    if direction.is_none() && angle.to_si() != 0.0 {
-        return bad(
-            Problem::new(format!("`{path}` does not say in or out")),
-            &node.place,
-            "the direction is missing",
-        );
-    }
-    if let Some(problem) = section::out_of_range(&angle, &path, Kind::Angle, TOE) {
-        return bad(problem, &node.place, "too large");
-    }
-    Some(Toe { angle, direction })
-}
-
-/// Returns a toe that a program gives: a number in rad, positive out.
-fn signed_toe(angle: f64, node: &TreeNode, path: &str, problems: &mut Problems) -> Option<Toe> {
-    let mut size = node.clone();
-    size.value = NodeValue::Number(angle.abs());
-    Some(Toe {
-        angle: section::quantity(&size, path, Kind::Angle, TOE, problems)?,
-        direction: match angle {
-            _ if angle > 0.0 => Some(ToeDirection::Out),
-            _ if angle < 0.0 => Some(ToeDirection::In),
-            _ => None,
-        },
-    })
-}
-
 fn read_neighbour(
     s: &CaseSection<'_>,
     tables: Tables<'_>,
@@ -515,88 +441,4 @@ fn read_simulation(s: &CaseSection<'_>, problems: &mut Problems) -> Option<Simul
         output_units: output_units?,
         method: method?,
     })
-}
-
-/// Notes an output interval that is longer than the run, or gives too many rows.
-pub(crate) fn check_rows(
-    s: &CaseSection<'_>,
-    duration: &Quantity,
-    interval: &Quantity,
-    problems: &mut Problems,
-) {
-    let problem = if interval.to_si() > duration.to_si() {
-        let message =
-            format!("`simulation.output_interval` ({interval}) is longer than the duration ({duration})");
-        let help = "write an interval that is shorter, for example \"0.01 s\", or a longer duration";
-        Some(Problem::new(message).label("longer than the run").help(help))
-    } else if duration.to_si() / interval.to_si() >= limits::OUTPUT_ROWS as f64 {
-        let most = limits::OUTPUT_ROWS;
-        let message = format!("{duration} in steps of {interval} are more than {most} output times");
-        let least = duration.to_si() / (most / 2) as f64;
-        let help = format!("write a longer interval, for example \"{least:.1e} s\"");
-        Some(Problem::new(message).label("too short").help(help))
-    } else {
-        None
-    };
-    // Shown where the user wrote one of the two, not in the thesis's values.
-    let mut places = ["output_interval", "duration"]
-        .into_iter()
-        .filter_map(|key| s.table.place_of(key));
-    let place = places.find(|place| place.source.name() != defaults::SOURCE);
-    problems.extend(problem.map(|problem| match place {
-        Some(place) => problem.at(place),
-        None => problem,
-    }));
-}
-
-/// Notes tables of motions that do not last as long as the run.
-fn check_cover(
-    section: &str,
-    neighbour: &NeighbourSection,
-    duration: &Quantity,
-    tree: &TableNode,
-    tables: Tables<'_>,
-    problems: &mut Problems,
-) {
-    for (key, motion) in NeighbourSection::COORDINATES.iter().zip(&neighbour.coordinates) {
-        check_motion_covers(
-            &format!("{section}.{key}"),
-            motion,
-            duration,
-            tree,
-            tables,
-            problems,
-        );
-    }
-}
-
-/// Notes a table in a motion that does not last as long as the run.
-pub(crate) fn check_motion_covers(
-    path: &str,
-    motion: &motion::CaseMotion,
-    duration: &Quantity,
-    tree: &TableNode,
-    tables: Tables<'_>,
-    problems: &mut Problems,
-) {
-    for table in motion.tables() {
-        let (Some([first, _]), Some([last, _])) = (table.rows.first(), table.rows.last()) else {
-            continue;
-        };
-        if first.to_si() <= 0.0 && last.to_si() >= duration.to_si() {
-            continue;
-        }
-        let message = match &table.file {
-            Some(file) if !tables.may_quote() => {
-                format!("`{path}`: {file} does not last from 0 to {duration}, as the run does")
-            }
-            _ => format!("`{path}` is given from {first} to {last}, but the run lasts from 0 to {duration}"),
-        };
-        let help = "add rows to the table, or shorten simulation.duration";
-        let problem = Problem::new(message).label("does not cover the run").help(help);
-        problems.push(match tree.place_of(path) {
-            Some(place) => problem.at(place),
-            None => problem,
-        });
-    }
 }

@@ -128,7 +128,7 @@ pub(crate) fn check_motions(reader: &mut CaseReader<'_>, duration: &Quantity) {
     let (tree, tables) = (reader.tree, reader.tables);
     let mut rows = 0;
     for (path, motion) in &reader.motions {
-        case::read::check_motion_covers(path, motion, duration, tree, tables, reader.problems);
+        case::duration::check_motion_covers(path, motion, duration, tree, tables, reader.problems);
         rows += motion
             .tables()
             .iter()

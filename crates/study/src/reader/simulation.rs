@@ -5,8 +5,9 @@ use quantity::{Kind, Quantity};
 use super::{CaseReader, QuantityForm};
 use crate::case::Simulation;
 use crate::case::document::{METHODS, SYSTEMS};
+use crate::case::duration::check_rows;
 use crate::case::field::Reach;
-use crate::case::read::{TOLERANCE, check_rows};
+use crate::case::read::TOLERANCE;
 use crate::case::section::Range;
 
 const TIME: QuantityForm = (Kind::Time, Range::Positive, Reach::Positive);

@@ -13,8 +13,9 @@ use crate::case::document::{FrictionLaw as Law, Toe, ToeDirection};
 use crate::case::face::{self, FaceSection};
 use crate::case::field::{Reach, Written};
 use crate::case::problem::Problem;
-use crate::case::read::{ANGLE, COEFFICIENT, read_toe};
+use crate::case::read::{ANGLE, COEFFICIENT};
 use crate::case::section::{Names, Range};
+use crate::case::toe::read_toe;
 use crate::case::write::{ANGLES, FRICTION, WEAR, toe};
 use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, PRELOAD, STIFFNESS};
 
