@@ -1,5 +1,5 @@
-//! Agreement of the stand-alone wedge, the comparison program's types 6.8 and 6.9, and the quasi-static wedge,
-//! in numbers.
+//! Agreement of the stand-alone wedge, the comparison program's types 6.8 and 6.9, and the quasi-static
+//! wedge, in numbers.
 //!
 //! The types are *our reading* of them, in a half-truck made from the printed files: no output of that
 //! program is known. Looked at is the leading left wedge, connection 127. All with toe out, as in the

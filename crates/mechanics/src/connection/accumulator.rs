@@ -1,5 +1,5 @@
-//! Tangential laws of the friction of connections: a force accumulator, a bristle in series with a slider, or a
-//! damper up to the limit.
+//! Tangential laws of the friction of connections: a force accumulator, a bristle in series with a slider, or
+//! a damper up to the limit.
 
 use numerics::scalar::Real;
 
