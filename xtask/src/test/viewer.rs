@@ -5,6 +5,7 @@ use std::env;
 use std::process::Command;
 
 use super::Outcome;
+use crate::builds;
 use crate::debian;
 use crate::shell::{self, Workspace};
 use crate::viewer::{bundle, install, node};
@@ -25,20 +26,9 @@ pub fn check(workspace: &Workspace) -> Outcome {
     bundle(workspace)?;
     let chromium = chromium()?;
     let report = workspace.target.join("viewer-report");
-    let arguments = [
-        "run",
-        "--release",
-        "--quiet",
-        "-p",
-        "wedgelab",
-        "--",
-        "reproduce",
-        "--force",
-        "--quiet",
-        "--out",
-    ];
-    shell::run(workspace.cargo(arguments).arg(&report))?;
-    let program = format!("release/wedgelab{}", env::consts::EXE_SUFFIX);
+    let program = builds::wedgelab(workspace)?;
+    let arguments = ["reproduce", "--force", "--quiet", "--out"];
+    shell::run(Command::new(&program).args(arguments).arg(&report))?;
     // One after the other: they measure times.
     let mut tests = node(
         workspace,
@@ -52,7 +42,7 @@ pub fn check(workspace: &Workspace) -> Outcome {
         ],
     );
     tests
-        .env("WEDGELAB", workspace.target.join(program))
+        .env("WEDGELAB", &program)
         .env("WEDGELAB_REPORT", &report)
         .env("WEDGELAB_CHROMIUM", &chromium);
     shell::run(&mut tests)?;
