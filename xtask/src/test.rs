@@ -71,7 +71,7 @@ const CHECKS: &[Check] = &[
     // Before everything that compiles: what is compiled after it holds the viewer.
     Check::new(
         "viewer",
-        "the interactive page: types, lints, tests in a browser (needs Node.js; installs Chromium)",
+        "the pages' interactive part: types, lints, unit tests (needs Node.js)",
         viewer::check,
     ),
     Check::new("clippy", "no lint warns", clippy),
@@ -79,6 +79,11 @@ const CHECKS: &[Check] = &[
         "test",
         "the tests of libraries, programs and examples pass",
         tests,
+    ),
+    Check::new(
+        "browser",
+        "the report's pages and the explorer in a browser (needs Node.js; installs Chromium)",
+        viewer::browser,
     ),
     Check::new(
         "fuzz",

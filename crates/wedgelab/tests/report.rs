@@ -72,7 +72,7 @@ fn links_lead_somewhere(page: &str, least: usize) {
 }
 
 /// The page without what stands in its scripts, which name addresses in their licences and messages. That
-/// they fetch nothing is watched in a browser (`cargo xtask test --only viewer`).
+/// they fetch nothing is watched in a browser (`cargo xtask test --only browser`).
 fn markup() -> String {
     let page = page();
     let mut pieces = page.split("<script");

@@ -1,4 +1,4 @@
-//! The report page's interactive part and the explorer: types, lints, unit tests, and the pages in a real
+//! The report page's interactive part and the explorer: types, lints, unit tests; and the pages in a real
 //! browser. What is missing is installed: packages of the lock file with npm, Chromium with `apt-get`.
 
 use std::env;
@@ -13,7 +13,7 @@ use crate::viewer::{bundle, install, node};
 /// Programs that Chromium is called.
 const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
-/// Checks and bundles the viewer, makes a report, and tries its page and the explorer.
+/// Checks and bundles the viewer.
 pub fn check(workspace: &Workspace) -> Outcome {
     install(workspace)?;
     for arguments in [
@@ -23,6 +23,13 @@ pub fn check(workspace: &Workspace) -> Outcome {
     ] {
         shell::run(&mut node(workspace, arguments.iter().copied()))?;
     }
+    bundle(workspace)?;
+    Ok(None)
+}
+
+/// Makes a report, and tries its pages and the explorer in a browser.
+pub fn browser(workspace: &Workspace) -> Outcome {
+    install(workspace)?;
     bundle(workspace)?;
     let chromium = chromium()?;
     let report = workspace.target.join("viewer-report");
