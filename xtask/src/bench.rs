@@ -5,6 +5,7 @@ mod page;
 use std::fmt::Write;
 use std::process::{Command, ExitCode};
 
+use crate::builds;
 use crate::machine::Machine;
 use crate::shell::{self, Workspace};
 use page::{INSTRUCTIONS, Printed, SECTIONS};
@@ -106,7 +107,7 @@ fn counts(workspace: &Workspace) -> Result<Option<String>, String> {
         return Ok(None);
     }
     // Valgrind does not know all instructions of the usual build.
-    let folder = workspace.build_portable(&["--package", "benchmarks", "--bins"])?;
+    let folder = builds::portable(workspace, &["--package", "benchmarks", "--bins"])?;
     let count = |name: &str, arguments: &[&str]| {
         let mut command = Command::new("valgrind");
         command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]);

@@ -77,7 +77,16 @@ fn program(workspace: &Workspace) -> Result<PathBuf, String> {
     let program = root.join("bin").join("mdbook");
     if !program.is_file() {
         println!("mdBook is installed into target/tools now, once.");
-        let arguments = ["install", "mdbook", "--locked", "--quiet", "--version", VERSION];
+        // Not optimized: it is compiled more often than it is run.
+        let arguments = [
+            "install",
+            "mdbook",
+            "--debug",
+            "--locked",
+            "--quiet",
+            "--version",
+            VERSION,
+        ];
         let features = ["--no-default-features", "--features", "search", "--root"];
         shell::run(workspace.cargo(arguments).args(features).arg(&root))?;
     }

@@ -2,6 +2,7 @@
 
 use std::process::{Command, ExitCode};
 
+use crate::builds;
 use crate::shell::{self, Workspace};
 
 /// Seconds that the check takes, all readers together.
@@ -28,10 +29,8 @@ pub fn run(workspace: &Workspace, arguments: &[String]) -> ExitCode {
 /// # Errors
 /// Something was found.
 pub fn check(workspace: &Workspace) -> Result<(), String> {
-    // Of the whole workspace: so the features of dependencies are those that `test` has built with.
-    let build = ["build", "--release", "--workspace", "--bin", "fuzz"];
-    shell::run(&mut workspace.cargo(build))?;
-    shell::run(Command::new(workspace.target.join("release").join("fuzz")).args(["--seconds", CHECK]))
+    let folder = builds::programs(workspace, &["--bin", "fuzz"])?;
+    shell::run(Command::new(folder.join("fuzz")).args(["--seconds", CHECK]))
 }
 
 /// Builds the program, in the dev profile: overflows and what code claims about itself are checked there.

@@ -4,6 +4,7 @@
 
 mod bench;
 mod book;
+mod builds;
 mod debian;
 mod fuzz;
 mod machine;

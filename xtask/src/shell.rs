@@ -44,21 +44,6 @@ impl Workspace {
         command.args(arguments).current_dir(&self.root);
         command
     }
-
-    /// Builds with these arguments of `cargo build --release` for all processors, apart from all else, and
-    /// gives the folder of what was built.
-    ///
-    /// # Errors
-    /// When it does not compile.
-    pub fn build_portable(&self, arguments: &[&str]) -> Result<PathBuf, String> {
-        let target = self.target.join("portable");
-        let mut build = self.cargo(["build", "--release"]);
-        run(build
-            .args(arguments)
-            .args(PORTABLE)
-            .env("CARGO_TARGET_DIR", &target))?;
-        Ok(target.join("release"))
-    }
 }
 
 /// Returns the command as one would type it; an absolute program path is cut to its last part.

@@ -1,6 +1,7 @@
 //! `cargo xtask test`: all checks, one after the other, and a table of what came out.
 
 mod deny;
+mod features;
 mod fmu;
 mod layers;
 mod links;
@@ -12,9 +13,11 @@ mod race;
 mod readme;
 mod viewer;
 
-use std::process::ExitCode;
+use std::env::consts::EXE_SUFFIX;
+use std::process::{Command, ExitCode};
 use std::time::{Duration, Instant};
 
+use crate::builds::{self, SHARED};
 use crate::shell::{self, Workspace};
 pub use python::path_with;
 
@@ -59,15 +62,16 @@ const CHECKS: &[Check] = &[
         layers::check,
     ),
     Check::new(
-        "prose",
-        "no file points outside the repository, no line of Rust is too long",
-        prose::check,
+        "features",
+        "programs and tests share one build of every dependency",
+        features::check,
     ),
+    Check::new("prose", "no file points outside the repository", prose::check),
     Check::new("links", "links between pages lead somewhere", links::check),
     // Before everything that compiles: what is compiled after it holds the viewer.
     Check::new(
         "viewer",
-        "the interactive page: types, lints, tests in a browser (needs Node.js; installs Chromium)",
+        "the pages' interactive part: types, lints, unit tests (needs Node.js)",
         viewer::check,
     ),
     Check::new("clippy", "no lint warns", clippy),
@@ -76,7 +80,11 @@ const CHECKS: &[Check] = &[
         "the tests of libraries, programs and examples pass",
         tests,
     ),
-    // After `test`, which has built most of it.
+    Check::new(
+        "browser",
+        "the report's pages and the explorer in a browser (needs Node.js; installs Chromium)",
+        viewer::browser,
+    ),
     Check::new(
         "fuzz",
         "a minute of broken inputs breaks no reader",
@@ -87,7 +95,6 @@ const CHECKS: &[Check] = &[
         "Octave and SciPy read the results, the plotting scripts draw them",
         octave::check,
     ),
-    // After `test`, which has built most of it.
     Check::new(
         "python",
         "the Python package installs, its tests, types, stubs and notebooks pass (needs Python 3.10)",
@@ -100,7 +107,7 @@ const CHECKS: &[Check] = &[
     ),
     Check::new(
         "race",
-        "the race's driver in C compiles, and CVODE agrees with our integrator (installs SUNDIALS)",
+        "tests of the race and of the benchmarks; CVODE agrees with our integrator (installs SUNDIALS)",
         race::check,
     ),
     Check::new(
@@ -151,11 +158,13 @@ fn clippy(workspace: &Workspace) -> Outcome {
 
 fn tests(workspace: &Workspace) -> Outcome {
     // In the release profile: what is tested is what users run (docs/decisions/0008), and it is several times
-    // faster. Benchmarks are left to `cargo xtask bench`; clippy has compiled them.
+    // faster. The tests of what is built apart run in the check `race`; benchmarks are left to `cargo xtask
+    // bench`, and clippy has compiled them.
     let targets = ["--lib", "--bins", "--tests", "--examples"];
     shell::run(
         workspace
-            .cargo(["test", "--workspace", "--release", "--no-fail-fast"])
+            .cargo(["test", "--release", "--no-fail-fast"])
+            .args(SHARED)
             .args(targets),
     )?;
     Ok(None)
@@ -166,17 +175,20 @@ fn broken_inputs(workspace: &Workspace) -> Outcome {
     Ok(None)
 }
 
-/// Example programs, which check what they print, with their crates.
-const EXAMPLES: [(&str, &str); 3] = [
-    ("mechanics", "custom_element"),
-    ("mechanics", "stick_slip"),
-    ("truck", "warp"),
-];
+/// Example programs, which check what they print.
+const EXAMPLES: [&str; 3] = ["custom_element", "stick_slip", "warp"];
 
 fn doc_tests(workspace: &Workspace) -> Outcome {
-    shell::run(&mut workspace.cargo(["test", "--workspace", "--release", "--no-fail-fast", "--doc"]))?;
-    for (package, example) in EXAMPLES {
-        shell::run(&mut workspace.cargo(["run", "--release", "-p", package, "--example", example]))?;
+    let mut tests = workspace.cargo(["test", "--release", "--no-fail-fast", "--doc"]);
+    shell::run(tests.args(SHARED))?;
+    let selected: Vec<&str> = EXAMPLES
+        .iter()
+        .flat_map(|example| ["--example", example])
+        .collect();
+    let examples = builds::programs(workspace, &selected)?.join("examples");
+    for example in EXAMPLES {
+        let mut program = Command::new(examples.join(format!("{example}{EXE_SUFFIX}")));
+        shell::run(program.current_dir(&workspace.root))?;
     }
     Ok(None)
 }
@@ -201,7 +213,7 @@ fn component(workspace: &Workspace, command: &str, component: &str) -> Result<()
     if shell::output(&mut workspace.cargo([command, "--version"])).is_some() {
         return Ok(());
     }
-    let mut rustup = std::process::Command::new("rustup");
+    let mut rustup = Command::new("rustup");
     rustup
         .args(["component", "add", component])
         .current_dir(&workspace.root);

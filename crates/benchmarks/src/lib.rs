@@ -9,12 +9,12 @@ pub mod wedges;
 use std::hint::black_box;
 use std::process::ExitCode;
 
+use cpu_time::ProcessTime;
 use integrate::Problem;
 use mechanics::energy_balance::Entries;
 use mechanics::system::Observation;
 use mechanics::system::System;
 use nucars::truck::Choices;
-use rustix::time::{ClockId, clock_gettime};
 use study::half_truck::catalog;
 use wedge::parameters::Damping;
 use wedge::{BuildError, Wedge, thesis};
@@ -74,13 +74,6 @@ pub fn sliding_truck(name: &str) -> Result<(System, Vec<f64>), String> {
     Ok((system, x))
 }
 
-/// CPU time that this process has used, s.
-#[must_use]
-pub fn cpu_seconds() -> f64 {
-    let now = clock_gettime(ClockId::ProcessCPUTime);
-    now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
-}
-
 /// CPU times (µs) of right-hand side, Jacobian matrix, factorization and solution at a state: the least of
 /// nine rounds of `calls` each. `shift` is what the matrix is factored with, 1/s.
 pub fn costs<P: Problem>(problem: &mut P, time: f64, x: &[f64], shift: f64, calls: usize) -> [f64; 4] {
@@ -109,11 +102,11 @@ pub fn costs<P: Problem>(problem: &mut P, time: f64, x: &[f64], shift: f64, call
 /// Returns the least CPU time of nine rounds, µs a call.
 fn least(calls: usize, mut call: impl FnMut()) -> f64 {
     let rounds = (0..9).map(|_| {
-        let started = cpu_seconds();
+        let start = ProcessTime::now();
         for _ in 0..calls {
             call();
         }
-        1e6 * (cpu_seconds() - started) / calls as f64
+        1e6 * start.elapsed().as_secs_f64() / calls as f64
     });
     rounds.fold(f64::INFINITY, f64::min)
 }

@@ -6,15 +6,16 @@ use std::io::{self, Write};
 use std::panic::{self, PanicHookInfo};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::LazyLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use clap::Args;
+use cpu_time::{ProcessTime, ThreadTime};
 use fuzz::inputs::Inputs;
 use fuzz::limits::{LONGEST_EXECUTION, MOST_MEMORY, STACK};
 use fuzz::readers::{self, ReadOutcome, Reader};
 use fuzz::shown;
-use rustix::time::{ClockId, clock_gettime};
 
 use crate::MEMORY;
 use crate::finding::{Finding, beginning, without_numbers};
@@ -60,6 +61,9 @@ pub struct Arguments {
 /// Exit code: an input took too long.
 pub const GIVEN_UP: u8 = 3;
 
+/// The beginning of this process's processor time.
+static START: LazyLock<ProcessTime> = LazyLock::new(ProcessTime::now);
+
 /// Processor time of this process when it began the input that it reads, ns.
 static STARTED: AtomicU64 = AtomicU64::new(u64::MAX);
 
@@ -71,7 +75,7 @@ fn end_when_patience_ends(patience: Duration) {
         loop {
             std::thread::sleep(LOOK);
             // Begun later than now: nothing is read.
-            let since = nanoseconds(ClockId::ProcessCPUTime).checked_sub(STARTED.load(Ordering::Relaxed));
+            let since = used().checked_sub(BEGUN.load(Ordering::Relaxed));
             if since.is_some_and(|since| since > patience) {
                 std::process::exit(i32::from(GIVEN_UP));
             }
@@ -198,12 +202,11 @@ impl Worker {
         Ok(())
     }
 
-    fn measured(&self, input: &[u8]) -> (Duration, Result<ReadOutcome, Panic>) {
-        STARTED.store(nanoseconds(ClockId::ProcessCPUTime), Ordering::Relaxed);
-        let start = nanoseconds(ClockId::ThreadCPUTime);
+    fn measured(&self, input: &[u8]) -> (Duration, Result<Outcome, Panic>) {
+        BEGUN.store(used(), Ordering::Relaxed);
+        let start = ThreadTime::now();
         let outcome = panic::catch_unwind(|| (self.reader.read)(input));
-        let time = nanoseconds(ClockId::ThreadCPUTime).saturating_sub(start);
-        (Duration::from_nanos(time), outcome.map_err(|_| last_panic()))
+        (start.elapsed(), outcome.map_err(|_| last_panic()))
     }
 
     fn write(&mut self, finding: Finding) -> io::Result<()> {
@@ -213,11 +216,9 @@ impl Worker {
     }
 }
 
-/// Returns the reading of a clock, ns.
-fn nanoseconds(clock: ClockId) -> u64 {
-    let time = clock_gettime(clock);
-    let part = |number: i64| u64::try_from(number).unwrap_or_default();
-    part(time.tv_sec) * 1_000_000_000 + part(time.tv_nsec)
+/// Returns the processor time that this process has used, ns.
+fn used() -> u64 {
+    START.elapsed().as_nanos() as u64
 }
 
 /// A panic.

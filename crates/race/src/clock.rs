@@ -1,20 +1,35 @@
-//! CPU time of this process.
+//! CPU time and wall time of a part of this process.
 
-use rustix::time::{ClockId, clock_gettime};
+use std::time::Instant;
 
-/// CPU time that this process has used, s.
-#[must_use]
-pub fn cpu_seconds() -> f64 {
-    seconds(ClockId::ProcessCPUTime)
+use cpu_time::ProcessTime;
+
+/// Measures times since it was started.
+#[derive(Clone, Copy, Debug)]
+pub struct Stopwatch {
+    cpu: ProcessTime,
+    wall: Instant,
 }
 
-/// Time of a clock that nobody sets, s.
-#[must_use]
-pub fn wall_seconds() -> f64 {
-    seconds(ClockId::Monotonic)
-}
+impl Stopwatch {
+    /// Starts a stopwatch.
+    #[must_use]
+    pub fn start() -> Self {
+        Self {
+            cpu: ProcessTime::now(),
+            wall: Instant::now(),
+        }
+    }
 
-fn seconds(clock: ClockId) -> f64 {
-    let now = clock_gettime(clock);
-    now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
+    /// Returns the CPU time that this process has used since the start, s.
+    #[must_use]
+    pub fn cpu(&self) -> f64 {
+        self.cpu.elapsed().as_secs_f64()
+    }
+
+    /// Returns the time since the start, s.
+    #[must_use]
+    pub fn wall(&self) -> f64 {
+        self.wall.elapsed().as_secs_f64()
+    }
 }

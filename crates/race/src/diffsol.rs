@@ -11,7 +11,7 @@ use diffsol::{
     OdeSolverStopReason, Vector,
 };
 
-use crate::clock::{cpu_seconds, wall_seconds};
+use crate::clock::Stopwatch;
 use crate::equations::Equations;
 use crate::outcome::Outcome;
 use crate::problem::RaceProblem;
@@ -63,7 +63,7 @@ pub fn run(
     });
     let (derivatives, jacobians) = (Cell::new(0), Cell::new(0));
     let mut outcome = Outcome::default();
-    let (cpu, wall) = (cpu_seconds(), wall_seconds());
+    let stopwatch = Stopwatch::start();
     let mut built = OdeBuilder::<NalgebraMat<f64>>::new()
         .rtol(0.0)
         .atol(absolute)
@@ -105,7 +105,7 @@ pub fn run(
         problem: &problem,
         rows,
         limit,
-        cpu,
+        stopwatch,
     };
     type Lu = NalgebraLU<f64>;
     match method {
@@ -113,8 +113,8 @@ pub fn run(
         Method::TrBdf2 => each.drive(built.tr_bdf2::<Lu>(), &mut outcome, &mut states),
         Method::Esdirk34 => each.drive(built.esdirk34::<Lu>(), &mut outcome, &mut states),
     }
-    outcome.cpu = cpu_seconds() - cpu;
-    outcome.wall = wall_seconds() - wall;
+    outcome.cpu = stopwatch.cpu();
+    outcome.wall = stopwatch.wall();
     outcome.derivatives = derivatives.get();
     outcome.jacobians = jacobians.get();
     Ok((outcome, states))
@@ -125,7 +125,7 @@ struct Each<'r> {
     problem: &'r RaceProblem,
     rows: usize,
     limit: f64,
-    cpu: f64,
+    stopwatch: Stopwatch,
 }
 
 impl Each<'_> {
@@ -173,7 +173,7 @@ impl Each<'_> {
                 break;
             }
             count += 1;
-            if count.is_multiple_of(1024) && cpu_seconds() - self.cpu > self.limit {
+            if count.is_multiple_of(1024) && self.stopwatch.cpu() > self.limit {
                 outcome.failure = format!("out of time at t = {time:.3} s");
                 break;
             }

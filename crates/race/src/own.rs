@@ -3,7 +3,7 @@
 
 use integrate::{Family, Integrator, Method, Options};
 
-use crate::clock::{cpu_seconds, wall_seconds};
+use crate::clock::Stopwatch;
 use crate::equations::Equations;
 use crate::outcome::Outcome;
 use crate::problem::RaceProblem;
@@ -29,7 +29,7 @@ pub fn run(
     let mut full = problem.start.clone();
     let mut reduced = vec![0.0; n];
     let mut outcome = Outcome::default();
-    let (cpu, wall) = (cpu_seconds(), wall_seconds());
+    let stopwatch = Stopwatch::start();
     let options = Options {
         relative_tolerance: tolerance,
         record_events: recorded,
@@ -54,13 +54,13 @@ pub fn run(
             states.extend_from_slice(&reduced);
             row += 1;
         }
-        if integrator.statistics().steps % 1024 == 0 && cpu_seconds() - cpu > limit {
+        if integrator.statistics().steps % 1024 == 0 && stopwatch.cpu() > limit {
             outcome.failure = format!("out of time at t = {:.3} s", integrator.time());
             break;
         }
     }
-    outcome.cpu = cpu_seconds() - cpu;
-    outcome.wall = wall_seconds() - wall;
+    outcome.cpu = stopwatch.cpu();
+    outcome.wall = stopwatch.wall();
     let statistics = integrator.statistics();
     outcome.steps = statistics.steps;
     outcome.rejected = statistics.rejected();

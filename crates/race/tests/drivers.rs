@@ -1,7 +1,6 @@
 //! CVODE's driver in C, through the C interface, agrees with our own integrator.
-//! `cargo xtask test --only race` compiles the driver and names it in `RACE_CVODE`, and the folder of the
-//! library compiled for all processors in `RACE_PORTABLE`; where valgrind is installed it looks for wrong
-//! accesses too.
+//! `cargo xtask test --only race` compiles the driver, with the library compiled for all processors, and names it
+//! in `RACE_CVODE`; where valgrind is installed it looks for wrong accesses too.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use std::process::Command;
@@ -69,10 +68,6 @@ fn limits_no_wrong_access_across_the_c_interface() {
             "--errors-for-leak-kinds=definite",
         ])
         .arg(driver());
-    // Valgrind 3.19 does not know all instructions of newer processors: with the library compiled for all.
-    if let Some(folder) = std::env::var_os("RACE_PORTABLE") {
-        command.env("LD_LIBRARY_PATH", folder);
-    }
     let (outcome, _) = cvode(&mut command, "1e-4", 2);
     assert_eq!(outcome.rows, 2);
 }

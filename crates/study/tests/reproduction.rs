@@ -146,7 +146,7 @@ fn closed(result: &RunResult, face: &str) -> Vec<usize> {
 
 #[test]
 fn variable_damping_lifts_off_after_three_seconds() {
-    for toe in ["-0.2", "0", "0.2"] {
+    for toe in ["out_0.2", "0", "in_0.2"] {
         for yaw in ["0", "0.012"] {
             let name = format!("vdrun_toe_{toe}_psi_{yaw}");
             let result = twelve(&name);

@@ -39,7 +39,7 @@ def test_every_figure_of_a_run_can_be_drawn(short: wl.Result, tmp_path: Path) ->
 
 
 def test_reproduction_of_figure_5_4(tmp_path: Path) -> None:
-    names = [f"vdrun_toe_{toe}_psi_0" for toe in ("0.2", "0", "-0.2")]
+    names = [f"vdrun_toe_{toe}_psi_0" for toe in ("in_0.2", "0", "out_0.2")]
     results = wl.run_many([wl.Case(name) for name in names])
     figures = wl.report_figures(results)
     (loop,) = [figure for figure in figures.values() if figure.thesis == "figure 5-4"]

@@ -71,8 +71,8 @@ fn links_lead_somewhere(page: &str, least: usize) {
     }
 }
 
-/// Returns the page without what stands in its scripts, which name addresses in their licences and messages.
-/// That they fetch nothing is watched in a browser (`cargo xtask test --only viewer`).
+/// The page without what stands in its scripts, which name addresses in their licences and messages. That
+/// they fetch nothing is watched in a browser (`cargo xtask test --only browser`).
 fn markup() -> String {
     let page = page();
     let mut pieces = page.split("<script");

@@ -57,7 +57,7 @@ pub fn prepare(workspace: &Workspace, octave: bool) -> Result<Tools, String> {
     shell::run(&mut workspace.cargo(["build", "--release", "--package", "race"]))?;
     let built = workspace.target.join("release");
     let made = folder(workspace)?;
-    let cvode = cvode(workspace)?;
+    let cvode = cvode(workspace, &built)?;
     let octave = if octave {
         mex(workspace, &built, &made)?;
         Some(made)
@@ -78,10 +78,10 @@ pub fn prepare(workspace: &Workspace, octave: bool) -> Result<Tools, String> {
     })
 }
 
-/// Returns the driver of CVODE alone; the race's library is built already.
-pub fn cvode(workspace: &Workspace) -> Result<PathBuf, String> {
+/// Compiles the driver of CVODE alone; the race's library lies in `built`.
+pub fn cvode(workspace: &Workspace, built: &Path) -> Result<PathBuf, String> {
     let driver = folder(workspace)?.join("cvode");
-    compile_cvode(workspace, &workspace.target.join("release"), &driver)?;
+    compile_cvode(workspace, built, &driver)?;
     Ok(driver)
 }
 

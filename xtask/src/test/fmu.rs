@@ -4,6 +4,7 @@
 use std::process::Command;
 
 use super::Outcome;
+use crate::builds;
 use crate::debian;
 use crate::shell::{self, Workspace};
 use crate::venv;
@@ -15,22 +16,10 @@ const TESTS: &str = "crates/wedgelab-fmu/tests/python";
 /// is missing, and runs the tests.
 pub fn check(workspace: &Workspace) -> Outcome {
     debian::need(&["gcc", "valgrind"])?;
-    // All of it: so the features of dependencies are those that `test` has built with.
-    shell::run(&mut workspace.cargo(["build", "--release", "--workspace"]))?;
+    let program = builds::wedgelab(workspace)?;
+    let library = builds::portable_libraries(workspace)?.join(builds::library("wedgelab_fmu"));
     let tests = workspace.root.join(TESTS);
-    // Compiled for all processors the library is to compute the same bits; and Valgrind does not know all
-    // instructions of the newer ones.
-    let portable = workspace.build_portable(&["-p", "wedgelab-fmu"])?;
-    let library = portable.join(format!(
-        "{}wedgelab_fmu{}",
-        std::env::consts::DLL_PREFIX,
-        std::env::consts::DLL_SUFFIX
-    ));
     let python = venv::environment(&workspace.target, "fmu", &tests.join("requirements.txt"))?;
-    let program = workspace
-        .target
-        .join("release")
-        .join(format!("wedgelab{}", std::env::consts::EXE_SUFFIX));
     let mut pytest = Command::new(&python);
     pytest
         .args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"])

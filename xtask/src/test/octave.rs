@@ -5,6 +5,7 @@ use std::env;
 use std::process::Command;
 
 use super::Outcome;
+use crate::builds::{APART, SHARED};
 use crate::debian;
 use crate::shell::{self, Workspace};
 use crate::venv;
@@ -23,13 +24,15 @@ const REQUIREMENTS: &str = "crates/wedgelab/tests/octave/requirements.txt";
 pub fn check(workspace: &Workspace) -> Outcome {
     let octave = octave()?;
     let python = venv::environment(&workspace.target, "scipy", &workspace.root.join(REQUIREMENTS))?;
-    // Of the whole workspace: so the features of dependencies are those that `test` has built with.
-    let mut tests = workspace.cargo(["test", "--release", "--workspace", "--test", "octave"]);
-    tests
-        .args(["--", "--ignored"])
-        .env("WEDGELAB_OCTAVE", &octave)
-        .env("WEDGELAB_PYTHON", &python);
-    shell::run(&mut tests)?;
+    for crates in [&SHARED[..], &APART] {
+        let mut tests = workspace.cargo(["test", "--release"]);
+        tests
+            .args(crates)
+            .args(["--test", "octave", "--", "--ignored"])
+            .env("WEDGELAB_OCTAVE", &octave)
+            .env("WEDGELAB_PYTHON", &python);
+        shell::run(&mut tests)?;
+    }
     Ok(version(&octave))
 }
 

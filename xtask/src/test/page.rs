@@ -4,6 +4,7 @@ use std::fs;
 use std::process::Command;
 
 use super::Outcome;
+use crate::builds;
 use crate::shell::{self, Workspace};
 
 const TOOL: &str = "xtask/page";
@@ -29,19 +30,9 @@ pub fn check(workspace: &Workspace) -> Outcome {
             .map_err(|error| format!("html-validate needs Node.js with npm, and network.\n{error}"))?;
     }
     let report = tool.join("report");
-    let arguments = [
-        "run",
-        "--release",
-        "--quiet",
-        "-p",
-        "wedgelab",
-        "--",
-        "reproduce",
-        "--force",
-        "--quiet",
-        "--out",
-    ];
-    shell::run(workspace.cargo(arguments).arg(&report))?;
+    let program = builds::wedgelab(workspace)?;
+    let arguments = ["reproduce", "--force", "--quiet", "--out"];
+    shell::run(Command::new(&program).args(arguments).arg(&report))?;
     let mut validate = Command::new("node");
     validate
         .arg("node_modules/html-validate/bin/html-validate.mjs")

@@ -1,22 +1,21 @@
-//! The race's driver in C compiles, and agrees with our own integrator. What is missing (SUNDIALS) is
-//! installed.
+//! The tests of the race and of the benchmarks; the race's driver in C compiles, and agrees with our own
+//! integrator. What is missing (SUNDIALS) is installed.
 
 use super::Outcome;
+use crate::builds::{self, APART};
 use crate::race::tools;
 use crate::shell::{self, Workspace};
 
-/// Compiles the driver and runs the tests that need it.
+/// Runs the tests, compiles the driver and runs the tests that need it.
 pub fn check(workspace: &Workspace) -> Outcome {
-    // Of the whole workspace: so the features of dependencies are those that `test` has built with.
-    shell::run(&mut workspace.cargo(["build", "--release", "--workspace", "--lib"]))?;
-    let driver = tools::cvode(workspace)?;
-    // For Valgrind, which does not know all instructions of newer processors.
-    let portable = workspace.build_portable(&["-p", "race", "--lib", "--no-default-features"])?;
-    let mut tests = workspace.cargo(["test", "--release", "--workspace", "--test", "drivers"]);
+    let mut tests = workspace.cargo(["test", "--release", "--no-fail-fast"]);
+    shell::run(tests.args(APART))?;
+    let driver = tools::cvode(workspace, &builds::portable_libraries(workspace)?)?;
+    let mut tests = workspace.cargo(["test", "--release"]);
     tests
-        .args(["--", "--ignored"])
-        .env("RACE_CVODE", driver)
-        .env("RACE_PORTABLE", portable);
+        .args(APART)
+        .args(["--test", "drivers", "--", "--ignored"])
+        .env("RACE_CVODE", driver);
     shell::run(&mut tests)?;
     Ok(None)
 }

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use super::Outcome;
+use crate::builds;
 use crate::shell::{self, Workspace};
 
 /// Beginnings of commands that other checks run, or that need the repository: they are not run here.
@@ -26,7 +27,7 @@ pub fn check(workspace: &Workspace) -> Outcome {
     if commands.is_empty() {
         return Err("README.md has no commands".to_owned());
     }
-    shell::run(&mut workspace.cargo(["build", "--release", "--quiet", "-p", "wedgelab"]))?;
+    builds::wedgelab(workspace)?;
     let folder = workspace.target.join("tools").join("readme");
     let failed = |error: std::io::Error| format!("cannot prepare {}: {error}", folder.display());
     if folder.exists() {

@@ -1,10 +1,11 @@
-//! The report page's interactive part and the explorer: types, lints, unit tests, and the pages in a real
+//! The report page's interactive part and the explorer: types, lints, unit tests; and the pages in a real
 //! browser. What is missing is installed: packages of the lock file with npm, Chromium with `apt-get`.
 
 use std::env;
 use std::process::Command;
 
 use super::Outcome;
+use crate::builds;
 use crate::debian;
 use crate::shell::{self, Workspace};
 use crate::viewer::{bundle, install, node};
@@ -12,7 +13,7 @@ use crate::viewer::{bundle, install, node};
 /// Programs that Chromium is called.
 const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
-/// Checks and bundles the viewer, makes a report, and tries its page and the explorer.
+/// Checks and bundles the viewer.
 pub fn check(workspace: &Workspace) -> Outcome {
     install(workspace)?;
     for arguments in [
@@ -23,22 +24,18 @@ pub fn check(workspace: &Workspace) -> Outcome {
         shell::run(&mut node(workspace, arguments.iter().copied()))?;
     }
     bundle(workspace)?;
+    Ok(None)
+}
+
+/// Makes a report, and tries its pages and the explorer in a browser.
+pub fn browser(workspace: &Workspace) -> Outcome {
+    install(workspace)?;
+    bundle(workspace)?;
     let chromium = chromium()?;
     let report = workspace.target.join("viewer-report");
-    let arguments = [
-        "run",
-        "--release",
-        "--quiet",
-        "-p",
-        "wedgelab",
-        "--",
-        "reproduce",
-        "--force",
-        "--quiet",
-        "--out",
-    ];
-    shell::run(workspace.cargo(arguments).arg(&report))?;
-    let program = format!("release/wedgelab{}", env::consts::EXE_SUFFIX);
+    let program = builds::wedgelab(workspace)?;
+    let arguments = ["reproduce", "--force", "--quiet", "--out"];
+    shell::run(Command::new(&program).args(arguments).arg(&report))?;
     // One after the other: they measure times.
     let mut tests = node(
         workspace,
@@ -52,7 +49,7 @@ pub fn check(workspace: &Workspace) -> Outcome {
         ],
     );
     tests
-        .env("WEDGELAB", workspace.target.join(program))
+        .env("WEDGELAB", &program)
         .env("WEDGELAB_REPORT", &report)
         .env("WEDGELAB_CHROMIUM", &chromium);
     shell::run(&mut tests)?;

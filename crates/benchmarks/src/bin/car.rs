@@ -8,8 +8,9 @@
 
 use std::process::ExitCode;
 
-use benchmarks::{costs, cpu_seconds, exit};
+use benchmarks::{costs, exit};
 use car::Car;
+use cpu_time::ProcessTime;
 use integrate::{Integrator, Method, Options};
 use mechanics::energy_balance::EnergyBalance;
 use mechanics::system::System;
@@ -155,20 +156,20 @@ fn measure(
     let integrator = Integrator::new(car.system.clone(), options, 0.0, &x);
     let mut integrator = integrator.map_err(|error| error.to_string())?;
     let (mut balance, mut buffer) = (EnergyBalance::new(start), x.clone());
-    let (mut row, mut observing, started) = (1.0, 0.0, cpu_seconds());
+    let (mut row, mut observing, start_of_run) = (1.0, 0.0, ProcessTime::now());
     while integrator.time() < duration {
         integrator.step_to(duration).map_err(|error| error.to_string())?;
         while row * INTERVAL <= integrator.time() {
-            let started = cpu_seconds();
+            let start_of_row = ProcessTime::now();
             integrator.interpolate(row * INTERVAL, &mut buffer);
             observer.segment_like(integrator.problem());
             let seen = observer.observe(row * INTERVAL, &buffer);
             balance.note(row * INTERVAL, &observer.ledger_entries(&seen, start));
             row += 1.0;
-            observing += cpu_seconds() - started;
+            observing += start_of_row.elapsed().as_secs_f64();
         }
     }
-    let cpu = cpu_seconds() - started - observing;
+    let cpu = start_of_run.elapsed().as_secs_f64() - observing;
     let s = integrator.statistics();
     println!(
         "{name:40} {:8} {tolerance:9.0e} {:6} {:8} {:6} {:7} {:9} {:9} {:9.0} {cpu:6.2} {:9.1} {:9.1e}",

@@ -8,7 +8,8 @@
 
 use std::process::ExitCode;
 
-use benchmarks::{costs, cpu_seconds, exit, ledger};
+use benchmarks::{costs, exit, ledger};
+use cpu_time::ProcessTime;
 use integrate::{Integrator, Method, Options};
 use mechanics::energy_balance::EnergyBalance;
 use mechanics::system::System;
@@ -101,7 +102,7 @@ fn measure(case: &TruckCase, method: Method, tolerance: f64) -> Result<(System, 
     let mut observer = system.clone();
     let start = observer.observe(0.0, &x).energies.total();
     let mut integrator = Integrator::new(system, options, 0.0, &x).map_err(|error| error.to_string())?;
-    let started = cpu_seconds();
+    let start_of_run = ProcessTime::now();
     let (mut stopped, mut balance) = (None, EnergyBalance::new(start));
     let (mut row, mut buffer, mut observing) = (1.0, x.clone(), 0.0);
     while integrator.time() < duration {
@@ -110,16 +111,16 @@ fn measure(case: &TruckCase, method: Method, tolerance: f64) -> Result<(System, 
             break;
         }
         while row * INTERVAL <= integrator.time() {
-            let started = cpu_seconds();
+            let start_of_row = ProcessTime::now();
             integrator.interpolate(row * INTERVAL, &mut buffer);
             observer.segment_like(integrator.problem());
             let observation = observer.observe(row * INTERVAL, &buffer);
             balance.note(row * INTERVAL, &ledger(&observation, start));
             row += 1.0;
-            observing += cpu_seconds() - started;
+            observing += start_of_row.elapsed().as_secs_f64();
         }
     }
-    let cpu = cpu_seconds() - started - observing;
+    let cpu = start_of_run.elapsed().as_secs_f64() - observing;
     let (time, x) = (integrator.time(), integrator.x().to_vec());
     observer.segment_like(integrator.problem());
     let observation = observer.observe(time, &x);

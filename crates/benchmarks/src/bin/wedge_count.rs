@@ -10,7 +10,8 @@
 use std::process::ExitCode;
 
 use benchmarks::wedges::{Arrangement, wedges};
-use benchmarks::{costs, cpu_seconds, exit};
+use benchmarks::{costs, exit};
+use cpu_time::ProcessTime;
 use integrate::{Integrator, Options, Problem};
 use mechanics::system::System;
 
@@ -111,9 +112,9 @@ fn measure(count: usize, arrangement: Arrangement) -> Result<String, String> {
 /// Returns the mean cost of a step, µs, the number of events, and the state at the end.
 fn steps(system: &System, recorded: bool) -> Result<(f64, u64, Vec<f64>), String> {
     let mut integrator = begin(system, recorded)?;
-    let started = cpu_seconds();
+    let start = ProcessTime::now();
     advance(&mut integrator, STEPS)?;
-    let cost = 1e6 * (cpu_seconds() - started) / f64::from(STEPS);
+    let cost = 1e6 * start.elapsed().as_secs_f64() / f64::from(STEPS);
     Ok((cost, integrator.statistics().events, integrator.x().to_vec()))
 }
 

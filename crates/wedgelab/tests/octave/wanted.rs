@@ -40,7 +40,7 @@ pub fn wanted() -> BTreeMap<String, Wanted> {
     let mut all = BTreeMap::new();
     let mut toes = |prefix: &str, damping: &str, yaw: &str, rows: &[Row]| {
         for (name, x, y, rows, x_limits) in rows {
-            let runs = ["-0.2", "0", "0.2"].map(|toe| format!("{damping}run_toe_{toe}_psi_{yaw}"));
+            let runs = ["out_0.2", "0", "in_0.2"].map(|toe| format!("{damping}run_toe_{toe}_psi_{yaw}"));
             let wanted = Wanted {
                 runs: runs.to_vec(),
                 labels: vec!["Toe Out", "No Toe", "Toe In"],

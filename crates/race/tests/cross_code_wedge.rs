@@ -1,10 +1,11 @@
-//! Agreement with an independent code: the second derivation of the equations of motion (`common/plain.rs`),
+//! Agreement with an independent code: the second derivation of the equations of motion (`wedge/tests/common/plain.rs`),
 //! integrated by diffsol's implicit Runge-Kutta methods, against the wedge as it is.
 //!
 //! Two yawed cases, over the release from the start, its ringing, and sliding under load (with variable
 //! damping the bolster goes down first here: going up it would leave the wedge free).
-#![allow(clippy::unwrap_used, clippy::expect_used)]
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
+#[path = "../../wedge/tests/common/mod.rs"]
 mod common;
 
 use common::plain::Plain;

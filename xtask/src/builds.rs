@@ -1,0 +1,75 @@
+//! What is built for the checks, so that nothing is compiled twice.
+//!
+//! Cargo compiles a dependency anew for every set of its features, and the set depends on the crates that are
+//! selected, tests among them. The crates of [`SHARED`] ask for the same features as a user's `cargo build`:
+//! one build of every dependency serves users, tests, doc tests and broken inputs. The check `features` holds
+//! them to it. Other crates bring dependencies with features of their own: the race diffsol, the benchmarks
+//! Criterion, the Python package NumPy.
+
+use std::env::consts::{DLL_PREFIX, DLL_SUFFIX, EXE_SUFFIX};
+use std::path::PathBuf;
+
+use crate::shell::{self, PORTABLE, Workspace};
+
+/// Selects the crates that share every dependency with the programs that users build.
+pub const SHARED: [&str; 7] = [
+    "--workspace",
+    "--exclude",
+    "benchmarks",
+    "--exclude",
+    "race",
+    "--exclude",
+    "wedgelab-py",
+];
+
+/// Selects the race and the benchmarks.
+pub const APART: [&str; 4] = ["--package", "benchmarks", "--package", "race"];
+
+/// Builds programs of [`SHARED`] in the release profile and returns their folder.
+///
+/// # Errors
+/// They do not compile.
+pub fn programs(workspace: &Workspace, targets: &[&str]) -> Result<PathBuf, String> {
+    let mut build = workspace.cargo(["build", "--release"]);
+    shell::run(build.args(SHARED).args(targets))?;
+    Ok(workspace.target.join("release"))
+}
+
+/// Builds the command `wedgelab` and returns its path.
+///
+/// # Errors
+/// It does not compile.
+pub fn wedgelab(workspace: &Workspace) -> Result<PathBuf, String> {
+    let folder = programs(workspace, &["--bin", "wedgelab"])?;
+    Ok(folder.join(format!("wedgelab{EXE_SUFFIX}")))
+}
+
+/// Builds the libraries that other programs load, those of FMUs and of the race, for all processors and
+/// returns their folder. Valgrind does not know all instructions of newer processors, and the libraries are
+/// to compute the same bits without them.
+///
+/// # Errors
+/// They do not compile.
+pub fn portable_libraries(workspace: &Workspace) -> Result<PathBuf, String> {
+    let libraries = ["--package", "race", "--package", "wedgelab-fmu", "--lib"];
+    portable(workspace, &[&libraries[..], &["--no-default-features"]].concat())
+}
+
+/// Builds with these arguments of `cargo build --release` for all processors, apart from all else, and
+/// returns the folder of what was built.
+///
+/// # Errors
+/// It does not compile.
+pub fn portable(workspace: &Workspace, arguments: &[&str]) -> Result<PathBuf, String> {
+    let target = workspace.target.join("portable");
+    let mut build = workspace.cargo(["build", "--release"]);
+    let build = build.args(arguments).args(PORTABLE);
+    shell::run(build.env("CARGO_TARGET_DIR", &target))?;
+    Ok(target.join("release"))
+}
+
+/// Returns the file name of a shared library of the crate with this name in code.
+#[must_use]
+pub fn library(name: &str) -> String {
+    format!("{DLL_PREFIX}{name}{DLL_SUFFIX}")
+}
