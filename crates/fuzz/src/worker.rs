@@ -74,8 +74,8 @@ fn end_when_patience_ends(patience: Duration) {
     std::thread::spawn(move || {
         loop {
             std::thread::sleep(LOOK);
-            // Begun later than now: nothing is read.
-            let since = used().checked_sub(BEGUN.load(Ordering::Relaxed));
+            // Started later than now: nothing is read.
+            let since = used().checked_sub(STARTED.load(Ordering::Relaxed));
             if since.is_some_and(|since| since > patience) {
                 std::process::exit(i32::from(GIVEN_UP));
             }
@@ -202,8 +202,8 @@ impl Worker {
         Ok(())
     }
 
-    fn measured(&self, input: &[u8]) -> (Duration, Result<Outcome, Panic>) {
-        BEGUN.store(used(), Ordering::Relaxed);
+    fn measured(&self, input: &[u8]) -> (Duration, Result<ReadOutcome, Panic>) {
+        STARTED.store(used(), Ordering::Relaxed);
         let start = ThreadTime::now();
         let outcome = panic::catch_unwind(|| (self.reader.read)(input));
         (start.elapsed(), outcome.map_err(|_| last_panic()))

@@ -1,5 +1,5 @@
-//! Agreement with published reference solutions, and with those of an independent code. Crate `race` compares with a
-//! solver of others that runs beside ours.
+//! Agreement with published reference solutions, and with those of an independent code. Crate `race` compares
+//! with a solver of others that runs beside ours.
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 

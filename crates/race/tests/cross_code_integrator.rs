@@ -1,5 +1,5 @@
-//! The integrator agrees with an independent code (diffsol) on standard test problems of stiff equations and on one with
-//! a contact.
+//! The integrator agrees with an independent code (diffsol) on standard test problems of stiff equations and
+//! on one with a contact.
 #![allow(missing_docs, clippy::unwrap_used)]
 
 #[path = "../../integrate/tests/common/problems.rs"]

@@ -1,5 +1,6 @@
-//! Agreement with an independent code: the second derivation of the equations of motion (`wedge/tests/common/plain.rs`),
-//! integrated by diffsol's implicit Runge-Kutta methods, against the wedge as it is.
+//! Agreement with an independent code: the second derivation of the equations of motion
+//! (`wedge/tests/common/plain.rs`), integrated by diffsol's implicit Runge-Kutta methods, against the wedge
+//! as it is.
 //!
 //! Two yawed cases, over the release from the start, its ringing, and sliding under load (with variable
 //! damping the bolster goes down first here: going up it would leave the wedge free).

@@ -1,6 +1,6 @@
-//! CVODE's driver in C, through the C interface, agrees with our own integrator.
-//! `cargo xtask test --only race` compiles the driver, with the library compiled for all processors, and names it
-//! in `RACE_CVODE`; where valgrind is installed it looks for wrong accesses too.
+//! CVODE's driver in C, through the C interface, agrees with our own integrator. `cargo xtask test --only
+//! race` compiles the driver, with the library compiled for all processors, and names it in `RACE_CVODE`;
+//! where valgrind is installed it looks for wrong accesses too.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use std::process::Command;

@@ -158,8 +158,10 @@ const OTHERS: &str = "
 
 | what | command |
 |---|---|
-| the report's page: size, time until it opens, frames a second of the 3D view; the explorer's answer to a change | `cargo xtask test --only browser` |
-| runs, `run_many` and single steps from Python, against the command line | `python crates/wedgelab-py/benchmarks/overhead.py WEDGELAB` |
+| the report's page: size, time until it opens, frames a second of the 3D view; the explorer's answer to a \
+change | `cargo xtask test --only browser` |
+| runs, `run_many` and single steps from Python, against the command line | `python \
+crates/wedgelab-py/benchmarks/overhead.py WEDGELAB` |
 | other solvers on the same equations | `cargo xtask race` ([race.md](race.md)) |
 ";
 

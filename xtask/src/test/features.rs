@@ -15,8 +15,9 @@ pub fn check(workspace: &Workspace) -> Outcome {
         return Ok(Some(format!("{} dependencies", users.len())));
     }
     Err(format!(
-        "These are compiled twice, with everything that depends on them: ask for the features in [workspace.dependencies] \
-         too, or move what asks for them to a crate that xtask/src/builds.rs builds apart.\n{}",
+        "These are compiled twice, with everything that depends on them: ask for the features in \
+         [workspace.dependencies] too, or move what asks for them to a crate that xtask/src/builds.rs builds \
+         apart.\n{}",
         differing.join("\n")
     ))
 }

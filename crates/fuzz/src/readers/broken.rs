@@ -45,7 +45,7 @@ fn read(input: &[u8]) -> ReadOutcome {
         }
         Ok("endless") => {
             compute(u64::MAX);
-            Outcome::ACCEPTED
+            ReadOutcome::ACCEPTED
         }
         _ => ReadOutcome::NO_TEXT,
     }
