@@ -36,7 +36,7 @@ pub const FILE_NAME: &str = "index.html";
 /// The folder of the figures' files, beside the page.
 pub const FIGURES: &str = "figures";
 
-const STYLE: &str = include_str!("style.css");
+const STYLE: &str = concat!(include_str!("colours.css"), include_str!("style.css"));
 /// What pages do without the viewer.
 const SCRIPT: &str = include_str!("page.js");
 
