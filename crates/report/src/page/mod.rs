@@ -17,6 +17,8 @@ pub mod truck_run;
 mod viewer;
 pub mod wheelset;
 
+use std::borrow::Cow;
+
 use ::study::summary::RunSummary;
 use maud::{DOCTYPE, Markup, PreEscaped, Render, html};
 use quantity::System as Units;
@@ -268,8 +270,11 @@ fn document(
     interactive: Option<(Viewer, &str)>,
 ) -> String {
     let (main, found) = match nav {
-        Some(_) => (main.0.clone(), None),
-        None => contents::of(&main.0),
+        Some(_) => (Cow::Borrowed(main.0.as_str()), None),
+        None => {
+            let (main, found) = contents::of(&main.0);
+            (Cow::Owned(main), found)
+        }
     };
     let nav = nav.or(found.as_ref());
     let page = html! {

@@ -224,8 +224,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             code = failure.report();
         }
     }
-    for run in told.iter().flat_map(|told| &told.runs) {
-        let summary = &run.result.summary;
+    for summary in told.iter().flat_map(|told| &told.summaries) {
         if let Some(failure) = unsound::<TruckCase>(summary, &planned.runs.join(&summary.name)) {
             code = failure.report();
         }
