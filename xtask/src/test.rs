@@ -129,7 +129,7 @@ const CHECKS: &[Check] = &[
     ),
     Check::new(
         "readme",
-        "the README's commands run in its order, and again where results exist",
+        "the README's commands run in its order, and again where results exist; the tutorial's too",
         readme::check,
     ),
     Check::new(

@@ -13,6 +13,26 @@
 //! | what one sees: wheel forces, places on the track, accelerations, trucks | [`Loads`] |
 //!
 //! Not in the model: flexible bodies, braking, coupler forces.
+//!
+//! ```
+//! use car::{Car, Parameters};
+//! use integrate::Problem;
+//! use truck::Lading;
+//! use wheelrail::track::{CenterLine, Segment, Track};
+//!
+//! let center_line = CenterLine::new(&[Segment::Tangent(200.0)], 1.511, &[])?; // m
+//! let track = Track { center_line, irregularities: Vec::new() };
+//! let parameters = Parameters::new(Lading::Loaded, track, 20.0)?; // m/s
+//! let mut car = Car::new(&parameters)?;
+//! let state = car.initial_state.clone();
+//! let mut rates = vec![0.0; state.len()];
+//! car.system.derivative(0.0, &state, &mut rates);
+//! let seen = car.system.observe(0.0, &state);
+//! let loads = car.loads(&seen, &rates);
+//! let carried: f64 = loads.wheels.iter().flatten().map(|wheel| wheel.vertical).sum(); // N
+//! assert!((carried / parameters.weight() - 1.0).abs() < 0.01);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #![warn(missing_docs)]
 

@@ -13,6 +13,19 @@
 //! - [`package`], [`resources`]: writing a whole FMU, and finding the case again in an unpacked one;
 //!   [`limits`]: how much is read.
 //! - [`ssp`]: the truck with four wedges as a system structure.
+//!
+//! ```
+//! use fmi::description::{Description, FmuModel, Version};
+//! use fmi::source::Source;
+//!
+//! let case = study::case::builtin::case("vdrun_toe_0_psi_0")?;
+//! let source = Source::of_case(FmuModel::Wedge, case).ok_or("made of something else")?;
+//! let description = Description::new(&source)?;
+//! let mut variables = description.variables.iter();
+//! assert!(variables.any(|variable| variable.name == "force_on_bolster_z"));
+//! assert!(description.xml(Version::Three)?.contains("fmiVersion=\"3.0\""));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod car;
 pub mod description;

@@ -6,6 +6,15 @@
 //! - [`Text`]: a text that was read, with excerpts of bounded size for messages.
 //! - [`structure`]: nesting, number of values and length of lines of TOML, found before it is parsed.
 //! - [`shortened`]: a piece of a user's text, short enough for a message.
+//!
+//! ```
+//! use input::{FileType, limits, structure};
+//!
+//! let seems = FileType::of(b"case = \"vdrun_toe_0_psi_0\"\n[vary]\n");
+//! assert_eq!(seems, Some(FileType::Study));
+//! let nested = format!("deep = {}", "[".repeat(limits::NESTING + 1));
+//! assert!(structure::toml(&nested).is_err()); // before a parser sees it
+//! ```
 
 #![warn(missing_docs)]
 

@@ -42,6 +42,16 @@ pub const COMPONENT: &str = "127";
 /// A run of the half-truck.
 pub type TruckOutcome = (CatalogEntry, HalfTruckResult);
 
+/// Returns whether statements and figures use a column of a half-truck: none of other wedges than the one
+/// that is compared.
+#[must_use]
+pub fn needs(column: &str) -> bool {
+    let mut parts = column.split('_');
+    let of_wedge = matches!(parts.next(), Some("wedge" | "force" | "stroke" | "velocity"));
+    let number = parts.next().filter(|part| part.parse::<u32>().is_ok());
+    !of_wedge || number.is_none_or(|own| own == COMPONENT)
+}
+
 /// Returns a column of the half-truck's table under the name of the stand-alone wedge's column that stands
 /// for the same; any other name is the half-truck's own.
 #[must_use]

@@ -13,6 +13,15 @@
 //!
 //! Elements are [`mechanics::element::Element`]s: marker A is on the wheelset, marker B on the ground or on a
 //! sprung rail, with the fixed axes of the track. All are written over a scalar and have no memory. SI units.
+//!
+//! ```
+//! use rolling::wheelset::{WheelsetBody, WheelsetPlace};
+//!
+//! let wheelset = WheelsetBody { mass: 1250.0, about_axle: 150.0, about_diameter: 700.0 }; // kg, kg·m²
+//! let place = WheelsetPlace { position: [10.0, 0.0, 0.46], ..Default::default() };
+//! let body = wheelset.body("wheelset", &place);
+//! assert_eq!(body.initial[2], 10.0); // forward; the last of its angles is its spin
+//! ```
 
 #![warn(missing_docs)]
 

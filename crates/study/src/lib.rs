@@ -2,6 +2,18 @@
 //!
 //! A [`case::Case`] says what to run, a [`run::Run`] runs it, a [`result::RunResult`] holds what came out,
 //! and [`summary::Summary`] says it in numbers.
+//!
+//! ```
+//! use study::case::Case;
+//! use study::run::Run;
+//!
+//! let text = "[wedge]\ndamping = \"constant\"\n[simulation]\nduration = \"0.2 s\"\n";
+//! let case = Case::parse("my.toml", text, std::path::Path::new(""), &[])?;
+//! let result = Run::new(&case)?.finish(|_time| ());
+//! assert_eq!(result.rows(), 21);
+//! assert!(result.summary.ledger.largest_relative_residual < 1e-5);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod any_case;
 pub mod assumptions;

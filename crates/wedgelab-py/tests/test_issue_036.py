@@ -1,9 +1,11 @@
-"""Issue 36: one meaning of bare names, units that convert, what notebooks show, progress."""
+"""Issue 36: one meaning of bare names, units that convert, what notebooks show, progress, the reference."""
 
 from __future__ import annotations
 
 import io
 import pickle
+import runpy
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -98,3 +100,9 @@ def test_issue_036_progress_reads_well_outside_terminals() -> None:
     for done in range(1, 4):
         tell(done)
     assert terminal.getvalue() == "1 of 3 runs\r2 of 3 runs\r3 of 3 runs\n"
+
+
+def test_issue_036_the_reference_is_that_of_the_sources() -> None:
+    place = Path(__file__).parents[1] / "scripts" / "api_page.py"
+    written = runpy.run_path(str(place))
+    assert written["PAGE"].read_text(encoding="utf-8") == written["page"](), f"run python {place}"

@@ -1,6 +1,7 @@
 //! Adjustments of tables of results before they are used: a span of time, other names of columns.
 
 use clap::Args;
+use quantity::{Kind, Quantity};
 use report::table::ResultTable;
 
 use crate::failure::{Failure, Message};
@@ -51,10 +52,10 @@ impl Names {
 #[derive(Debug, Args)]
 pub struct TimeSpan {
     /// Leave out the values before this time, s
-    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     from: Option<f64>,
     /// Leave out the values after this time, s
-    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     to: Option<f64>,
 }
 
@@ -65,6 +66,20 @@ impl TimeSpan {
     /// Fewer than two rows are left.
     pub fn apply(&self, table: &mut ResultTable) -> Result<(), Failure> {
         keep(table, self.from, self.to)
+    }
+}
+
+/// A time in seconds: a number, or with its unit.
+pub fn seconds(text: &str) -> Result<f64, String> {
+    let seconds = match text.trim().parse() {
+        Ok(number) => number,
+        Err(_) => Quantity::parse_as(text, Kind::Time)
+            .map_err(|error| error.to_string())?
+            .to_si(),
+    };
+    match seconds.is_finite() {
+        true => Ok(seconds),
+        false => Err("a time is expected, for example 2, \"2 s\" or \"200 ms\"".to_owned()),
     }
 }
 

@@ -122,17 +122,69 @@ fn issue_036_the_wrong_command_names_the_right_one() {
         ),
         (&["run", "vdrun_toe"], ["did you mean", "vdrun_toe_0_psi_0"]),
         (
+            &["run", "result"],
+            ["is a folder", "name the case file in it: result/case.toml"],
+        ),
+        (
+            &["regime", "car_hunting_empty", "hunting"],
+            [
+                "the regime is named before it",
+                "`wedgelab regime hunting car_hunting_empty`",
+            ],
+        ),
+        (
+            &["regime", "car_hunting_empty"],
+            ["is a case", "`wedgelab regime REGIME car_hunting_empty`"],
+        ),
+        (
             &["nucars", "run", "nucars_69"],
             ["did you mean nucars_69_", "--list"],
         ),
     ] {
         refused(folder.path(), arguments, &texts);
     }
+    // Also where the half-truck's results lie beside.
+    fs::create_dir(folder.path().join(half)).unwrap();
+    for command in ["run", "explore", "energy"] {
+        refused(
+            folder.path(),
+            &[command, half],
+            &[&run_half, "built-in half-truck"],
+        );
+    }
     let keys = wedgelab(
         folder.path(),
         &["run", "truck_vertical_variable", "--set", "qqqqq=1"],
     );
     assert_eq!(keys.err.matches(" bolster,").count(), 1, "{}", keys.err);
+}
+
+#[test]
+fn issue_036_spans_of_time_are_numbers_or_times_with_units() {
+    let folder = folder();
+    let path = folder.path();
+    let drawn = |from: &str, to: &str| {
+        let out = ["--from", from, "--to", to, "--out", "z.svg", "--force"];
+        done(
+            path,
+            &[&["plot", "result", "--x", "time", "--y", "wedge_z"], &out[..]].concat(),
+        );
+        fs::read_to_string(path.join("z.svg")).unwrap()
+    };
+    let plain = drawn("0.02", "0.06");
+    assert_eq!(drawn("20 ms", "0.06 s"), plain);
+    assert_ne!(drawn("0", "0.06"), plain);
+    for (from, text) in [
+        ("2 in", "a time is expected"),
+        ("nan", "a time is expected"),
+        ("soon", "not a number"),
+    ] {
+        refused(
+            path,
+            &["compare", "result", "result", "--from", from],
+            &[text, "--from"],
+        );
+    }
 }
 
 /// A sine of 2 in at 5 Hz on a mean of 7 in, with its columns in inches.
@@ -297,6 +349,26 @@ fn input_issue_036_truncated_files_point_at_their_end() {
             &["the file ends here", "was cut off", &format!("cut.toml{line}")],
         );
     }
+    // Said once, also where the parser expects several things.
+    fs::write(
+        path.join("study.toml"),
+        "case = \"vdrun_toe_0_psi_0\"\n[vary]\nfriction.column = { fro",
+    )
+    .unwrap();
+    let output = wedgelab(path, &["study", "study.toml"]);
+    assert_eq!(output.code, Some(2), "{}", output.err);
+    assert_eq!(
+        output.err.matches("the file ends here").count(),
+        1,
+        "{}",
+        output.err
+    );
+    let short = ["--set", "simulation.duration='0.1 s'", "--quiet", "--out", "cut"];
+    done(path, &[&["run", "vdrun_toe_0_psi_0"], &short[..]].concat());
+    let summary = fs::read_to_string(path.join("cut/summary.json")).unwrap();
+    fs::write(path.join("cut/summary.json"), &summary[..500]).unwrap();
+    let last = format!("line {}", summary[..500].lines().count());
+    refused(path, &["report", "cut"], &["the file ends here", &last]);
     // A mistake before the end is not taken for one.
     fs::write(path.join("wrong.toml"), "[wedge]\ndamping = variable\n").unwrap();
     let output = wedgelab(path, &["run", "wrong.toml"]);

@@ -274,7 +274,9 @@ fn a_run_file_is_run() {
         &[
             "energy per cycle",
             "130",
-            &format!("Written into {name}: result.csv, result.mat, summary.json, index.html"),
+            &format!(
+                "Written into {name}: result.csv, result.mat, summary.json, loops.svg, loops.png, index.html"
+            ),
         ],
     );
     contains(
@@ -417,6 +419,29 @@ fn built_in_runs_are_listed_and_run() {
     contains(&output.err, &["jammed wedges"]);
     contains(&output.out, &["Written into deep/in"]);
     assert_eq!(json(folder.path(), "deep/in")["name"], name);
+}
+
+#[test]
+fn issue_036_a_run_draws_its_figure() {
+    let folder = tempfile::tempdir().unwrap();
+    let short = ["--set", "simulation.duration=\"1 s\"", "--quiet", "--out", "own"];
+    let output = wedgelab(
+        folder.path(),
+        &[&["run", "nucars_69_constant_toe_out"], &short[..]].concat(),
+    );
+    assert_eq!(output.code, Some(0), "{}", output.err);
+    let read = |name: &str| fs::read(folder.path().join("own").join(name)).unwrap();
+    let drawing = String::from_utf8(read("loops.svg")).unwrap();
+    contains(
+        &drawing,
+        &["nucars_69_constant_toe_out: forces of the columns", "wedge 130"],
+    );
+    assert!(read("loops.png").starts_with(b"\x89PNG"));
+    // The page shows the same drawing.
+    let curve = drawing.split(" d=\"").max_by_key(|part| part.len()).unwrap();
+    let curve = curve.split('"').next().unwrap();
+    assert!(curve.len() > 200, "{curve}");
+    contains(&String::from_utf8(read("index.html")).unwrap(), &[curve]);
 }
 
 #[test]

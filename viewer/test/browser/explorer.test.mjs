@@ -8,6 +8,7 @@ import { join } from "node:path";
 import { createInterface } from "node:readline";
 import { after, before, test } from "node:test";
 import { chromium } from "playwright-core";
+import { faint, tooWide, WIDTHS } from "./seen.mjs";
 
 const program = process.env.WEDGELAB;
 const skip = program ? false : "WEDGELAB names the program";
@@ -51,9 +52,9 @@ after(async () => {
 });
 
 /** A page on which every complaint, and every look elsewhere, is noted. */
-async function open(size = { width: 1280, height: 900 }) {
+async function open(size = { width: 1280, height: 900 }, options = {}) {
   faults = [];
-  const page = await browser.newPage({ viewport: size });
+  const page = await browser.newPage({ viewport: size, ...options });
   page.on("pageerror", (error) => faults.push(String(error)));
   page.on("console", (message) => {
     // Refused values are answered with 422 and replaced runs with 409, which the browser tells as errors; drivers in software say so.
@@ -508,12 +509,27 @@ test("a preset brings its values; files are kept", { skip }, async () => {
   await page.close();
 });
 
-test("at a phone's width nothing sticks out", { skip }, async () => {
-  const page = await open({ width: 390, height: 800 });
-  await page.locator(".wx-section").evaluateAll((folds) => folds.forEach((fold) => (fold.open = true)));
+test("issue_036_nothing of the explorer sticks out at any width, and it can be read on light and on dark paper", { skip }, async () => {
+  const page = await open({ width: 1366, height: 800 });
   await page.locator(".wl-run[data-ready]").waitFor({ timeout: 20_000 });
-  const width = await page.evaluate(() => document.documentElement.scrollWidth);
-  assert.ok(width <= 390, `${width} px`);
+  await page.locator(".wx-section").evaluateAll((folds) => folds.forEach((fold) => (fold.open = true)));
+  await type(page, "friction.column", "-1")();
+  await page.locator(".wx-bar p").waitFor();
+  for (const colorScheme of ["light", "dark"]) {
+    await page.emulateMedia({ colorScheme });
+    for (const width of WIDTHS) {
+      await page.setViewportSize({ width, height: 800 });
+      assert.deepEqual(await tooWide(page), [], `${width} px, ${colorScheme}`);
+    }
+    const { texts, found } = await faint(page);
+    assert.ok(texts > 100, `${texts} texts`);
+    assert.deepEqual(found, [], colorScheme);
+    const paper = await page.evaluate(() => window.getComputedStyle(document.body).backgroundColor);
+    assert.equal(paper, colorScheme === "dark" ? "rgb(20, 24, 28)" : "rgb(255, 255, 255)");
+    if (process.env.WEDGELAB_PICTURES) {
+      await page.screenshot({ path: join(process.env.WEDGELAB_PICTURES, `explorer-${colorScheme}.png`) });
+    }
+  }
   await page.close();
 });
 

@@ -1,6 +1,6 @@
 // Every kind of page at the widths of a phone, a notebook and a large screen: nothing sticks out, everything can be read, reached with
 // keys and named by a screen reader. WEDGELAB: the program; WEDGELAB_REPORT: what `wedgelab reproduce` wrote; WEDGELAB_CHROMIUM: the browser.
-/* global getComputedStyle, NodeFilter */
+/* global getComputedStyle */
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -9,10 +9,10 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
+import { faint, tooWide, WIDTHS } from "./seen.mjs";
 
 const program = process.env.WEDGELAB;
 const skip = program ? false : "WEDGELAB names the program";
-const WIDTHS = [390, 1366, 1920];
 const RUNS = [
   ["wedge", "vdrun_toe_0_psi_0.012", ["simulation.duration='3 s'"]],
   ["softer", "vdrun_toe_0_psi_0.012", ["simulation.duration='3 s'", "friction.column=0.3"]],
@@ -70,26 +70,6 @@ async function open(what, width = 1366, options = {}) {
   return page;
 }
 
-/** What is too wide: the page, tables beside cards and figures. */
-const tooWide = (page) =>
-  page.evaluate(() => {
-    const width = document.documentElement.clientWidth;
-    const found = document.documentElement.scrollWidth > width ? [`the page: ${document.documentElement.scrollWidth} px`] : [];
-    for (const element of document.querySelectorAll("main *, nav *, header *")) {
-      const { left, right, width: own } = element.getBoundingClientRect();
-      const scrolled = element.closest(".wide") !== null && element.closest(".wide") !== element;
-      if (own > 0 && !scrolled && (right > width + 1 || left < -1) && !element.closest(".wl-names, .u-over, svg, .uplot, thead")) {
-        found.push(`${element.tagName} ${element.className}: ${left.toFixed(0)} to ${right.toFixed(0)}`);
-      }
-    }
-    for (const wide of document.querySelectorAll(".wide")) {
-      if (wide.scrollWidth > wide.clientWidth + 1) {
-        found.push(`table below "${wide.closest("section")?.querySelector("h2")?.textContent}": ${wide.scrollWidth} in ${wide.clientWidth}`);
-      }
-    }
-    return found.slice(0, 8);
-  });
-
 for (const what of ["wedge", "truck", "car", "report", "reproduction"]) {
   test(`issue_036_the page of a ${what} is cut off at no width`, { skip }, async (t) => {
     if (!pages.has(what)) {
@@ -111,48 +91,6 @@ for (const what of ["wedge", "truck", "car", "report", "reproduction"]) {
     }
   });
 }
-
-/** Texts whose contrast with what is behind them is below WCAG AA. */
-const faint = (page) =>
-  page.evaluate(() => {
-    const parse = (text) => {
-      const numbers = text.match(/-?[\d.]+(e-?\d+)?/g)?.map(Number) ?? [0, 0, 0, 0];
-      const [r, g, b, a = 1] = numbers;
-      return text.startsWith("color(") ? [255 * r, 255 * g, 255 * b, a] : [r, g, b, a];
-    };
-    const over = ([r, g, b, a], under) => [r, g, b].map((part, k) => a * part + (1 - a) * under[k]);
-    const behind = (element) => {
-      if (!element) {
-        return [255, 255, 255];
-      }
-      const own = parse(getComputedStyle(element).backgroundColor);
-      return own[3] >= 1 ? own.slice(0, 3) : over(own, behind(element.parentElement));
-    };
-    const light = (rgb) => {
-      const [r, g, b] = rgb.map((part) => (part / 255 <= 0.04045 ? part / 255 / 12.92 : ((part / 255 + 0.055) / 1.055) ** 2.4));
-      return 0.2126 * r + 0.7152 * g + 0.0722 * b;
-    };
-    const found = [];
-    let texts = 0;
-    const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
-    for (let node = walker.nextNode(); node; node = walker.nextNode()) {
-      const element = node.parentElement;
-      if (!node.textContent.trim() || element.closest("svg, script, style, option") || !element.checkVisibility()) {
-        continue;
-      }
-      const style = getComputedStyle(element);
-      const under = behind(element);
-      const [a, b] = [light(over(parse(style.color), under)), light(under)].sort((x, y) => y - x);
-      const ratio = (a + 0.05) / (b + 0.05);
-      const size = parseFloat(style.fontSize);
-      const large = size >= 24 || (size >= 18.66 && Number(style.fontWeight) >= 700);
-      texts++;
-      if (ratio < (large ? 3 : 4.5)) {
-        found.push(`${ratio.toFixed(2)} ${element.tagName}.${element.className}: ${node.textContent.trim().slice(0, 40)}`);
-      }
-    }
-    return { texts, found: found.slice(0, 8) };
-  });
 
 test("texts have the contrast of WCAG AA on light and on dark paper", { skip }, async () => {
   for (const colorScheme of ["light", "dark"]) {

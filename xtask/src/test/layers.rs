@@ -173,6 +173,22 @@ mod tests {
     }
 
     #[test]
+    fn issue_036_every_library_s_entry_page_has_an_example() {
+        let crates = Workspace::find().root.join("crates");
+        let libraries = LAYERS
+            .iter()
+            .filter(|(layer, _)| !["libraries", "interfaces"].contains(layer));
+        for name in libraries.flat_map(|(_, crates)| *crates) {
+            let text = fs::read_to_string(crates.join(name).join("src/lib.rs")).unwrap();
+            let head: Vec<&str> = text.lines().take_while(|line| !line.starts_with("#!")).collect();
+            assert!(
+                head.contains(&"//! ```"),
+                "{name} has no example on its entry page"
+            );
+        }
+    }
+
+    #[test]
     fn lower_layers_and_strangers_are_allowed() {
         let dependencies =
             "[dependencies]\nintegrate.workspace = true\nmechanics = { path = 'm' }\nlibm = '1'";

@@ -1,4 +1,5 @@
-//! The commands of the README run, in its order, in an empty folder, and once more where results exist.
+//! The commands of the README run, in its order, in an empty folder, and once more where results exist; those
+//! of the tutorial run once.
 
 use std::env;
 use std::fs;
@@ -9,11 +10,13 @@ use super::Outcome;
 use crate::builds;
 use crate::shell::{self, Workspace};
 
-/// Beginnings of commands that other checks run, or that need the repository: they are not run here.
-const ELSEWHERE: [&str; 3] = [
+/// Beginnings of commands that other checks run, that need the repository, or that take most of a minute: they
+/// are not run here.
+const ELSEWHERE: [&str; 4] = [
     "cargo install --path crates/wedgelab",
     "cargo xtask ",
     "pip install .",
+    "wedgelab stability car_hunting_roller_empty --nonlinear",
 ];
 
 /// A built program is called in place of this.
@@ -21,13 +24,22 @@ const FROM_SOURCE: &str = "cargo run --release -- ";
 
 /// Runs the commands.
 pub fn check(workspace: &Workspace) -> Outcome {
-    let readme = fs::read_to_string(workspace.root.join("README.md"))
-        .map_err(|error| format!("README.md cannot be read: {error}"))?;
-    let commands = commands(&readme);
-    if commands.is_empty() {
-        return Err("README.md has no commands".to_owned());
-    }
     builds::wedgelab(workspace)?;
+    let readme = run(workspace, "README.md", 2)?;
+    let tutorial = run(workspace, "docs/tutorial.md", 1)?;
+    Ok(Some(format!(
+        "{readme} commands, twice; {tutorial} of the tutorial"
+    )))
+}
+
+/// Runs the commands of a page in an empty folder, some times over; returns how many there are.
+fn run(workspace: &Workspace, page: &str, times: usize) -> Result<usize, String> {
+    let text = fs::read_to_string(workspace.root.join(page))
+        .map_err(|error| format!("{page} cannot be read: {error}"))?;
+    let commands = commands(&text);
+    if commands.is_empty() {
+        return Err(format!("{page} has no commands"));
+    }
     let folder = workspace.target.join("tools").join("readme");
     let failed = |error: std::io::Error| format!("cannot prepare {}: {error}", folder.display());
     if folder.exists() {
@@ -38,23 +50,34 @@ pub fn check(workspace: &Workspace) -> Outcome {
     let others = env::var_os("PATH").unwrap_or_default();
     let path = env::join_paths(programs.chain(env::split_paths(&others).collect::<Vec<PathBuf>>()))
         .map_err(|error| format!("PATH cannot be set: {error}"))?;
-    for _ in 0..2 {
-        for command in &commands {
-            let mut shell = Command::new("bash");
-            let options = ["-euo", "pipefail", "-c", command.as_str()];
-            shell::run(shell.args(options).current_dir(&folder).env("PATH", &path))?;
-        }
+    for command in (0..times).flat_map(|_| &commands) {
+        let mut shell = Command::new("bash");
+        let options = ["-euo", "pipefail", "-c", command.as_str()];
+        shell::run(shell.args(options).current_dir(&folder).env("PATH", &path))?;
     }
-    Ok(Some(format!("{} commands, twice", commands.len())))
+    Ok(commands.len())
 }
 
-/// Returns the commands of the blocks of shell code that are run here, without their comments.
-fn commands(readme: &str) -> Vec<String> {
+/// Returns the commands of the blocks of shell code that are run here, without their comments, and commands
+/// that save the blocks below "Save this as `NAME`".
+fn commands(page: &str) -> Vec<String> {
     let mut commands = Vec::new();
     let mut inside = false;
-    for line in readme.lines() {
+    let mut name = None;
+    let mut file: Option<String> = None;
+    for line in page.lines() {
+        if let Some((_, rest)) = line.split_once("Save this as `") {
+            name = rest.split('`').next();
+        }
         if line.starts_with("```") {
             inside = line == "```sh";
+            commands.extend(file.take().map(|file| file + "END"));
+            if line.len() > 3 {
+                file = name.take().map(|name| format!("cat > {name} <<'END'\n"));
+            }
+        } else if let Some(file) = &mut file {
+            file.push_str(line);
+            file.push('\n');
         } else if inside {
             let command = line.split("  #").next().unwrap_or_default().trim();
             let elsewhere = ELSEWHERE.iter().any(|start| command.starts_with(start));
@@ -69,6 +92,61 @@ fn commands(readme: &str) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn files_are_saved_as_a_page_says() {
+        let page = "Save this as `a.toml`:\n\n```toml\nb = 1\n[c]\n```\n```sh\nwedgelab study a.toml\n```\n";
+        let saved = "cat > a.toml <<'END'\nb = 1\n[c]\nEND";
+        assert_eq!(commands(page), [saved, "wedgelab study a.toml"]);
+    }
+
+    #[test]
+    fn issue_036_the_readme_is_short_and_says_what_to_trust() {
+        let readme = fs::read_to_string(Workspace::find().root.join("README.md")).unwrap();
+        let lines = readme.lines().count();
+        assert!(lines <= 120, "{lines} lines");
+        for text in [
+            "![",
+            "## Which numbers to trust",
+            "## What it cannot do",
+            "hold always",
+            "NUCARS",
+        ] {
+            assert!(readme.contains(text), "{text}");
+        }
+        assert!(!readme.contains("comparison program"));
+    }
+
+    #[test]
+    fn issue_036_what_contributors_need_is_there() {
+        let root = Workspace::find().root;
+        let read = |name: &str| fs::read_to_string(root.join(name)).unwrap();
+        let guide = read("CONTRIBUTING.md");
+        for text in [
+            "first force element",
+            "first friction law",
+            "## A release",
+            "Rust 1.",
+        ] {
+            assert!(guide.contains(text), "{text}");
+        }
+        for name in ["CODE_OF_CONDUCT.md", ".github/pull_request_template.md"] {
+            assert!(!read(name).trim().is_empty(), "{name}");
+        }
+        let checks = read(".github/workflows/checks.yml");
+        for system in ["ubuntu", "macos", "windows"] {
+            assert!(checks.contains(system), "{system}");
+        }
+        for text in [checks, read(".github/workflows/benchmarks.yml")] {
+            assert!(text.lines().next().unwrap().contains("UNTESTED"));
+        }
+        for name in ["integrate", "wheelrail"] {
+            assert!(
+                root.join("crates").join(name).join("README.md").is_file(),
+                "{name}"
+            );
+        }
+    }
 
     #[test]
     fn commands_stand_in_blocks_of_shell_code() {

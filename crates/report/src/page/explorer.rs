@@ -5,8 +5,11 @@ use maud::{DOCTYPE, html};
 
 /// The program; empty if it was not there when this crate was built.
 const SCRIPT: &str = include_str!(concat!(env!("OUT_DIR"), "/explorer.js"));
-/// Its style; empty if it was not there when this crate was built.
-const STYLE: &str = include_str!(concat!(env!("OUT_DIR"), "/explorer.css"));
+/// Its style, with the colours of all pages, light and dark.
+const STYLE: &str = concat!(
+    include_str!("colours.css"),
+    include_str!(concat!(env!("OUT_DIR"), "/explorer.css"))
+);
 
 /// The message for people whose program was built without it.
 pub const MISSING: &str = "This program was built without the explorer's page. To get it, install Node.js \

@@ -53,7 +53,8 @@ pub fn render(
 }
 
 /// Friction and normal force of each wedge's column over its stroke.
-fn loops(case: &HalfTruckCase, result: &HalfTruckResult) -> Exhibit {
+#[must_use]
+pub fn loops(case: &HalfTruckCase, result: &HalfTruckResult) -> Exhibit {
     let units = result.summary.units;
     let panel = |title: &str, what: &str| Panel {
         title: title.to_owned(),

@@ -17,6 +17,8 @@ pub mod truck_run;
 mod viewer;
 pub mod wheelset;
 
+use std::borrow::Cow;
+
 use ::study::summary::RunSummary;
 use maud::{DOCTYPE, Markup, PreEscaped, Render, html};
 use quantity::System as Units;
@@ -36,7 +38,7 @@ pub const FILE_NAME: &str = "index.html";
 /// The folder of the figures' files, beside the page.
 pub const FIGURES: &str = "figures";
 
-const STYLE: &str = include_str!("style.css");
+const STYLE: &str = concat!(include_str!("colours.css"), include_str!("style.css"));
 /// The script of pages without the viewer.
 const SCRIPT: &str = include_str!("page.js");
 
@@ -272,8 +274,11 @@ fn document(
     interactive: Option<(Viewer, &str)>,
 ) -> String {
     let (main, found) = match nav {
-        Some(_) => (main.0.clone(), None),
-        None => contents::of(&main.0),
+        Some(_) => (Cow::Borrowed(main.0.as_str()), None),
+        None => {
+            let (main, found) = contents::of(&main.0);
+            (Cow::Owned(main), found)
+        }
     };
     let nav = nav.or(found.as_ref());
     let page = html! {

@@ -74,9 +74,12 @@ impl RunFolderError {
     /// Returns a summary that does not follow its schema.
     pub(super) fn damaged(file: &Path, error: &serde_json::Error) -> Self {
         let text = error.to_string();
-        let reason = text
-            .rsplit_once(" at line ")
-            .map_or(text.as_str(), |(own, _)| own);
+        let reason = match error.is_eof() {
+            true => "the file ends here: it was cut off",
+            false => text
+                .rsplit_once(" at line ")
+                .map_or(text.as_str(), |(own, _)| own),
+        };
         Self::Damaged {
             file: file.to_owned(),
             line: error.line(),

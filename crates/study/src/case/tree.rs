@@ -62,17 +62,27 @@ pub(crate) fn parse(source: &Arc<TomlSource>) -> Result<TableNode, Problems> {
     let mut problems = Problems::new();
     for error in &errors {
         problems.push_with(|| syntax(error, source));
+        // What is expected where a file ends is told once: more of it follows from the first.
+        if ends_at(error, source) {
+            break;
+        }
     }
     Err(problems)
+}
+
+/// Returns whether a mistake is that the text ends.
+fn ends_at(error: &toml::de::Error, source: &TomlSource) -> bool {
+    let start = error.span().map_or(0, |span| span.start);
+    let rest = source.text().get(start..).unwrap_or_default();
+    !source.text().is_empty() && rest.trim().is_empty()
 }
 
 /// Returns a mistake of syntax.
 fn syntax(error: &toml::de::Error, source: &Arc<TomlSource>) -> Problem {
     let message = error.message().lines().collect::<Vec<_>>().join(", ");
     let span = error.span().unwrap_or(0..0);
-    let rest = source.text().get(span.start..).unwrap_or_default();
     // A label of no length is not drawn.
-    let (end, help) = match !source.text().is_empty() && rest.trim().is_empty() {
+    let (end, help) = match ends_at(error, source) {
         true => (
             ", and the file ends here",
             "what was begun is not ended: the file was cut off, or a quote or bracket is missing",

@@ -16,7 +16,7 @@ use study::fit::{Fit, FitError, Free, FreeError, Measured, fit};
 use study::metrics::Cycle;
 
 use super::run::{is_built_in, read_any};
-use crate::adjust::{self, Names};
+use crate::adjust::{self, Names, seconds};
 use crate::drawn::Drawn;
 use crate::failure::{Failure, Message, say};
 use crate::folders;
@@ -74,10 +74,10 @@ pub struct Arguments {
     #[arg(long)]
     follow: bool,
     /// Leave out the values before this time, s [default: the first half period of the bolster's motion]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     from: Option<f64>,
     /// Leave out the values after this time, s
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     to: Option<f64>,
     #[command(flatten)]
     names: Names,

@@ -11,6 +11,7 @@ use study::car::limits::LimitSet;
 use study::car::regime::Regime;
 
 use super::certify::{Common, assess};
+use super::run::is_built_in;
 use crate::failure::{Failure, Message};
 
 /// Run a car in one regime of the assessment of freight cars, over speeds
@@ -46,6 +47,19 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         let text = text(name)?;
         io::stdout().lock().write_all(text.as_bytes())?;
         return Ok(ExitCode::SUCCESS);
+    }
+    if let Some(case) = arguments
+        .regime
+        .as_ref()
+        .filter(|own| is_built_in(Path::new(own)))
+    {
+        let regime = arguments
+            .car
+            .as_deref()
+            .and_then(Path::to_str)
+            .unwrap_or("REGIME");
+        let help = format!("`wedgelab regime {regime} {case}`; `wedgelab regime` lists the regimes");
+        return Err(Message::new(format!("{case} is a case; the regime is named before it"), help).into());
     }
     match (&arguments.regime, &arguments.car) {
         (Some(regime), Some(car)) => {

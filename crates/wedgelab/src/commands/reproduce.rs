@@ -224,8 +224,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             code = failure.report();
         }
     }
-    for run in truck_report.iter().flat_map(|truck_report| &truck_report.runs) {
-        let summary = &run.result.summary;
+    for summary in truck_report
+        .iter()
+        .flat_map(|truck_report| &truck_report.summaries)
+    {
         if let Some(failure) = unsound::<TruckCase>(summary, &planned.runs.join(&summary.name)) {
             code = failure.report();
         }

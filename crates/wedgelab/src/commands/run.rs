@@ -11,7 +11,7 @@ use report::figures::car::CarRun;
 use report::figures::truck::TruckRun;
 use report::files::Folder;
 use report::page::{self, Viewer};
-use report::run_files::RunFiles;
+use report::run_files::{CASE_FILE_NAME, RunFiles};
 use serde::Serialize;
 use serde_json::json;
 use study::any_case::AnyCase;
@@ -381,12 +381,16 @@ pub fn read_any(path: &Path, set: &[String]) -> Result<AnyCase, Failure> {
     {
         return Ok(case);
     }
-    if path.is_dir() {
-        let advice = format!("name a case file, perhaps {}", path.join("case.toml").display());
-        return Err(Message::new(format!("`{name}` is a folder, not a case file"), advice).into());
-    }
-    if let Some(message) = built_in_elsewhere(path).filter(|_| !path.exists()) {
+    let own = path.join(CASE_FILE_NAME);
+    if let Some(message) = built_in_elsewhere(path).filter(|_| !path.is_file() && !own.exists()) {
         return Err(message.into());
+    }
+    if path.is_dir() {
+        let advice = match own.exists() {
+            true => format!("name the case file in it: {}", own.display()),
+            false => "name a case file".to_owned(),
+        };
+        return Err(Message::new(format!("`{name}` is a folder, not a case file"), advice).into());
     }
     if !path.exists() && !name.ends_with(".toml") && path.components().count() == 1 {
         let advice = match nearest(name, built_in_names()) {

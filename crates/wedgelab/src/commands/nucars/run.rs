@@ -18,6 +18,7 @@ use study::half_truck::{HalfTruckCase, HalfTruckStart, HalfTruckSummary, options
 use super::files::Instead;
 use super::load::print_findings;
 use crate::commands::run::is_built_in;
+use crate::drawn::Drawn;
 use crate::execute::{compute_with_contacts, unsound, write, write_page};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
@@ -25,12 +26,16 @@ use crate::interrupt;
 use crate::progress::Progress;
 use crate::table::TerminalTable;
 
+/// The files of the figure.
+const FIGURE: [&str; 2] = ["loops.svg", "loops.png"];
+
 /// Run a half-truck from its files
 ///
 /// Reads a run file with the files it names, and writes result.csv (the columns that the data file asks for,
 /// wedges, bodies, energies), result.mat (the same, and the array that the thesis's scripts load),
-/// summary.json (averages of each wedge, energy ledger, yaw, assumptions) and index.html (the half-truck
-/// moving in 3D, loops) into a folder named as the run file. The run ends when the run file's stepping
+/// summary.json (averages of each wedge, energy ledger, yaw, assumptions), loops.svg and loops.png (forces of
+/// the wedges' columns over their strokes) and index.html (the half-truck moving in 3D, loops) into a folder
+/// named as the run file. The run ends when the run file's stepping
 /// constants say. The runs of the thesis's table 4-1 are built in; --list names them.
 ///
 /// What no public text says of the elements is an --option, with a default that the summary lists: bend
@@ -166,7 +171,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         None => arguments.of_files(file, &settings)?,
     };
     let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&case.name));
-    let names = [&half_truck_files::NAMES[..], &[page::FILE_NAME]].concat();
+    let names = [&half_truck_files::NAMES[..], &FIGURE, &[page::FILE_NAME]].concat();
     let folder = folders::check(path, &names, arguments.force)?;
     let progress = Progress::new(1, arguments.quiet);
     interrupt::stops_run();
@@ -174,6 +179,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .and_then(|(done, contacts)| write(&done, &case, &folder, &progress).map(|()| (done, contacts)));
     progress.finish();
     let (done, contacts) = done?;
+    let figure = Drawn::of(&page::half_truck_run::loops(&case, &done.result).figure)?;
+    let figures = folders::check(folder.path().to_owned(), &FIGURE, true)?;
+    figures.write(|files| figure.add(files, FIGURE[0], FIGURE[1]))?;
     write_page(&folder, |viewer| {
         page::half_truck_run::render(&case, &done.result, contacts.as_ref(), viewer)
     })?;

@@ -12,6 +12,7 @@ use report::run_files;
 use report::three_piece::{self, Rigs, TruckFindings, Variant};
 use report::view::View;
 use report::view::run::{Detail, Recording};
+use study::truck::summary::TruckSummary;
 use study::truck::{TruckCase, builtin};
 
 use super::draw;
@@ -126,7 +127,7 @@ pub struct TruckReport {
     pub page: String,
     pub findings: TruckFindings,
     pub figures: usize,
-    pub runs: Vec<TruckRun>,
+    pub summaries: Vec<TruckSummary>,
 }
 
 /// Draws the figures and makes the page.
@@ -141,6 +142,8 @@ pub fn report_on(made: Vec<Made>, figures: &Folder) -> Result<TruckReport, Failu
             worn = Some(made.run);
         }
     }
+    let findings = TruckFindings::of(&rigs);
+    drop(rigs);
     let exhibits = of_rigs(&runs, worn.as_ref());
     let svgs = draw(&exhibits.iter().collect::<Vec<&Exhibit>>(), figures)?;
     let units = runs
@@ -162,8 +165,7 @@ pub fn report_on(made: Vec<Made>, figures: &Folder) -> Result<TruckReport, Failu
         .zip(svgs)
         .map(|(exhibit, svg)| DrawnFigure { exhibit, svg })
         .collect();
-    let findings = TruckFindings::of(&rigs);
-    let results: Vec<_> = runs.iter().map(|run| run.result.clone()).collect();
+    let results: Vec<_> = runs.into_iter().map(|run| run.result).collect();
     let page = truck::render(&TruckContents {
         rigs: &results,
         findings: &findings,
@@ -176,7 +178,7 @@ pub fn report_on(made: Vec<Made>, figures: &Folder) -> Result<TruckReport, Failu
         page,
         findings,
         figures: drawn.len(),
-        runs,
+        summaries: results.into_iter().map(|result| result.summary).collect(),
     })
 }
 

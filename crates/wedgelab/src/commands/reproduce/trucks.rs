@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::execute::{compute, write_quietly};
 use nucars::truck::Choices;
 use rayon::prelude::*;
-use report::agreement::TruckOutcome;
+use report::agreement::{self, TruckOutcome};
 use report::files::Folder;
 use report::half_truck_files;
 use report::page::Viewer;
@@ -85,11 +85,12 @@ fn one(planned: Planned, progress: &Progress) -> Result<Option<ReproducedTruck>,
         return Ok(None);
     }
     write_quietly(&done, &case, &folder, progress)?;
-    let result = done.result;
+    let mut result = done.result;
     let warnings = &result.summary.warnings;
     for warning in energy::among(warnings).chain(plausibility::among(warnings)) {
         say(&format!("warning: {}: {warning}", case.name));
     }
     let recording = Viewer::embedded().map(|_| Recording::of_truck(&case, &result, None, Detail::Thinned));
+    result.keep_columns(agreement::needs);
     Ok(Some(((entry, result), recording)))
 }
