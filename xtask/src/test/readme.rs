@@ -10,8 +10,8 @@ use super::Outcome;
 use crate::builds;
 use crate::shell::{self, Workspace};
 
-/// Beginnings of commands that are not run here: other checks run them, they need the repository, or they take
-/// most of a minute.
+/// Beginnings of commands that are not run here: other checks run them, they need the repository, or they
+/// take most of a minute.
 const ELSEWHERE: [&str; 4] = [
     "cargo install --path crates/wedgelab",
     "cargo xtask ",
