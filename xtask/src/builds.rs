@@ -22,8 +22,17 @@ pub const SHARED: [&str; 7] = [
     "wedgelab-py",
 ];
 
-/// Selects the race and the benchmarks.
-pub const APART: [&str; 4] = ["--package", "benchmarks", "--package", "race"];
+/// Selects the benchmarks and the race without its figures, which draw as reports do: reports are not compiled
+/// once more.
+pub const APART: [&str; 7] = [
+    "--package",
+    "benchmarks",
+    "--package",
+    "race",
+    "--no-default-features",
+    "--features",
+    "race/solvers",
+];
 
 /// Builds programs of [`SHARED`] in the release profile and returns their folder.
 ///

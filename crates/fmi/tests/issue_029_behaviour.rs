@@ -7,6 +7,7 @@ mod damage;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::thread;
 
 use fmi::description::{Description, FmuModel, Version};
 use fmi::element::Interface;
@@ -86,49 +87,55 @@ fn use_it(instance: &mut Instance) -> Result<(), fmi::Error> {
 
 #[test]
 fn issue_029_every_member_of_an_instance_edited_by_hand_is_refused_or_goes_on() {
-    for (model, interface) in [
-        (FmuModel::Wedge, Interface::CoSimulation),
-        (FmuModel::Wedge, Interface::ModelExchange),
-        (FmuModel::QuasiStatic, Interface::CoSimulation),
-        (FmuModel::Truck, Interface::CoSimulation),
-        (FmuModel::HalfTruck, Interface::CoSimulation),
-        (FmuModel::HalfTruck, Interface::ModelExchange),
-    ] {
-        let mut instance = under_way(model, interface);
-        let good = instance.save();
-        let saved: Value = serde_json::from_slice(&good.to_bytes().unwrap()).unwrap();
-        let (mut refused, mut stopped, mut went_on) = (0, 0, 0);
-        for (what, state) in damage::damaged(&saved) {
-            let bytes = serde_json::to_vec(&state).unwrap();
-            let restored = Saved::from_bytes(&bytes).and_then(|state| instance.restore(&state));
-            if let Err(error) = restored {
-                assert!((10..1500).contains(&error.message.len()), "{what}: {error}");
-                assert_eq!(instance.save(), good, "{what}: a refused state changes nothing");
-                refused += 1;
-                continue;
-            }
-            match use_it(&mut instance) {
-                Ok(()) => went_on += 1,
-                Err(error) => {
-                    assert!(error.message.len() > 10, "{what}");
-                    stopped += 1;
-                }
-            }
-            instance.restore(&good).unwrap();
+    thread::scope(|scope| {
+        for (model, interface) in [
+            (FmuModel::Wedge, Interface::CoSimulation),
+            (FmuModel::Wedge, Interface::ModelExchange),
+            (FmuModel::QuasiStatic, Interface::CoSimulation),
+            (FmuModel::Truck, Interface::CoSimulation),
+            (FmuModel::HalfTruck, Interface::CoSimulation),
+            (FmuModel::HalfTruck, Interface::ModelExchange),
+        ] {
+            scope.spawn(move || every_member_is_refused_or_goes_on(model, interface));
         }
-        println!("{model:?} {interface:?}: {refused} refused, {stopped} stopped, {went_on} went on");
-        assert!(
-            refused > 300 && went_on > 50,
-            "{model:?} {interface:?}: {refused} {stopped} {went_on}"
-        );
-        // As if nothing had been.
-        let mut straight = under_way(model, interface);
-        if interface == Interface::CoSimulation {
-            go_on(&mut instance, 5, 1e-3).unwrap();
-            go_on(&mut straight, 5, 1e-3).unwrap();
+    });
+}
+
+fn every_member_is_refused_or_goes_on(model: FmuModel, interface: Interface) {
+    let mut instance = under_way(model, interface);
+    let good = instance.save();
+    let saved: Value = serde_json::from_slice(&good.to_bytes().unwrap()).unwrap();
+    let (mut refused, mut stopped, mut went_on) = (0, 0, 0);
+    for (what, state) in damage::damaged(&saved) {
+        let bytes = serde_json::to_vec(&state).unwrap();
+        let restored = Saved::from_bytes(&bytes).and_then(|state| instance.restore(&state));
+        if let Err(error) = restored {
+            assert!((10..1500).contains(&error.message.len()), "{what}: {error}");
+            assert_eq!(instance.save(), good, "{what}: a refused state changes nothing");
+            refused += 1;
+            continue;
         }
-        assert_eq!(instance.save(), straight.save());
+        match use_it(&mut instance) {
+            Ok(()) => went_on += 1,
+            Err(error) => {
+                assert!(error.message.len() > 10, "{what}");
+                stopped += 1;
+            }
+        }
+        instance.restore(&good).unwrap();
     }
+    println!("{model:?} {interface:?}: {refused} refused, {stopped} stopped, {went_on} went on");
+    assert!(
+        refused > 300 && went_on > 50,
+        "{model:?} {interface:?}: {refused} {stopped} {went_on}"
+    );
+    // As if nothing had been.
+    let mut straight = under_way(model, interface);
+    if interface == Interface::CoSimulation {
+        go_on(&mut instance, 5, 1e-3).unwrap();
+        go_on(&mut straight, 5, 1e-3).unwrap();
+    }
+    assert_eq!(instance.save(), straight.save());
 }
 
 #[test]

@@ -14,7 +14,7 @@ pub mod contest;
 #[cfg(feature = "solvers")]
 pub mod diffsol;
 pub mod equations;
-#[cfg(feature = "solvers")]
+#[cfg(feature = "figures")]
 pub mod figures;
 pub mod measure;
 pub mod outcome;

@@ -3,6 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
+use std::thread;
 
 use integrate::{Integrator, Options};
 use rolling::rig::{Rig, RigStart};
@@ -32,8 +33,7 @@ rail](validation-wheelrail.md).
 
 /// Returns the page.
 pub fn page() -> String {
-    let mut out = HEAD.to_owned();
-    for part in [
+    let parts = [
         suspended,
         cooperrider,
         manchester,
@@ -42,11 +42,19 @@ pub fn page() -> String {
         bump,
         circle,
         impact,
-    ] {
-        out.push('\n');
-        part(&mut out);
-    }
-    out
+    ];
+    // On as many threads: together they take as long as all of the crate's other tests.
+    let parts = thread::scope(|scope| {
+        let running = parts.map(|part| {
+            scope.spawn(move || {
+                let mut own = String::from("\n");
+                part(&mut own);
+                own
+            })
+        });
+        running.map(|part| part.join().unwrap())
+    });
+    HEAD.to_owned() + &parts.concat()
 }
 
 fn percent(found: f64, source: f64) -> String {
