@@ -22,8 +22,8 @@ pub const SHARED: [&str; 7] = [
     "wedgelab-py",
 ];
 
-/// Selects the benchmarks and the race without its figures, which draw as reports do: reports are not compiled
-/// once more.
+/// Selects the benchmarks and the race without its figures, which draw as reports do: reports are not
+/// compiled once more.
 pub const APART: [&str; 7] = [
     "--package",
     "benchmarks",

@@ -15,7 +15,7 @@
 //! The program's manual is not public. The grammar and the meaning of the values follow the files printed in
 //! R. Steets, "Three-dimensional multibody modeling of railway friction wedges", Virginia Tech 2007,
 //! appendices A and B, with what their comments and numbers tell.
-
+//!
 //! ```
 //! use nucars::read::read_system;
 //! use nucars::tree::Law;
@@ -29,7 +29,7 @@
 //!
 //! let wedge = system.connection(127).expect("a wedge");
 //! let characteristic = *wedge.element.characteristics()[0];
-//! let law = system.characteristic(characteristic).expect("its law").law;
+//! let law = &system.characteristic(characteristic).expect("its law").law;
 //! let Law::StickSlipWedge3d { coil, .. } = law else {
 //!     unreachable!("type 6.9");
 //! };
