@@ -33,7 +33,7 @@
 //! let Law::StickSlipWedge3d { coil, .. } = law else {
 //!     unreachable!("type 6.9");
 //! };
-//! assert_eq!(system.function(*coil).expect("the coil").value(0.0), -3702.2);
+//! assert_eq!(system.function(**coil).expect("the coil").value(0.0), -3702.2);
 //! # Ok::<(), nucars::FileErrors>(())
 //! ```
 

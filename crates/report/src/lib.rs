@@ -25,11 +25,11 @@
 //! - [`comparison`]: results beside each other; [`plot`]: any column over any other.
 //!
 //! ```
-//! use report::drawing::{Curve, Figure, Panel, distinct};
+//! use report::drawing::{Figure, Panel, PlotCurve, distinct};
 //!
 //! let (colour, line) = distinct(0);
 //! let points = vec![(-1.0, -900.0), (1.0, -900.0), (1.0, 1300.0), (-1.0, 1300.0)];
-//! let curve = Curve { label: "wedge".to_owned(), colour, line, points };
+//! let curve = PlotCurve { label: "wedge".to_owned(), colour, line, points };
 //! let panel = Panel { x_label: "stroke (in)".to_owned(), curves: vec![curve], ..Panel::default() };
 //! let figure = Figure { title: "A loop".to_owned(), panels: vec![panel], ..Figure::default() };
 //! assert!(figure.to_svg().contains("stroke (in)"));

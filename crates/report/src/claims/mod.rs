@@ -23,11 +23,11 @@
 //! part. Those of chapter 6 are the column friction.
 //!
 //! ```
-//! use report::claims::{Evidence, Verdict, evaluate};
+//! use report::claims::{ClaimVerdict, Evidence, evaluate};
 //!
 //! // Without any run nothing can be decided.
 //! let rows = evaluate(&Evidence::default());
-//! assert!(rows.iter().all(|row| row.verdict == Verdict::CannotBeDecided));
+//! assert!(rows.iter().all(|row| row.verdict == ClaimVerdict::CannotBeDecided));
 //! ```
 
 mod comparison;
