@@ -67,7 +67,11 @@ const CHECKS: &[Check] = &[
         features::check,
     ),
     Check::new("prose", "no file points outside the repository", prose::check),
-    Check::new("links", "links between pages lead somewhere", links::check),
+    Check::new(
+        "links",
+        "links between pages lead somewhere, source files that they name exist",
+        links::check,
+    ),
     // Before everything that compiles: what is compiled after it holds the viewer.
     Check::new(
         "viewer",

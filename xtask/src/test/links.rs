@@ -1,4 +1,5 @@
-//! Links between the pages of the repository lead to files and headings that exist.
+//! Links between the pages of the repository lead to files and headings that exist, and source files that
+//! pages name exist.
 
 use std::collections::HashSet;
 use std::fs;
@@ -10,11 +11,11 @@ use crate::shell::{self, Workspace};
 /// Checks all Markdown files that belong to the repository.
 pub fn check(workspace: &Workspace) -> Outcome {
     let mut list = std::process::Command::new("git");
-    list.args(["ls-files", "--cached", "--others", "--exclude-standard", "*.md"])
+    list.args(["ls-files", "--cached", "--others", "--exclude-standard"])
         .current_dir(&workspace.root);
     let files = shell::output(&mut list).ok_or("git cannot list the files")?;
     let (mut count, mut broken) = (0, Vec::new());
-    for name in files.lines() {
+    for name in files.lines().filter(|name| name.ends_with(".md")) {
         let page = workspace.root.join(name);
         let Ok(text) = fs::read_to_string(&page) else {
             continue;
@@ -23,6 +24,15 @@ pub fn check(workspace: &Workspace) -> Outcome {
             count += 1;
             if let Err(reason) = follow(&page, &text, &link) {
                 broken.push(format!("{name}:{line}: `{link}`: {reason}"));
+            }
+        }
+        // Records of decisions and changes name what was there on their day.
+        if name.contains("decisions/") || name == "CHANGELOG.md" {
+            continue;
+        }
+        for (line, source) in sources(&text) {
+            if !files.lines().any(|file| is_named(file, &source)) {
+                broken.push(format!("{name}:{line}: `{source}`: there is no such source file"));
             }
         }
     }
@@ -52,6 +62,25 @@ fn links(text: &str) -> Vec<(usize, String)> {
         }
     }
     found
+}
+
+/// Returns the Rust files that the text names in backticks, with their lines: a path or its end.
+fn sources(text: &str) -> Vec<(usize, String)> {
+    let is_source = |word: &&str| word.ends_with(".rs") && !word.contains([' ', '*', '{']);
+    let lines = text.lines().enumerate();
+    let found = lines.flat_map(|(number, line)| {
+        let inside = line.split('`').skip(1).step_by(2);
+        inside
+            .filter(is_source)
+            .map(move |word| (number + 1, word.to_owned()))
+    });
+    found.collect()
+}
+
+/// Returns whether a file's path ends with all parts of the name.
+fn is_named(file: &str, name: &str) -> bool {
+    let before = file.strip_suffix(name.trim_start_matches("../"));
+    before.is_some_and(|before| before.is_empty() || before.ends_with('/'))
 }
 
 /// Follows a link from a page with this text.
@@ -113,6 +142,14 @@ fn headings(text: &str) -> HashSet<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn source_files_are_named_in_backticks() {
+        let text = "`a/b.rs` and `c d.rs`\nnothing `*.rs`; `e.rs`";
+        assert_eq!(sources(text), [(1, "a/b.rs".to_owned()), (2, "e.rs".to_owned())]);
+        assert!(is_named("crates/a/b.rs", "a/b.rs") && is_named("b.rs", "b.rs"));
+        assert!(!is_named("crates/a/b.rs", "c/b.rs") && !is_named("crates/bb.rs", "b.rs"));
+    }
 
     #[test]
     fn links_and_headings_are_found() {
