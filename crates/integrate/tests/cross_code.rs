@@ -6,17 +6,8 @@
 mod common;
 
 use common::problems::{PUBLISHED, STICK_SLIP, stick_slip, stick_slip_with_discontinuities};
-use common::{run, scaled_error};
+use common::{run, scaled_error, tolerance};
 use integrate::{Method, Options};
-
-/// Returns a tolerance at which a method is about as exact as the others; the one of order 2 needs many more
-/// steps.
-fn tolerance(method: Method, of_others: f64) -> f64 {
-    match method {
-        Method::TrBdf2 => 1e-3 * of_others,
-        _ => of_others,
-    }
-}
 
 /// Errors of the whole run, in units of the scales: at most ten tolerances of 1e-8.
 #[test]

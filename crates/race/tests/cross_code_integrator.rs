@@ -2,27 +2,18 @@
 //! on one with a contact.
 #![allow(missing_docs, clippy::unwrap_used)]
 
-#[path = "../../integrate/tests/common/problems.rs"]
-#[allow(dead_code)] // the integrator's own tests use the others
-mod problems;
+#[path = "../../integrate/tests/common/mod.rs"]
+mod common;
 
+use common::problems::{MU, robertson, van_der_pol};
+use common::tolerance;
 use diffsol::{
     NalgebraLU, NalgebraMat, OdeBuilder, OdeEquationsImplicit, OdeSolverMethod, OdeSolverProblem,
     OdeSolverStopReason, Vector,
 };
 use integrate::{FunctionProblem, Integrator, Method, Options};
-use problems::{MU, robertson, van_der_pol};
 
 type Matrix = NalgebraMat<f64>;
-
-/// Returns a tolerance at which a method is about as exact as the others; the one of order 2 needs many more
-/// steps.
-fn tolerance(method: Method, of_others: f64) -> f64 {
-    match method {
-        Method::TrBdf2 => 1e-3 * of_others,
-        _ => of_others,
-    }
-}
 
 /// Returns the states of the independent code at `times`.
 fn reference<E>(problem: &OdeSolverProblem<E>, times: &[f64]) -> Vec<Vec<f64>>

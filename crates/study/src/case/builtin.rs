@@ -7,11 +7,12 @@
 mod beyond;
 mod thesis;
 
+pub use thesis::own_name;
+
 use super::problem::Problem;
 use super::{Case, CaseError};
 use crate::{car, half_truck, truck};
 use quantity::nearest;
-use std::borrow::Cow;
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -70,12 +71,6 @@ pub fn groups() -> &'static [CaseGroup] {
 /// Returns the group of this name.
 pub fn group(name: &str) -> Option<&'static CaseGroup> {
     groups().iter().find(|group| group.name == name)
-}
-
-/// Returns the name of the built-in case that is meant: the thesis's names of its runs, with a sign for the
-/// direction of the toe (`vdrun_toe_-0.2_psi_0` is toe out), are ours with the direction in words.
-pub fn own_name(name: &str) -> Cow<'_, str> {
-    thesis::own_name(name)
 }
 
 /// Returns the group that a built-in case belongs to.
@@ -142,7 +137,7 @@ pub fn text(name: &str) -> Result<&'static str, CaseError> {
         .into())
 }
 
-/// Returns the model of a built-in case that was asked of another.
+/// Returns what to say where a built-in case is of another model than the one that was asked for.
 fn of_another_model(name: &str) -> Option<Problem> {
     let (what, class) = if names().any(|own| own == name) {
         ("wedge", "Case")

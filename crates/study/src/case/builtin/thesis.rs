@@ -47,9 +47,9 @@ const RUNS: [[&str; 4]; 12] = [
     ],
 ];
 
-/// Returns our name of a run that is called by its name in the thesis (`vdrun_toe_-0.2_psi_0`), and any other
-/// name as it is.
-pub(super) fn own_name(name: &str) -> Cow<'_, str> {
+/// Returns our name of a run that is called by its name in the thesis (`vdrun_toe_-0.2_psi_0` is toe out),
+/// and any other name as it is.
+pub fn own_name(name: &str) -> Cow<'_, str> {
     for (signed, in_words) in [
         ("run_toe_-0.2_", "run_toe_out_0.2_"),
         ("run_toe_0.2_", "run_toe_in_0.2_"),
