@@ -7,7 +7,8 @@
 //! Criterion, the Python package NumPy.
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX, EXE_SUFFIX};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use crate::shell::{self, PORTABLE, Workspace};
 
@@ -51,6 +52,17 @@ pub fn programs(workspace: &Workspace, targets: &[&str]) -> Result<PathBuf, Stri
 pub fn wedgelab(workspace: &Workspace) -> Result<PathBuf, String> {
     let folder = programs(workspace, &["--bin", "wedgelab"])?;
     Ok(folder.join(format!("wedgelab{EXE_SUFFIX}")))
+}
+
+/// Builds the command `wedgelab`, makes a report with it in a folder, and returns the program's path.
+///
+/// # Errors
+/// It does not compile, or makes no report.
+pub fn report(workspace: &Workspace, folder: &Path) -> Result<PathBuf, String> {
+    let program = wedgelab(workspace)?;
+    let arguments = ["reproduce", "--force", "--quiet", "--out"];
+    shell::run(Command::new(&program).args(arguments).arg(folder))?;
+    Ok(program)
 }
 
 /// Builds the libraries that other programs load, those of FMUs and of the race, for all processors and

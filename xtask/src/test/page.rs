@@ -30,9 +30,7 @@ pub fn check(workspace: &Workspace) -> Outcome {
             .map_err(|error| format!("html-validate needs Node.js with npm, and network.\n{error}"))?;
     }
     let report = tool.join("report");
-    let program = builds::wedgelab(workspace)?;
-    let arguments = ["reproduce", "--force", "--quiet", "--out"];
-    shell::run(Command::new(&program).args(arguments).arg(&report))?;
+    builds::report(workspace, &report)?;
     let mut validate = Command::new("node");
     validate
         .arg("node_modules/html-validate/bin/html-validate.mjs")

@@ -33,9 +33,7 @@ pub fn browser(workspace: &Workspace) -> Outcome {
     bundle(workspace)?;
     let chromium = chromium()?;
     let report = workspace.target.join("viewer-report");
-    let program = builds::wedgelab(workspace)?;
-    let arguments = ["reproduce", "--force", "--quiet", "--out"];
-    shell::run(Command::new(&program).args(arguments).arg(&report))?;
+    let program = builds::report(workspace, &report)?;
     // One after the other: they measure times.
     let mut tests = node(
         workspace,
