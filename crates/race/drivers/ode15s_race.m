@@ -3,7 +3,7 @@
 % octave-cli ode15s_race.m EQUATIONS FROM CASE TOLERANCE LIMIT FILE ROWS
 %
 % EQUATIONS is `compiled` (right-hand side and Jacobian matrix are compiled: race_mex in the folder FROM) or `octave` (wedge_rates.m, with
-% the constants that the program FROM prints; ode15s forms the Jacobian matrix by differences of its own). LIMIT is CPU time, s. Writes the
+% the case FROM, the JSON that wedge_case takes; ode15s forms the Jacobian matrix by differences of its own). LIMIT is CPU time, s. Writes the
 % states of all rows reached to FILE (double, row by row) and one line of JSON to the standard output. Options beyond the defaults: a first
 % step of 1e-9 s, without which it fails at once; relative tolerance 1e-13 and an absolute one of tolerance times scale for each state, as
 % every solver here. It is asked for its steps, not for rows: between two rows it makes 500 steps at most, and fails here. Rows are taken from
@@ -28,7 +28,7 @@ if (compiled)
   rates = @(t, x) race_mex (1, t, x);
 else
   addpath (fileparts (mfilename ("fullpath")));
-  [wedge, start, scales, times] = wedge_case (from, name);
+  [wedge, start, scales, times] = wedge_case (from);
   rates = @(t, x) wedge_rates (t, x, wedge);
 end
 times = times(1 : min (end, str2double (words{7})));

@@ -1,14 +1,10 @@
 % A case of the race for wedge_rates: the wedge's constants, the start, the error scales, the times of the rows. SI units.
 %
-% [wedge, start, scales, times] = wedge_case (PROGRAM, NAME)
+% [wedge, start, scales, times] = wedge_case (TEXT)
 %
-% PROGRAM is the race's own program; `PROGRAM wedge NAME` prints the case as JSON. Everything that does not change during a run is computed
-% here, once. Names and equations are those of docs/theory.md, sections 1 to 6.
-function [wedge, start, scales, times] = wedge_case (program, name)
-  [status, text] = system (sprintf ("'%s' wedge '%s'", program, name));
-  if (status != 0)
-    error ("the race does not know the case %s", name);
-  end
+% TEXT is the case as JSON (crates/race/src/wedge_case.rs). Everything that does not change during a run is computed here, once. Names and
+% equations are those of docs/theory.md, sections 1 to 6.
+function [wedge, start, scales, times] = wedge_case (text)
   case_data = jsondecode (text);
   p = case_data.parameters;
   refuse (p);

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::problem::is_yawed;
+use crate::wedge_case::WedgeCase;
 
 /// Where the programs of the race are.
 #[derive(Clone, Debug)]
@@ -239,12 +240,12 @@ impl Solver {
                 command
                     .args(["--no-init-file", "--quiet"])
                     .arg(tools.drivers.join("ode15s_race.m"))
-                    .arg(self.method)
-                    .arg(if self.name == IN_OCTAVE {
-                        &tools.own
-                    } else {
-                        folder
-                    });
+                    .arg(self.method);
+                if self.name == IN_OCTAVE {
+                    command.arg(WedgeCase::named(case).ok()?.json().ok()?);
+                } else {
+                    command.arg(folder);
+                }
                 command
             }
             Program::Exudyn => {

@@ -9,12 +9,10 @@ use race::contest::{SOLVERS, Tools};
 use race::outcome::{repeated, write_states};
 use race::page::{MeasuredOn, Results};
 use race::runner::{RacePlan, TOLERANCES};
-use race::wedge_case::WedgeCase;
 use race::{diffsol, figures, own, problem, standings, tables};
 
 const USAGE: &str = "\
 race solve SOLVER CASE TOLERANCE LIMIT FILE [ROWS]   one run of a solver that is compiled in
-race wedge CASE                                      parameters, start, scales and times of a wedge, as JSON
 race all --library FILE --drivers FOLDER --out FOLDER [--cvode FILE] [--python FILE] [--exudyn FILE]
          [--octave FILE --mex FOLDER] [--cases PART,...] [--solvers PART,...] [--tolerances T,...] [--limit \
 SECONDS]
@@ -30,7 +28,6 @@ fn main() -> ExitCode {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let done = match words.as_slice() {
         ["solve", solver, rest @ ..] => solve(solver, rest),
-        ["wedge", case] => wedge(case),
         ["all", rest @ ..] => all(rest),
         ["page", results, page] => {
             Results::read(Path::new(results)).and_then(|results| write_page(&results, Path::new(page)))
@@ -73,14 +70,6 @@ fn solve(solver: &str, words: &[&str]) -> Result<(), String> {
     }?;
     write_states(Path::new(file), &states).map_err(|error| format!("cannot write {file}: {error}"))?;
     let line = serde_json::to_string(&outcome).map_err(|error| error.to_string())?;
-    println!("{line}");
-    Ok(())
-}
-
-/// Writes a case for a driver that has the equations in its own language.
-fn wedge(case: &str) -> Result<(), String> {
-    let case = WedgeCase::named(case)?;
-    let line = serde_json::to_string(&case).map_err(|error| error.to_string())?;
     println!("{line}");
     Ok(())
 }

@@ -39,4 +39,12 @@ impl WedgeCase {
             times,
         })
     }
+
+    /// Returns it as JSON, an argument of the driver.
+    ///
+    /// # Errors
+    /// A number is not finite.
+    pub fn json(&self) -> Result<String, String> {
+        serde_json::to_string(self).map_err(|error| error.to_string())
+    }
 }

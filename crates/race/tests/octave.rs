@@ -12,6 +12,7 @@ use race::measure::Judge;
 use race::outcome::{Outcome, read_states, write_states};
 use race::own;
 use race::problem::RaceProblem;
+use race::wedge_case::WedgeCase;
 use study::case::builtin;
 use wedge::parameters::Parameters;
 
@@ -34,6 +35,11 @@ fn octave(driver: &str, arguments: &[&str]) -> String {
     let complaint = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{complaint}");
     String::from_utf8(output.stdout).unwrap()
+}
+
+/// Returns a case as the drivers take it.
+fn json(name: &str) -> String {
+    WedgeCase::named(name).unwrap().json().unwrap()
 }
 
 /// What corners do in states, for all of which there must be states.
@@ -138,12 +144,9 @@ fn cross_code_the_equations_in_octave_are_the_compiled_ones() {
         assert!(all.iter().all(|count| *count > 0), "{name}: {counts:?}");
     }
     write_states(&given, &numbers).unwrap();
-    let mut words = vec![
-        env!("CARGO_BIN_EXE_race"),
-        given.to_str().unwrap(),
-        found.to_str().unwrap(),
-    ];
-    words.extend(cases.iter().map(String::as_str));
+    let mut words = vec![given.to_str().unwrap(), found.to_str().unwrap()];
+    let texts: Vec<String> = cases.iter().map(|name| json(name)).collect();
+    words.extend(texts.iter().map(String::as_str));
     octave("wedge_rates_check.m", &words);
     let found = read_states(&found).unwrap();
     assert_eq!(found.len(), 9 * expected.len());
@@ -173,7 +176,7 @@ fn cross_code_ode15s_with_equations_in_octave_runs_as_ours_does() {
         "ode15s_race.m",
         &[
             "octave",
-            env!("CARGO_BIN_EXE_race"),
+            &json(name),
             name,
             "1e-7",
             "60",
