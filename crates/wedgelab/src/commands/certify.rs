@@ -47,7 +47,7 @@ pub struct Arguments {
     common: Common,
 }
 
-/// What `certify` and `regime` take.
+/// Arguments of both `certify` and `regime`.
 #[derive(Debug, Args)]
 pub struct Common {
     /// Speeds for all regimes, with --steps; or several speeds [default: those of each regime]
@@ -76,7 +76,7 @@ pub struct Common {
     /// Folder to write into, or to go on in [default: NAME_certificate, or NAME_REGIME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// How many runs at a time [default: as many as there are processors]
+    /// Number of runs at a time [default: number of processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
     /// No progress

@@ -188,7 +188,7 @@ fn write(file: &Path, name: &str, force: bool, bytes: &[u8]) -> Result<(), Failu
     Ok(folder.write(|files| files.add(name, |out| out.write_all(bytes)))?)
 }
 
-/// What a file is to hold.
+/// Contents of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Drawn {
     /// SVG.

@@ -72,7 +72,7 @@ pub struct Arguments {
     /// Overwrite existing results
     #[arg(long)]
     force: bool,
-    /// How many runs at a time [default: as many as there are processors]
+    /// Number of runs at a time [default: number of processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
     /// No progress
@@ -83,7 +83,7 @@ pub struct Arguments {
 /// A run whose files are written.
 struct ReproducedRun {
     outcome: CaseOutcome,
-    /// What the page shows of it, if it is interactive.
+    /// The data for the page, if it is interactive.
     recording: Option<Recording>,
     wall: Duration,
 }

@@ -293,7 +293,7 @@ fn limits_of_car(summary: &CarSummary) -> (TerminalTable, String) {
 /// Instead of a car's table where there is nothing in it.
 const NO_STATISTICS: &str = "No statistics: the run does not reach beyond start.settle.";
 
-/// What the columns of a car's table are.
+/// The note that explains the columns of a car's table.
 const CAR_NOTE: &str = "\
 Worst value of each kind, of filtered forces and accelerations, beside limits that are remembered of AAR \
 M-1001, chapter XI: check
@@ -328,7 +328,7 @@ fn car_table(summary: &CarSummary) -> TerminalTable {
     table
 }
 
-/// What the columns of a truck's table are.
+/// The note that explains the columns of a truck's table.
 const TRUCK_NOTE: &str = "\
 Column normal force: of each wedge, its least and largest at any output time. Energy per cycle: lost in \
 friction at column and

@@ -56,7 +56,7 @@ pub struct Arguments {
     /// Run the car at falling and at rising speed too, to see where it hunts
     #[arg(long)]
     nonlinear: bool,
-    /// How long the speed falls, and rises; slower is more exact
+    /// Time in which the speed falls, and in which it rises; slower is more exact
     #[arg(
         long,
         value_name = "TIME",

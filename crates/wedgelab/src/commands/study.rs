@@ -50,7 +50,7 @@ pub struct Arguments {
     /// Folder to write into, or to go on in [default: the study's name]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// How many runs at a time [default: as many as there are processors]
+    /// Number of runs at a time [default: number of processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
     /// Write the files of these runs (result.csv, ...) into series/NUMBER, and nothing else

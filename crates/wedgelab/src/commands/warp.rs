@@ -51,7 +51,7 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// What is varied from test to test.
+/// Values that vary from test to test.
 #[derive(Debug, Args)]
 pub struct Varied {
     /// Coefficients of friction of all wedges at column and slope
@@ -179,7 +179,7 @@ impl Varied {
     }
 }
 
-/// What a first signal says to a command that runs several tests.
+/// The message of a command that runs several tests on a first signal.
 pub const STOPPING: &str =
     "stopping: the tests that have ended are written (once more: ends at once and writes nothing)";
 

@@ -69,7 +69,7 @@ pub struct Arguments {
     /// Hardness of the softer partner, of Archard's law [default: 2450 MPa, a guess]
     #[arg(long, value_name = "PRESSURE", value_parser = hardness)]
     hardness: Option<Quantity>,
-    /// What column and pocket lose, by what the wedge's faces lose: the ratio of their coefficients of wear
+    /// Wear of column and pocket over that of the wedge's faces: the ratio of their coefficients of wear
     #[arg(
         long,
         value_name = "RATIO",

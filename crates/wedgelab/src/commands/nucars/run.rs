@@ -38,7 +38,7 @@ const FIGURE: [&str; 2] = ["loops.svg", "loops.png"];
 /// named as the run file. The run ends when the run file's stepping
 /// constants say. The runs of the thesis's table 4-1 are built in; --list names them.
 ///
-/// What no public text says of the elements is an --option, with a default that the summary lists: bend
+/// Choices that no public text settles are --options, with defaults that the summary lists: bend
 /// (half_cosine, linear), speed (along the track), plain_toe_angle (column of types without an angle), branch
 /// (friction_force, or a reference speed), rise_in_slip (true, false), negative_rise (extend, stop),
 /// accumulator_damping (a factor), gap_tension (never, allowed).
@@ -94,10 +94,10 @@ pub struct Arguments {
         allow_hyphen_values = true,
     )]
     interval: Quantity,
-    /// How the bolster's yaw is reached
+    /// Means by which the bolster reaches its yaw
     #[arg(long, value_name = "HOW")]
     yaw: Option<YawArgument>,
-    /// What stands for the wedges of types 6.8 and 6.9
+    /// Model of the wedges of types 6.8 and 6.9
     #[arg(long, value_name = "WHAT")]
     wedges: Option<WedgesArgument>,
     /// A choice where the files leave one open
@@ -114,7 +114,7 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// How the yaw of the bolster is reached.
+/// The means by which the bolster reaches its yaw.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 pub enum YawArgument {
     /// As the files say, even where springs hold the bolster
@@ -125,7 +125,7 @@ pub enum YawArgument {
     Drive,
 }
 
-/// What stands for wedges.
+/// Models of wedges.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 enum WedgesArgument {
     /// The files' law, without mass
@@ -387,7 +387,7 @@ fn list() -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// What the columns of the table are.
+/// The note that explains the columns of the table.
 const TABLE_NOTE: &str = "\
 Mean force: column friction on the side frame, positive up, averaged while the input goes up or down, over \
 the output times after
