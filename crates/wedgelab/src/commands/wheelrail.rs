@@ -37,7 +37,7 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Reads and checks both profiles, and prints how a wheelset rolls on them
+    /// Reads and checks both profiles, and prints the rolling properties of a wheelset on them
     Check(WheelRailPair),
     /// Does the same, and writes wheelrail.csv, wheelrail.svg and wheelrail.png
     Plot {
