@@ -1,4 +1,4 @@
-//! What is built for the checks, so that nothing is compiled twice.
+//! Builds for the checks, so that nothing is compiled twice.
 //!
 //! Cargo compiles a dependency anew for every set of its features, and the set depends on the crates that are
 //! selected, tests among them. The crates of [`SHARED`] ask for the same features as a user's `cargo build`:

@@ -23,7 +23,7 @@ const STIFFNESS: f64 = 2e7;
 const DAMPING: f64 = 2e4;
 const LENGTH: f64 = 0.2;
 
-/// How the wedges of a system hang together.
+/// The coupling of the wedges of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arrangement {
     /// Each between a column and a bolster of its own, whose motions are prescribed.

@@ -100,7 +100,7 @@ pub struct Car {
     pub(crate) gravity: f64,
 }
 
-/// What carries the wheelsets.
+/// The elements that carry the wheelsets.
 #[derive(Clone, Debug)]
 pub(crate) enum WheelElements {
     /// Of each wheelset the left and the right wheel, and half the distance of the tape circles (m).

@@ -27,7 +27,7 @@ pub(crate) struct SpeedControl {
     pub between: Between,
 }
 
-/// What is linear in the distance.
+/// The quantity that is linear in the distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Between {
     /// The speed.

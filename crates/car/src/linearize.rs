@@ -19,7 +19,7 @@ use crate::assemble::Car;
 use crate::error::BuildError;
 use crate::parameters::{Parameters, Wheels};
 
-/// What friction does about steady running.
+/// Friction in the linearization about steady running.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrictionState {
     /// Everything sticks: bristles are springs.

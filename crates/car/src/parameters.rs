@@ -54,13 +54,13 @@ pub struct ProfiledWheels {
     pub profiles: Arc<[Profile; 2]>,
     /// Distance of the tape circles, m.
     pub tape_distance: f64,
-    /// Whether patches come from tables: faster, for motion on treads only.
+    /// True if patches come from tables: faster, for motion on treads only.
     pub tables: bool,
     /// Friction, creep law and damping of the contacts.
     pub law: ContactLaw,
 }
 
-/// What keeps a car moving.
+/// Speed control of a car.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Drive {
     /// A force on the car body along the track, proportional to what lacks in speed, that of the start.
@@ -102,7 +102,7 @@ pub struct Start {
     pub wheelset_shifts: [f64; 4],
     /// Shift of the body to the left from the middle of the track, m: a disturbance.
     pub body_shift: f64,
-    /// Whether coils, plates and wheels start in the equilibrium of the car at rest without friction, or in
+    /// The start of coils, plates and wheels: in the equilibrium of the car at rest without friction, or in
     /// the nominal layout.
     pub kind: StartKind,
     /// Time that the car settles after the start, s: statistics leave this out.
@@ -165,7 +165,7 @@ pub struct Parameters {
     pub track: Track,
     /// Springs under each rail; none: rails do not give way.
     pub support: Option<RailSupport>,
-    /// Whether what each rail lies on can be moved (`mechanics::system::System::set_motions`): a bridge, a
+    /// True if the base under each rail can be moved (`mechanics::system::System::set_motions`): a bridge, a
     /// rig. Rails under linear wheels cannot.
     pub movable_rails: bool,
     /// The drive that keeps it moving.

@@ -46,7 +46,7 @@ fn energy_closes_on_rough_track_and_in_curves() {
     }
 }
 
-/// What does not close is the integrator's error: it falls with the tolerance.
+/// The residual of the ledger is the integrator's error: it falls with the tolerance.
 #[test]
 fn convergence_the_ledger_closes_with_the_tolerance() {
     let parameters = loaded(rough(), 15.0);

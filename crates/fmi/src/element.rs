@@ -9,7 +9,7 @@ use crate::unit::Unit;
 use crate::variable::Start;
 use crate::wedge::WedgeState;
 
-/// How an instance is used.
+/// The interface type of an instance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Interface {
     /// The importer integrates.
@@ -33,11 +33,11 @@ pub struct QuantityEntry {
     pub nominal: Option<f64>,
     /// Least and greatest admissible value.
     pub reach: Option<[f64; 2]>,
-    /// Whether it may change while a simulation runs (parameters).
+    /// True if it may change while a simulation runs (parameters).
     pub tunable: bool,
     /// For a position the input that is its rate.
     pub rate: Option<usize>,
-    /// Whether it is an output too (states).
+    /// True if it is an output too (states).
     pub output: bool,
 }
 

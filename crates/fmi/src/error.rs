@@ -14,7 +14,7 @@ pub enum Severity {
     Error,
 }
 
-/// What a message is about: the log categories of the description.
+/// The subject of a message: the log categories of the description.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Category {
     /// Something was refused or failed.

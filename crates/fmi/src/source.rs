@@ -12,7 +12,7 @@ use crate::quasi_static::QuasiStaticElement;
 use crate::wedge::WedgeElement;
 use crate::{car, quasi_static, resources, three_piece, truck, wedge};
 
-/// What an FMU is made of.
+/// The source of an FMU.
 #[derive(Clone, Debug)]
 pub enum Source {
     /// A wedge with mass.

@@ -2,7 +2,7 @@
 
 use crate::unit::Unit;
 
-/// What a variable is for.
+/// The role of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Causality {
     /// Time.
@@ -106,7 +106,7 @@ pub struct Variable {
     pub role: VariableRole,
     /// Its unit; `None` for numbers without one.
     pub unit: Option<Unit>,
-    /// What it is for.
+    /// Its role.
     pub causality: Causality,
     /// When it may change.
     pub variability: Variability,

@@ -11,7 +11,7 @@ pub const LONGEST_MESSAGE: usize = 64 << 10;
 /// Largest number of mistakes of one input that may be printed; `None`: any number.
 pub const MOST_MISTAKES: Option<usize> = Some(input::limits::MISTAKES);
 
-/// Whether numbers that a comparison gives must be finite.
+/// True if numbers that a comparison gives must be finite.
 pub const FINITE_COMPARISONS: bool = true;
 
 /// Processor time of the longest execution. In the dev profile, which is what the program is compiled with.

@@ -95,7 +95,7 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Hidden {
-    /// What the program starts for each reader
+    /// The worker that the program starts for each reader
     #[command(hide = true)]
     Worker(worker::Arguments),
 }

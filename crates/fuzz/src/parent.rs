@@ -133,7 +133,7 @@ fn run_reader(reader: &'static Reader, plan: &FuzzPlan, folder: &Path) -> io::Re
     Ok(result)
 }
 
-/// How a worker ended.
+/// The end of a worker.
 pub enum WorkerEnd {
     /// As it should.
     Done,

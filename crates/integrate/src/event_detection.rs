@@ -27,7 +27,7 @@ pub(crate) struct EventDetector {
     at_target: Vec<f64>,
     at_end: Vec<f64>,
     at_high: Vec<f64>,
-    /// Whether `at_start` is valid.
+    /// True if `at_start` is valid.
     start_known: bool,
     /// Event functions at the variables evaluated last, for the current discrete states.
     functions: Vec<f64>,

@@ -19,10 +19,10 @@ use crate::tuning::options as tuning;
 pub struct Options {
     /// The method.
     pub method: Method,
-    /// Whether a Rosenbrock method may make explicit steps where the problem is not stiff
+    /// True if a Rosenbrock method may make explicit steps where the problem is not stiff
     /// ([`crate::Problem::spectral_radius_bound`]).
     pub explicit_steps: bool,
-    /// Whether events, the changes of the problem's discrete states, are located and recorded
+    /// True if events, the changes of the problem's discrete states, are located and recorded
     /// ([`crate::ProblemStructure::event_groups`]). Steps and states are the same without.
     #[serde(rename = "record_switches")]
     pub record_events: bool,

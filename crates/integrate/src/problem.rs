@@ -34,7 +34,7 @@ pub struct ProblemStructure {
     pub discontinuity_values: usize,
     /// Number of slips that [`Problem::discontinuities`] writes.
     pub slips: usize,
-    /// Whether [`Problem::discontinuities`] covers all discontinuities of f. Newton's method then uses a
+    /// True if [`Problem::discontinuities`] covers all discontinuities of f. Newton's method then uses a
     /// Jacobian matrix again in other stages and steps, as long as the contact state is the same.
     pub discontinuities_complete: bool,
     /// Groups of discrete states that do not depend on each other: all discrete states and event variables in

@@ -26,7 +26,7 @@ pub(crate) struct RootSearch {
     /// Number of iterations, and the width of the bracket at the last check.
     iteration: u32,
     checked_width: f64,
-    /// Whether the last point was the midpoint, because the bracket closed too slowly.
+    /// True if the last point was the midpoint, because the bracket closed too slowly.
     halved: bool,
     /// The end that the last point was intended to move, and how often in a row the other end moved instead,
     /// by less than the resolution.

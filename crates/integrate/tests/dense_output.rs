@@ -79,7 +79,7 @@ fn issue_007_behaviour_sticking_friction_is_interpolated_in_equilibrium() {
     }
 }
 
-/// What is interpolated does not depend on what was interpolated before, and does not change the run.
+/// Interpolated values do not depend on earlier interpolations, and interpolation does not change the run.
 #[test]
 fn interpolation_does_not_depend_on_earlier_interpolations() {
     let begin = || {

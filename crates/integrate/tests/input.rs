@@ -1,4 +1,4 @@
-//! Whatever is wrong is said, in a typed error.
+//! Each invalid input gives a typed error.
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 

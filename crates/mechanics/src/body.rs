@@ -40,9 +40,9 @@ pub struct Body {
     pub free: [bool; 6],
     /// The values of all coordinates at the start; held coordinates keep them. m, rad.
     pub initial: [f64; 6],
-    /// Whether its kinematics are linearized: displacements of its center of gravity and small rotations
+    /// True if its kinematics are linearized: displacements of its center of gravity and small rotations
     /// about x, y, z, along the axes of a frame at rest; its mass matrix is constant and diagonal, and there
-    /// are no gyroscopic terms. Force elements see where its coordinates place it, exactly. If it is
+    /// are no gyroscopic terms. Force elements use its exact pose at these coordinates. If it is
     /// prescribed, its frame's motions are its coordinates.
     #[serde(default)]
     pub linearized: bool,
@@ -158,10 +158,10 @@ pub(crate) struct Rigid {
     pub mass: f64,
     pub inertia: [f64; 3],
     pub center_of_gravity: Vector<f64>,
-    /// Whether the center of gravity is the origin.
+    /// True if the center of gravity is the origin.
     pub central: bool,
     pub free: [bool; 6],
-    /// Whether roll can differ from zero.
+    /// True if roll can differ from zero.
     pub rolls: bool,
 }
 

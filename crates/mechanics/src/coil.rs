@@ -64,7 +64,7 @@ pub struct Coil {
     pub damping: f64,
     /// Damping of rotations C_r, N·m·s.
     pub rotational_damping: f64,
-    /// Whether the spring can pull.
+    /// True if the spring can pull.
     pub pulls: bool,
 }
 

@@ -82,7 +82,7 @@ pub struct PointContact<S: Number> {
 pub(crate) struct PointProperties<P> {
     pub stiffness: P,
     pub damping: P,
-    /// Whether there is any damping.
+    /// True if there is any damping.
     pub damped: bool,
     pub share: P,
     /// Factor of the coefficient of friction.

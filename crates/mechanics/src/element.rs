@@ -123,7 +123,7 @@ impl Scalar for Dual<1> {
 pub(crate) struct Marked {
     pub element: Box<dyn AnyElement>,
     pub marker: Marker,
-    /// Whether marker A is on the other body, which has no free coordinates.
+    /// True if marker A is on the other body, which has no free coordinates.
     pub reversed: bool,
 }
 

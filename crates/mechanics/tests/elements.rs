@@ -233,8 +233,8 @@ fn run(system: &System, end: f64) -> (f64, f64) {
     (observation.residual(stored).abs(), observation.losses)
 }
 
-/// What is stored and what is lost account for the work, with a driver that turns and bodies in moving
-/// frames; an element that hides a tenth of its energy is found out.
+/// Stored and lost energy account for the work, with a driver that turns and bodies in moving frames; an
+/// element that hides a tenth of its energy is found out.
 #[test]
 fn energy_an_element_that_is_left_out_of_the_ledger_is_noticed() {
     let frame = Frame::fixed([0.0; 3], [0.0; 3]);

@@ -1,5 +1,4 @@
-//! What models come to: a mass that friction stops, creep, rest in equilibrium, momentum, the same bits
-//! again.
+//! Limits of models: a mass that friction stops, creep, rest in equilibrium, momentum, the same bits again.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
@@ -307,7 +306,7 @@ const LAWS: [FrictionLaw; 2] = [
     },
 ];
 
-/// Whatever the elements do, momentum and angular momentum do not change: at random states, to rounding.
+/// The forces of elements leave momentum and angular momentum unchanged: at random states, to rounding.
 #[test]
 fn action_and_reaction_at_random_states() {
     let mut random = Random(1);

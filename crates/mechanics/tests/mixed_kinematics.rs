@@ -176,7 +176,7 @@ fn analytic_derivatives_of_mixed_kinematics_against_differences() {
     }
 }
 
-/// What is stored and lost accounts for the work of motions and loads.
+/// Stored and lost energy account for the work of motions and loads.
 #[test]
 fn energy_the_ledger_closes_over_mixed_kinematics() {
     for seed in 0..3 {

@@ -1,4 +1,4 @@
-//! What is asked of a part of a system, or for a part of the answer, is what the whole says.
+//! Evaluations of parts of a system, and of parts of the outputs, agree with those of the whole.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 mod common;

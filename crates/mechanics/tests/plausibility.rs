@@ -1,5 +1,5 @@
-//! What observers of runs find: silent within the limits, a finding with place, time and value beyond them,
-//! for any model.
+//! Findings of observers of runs: none within the limits; beyond them one with place, time and value, for any
+//! model.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 mod common;

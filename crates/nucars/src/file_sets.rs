@@ -135,7 +135,7 @@ impl Instead {
 pub struct FileEntry<T> {
     /// Where.
     pub path: PathBuf,
-    /// What was read.
+    /// Its contents, with problems.
     pub read: Read<T>,
 }
 

@@ -14,7 +14,7 @@ pub struct Token {
     pub kind: TokenKind,
     /// With the quotation marks.
     pub span: Span,
-    /// Whether it is the first one in its line.
+    /// True if it is the first one in its line.
     pub begins_line: bool,
 }
 

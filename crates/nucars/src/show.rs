@@ -11,7 +11,7 @@ use crate::tree::{Law, SystemFile, Toe, UnknownValue};
 pub struct SystemTable {
     /// A short name for programs, which stays: `bodies`, `connections`, `wedges`.
     pub key: &'static str,
-    /// What it shows.
+    /// Its title.
     pub title: String,
     /// Names and units of the columns; no unit is an empty text.
     pub columns: Vec<(&'static str, &'static str)>,

@@ -1,4 +1,4 @@
-//! What is wrong or doubtful in the printed files.
+//! Wrong and doubtful entries in the printed files.
 
 #![allow(clippy::unwrap_used)]
 

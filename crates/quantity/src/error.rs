@@ -71,7 +71,7 @@ pub enum UnitError {
         unit: String,
         /// Its dimension.
         found: Dimension,
-        /// What is expected.
+        /// The expected kind.
         expected: Kind,
         /// Where the unit is, in bytes of the text.
         span: Range<usize>,

@@ -49,7 +49,7 @@ pub struct Solver {
     pub program: Program,
     /// Its name in the program.
     pub method: &'static str,
-    /// Whether it is ours.
+    /// True for this project's integrator.
     pub ours: bool,
     /// Simulated time that it is given, s: less where ten seconds would take hours.
     pub span: f64,

@@ -60,7 +60,7 @@ impl Outcome {
 /// Repeats short runs, and keeps the quickest.
 ///
 /// # Errors
-/// What a run says when it cannot be set up.
+/// The message of a run that cannot be set up.
 pub fn repeated(
     mut run: impl FnMut() -> Result<(Outcome, Vec<f64>), String>,
 ) -> Result<(Outcome, Vec<f64>), String> {

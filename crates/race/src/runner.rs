@@ -53,7 +53,7 @@ pub struct RacePlan {
     pub short: Option<f64>,
     /// From how many starts a case runs of which only means are compared.
     pub starts: u32,
-    /// Whether nothing is run at all: what is kept is judged.
+    /// True if nothing is run: the stored results are judged.
     pub kept_only: bool,
 }
 

@@ -1,5 +1,5 @@
-//! What the other solvers get is right: the Jacobian matrix against differences of the rates, errors and
-//! fronts by hand.
+//! The results of the other solvers are right: the Jacobian matrix against differences of the rates, errors
+//! and fronts by hand.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use race::equations::Equations;

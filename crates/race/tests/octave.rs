@@ -42,7 +42,7 @@ fn json(name: &str) -> String {
     WedgeCase::named(name).unwrap().json().unwrap()
 }
 
-/// What corners do in states, for all of which there must be states.
+/// Numbers of corners in each contact state; none may be zero.
 #[derive(Default, Debug)]
 struct Counts {
     open: usize,

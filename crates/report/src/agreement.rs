@@ -161,7 +161,7 @@ pub struct Stroke {
 pub struct AgreementGroup {
     /// Its damping.
     pub damping: Damping,
-    /// Whether the bolster is yawed.
+    /// True if the bolster is yawed.
     pub yawed: bool,
     /// The models, the stand-alone one first.
     pub models: Vec<Numbers>,

@@ -43,7 +43,7 @@ pub struct ParquetColumn {
     pub unit: String,
     /// The description, a few words.
     pub text: String,
-    /// What it holds.
+    /// Its values.
     pub content: Content,
 }
 

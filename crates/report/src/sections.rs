@@ -20,7 +20,7 @@ pub struct SectionPlan {
     pub intro: String,
     /// Its figures.
     pub exhibits: Vec<Exhibit>,
-    /// Whether it begins folded.
+    /// True if it is folded at first.
     pub folded: bool,
     /// The run that it is about, if it is about one.
     pub run: Option<String>,

@@ -32,7 +32,7 @@ pub enum ParameterAxis {
         from: f64,
         /// Its end.
         to: f64,
-        /// Whether parts are equal shares.
+        /// True if parts are equal ratios, false if equal differences.
         logarithmic: bool,
         /// Number of parts.
         count: usize,
@@ -222,7 +222,7 @@ pub struct ParameterPair {
 /// The cells of the jam map from runs whose slope friction acts the same way.
 #[derive(Clone, Debug)]
 pub struct JamCells {
-    /// Whether these are runs with toe in; the others have toe out or none.
+    /// True if these are runs with toe in; the others have toe out or none.
     pub toe_in: bool,
     /// Their toe, rad, positive out.
     pub toe: Gathered,

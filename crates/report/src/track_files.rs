@@ -28,7 +28,7 @@ const DEGREE_CHORD: f64 = 30.48;
 pub struct MeasuredTrack {
     /// Left (0) or right (1) rail.
     pub rail: usize,
-    /// Whether it is the alignment (lateral), else the profile (vertical).
+    /// True for the alignment (lateral), false for the profile (vertical).
     pub lateral: bool,
 }
 

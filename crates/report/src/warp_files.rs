@@ -35,7 +35,7 @@ pub struct Tested {
     pub label: String,
     /// Its run.
     pub result: TruckResult,
-    /// What it says.
+    /// Its curve.
     pub curve: WarpCurve,
 }
 

@@ -124,8 +124,8 @@ fn the_table() {
     assert_eq!(written["claims"][0]["group"], "variable");
 }
 
-/// What is not a question of numbers is decided by the twelve runs, or says why not; every failure is
-/// explained.
+/// Statements that are not questions of numbers are decided by the twelve runs, or say why not; every failure
+/// is explained.
 #[test]
 fn verdicts_come_with_their_reasons() {
     // Those that compare need runs of the half-truck, and have tests of their own.
@@ -154,7 +154,7 @@ fn verdicts_come_with_their_reasons() {
     }
 }
 
-/// What the thesis says of its figures and what has been found required.
+/// The required statements of the thesis on its figures hold.
 #[test]
 fn what_must_hold_holds() {
     for id in REQUIRED {

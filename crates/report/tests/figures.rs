@@ -311,8 +311,8 @@ fn styles_of_toe_are_the_same_everywhere() {
     assert!(out.1 != none.1 && none.1 != inward.1 && out.2 != none.2 && none.2 != inward.2);
 }
 
-/// What flows into a node is what flows through it and, but for what is too thin to be drawn and the ledger's
-/// residual, what flows out; the numbers are those of the summary.
+/// The inflow of a node equals its throughput and, but for flows too thin to be drawn and the ledger's
+/// residual, its outflow; the numbers are those of the summary.
 #[test]
 fn energy_bands_of_the_power_flow_balance() {
     let figure = exhibit("vdrun_toe_in_0.2_psi_0.012_power_flow").figure;

@@ -10,7 +10,7 @@ use std::time::{Duration, SystemTime};
 
 use report::files::{FileError, Folder, abandon, remove_left_over};
 
-/// What is given up is given up for the whole program: one test at a time.
+/// Files are given up for the whole program: one test at a time.
 static ALONE: Mutex<()> = Mutex::new(());
 
 fn alone() -> MutexGuard<'static, ()> {

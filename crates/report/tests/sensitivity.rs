@@ -72,7 +72,7 @@ fn analytic_what_a_cut_explains_is_the_squared_correlation() {
     assert!((split.explains - by_hand).abs() < 1e-12, "{split:?}");
 }
 
-/// What hangs on nothing, and what holds at all or at no points, is decided by no parameter.
+/// No parameter decides a statement that holds everywhere, nowhere or at random.
 #[test]
 fn limits_chance_decides_nothing() {
     let space = Space::default();

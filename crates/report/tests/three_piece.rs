@@ -1,5 +1,5 @@
-//! What the report says of the three-piece truck: closed forms hold, what differs is told, stiffnesses move
-//! answers.
+//! The report on the three-piece truck: closed forms hold, differences are stated, stiffnesses change
+//! results.
 
 #![allow(clippy::unwrap_used)]
 

@@ -185,7 +185,7 @@ impl MapRange {
     /// Reads a text such as `angle=20 deg..50 deg`, whichever end comes first.
     ///
     /// # Errors
-    /// What is wrong with it, and what to write.
+    /// The mistake, and the text to write instead.
     pub fn parse(text: &str) -> Result<Self, String> {
         const HOW: &str = "write for example \"angle=20 deg..50 deg\" or \"friction=0.1..0.6\"";
         let names = MapAxis::ALL.map(MapAxis::name).join(", ");

@@ -225,7 +225,7 @@ impl Record {
 pub struct ReadRecords {
     /// The study's sound records, in the order in which they were written.
     pub records: Vec<Record>,
-    /// Whether there are records of another study.
+    /// True if there are records of another study.
     pub foreign: bool,
     /// Bytes that belong to no sound record: one that was cut off, or damage.
     pub lost: usize,

@@ -1,6 +1,6 @@
 //! Runs of any model: a case being integrated, row by row, with a state that can be saved and continued.
 //!
-//! What is run is a [`RunCase`]: a wedge's [`Case`](crate::case::Case), a half-truck's
+//! A [`RunCase`] is run: a wedge's [`Case`](crate::case::Case), a half-truck's
 //! [`HalfTruckCase`](crate::half_truck::HalfTruckCase). [`Run`] has the one loop: a step of the integrator,
 //! the output times that it reached, the energy balance, the rule for runs that hardly progress. The case's
 //! [`Recorder`] takes from it what the results need: a table with counts, or measures alone.

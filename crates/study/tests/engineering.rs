@@ -1,5 +1,4 @@
-//! What studies at engineering accuracy keep, and what they do not: against runs of the default method at a
-//! close tolerance.
+//! Accuracy of studies at engineering accuracy: against runs of the default method at a close tolerance.
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 
 use study::case::{Case, builtin};
@@ -70,7 +69,7 @@ fn convergence_branch_means_at_engineering_accuracy() {
     }
 }
 
-/// What rattling carries is lost with the rattling, as the documents say.
+/// Forces that chatter carries are lost with the chatter, as the documents say.
 #[test]
 fn limits_what_rattles_for_long_is_not_for_engineering_accuracy() {
     let pairs = both(&["vdrun_toe_0_psi_0"], "1e-6");

@@ -1,6 +1,6 @@
 //! Extreme cases: each ends, or stops with its reason in time, and each that is nonsense says so.
 //!
-//! What is nonsense is decided here from columns of the result alone, not by the observer of the run.
+//! Implausible results are recognized here from columns of the result alone, not by the observer of the run.
 //!
 //! ```sh
 //! cargo test --release -p study --test extreme -- --ignored --nocapture
@@ -36,7 +36,7 @@ const TURNED: f64 = 0.5;
 /// Penetration that no steel face survives, in.
 const DEEP: f64 = 0.11;
 
-/// What came of an extreme case.
+/// The outcome of an extreme case.
 struct Outcome {
     number: u64,
     settings: Vec<String>,

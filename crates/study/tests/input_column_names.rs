@@ -73,7 +73,7 @@ fn strip<'n>(name: &'n str, words: &[&str]) -> Option<(&'n str, usize)> {
     })
 }
 
-/// What the page says.
+/// The rule on the page.
 struct Rule {
     objects: Vec<&'static str>,
     /// Words of a quantity with units; the longest first.

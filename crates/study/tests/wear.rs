@@ -280,7 +280,7 @@ fn input_what_cannot_be_worn_is_refused() {
     assert!(error.to_string().contains("steps are needed"), "{error}");
 }
 
-/// What was computed before a stop is kept.
+/// States computed before a stop are kept.
 #[test]
 fn limits_a_stop_keeps_the_states_before() {
     let case = read("constant", "");

@@ -166,7 +166,7 @@ fn limits_a_derailment_is_a_result_with_place_and_time() {
     );
 }
 
-/// What cannot be run is refused with the way out.
+/// A case that cannot be run is refused with a remedy.
 #[test]
 fn input_what_cannot_be_run_is_refused() {
     let straight = "[[segments]]\ntangent = \"100 m\"\n";

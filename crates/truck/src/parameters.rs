@@ -160,10 +160,10 @@ pub enum WedgeKind {
     Split,
 }
 
-/// What a split wedge has beside a one-piece wedge, of which each half has half the width, and its share
-/// of everything that a whole wedge has: stiffness and bristles of faces, control coil. Each half leans on
-/// the slope, the column and the side of the pocket on its side; `slope_across` pushes the halves apart where
-/// it is positive, and together where it is negative.
+/// Parameters of a split wedge in addition to those of a one-piece wedge. Each half has half the width, and
+/// its share of everything that a whole wedge has: stiffness and bristles of faces, control coil. Each half
+/// leans on the slope, the column and the side of the pocket on its side; `slope_across` pushes the halves
+/// apart where it is positive, and together where it is negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Split {
     /// Angle of the plane between the halves with the vertical plane along the track, rad; positive: the
@@ -237,7 +237,7 @@ pub enum ControlCoil {
     Nothing,
 }
 
-/// Whether a car carries its load.
+/// The load of a car.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lading {
     /// A car of 263,000 lbf.
@@ -246,7 +246,7 @@ pub enum Lading {
     Empty,
 }
 
-/// What stands on the truck: half a car's body on the center plate and the side bearings.
+/// The load on the truck: half a car's body on the center plate and the side bearings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CarBody {
     /// Its mass properties.
@@ -284,7 +284,7 @@ pub struct CenterPlate {
 pub struct SideBearings {
     /// From the truck's center, y, m.
     pub distance: f64,
-    /// What they are.
+    /// Their kind.
     pub kind: SideBearing,
 }
 

@@ -81,7 +81,7 @@ pub fn add_wedge(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> Wedge
     }
 }
 
-/// How a wedge, or a half of one, lies in its pocket.
+/// The position of a wedge, or of a half of one, in its pocket.
 pub(crate) struct Lies {
     /// Where a positive angle across pushes it: +1 to +y, -1 to -y.
     pub pushed: f64,

@@ -16,7 +16,7 @@ pub use self::depth_map::{DepthMap, DepthMapError};
 pub use self::grid::{Grid, GridPoint, LARGEST_GRID};
 use crate::parameters::{Contact, FaceFriction, ParameterError, check, not_negative, positive};
 
-/// What a face is like, and what it touches.
+/// Points, profiles, wear and friction of a face and of the surface that it touches.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct FaceProperties {
@@ -68,7 +68,7 @@ impl Default for FaceProperties {
 /// them they are bilinear.
 pub type FrictionMap = Vec<Vec<f64>>;
 
-/// How a face or its counterface recedes.
+/// Recession of a face or of its counterface.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FaceProfile {
     /// Depth over the distance from the middle of the face, up or to the left, m.
@@ -112,7 +112,7 @@ pub struct Rectangle {
     pub upper: [f64; 2],
     /// Width along y, which is zero in the middle.
     pub width: f64,
-    /// Whether the wedge lies on the side of +x.
+    /// True if the wedge lies on the side of +x.
     pub faces_backward: bool,
 }
 

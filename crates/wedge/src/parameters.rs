@@ -70,11 +70,11 @@ pub struct ControlCoil {
     pub rotational_damping: f64,
     /// Its line of action.
     pub acts_at: CoilLine,
-    /// Whether it can pull.
+    /// True if it can pull.
     pub pulls: bool,
 }
 
-/// How deep the faces are worn. The wear of wedge and neighbor together is one depth: it opens the gap of
+/// Depth of wear of the faces. The wear of wedge and neighbor together is one depth: it opens the gap of
 /// their faces, measured along the normal of the neighbor's surface, which recedes by it and stays flat.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Wear {

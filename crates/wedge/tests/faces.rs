@@ -290,7 +290,7 @@ fn analytic_a_map_of_a_crown_is_the_crown() {
     }
 }
 
-/// How far the wedge sinks in depends on the sum of both curvatures, whichever partner has them.
+/// The penetration depends on the sum of both curvatures, whichever partner has them.
 #[test]
 fn analytic_a_crown_on_either_partner_sinks_in_alike() {
     let settle = |wedge_surface: FaceProfile, counterface: FaceProfile| {

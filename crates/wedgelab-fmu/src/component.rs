@@ -44,7 +44,7 @@ pub(crate) struct Component {
     pub logger: Logger,
     /// The instance's name, as it was given.
     pub name: CString,
-    /// Whether anything is logged.
+    /// True if anything is logged.
     pub logging: bool,
     /// Which categories are logged.
     pub categories: [bool; Category::ALL.len()],

@@ -31,10 +31,10 @@ pub(crate) fn is_alive(pointer: *const c_void, kind: HandleKind) -> bool {
     alive.get(&(pointer as usize)) == Some(&kind)
 }
 
-/// Frees what [`hand_out`] gave; whether there was something to be freed.
+/// Frees a value that [`hand_out`] returned. Returns whether there was one.
 ///
 /// # Safety
-/// What has been handed out for this kind is of the type `T`, and nobody uses it at the same time.
+/// Every handle of this kind holds a value of type `T`, and nobody uses it at the same time.
 pub(crate) unsafe fn take_back<T>(pointer: *mut c_void, kind: HandleKind) -> bool {
     let found = {
         let mut alive = ALIVE.write().unwrap_or_else(PoisonError::into_inner);

@@ -119,7 +119,7 @@ impl Table {
     }
 }
 
-/// What a result is taken apart into, besides its values.
+/// The parts of a result besides its values.
 #[derive(Serialize, Deserialize)]
 struct Header {
     version: u32,

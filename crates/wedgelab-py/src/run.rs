@@ -16,7 +16,7 @@ const INTERVAL: Duration = Duration::from_millis(50);
 /// Number of steps between readings of the clock.
 const STEPS: u32 = 64;
 
-/// What Python wants to know of a run, and what it says to it.
+/// Progress and signals between a run and Python.
 pub struct Progress {
     call: Option<Py<PyAny>>,
     /// Signals reach the main thread only; elsewhere there is nobody to ask.

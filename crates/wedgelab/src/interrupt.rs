@@ -1,4 +1,4 @@
-//! How commands end when a signal asks for it: by SIGINT (Ctrl-C), SIGTERM or SIGHUP, on Windows by Ctrl-C.
+//! Stops commands at a signal: SIGINT (Ctrl-C), SIGTERM or SIGHUP, on Windows Ctrl-C.
 //!
 //! A command that writes calls [`listen`] before it does anything. From then on a signal ends the program at
 //! once, without leaving a hidden folder, unless the command has said by [`stops`] that it ends by itself
@@ -20,7 +20,7 @@ use crate::failure::say;
 /// Why a run is incomplete that was stopped.
 pub const REASON: &str = "interrupted";
 
-/// What a signal leads to.
+/// The reaction of a command to a signal.
 #[derive(Debug)]
 struct Reaction {
     /// The message on a first signal if the command ends by itself.
@@ -34,7 +34,7 @@ static REACTION: Mutex<Reaction> = Mutex::new(Reaction {
     stop: None,
     kept: None,
 });
-/// Whether the command is to end by itself.
+/// True if the command is to end by itself.
 static WANTED: AtomicBool = AtomicBool::new(false);
 /// The exit code of the signal that came; 0 if none did.
 static CODE: AtomicU8 = AtomicU8::new(0);

@@ -25,7 +25,7 @@ const SCHEMA: &str = "wedgelab.run_state/1";
 /// Why a run stops that is saved on its way.
 const REASON: &str = "told to, and saved";
 
-/// What is asked of a run in parts.
+/// Requests to a run that is made in parts.
 #[derive(Debug)]
 pub struct Parts<'a> {
     /// The case as it is printed, with all that it needs.
@@ -36,7 +36,7 @@ pub struct Parts<'a> {
     pub save: Option<&'a Path>,
     /// When to stop, s.
     pub until: Option<f64>,
-    /// Whether a saved state may be overwritten.
+    /// True if a saved state may be overwritten.
     pub force: bool,
 }
 

@@ -209,7 +209,7 @@ fn input_mistakes_are_explained() {
     }
 }
 
-/// What is printed can be used: a regime, limits and conditions as files.
+/// Printed files can be used: a regime, limits and conditions.
 #[test]
 fn input_what_is_built_in_is_listed_and_shown() {
     let folder = folder();

@@ -79,7 +79,7 @@ fn near(found: f64, expected: f64) {
     );
 }
 
-/// What is in the table of differences is computed here once more, from the results' own files.
+/// The table of differences is computed here once more, from the results' own files.
 #[test]
 fn two_runs() {
     let folder = temporary();

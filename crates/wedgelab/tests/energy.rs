@@ -1,5 +1,5 @@
-//! What a user is told of energy ledgers that do not close: a warning above 1e-3, a failure above 1e-2 that
-//! keeps the files.
+//! Messages about energy ledgers that do not close: a warning above 1e-3, a failure above 1e-2 that keeps
+//! the files.
 
 #![allow(clippy::unwrap_used)]
 

@@ -239,7 +239,7 @@ fn limits_derailed_wheels_are_reported_with_their_places() {
     );
 }
 
-/// What is wrong is refused with what to do; the frame stands in the help and in the answer.
+/// Mistakes are refused with a remedy; the frame stands in the help and in the answer.
 #[test]
 fn input_mistakes_are_refused_and_the_frame_is_reported() {
     for (arguments, texts) in [

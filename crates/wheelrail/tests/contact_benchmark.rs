@@ -40,7 +40,7 @@ const MOTION: [[f64; 2]; 21] = [
     [-1.126_431e-2, -4.243_637_5],
 ];
 
-/// What CONTACT gives: y of the patch on the track (mm, to the right), normal, longitudinal, lateral force
+/// Results of CONTACT: y of the patch on the track (mm, to the right), normal, longitudinal, lateral force
 /// (N).
 struct Reference {
     shift: f64,
@@ -96,8 +96,8 @@ fn profile(file: &str, kind: ProfileKind) -> Profile {
     Profile::read(&folder.join(file), kind, 0.0).unwrap()
 }
 
-/// What is found at a wheel: place (mm, to the right), normal, longitudinal and lateral force on the rail
-/// (N), as CONTACT gives them, summed over patches; and the deepest patch's place (mm).
+/// Results at a wheel: place (mm, to the right), normal, longitudinal and lateral force on the rail (N), as
+/// CONTACT gives them, summed over patches; and the deepest patch's place (mm).
 struct Found {
     sum: [f64; 4],
     deepest: f64,

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use crate::machine::Machine;
 
-/// What one program printed.
+/// The output of one program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Printed {
     /// Its section.

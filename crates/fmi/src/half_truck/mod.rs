@@ -35,7 +35,7 @@ struct Resource {
     run: Origin,
 }
 
-/// What the run is made of.
+/// The origin of the run.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum Origin {

@@ -74,7 +74,7 @@ pub struct Instance {
     /// Outputs and columns as computed last, if they are those of now.
     outputs: Option<Vec<f64>>,
     columns: Option<Vec<f64>>,
-    /// Whether changes of contact states are logged.
+    /// True if changes of contact states are logged.
     log_events: bool,
     log: Vec<Message>,
 }
@@ -314,7 +314,7 @@ impl Instance {
         self.build()
     }
 
-    /// What was computed is not what would be computed now.
+    /// Discards outputs computed before a change.
     fn changed(&mut self) {
         self.outputs = None;
         self.columns = None;

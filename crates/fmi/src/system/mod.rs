@@ -38,7 +38,7 @@ const TOLERANCES: [f64; 2] = [1e-12, 1e-3];
 /// lost.
 const SAME_TIME: f64 = 1e-12;
 
-/// How a system starts.
+/// The start of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StartState {
     /// At its initial coordinates and at rest, or as its parameters say.
@@ -54,7 +54,7 @@ pub struct SystemElement {
     loads: InputLoads,
     /// The contact states, if they are variables.
     contacts: Option<Contacts>,
-    /// Whether inputs move prescribed bodies; else these follow motions of their own.
+    /// True if inputs move prescribed bodies; else these follow motions of their own.
     driven: bool,
     time: f64,
     /// Those of the system, then the work of the loads.

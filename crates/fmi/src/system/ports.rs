@@ -92,11 +92,11 @@ pub struct StartPort {
     pub body: usize,
     /// The coordinate, 0 to 5.
     pub coordinate: usize,
-    /// Whether it is the rate.
+    /// True if it is the rate.
     pub rate: bool,
 }
 
-/// What an output reads.
+/// The quantity that an output reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reading {
     /// A displacement.
@@ -138,11 +138,11 @@ pub struct Plant {
     pub ports: Ports,
     /// The reader of the table at an instant; none if no port reads it.
     pub table: Option<TableReader>,
-    /// Whether the table reads the rates of the state, which cost an evaluation more.
+    /// True if the table reads the rates of the state, which cost an evaluation more.
     pub table_takes_rates: bool,
     /// Numbers of bodies and of connections in files, for messages; may be empty.
     pub numbers: [Vec<u32>; 2],
-    /// Whether the residual of the ledger is what is stored and lost less the work; else it is its negative.
+    /// True if the ledger's residual is the stored and lost energy less the work; else it is its negative.
     pub residual_of_stored: bool,
     /// Options of its integration; their relative tolerance holds if the importer gives none.
     pub options: Options,

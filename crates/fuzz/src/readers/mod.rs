@@ -22,7 +22,7 @@ use crate::shown;
 pub struct Reader {
     /// Its name on the command line.
     pub name: &'static str,
-    /// What it reads.
+    /// A description of its inputs.
     pub about: &'static str,
     /// Inputs that it accepts.
     pub corpus: fn() -> Vec<Vec<u8>>,
@@ -87,7 +87,7 @@ pub fn read(name: &str, input: &[u8]) -> ReadOutcome {
 /// The outcome of reading an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReadOutcome {
-    /// Whether it was accepted.
+    /// True if it was accepted.
     pub accepted: bool,
     /// Bytes of the longest text in which it was refused; zero, if it was accepted.
     pub message: usize,

@@ -24,11 +24,11 @@ pub(super) struct Attempt {
     pub target: f64,
     /// The predicted discontinuity or zone at which the attempt ends.
     pub prediction: Option<Prediction>,
-    /// Whether the attempt is shorter than planned, because of a limit or a prediction.
+    /// True if the attempt is shorter than planned, because of a limit or a prediction.
     pub truncated: bool,
     /// Error of the last attempt that was rejected because of its error, in units of the tolerance.
     pub scaled_error: f64,
-    /// Whether the attempt only finds out where a value that is not finite comes from.
+    /// True if the attempt only locates the origin of a value that is not finite.
     pub diagnostic: bool,
     /// Index of the state to blame for the failure before a diagnostic attempt.
     pub blamed: Option<usize>,
@@ -48,7 +48,7 @@ impl Attempt {
     };
 }
 
-/// Whether states of the dense output of the last step are corrected.
+/// The state of the correction of the last step's dense output.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum CorrectionState {
     /// They are not.

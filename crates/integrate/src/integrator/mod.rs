@@ -90,7 +90,7 @@ pub struct Integrator<P: Problem> {
     dx: Vec<f64>,
     df_dt: Vec<f64>,
     autonomous: bool,
-    /// Whether the problem holds the Jacobian matrix at `(time, x)`.
+    /// True if the problem holds the Jacobian matrix at `(time, x)`.
     linearized: bool,
     /// Stages of the last accepted step.
     stages: Vec<f64>,

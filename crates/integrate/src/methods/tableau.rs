@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// Largest number of stages of a method.
 pub const MAXIMUM_STAGES: usize = 8;
 
-/// How a method computes its stages.
+/// Families of methods, by the equations of their stages.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Family {
     /// Rosenbrock method: one linear system per stage, with the Jacobian matrix at the start of the step,

@@ -35,9 +35,9 @@ impl LinearizationPoint {
 /// The state of the matrix; the problem itself stores it.
 #[derive(Debug, Default)]
 pub(crate) struct JacobianCache {
-    /// Whether there is a matrix.
+    /// True if there is a matrix.
     filled: bool,
-    /// Whether the problem reports all its discontinuities.
+    /// True if the problem reports all its discontinuities.
     complete: bool,
     point: LinearizationPoint,
     /// Contact state at that point, and at the point of the last [`JacobianCache::set_contact_state`].
@@ -47,7 +47,7 @@ pub(crate) struct JacobianCache {
     functions: DiscontinuityFunctions,
 }
 
-/// Whether the cached matrix is valid at a point.
+/// Validity of the cached matrix at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum CacheValidity {
     /// It was evaluated in the same contact state.

@@ -15,7 +15,7 @@ pub(crate) struct LineSearch {
     low: (f64, f64),
     high: (f64, f64),
     fraction: f64,
-    /// Whether the low end was moved last; the component of an end that stays twice is halved.
+    /// True if the low end was moved last; the component of an end that stays twice is halved.
     moved_low: Option<bool>,
     evaluations: u32,
 }

@@ -26,7 +26,7 @@ pub(crate) struct Newton {
     pub size: f64,
     pub line_search: LineSearch,
     pub cache: JacobianCache,
-    /// Whether the cached matrix was valid at the predicted stage.
+    /// True if the cached matrix was valid at the predicted stage.
     pub cache_valid: bool,
     pub base: Vec<f64>,
     /// The point where the last correction starts, that correction, and the next one.

@@ -1,4 +1,4 @@
-//! What several tests need.
+//! Shared by several tests.
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 #![allow(dead_code)] // no test needs all of it

@@ -65,9 +65,9 @@ pub struct Options {
     pub branch: Branch,
     /// The direction of slope friction of wedges with a profile. Default: by the toe.
     pub slope: SlopeDirection,
-    /// Whether the rate of the wedge's rise enters the slip velocity on the column. Default: no, it is the
-    /// vertical extension's rate. With it longitudinal swinging moves the column's friction, and the slope's,
-    /// which follows it, can excite the swinging.
+    /// True if the rate of the wedge's rise enters the slip velocity on the column. Default: false, the
+    /// slip velocity is the vertical extension's rate. If true, longitudinal swinging moves the column's
+    /// friction, and the slope's, which follows it, can excite the swinging.
     pub rise_in_slip: bool,
     /// Negative rise. Default: the coil's curve goes on.
     pub negative_rise: NegativeRise,

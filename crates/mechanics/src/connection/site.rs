@@ -92,7 +92,7 @@ pub(crate) struct ConnectionEnd {
     pub free: Option<usize>,
     /// Number of its free coordinates.
     pub size: usize,
-    /// Whether it is prescribed and moves.
+    /// True if it is prescribed and moves.
     pub prescribed: bool,
     /// +1 for body A, -1 for body B: its share in the extension.
     pub sign: f64,
@@ -117,7 +117,7 @@ pub(crate) struct Site<const D: usize, const P: usize> {
     pub quadratures: [[Option<usize>; P]; 2],
     /// The same for the work of the inputs.
     pub works: [Option<usize>; 2],
-    /// Whether one end is prescribed and moves.
+    /// True if one end is prescribed and moves.
     pub prescribed: bool,
     /// Where it acts if it is one between markers; else its rows say so.
     pub between: Option<Box<Between<D>>>,

@@ -74,8 +74,8 @@ pub struct Wedge {
     pub coil: Curve,
     /// Force added to the coil's, N, positive pushing.
     pub preload: f64,
-    /// Whether the coil stands in the bolster's pocket (constant damping); else on the side frame (variable
-    /// damping).
+    /// True if the coil stands in the bolster's pocket (constant damping); false if on the side frame
+    /// (variable damping).
     pub coil_in_bolster: bool,
     /// The column.
     pub column: ColumnFace,
@@ -155,7 +155,7 @@ pub struct WedgeState {
     pub mobilised: f64,
     /// Limit of the friction in its present direction.
     pub friction_limit: f64,
-    /// Whether only the cap limits the normal force: no steady sliding in the friction's present direction.
+    /// True if only the cap limits the normal force: no steady sliding in the friction's present direction.
     pub jammed: bool,
 }
 

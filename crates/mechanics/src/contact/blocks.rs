@@ -40,7 +40,7 @@ pub(super) const OUTPUTS: usize = 7;
 /// The derivatives of the law at four points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PointDerivatives {
-    /// Whether any derivative differs from zero.
+    /// True if any derivative differs from zero.
     pub active: bool,
     /// Forces along the normal and two tangents.
     pub force: [Lanes; 3],
@@ -61,11 +61,11 @@ pub(crate) struct Points {
     pub(super) kinematics: Vec<PointKinematics<Lanes>>,
     /// The bend of a curved surface at the points; none for a plane.
     pub(super) bends: Vec<Bend<Lanes>>,
-    /// Whether the surface is curved.
+    /// True if the surface is curved.
     curved: bool,
-    /// Whether the laws of force are refined.
+    /// True if the laws of force are refined.
     refined: bool,
-    /// Whether all were open at the last evaluation of the forces; never with internal states.
+    /// True if all were open at the last evaluation of the forces; never with internal states.
     open: bool,
     pub(super) derivatives: Vec<PointDerivatives>,
 }

@@ -12,7 +12,7 @@ use crate::vector::{Matrix, Vector};
 
 /// The motion that gives four points their contact kinematics, and the body the wrench of their forces.
 pub(crate) trait FaceMotion {
-    /// Whether the surface is curved: then it has a normal for each point, in a [`Bend`].
+    /// True if the surface is curved: then it has a normal for each point, in a [`Bend`].
     const CURVED: bool;
     /// Returns the contact kinematics of four points, and writes the local geometry of the surface there.
     fn kinematics(&self, block: &PointBlock, bend: Option<&mut Bend<Lanes>>) -> PointKinematics<Lanes>;

@@ -74,7 +74,7 @@ pub enum FindingKind {
     BeyondTable,
     /// A coil is longer than its free length. The value is by how much, m.
     Lifted {
-        /// Whether the coil pulls then; else it is off its seat.
+        /// True if the coil pulls then; false if it is off its seat.
         pulls: bool,
     },
     /// A face overlaps its surface at the start more than later. The value is the energy that is released, J.
@@ -161,7 +161,7 @@ impl FindingKind {
 /// Something implausible in a run. Values are SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlausibilityFinding {
-    /// What.
+    /// Its kind.
     pub kind: FindingKind,
     /// Where.
     pub location: Location,

@@ -101,7 +101,7 @@ struct End {
     carried: Option<[Vector<f64>; 3]>,
     /// Derivatives by the angles. Those of v and ω by their rates equal those of d and φ by the angles.
     angles: [Change; 3],
-    /// Whether the angles change d.
+    /// True if the angles change d.
     swing: bool,
     /// The axes of the body's reference frame (with a fourth direction), and of its free angles.
     along: Projection,

@@ -122,11 +122,11 @@ struct FreeBody {
     coils: Vec<usize>,
     /// Inertia and weight, if its kinematics are linearized.
     linear: Option<Linear>,
-    /// Whether force elements act on it, which need its pose.
+    /// True if force elements act on it, which need its pose.
     touched: bool,
-    /// Whether connections act on it, which need its coordinates.
+    /// True if connections act on it, which need its coordinates.
     connected: bool,
-    /// Whether there are loads on its coordinates.
+    /// True if there are loads on its coordinates.
     loaded: bool,
     /// The number of the body that goes along without its last angle.
     carrier: Option<usize>,
@@ -217,19 +217,19 @@ pub struct System {
     /// Derivative by time of the force on each body and of the moments about the axes of its angles.
     load_rate: Vec<(Vector<f64>, [f64; 3])>,
     jacobian: Partitioned,
-    /// Whether anything depends on time explicitly.
+    /// True if anything depends on time explicitly.
     moves: bool,
-    /// Whether all elements are plain.
+    /// True if all elements are plain.
     plain: bool,
-    /// Whether the spectral radius can be bounded.
+    /// True if the spectral radius can be bounded.
     bounded: bool,
-    /// Whether the laws of all points report their discontinuities.
+    /// True if the laws of all points report their discontinuities.
     discontinuities_complete: bool,
     /// Positions and speeds of the last evaluation.
     current_state: Vec<f64>,
     /// The face that alone was updated, and the time, if `frames_at` is NaN.
     current_face: (usize, f64),
-    /// Whether the contact kinematics of the points are up to date.
+    /// True if the contact kinematics of the points are up to date.
     points_updated: bool,
 }
 

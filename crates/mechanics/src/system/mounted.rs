@@ -22,18 +22,18 @@ pub struct Mounted<E> {
     pub internal_count: usize,
     /// The quadratures of its energy terms.
     pub energy_terms: [Option<usize>; 2],
-    /// Whether the body that it stands on has free coordinates.
+    /// True if the body that it stands on has free coordinates.
     pub(super) on_free: bool,
-    /// Whether its relative frame changes with time alone.
+    /// True if its relative frame changes with time alone.
     pub(super) moves: bool,
-    /// Whether the body that it stands on is prescribed and moves.
+    /// True if the body that it stands on is prescribed and moves.
     pub(super) prescribed: bool,
     pub(super) relative_frame: RelativeFrame<f64>,
     /// The points of a face, for evaluation; none for other elements.
     pub(super) points: Points,
     /// The constant part of the relative frame if the body under the element only translates.
     pub(super) translation: Option<Translation>,
-    /// Whether the body under it is prescribed and does not rotate, nor does the frame of its body.
+    /// True if the body under it is prescribed and does not rotate, nor does the frame of its body.
     pub(super) plain: bool,
     /// Its tangent where it was differentiated last, and that of the rates of its internal states, by four
     /// pairs.

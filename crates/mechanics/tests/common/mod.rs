@@ -1,4 +1,4 @@
-//! What several test files use: random numbers, differences, small models, integration.
+//! Shared by several test files: random numbers, differences, small models, integration.
 #![allow(dead_code, missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use integrate::{Integrator, Method, Options, Problem};

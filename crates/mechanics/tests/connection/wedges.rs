@@ -337,7 +337,7 @@ fn the_branch_by_velocity() {
     }
 }
 
-/// What runs sum up step by step is what an observation says.
+/// Powers that runs sum up step by step are those of an observation.
 #[test]
 fn column_powers_are_those_observed() {
     let mut random = Random(12);

@@ -63,7 +63,7 @@ fn inverse(mut a: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     b
 }
 
-/// What a comparison saw, so that a test can demand that it saw the cases that it is about.
+/// Counts of cases in a comparison, so that a test can demand that the cases it is about occurred.
 #[derive(Default)]
 pub struct Counts {
     pub states: usize,

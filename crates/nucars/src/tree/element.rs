@@ -44,7 +44,7 @@ pub struct Triple {
 pub struct Characteristic {
     /// Its number, which connections use.
     pub id: Spanned<u32>,
-    /// What it says.
+    /// Its law.
     pub law: Law,
     /// The whole record.
     pub span: At,

@@ -136,7 +136,7 @@ impl DofKind {
 /// A degree of freedom.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Dof {
-    /// What moves.
+    /// The motion.
     pub kind: DofKind,
     /// The mode of a flexible body (`7.01` is mode 1), or 0.
     pub mode: u8,
@@ -190,7 +190,7 @@ pub struct InputBody {
     pub dofs: Vec<Spanned<Dof>>,
     /// The input history that drives each of them.
     pub histories: Vec<Spanned<u32>>,
-    /// Whether the histories come late by position over speed.
+    /// True if the histories come late by position over speed.
     pub lag: Spanned<bool>,
     /// The whole record.
     pub span: At,

@@ -29,11 +29,11 @@ pub enum Toe {
 /// Which of the twelve runs: damping, toe, yaw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RunId {
-    /// Whether the damping is constant; variable otherwise.
+    /// True if the damping is constant; variable otherwise.
     pub constant: bool,
     /// Direction of the toe angle.
     pub toe: Toe,
-    /// Whether the bolster is yawed.
+    /// True if the bolster is yawed.
     pub yawed: bool,
 }
 
@@ -284,7 +284,7 @@ struct Seen<'a> {
 /// A value that was found, SI.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NotedValue {
-    /// What it is of.
+    /// Run and quantity of the value.
     pub label: String,
     /// The value, SI.
     pub value: f64,
@@ -380,7 +380,7 @@ impl<'a> ClaimView<'a> {
     }
 }
 
-/// Whether a claim holds.
+/// The verdict on a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub enum ClaimVerdict {
     /// The runs show what is claimed.
@@ -409,7 +409,7 @@ impl ClaimVerdict {
 /// The outcome of a predicate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClaimFinding {
-    /// Whether it holds.
+    /// The verdict.
     pub verdict: ClaimVerdict,
     /// The values that it rests on.
     pub values: Vec<NotedValue>,

@@ -143,7 +143,7 @@ pub struct ClaimRow {
 /// A value found, with its unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShownValue {
-    /// What it is of.
+    /// Run and quantity of the value.
     pub label: String,
     /// The value and its unit.
     #[serde(flatten)]

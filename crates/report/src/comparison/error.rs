@@ -33,11 +33,11 @@ pub enum ComparisonError {
         column: String,
         /// The first result.
         first: PathBuf,
-        /// What it is there.
+        /// Its kind in the first.
         own: &'static str,
         /// The other.
         second: PathBuf,
-        /// What it is there.
+        /// Its kind in the other.
         other: &'static str,
     },
     /// Numbers so large that differences, means or squares of them are not finite.

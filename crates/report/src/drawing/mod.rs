@@ -99,7 +99,7 @@ pub struct PlotCurve {
 pub struct Mark {
     /// Where, in the units of the axes.
     pub at: (f64, f64),
-    /// What.
+    /// The text.
     pub text: String,
 }
 
@@ -135,7 +135,7 @@ pub struct Figure {
     pub panels: Vec<Panel>,
     /// Cells in a row; 0: all panels in one row.
     pub columns: usize,
-    /// Whether all panels have the same ranges of axes.
+    /// True if all panels have the same ranges of axes.
     pub common_axes: bool,
     /// A flow chart in place of panels.
     pub flow: Option<flow::FlowChart>,
@@ -165,7 +165,7 @@ impl Figure {
     /// Returns the figure as a PNG picture.
     ///
     /// # Errors
-    /// What the picture's encoder says.
+    /// The message of the PNG encoder.
     pub fn to_png(&self) -> Result<Vec<u8>, String> {
         paint::png(paint::scene(self))
     }

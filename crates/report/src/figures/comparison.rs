@@ -31,7 +31,7 @@ struct Quantity {
     thesis: [&'static str; 4],
     /// Its loop, likewise.
     loops: Option<[&'static str; 4]>,
-    /// Whether it is drawn with constant damping too.
+    /// True if it is drawn with constant damping too.
     constant: bool,
     /// Which value of eq. 5-1 is drawn with it.
     equation: Option<usize>,

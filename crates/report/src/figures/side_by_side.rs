@@ -20,7 +20,7 @@ struct Wanted {
     caption: String,
     /// Columns along both axes, and the panel's title.
     panels: Vec<[String; 3]>,
-    /// Whether it is drawn only where something moves along both axes.
+    /// True if it is drawn only where something moves along both axes.
     loops: bool,
 }
 

@@ -19,9 +19,9 @@ struct Quantity {
     thesis: [&'static str; 4],
     /// Its loop over the displacement, likewise; `None`: no loop is drawn.
     loops: Option<[&'static str; 4]>,
-    /// Whether it is drawn with constant damping too.
+    /// True if it is drawn with constant damping too.
     constant: bool,
-    /// Whether the figure shows windows besides the whole run.
+    /// True if the figure shows windows besides the whole run.
     windows: bool,
 }
 
@@ -197,7 +197,7 @@ struct Group<'o> {
 pub struct Chapter {
     /// Their damping.
     pub damping: Damping,
-    /// Whether the bolster is yawed.
+    /// True if the bolster is yawed.
     pub yawed: bool,
     /// Their figures, in the order of the thesis.
     pub exhibits: Vec<Exhibit>,

@@ -13,7 +13,7 @@ use crate::view::run::{Detail, Recording};
 /// Returns the page as HTML; it needs nothing else to be shown.
 ///
 /// # Errors
-/// What the writer of JSON says.
+/// Errors of the JSON writer.
 pub fn render(run: &CarRun, viewer: Option<Viewer>) -> Result<String, serde_json::Error> {
     let summary = &run.result.summary;
     let exhibits = exhibits(run);

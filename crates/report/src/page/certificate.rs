@@ -50,14 +50,14 @@ pub struct Other {
 pub struct Against {
     /// Its car and folder, in words.
     pub name: String,
-    /// What it says.
+    /// Its criteria.
     pub others: Vec<Other>,
 }
 
 /// Returns the page as HTML; it needs nothing else to be shown.
 ///
 /// # Errors
-/// What the writer of JSON says.
+/// Errors of the JSON writer.
 pub fn render(
     certificate: &Certificate,
     findings: &CertificateFindings,

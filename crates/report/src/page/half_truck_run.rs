@@ -15,7 +15,7 @@ use crate::view::run::{Detail, Recording};
 /// bodies.
 ///
 /// # Errors
-/// What the writer of JSON says.
+/// Errors of the JSON writer.
 pub fn render(
     case: &HalfTruckCase,
     result: &HalfTruckResult,

@@ -62,7 +62,7 @@ pub struct PageSection {
     pub intro: String,
     /// Its figures.
     pub figures: Vec<DrawnFigure>,
-    /// Whether it begins folded.
+    /// True if it is folded at first.
     pub folded: bool,
     /// The run that it is about, if it is about one.
     pub run: Option<String>,
@@ -88,7 +88,7 @@ pub struct Contents<'c> {
     pub interactive: Option<(Viewer, &'c str)>,
     /// The comparison with the comparison program's wedges, if there is one.
     pub comparison: Option<Comparison<'c>>,
-    /// Whether the page of the three-piece truck stands beside.
+    /// True if the page of the three-piece truck is in the same folder.
     pub truck: bool,
 }
 

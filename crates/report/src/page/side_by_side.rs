@@ -15,7 +15,7 @@ use crate::view::View;
 /// folders from the page.
 ///
 /// # Errors
-/// What the writer of JSON says.
+/// Errors of the JSON writer.
 pub fn render(
     runs: &[RunFolder],
     links: &[String],

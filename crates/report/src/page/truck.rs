@@ -19,7 +19,7 @@ pub const FILE_NAME: &str = "truck.html";
 pub struct TruckContents<'c> {
     /// The rigs.
     pub rigs: &'c [TruckResult],
-    /// What they say.
+    /// Findings from the rigs.
     pub findings: &'c TruckFindings,
     /// The figures.
     pub figures: &'c [DrawnFigure],

@@ -19,7 +19,7 @@ pub enum RunFolderError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Table(#[from] TableError),
-    /// What is named is no folder of a run.
+    /// The path is not the folder of a run.
     #[error("`{}` is {what}; the folder of a run is expected", .path.display())]
     #[diagnostic(help("{advice}"))]
     NoRun {

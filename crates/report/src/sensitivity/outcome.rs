@@ -177,7 +177,7 @@ pub struct Sensitivity {
     pub schema: &'static str,
     /// Points of the space.
     pub points: usize,
-    /// What is open.
+    /// The open parameters.
     pub parameters: Vec<ParameterShown>,
     /// Number of statements of each extent, in the order of [`Extent::ALL`].
     pub extents: [usize; 5],

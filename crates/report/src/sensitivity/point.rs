@@ -15,7 +15,7 @@ use crate::claims::{ClaimVerdict, Evidence, verdicts};
 pub struct PointOutcome {
     /// The verdict on each statement, in the order of the thesis.
     pub verdicts: Vec<ClaimVerdict>,
-    /// Whether the runs stay within each of the axes of the thesis's figures ([`super::AXES`]).
+    /// For each of the axes of the thesis's figures ([`super::AXES`]), true if the runs stay within them.
     pub axes: Vec<bool>,
     /// Runs that failed or did not come to their end, with why. What needs them is not decided there.
     pub unsound: Vec<String>,

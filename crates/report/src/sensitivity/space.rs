@@ -250,7 +250,7 @@ pub enum PointPlace {
 /// The space and the points in it.
 #[derive(Clone, Debug)]
 pub struct Space {
-    /// What is open.
+    /// The open parameters.
     pub parameters: Vec<OpenParameter>,
     sobol: Sobol,
 }

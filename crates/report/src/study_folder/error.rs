@@ -23,7 +23,7 @@ pub enum StudyFolderError {
     NotAStudy {
         /// The folder.
         folder: PathBuf,
-        /// What is there.
+        /// A file that is there.
         name: String,
     },
     /// Another program works in it.

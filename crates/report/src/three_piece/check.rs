@@ -40,7 +40,7 @@ pub struct Check {
     pub what: String,
     /// The basis of the expectation.
     pub basis: Basis,
-    /// What runs say.
+    /// The value from the runs.
     pub found: f64,
     /// The expected value, from and to; the same twice where it is one number.
     pub expected: [f64; 2],
@@ -51,7 +51,7 @@ pub struct Check {
     pub difference: f64,
     /// The most that counts as agreement, alike.
     pub margin: f64,
-    /// Whether they agree.
+    /// True if they agree.
     pub agrees: bool,
     /// One sentence on it.
     pub remark: String,

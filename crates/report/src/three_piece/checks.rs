@@ -264,7 +264,7 @@ fn plate_and_ledger(found: &mut Found, rigs: &Rigs) {
     }
 }
 
-/// What another program's calculation of the rigs says.
+/// Checks the rigs against calculations of another program.
 fn independent(found: &mut Found, rigs: &Rigs) {
     let moment = |key: &str, time: f64| {
         let (_, result) = rigs.get(key)?;

@@ -23,7 +23,7 @@ pub struct Sensitivity {
     pub bristles: f64,
 }
 
-/// What a rig is asked for.
+/// A result of a rig: its key, its name, and the function that returns it.
 type RigResult = (&'static str, &'static str, fn(&TruckResult) -> Option<f64>);
 
 /// Returns the warp moment where 20 mrad are reached first, kip·in.

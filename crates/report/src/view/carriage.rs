@@ -47,7 +47,7 @@ pub(super) struct DrawnWedge {
     pub key: String,
     /// Its name for people.
     pub name: String,
-    /// What moves.
+    /// The body that moves.
     pub body: SceneBody,
     /// From the body's origin to the middle of the vertical face, body axes, m.
     pub offset: [f64; 3],
@@ -71,9 +71,9 @@ pub(super) struct DrawnWedge {
     pub bolster: usize,
     /// The side frame of its column: a place in [`Carriage::side_frames`].
     pub side_frame: usize,
-    /// Whether it has a coil.
+    /// True if it has a coil.
     pub has_coil: bool,
-    /// Whether that stands in the bolster's pocket.
+    /// True if the coil stands in the bolster's pocket.
     pub coil_in_bolster: bool,
     /// The column of its coil's force.
     pub coil_force: Option<String>,

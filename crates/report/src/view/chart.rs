@@ -18,7 +18,7 @@ pub struct Chart {
     pub title: String,
     /// Cells in a row; 0: all panels in one row.
     pub columns: usize,
-    /// Whether all panels have the same ranges of axes.
+    /// True if all panels have the same ranges of axes.
     pub common_axes: bool,
     /// Its panels, row by row.
     pub panels: Vec<ChartPanel>,

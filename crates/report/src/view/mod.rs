@@ -100,7 +100,7 @@ impl View {
     /// Returns the document as JSON that may stand in a `script` element: no `<` in it.
     ///
     /// # Errors
-    /// What the writer of JSON says.
+    /// Errors of the JSON writer.
     pub fn to_json(&self) -> Result<String, serde_json::Error> {
         Ok(escaped(&serde_json::to_string(self)?))
     }
@@ -108,7 +108,7 @@ impl View {
     /// Returns the same with runs that come from other pages.
     ///
     /// # Errors
-    /// What the writer of JSON says.
+    /// Errors of the JSON writer.
     pub fn to_json_with(
         &self,
         kept: impl IntoIterator<Item = KeptView>,

@@ -27,9 +27,9 @@ pub struct Scene {
     pub arrow: f64,
     /// Named views, the first one shown first.
     pub looks: Vec<Look>,
-    /// What moves.
+    /// The bodies that move.
     pub bodies: Vec<SceneBody>,
-    /// What is seen of it.
+    /// The solids that show them.
     pub solids: Vec<Solid>,
     /// Coils between bodies.
     pub coils: Vec<SceneCoil>,
@@ -169,7 +169,7 @@ pub struct ScenePatch {
     pub place: [String; 3],
     /// The column of its contact angle: how far its plane rises to the field side.
     pub angle: String,
-    /// Whether the field side is on the right (-y).
+    /// True if the field side is on the right (-y).
     pub right: bool,
     /// The column of the normal force.
     pub normal_force: String,

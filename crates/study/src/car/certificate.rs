@@ -79,7 +79,7 @@ pub struct Assessed {
     pub status: &'static str,
     /// The remark: why it has no numbers, or where the car derailed; may be empty.
     pub note: String,
-    /// Whether a wheel left its rail: no limit is kept then.
+    /// True if a wheel left its rail: no limit is kept then.
     pub derailed: bool,
     /// The limits.
     pub checks: Vec<KeptLimit>,

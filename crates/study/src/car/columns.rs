@@ -277,7 +277,7 @@ impl Columns {
         }
     }
 
-    /// What is not among the fixed names: warp moment, center plate.
+    /// Adds the columns outside the fixed names: warp moment, center plate.
     fn more_of_truck(&mut self, truck: usize) {
         let stem = format!("truck_{}", truck + 1);
         let text = "moment about the truck's z axis that all elements exert on the bolster";

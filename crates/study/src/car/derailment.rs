@@ -17,7 +17,7 @@ pub(super) struct Left {
     pub side: usize,
     /// Along the track, m.
     pub distance: f64,
-    /// How.
+    /// A description of the derailment.
     pub what: String,
 }
 

@@ -103,7 +103,7 @@ pub struct Hunting {
     pub falling: Ramp,
     /// From the lowest speed up; none where the user stopped it before.
     pub rising: Option<Ramp>,
-    /// Whether all was computed.
+    /// True if all was computed.
     pub complete: bool,
 }
 

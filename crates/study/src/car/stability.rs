@@ -22,7 +22,7 @@ const NONE: f64 = 1e-5;
 /// The motions about steady running with one state of friction.
 #[derive(Clone, Debug)]
 pub struct Branch {
-    /// What friction does.
+    /// The state of friction.
     pub friction: FrictionState,
     /// Vibrations at each speed, by falling growth.
     pub modes: Vec<Vec<Mode>>,
@@ -37,7 +37,7 @@ pub struct Stability {
     pub speeds: Vec<f64>,
     /// Friction that sticks, then none; fewer where the user stopped it.
     pub branches: Vec<Branch>,
-    /// Whether all was computed.
+    /// True if all was computed.
     pub complete: bool,
 }
 

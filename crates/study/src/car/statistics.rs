@@ -52,7 +52,7 @@ pub struct Rules {
     pub deviation_distance: f64,
     /// Time of the rms of accelerations, s.
     pub rms_time: f64,
-    /// Whether results have filtered columns.
+    /// True if results have filtered columns.
     pub filtered_columns: bool,
 }
 
@@ -85,7 +85,7 @@ pub struct Histories<'c> {
     pub begin: f64,
     /// Static loads of the wheels, by axle, left and right, N.
     pub static_loads: [[f64; 2]; 4],
-    /// Whether a distance along the track (m) is in a full curve.
+    /// True if a distance along the track (m) is in a full curve.
     pub in_curve: &'c dyn Fn(f64) -> bool,
 }
 

@@ -18,7 +18,7 @@ pub struct Worst {
     pub text: &'static str,
     /// The endings of the names of the statistics.
     ending: &'static str,
-    /// Whether the least is worst; else the greatest.
+    /// True if the least value is worst, false if the greatest.
     least: bool,
     /// Unit of a number of [`Kind::Dimensionless`].
     pub unit: &'static str,

@@ -119,7 +119,7 @@ pub struct CoilSection {
     pub rotational_damping: Quantity,
     /// Line of action.
     pub acts_at: ActsAt,
-    /// Whether it can pull.
+    /// True if it can pull.
     pub pulls: bool,
 }
 

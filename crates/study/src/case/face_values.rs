@@ -22,7 +22,7 @@ pub enum Surface {
     Flat,
     /// An arc.
     Arc {
-        /// Whether it is hollow, not crowned.
+        /// True if it is hollow, not crowned.
         hollow: bool,
         /// Its radius.
         radius: Quantity,

@@ -14,7 +14,7 @@ use super::units::in_system;
 pub struct FieldSection {
     /// The table's name in case files; empty for the top.
     pub name: String,
-    /// What it is about; may be empty.
+    /// A description of it; may be empty.
     pub about: String,
     /// Its fields, in the order of the case file.
     pub fields: Vec<Field>,
@@ -84,7 +84,7 @@ pub struct TypedNumber {
     pub low: f64,
     /// Upper end of it.
     pub high: f64,
-    /// Whether steps should be shares of the value, not differences: both ends are positive then.
+    /// True if steps should be ratios of the value, not differences: both ends are positive then.
     pub logarithmic: bool,
     /// Words after the unit that stand for a negative and a positive sign, such as `in` and `out`.
     pub signs: Option<[&'static str; 2]>,

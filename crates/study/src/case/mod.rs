@@ -67,8 +67,8 @@ pub struct Case {
     pub parameters: Parameters,
     /// The settings of the run.
     pub simulation: Simulation,
-    /// Whether the case file, with what `--set` lays over it, says nothing of wedge, coil, contact, friction
-    /// and motions: they are defaults.
+    /// True if the case file, with the values of `--set` over it, says nothing of wedge, coil, contact,
+    /// friction and motions: they are defaults.
     pub nothing_given: bool,
 }
 

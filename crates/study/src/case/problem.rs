@@ -10,7 +10,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub(crate) struct TomlSource {
     named: Text,
-    /// Whether a bare number where a quantity is expected is one in SI units.
+    /// True if a bare number where a quantity is expected is one in SI units.
     pub bare_numbers_are_si: bool,
 }
 

@@ -88,9 +88,9 @@ pub(super) struct TableForm<const N: usize = 2> {
     names: [&'static str; N],
     kinds: [Kind; N],
     least: usize,
-    /// Whether the first column must increase.
+    /// True if the first column must increase.
     ordered: bool,
-    /// Whether the second column may fall.
+    /// True if the second column may fall.
     may_fall: bool,
 }
 

@@ -1,7 +1,7 @@
 //! The case file as a tree in which every key and value knows its place.
 //!
 //! Three trees are laid over each other: the thesis's values, the file, and what `--set` gives.
-//! Whatever turns out to be wrong can still be shown where it was written.
+//! Each mistake can be shown where it was written.
 
 use super::field::quoted;
 use super::problem::{Problem, Problems, TomlLocation, TomlSource};

@@ -116,7 +116,7 @@ pub enum Levels {
         to: f64,
         /// Their unit as typed; empty for pure numbers.
         unit: String,
-        /// Whether steps are shares, not differences; both ends are positive then.
+        /// True if steps are ratios, false if differences; both ends are positive if true.
         logarithmic: bool,
         /// Their number in a full factorial study.
         count: u64,

@@ -40,14 +40,14 @@ pub struct Minimum {
     pub values: Vec<f64>,
     /// Sum of squared residuals.
     pub sum: f64,
-    /// Whether a parameter ends at a bound.
+    /// True for each parameter that ends at a bound.
     pub at_bound: Vec<bool>,
     /// Covariance of the scaled parameters, row by row: s² (JᵀJ)⁻¹ of those that are at no bound, zero for
     /// others; `None` where the data do not determine them.
     pub covariance: Option<Vec<Vec<f64>>>,
     /// Rounds.
     pub rounds: u32,
-    /// Whether it came to rest within the rounds allowed.
+    /// True if it converged within the rounds allowed.
     pub settled: bool,
 }
 

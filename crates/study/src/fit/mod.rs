@@ -163,13 +163,13 @@ pub enum FitError {
 /// A parameter found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FittedParameter {
-    /// What was free.
+    /// The free parameter.
     pub free: Free,
     /// Its value, in its unit.
     pub value: f64,
     /// Half the confidence interval; `None` at a bound, or where the data do not determine it.
     pub half_interval: Option<f64>,
-    /// Whether it ends at a bound.
+    /// True if it ends at a bound.
     pub at_bound: bool,
 }
 
@@ -189,7 +189,7 @@ pub struct Fit {
     pub durbin_watson: f64,
     /// Rounds.
     pub rounds: u32,
-    /// Whether it came to rest.
+    /// True if it converged.
     pub settled: bool,
     /// The relative residual of the energy ledger of the run with the parameters found.
     pub largest_relative_residual: f64,

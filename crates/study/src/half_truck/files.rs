@@ -36,7 +36,7 @@ pub struct Settings {
     pub choices: Choices,
     /// The start of the run.
     pub start: HalfTruckStart,
-    /// Whether sections of the data file that are switched off are written too.
+    /// True if sections of the data file that are switched off are written too.
     pub all_outputs: bool,
     /// Duration of the run, s; otherwise as the run file says.
     pub duration: Option<f64>,
@@ -109,7 +109,7 @@ pub enum FilesError {
 /// Returns the run of these files.
 ///
 /// # Errors
-/// What [`FilesError`] names.
+/// Those that [`FilesError`] names.
 pub fn case(
     name: &str,
     title: &str,
@@ -211,7 +211,7 @@ pub fn case(
 /// caller to refuse.
 ///
 /// # Errors
-/// What [`FilesError`] names.
+/// Those that [`FilesError`] names.
 pub fn case_of_run(path: &Path, files: &RunFiles, settings: &Settings) -> Result<HalfTruckCase, FilesError> {
     let mut name = path
         .file_stem()

@@ -267,7 +267,7 @@ impl OutputTable {
         );
     }
 
-    /// What a wedge's body has besides.
+    /// Adds the columns that only a wedge with a body has.
     fn wedge_body(&mut self, number: u32, wedge: &MountedWedge, system: &System) {
         let (name, body) = (format!("wedge_{number}"), wedge.body);
         for (k, coordinate) in COORDINATES.into_iter().enumerate() {

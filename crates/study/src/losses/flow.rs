@@ -5,7 +5,7 @@ use crate::summary::SummaryValue;
 
 /// A loss smaller than this share of the inflow is added to others.
 const SMALL: f64 = 0.01;
-/// How dissipation terms of friction end.
+/// Endings of the names of friction's dissipation terms.
 const FRICTION: [&str; 3] = ["friction_loss", "wedge_column_loss", "wedge_slope_loss"];
 
 /// A flow: its name in words, and its energy each cycle, in the unit of the summary; never negative.

@@ -45,7 +45,7 @@ pub struct Measure {
     pub text: Cow<'static, str>,
     /// The kind of quantity; values are SI.
     pub kind: Kind,
-    /// Whether every run has it.
+    /// True if every run has it.
     pub always: bool,
 }
 

@@ -49,7 +49,7 @@ pub(crate) struct CaseReader<'r> {
     within: &'static str,
     /// The full path of the current section.
     section: String,
-    /// Whether only what is given is written down, and no default.
+    /// True if only given values are written down, and no defaults.
     overlay: bool,
     /// Sections with their keys.
     known: Vec<(String, Vec<&'static str>)>,

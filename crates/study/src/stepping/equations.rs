@@ -43,7 +43,7 @@ pub enum SteppingError {
     /// A value that is not finite, or outside its range.
     #[error("{what} is {value}; it must be {expected}")]
     Value {
-        /// What the value is.
+        /// The name of the value.
         what: String,
         /// The value, SI.
         value: f64,

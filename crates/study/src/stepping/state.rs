@@ -34,7 +34,7 @@ pub struct SteppedState {
     pub coil: CoilInput,
     /// Coefficients of friction of column and slope.
     pub friction: [f64; 2],
-    /// Whether a step has failed.
+    /// True if a step has failed.
     pub(super) failed: bool,
     /// Time, states, contact states and the memory of the step-size control.
     pub integrator: State,

@@ -23,7 +23,7 @@ pub(super) struct CycleDrive {
     pub stroke: Stroke,
     /// The coordinate that moves or is loaded: 0 to 5 for x, y, z, roll, pitch, yaw.
     coordinate: usize,
-    /// Whether side frames or wheelsets move.
+    /// True if side frames or wheelsets move.
     below: bool,
 }
 

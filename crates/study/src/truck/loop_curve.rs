@@ -58,7 +58,7 @@ impl LoopKind {
 /// The loop of the last whole cycle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoopCurve {
-    /// What moves.
+    /// The motion and the force of the loop.
     pub kind: LoopKind,
     /// Its rows in the result.
     pub rows: Range<usize>,

@@ -28,7 +28,7 @@ pub struct TruckSummary {
     pub title: String,
     /// Units of the numbers.
     pub units: Units,
-    /// Whether the run came to its end.
+    /// True if the run came to its end.
     pub complete: bool,
     /// Why and when it stopped, if it did not.
     pub stopped: Option<Stopped>,

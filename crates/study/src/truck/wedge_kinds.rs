@@ -45,7 +45,7 @@ impl Draft {
         }
     }
 
-    /// What stands between the halves; `path` is that of the section.
+    /// Reads the parameters between the halves; `path` is that of the section.
     pub(super) fn split(&mut self, r: &mut CaseReader<'_>, path: &str) {
         if self.wedge.kind != WedgeKind::Split {
             let message = format!("`{path}` is of no effect: this wedge has no halves");

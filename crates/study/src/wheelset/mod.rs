@@ -94,7 +94,7 @@ pub struct Wheelset {
 /// A wheelset's run to be made.
 #[derive(Clone, Debug)]
 pub struct WheelsetCase {
-    /// What was said.
+    /// The description from which it was made.
     pub wheelset: Wheelset,
     /// The model.
     pub setup: Setup,

@@ -25,7 +25,7 @@ pub struct WheelsetSummary {
     pub units: Units,
     /// The given values by name, in words.
     pub given: BTreeMap<String, String>,
-    /// Whether the run came to its end.
+    /// True if the run came to its end.
     pub complete: bool,
     /// Where a wheel derailed, if one did: the run ends there.
     pub derailment: Option<Derailment>,

@@ -195,7 +195,7 @@ fn input_models_are_told_apart() {
     assert!(error.problems()[0].to_string().contains("is no case of a car"));
 }
 
-/// What is doubtful but not wrong is kept for the summary.
+/// Doubtful inputs that are not wrong are kept for the summary.
 #[test]
 fn input_coils_that_would_go_solid_are_reported() {
     let text = "model = \"car\"\ntruck.load_springs.preload = \"2 kip\"";

@@ -8,7 +8,7 @@ use study::case::{Field, Input};
 /// Cases of a model that together have all keys: name, overrides.
 type Cases = &'static [(&'static str, &'static [&'static str])];
 
-/// What the sections of a model begin with, and its cases.
+/// The heading and introduction of a model's sections, and its cases.
 const MODELS: [(&str, &str, Cases); 3] = [
     (
         "A wedge",

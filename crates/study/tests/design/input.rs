@@ -1,4 +1,4 @@
-//! What is wrong with a study is said where it was written.
+//! Mistakes in a study are reported where they were written.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! What the tests of the half-truck share.
+//! Shared by the tests of the half-truck.
 #![allow(dead_code, clippy::unwrap_used)]
 
 use nucars::truck::Choices;

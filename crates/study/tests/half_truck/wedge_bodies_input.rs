@@ -1,4 +1,4 @@
-//! What the files must say of a wedge that is to be a body, and what is said of what they do not.
+//! Inputs that a wedge with a body needs, and messages where the files lack them.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use mechanics::connection::{Accumulator, ColumnFace, Law, Wedge};

@@ -75,7 +75,7 @@ fn input_built_in_regimes_are_whole() {
     }
 }
 
-/// What a regime sets reaches the case; what it does not set stays the car's.
+/// Settings of a regime reach the case; other settings stay the car's.
 #[test]
 fn input_settings_reach_the_case() {
     let regime = Regime::parse("mine.toml", WHOLE).unwrap();

@@ -352,7 +352,7 @@ fn input_a_gib_that_is_pressed_too_hard_stops_the_run() {
     assert!(stopped.time > 0.0 && !result.values[0].is_empty());
 }
 
-/// What starts closed, loose or too low is told; sound rigs are not warned about.
+/// Parts that start closed, loose or too low are reported; sound rigs are not warned about.
 #[test]
 fn input_what_is_doubtful_at_the_start_is_reported() {
     let warnings = |name: &str, set: &[&str]| {

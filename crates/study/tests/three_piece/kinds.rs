@@ -18,7 +18,7 @@ const RIGS: [&str; 4] = [
     "truck_warp_nest_split",
 ];
 
-/// What is printed reads back to the same case, also where one wedge alone is of another kind.
+/// A printed case reads back to the same case, also where one wedge alone is of another kind.
 #[test]
 fn input_kinds_are_printed_and_read_back() {
     let alone = [

@@ -195,8 +195,8 @@ fn reproduction_adapter_friction_adds_to_the_inter_axle_shear_moment() {
     );
 }
 
-/// What the limits are for: lands take a part of the warp moment, gibs meet, coils go solid, wedges reach the
-/// pockets' sides.
+/// The limits act: lands take a part of the warp moment, gibs meet, coils go solid, wedges reach the pockets'
+/// sides.
 #[test]
 fn limits_rigs_reach_their_stops() {
     let lands = run("truck_lands_constant", &["simulation.duration=4.6 s"]);

@@ -16,7 +16,7 @@ use crate::outputs::CORNERS;
 /// The largest number of points in one direction of a grid.
 pub const LARGEST_GRID: usize = 100;
 
-/// How many points a face has.
+/// Number of points of a face in both directions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Grid {
     /// Points up the face, from its lower to its upper edge: at least 2.

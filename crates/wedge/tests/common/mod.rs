@@ -1,4 +1,4 @@
-//! What the tests of this crate share: units, runs, and an independent model.
+//! Shared by the tests of this crate: units, runs, and an independent model.
 #![allow(dead_code, clippy::unwrap_used, clippy::expect_used)]
 
 pub mod plain;
@@ -22,7 +22,7 @@ pub const LBF_PER_IN: f64 = LBF / INCH;
 pub const TOE: f64 = 0.2 * std::f64::consts::PI / 180.0;
 pub const YAW: f64 = 0.012;
 
-/// How a run ended.
+/// The end of a run.
 pub struct End {
     pub time: f64,
     pub x: Vec<f64>,

@@ -39,7 +39,7 @@ pub struct Plain {
     pub frequency: f64,
 }
 
-/// What the model gives at a state.
+/// Outputs of the model at a state.
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// Of x, z, pitch, yaw.
@@ -56,7 +56,7 @@ pub struct Answer {
     pub coil_damping_loss: f64,
     /// Power of the couple that moves the coil's force to the center of gravity.
     pub guide: f64,
-    /// How many of the eight corners are closed.
+    /// Number of closed corners of the eight.
     pub closed: usize,
     /// Gaps: column, then slope; lower right (-y), lower left, upper right, upper left.
     pub gaps: [f64; 8],

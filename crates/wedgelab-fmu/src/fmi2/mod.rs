@@ -21,7 +21,7 @@ use crate::component::{Logger, Logger2, OK, Status, call, free, instantiate, non
 use crate::pointers::{put, slice, slice_mut, string, strings};
 use crate::states::{deserialize, free_saved, save, saved, serialize};
 
-/// What an importer gives: `fmi2CallbackFunctions`.
+/// The functions of an importer: `fmi2CallbackFunctions`.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct CallbackFunctions {

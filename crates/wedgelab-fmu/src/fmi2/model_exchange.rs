@@ -9,7 +9,7 @@ use super::simple;
 use crate::component::{OK, Status, call};
 use crate::pointers::{put, slice, slice_mut};
 
-/// What event handling says: `fmi2EventInfo`.
+/// The outcome of event handling: `fmi2EventInfo`.
 #[repr(C)]
 pub struct EventInfo {
     /// Another update is needed.

@@ -179,7 +179,7 @@ pub(crate) use row;
 /// The functions that are never refused: they do nothing that could fail.
 const NEVER_REFUSED: [&str; 3] = ["fmi2Reset", "fmi3Reset", "fmi3EvaluateDiscreteStates"];
 
-/// How a version makes its instances and goes back.
+/// The functions by which a version makes instances, saves and restores them.
 struct Driver<'d> {
     version: Version,
     rows: &'d [Row],

@@ -18,9 +18,9 @@ use crate::table::TerminalTable;
 
 /// List the built-in cases, or print one as a case file
 ///
-/// Without a name, lists the built-in cases in groups, with their titles and what to look at in their
-/// results. With one, prints that case as a complete, commented case file: change what you like, and run it
-/// with `wedgelab run`.
+/// Without a name, lists the built-in cases in groups, with their titles and the features to look at in their
+/// results. With one, prints that case as a complete, commented case file: change it, and run it with
+/// `wedgelab run`.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

@@ -22,14 +22,14 @@ use crate::json;
 use crate::progress::Steady;
 use crate::table::TerminalTable;
 
-/// Run a car in all regimes of the assessment of freight cars, beside the limits of rules
+/// Run a car in all regimes of the assessment of freight cars, and compare with the limits of rules
 ///
 /// Each regime is a track (`wedgelab regime` lists them) that the car passes at several speeds, in one or
-/// more conditions: worn wedges, a broken coil, empty. Writes one page (limits, what is worst in 3D, figures
-/// over speed and distance, wedges), certificate.csv and certificate.parquet (a row each run and limit),
-/// table.parquet (all measures of each run) and certificate.json. A certificate that was ended or killed goes
-/// on where it was when the command is given again. Tracks and limits are remembered of AAR M-1001, chapter
-/// XI: check them against your edition.
+/// more conditions: worn wedges, a broken coil, empty. Writes one page (limits, the worst runs in 3D, figures
+/// over speed and distance, wedges), certificate.csv and certificate.parquet (one row per run and limit),
+/// table.parquet (all measures of each run) and certificate.json. The same command continues a certificate
+/// that was stopped or killed. Tracks and limits are quoted from memory of AAR M-1001, chapter XI: check them
+/// against your edition.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -40,14 +40,14 @@ Examples:
 pub struct Arguments {
     /// Case file of a car, or the name of a built-in case
     car: PathBuf,
-    /// Regimes by name, or files of your own [default: all that `wedgelab regime` lists]
+    /// Regimes by name, or your own files [default: all that `wedgelab regime` lists]
     #[arg(long, value_name = "REGIME", num_args = 1..)]
     regimes: Vec<String>,
     #[command(flatten)]
     common: Common,
 }
 
-/// What `certify` and `regime` take.
+/// Arguments of both `certify` and `regime`.
 #[derive(Debug, Args)]
 pub struct Common {
     /// Speeds for all regimes, with --steps; or several speeds [default: those of each regime]
@@ -61,22 +61,22 @@ pub struct Common {
         value_parser = clap::value_parser!(u32).range(2..=100),
     )]
     steps: u32,
-    /// Conditions by name (as_given, new, worn, ...), or a file of your own [default: as the case says]
+    /// Conditions by name (as_given, new, worn, ...), or your own file [default: those of the case]
     #[arg(long, value_name = "CONDITION", num_args = 0..)]
     conditions: Option<Vec<String>>,
-    /// Limits by name (aar_chapter_xi, fra_213_333), or a file of your own
+    /// Limits by name (aar_chapter_xi, fra_213_333), or your own file
     #[arg(long, value_name = "LIMITS", default_value = "aar_chapter_xi")]
     limits: String,
-    /// Folder of another certificate, to be shown beside this one
+    /// Folder of another certificate, to compare with this one
     #[arg(long, value_name = "DIR")]
     against: Option<PathBuf>,
     /// Set one value over those of the case
     #[arg(long, value_name = "PATH.KEY=VALUE")]
     set: Vec<String>,
-    /// Folder to write into, or to go on in [default: NAME_certificate, or NAME_REGIME]
+    /// Folder to write into, or to continue in [default: NAME_certificate, or NAME_REGIME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// How many runs at a time [default: as many as there are processors]
+    /// Number of runs at a time [default: number of processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
     /// No progress

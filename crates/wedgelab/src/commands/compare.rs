@@ -19,9 +19,9 @@ use crate::table::TerminalTable;
 /// Compare results: overlay figures and a table of differences
 ///
 /// Compares results with the first of them: those of runs (the folder or its result.csv) and other CSV files
-/// with columns of the same names, such as time_s, wedge_x_in. Other units are converted and other times
-/// interpolated; both are said. Prints the differences, and writes them as differences.csv with a figure for
-/// each column and the hysteresis loops.
+/// with columns of the same names, such as time_s, wedge_x_in. Different units are converted and different
+/// times interpolated, with a message. Prints the differences, and writes them as differences.csv with a
+/// figure for each column and the hysteresis loops.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -31,7 +31,7 @@ Examples:
 
 Without --columns the main columns that all results have are compared.")]
 pub struct Arguments {
-    /// Results: folders of runs, or CSV files; the first one is what the others are compared with
+    /// Results: folders of runs, or CSV files; the others are compared with the first
     #[arg(required = true, num_args = 2.., value_name = "RESULT")]
     results: Vec<PathBuf>,
     /// Folder to write into

@@ -30,14 +30,14 @@ const NAMES: [&str; 3] = ["energy.json", "power_flow.svg", "power_flow.png"];
 /// Losses below this share of all that is lost have no rows of their own.
 const SMALL: f64 = 1e-3;
 
-/// Where the energy of a cycle, or of a car's run, comes from and goes
+/// Energy of a cycle, or of a car's run: work, storage and losses
 ///
-/// Runs a case of a wedge or a truck in which something moves as a sine or a triangle, and tells the energy
-/// of a cycle (the mean of its whole cycles): what is put in, what is lost by face and element, by corner or
-/// point, by contact state, by part of the stroke, and the equivalent viscous damping. Of a car it tells the
-/// energy of the whole run: what is lost in each kind of face and element and by each of these, by the
-/// distance too, as the mean resistance to the motion. With --out the numbers are written as energy.json, the
-/// flow of energy as power_flow.svg and power_flow.png.
+/// Runs a case of a wedge or a truck with a sine or triangle motion, and prints the energy of a cycle (mean
+/// of the whole cycles): work, losses by face and element, by corner or point, by contact state, by part of
+/// the stroke, and the equivalent viscous damping. For a car it prints the energy of the whole run: losses of
+/// each kind of face and element and of each of these, also per distance, as the mean resistance to the
+/// motion. With --out the numbers are written as energy.json, the flow of energy as power_flow.svg and
+/// power_flow.png.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

@@ -16,13 +16,13 @@ use crate::folders;
 use crate::interrupt;
 use crate::progress::Steady;
 
-/// Where a wedge locks up, over two of its parameters: jam margins and what runs find
+/// Lock-up of a wedge over two of its parameters: margins and outcomes of runs
 ///
-/// At each point of a map over two of angle, friction, toe, crown and yaw, takes the lock-up margin of the
+/// At each point of a map over two of angle, friction, toe, crown and yaw, computes the lock-up margin of the
 /// massless wedge (the angle at which the faces close on the wedge, less the friction angles of both), and
-/// runs a rig: the bolster presses the wedge against the column. Where the margin is not positive the wedge
-/// locks and its normal forces grow against the stiffness of the contacts; else it slides out of the way.
-/// Writes lock_up.csv, lock_up.svg and lock_up.png.
+/// runs a rig: the bolster presses the wedge against the column. If the margin is not positive the wedge
+/// locks and its normal forces grow against the stiffness of the contacts; else it slides away. Writes
+/// lock_up.csv, lock_up.svg and lock_up.png.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -47,7 +47,7 @@ pub struct Arguments {
     /// Set one value over those of the case
     #[arg(long, value_name = "PATH.KEY=VALUE")]
     set: Vec<String>,
-    /// How many runs at a time [default: as many as there are processors]
+    /// Number of runs at a time [default: number of processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
     /// Folder to write into [default: NAME_lock_up]

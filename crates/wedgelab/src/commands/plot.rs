@@ -27,9 +27,8 @@ use crate::select::read_table;
 ///
 /// With --psd it draws the one-sided power spectral density of a column by Welch's method (segments that
 /// overlap by half, less their means, under Hann's window), in decibels over one unit of the column, squared,
-/// per Hz: its integral over the frequency is the variance. Into a file ending in .csv the densities
-/// themselves are written. Rows must be evenly apart in time; what is faster than half their rate is taken
-/// for slower.
+/// per Hz: its integral over the frequency is the variance. A file ending in .csv gets the densities
+/// themselves. Rows must be equidistant in time; frequencies above half their rate are aliased.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -50,7 +49,7 @@ pub struct Arguments {
     /// Draw the power spectral density of this column
     #[arg(long, value_name = "NAME", conflicts_with_all = ["x", "y"])]
     psd: Option<String>,
-    /// The farthest that two frequencies may be apart [default: what at least eight segments give]
+    /// Largest distance of two frequencies [default: that of at least eight segments]
     #[arg(long, value_name = "FREQUENCY", value_parser = frequency, allow_hyphen_values = true)]
     resolution: Option<f64>,
     #[command(flatten)]
@@ -188,7 +187,7 @@ fn write(file: &Path, name: &str, force: bool, bytes: &[u8]) -> Result<(), Failu
     Ok(folder.write(|files| files.add(name, |out| out.write_all(bytes)))?)
 }
 
-/// What a file is to hold.
+/// Contents of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Drawn {
     /// SVG.

@@ -16,8 +16,8 @@ use crate::failure::{Failure, Message};
 
 /// Run a car in one regime of the assessment of freight cars, over speeds
 ///
-/// Without arguments it lists the regimes, conditions and limits that are built in. With a regime and a car
-/// it runs the car at each speed, as `wedgelab certify` does. Tracks and limits are remembered of AAR M-1001,
+/// Without arguments it lists the built-in regimes, conditions and limits. With a regime and a car it runs
+/// the car at each speed, as `wedgelab certify` does. Tracks and limits are quoted from memory of AAR M-1001,
 /// chapter XI: check them against your edition.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\

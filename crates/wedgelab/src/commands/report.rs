@@ -16,11 +16,11 @@ use crate::folders;
 use crate::interrupt;
 use crate::json;
 
-/// Make a page of any runs, side by side
+/// Make a page that compares any runs
 ///
 /// Reads the folders of runs (result.csv and summary.json, of wedges, half-trucks, trucks, cars or wheelsets)
-/// and writes index.html: the runs moving in 3D, their key numbers side by side with units and windows, their
-/// loops and time histories over each other (of cars over the distance), limits, energy ledgers, warnings,
+/// and writes index.html: the runs moving in 3D, a table of their key numbers with units and windows, their
+/// loops and time histories in common figures (of cars over the distance), limits, energy ledgers, warnings,
 /// assumptions, and links to their files. Nothing is computed again: the runs may come from another machine.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
@@ -33,7 +33,7 @@ What a run looks like is taken from its own index.html, if it has one, else made
 case.toml; then the
 corners of a truck's wedges and the bodies of a car are not seen.")]
 pub struct Arguments {
-    /// Folders of runs; the first one is what the others are compared with
+    /// Folders of runs; the others are compared with the first
     #[arg(required = true, num_args = 1.., value_name = "RUN")]
     runs: Vec<PathBuf>,
     /// Folder to write into

@@ -38,20 +38,20 @@ use interrupted::Planned;
 /// The folder unless another is named.
 const USUAL: &str = "reproduction";
 
-/// Run all built-in cases and tell them in a report
+/// Run all built-in cases and write a report on them
 ///
 /// Computes the twelve runs of Steets (2007), table 4-1 (variable and constant damping, toe out, none and in,
 /// with and without yaw of the bolster), and the cases beyond the thesis. Writes the report index.html, its
 /// statements with verdicts claims.json, each figure as SVG and PNG, and for each run runs/NAME/result.csv,
-/// result.mat, case.toml and summary.json; prints a table of the runs. Without --only the half-truck of the
-/// comparison program's files is run too (28 runs: result.csv and summary.json), and the report compares; and
-/// the three-piece truck with four wedges that have mass on its 16 loaded rigs, told in truck.html (numbers
-/// in truck.json): loops, warp, wedges, closed forms, what contact and bristle stiffness move. With
-/// --sensitivity N the twelve runs are made at N points of the space of what the thesis leaves open (contact
-/// stiffness and damping, line of action of the coil, start, inertia, place of B), and the report says of
-/// each statement in which part of that space it holds and what decides (sensitivity.json). Points are kept
-/// in the folder sensitivity; a larger N takes those that are there, and so does the same command after an
-/// interruption.
+/// result.mat, case.toml and summary.json; prints a table of the runs. Without --only it also runs the
+/// half-truck of the comparison program's files (28 runs: result.csv and summary.json) for the report's
+/// comparison, and the three-piece truck with four wedges that have mass on its 16 loaded rigs, reported in
+/// truck.html (numbers in truck.json): loops, warp, wedges, closed forms, influence of contact and bristle
+/// stiffness. With --sensitivity N the twelve runs are made at N points of the space of the parameters that
+/// the thesis leaves open (contact stiffness and damping, line of action of the coil, start, inertia,
+/// position of B), and the report states for each statement the part of that space in which it holds and the
+/// deciding parameter (sensitivity.json). Points are kept in the folder sensitivity; a larger N reuses them,
+/// and so does the same command after an interruption.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -66,13 +66,13 @@ pub struct Arguments {
     /// Run only these: names, beginnings that only one name has, or patterns such as 'vdrun*'
     #[arg(long, value_name = "NAME", num_args = 1..)]
     only: Vec<String>,
-    /// Decide the thesis's statements at N points of the space of what the thesis leaves open, too
+    /// Also decide the thesis's statements at N points of the space of the parameters that it leaves open
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20_000))]
     sensitivity: Option<u32>,
     /// Overwrite existing results
     #[arg(long)]
     force: bool,
-    /// How many runs at a time [default: as many as there are processors]
+    /// Number of runs at a time [default: number of processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
     /// No progress
@@ -83,7 +83,7 @@ pub struct Arguments {
 /// A run whose files are written.
 struct ReproducedRun {
     outcome: CaseOutcome,
-    /// What the page shows of it, if it is interactive.
+    /// The data for the page, if it is interactive.
     recording: Option<Recording>,
     wall: Duration,
 }

@@ -40,11 +40,11 @@ use crate::table::TerminalTable;
 /// Runs a case file, of a wedge, of a truck or of a car on track, and writes result.csv (the time histories),
 /// result.mat (the same, of a wedge under the thesis's names), case.toml (the case, completed) and
 /// summary.json (averages, extremes, events, energy ledger, solver statistics, assumptions) into a folder
-/// named as the case; of a truck also index.html, where it is seen moving in 3D with its loops and wedges, of
-/// a car on its track with limits, statistics and figures over the distance.
+/// named as the case; of a truck also index.html with the truck moving in 3D, its loops and wedges; of a car
+/// index.html with the car on its track, limits, statistics and figures over the distance.
 ///
-/// A run with --save or --continue writes the same files but index.html. Its rows have the same bits as those
-/// of the whole run.
+/// A run with --save or --continue writes the same files except index.html. Its rows have the same bits as
+/// those of the whole run.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -74,13 +74,13 @@ pub struct Arguments {
     quiet: bool,
     #[arg(long, help = json::HELP)]
     json: bool,
-    /// File to save the state of the run in where it stops: by --until, or by Ctrl-C
+    /// File for the state of the run when it stops: by --until, or by Ctrl-C
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
-    /// When to stop, and save
+    /// Time at which the run stops and is saved
     #[arg(long, value_name = "TIME", requires = "save", value_parser = time)]
     until: Option<Quantity>,
-    /// File with the state to go on from, of the same case; rows before it are not repeated
+    /// File with the state to continue from, of the same case; rows before it are not repeated
     #[arg(long = "continue", value_name = "FILE")]
     from: Option<PathBuf>,
 }
@@ -293,7 +293,7 @@ fn limits_of_car(summary: &CarSummary) -> (TerminalTable, String) {
 /// Instead of a car's table where there is nothing in it.
 const NO_STATISTICS: &str = "No statistics: the run does not reach beyond start.settle.";
 
-/// What the columns of a car's table are.
+/// The note that explains the columns of a car's table.
 const CAR_NOTE: &str = "\
 Worst value of each kind, of filtered forces and accelerations, beside limits that are remembered of AAR \
 M-1001, chapter XI: check
@@ -328,7 +328,7 @@ fn car_table(summary: &CarSummary) -> TerminalTable {
     table
 }
 
-/// What the columns of a truck's table are.
+/// The note that explains the columns of a truck's table.
 const TRUCK_NOTE: &str = "\
 Column normal force: of each wedge, its least and largest at any output time. Energy per cycle: lost in \
 friction at column and

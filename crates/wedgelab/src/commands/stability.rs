@@ -29,9 +29,9 @@ use crate::table::TerminalTable;
 /// without it. Writes stability.csv (all vibrations of 0.05 to 30 Hz), stability.json (critical speeds),
 /// stability.svg and stability.png.
 ///
-/// With --nonlinear it also runs the car at falling and at rising speed: where hunting dies after a lateral
-/// start at the highest speed, and where small dips of the rails begin to grow into hunting. Writes
-/// hunting.csv (amplitudes over speed), hunting.json, hunting.svg and hunting.png.
+/// With --nonlinear it also runs the car at falling and at rising speed, and finds the speeds at which
+/// hunting ends after a lateral start at the highest speed, and at which hunting begins over small dips of
+/// the rails. Writes hunting.csv (amplitudes over speed), hunting.json, hunting.svg and hunting.png.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -53,10 +53,10 @@ pub struct Arguments {
         value_parser = clap::value_parser!(u32).range(2..=1000),
     )]
     steps: u32,
-    /// Run the car at falling and at rising speed too, to see where it hunts
+    /// Also run the car at falling and at rising speed, to find the speeds at which it hunts
     #[arg(long)]
     nonlinear: bool,
-    /// How long the speed falls, and rises; slower is more exact
+    /// Time in which the speed falls, and in which it rises; slower is more exact
     #[arg(
         long,
         value_name = "TIME",

@@ -29,8 +29,8 @@ use crate::select::built_in_elsewhere;
 /// sequence or list. Computes the measures of every variant (energies per cycle, equivalent damping and
 /// stiffness, branch forces, peak moments, lift-off time, stick share, jam margin, wear power) and writes
 /// table.parquet, with units in its metadata, the same as table.csv, and index.html (main effects, contour
-/// maps, jam map). A study that was ended or killed goes on where it was when the command is given again; the
-/// table does not depend on that, nor on the number of jobs.
+/// maps, jam map). The same command continues a study that was stopped or killed; the table does not depend
+/// on interruptions, nor on the number of jobs.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -47,10 +47,10 @@ A study file:
 pub struct Arguments {
     /// Study file
     study: PathBuf,
-    /// Folder to write into, or to go on in [default: the study's name]
+    /// Folder to write into, or to continue in [default: the study's name]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// How many runs at a time [default: as many as there are processors]
+    /// Number of runs at a time [default: number of processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
     /// Write the files of these runs (result.csv, ...) into series/NUMBER, and nothing else

@@ -23,7 +23,7 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Show what a car will meet over the distance, with the chord offsets that inspectors know
+    /// Show curvature and irregularities over the distance, with mid-chord offsets
     ///
     /// Reads a track file (docs/wheelrail.md) and writes track.csv (curvature, superelevation, grade, profile
     /// and alignment of both rails, cross level, gauge, mid-chord offsets of 31, 62 and 124 ft), track.svg

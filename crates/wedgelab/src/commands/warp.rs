@@ -22,12 +22,11 @@ use crate::table::TerminalTable;
 
 /// Warp moment of a truck over the warp angle, its parts and stiffness
 ///
-/// Runs a warp test (truck_warp_nest_... or truck_warp_axles_..., or a case of your own in which the warp
-/// angle moves), and writes warp.csv (moment, stiffness and the moment's parts at 0.5 to 20 mrad),
-/// warp_loops.csv, warp.pwl (the same for one nest as piecewise linear functions of NUCARS), warp.svg and
-/// warp.png. Several values of
-/// --friction, --toe, --wear make one test for each combination. NUCARS's empirical lines for new and worn
-/// trucks stand beside.
+/// Runs a warp test (truck_warp_nest_... or truck_warp_axles_..., or your own case in which the warp angle
+/// moves), and writes warp.csv (moment, stiffness and the moment's parts at 0.5 to 20 mrad), warp_loops.csv,
+/// warp.pwl (the same for one nest as piecewise linear functions of NUCARS), warp.svg and warp.png. Several
+/// values of --friction, --toe, --wear make one test for each combination. NUCARS's empirical lines for new
+/// and worn trucks are included for comparison.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -51,7 +50,7 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// What is varied from test to test.
+/// Values that vary from test to test.
 #[derive(Debug, Args)]
 pub struct Varied {
     /// Coefficients of friction of all wedges at column and slope
@@ -179,7 +178,7 @@ impl Varied {
     }
 }
 
-/// What a first signal says to a command that runs several tests.
+/// The message of a command that runs several tests on a first signal.
 pub const STOPPING: &str =
     "stopping: the tests that have ended are written (once more: ends at once and writes nothing)";
 

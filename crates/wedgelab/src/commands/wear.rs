@@ -20,13 +20,13 @@ use crate::progress::Progress;
 
 /// Wear of a wedge's faces over many cycles
 ///
-/// Runs a case of a single wedge, takes what its last whole cycle does at each contact point, lets the depths
-/// of the wedge's faces grow by a law of wear over many cycles, and runs the worn wedge again, step by step.
-/// Writes wear.csv (volumes, losses, forces, rise over the cycles), wear_points.csv (depth and pressure of
-/// every point at every step), column_wear.csv and slope_wear.csv (what wedge_wear takes), worn.toml (the
-/// worn case), wear.svg, wear.png and wear.txt (the result in words). With --counterface column and pocket
-/// are worn too, where the wedge slides over them: column_counterface_wear.csv, slope_counterface_wear.csv
-/// (what counterface_wear takes).
+/// Runs a case of a single wedge, computes the wear of its last whole cycle at each contact point by a law of
+/// wear, extrapolates the depths of the wedge's faces over many cycles, and runs the worn wedge again, step
+/// by step. Writes wear.csv (volumes, losses, forces, rise over the cycles), wear_points.csv (depth and
+/// pressure of every point at every step), column_wear.csv and slope_wear.csv (for wedge_wear), worn.toml
+/// (the worn case), wear.svg, wear.png and wear.txt (the result in words). With --counterface column and
+/// pocket wear too, where the wedge slides over them: column_counterface_wear.csv, slope_counterface_wear.csv
+/// (for counterface_wear).
 ///
 /// The laws' default numbers are guesses, known to an order of magnitude at best.
 #[derive(Debug, Args)]
@@ -43,7 +43,7 @@ pub struct Arguments {
     /// Cycles of the bolster
     #[arg(long, value_name = "N", value_parser = cycles, allow_hyphen_values = true)]
     cycles: f64,
-    /// Steps at least; steps that would wear a point by more than half of its penetration are divided
+    /// Least number of steps; steps that would wear a point by more than half of its penetration are divided
     #[arg(
         long,
         value_name = "M",
@@ -51,7 +51,7 @@ pub struct Arguments {
         value_parser = clap::value_parser!(u32).range(1..=10_000),
     )]
     steps: u32,
-    /// Steps at most
+    /// Largest number of steps
     #[arg(
         long,
         value_name = "M",
@@ -62,14 +62,14 @@ pub struct Arguments {
     /// Law of wear
     #[arg(long, value_enum, default_value_t = Law::Archard)]
     law: Law,
-    /// Of Archard's law K, without unit [default: 1e-4, a guess]; by energy the volume per energy, m³/J
+    /// Archard's K, dimensionless [default: 1e-4, a guess]; for wear by energy the volume per energy, m³/J
     /// [default: 1e-13, a guess]
     #[arg(long, value_name = "NUMBER", value_parser = coefficient, allow_hyphen_values = true)]
     coefficient: Option<f64>,
-    /// Hardness of the softer partner, of Archard's law [default: 2450 MPa, a guess]
+    /// Hardness of the softer partner in Archard's law [default: 2450 MPa, a guess]
     #[arg(long, value_name = "PRESSURE", value_parser = hardness)]
     hardness: Option<Quantity>,
-    /// What column and pocket lose, by what the wedge's faces lose: the ratio of their coefficients of wear
+    /// Wear of column and pocket over that of the wedge's faces: the ratio of their coefficients of wear
     #[arg(
         long,
         value_name = "RATIO",

@@ -37,7 +37,7 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Reads and checks both profiles, and prints how a wheelset rolls on them
+    /// Reads and checks both profiles, and prints the rolling properties of a wheelset on them
     Check(WheelRailPair),
     /// Does the same, and writes wheelrail.csv, wheelrail.svg and wheelrail.png
     Plot {
@@ -83,7 +83,7 @@ pub(super) struct WheelRailPair {
     /// Inclination of the rails, such as 1:40 or 0 [default: 1:40 for nominal rails, 0 for files]
     #[arg(long, value_name = "SLOPE", value_parser = slope)]
     inclination: Option<f64>,
-    /// How far splines may lie from the points of a file [default: 0.02 mm; 0 for contact]
+    /// Largest distance of splines from the points of a file [default: 0.02 mm; 0 for contact]
     #[arg(long, value_name = "LENGTH", value_parser = length_or_zero)]
     deviation: Option<Quantity>,
     /// Largest lateral shift
@@ -133,7 +133,7 @@ fn or_usual(given: Option<&Quantity>, simpack: bool, usual: [f64; 2]) -> f64 {
 }
 
 const INCH: f64 = 0.0254;
-/// How far splines may lie from the points of a file, m.
+/// Default of the largest distance of splines from the points of a file, m.
 pub(super) const DEVIATION: f64 = 2e-5;
 /// Half width of a conical tread, m.
 const TREAD: f64 = 2.0 * INCH;

@@ -18,7 +18,7 @@ use crate::failure::{Failure, Message};
 use crate::json;
 use crate::table::TerminalTable;
 
-/// How the answer is to be read: in the help, the table and the JSON.
+/// Frame and signs of the results: in the help, the table and the JSON.
 const FRAME: &str = "CONTACT's: x forward, y to the right, z down, from the middle of the track at the \
                      height of the rails' tops; forward rolling is a negative pitch rate. Forces and the \
                      spin moment act on the rail, in the plane of contact; creepages are the rail's \

@@ -100,7 +100,7 @@ pub struct Arguments {
         value_parser = clap::value_parser!(u16).range(1..=1000),
     )]
     cells: u16,
-    /// How contact is found: search, or tables made beforehand, which are faster on treads, not on flanges
+    /// Contact search: at each evaluation, or in tables made beforehand (faster on treads, not on flanges)
     #[arg(long, value_enum, default_value_t = How::Search)]
     search: How,
     /// Distance along the track at which the run begins
@@ -124,7 +124,7 @@ pub struct Arguments {
         allow_hyphen_values = true,
     )]
     yaw: Quantity,
-    /// How long the run is [default: to the end of the track]
+    /// Duration of the run [default: to the end of the track]
     #[arg(long, value_name = "TIME", value_parser = of_time)]
     duration: Option<Quantity>,
     /// Time between two rows
@@ -147,7 +147,7 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// How contact is found.
+/// Search for contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum How {
     /// The search at every evaluation

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::process::Command;
 
-/// What a call gave.
+/// The output of a call.
 pub struct Output {
     pub code: Option<i32>,
     pub out: String,

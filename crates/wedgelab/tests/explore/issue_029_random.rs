@@ -16,9 +16,9 @@ use serde_json::{Value, json};
 use super::common::{Server, temporary};
 use super::issue_029_safety::SECRET;
 
-/// How many there are, unless the environment's `WEDGELAB_REQUESTS` asks for more.
+/// Number of requests, unless the environment's `WEDGELAB_REQUESTS` asks for more.
 const REQUESTS: u32 = 2000;
-/// How long a client waits for an answer before it goes.
+/// Time that a client waits for an answer before it goes.
 const A_WHILE: Duration = Duration::from_millis(400);
 /// No client that has gone is held so long.
 const PATIENCE: Duration = Duration::from_secs(30);

@@ -1,5 +1,5 @@
-//! What anyone who can reach the server can do: nothing without the token, and with it nothing that the owner
-//! would rue.
+//! Limits of anyone who can reach the server: nothing without the token, and with it nothing that harms the
+//! owner.
 
 use std::fs;
 use std::io::{Read, Write};
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::common::{LONG, Server, endless, temporary};
 
-/// What must not get out.
+/// A text that must not get out.
 pub const SECRET: &str = "hunter2";
 
 #[test]

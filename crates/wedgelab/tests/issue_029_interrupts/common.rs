@@ -28,7 +28,7 @@ pub struct Ended {
 /// A command under way; it is killed if a test fails.
 pub struct Running {
     child: Option<Child>,
-    /// What was read of its messages.
+    /// The messages read so far.
     said: String,
 }
 

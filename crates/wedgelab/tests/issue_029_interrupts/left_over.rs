@@ -1,4 +1,4 @@
-//! What killed runs leave is named and removed by the next start; what living ones have is not touched.
+//! The next start names and removes leftovers of killed runs; files of living runs are not touched.
 
 use std::path::Path;
 

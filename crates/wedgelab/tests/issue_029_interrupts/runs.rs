@@ -118,7 +118,7 @@ fn issue_029_an_interrupted_fit_writes_nothing() {
     }
 }
 
-/// What is started in the background of a shell or by `nohup` ignores signals, and goes on ignoring them.
+/// A command started in the background of a shell or by `nohup` ignores signals, and goes on ignoring them.
 #[test]
 fn issue_029_signals_that_are_ignored_from_the_start_stay_so() {
     for (line, ignored, other, code) in [

@@ -21,7 +21,7 @@ simulation.duration = \"0.12 s\"
 friction.column = { from = 0.2, to = 0.6, count = 20 }
 control_coil.stiffness = { from = \"1500 lbf/in\", to = \"2500 lbf/in\", count = 15 }
 ";
-/// What lies in the folder of a study that is done.
+/// Files in the folder of a study that is done.
 const WHOLE: [&str; 6] = [
     ".lock",
     "index.html",

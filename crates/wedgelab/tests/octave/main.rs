@@ -1,7 +1,7 @@
 //! Cross-code: Octave and SciPy read `result.mat` to the bit, and the plotting scripts draw our curves in
 //! Octave.
 //!
-//! What is expected is taken from `result.csv` and written anew from the thesis's appendices D and E: which
+//! The expected values come from `result.csv` and from the thesis's appendices D and E, written anew: which
 //! column over which, which rows, which limits.
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -53,7 +53,7 @@ with open(sys.argv[2], 'w', encoding='utf-8') as file:
                 file.write(' '.join(repr(float(cell)) for cell in row) + '\\n')
 ";
 
-/// What a program has read: class and columns of each variable.
+/// Data that a program has read: class and columns of each variable.
 struct Read {
     variables: BTreeMap<String, (String, Vec<Vec<f64>>)>,
     about: String,

@@ -1,11 +1,11 @@
-//! What the figures are to show, after the thesis's appendices D and E.
+//! Expected contents of the figures, after the thesis's appendices D and E.
 
 use std::collections::BTreeMap;
 
 use crate::runs::{Csv, NAMES};
 
-/// What a figure is to show: of these runs one column over another (with an offset), these rows (counted from
-/// one), these limits.
+/// Expected contents of a figure: of these runs one column over another (with an offset), these rows
+/// (counted from one), these limits.
 pub struct Wanted {
     pub runs: Vec<String>,
     pub labels: Vec<&'static str>,

@@ -19,7 +19,7 @@ friction.column = { from = 0.2, to = 0.6, count = 12 }
 control_coil.stiffness = { from = \"1500 lbf/in\", to = \"2500 lbf/in\", count = 10 }
 ";
 
-/// What lies in the folder of a study that is done.
+/// Files in the folder of a study that is done.
 pub const WHOLE: [&str; 6] = [
     ".lock",
     "index.html",

@@ -1,4 +1,4 @@
-//! What stands in the table and on the page.
+//! Contents of the table and of the page.
 
 use std::fs;
 use std::fs::File;

@@ -57,7 +57,7 @@ pub struct LinearWheelset {
     pub geometry: LinearGeometry,
     /// Coefficients of each of its contacts.
     pub creep: CreepCoefficients,
-    /// Whether spin acts.
+    /// True if spin acts.
     pub spin: bool,
     /// Axle load for gravitational stiffnesses, N; zero leaves them out.
     pub axle_load: f64,

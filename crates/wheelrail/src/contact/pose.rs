@@ -82,7 +82,7 @@ impl<S: Real> WheelPose<S> {
     }
 }
 
-/// What a pose means for all points of the silhouette.
+/// The frame of a pose, the same for all points of the silhouette.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame<S> {
     center: [S; 2],

@@ -6,7 +6,7 @@
 
 use super::curve::{CurveForm, Piece, ProfileCurve};
 
-/// How far a curve lies from the points it was made of.
+/// Distances of a curve from the points it was made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Deviation {
     /// Largest distance of a point from its fit, m.

@@ -45,7 +45,7 @@ pub struct Placed {
     pub rails: Rails,
     /// In which direction.
     pub direction: Direction,
-    /// What.
+    /// The irregularity.
     pub irregularity: Irregularity,
 }
 
@@ -58,7 +58,7 @@ pub struct Track {
     pub irregularities: Vec<Placed>,
 }
 
-/// How a rail lies beside its nominal place: value (m), slope and second derivative (1/m) by the distance.
+/// Deviation of a rail from its nominal position: value (m), slope and second derivative (1/m) by distance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RailPlace {
     /// To the left.

@@ -9,7 +9,7 @@ use crate::case::problem::Problem;
 use crate::case::section::{Names, Range};
 use crate::reader::{CaseReader, DAMPING, LENGTH, PRELOAD, STIFFNESS};
 
-/// Whether load coils are groups or single coils.
+/// Kinds of load coils: groups or single coils.
 #[derive(Clone, Copy, PartialEq)]
 enum NestKind {
     Groups,

@@ -20,7 +20,7 @@ use super::outcome::{AnySummary, Loop, Outcome, compute};
 /// The name and version of the answers.
 pub const SCHEMA: &str = "wedgelab.explore/1";
 
-/// What is asked for: a case with changes.
+/// A request: a case with changes.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wanted {
@@ -39,7 +39,7 @@ pub struct Opening {
     schema: &'static str,
     /// The built-in case the program was started with; `null` for a file.
     preset: Option<String>,
-    /// What is being explored: the file or the built-in case.
+    /// The name of the explored file or built-in case.
     name: String,
     presets: Vec<Presets>,
     sections: Vec<FieldSection>,
@@ -60,7 +60,7 @@ struct Preset {
     title: &'static str,
 }
 
-/// What came out of a run.
+/// The answer to a run.
 #[derive(Debug, Serialize)]
 pub struct Answer {
     schema: &'static str,
@@ -72,7 +72,7 @@ pub struct Answer {
     shown_loop: Loop,
     /// The case's fields as they are now: a change may change what is completed from it.
     sections: Vec<FieldSection>,
-    /// What the run took, s.
+    /// Wall time of the run, s.
     seconds: f64,
 }
 
@@ -81,16 +81,16 @@ pub struct Answer {
 pub struct Mistake {
     /// The field it belongs to; empty if it belongs to none.
     pub path: String,
-    /// What is wrong.
+    /// The mistake.
     pub message: String,
-    /// What to write instead; may be empty.
+    /// The remedy: text to write instead; may be empty.
     pub help: String,
 }
 
 /// Why there is no answer.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Refused {
-    /// What was typed is wrong.
+    /// Mistakes in the typed text.
     Mistakes(Vec<Mistake>),
     /// A later request took its place, or its client has gone.
     Replaced,
@@ -147,7 +147,7 @@ pub struct Export {
     pub name: String,
     /// Its type.
     pub media: &'static str,
-    /// What is in it.
+    /// Its contents.
     pub bytes: Vec<u8>,
 }
 
@@ -247,7 +247,7 @@ impl Explorer {
     /// Runs what is wanted, unless a later request comes or the client goes.
     ///
     /// # Errors
-    /// What was typed is wrong, a later request came, or the client has gone.
+    /// Mistakes in the typed text, a later request, or a client that has gone.
     pub fn run(&self, wanted: &Wanted, turn: &Turn) -> Result<Answer, Refused> {
         let started = Instant::now();
         let outcome = self.outcome(wanted, turn)?;

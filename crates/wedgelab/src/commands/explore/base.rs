@@ -22,7 +22,7 @@ pub enum Base {
     File {
         /// Its name in messages.
         name: String,
-        /// What was in it.
+        /// Its contents.
         text: String,
         /// Where its tables are.
         folder: PathBuf,

@@ -1,7 +1,7 @@
 //! Opening the page in a browser, without showing its secret to other users of the machine.
 //!
-//! What a program is called with can be read by every user. So the browser is called with a file that only
-//! its owner may read, and that leads on to the address.
+//! Every user can read a program's arguments. So the browser is called with a file that only its owner may
+//! read, and that leads on to the address.
 
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write};

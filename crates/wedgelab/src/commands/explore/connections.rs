@@ -80,7 +80,7 @@ mod tests {
         write: Duration::from_millis(150),
         end: Duration::from_millis(150),
     };
-    /// How long tests wait for what takes [`BRIEF`] time.
+    /// Longest time that tests wait for something that takes [`BRIEF`] time.
     const LONG: Duration = Duration::from_secs(20);
 
     /// Tells when it is dropped.

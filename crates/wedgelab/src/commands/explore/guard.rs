@@ -14,7 +14,7 @@ use axum::response::{IntoResponse, Response};
 
 use super::token::Token;
 
-/// What the page is made of: the same for everybody.
+/// Parts of the page that are the same for everybody.
 const PUBLIC: [&str; 2] = ["/explorer.js", "/explorer.css"];
 
 /// The names under which the server is asked, and what is to be known.
@@ -84,7 +84,7 @@ impl Guard {
     }
 }
 
-/// What browsers may do with answers: nothing but what the page needs.
+/// Rights of browsers with answers: only those that the page needs.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src \
                       'self' data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; \
                       frame-ancestors 'none'";

@@ -1,4 +1,4 @@
-//! What one request, one connection and all of them together may take. `docs/explore.md` states the same.
+//! Limits of one request, of one connection and of all together. `docs/explore.md` states the same.
 
 use std::time::Duration;
 
@@ -25,7 +25,7 @@ pub const ANSWERS: usize = 4;
 /// of [`TEXT`] bytes still finds room.
 pub const STACK: usize = 32 * 1024 * 1024;
 
-/// How long clients are waited for.
+/// Times that the server waits for clients.
 #[derive(Clone, Copy, Debug)]
 pub struct Patience {
     /// For a request's first line and headers; also for the next request on an open connection.
@@ -57,9 +57,9 @@ pub const CAR_SECONDS: f64 = 60.0;
 pub struct TooLong {
     /// The key that makes it so.
     pub path: &'static str,
-    /// What is wrong.
+    /// The mistake.
     pub message: String,
-    /// What to type.
+    /// The remedy: text to type.
     pub help: String,
 }
 

@@ -24,7 +24,7 @@ use study::truck::{TruckCase, WEDGE_NAMES};
 
 use super::api::Refused;
 
-/// What came out of a case.
+/// The result of a case.
 #[derive(Debug)]
 pub enum Outcome {
     /// A wedge.
@@ -60,7 +60,7 @@ pub struct Loop {
     title: &'static str,
     x: LoopAxis,
     y: LoopAxis,
-    /// What the energy below is.
+    /// A description of the energy below.
     energy_of: &'static str,
     /// Of what it is the energy: of a cycle, or of the whole run.
     energy_per: &'static str,

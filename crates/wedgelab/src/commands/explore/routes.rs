@@ -19,12 +19,12 @@ use super::api::{Client, Explorer, Export, Refused, SCHEMA, Wanted};
 use super::guard::{self, Guard};
 use super::limits::{self, Patience};
 
-/// What a mistake of the program is answered with.
+/// The answer to a request that meets a mistake of the program.
 const MISTAKE_OF_THE_PROGRAM: &str = "This request met a mistake of the program, which goes on. Change a \
                                       value and try again; please report it with the message in the \
                                       terminal and with what was typed.";
 
-/// What all requests share.
+/// Data that all requests share.
 pub struct Server {
     explorer: Arc<Explorer>,
     patience: Patience,

@@ -13,12 +13,12 @@ use crate::failure::{Failure, Message};
 /// Endings of files of NUCARS.
 const ENDINGS: [&str; 4] = ["run", "sys", "inp", "dat"];
 
-/// What is asked for besides the files of a half-truck.
+/// Options of a half-truck besides its files.
 #[derive(Debug, Args)]
 pub struct Choice {
     #[command(flatten)]
     instead: Instead,
-    /// How the yaw of a half-truck's bolster is reached
+    /// Means by which a half-truck's bolster reaches its yaw
     #[arg(long, value_name = "HOW")]
     yaw: Option<YawArgument>,
     /// A choice where the files of a half-truck leave one open, as in `wedgelab nucars run`

@@ -15,12 +15,12 @@ use super::load::print_findings;
 use crate::failure::{Failure, INPUT};
 use crate::json;
 
-/// Say what is wrong or doubtful with files, with line and column
+/// Check files for errors and doubtful entries, with line and column
 ///
-/// A run file (.RUN) is checked together with the system, data and input file it names, in its folder;
-/// capitals do not matter. Other files are checked alone, or against the files of --system and --input, or
-/// against the only one of that kind among the files. Errors, warnings and notes go to the standard error, a
-/// line for each file to the standard output.
+/// A run file (.RUN) is checked together with the system, data and input file it names, in its folder; case
+/// of letters does not matter. Other files are checked alone, or against the files of --system and --input,
+/// or against the only one of that kind among the files. Errors, warnings and notes go to the standard error,
+/// a line for each file to the standard output.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

@@ -34,7 +34,7 @@ pub struct Arguments {
     /// About static equilibrium without friction instead of the drawn layout
     #[arg(long)]
     equilibrium: bool,
-    /// What friction holds: all closed friction elements, surfaces (wedges slide), or none
+    /// Elements that stick: all closed friction elements, surfaces (wedges slide), or none
     #[arg(long, value_name = "WHAT", default_value = "all")]
     stick: Stick,
 }

@@ -31,20 +31,20 @@ const FIGURE: [&str; 2] = ["loops.svg", "loops.png"];
 
 /// Run a half-truck from its files
 ///
-/// Reads a run file with the files it names, and writes result.csv (the columns that the data file asks for,
-/// wedges, bodies, energies), result.mat (the same, and the array that the thesis's scripts load),
-/// summary.json (averages of each wedge, energy ledger, yaw, assumptions), loops.svg and loops.png (forces of
-/// the wedges' columns over their strokes) and index.html (the half-truck moving in 3D, loops) into a folder
-/// named as the run file. The run ends when the run file's stepping
-/// constants say. The runs of the thesis's table 4-1 are built in; --list names them.
+/// Reads a run file with the files it names, and writes result.csv (the columns of the data file, wedges,
+/// bodies, energies), result.mat (the same, and the array that the thesis's scripts load), summary.json
+/// (averages of each wedge, energy ledger, yaw, assumptions), loops.svg and loops.png (forces of the wedges'
+/// columns over their strokes) and index.html (the half-truck moving in 3D, loops) into a folder named as the
+/// run file. The run file's stepping constants set the end of the run. The runs of the thesis's table 4-1 are
+/// built in; --list names them.
 ///
-/// What no public text says of the elements is an --option, with a default that the summary lists: bend
+/// Choices that no public text settles are --options, with defaults that the summary lists: bend
 /// (half_cosine, linear), speed (along the track), plain_toe_angle (column of types without an angle), branch
 /// (friction_force, or a reference speed), rise_in_slip (true, false), negative_rise (extend, stop),
 /// accumulator_damping (a factor), gap_tension (never, allowed).
 ///
-/// --wedges bodies puts a body with mass, corners with contact and a coil in the place of each wedge of type
-/// 6.8 or 6.9. What the files do not say of it has defaults, which the run tells and the summary lists;
+/// --wedges bodies replaces each wedge of type 6.8 or 6.9 by a body with mass, corners with contact and a
+/// coil. Values that the files do not have are defaults, which the run prints and the summary lists;
 /// wedge_mass, wedge_height, wedge_width, wedge_contact_stiffness and wedge_contact_damping are options.
 ///
 /// --set lays single values over the files, by the numbers that these give:
@@ -82,7 +82,7 @@ pub struct Arguments {
     /// Start in static equilibrium without friction instead of the drawn layout
     #[arg(long)]
     equilibrium: bool,
-    /// Write also what the data file has switched off
+    /// Also write the columns that the data file switches off
     #[arg(long)]
     all_outputs: bool,
     /// Time between two rows
@@ -94,10 +94,10 @@ pub struct Arguments {
         allow_hyphen_values = true,
     )]
     interval: Quantity,
-    /// How the bolster's yaw is reached
+    /// Means by which the bolster reaches its yaw
     #[arg(long, value_name = "HOW")]
     yaw: Option<YawArgument>,
-    /// What stands for the wedges of types 6.8 and 6.9
+    /// Model of the wedges of types 6.8 and 6.9
     #[arg(long, value_name = "WHAT")]
     wedges: Option<WedgesArgument>,
     /// A choice where the files leave one open
@@ -114,7 +114,7 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// How the yaw of the bolster is reached.
+/// The means by which the bolster reaches its yaw.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 pub enum YawArgument {
     /// As the files say, even where springs hold the bolster
@@ -125,7 +125,7 @@ pub enum YawArgument {
     Drive,
 }
 
-/// What stands for wedges.
+/// Models of wedges.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 enum WedgesArgument {
     /// The files' law, without mass
@@ -387,7 +387,7 @@ fn list() -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// What the columns of the table are.
+/// The note that explains the columns of the table.
 const TABLE_NOTE: &str = "\
 Mean force: column friction on the side frame, positive up, averaged while the input goes up or down, over \
 the output times after

@@ -16,7 +16,7 @@ use crate::table::TerminalTable;
 
 /// Print bodies, connections, characteristics and functions of a system file as tables
 ///
-/// Values are in the file's units. If the file has errors they are printed, and what could be read is shown.
+/// Values are in the file's units. If the file has errors, they are printed with the readable parts.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

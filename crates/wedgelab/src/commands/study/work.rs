@@ -11,14 +11,14 @@ use crate::folders;
 use crate::interrupt;
 use crate::progress::Steady;
 
-/// What was done.
+/// Counts of runs.
 #[derive(Debug)]
 pub struct Done {
     /// Runs that were there before.
     pub before: u64,
     /// Runs computed now.
     pub now: u64,
-    /// Whether the user stopped it.
+    /// True if the user stopped it.
     pub interrupted: bool,
 }
 
