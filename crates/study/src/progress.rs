@@ -22,8 +22,8 @@ pub const ADVANCE: f64 = 0.1;
 pub const INTERVALS: f64 = 10.0;
 /// Attempted steps that are admissible for any way, however short: some tenths of a second of computing.
 pub const SURE_ATTEMPTS: u64 = 100_000;
-/// And for each second of it: with the sure ones 150,000 in 0.1 s, of which a wedge takes 0.8 to 1.1 s (5.5 to
-/// 7.5 µs each). So two seconds of a wedge end, or stop, in some 20 s.
+/// And for each second of it: with the sure ones 150,000 in 0.1 s, of which a wedge takes about one second
+/// (5.5 to 7.5 µs each). So two seconds of a wedge end, or stop, in some 20 s.
 pub const ATTEMPTS_A_SECOND: f64 = 5e5;
 
 /// Returns the number of attempted steps that a run may take for a way of `advance` (s).
