@@ -1,7 +1,7 @@
 //! Check that a curved face has enough points where it is pressed.
 //!
 //! With L spacings of the grid on the pressed part of a cylinder its normal force is off by at most 1/L²
-//! (`mechanics/tests/surfaces.rs`): ten spacings are needed for 1 %.
+//! (`mechanics/tests/system/surfaces.rs`): ten spacings are needed for 1 %.
 
 use mechanics::output::Column;
 use wedge::face::{FaceDirection, FaceProfile, FaceProperties, Grid};

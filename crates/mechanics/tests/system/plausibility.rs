@@ -2,9 +2,7 @@
 //! model.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
-mod common;
-
-use common::{ALL, UP, body, coil, face, ground, model};
+use crate::common::{ALL, UP, body, coil, face, ground, model};
 use mechanics::body::Body;
 use mechanics::characteristic::Characteristic;
 use mechanics::coil::CoilLaw;

@@ -2,13 +2,11 @@
 //! nests, impact of a lifted car, ten times the load. Each ends with a closed ledger.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-#[path = "common/runs.rs"]
-mod runs;
-#[path = "three_piece/common.rs"]
+#[path = "../three_piece/common.rs"]
 mod trucks;
 
+use crate::runs::{INCH, LBF, column};
 use mechanics::quasi_static::{SlidingDirection, SlopeFriction};
-use runs::{INCH, LBF, column};
 use study::case::builtin;
 use study::closed_form;
 use study::jam::{JamMargins, statement};

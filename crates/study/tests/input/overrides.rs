@@ -2,9 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::only;
+use crate::common::only;
 use study::any_case::AnyCase;
 use study::case::{Case, CaseError, builtin};
 

@@ -1,9 +1,7 @@
 //! Energy: kept where nothing is lost, and accounted for where something is.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
-mod common;
-
-use common::{ALL, Ledger, UP, body, coil, face, ground, integrate, model, momenta, norm, options};
+use crate::common::{ALL, Ledger, UP, body, coil, face, ground, integrate, model, momenta, norm, options};
 use integrate::{Method, Options, Problem};
 use mechanics::body::Body;
 use mechanics::frame::Frame;
@@ -101,7 +99,7 @@ fn a_thrown_body() {
         assert!((position[k] - flown).abs() < 1e-8, "{position:?} {k} {flown}");
     }
     let spin = |r: [f64; 3], m: &[f64]| {
-        let orbital = common::cross(r, [m[0], m[1], m[2]]);
+        let orbital = crate::common::cross(r, [m[0], m[1], m[2]]);
         [0, 1, 2].map(|k| m[3 + k] - orbital[k])
     };
     let (a, b) = (spin(start, &before), spin(position, &after));

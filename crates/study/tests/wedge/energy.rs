@@ -2,9 +2,6 @@
 //! judged that do not.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-#[path = "common/runs.rs"]
-mod runs;
-
 use mechanics::energy_balance::Verdict;
 use nucars::truck::Choices;
 use study::case::{Case, builtin};
@@ -21,7 +18,7 @@ fn all_cases_beyond_the_thesis_close_their_ledgers() {
         .map(|name| builtin::case(name).unwrap())
         .collect();
     assert!(cases.len() > 30, "{}", cases.len());
-    for (case, result) in cases.iter().zip(&runs::run_all(&cases, 2)) {
+    for (case, result) in cases.iter().zip(&crate::runs::run_all(&cases, 2)) {
         let (summary, name) = (&result.summary, &case.name);
         assert!(summary.complete, "{name}: {:?}", summary.stopped);
         // A wedge that is pushed out is warned of.

@@ -1,13 +1,10 @@
 //! Metrics and cases against closed forms.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-#[path = "common/runs.rs"]
-mod runs;
-
 use std::f64::consts::PI;
 
+use crate::runs::{INCH, LBF, column};
 use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection, SlopeFriction};
-use runs::{INCH, LBF, column};
 use study::case::{Case, builtin};
 use study::closed_form;
 use study::metrics::{Cycle, first_harmonic};
@@ -278,10 +275,10 @@ fn reference_lines_in_numbers() {
     let found = closed_form::first_harmonic(&parameters).unwrap();
     assert!((found.damping / LBF_S_PER_IN - 1059.0).abs() < 0.5, "{found:?}");
     assert!(found.stiffness.abs() < 1e-6 * found.damping);
-    let energy = closed_form::energy_per_cycle(&parameters).unwrap() / runs::LBF_IN;
+    let energy = closed_form::energy_per_cycle(&parameters).unwrap() / crate::runs::LBF_IN;
     assert!((energy - 6655.0).abs() < 0.5, "{energy}");
     for (normal, nest) in [(2882.7, 30_300.0), (5435.9, 57_100.0)] {
-        let limit = 2.0 * closed_form::edge_loading_limit(&parameters, normal * LBF) / runs::LBF_IN;
+        let limit = 2.0 * closed_form::edge_loading_limit(&parameters, normal * LBF) / crate::runs::LBF_IN;
         assert!((limit - nest).abs() < 50.0, "{limit}");
     }
     // Below the free coil by 1 in, 0.5 in each way: K (1 + (f_down - f_up)/2), and (f_up + f_down) K h 2A a

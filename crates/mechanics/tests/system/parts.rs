@@ -1,9 +1,7 @@
 //! Evaluations of parts of a system, and of parts of the outputs, agree with those of the whole.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
-mod common;
-
-use common::{ALL, Random, UP, body, coil, face, ground, model};
+use crate::common::{ALL, Random, UP, body, coil, face, ground, model};
 use integrate::Problem;
 use mechanics::body::Body;
 use mechanics::frame::Frame;

@@ -1,9 +1,6 @@
 //! Runs say what is implausible in them, with place, time, amount and what to do; sound ones say nothing.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-#[path = "common/runs.rs"]
-mod runs;
-
 use std::path::Path;
 
 use study::case::{Case, builtin};
@@ -36,7 +33,7 @@ fn assert_says(result: &RunResult, texts: &[&str]) {
 
 #[test]
 fn limits_the_thesiss_runs_say_nothing() {
-    for (name, result) in &*runs::TWELVE {
+    for (name, result) in &*crate::runs::TWELVE {
         assert!(
             result.summary.warnings.is_empty(),
             "{name}: {:?}",
@@ -53,7 +50,7 @@ fn limits_a_wedge_that_leaves_its_column_says_when_and_how_far() {
         "simulation.duration=\"2 s\"",
     ];
     let result = run("cdrun", &settings);
-    let places = runs::column(&result, "wedge_z", runs::INCH);
+    let places = crate::runs::column(&result, "wedge_z", crate::runs::INCH);
     let farthest = places.iter().fold(0.0, |most: f64, place| most.max(place.abs()));
     assert!(farthest > 6.125, "{farthest}");
     let (slid, limit) = ("the column has slid off its surface", "the limit is 6.125 in");
@@ -68,7 +65,7 @@ fn limits_soft_contacts_say_how_deep_the_wedge_is_pressed_in() {
     let settings = ["contact.stiffness=\"1e3 lbf/in\"", "simulation.duration=\"1 s\""];
     let result = run("cdrun", &settings);
     let deepest = |name: &str| {
-        let gaps = runs::column(&result, name, runs::INCH);
+        let gaps = crate::runs::column(&result, name, crate::runs::INCH);
         gaps.iter().fold(0.0, |most: f64, gap| most.max(-gap))
     };
     let depth = deepest("column_lower_left_gap").max(deepest("column_lower_right_gap"));

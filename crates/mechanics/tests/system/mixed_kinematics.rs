@@ -2,9 +2,7 @@
 //! system: derivatives, the energy ledger, closed forms.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
-mod common;
-
-use common::Random;
+use crate::common::Random;
 use integrate::{Integrator, Options, Problem};
 use mechanics::body::Body;
 use mechanics::connection::{Connection, Law, SpringDamper};

@@ -1,10 +1,7 @@
 //! The same bits: from run to run, for any number of threads, across save and continue.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-#[path = "common/runs.rs"]
-mod runs;
-
-use runs::run_all;
+use crate::runs::run_all;
 use study::case::{Case, builtin};
 use study::result::RunResult;
 use study::run::{Counts, Run, RunState};

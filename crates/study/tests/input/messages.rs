@@ -2,9 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{check, errors, only};
+use crate::common::{check, errors, only};
 use std::path::Path;
 use study::case::Case;
 

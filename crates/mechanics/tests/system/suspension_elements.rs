@@ -2,9 +2,7 @@
 //! momentum of free bodies.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
-mod common;
-
-use common::Random;
+use crate::common::Random;
 use integrate::{Integrator, Options, Problem};
 use mechanics::body::Body;
 use mechanics::curve::Curve;

@@ -1,9 +1,7 @@
 //! Curved surfaces, and grids of points on them.
 #![allow(missing_docs, clippy::unwrap_used)]
 
-mod common;
-
-use common::{Ledger, Random, coil, ground, integrate, norm, options, over, rates};
+use crate::common::{Ledger, Random, coil, ground, integrate, norm, options, over, rates};
 use integrate::Method;
 use mechanics::contact::{Interface, Sliding};
 use mechanics::depth_surface::DepthSurface;

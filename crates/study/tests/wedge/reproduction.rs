@@ -2,10 +2,7 @@
 //! figures, lift-off.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-#[path = "common/runs.rs"]
-mod runs;
-
-use runs::{INCH, LBF, LBF_IN, TWELVE, averages, column, twelve};
+use crate::runs::{INCH, LBF, LBF_IN, TWELVE, averages, column, twelve};
 use study::result::RunResult;
 
 /// Branch means and energies of independent simulations of the same equations, lbf and lbf·in.

@@ -1,11 +1,8 @@
 //! Results converge as the tolerance falls; they do not depend on when they are written.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-#[path = "common/runs.rs"]
-mod runs;
-
+use crate::runs::{averages, run_all};
 use integrate::Method;
-use runs::{averages, run_all};
 use study::case::{Case, builtin};
 
 /// Returns a case with another tolerance, output interval and duration.

@@ -4,9 +4,7 @@
 //! library is used twice.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
-mod common;
-
-use common::{ALL, Random, UP, body, coil, face, ground, model, rates};
+use crate::common::{ALL, Random, UP, body, coil, face, ground, model, rates};
 use integrate::Problem;
 use mechanics::body::Body;
 use mechanics::frame::Frame;

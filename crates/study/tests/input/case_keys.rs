@@ -1,7 +1,7 @@
 //! reproduction: the page docs/case-keys.md holds the keys of this build.
 #![allow(missing_docs, clippy::unwrap_used)]
 
-#[path = "case_keys/page.rs"]
+#[path = "../case_keys/page.rs"]
 mod page;
 
 #[test]

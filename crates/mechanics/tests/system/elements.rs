@@ -2,9 +2,7 @@
 //! with linearized kinematics.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
-mod common;
-
-use common::Random;
+use crate::common::Random;
 use integrate::{Integrator, Options, Problem};
 use mechanics::body::Body;
 use mechanics::coil::{Coil, CoilLaw};

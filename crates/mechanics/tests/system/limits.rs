@@ -1,9 +1,7 @@
 //! Limits of models: a mass that friction stops, creep, rest in equilibrium, momentum, the same bits again.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
-mod common;
-
-use common::{
+use crate::common::{
     ALL, Random, UP, add, body, coil, cross, difference, face, ground, integrate, model, momenta, norm,
     options, rates,
 };
@@ -376,7 +374,7 @@ fn floating_bodies_keep_their_momentum() {
         }
         let mut twin = system.clone();
         let before = momenta(&mut twin, 0.0, &x);
-        let start = common::Ledger::at(&mut twin, 0.0, &x);
+        let start = crate::common::Ledger::at(&mut twin, 0.0, &x);
         let mut contacts = 0;
         let end = integrate(system, options(Method::Rodas5P, 1e-9), &x, 1.0, |integrator| {
             contacts += integrator
@@ -391,7 +389,7 @@ fn floating_bodies_keep_their_momentum() {
             let change = (after[k] - before[k]).abs();
             assert!(change < 1e-7 * size, "{change} of {size}");
         }
-        let ledger = common::Ledger::at(&mut twin, 1.0, end.x());
+        let ledger = crate::common::Ledger::at(&mut twin, 1.0, end.x());
         for kind in [EnergyTermKind::FrictionLoss, EnergyTermKind::CoilDampingLoss] {
             let lost: f64 = ledger
                 .losses

@@ -1,14 +1,11 @@
 //! Cases at their limits: what a warped wedge can bear, and runs that hardly progress.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-#[path = "common/runs.rs"]
-mod runs;
-
+use crate::runs::{LBF, LBF_IN, column};
 use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection, SlopeFriction};
 use mechanics::system::System;
 use nucars::truck::Choices;
 use quantity::SixDigits;
-use runs::{LBF, LBF_IN, column};
 use study::case::builtin;
 use study::half_truck::catalog::entry;
 use study::measures::{Unmeasured, measure};

@@ -13,7 +13,7 @@ use study::half_truck::files::Settings;
 use study::half_truck::run::run;
 use wedge::outputs::Outputs;
 
-const PAGE: &str = include_str!("../../../docs/conventions.md");
+const PAGE: &str = include_str!("../../../../docs/conventions.md");
 const ALONG: [&str; 6] = ["x", "y", "z", "longitudinal", "lateral", "vertical"];
 const ABOUT: [&str; 3] = ["roll", "pitch", "yaw"];
 const BODIES: [&str; 3] = ["wedge", "bolster", "side_frame"];

@@ -1,9 +1,7 @@
 //! Friction by speed, load and place, and the stick-slip oscillation that it excites.
 #![allow(missing_docs, clippy::unwrap_used)]
 
-mod common;
-
-use common::{UP, coil, difference, face, ground, integrate, model, norm, options, over, rates};
+use crate::common::{UP, coil, difference, face, ground, integrate, model, norm, options, over, rates};
 use integrate::Method;
 use mechanics::body::Body;
 use mechanics::contact::{Interface, Sliding};

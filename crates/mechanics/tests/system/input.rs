@@ -1,9 +1,7 @@
 //! Models that make no system, tables that make no law, and what is written and read back.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
-mod common;
-
-use common::{ALL, body, coil, face, ground, model};
+use crate::common::{ALL, body, coil, face, ground, model};
 use mechanics::body::Body;
 use mechanics::characteristic::{Characteristic, CharacteristicError};
 use mechanics::coil::{CoilLaw, CoilLine};

@@ -1,0 +1,19 @@
+//! A system of bodies and force elements: equations of motion, derivatives, energy, limits, findings.
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod carrier;
+mod eigenvalues;
+mod elements;
+mod energy;
+mod equations_of_motion;
+mod input;
+mod limits;
+mod mixed_kinematics;
+mod parts;
+mod plausibility;
+mod sliding_friction;
+mod surfaces;
+mod suspension_elements;
