@@ -2,7 +2,7 @@
 //!
 //! Schema `wedgelab.summary/2`. Every dimensional number is a [`SummaryValue`] with its unit, in the case's
 //! output units; times are seconds. A reader should ignore keys that it does not know; the number after the
-//! slash grows when a key changes its meaning or goes.
+//! slash grows when a key changes its meaning or goes. A renamed key is read by its older name, too.
 
 use std::collections::BTreeMap;
 
