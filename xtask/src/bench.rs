@@ -1,4 +1,4 @@
-//! `cargo xtask bench`: how fast, with caveats; writes `docs/benchmarks.md`.
+//! `cargo xtask bench`: measurements of speed, with caveats; writes `docs/benchmarks.md`.
 
 mod page;
 

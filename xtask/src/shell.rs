@@ -16,7 +16,7 @@ pub const PORTABLE: [&str; 2] = [
 pub struct Workspace {
     /// The folder of the workspace's `Cargo.toml`.
     pub root: PathBuf,
-    /// Where cargo puts what it builds (`target/`, or `CARGO_TARGET_DIR`).
+    /// The folder of what cargo builds (`target/`, or `CARGO_TARGET_DIR`).
     pub target: PathBuf,
     /// The cargo that started us.
     cargo: PathBuf,
@@ -62,7 +62,7 @@ fn line(command: &Command) -> String {
 /// Runs the command with its output shown, after saying what it is.
 ///
 /// # Errors
-/// When it cannot be started or does not exit with 0.
+/// The command cannot be started or does not exit with 0.
 pub fn run(command: &mut Command) -> Result<(), String> {
     let line = line(command);
     println!("$ {line}");

@@ -1,4 +1,4 @@
-//! `cargo xtask test`: all checks, one after the other, and a table of what came out.
+//! `cargo xtask test`: all checks, one after the other, and a table of the results.
 
 mod deny;
 mod features;

@@ -1,4 +1,5 @@
-//! Virtual environments of Python for checks: made once, made anew when what they must hold has changed.
+//! Virtual environments of Python for checks: made once, and anew when the list of their packages has
+//! changed.
 
 use std::fs;
 use std::path::{Path, PathBuf};

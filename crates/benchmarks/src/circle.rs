@@ -338,7 +338,7 @@ pub fn travel<P: Problem>(
     Ok((integrator, None))
 }
 
-/// Which coordinates a body of the core has.
+/// The coordinates of a body of the core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coordinates {
     /// Relative to the fixed frame.

@@ -36,7 +36,7 @@ pub enum Arrangement {
     Supports,
 }
 
-/// Where a wedge of the chain stands: moved along x, and turned by half a turn about the vertical axis if it
+/// The pose of a wedge of the chain: moved along x, and turned by half a turn about the vertical axis if it
 /// looks backwards.
 struct WedgePose {
     shift: f64,

@@ -83,7 +83,7 @@ pub struct Car {
     pub system: System,
     /// The state at time zero.
     pub initial_state: Vec<f64>,
-    /// Where the rails lie.
+    /// The lines of the rails.
     pub lines: Arc<RailLines>,
     /// The numbers of its bodies.
     pub numbers: Numbers,
@@ -114,7 +114,7 @@ pub(crate) struct Nominal {
     pub numbers: Numbers,
     trucks: [MountedTruck; 2],
     wheels: WheelElements,
-    /// Which bodies belong to the front truck, the rear truck (0, 1) or the car body (2).
+    /// The bodies of the front truck, the rear truck (0, 1) and the car body (2).
     pub groups: Vec<(usize, usize)>,
 }
 

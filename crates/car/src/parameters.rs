@@ -23,8 +23,8 @@ pub struct Mass {
     pub name: String,
     /// Mass, kg.
     pub mass: f64,
-    /// Where its center of gravity is: forward of the middle between the trucks, to the left of the middle,
-    /// above the top of rail, m, in the nominal layout of the trucks.
+    /// The place of its center of gravity: forward of the middle between the trucks, to the left of the
+    /// middle, above the top of rail, m, in the nominal layout of the trucks.
     pub place: [f64; 3],
     /// Moments of inertia about its center of gravity (roll, pitch, yaw), kg·m².
     pub inertia: [f64; 3],
@@ -109,7 +109,7 @@ pub struct Start {
     pub settle: f64,
 }
 
-/// Where coils, plates and wheels start.
+/// The start of coils, plates and wheels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StartKind {
     /// In the equilibrium of the car at rest on straight track, without friction, moved along the track.

@@ -78,7 +78,7 @@ pub(crate) fn at_rest(
     Ok(poses.collect())
 }
 
-/// Where trucks and body stand on the track at the start, in fixed axes.
+/// The poses of trucks and body on the track at the start, in fixed axes.
 pub(crate) struct Placement {
     /// Of front truck, rear truck and body: the pose of the axes that are forward, left, up in the nominal
     /// layout, from the middle between the trucks.

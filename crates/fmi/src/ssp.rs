@@ -40,9 +40,9 @@ const VALUES: &str = "http://ssp-standard.org/SSP1/SystemStructureParameterValue
 /// A connection: component and connector where it starts, and where it ends.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Connection {
-    /// Where the value comes from.
+    /// The source of the value.
     pub from: (String, String),
-    /// Where it goes to.
+    /// Its destination.
     pub to: (String, String),
 }
 

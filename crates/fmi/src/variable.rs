@@ -31,12 +31,12 @@ impl Causality {
     }
 }
 
-/// When a variable may change.
+/// The times at which a variable may change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variability {
     /// Never after the initialization.
     Fixed,
-    /// Where a caller sets it.
+    /// At calls that set it.
     Tunable,
     /// At events.
     Discrete,
@@ -108,7 +108,7 @@ pub struct Variable {
     pub unit: Option<Unit>,
     /// Its role.
     pub causality: Causality,
-    /// When it may change.
+    /// The times at which it may change.
     pub variability: Variability,
     /// Type and start value.
     pub start: Start,

@@ -1,5 +1,5 @@
-//! Broken inputs for every reader: a corpus of real files, kinds of mutation, and what each reader must keep
-//! to.
+//! Broken inputs for every reader: a corpus of real files, kinds of mutation, and the rules for each
+//! reader.
 //!
 //! [`readers::ALL`] names the readers. A reader takes any bytes and either accepts or refuses them; it panics
 //! if it breaks a promise: a place outside the text, a message longer than [`limits::LONGEST_MESSAGE`], a

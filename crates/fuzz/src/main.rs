@@ -67,7 +67,7 @@ struct Cli {
     /// Only these readers
     #[arg(long, value_name = "NAME", num_args = 1..)]
     reader: Vec<String>,
-    /// Which inputs are made
+    /// Seed of the inputs
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Readers that work at a time [default: one a processor]

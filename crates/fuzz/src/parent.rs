@@ -27,7 +27,7 @@ const LOOK: Duration = Duration::from_millis(10);
 pub struct FuzzPlan {
     /// The readers.
     pub readers: Vec<&'static Reader>,
-    /// Which inputs.
+    /// The seed of the inputs.
     pub seed: u64,
     /// Number of readers that work at a time.
     pub jobs: usize,

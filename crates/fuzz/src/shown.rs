@@ -1,4 +1,4 @@
-//! Errors as the program shows them, and what they must keep to.
+//! Errors as the program shows them, and the rules for them.
 
 use std::cell::RefCell;
 use std::fmt;

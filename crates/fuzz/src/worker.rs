@@ -35,7 +35,7 @@ pub struct Arguments {
     /// The reader
     #[arg(long)]
     reader: String,
-    /// Which inputs
+    /// Seed of the inputs
     #[arg(long, default_value_t = 0)]
     seed: u64,
     /// The first number
@@ -50,7 +50,7 @@ pub struct Arguments {
     /// Seconds of processor time after which an input is given up
     #[arg(long)]
     patience: f64,
-    /// Where counts and findings go
+    /// Folder of counts and findings
     #[arg(long)]
     folder: PathBuf,
     /// This file's content is the only input

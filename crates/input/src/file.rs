@@ -28,7 +28,7 @@ pub struct ReadError {
     pub what: &'static str,
     /// The file as named.
     pub path: PathBuf,
-    /// Why.
+    /// The reason.
     pub reason: Reason,
 }
 

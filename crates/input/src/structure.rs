@@ -23,13 +23,13 @@ pub enum Excess {
     Line {
         /// Its length.
         found: usize,
-        /// Where it begins.
+        /// The place at which it begins.
         at: usize,
     },
     /// Lists, tables or keys are nested too deeply.
     #[error("lists, tables and keys are nested more than {} deep", limits::NESTING)]
     Nesting {
-        /// Where it becomes too deep.
+        /// The place at which it becomes too deep.
         at: usize,
     },
     /// There are too many values.

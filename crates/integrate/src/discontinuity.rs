@@ -28,8 +28,8 @@ impl DiscontinuityFunctions {
     }
 }
 
-/// Where the next step should end: shortly after a discontinuity, or before a regularization zone in which a
-/// slip is predicted to reverse or to come to stick.
+/// The predicted end of the next step: shortly after a discontinuity, or before a regularization zone in
+/// which a slip is predicted to reverse or to come to stick.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Prediction {
     pub time: f64,

@@ -141,7 +141,7 @@ pub struct StepError {
     pub time: f64,
     /// Length of the last attempt.
     pub step: f64,
-    /// Why it was not accepted.
+    /// The reason for its rejection.
     pub reason: Reason,
     /// Index of the state with the largest error, or of the first one that is not finite.
     pub index: Option<usize>,

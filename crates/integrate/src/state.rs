@@ -35,7 +35,7 @@ pub struct State {
     /// Derivative in the last stage of an ESDIRK method, the first stage of the next step; empty for other
     /// methods.
     pub(crate) last_stage_derivative: Vec<f64>,
-    /// Where the Jacobian matrix of Newton's method was evaluated; none: there is no matrix.
+    /// The linearization point of the Jacobian matrix of Newton's method; none: there is no matrix.
     pub(crate) linearization_point: Option<LinearizationPoint>,
     /// Counters.
     pub statistics: Statistics,

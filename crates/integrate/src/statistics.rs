@@ -32,7 +32,7 @@ pub struct Statistics {
     /// Solutions of linear systems.
     pub solves: u64,
     /// Discontinuities that were predicted.
-    #[serde(default, rename = "kinks_foreseen")]
+    #[serde(default, alias = "kinks_foreseen")]
     pub discontinuities_predicted: u64,
     /// Changes of discrete states.
     pub events: u64,
@@ -70,7 +70,10 @@ impl Statistics {
             ("statistics.jacobians", self.jacobians),
             ("statistics.factorizations", self.factorizations),
             ("statistics.solves", self.solves),
-            ("statistics.kinks_foreseen", self.discontinuities_predicted),
+            (
+                "statistics.discontinuities_predicted",
+                self.discontinuities_predicted,
+            ),
             ("statistics.events", self.events),
             ("statistics.events_unresolved", self.events_unresolved),
             ("statistics.restarts", self.restarts),

@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used)] // it may stop where it stands
 
-use integrate::{FunctionProblem, Integrator, Method, Options, Reason, STATE_VERSION, SetupError};
+use integrate::{
+    FunctionProblem, Integrator, Method, Options, Reason, STATE_VERSION, SetupError, Statistics,
+};
 
 fn decay(scales: Vec<f64>) -> FunctionProblem<'static> {
     let n = scales.len();
@@ -361,4 +363,17 @@ fn options_pass_through_text() {
         error.contains("`rodas4`") && error.contains("Rodas5P, TR-BDF2 or ESDIRK3"),
         "{error}"
     );
+}
+
+/// Summaries and saved states of older programs name predicted discontinuities by another word.
+#[test]
+fn statistics_with_the_older_name_of_a_counter_are_read() {
+    let statistics = Statistics {
+        discontinuities_predicted: 7,
+        ..Statistics::default()
+    };
+    let text = serde_json::to_string(&statistics).unwrap();
+    assert!(text.contains(r#""discontinuities_predicted":7"#), "{text}");
+    let older = text.replace("discontinuities_predicted", "kinks_foreseen");
+    assert_eq!(serde_json::from_str::<Statistics>(&older).unwrap(), statistics);
 }

@@ -34,9 +34,9 @@ pub struct Body {
     pub inertia: [f64; 3],
     /// Center of gravity from the body's origin, body axes, m.
     pub center_of_gravity: [f64; 3],
-    /// Where its coordinates are measured from.
+    /// The frame of its coordinates.
     pub frame: Frame,
-    /// Which of x, y, z, roll, pitch, yaw are free.
+    /// The free coordinates among x, y, z, roll, pitch, yaw.
     pub free: [bool; 6],
     /// The values of all coordinates at the start; held coordinates keep them. m, rad.
     pub initial: [f64; 6],

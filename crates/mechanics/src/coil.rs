@@ -39,7 +39,7 @@ pub enum CoilLaw {
     },
 }
 
-/// Where the coil's force acts on the body that it carries.
+/// The line of action of the coil's force on the body that it carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CoilLine {

@@ -71,7 +71,7 @@ pub enum Motion {
     /// `c0 + c1 τ + c2 τ² + c3 τ³` with τ the time since `start`, at all times: a motion that a caller
     /// prescribes piece by piece (see [`Motion::between`]).
     Polynomial {
-        /// Where τ begins (s).
+        /// The start of τ (s).
         start: f64,
         /// The coefficients c0 to c3 (m or rad, per power of s).
         coefficients: [f64; 4],
@@ -86,7 +86,7 @@ pub enum Motion {
 /// A piece of a [`Motion::Sequence`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Piece {
-    /// When it begins (s); the motion's own time begins there too.
+    /// Its start (s), which is also that of the motion's own time.
     pub start: f64,
     /// The motion.
     pub motion: Motion,

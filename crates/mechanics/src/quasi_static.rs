@@ -39,7 +39,7 @@ pub struct QuasiStaticWedge {
     pub slope_friction: f64,
 }
 
-/// Which way the bolster moves.
+/// The direction in which the bolster moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SlidingDirection {
     /// Down: loading.
@@ -48,7 +48,7 @@ pub enum SlidingDirection {
     Up,
 }
 
-/// Which way the friction of the slope acts on the wedge.
+/// The direction in which the friction of the slope acts on the wedge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SlopeFriction {
     /// Up the slope (b = +1).

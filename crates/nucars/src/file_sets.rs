@@ -133,7 +133,7 @@ impl Instead {
 
 /// A file that was read.
 pub struct FileEntry<T> {
-    /// Where.
+    /// The path of the file.
     pub path: PathBuf,
     /// Its contents, with problems.
     pub read: Read<T>,

@@ -12,7 +12,7 @@ use thiserror::Error;
 pub struct NotFound {
     /// The name.
     pub name: String,
-    /// Where it was looked for.
+    /// The folder in which it was looked for.
     pub folder: PathBuf,
     /// The nearest name there.
     pub nearest: Option<String>,

@@ -92,7 +92,7 @@ impl Finding {
         (!self.help.is_empty()).then_some(self.help.as_str())
     }
 
-    /// Where.
+    /// Returns its place in the files.
     pub fn place(&self) -> &SourceLocation {
         &self.place
     }

@@ -30,7 +30,7 @@ pub enum SetError {
     Path {
         /// As typed.
         path: String,
-        /// Why, and what there is.
+        /// The reason, and the admissible names.
         reason: String,
     },
     /// The value is none of its kind.
@@ -65,7 +65,7 @@ enum Target<'t> {
     Toe(&'t mut Spanned<Toe>),
 }
 
-/// Which numbers are admissible.
+/// The admissible numbers.
 struct Expected {
     /// The kinds that they may have, with the factors from the file's units to SI.
     kinds: &'static [(Kind, f64)],

@@ -49,7 +49,7 @@ impl Span {
 pub struct Spanned<T> {
     /// The value as typed, in the file's units.
     pub value: T,
-    /// Where it stands.
+    /// Its place in the file.
     pub span: Span,
 }
 

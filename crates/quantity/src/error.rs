@@ -21,7 +21,7 @@ pub enum UnitError {
         number: String,
         /// The expected kind, if that is known.
         expected: Option<Kind>,
-        /// Where, in bytes of the text.
+        /// The place, in bytes of the text.
         span: Range<usize>,
     },
     /// The text does not begin with a number.
@@ -29,11 +29,11 @@ pub enum UnitError {
     BadNumber {
         /// The text in place of a number.
         text: String,
-        /// Why it is none.
+        /// The reason.
         reason: String,
         /// The expected kind, if that is known.
         expected: Option<Kind>,
-        /// Where, in bytes of the text.
+        /// The place, in bytes of the text.
         span: Range<usize>,
     },
     /// Not a number, infinite, or too large to compute with.
@@ -41,7 +41,7 @@ pub enum UnitError {
     NotFinite {
         /// The number as typed.
         text: String,
-        /// Where, in bytes of the text.
+        /// The place, in bytes of the text.
         span: Range<usize>,
     },
     /// No unit has this name.
@@ -51,15 +51,15 @@ pub enum UnitError {
         unit: String,
         /// The name that may have been meant.
         nearest: Option<String>,
-        /// Where, in bytes of the text.
+        /// The place, in bytes of the text.
         span: Range<usize>,
     },
     /// The units do not combine to one.
     #[error("this unit cannot be read: {reason}")]
     BadExpression {
-        /// Why.
+        /// The reason.
         reason: String,
-        /// Where, in bytes of the text.
+        /// The place, in bytes of the text.
         span: Range<usize>,
     },
     /// A quantity of another kind than expected.
@@ -73,7 +73,7 @@ pub enum UnitError {
         found: Dimension,
         /// The expected kind.
         expected: Kind,
-        /// Where the unit is, in bytes of the text.
+        /// The place of the unit, in bytes of the text.
         span: Range<usize>,
     },
 }

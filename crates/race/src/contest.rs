@@ -6,7 +6,7 @@ use std::process::Command;
 use crate::problem::is_yawed;
 use crate::wedge_case::WedgeCase;
 
-/// Where the programs of the race are.
+/// The paths of the programs of the race.
 #[derive(Clone, Debug)]
 pub struct Tools {
     /// This program.
@@ -25,7 +25,7 @@ pub struct Tools {
     pub octave: Option<(PathBuf, PathBuf)>,
 }
 
-/// Which program runs a solver.
+/// The program that runs a solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Program {
     /// Compiled in.

@@ -27,7 +27,7 @@ pub struct Outcome {
     pub factorizations: u64,
     /// Rows reached, the start included.
     pub rows: usize,
-    /// Why it did not come to the end; empty: it did.
+    /// The reason if it did not come to the end, else empty.
     pub failure: String,
 }
 

@@ -41,7 +41,7 @@ pub struct Results {
 pub struct Race {
     /// The solvers, in words.
     pub solvers: String,
-    /// Where and when it was measured.
+    /// Date, machine and settings of the measurement.
     pub measured: MeasuredOn,
     /// Further remarks on these numbers; may be empty.
     pub remarks: Vec<String>,
@@ -57,7 +57,7 @@ pub struct Race {
     pub others: Vec<(String, MarkdownTable)>,
 }
 
-/// Where and when something was measured.
+/// Date, machine and settings of a measurement.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MeasuredOn {
     /// The date, such as 2026-11-23.
@@ -142,7 +142,7 @@ impl Results {
 }
 
 impl Race {
-    /// Where, when and how it was measured.
+    /// Returns date, machine and settings of the measurement, with the remarks.
     fn heading(&self) -> String {
         let MeasuredOn {
             date,

@@ -17,7 +17,7 @@ use wedge::{Wedge, thesis};
 /// Toe of the planar wedge: out, as in the thesis's runs, rad.
 const TOE: f64 = 0.2 * std::f64::consts::PI / 180.0;
 
-/// Where the mass of the stick test comes to rest for ever, m: from 0.2 m, each half cycle loses 2 μmg/k.
+/// The place at which the mass of the stick test stays, m: from 0.2 m, each half cycle loses 2 μmg/k.
 pub const STICK_REST: f64 = -0.00601;
 
 /// Height by which the wedge starts lower from one start of a case to the next, m.
@@ -75,7 +75,7 @@ pub enum ProblemError {
     Build {
         /// Its name.
         name: String,
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }

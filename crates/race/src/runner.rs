@@ -47,7 +47,7 @@ pub struct RacePlan {
     pub tolerances: Vec<String>,
     /// CPU time of a run, s.
     pub limit: f64,
-    /// Where runs are kept: what is there already is not run again.
+    /// The folder of stored runs; these are not run again.
     pub folder: PathBuf,
     /// Simulated time of the solvers that do not get the whole of it, s; none: what each of them is given.
     pub short: Option<f64>,

@@ -138,7 +138,7 @@ impl Numbers {
 /// The change of a type's loop in the half-truck: SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
-    /// Which type.
+    /// The type.
     pub wedges: WedgeType,
     /// Energy per cycle of the element alone under the input's full stroke, J; type 6.9 with the wedge's rise
     /// in its pocket.
@@ -167,7 +167,7 @@ pub struct AgreementGroup {
     pub models: Vec<Numbers>,
     /// The changes of the types' loops.
     pub strokes: Vec<Stroke>,
-    /// Where they do not agree, and why.
+    /// The differences, with their reasons.
     pub remarks: Vec<String>,
 }
 

@@ -63,11 +63,11 @@ pub struct Difference {
     pub column: String,
     /// Its unit as shown; empty for pure numbers.
     pub unit: &'static str,
-    /// Which result, by its place among the entries.
+    /// The result, by its place among the entries.
     pub result: usize,
     /// The largest difference in size, this result less the first.
     pub largest: f64,
-    /// When it is the largest, s.
+    /// Its time, s.
     pub time: f64,
     /// Root mean square of the difference.
     pub root_mean_square: f64,
@@ -97,11 +97,11 @@ impl Difference {
 /// Friction energy per cycle, from the summaries, in the first result's units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Energy {
-    /// Where: `side_frame` or `bolster`.
+    /// The body: `side_frame` or `bolster`.
     pub place: String,
     /// Its unit as shown.
     pub unit: &'static str,
-    /// Which result, by its place among the entries.
+    /// The result, by its place among the entries.
     pub result: usize,
     /// Of this result.
     pub value: f64,

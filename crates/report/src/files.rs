@@ -32,7 +32,7 @@ pub enum FileError {
         /// The files that are in the way.
         files: Vec<PathBuf>,
     },
-    /// Where a folder should be, there is something else.
+    /// Something else is in the place of a folder.
     #[error("`{}` is not a folder, so `{}` cannot be written", .path.display(), .folder.display())]
     #[diagnostic(help("choose another folder with --out"))]
     NotAFolder {
@@ -41,7 +41,7 @@ pub enum FileError {
         /// The folder that was wanted.
         folder: PathBuf,
     },
-    /// Where a file should be, there is a folder.
+    /// A folder is in the place of a file.
     #[error("`{}` is a folder; a file is to be written there", .path.display())]
     #[diagnostic(help("move it away, or choose another folder with --out"))]
     NotAFile {
@@ -54,7 +54,7 @@ pub enum FileError {
     Unwritable {
         /// The folder.
         folder: PathBuf,
-        /// Why.
+        /// The reason.
         reason: io::Error,
     },
     /// A file cannot be written.
@@ -66,7 +66,7 @@ pub enum FileError {
     Write {
         /// The file.
         file: PathBuf,
-        /// Why.
+        /// The reason.
         reason: io::Error,
     },
 }

@@ -72,9 +72,9 @@ struct Document<'d> {
     ramp_s: f64,
     length_unit: &'static str,
     threshold: f64,
-    /// Where hunting ends while the speed falls.
+    /// The speed at which hunting ends while the speed falls.
     falling: Outcome,
-    /// Where hunting begins while the speed rises.
+    /// The speed at which hunting begins while the speed rises.
     rising: Option<Outcome>,
     /// Critical speeds by linearization, by what friction does.
     linear_stuck: Option<f64>,

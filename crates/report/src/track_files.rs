@@ -68,7 +68,7 @@ impl MeasuredTrack {
 pub struct Largest {
     /// The offset, m.
     pub offset: f64,
-    /// Where, m.
+    /// The distance along the track, m.
     pub at: f64,
 }
 

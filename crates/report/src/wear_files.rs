@@ -31,7 +31,7 @@ pub const WORDS: &str = "wear.txt";
 /// All of them, but for those of counterfaces.
 pub const NAMES: [&str; 8] = [COURSE, POINTS, DEPTHS[0], DEPTHS[1], CASE, FIGURE, PICTURE, WORDS];
 
-/// Which numbers of the law were given by the user, not guessed.
+/// The numbers of the law that the user gave; the others are guesses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Given {
     /// The coefficient.

@@ -170,10 +170,10 @@ fn analytic_the_rule_for_the_stiffness_takes_required_statements_first() {
     );
 }
 
-/// Which statements of sticking and breaking out turn with friction of 0.5 at rest and 0.4 sliding, of those
-/// that the runs with toe out and without yaw decide. With variable damping stick-slip comes as the thesis
-/// tells; with constant damping the column then sticks too much of the time for a steady slip after the
-/// break-out.
+/// The statements of sticking and breaking out that change with friction of 0.5 at rest and 0.4 sliding, of
+/// those that the runs with toe out and without yaw decide. With variable damping stick-slip comes as the
+/// thesis tells; with constant damping the column then sticks too much of the time for a steady slip after
+/// the break-out.
 #[test]
 fn reproduction_statements_of_breaking_out_turn_with_friction_of_rest() {
     let rest = [

@@ -46,7 +46,7 @@ pub struct LinearOnTrack {
     pub slowest: f64,
 }
 
-/// Where the wheelset is in its section.
+/// The position of the wheelset in its section.
 struct Seen<S> {
     axes: [[S; 3]; 3],
     /// Shift at the height of the rails, height, m.

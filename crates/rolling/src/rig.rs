@@ -57,7 +57,7 @@ pub struct Setup {
     pub heading: f64,
 }
 
-/// Where a run begins, relative to the track.
+/// The start of a run, relative to the track.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RigStart {
     /// Distance along the track, m.

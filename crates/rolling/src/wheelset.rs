@@ -44,7 +44,7 @@ pub struct WheelsetBody {
     pub about_diameter: f64,
 }
 
-/// Where a wheelset is.
+/// The pose of a wheelset.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WheelsetPlace {
     /// Forward, to the left, up, m.

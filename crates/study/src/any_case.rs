@@ -247,7 +247,7 @@ impl AnyResult {
     }
 }
 
-/// Where a case comes from: all that is needed to make it, or a variant of it, again on another machine.
+/// The source of a case: all that is needed to make it, or a variant of it, again on another machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum CaseSource {
     /// The text of a case file: of a wedge, of a truck or of a car.
@@ -257,7 +257,7 @@ pub enum CaseSource {
         name: String,
         /// Its text.
         text: String,
-        /// Where the files that it names are looked for.
+        /// The folder of the files that it names.
         folder: PathBuf,
     },
     /// The name of a built-in half-truck.

@@ -1,5 +1,5 @@
-//! The verdict of the energy ledger on a run, in words: the same for runs of wedges and of half-trucks,
-//! studies and fits.
+//! The verdict of the energy ledger on a run, in words: the same for runs of wedges, trucks, cars,
+//! half-trucks and wheelsets, studies and fits.
 //!
 //! The measure and its limits are those of [`mechanics::energy_balance`].
 

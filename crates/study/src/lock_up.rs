@@ -175,7 +175,7 @@ impl MapAxis {
 /// An axis of a map with its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapRange {
-    /// Which.
+    /// The parameter.
     pub axis: MapAxis,
     /// Its ends, SI, increasing.
     pub ends: [f64; 2],
@@ -293,7 +293,7 @@ pub struct LockUpMap {
     pub values: [Vec<f64>; 2],
     /// Its points, the second axis changing fastest.
     pub cells: Vec<MapPoint>,
-    /// Why it was ended early, if it was: points whose rigs were not run have the closed form alone.
+    /// The reason if it was ended early: points whose rigs were not run have the closed form alone.
     pub interrupted: Option<String>,
 }
 

@@ -1,5 +1,5 @@
-//! Findings of implausible values in a run, in words: the same for runs of wedges and of half-trucks, studies
-//! and fits.
+//! Findings of implausible values in a run, in words: the same for runs of wedges, trucks, cars, half-trucks
+//! and wheelsets, studies and fits.
 //!
 //! The checks and their limits are those of [`mechanics::plausibility`].
 

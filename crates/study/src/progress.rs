@@ -1,5 +1,5 @@
-//! When a run hardly progresses, and what is said of it then: one rule for runs of wedges, half-trucks,
-//! studies, driven wedges and FMUs.
+//! The rule for runs that hardly progress, and its messages: one for runs of wedges, trucks, cars,
+//! half-trucks and wheelsets, studies, driven wedges and FMUs.
 //!
 //! **To come forward by [`ADVANCE`], a run may take [`SURE_ATTEMPTS`] attempted steps (accepted and
 //! rejected), and [`ATTEMPTS_A_SECOND`] more for each second of that way. Where [`INTERVALS`] output

@@ -73,7 +73,7 @@ pub struct Record {
     pub number: u64,
     /// The way in which it ended.
     pub status: Status,
-    /// Why it has no measures, or has failed; empty if it is complete.
+    /// The reason if it has no measures or has failed, else empty.
     pub reason: String,
     /// Its measures, SI; empty if it has none.
     pub measures: Measures,

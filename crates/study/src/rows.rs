@@ -1,4 +1,4 @@
-//! When rows of output are written.
+//! The output times of a run.
 
 use integrate::{Integrator, Problem};
 

@@ -52,7 +52,7 @@ pub enum RunError {
     /// A wheel has left its rail: the run ends there, with its results.
     #[error("{what}")]
     Derailed {
-        /// Which wheel, where, how.
+        /// The wheel, the place and the criterion.
         what: String,
     },
     /// A force is so large that it would tear the model apart.
@@ -84,7 +84,7 @@ pub enum RunError {
     /// The integrator cannot go on, or the run hardly progresses ([`progress`]).
     #[error("{reason}; contacts: {contacts}")]
     Step {
-        /// Why, with the state whose error is largest.
+        /// The reason, with the state whose error is largest.
         reason: String,
         /// Contact states at that time, in words.
         contacts: String,

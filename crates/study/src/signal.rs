@@ -123,7 +123,7 @@ impl LowPass {
 pub struct WindowValue {
     /// The value.
     pub value: f64,
-    /// Where the stretch begins.
+    /// The start of the stretch.
     pub start: f64,
     /// Its length.
     pub length: f64,

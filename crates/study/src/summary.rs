@@ -2,7 +2,7 @@
 //!
 //! Schema `wedgelab.summary/2`. Every dimensional number is a [`SummaryValue`] with its unit, in the case's
 //! output units; times are seconds. A reader should ignore keys that it does not know; the number after the
-//! slash grows when a key changes its meaning or goes.
+//! slash grows when a key changes its meaning or goes. A renamed key is read by its older name, too.
 
 use std::collections::BTreeMap;
 
@@ -107,9 +107,9 @@ pub struct Summary {
     pub units: Units,
     /// True if the run came to its end.
     pub complete: bool,
-    /// Why and when it stopped, if it did not.
+    /// Reason and time of the stop, if it is incomplete.
     pub stopped: Option<Stopped>,
-    /// Why its numbers are not to be used, although they are kept: its energy ledger does not close to 1e-2.
+    /// The reason for not using its numbers, which are kept: its energy ledger does not close to 1e-2.
     #[serde(default)]
     pub failed: Option<String>,
     /// Warnings about the numbers; empty for a sound run.
@@ -130,7 +130,7 @@ pub struct Summary {
     pub jam: Option<JamMargins>,
     /// The energy ledger at the end.
     pub ledger: LedgerSummary,
-    /// Where the energy of a cycle comes from and goes.
+    /// Sources and sinks of the energy of a cycle.
     #[serde(default)]
     pub energy: EnergySummary,
     /// Counters of the integrator.
@@ -171,12 +171,12 @@ impl Summary {
     }
 }
 
-/// Where and why a run stopped.
+/// Time and reason of the stop of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stopped {
     /// Time, s.
     pub time: f64,
-    /// Why.
+    /// The reason.
     pub reason: String,
     /// Contact states at that time, by face and corner.
     pub contacts: BTreeMap<String, String>,
@@ -185,7 +185,7 @@ pub struct Stopped {
 /// Averages over cycles and branches of the bolster's vertical motion.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Averages {
-    /// Why there are none; empty where there are.
+    /// The reason if there are none, else empty.
     pub missing: String,
     /// Number of whole cycles after the first half period.
     pub cycles: u32,

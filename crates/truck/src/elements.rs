@@ -88,7 +88,7 @@ pub(crate) struct Added {
     pub center_plate: Option<usize>,
 }
 
-/// Where a wedge stands in a model.
+/// The place of a wedge in a model.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum WedgePlace {
     Body {
@@ -109,7 +109,7 @@ impl Default for WedgePlace {
     }
 }
 
-/// Where a truck stands in a model.
+/// The place of a truck in a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mount {
     /// The numbers of its bodies there, in the order of [`WHEELSETS`] to [`CAR_BODY`] and the inboard halves
@@ -511,7 +511,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Where a side frame stands on both axles.
+    /// Adds the adapters of a side frame on both axles.
     fn adapters(&mut self, number: usize) {
         let parameters = self.parameters;
         let Some(wheelsets) = &parameters.wheelsets else {

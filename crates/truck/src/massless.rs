@@ -18,11 +18,11 @@ const NORMAL_LIMIT: f64 = 1e5 * POUND_FORCE;
 /// Friction by tanh is a damping of 1e4 lbf·s/in up to the limit, as in their elements without bristles,
 /// N·s/m.
 const LVB: f64 = 1e4 * POUND_PER_INCH;
-/// Where the warp of a truck meets its stop in these files, rad, and the stop's stiffness, N·m/rad.
+/// The warp of a truck at its stop in these files, rad, and the stop's stiffness, N·m/rad.
 const WARP_STOP: f64 = 0.030;
 const WARP_STOP_STIFFNESS: f64 = 6.4e7 * POUND_FORCE * INCH;
 
-/// Where a connection joins two bodies.
+/// The joint of two bodies by a connection.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Joint {
     /// Its point in the nominal layout, m.

@@ -30,8 +30,8 @@ pub struct RigidBody {
 pub struct Bolster {
     /// Its mass properties.
     pub body: RigidBody,
-    /// Which of x, y, z, roll, pitch, yaw are free; the others are held. If none is free, the motion is
-    /// prescribed.
+    /// The free coordinates among x, y, z, roll, pitch, yaw; the others are locked. If none is free, the
+    /// motion is prescribed.
     pub free: [bool; 6],
     /// The prescribed motion, about the center of gravity if no center is given.
     pub motion: NeighbourMotion,
@@ -198,7 +198,7 @@ pub struct Wedge {
     pub mass: f64,
     /// Moments of inertia about the center of gravity (roll, pitch, yaw), kg·m².
     pub inertia: [f64; 3],
-    /// Which of x, y, z, roll, pitch, yaw are free.
+    /// The free coordinates among x, y, z, roll, pitch, yaw.
     pub free: [bool; 6],
     /// Toe of its column, rad: out is positive.
     pub toe: f64,
@@ -251,8 +251,8 @@ pub enum Lading {
 pub struct CarBody {
     /// Its mass properties.
     pub body: RigidBody,
-    /// Which of x, y, z, roll, pitch, yaw are free; the others are held. Half a car on one truck falls over
-    /// in pitch.
+    /// The free coordinates among x, y, z, roll, pitch, yaw; the others are locked. Half a car on one truck
+    /// falls over in pitch.
     pub free: [bool; 6],
     /// Applied loads.
     pub applied: Applied,
@@ -311,7 +311,7 @@ pub enum SideBearing {
 /// A truck.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameters {
-    /// Where the control coils stand: on the bolster (constant) or on the side frames (variable).
+    /// The bodies on which the control coils stand: the bolster (constant) or the side frames (variable).
     pub damping: Damping,
     /// Gravity, m/s².
     pub gravity: f64,
@@ -336,7 +336,7 @@ pub struct Parameters {
     pub warp_spring: Option<Curve>,
     /// The load on the bolster, as a body of its own.
     pub car_body: Option<CarBody>,
-    /// Where a run starts.
+    /// The start of a run.
     pub start: Start,
     /// Height above the nominal layout at which a free bolster starts, with wedges and car body, m.
     pub lift: f64,

@@ -46,7 +46,7 @@ pub struct WedgePart {
     pub name: String,
     /// The number of its body in the truck.
     pub number: usize,
-    /// Which wedge it belongs to.
+    /// The wedge to which it belongs.
     pub wedge: usize,
     /// Offset of its center of gravity towards +y from that of the wedge, m.
     pub shift: f64,
@@ -203,7 +203,7 @@ fn half_coil(whole: &ControlCoil) -> ControlCoil {
     half
 }
 
-/// Where a split wedge is mounted: as [`WedgeMount`], with the bodies of both halves.
+/// The place of a split wedge in a model: as [`WedgeMount`], with the bodies of both halves.
 pub(crate) struct SplitMount<'n> {
     pub whole: WedgeMount<'n>,
     pub bodies: [usize; 2],

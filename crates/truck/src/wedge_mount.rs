@@ -20,8 +20,8 @@ use wedge::parameters::{Contact, ControlCoil as ThesisCoil, Damping, FaceFrictio
 use crate::elements::{Law, Role, Suspended, join};
 use crate::parameters::{ControlCoil, Wedge};
 
-/// Where a wedge is mounted in a model whose bodies are there, at rest in their nominal places. Its neighbors
-/// stand along the fixed axes.
+/// The place of a wedge in a model with all its bodies, at rest in their nominal places. Its neighbors stand
+/// along the fixed axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WedgeMount<'n> {
     /// Its name, with which those of its elements begin.
@@ -32,7 +32,7 @@ pub struct WedgeMount<'n> {
     pub side_frame: usize,
     /// The number of the body with the pocket.
     pub bolster: usize,
-    /// Where its coil stands: in the pocket (constant) or on the body with the column (variable).
+    /// The place of its coil: in the pocket (constant) or on the body with the column (variable).
     pub damping: Damping,
     /// +1: the column lies ahead of it (+x), -1: behind.
     pub end: f64,
@@ -83,7 +83,7 @@ pub fn add_wedge(model: &mut Model, wedge: &Wedge, at: &WedgeMount<'_>) -> Wedge
 
 /// The position of a wedge, or of a half of one, in its pocket.
 pub(crate) struct Lies {
-    /// Where a positive angle across pushes it: +1 to +y, -1 to -y.
+    /// The direction in which a positive angle across pushes it: +1 to +y, -1 to -y.
     pub pushed: f64,
     /// Clearances of its pocket's sides towards -y and +y, m.
     pub sides: [f64; 2],

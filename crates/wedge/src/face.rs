@@ -73,7 +73,7 @@ pub type FrictionMap = Vec<Vec<f64>>;
 pub struct FaceProfile {
     /// Depth over the distance from the middle of the face, up or to the left, m.
     pub profile: SurfaceProfile,
-    /// Which way the profile runs.
+    /// The direction of the profile.
     pub direction: FaceDirection,
 }
 

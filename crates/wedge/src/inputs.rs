@@ -36,7 +36,7 @@ pub struct Neighbours {
     pub bolster: NeighbourState,
 }
 
-/// Where the coil's spring force comes from.
+/// The source of the coil's spring force.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CoilInput {

@@ -15,7 +15,7 @@ use crate::face::{FaceProperties, Rectangle};
 /// Standard gravity, m/s².
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
-/// Where the control coil stands.
+/// The body on which the control coil stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Damping {
@@ -51,7 +51,7 @@ pub struct WedgeBody {
     pub inertia: [f64; 3],
     /// Center of gravity from the wedge frame's origin, m.
     pub center_of_gravity: [f64; 3],
-    /// Which of x, y, z, roll, pitch, yaw are free.
+    /// The free coordinates among x, y, z, roll, pitch, yaw.
     pub free: [bool; 6],
 }
 
@@ -122,7 +122,7 @@ impl NeighbourMotion {
     }
 }
 
-/// Where a run starts.
+/// The start of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Start {
@@ -137,7 +137,7 @@ pub enum Start {
 /// A stand-alone wedge between side frame and bolster.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Parameters {
-    /// Where the coil stands.
+    /// The body on which the coil stands.
     pub damping: Damping,
     /// The wedge.
     pub wedge: WedgeBody,
@@ -166,7 +166,7 @@ pub struct Parameters {
     pub bolster: NeighbourMotion,
     /// Gravity, m/s².
     pub gravity: f64,
-    /// Where the run starts.
+    /// The start of the run.
     pub start: Start,
 }
 

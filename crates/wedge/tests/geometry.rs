@@ -1,4 +1,4 @@
-//! Where the corners are at the start, and the forces of the position of rest: closed forms.
+//! Positions of the corners at the start, and the forces of the position of rest: closed forms.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod common;

@@ -27,7 +27,7 @@ pub(crate) type Logger2 =
 /// The importer's logger in FMI 3.0.
 pub(crate) type Logger3 = unsafe extern "C" fn(*mut c_void, Status, *const c_char, *const c_char);
 
-/// Where messages go.
+/// The destination of messages.
 #[derive(Clone, Copy)]
 pub(crate) enum Logger {
     /// Nowhere.
@@ -46,7 +46,7 @@ pub(crate) struct Component {
     pub name: CString,
     /// True if anything is logged.
     pub logging: bool,
-    /// Which categories are logged.
+    /// The categories that are logged.
     pub categories: [bool; Category::ALL.len()],
     /// The question that a call could not answer, to be logged.
     unanswered: Option<String>,

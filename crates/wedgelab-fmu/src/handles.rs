@@ -1,4 +1,4 @@
-//! Which pointers that were given to importers are alive: what was freed, or never was one of ours, is
+//! The pointers given to importers that are alive: one that was freed, or never was one of ours, is
 //! recognized before it is used.
 
 use std::collections::BTreeMap;

@@ -2,7 +2,7 @@
 //! of both.
 //!
 //! Nothing is computed here: each function turns pointers into slices, calls [`fmi::instance::Instance`], and
-//! turns what comes out into a status and messages for the importer's log. Null pointers, unknown references
+//! turns the result into a status and messages for the importer's log. Null pointers, unknown references
 //! and calls out of order are errors; a panic does not leave the library: it becomes an error, and the
 //! instance refuses everything after it. Whatever is refused (`Error`, `Discard`, an instance that cannot be
 //! made) is sent to the importer's logger with the name of the function, if there is a logger, also while

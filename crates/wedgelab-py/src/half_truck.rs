@@ -19,7 +19,7 @@ use crate::nucars::load_error;
 use crate::outcome::{NativeResult, Origin, from_saved};
 use crate::run::{Progress, run_one};
 
-/// Where a case comes from, and what is needed to make it again elsewhere.
+/// The source of a case, with all that is needed to make it again elsewhere.
 #[derive(Clone, Serialize, Deserialize)]
 enum Source {
     BuiltIn {

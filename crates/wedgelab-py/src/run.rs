@@ -23,7 +23,7 @@ pub struct Progress {
     interruptible: bool,
     steps: u32,
     asked: Instant,
-    /// Why the run must end.
+    /// The reason for ending the run.
     error: Option<PyErr>,
 }
 
@@ -96,7 +96,7 @@ impl Failure {
     }
 }
 
-/// Why a run is incomplete that the caller stopped.
+/// The reason in the summary of a run that the caller stopped.
 pub const STOPPED: &str = "it was stopped from outside";
 
 /// Runs a case until its end, or until it is told to stop; panics become failures.

@@ -1,8 +1,8 @@
 //! Stops commands at a signal: SIGINT (Ctrl-C), SIGTERM or SIGHUP, on Windows Ctrl-C.
 //!
 //! A command that writes calls [`listen`] before it does anything. From then on a signal ends the program at
-//! once, without leaving a hidden folder, unless the command has said by [`stops`] that it ends by itself
-//! what it is doing when [`wanted`] says so. A second signal always ends the program at once. The exit code
+//! once, without leaving a hidden folder, unless the command has said by [`stops`] that it ends
+//! its work by itself when [`wanted`] says so. A second signal always ends the program at once. The exit code
 //! is 128 and the signal's number, as shells have it.
 //!
 //! Signals come by tokio, which is there for the explorer, knows which signal came, and works on Windows too.
@@ -17,7 +17,7 @@ use study::summary::Stopped;
 
 use crate::failure::say;
 
-/// Why a run is incomplete that was stopped.
+/// The reason in the summary of an interrupted run.
 pub const REASON: &str = "interrupted";
 
 /// The reaction of a command to a signal.

@@ -22,7 +22,7 @@ use crate::progress::Progress;
 
 /// The schema's name and version.
 const SCHEMA: &str = "wedgelab.run_state/1";
-/// Why a run stops that is saved on its way.
+/// The reason in the summary of a run that is stopped and saved.
 const REASON: &str = "told to, and saved";
 
 /// Requests to a run that is made in parts.
@@ -34,7 +34,7 @@ pub struct Parts<'a> {
     pub from: Option<&'a Path>,
     /// The file to save the state in where the run stops.
     pub save: Option<&'a Path>,
-    /// When to stop, s.
+    /// The time of the stop, s.
     pub until: Option<f64>,
     /// True if a saved state may be overwritten.
     pub force: bool,

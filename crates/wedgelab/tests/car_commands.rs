@@ -179,7 +179,7 @@ fn limits_a_car_on_rollers_hunts_once_disturbed() {
     assert!(table.contains("\nfalling,") && table.contains("\nrising,"));
 }
 
-/// Where the energy of a run went: told, as JSON, and written with its figure.
+/// Sources and sinks of a run's energy: printed, as JSON, and written with its figure.
 #[test]
 fn energy_of_a_run_is_reported_and_written() {
     let folder = tempfile::tempdir().unwrap();

@@ -60,7 +60,7 @@ pub enum HertzError {
     /// A constant of the material is not admissible.
     #[error("{what} is {value}; it must be {must}")]
     Material {
-        /// Which constant.
+        /// The constant's name.
         what: &'static str,
         /// Its value.
         value: f64,

@@ -27,7 +27,7 @@ const WITHIN: f64 = 1e-10;
 /// Distance to its outer edge within which a rim stands on its edge, m.
 const EDGE: f64 = 1e-3;
 
-/// Where a wheelset is and how it moves, in the frame of CONTACT.
+/// Position and velocity of a wheelset, in the frame of CONTACT.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attitude {
     /// Lateral place of the middle of the axle, m: to the right.
@@ -42,7 +42,7 @@ pub struct Attitude {
     pub pitch_rate: f64,
 }
 
-/// Where a wheel stands.
+/// The part of a wheel on which it stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Seat {
     /// On its tread or on the face of its flange.
@@ -98,7 +98,7 @@ pub struct LoadedPatch {
 /// A loaded wheel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadedWheel {
-    /// Where it stands.
+    /// The part of the wheel on which it stands.
     pub seat: Seat,
     /// Lateral place of the wheel's center on the track, m: to the right.
     pub center: f64,
@@ -116,7 +116,7 @@ pub enum LoadError {
     /// A number is not admissible.
     #[error("{what} is {value}; it must be {must}")]
     Number {
-        /// Which one.
+        /// The number's name.
         what: &'static str,
         /// Its value, in SI units.
         value: f64,

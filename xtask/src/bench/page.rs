@@ -1,4 +1,4 @@
-//! The page of the benchmarks, `docs/benchmarks.md`: text that stays, around what the programs print. Nobody
+//! The page of the benchmarks, `docs/benchmarks.md`: fixed text around the output of the programs. Nobody
 //! edits the page.
 
 use std::fmt::Write;

@@ -9,7 +9,7 @@ use crate::debian;
 use crate::shell::{self, Workspace};
 use crate::venv;
 
-/// Where the tests in Python and their requirements lie.
+/// The folder of the tests in Python and their requirements.
 const TESTS: &str = "crates/wedgelab-fmu/tests/python";
 
 /// Builds program and library, installs `gcc` and `valgrind` if they are missing, makes the environment if it

@@ -1,5 +1,5 @@
-//! The tests that need Octave and SciPy. What is missing is installed: Octave with `apt-get`, SciPy into
-//! `target/tools`.
+//! The tests that need Octave and SciPy. If missing, Octave is installed with `apt-get`, SciPy
+//! into `target/tools`.
 
 use std::env;
 use std::process::Command;

@@ -1,5 +1,5 @@
 //! The tests of the race and of the benchmarks; the race's driver in C compiles, and agrees with our own
-//! integrator. What is missing (SUNDIALS) is installed.
+//! integrator. SUNDIALS is installed if it is missing.
 
 use super::Outcome;
 use crate::builds::{self, APART};

@@ -1,5 +1,5 @@
 //! The report page's interactive part and the explorer: types, lints, unit tests; and the pages in a real
-//! browser. What is missing is installed: packages of the lock file with npm, Chromium with `apt-get`.
+//! browser. If missing, packages of the lock file are installed with npm, Chromium with `apt-get`.
 
 use std::env;
 use std::process::Command;

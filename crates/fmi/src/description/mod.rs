@@ -22,7 +22,7 @@ pub enum Version {
     Three,
 }
 
-/// Which element an FMU holds.
+/// The element that an FMU holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FmuModel {
     /// The wedge with mass.

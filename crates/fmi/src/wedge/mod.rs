@@ -61,9 +61,9 @@ pub enum WedgeState {
         states: Vec<f64>,
         /// The contact states.
         modes: Vec<u8>,
-        /// Where the neighbours are.
+        /// The poses of the neighbours.
         neighbours: Neighbours,
-        /// Where they were at the start.
+        /// Their poses at the start.
         start: Neighbours,
         /// The coil now.
         coil: CoilInput,

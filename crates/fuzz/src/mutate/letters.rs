@@ -1,4 +1,4 @@
-//! Mutations of letters and of how they are encoded.
+//! Mutations of letters and of their encoding.
 
 use super::{Random, copies, insert};
 

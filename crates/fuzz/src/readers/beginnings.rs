@@ -1,4 +1,4 @@
-//! Runs that begin: what is set over a case, and a few steps from there.
+//! Runs that begin: overrides of a case, and a few steps from there.
 
 use study::case::builtin;
 use study::run::Run;

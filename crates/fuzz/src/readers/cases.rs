@@ -1,4 +1,4 @@
-//! Cases: files, values as Python gives them, and what is set over a built-in case.
+//! Cases: files, values as Python gives them, and overrides of a built-in case.
 
 use study::case::{Case, CaseError, builtin};
 

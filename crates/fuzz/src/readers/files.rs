@@ -1,4 +1,4 @@
-//! Files of any kind: what they seem to be, before they are read.
+//! Files of any kind: the recognition of their kind, before they are read.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! The readers: each with a name, a corpus, a dictionary, and what it must keep to.
+//! The readers: each with a name, a corpus, a dictionary, and its rules.
 
 mod beginnings;
 mod broken;

@@ -1,4 +1,4 @@
-//! Which state bounds the steps.
+//! The state that bounds the steps.
 
 use super::Integrator;
 use crate::methods::tableau::Family;

@@ -11,7 +11,7 @@ use super::contact_state::ActiveSet;
 use crate::discontinuity::DiscontinuityFunctions;
 use crate::problem::{Problem, ProblemStructure};
 
-/// Where a Jacobian matrix was evaluated.
+/// The linearization point of a Jacobian matrix.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct LinearizationPoint {
     pub time: f64,

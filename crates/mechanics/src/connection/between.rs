@@ -31,10 +31,10 @@ use crate::vector::{Matrix, Vector};
 /// The coordinates of both bodies, first those of body A.
 pub(super) type Both = [f64; 12];
 
-/// Where a connection between markers acts.
+/// Markers and relative coordinates of a connection between markers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Between<const D: usize> {
-    /// Which of the relative coordinates (0 to 5).
+    /// The relative coordinates (0 to 5).
     coordinates: [usize; D],
     ends: [Reference; 2],
 }

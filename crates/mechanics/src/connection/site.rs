@@ -98,7 +98,7 @@ pub(crate) struct ConnectionEnd {
     pub sign: f64,
 }
 
-/// Where an element with `D` coordinates and `P` powers sits.
+/// The place of an element with `D` coordinates and `P` powers in a system.
 #[derive(Clone, Debug)]
 pub(crate) struct Site<const D: usize, const P: usize> {
     /// Number of its connection, and of its first component there.
@@ -119,7 +119,7 @@ pub(crate) struct Site<const D: usize, const P: usize> {
     pub works: [Option<usize>; 2],
     /// True if one end is prescribed and moves.
     pub prescribed: bool,
-    /// Where it acts if it is one between markers; else its rows say so.
+    /// Its markers and coordinates if it acts between markers; else its rows hold them.
     pub between: Option<Box<Between<D>>>,
     /// The numbers of the free coordinates at both ends.
     pub slots: [[Option<usize>; 6]; 2],

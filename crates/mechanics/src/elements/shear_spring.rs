@@ -30,7 +30,7 @@ use crate::vector::Vector;
 /// The share of the preload below which shear and damping fade.
 const FADING: f64 = 0.05;
 
-/// Where a coil goes solid.
+/// The solid height of a coil.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solid {
     /// The displacement along z at which it does, m: negative.
@@ -52,7 +52,7 @@ pub struct ShearSpring {
     pub shear_stiffness: f64,
     /// Damping in all directions, N·s/m.
     pub damping: f64,
-    /// Where it goes solid, if it does.
+    /// Its solid height, if it has one.
     pub solid: Option<Solid>,
 }
 

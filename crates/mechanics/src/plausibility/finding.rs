@@ -11,7 +11,7 @@ use super::{
 use crate::body::COORDINATES;
 use crate::system::System;
 
-/// Where in a system something is found; numbers are those of [`System`]'s lists.
+/// The place of a finding in a system; numbers are those of [`System`]'s lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
     /// A body.
@@ -163,9 +163,9 @@ impl FindingKind {
 pub struct PlausibilityFinding {
     /// Its kind.
     pub kind: FindingKind,
-    /// Where.
+    /// The place.
     pub location: Location,
-    /// When the value was worst, s; `None` for what does not depend on time.
+    /// The time of the worst value, s; `None` if it does not depend on time.
     pub time: Option<f64>,
     /// The first output time at which the limit was exceeded, s.
     pub since: Option<f64>,

@@ -160,7 +160,7 @@ struct FrameState {
 /// A translation of a frame that moves.
 #[derive(Clone, Copy, Debug)]
 struct Move {
-    /// Which coordinate.
+    /// The coordinate (0 to 5).
     coordinate: usize,
     /// Its axis, fixed axes.
     axis: Vector<f64>,

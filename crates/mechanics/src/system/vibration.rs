@@ -12,8 +12,8 @@ use thiserror::Error;
 use super::System;
 use crate::connection::{FrictionRule, FrictionRules};
 
-/// Which closed connections with friction stick in a vibration; the others have no friction. Contact points
-/// follow their law and state: bristles at rest stick, tanh has no stiffness.
+/// The closed connections with friction that stick in a vibration; the others have no friction. Contact
+/// points follow their law and state: bristles at rest stick, tanh has no stiffness.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Held {
     /// All: small vibrations about a state of rest.

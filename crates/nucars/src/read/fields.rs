@@ -10,7 +10,7 @@ use crate::tree::Dof;
 #[derive(Clone, Copy, Debug)]
 pub struct Stop;
 
-/// Where a record that goes on in the next line would begin a new one.
+/// The point at which a record that goes on in the next line would begin a new one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wrap {
     /// At a number followed by a name in quotation marks.

@@ -42,7 +42,7 @@ pub enum DataRequest {
     Equilibrium,
     /// `\DOF ...`: motions of and forces on bodies.
     Dofs {
-        /// Which quantity.
+        /// The quantity.
         quantity: DofQuantity,
         /// Number of all degrees of freedom.
         count: Option<Spanned<u32>>,
@@ -51,7 +51,7 @@ pub enum DataRequest {
     },
     /// `\CONNECTION FORCE`, `STROKE`, `VELOCITY`.
     Components {
-        /// Which quantity.
+        /// The quantity.
         quantity: ElementQuantity,
         /// Number of components.
         count: Option<Spanned<u32>>,
@@ -145,7 +145,7 @@ impl ElementQuantity {
 pub struct BodyDofs {
     /// The body.
     pub body: Spanned<u32>,
-    /// Which of them.
+    /// The degrees of freedom.
     pub dofs: Vec<Spanned<Dof>>,
 }
 

@@ -50,7 +50,7 @@ pub struct Characteristic {
     pub span: At,
 }
 
-/// Which way the column's face of a two-dimensional wedge leans.
+/// The direction in which the column's face of a two-dimensional wedge leans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Toe {
     /// `.T.`: the gap opens downwards.

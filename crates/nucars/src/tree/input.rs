@@ -92,7 +92,7 @@ pub struct Segment {
     pub number: Spanned<u32>,
     /// Its shape.
     pub shape: Spanned<HistoryShape>,
-    /// Where it ends, s or ft.
+    /// Its end, s or ft.
     pub end: Spanned<f64>,
     /// The base line at its start and its end, in or rad.
     pub base: [Spanned<f64>; 2],

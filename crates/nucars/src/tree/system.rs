@@ -203,7 +203,7 @@ pub struct Connection {
     pub id: Spanned<u32>,
     /// Its name; not unique.
     pub name: Spanned<String>,
-    /// Where the type stands.
+    /// The place of the type in the file.
     pub kind: At,
     /// The body A; 0 is the ground. Strokes are A's displacement less B's.
     pub body_a: Spanned<u32>,

@@ -56,7 +56,7 @@ pub enum BuildError {
     Function {
         /// Its number.
         number: u32,
-        /// Why.
+        /// The reason.
         error: CurveError,
     },
     /// Something needs a speed along the track.

@@ -11,9 +11,9 @@ pub struct Structure {
     pub internal_pairs: Vec<Vec<usize>>,
     /// Number of quadratures.
     pub quadratures: usize,
-    /// Which quadrature depends on which body.
+    /// Pairs of a quadrature and a body on which it depends.
     pub quadrature_bodies: Vec<(usize, usize)>,
-    /// Which quadrature depends on which pair of internal states.
+    /// Pairs of a quadrature and a pair of internal states on which it depends.
     pub quadrature_pairs: Vec<(usize, usize)>,
 }
 

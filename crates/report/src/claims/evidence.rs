@@ -26,7 +26,7 @@ pub enum Toe {
     In,
 }
 
-/// Which of the twelve runs: damping, toe, yaw.
+/// The key of one of the twelve runs: damping, toe, yaw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RunId {
     /// True if the damping is constant; variable otherwise.
@@ -413,7 +413,7 @@ pub struct ClaimFinding {
     pub verdict: ClaimVerdict,
     /// The values that it rests on.
     pub values: Vec<NotedValue>,
-    /// Why it cannot be decided; empty otherwise.
+    /// The reason if it cannot be decided, else empty.
     pub undecided: String,
 }
 

@@ -53,7 +53,7 @@ use crate::summary::write_json;
 /// Version of the structure of [`ClaimRow`], for files.
 pub const SCHEMA: &str = "wedgelab.claims/1";
 
-/// Where a claim belongs.
+/// The group to which a claim belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ClaimGroup {
@@ -101,9 +101,9 @@ impl ClaimGroup {
 pub struct Claim {
     /// A short name that stays, such as `5.1-ringing-about-zero`.
     pub id: &'static str,
-    /// Where it belongs.
+    /// The group to which it belongs.
     pub group: ClaimGroup,
-    /// Where it stands in the thesis.
+    /// Its place in the thesis.
     pub place: &'static str,
     /// The statement in our words.
     pub statement: &'static str,
@@ -113,7 +113,7 @@ pub struct Claim {
     pub code: &'static str,
     /// Evaluates the predicate.
     pub evaluate: fn(&Evidence<'_>) -> ClaimFinding,
-    /// Why it does not hold in the thesis's runs as they come out here; `None` where it does.
+    /// The reason if it does not hold in the thesis's runs as computed here; `None` if it does.
     pub why_not: Option<&'static str>,
 }
 
@@ -136,7 +136,7 @@ pub struct ClaimRow {
     pub verdict: ClaimVerdict,
     /// The values found, in the runs' units.
     pub values: Vec<ShownValue>,
-    /// Why it does not hold or cannot be decided; empty where it holds.
+    /// The reason if it does not hold or cannot be decided, else empty.
     pub note: String,
 }
 

@@ -1,4 +1,4 @@
-//! Which columns are compared.
+//! The choice of the columns to compare.
 
 use quantity::nearest;
 

@@ -56,7 +56,7 @@ const LINE: f64 = 16.0;
 /// Pieces that a curved edge is drawn with: pictures know straight lines only.
 const PIECES: u32 = 24;
 
-/// Where a node stands: left and upper edge, and height, pixels.
+/// The place of a node: left and upper edge, and height, pixels.
 #[derive(Clone, Copy, Debug, Default)]
 struct Place {
     x: f64,

@@ -97,7 +97,7 @@ pub struct PlotCurve {
 /// A short text at a point, such as the number of a phase.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mark {
-    /// Where, in the units of the axes.
+    /// The place, in the units of the axes.
     pub at: (f64, f64),
     /// The text.
     pub text: String,

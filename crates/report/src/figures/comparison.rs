@@ -33,7 +33,7 @@ struct Quantity {
     loops: Option<[&'static str; 4]>,
     /// True if it is drawn with constant damping too.
     constant: bool,
-    /// Which value of eq. 5-1 is drawn with it.
+    /// The value of eq. 5-1 that is drawn with it.
     equation: Option<usize>,
 }
 
@@ -89,7 +89,7 @@ const QUANTITIES: [Quantity; 4] = [
 
 /// The stand-alone wedge's curves with yaw and variable damping begin with the thesis's fifth row.
 const FIRST_ROW: [f64; 4] = [0.0, 0.04, 0.0, 0.0];
-/// Where the thesis's curves of the whole run begin, s.
+/// The start of the thesis's curves of the whole run, s.
 const START: [f64; 4] = [0.0, 0.0, 0.5, 0.5];
 
 /// Returns the style of the curves of a type.

@@ -103,9 +103,9 @@ const QUANTITIES: [Quantity; 7] = [
 
 /// Time windows of a group of runs, s.
 pub(super) struct Windows {
-    /// Where the thesis's curves of the whole run begin.
+    /// The start of the thesis's curves of the whole run.
     start: f64,
-    /// Where those of the moments begin.
+    /// The start of those of the moments.
     moments_start: f64,
     pub(super) zooms: &'static [(f64, f64)],
     /// The thesis's piece of the loop.

@@ -28,9 +28,9 @@ pub struct WorstRun {
     pub regime: usize,
     /// The run, with the motions of its bodies.
     pub run: CarRun,
-    /// Where its files are, from the page's folder.
+    /// The folder of its files, from the page's folder.
     pub folder: String,
-    /// When the worst begins, s, and what it is.
+    /// The start of the worst, s, and its name.
     pub worst: Option<(f64, String)>,
 }
 

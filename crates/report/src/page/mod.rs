@@ -79,7 +79,7 @@ pub struct Contents<'c> {
     pub beyond: &'c [CaseOutcome],
     /// The thesis's statements and what was found.
     pub claims: &'c Claims,
-    /// Where they hold over what the thesis leaves open, if points of that were run.
+    /// The parts of the space of what the thesis leaves open in which they hold, if points of it were run.
     pub sensitivity: Option<&'c Sensitivity>,
     /// The figures.
     pub sections: &'c [PageSection],

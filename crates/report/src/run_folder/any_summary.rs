@@ -57,7 +57,7 @@ pub struct Ledger<'s> {
     pub entries: &'s BTreeMap<String, SummaryValue>,
     /// Largest residual at any output time.
     pub largest_residual: &'s SummaryValue,
-    /// When that is first reached, s.
+    /// The first output time with this residual, s.
     pub largest_residual_time: f64,
 }
 

@@ -63,7 +63,7 @@ pub struct RunFolder {
     pub notes: Vec<String>,
 }
 
-/// Where a run's 3D view and plots come from.
+/// The source of a run's 3D view and plots.
 #[derive(Clone, Debug)]
 pub enum Seen {
     /// From its table and case.

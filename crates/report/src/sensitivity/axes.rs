@@ -22,7 +22,7 @@ pub struct FigureAxis {
     kind: Kind,
     /// Its ends, lbf or lbf·in/s.
     ends: [f64; 2],
-    /// Which runs are drawn.
+    /// The condition for drawing a run.
     draws: fn(RunId) -> bool,
 }
 

@@ -52,9 +52,9 @@ pub enum KeptError {
         "the points kept before are whole; look for space and rights, or choose another folder with --out"
     ))]
     File {
-        /// Which.
+        /// The file.
         file: PathBuf,
-        /// Why.
+        /// The reason.
         reason: io::Error,
     },
     /// The folder holds points of another space, of other statements or of another version.

@@ -69,7 +69,7 @@ impl Extent {
     }
 }
 
-/// Where a statement holds among some points.
+/// The number of points at which a statement holds, among those that decide it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally {
     /// Points that decide it.
@@ -119,12 +119,12 @@ pub struct OfFriction {
     pub only_without: usize,
 }
 
-/// Where a statement holds.
+/// The part of the space in which a statement holds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Statement {
     /// [`Claim::id`](crate::claims::Claim::id).
     pub id: &'static str,
-    /// Where it belongs.
+    /// The group to which it belongs.
     pub group: ClaimGroup,
     /// The part of the space in which it holds.
     pub extent: Extent,
@@ -139,7 +139,7 @@ pub struct Statement {
     pub frictions: Vec<UnderFriction>,
 }
 
-/// Where the runs stay within an axis of the thesis's figures.
+/// The part of the space in which the runs stay within an axis of the thesis's figures.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WithinAxis {
     /// The axis.
@@ -164,7 +164,7 @@ pub struct ParameterShown {
     pub range: String,
     /// The settings that the cases take.
     pub decided: &'static str,
-    /// Why it is open, and why this range.
+    /// The reasons for leaving it open and for this range.
     pub reason: &'static str,
     /// Number of statements that it decides.
     pub statements: usize,

@@ -10,7 +10,7 @@ use quantity::Number;
 use serde::Serialize;
 use study::design::{Factor, Levels, Sobol, Value};
 
-/// Which Sobol' sequence.
+/// The seed of the shift of the Sobol' sequence.
 const SEED: u64 = 1;
 /// Of so many points of the space one is run again with each other friction.
 const OTHER_FRICTION: u64 = 8;
@@ -18,7 +18,7 @@ const OTHER_FRICTION: u64 = 8;
 const LADDER: [f64; 13] = [
     2.5e4, 3.7e4, 5.4e4, 7.9e4, 1.16e5, 1.7e5, 2.5e5, 3.7e5, 5.4e5, 7.9e5, 1.16e6, 1.7e6, 2.5e6,
 ];
-/// Where the stiffness is in the list of parameters.
+/// The place of the stiffness in the list of parameters.
 pub(super) const STIFFNESS: usize = 0;
 /// Its key.
 const STIFFNESS_KEY: &str = "contact.stiffness";
@@ -34,7 +34,7 @@ pub struct OpenParameter {
     pub labels: &'static [&'static str],
     /// The settings that the cases take.
     pub decided: &'static str,
-    /// Why the range is what it is.
+    /// The reason for the range.
     pub reason: &'static str,
 }
 
@@ -234,7 +234,7 @@ pub const FRICTIONS: [OtherFriction; 3] = [
     },
 ];
 
-/// Which point.
+/// The place of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PointPlace {
     /// All as decided.

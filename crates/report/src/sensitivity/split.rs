@@ -1,4 +1,4 @@
-//! Which parameter decides.
+//! The parameter that decides.
 //!
 //! Points are divided in two by one parameter: a range at a quarter, the half or three quarters of it,
 //! choices one against the others. With shares p₁, p₂ of the points on the two sides, shares s₁, s₂ of them
@@ -27,7 +27,7 @@ const CHANCE: f64 = 12.0;
 /// A side of a cut.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Side {
-    /// Which points: `below 2.5e5 lbf/in`, `through the seat`.
+    /// The name of the points: `below 2.5e5 lbf/in`, `through the seat`.
     pub name: String,
     /// Points of it that decide the statement.
     pub decided: usize,

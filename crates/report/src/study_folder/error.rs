@@ -54,7 +54,7 @@ pub enum StudyFolderError {
     Unreadable {
         /// The file.
         file: PathBuf,
-        /// Why.
+        /// The reason.
         reason: io::Error,
     },
     /// A part with records of another study.
@@ -89,7 +89,7 @@ pub enum StudyFolderError {
     Append {
         /// The file.
         file: PathBuf,
-        /// Why.
+        /// The reason.
         reason: io::Error,
     },
     /// The table or the page could not be written.
@@ -101,7 +101,7 @@ pub enum StudyFolderError {
     Table {
         /// The file.
         file: PathBuf,
-        /// Why.
+        /// The reason.
         reason: io::Error,
     },
     /// Not all variants are there.

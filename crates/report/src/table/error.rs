@@ -28,7 +28,7 @@ pub enum TableError {
     NoResult {
         /// The folder.
         folder: PathBuf,
-        /// Where results may be.
+        /// The advice: folders and files that may be results.
         advice: String,
     },
     /// The system does not let us read it.
@@ -37,7 +37,7 @@ pub enum TableError {
     Unreadable {
         /// The file.
         file: PathBuf,
-        /// Why.
+        /// The reason.
         reason: io::Error,
     },
     /// Not a table of numbers as text at all.

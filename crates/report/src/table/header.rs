@@ -30,7 +30,7 @@ pub(super) struct Header {
     pub time: usize,
 }
 
-/// Where the line of names stands.
+/// The place of the line of names.
 pub(super) struct HeaderLocation<'p> {
     pub file: &'p Path,
     pub line: u64,

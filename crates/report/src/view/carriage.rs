@@ -138,7 +138,7 @@ impl DrawnWedge {
 pub(super) struct DrawnSpring {
     /// Its name for people.
     pub name: String,
-    /// Where it stands, x and y, m.
+    /// Its place, x and y, m.
     pub at: [f64; 2],
     /// The bolster on it: a place in [`Carriage::bolsters`].
     pub bolster: usize,
@@ -157,7 +157,7 @@ pub(super) struct Carriage {
     pub wedges: Vec<DrawnWedge>,
     /// The springs.
     pub springs: Vec<DrawnSpring>,
-    /// Where side frames stand on axles: a place in [`Carriage::side_frames`], the point, m.
+    /// The points at which side frames stand on axles: a place in [`Carriage::side_frames`], the point, m.
     pub axles: Vec<(usize, [f64; 3])>,
     /// The exaggerated size (m) beyond which displacements grow to scale.
     pub limit: f64,

@@ -100,7 +100,7 @@ pub struct SceneBody {
     pub steady: [Option<String>; 3],
 }
 
-/// Where something sits on its body.
+/// The pose of something on its body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct SolidPose {
     /// From the body's origin, body axes.
@@ -119,7 +119,7 @@ pub enum SolidRole {
     Column,
     /// A pocket of a bolster.
     Pocket,
-    /// Where a coil stands.
+    /// The seat of a coil.
     Seat,
     /// A wheelset, which stands before what is looked at.
     Wheelset,
@@ -144,7 +144,7 @@ pub struct Solid {
     pub role: SolidRole,
     /// Its body.
     pub body: String,
-    /// Where it sits.
+    /// Its pose on the body.
     pub mount: SolidPose,
     /// Its corners in the mount's axes.
     pub vertices: Vec<[f64; 3]>,

@@ -113,7 +113,7 @@ fn height(parameters: &Parameters) -> Option<String> {
     ))
 }
 
-/// Where the car starts, and whether the track is long and wide enough for it.
+/// Checks the car's start, and that the track is long and wide enough for it.
 fn way(r: &mut CaseReader<'_>, parameters: &Parameters, simulation: &Simulation) {
     let line = &parameters.track.center_line;
     let (start, reach) = (parameters.start.distance, parameters.reach());

@@ -9,7 +9,7 @@ const ON_TOP: f64 = 1.25 * 0.0254;
 /// A wheelset this far below its height on the rails has fallen between them, m.
 const FALLEN: f64 = 1.5 * 0.0254;
 
-/// Where a wheel has left its rail.
+/// The place at which a wheel has left its rail.
 pub(super) struct Left {
     /// Axle from the front, from 0.
     pub axle: usize,

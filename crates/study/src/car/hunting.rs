@@ -139,9 +139,9 @@ pub enum HuntingError {
     Stopped {
         /// `falling` or `rising`.
         which: &'static str,
-        /// When, s.
+        /// The time, s.
         time: f64,
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }

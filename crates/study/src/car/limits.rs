@@ -103,7 +103,7 @@ pub struct LimitSet {
     pub name: String,
     /// One line for people.
     pub title: String,
-    /// Where they come from.
+    /// Their source.
     pub source: String,
     /// The limits.
     pub limits: Vec<Limit>,

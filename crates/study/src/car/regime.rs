@@ -94,7 +94,7 @@ pub struct Regime {
     pub name: String,
     /// One line for people.
     pub title: String,
-    /// Where track and speeds come from.
+    /// The source of track and speeds.
     pub source: String,
     /// The cars that it is meant for: `loaded` or `empty` cars; `None`: either.
     pub lading: Option<String>,
@@ -104,7 +104,7 @@ pub struct Regime {
     pub speeds: Vec<Quantity>,
     /// The least and the greatest speed that the track bears.
     pub range: [Quantity; 2],
-    /// Why it bears no other.
+    /// The reason for this range.
     pub reason: String,
     /// The distance that the car runs.
     pub distance: Quantity,

@@ -42,7 +42,7 @@ pub struct CarRecorder {
     values: Vec<Vec<f64>>,
     derailed: Option<Derailed>,
     units: Units,
-    /// Where rows begin, if the run goes on from a saved state, s.
+    /// The time at which rows begin, if the run continues a saved state, s.
     continued: Option<f64>,
     row: Vec<f64>,
     /// Rates of the state.
@@ -51,11 +51,11 @@ pub struct CarRecorder {
     /// Places of the points of each wedge among the contact states.
     points: Vec<(String, Vec<usize>)>,
     counts: CarCounts,
-    /// Where statistics begin, s.
+    /// The start of the statistics, s.
     settle: f64,
     /// Heights of the axles at the first row, m.
     heights: Option<[f64; 4]>,
-    /// Where its bodies are and what their faces exert, where it is asked for.
+    /// Poses of its bodies and forces of their faces, if asked for.
     motions: Option<MotionTable>,
 }
 

@@ -81,7 +81,7 @@ pub struct Histories<'c> {
     pub column: StatisticColumn<'c>,
     /// Time between two rows, s.
     pub interval: f64,
-    /// Where statistics begin, s.
+    /// The start of the statistics, s.
     pub begin: f64,
     /// Static loads of the wheels, by axle, left and right, N.
     pub static_loads: [[f64; 2]; 4],
@@ -96,9 +96,9 @@ pub struct Statistic {
     pub raw: Option<SummaryValue>,
     /// From filtered forces or accelerations.
     pub filtered: Option<SummaryValue>,
-    /// Where the filtered value, or else the raw one, begins, s.
+    /// The start of the filtered value, or else of the raw one, s.
     pub time: Option<f64>,
-    /// Why there is none, or what is special; empty if there is nothing to say.
+    /// The reason if there is none, or a remark; else empty.
     pub remark: String,
 }
 

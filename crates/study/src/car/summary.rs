@@ -30,11 +30,11 @@ pub struct CarSummary {
     pub units: Units,
     /// True if the run came to its end.
     pub complete: bool,
-    /// Why and when it stopped, if it did not.
+    /// Reason and time of the stop, if it is incomplete.
     pub stopped: Option<Stopped>,
-    /// Where a wheel left its rail, if one did: the run ends there, and is complete.
+    /// The derailment, if a wheel left its rail: the run ends there, and is complete.
     pub derailed: Option<Derailed>,
-    /// Why its numbers are not to be used, although they are kept: its energy ledger does not close to 1e-2.
+    /// The reason for not using its numbers, which are kept: its energy ledger does not close to 1e-2.
     pub failed: Option<String>,
     /// Warnings about the numbers; empty for a sound run.
     pub warnings: Vec<String>,
@@ -56,7 +56,7 @@ pub struct CarSummary {
     /// massless wedges.
     #[serde(default)]
     pub wedge_locked: BTreeMap<String, f64>,
-    /// Where the energy of the run came from and where it went.
+    /// Sources and sinks of the energy of the run.
     pub energy: EnergySummary,
     /// Least and greatest values of all columns, by their names with units.
     pub extremes: BTreeMap<String, Extremes>,
@@ -74,7 +74,7 @@ pub struct CarSummary {
 
 run_summary!(CarSummary, ledger.largest_relative_residual);
 
-/// Where a wheel left its rail.
+/// The place at which a wheel left its rail.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Derailed {
     /// Time, s.

@@ -120,7 +120,7 @@ pub struct WorstStatistic<'s> {
     pub statistic: &'s str,
     /// Its value: filtered, or raw where nothing is filtered.
     pub value: &'s SummaryValue,
-    /// Where that begins, s.
+    /// The start of that value, s.
     pub time: Option<f64>,
 }
 

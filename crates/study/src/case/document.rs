@@ -82,7 +82,7 @@ impl CaseDocument {
 /// `[wedge]`
 #[derive(Clone, Debug, PartialEq)]
 pub struct WedgeSection {
-    /// Where the control coil stands.
+    /// The body on which the control coil stands.
     pub damping: Damping,
     /// Angle between the slope and the vertical.
     pub angle: Quantity,
@@ -188,7 +188,7 @@ impl Toe {
     }
 }
 
-/// Which way the gap between column and bolster opens.
+/// The direction in which the gap between column and bolster opens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ToeDirection {
     /// It closes downwards.
@@ -237,7 +237,7 @@ pub struct SimulationSection {
     pub output_interval: Quantity,
     /// Relative tolerance of the integrator, between 0 and 1.
     pub relative_tolerance: f64,
-    /// Where the run starts.
+    /// The start of the run.
     pub start: Start,
     /// Units of the result.
     pub output_units: System,
@@ -266,7 +266,7 @@ macro_rules! named {
 }
 
 named! {
-    /// Where the control coil stands.
+    /// The body on which the control coil stands.
     Damping {
         /// On the side frame: the coil force follows the bolster's travel.
         Variable = "variable",
@@ -314,7 +314,7 @@ named! {
 }
 
 named! {
-    /// Where a run starts.
+    /// The start of a run.
     Start {
         /// The nominal position, at rest.
         Rest = "rest",

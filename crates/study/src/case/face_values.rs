@@ -26,14 +26,14 @@ pub enum Surface {
         hollow: bool,
         /// Its radius.
         radius: Quantity,
-        /// Which way it runs.
+        /// Its direction.
         direction: FaceDirection,
     },
     /// Depths over places.
     Table {
         /// The table.
         table: QuantityTable,
-        /// Which way it runs.
+        /// Its direction.
         direction: FaceDirection,
     },
 }

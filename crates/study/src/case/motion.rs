@@ -59,7 +59,7 @@ pub enum CaseMotion {
     Sum(Vec<CaseMotion>),
     /// Nothing until a time, then a motion that counts its time from there.
     From {
-        /// When it begins.
+        /// Its start.
         start: Quantity,
         /// The motion.
         motion: Box<CaseMotion>,

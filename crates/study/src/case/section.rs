@@ -58,7 +58,7 @@ pub(crate) struct CaseSection<'a> {
     /// `wedge`, `bolster.vertical`; empty at the top.
     pub path: String,
     pub table: &'a TableNode,
-    /// Where the table is named.
+    /// The place at which the table is named.
     pub place: Option<TomlLocation>,
 }
 

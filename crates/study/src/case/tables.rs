@@ -14,7 +14,7 @@ pub struct Tables<'a> {
     access: Access,
 }
 
-/// Which files may be read.
+/// The files that may be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Access {
     Anywhere,

@@ -21,7 +21,7 @@ fn belongs(expression: &str, system: System) -> bool {
 
 /// Returns the same value in a unit of a system: itself if its unit belongs to that system or to both, else
 /// in the unit that `kind` is usually written in there, with the fewest digits that give the same SI value.
-/// Where no number of that unit gives it, the nearest one.
+/// If no number of that unit gives it, the nearest one.
 pub(super) fn in_system(quantity: &Quantity, kind: Kind, system: System) -> Quantity {
     if belongs(quantity.unit_text(), system) {
         return quantity.clone();

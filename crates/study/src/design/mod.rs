@@ -43,14 +43,14 @@ pub enum Sampling {
     LatinHypercube {
         /// Number of runs.
         runs: u64,
-        /// Which hypercube.
+        /// The seed of the hypercube.
         seed: u64,
     },
     /// The first points of the Sobol' sequence.
     Sobol {
         /// Number of runs.
         runs: u64,
-        /// Which random shift; without one, the sequence as it is.
+        /// The seed of the random shift; without one, the sequence as it is.
         seed: Option<u64>,
     },
     /// As written down, one after the other.

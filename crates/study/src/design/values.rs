@@ -1,4 +1,4 @@
-//! Which values a variant has.
+//! The values of a variant.
 
 use super::{LatinHypercube, Sampling, Sobol, Study, Value};
 

@@ -109,7 +109,7 @@ const WIDEST: f64 = 0.05;
 /// The search is over when differences taken anew lower the sum by less than this part.
 const SETTLED: f64 = 1e-3;
 
-/// Where the search stands.
+/// The state of the search.
 struct State {
     place: Vec<f64>,
     values: Vec<f64>,

@@ -196,7 +196,7 @@ pub struct Fit {
     /// The warnings about that ledger, about what is implausible in that run, and about parameters at a
     /// bound.
     pub warnings: Vec<String>,
-    /// Why the fit has failed: that ledger does not close to 1e-2.
+    /// The reason if the fit has failed: that ledger does not close to 1e-2.
     pub failed: Option<String>,
 }
 

@@ -95,7 +95,7 @@ pub enum FilesError {
     Set {
         /// As typed.
         typed: String,
-        /// Why.
+        /// The reason.
         error: SetError,
     },
     /// A wedge makes no body.

@@ -93,9 +93,9 @@ pub struct HalfTruckSummary {
     pub units: Units,
     /// True if the run came to its end.
     pub complete: bool,
-    /// Why and when it stopped, if it did not.
+    /// Reason and time of the stop, if it is incomplete.
     pub stopped: Option<Stopped>,
-    /// Why its numbers are not to be used, although they are kept: its energy ledger does not close to 1e-2.
+    /// The reason for not using its numbers, which are kept: its energy ledger does not close to 1e-2.
     #[serde(default)]
     pub failed: Option<String>,
     /// Warnings about the numbers; empty for a sound run.

@@ -13,7 +13,7 @@ pub const PARTS: [&str; 4] = ["rising_upper", "falling_upper", "falling_lower", 
 pub struct Stroke {
     /// Period, s.
     pub period: f64,
-    /// When the motion begins, s.
+    /// The start of the motion, s.
     pub begin: f64,
     /// A time at which it rises through its middle, s.
     pub rises: f64,

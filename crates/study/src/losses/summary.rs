@@ -15,11 +15,11 @@ use crate::summary::SummaryValue;
 /// The contact states, by number.
 pub const STATES: [&str; 3] = ["open", "stick", "slip"];
 
-/// Where the energy of a cycle comes from and where it goes, as means over whole cycles; or that of a whole
-/// run along a distance.
+/// Sources and sinks of the energy of a cycle, as means over whole cycles; or those of a whole run along a
+/// distance.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergySummary {
-    /// Why there are no energies; empty where there are.
+    /// The reason if there are no energies, else empty.
     pub missing: String,
     /// Number of whole cycles; zero where the energies are those of the whole run.
     pub cycles: u32,

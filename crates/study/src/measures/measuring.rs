@@ -40,7 +40,7 @@ pub enum Unmeasured {
 pub struct Judged {
     /// The measures.
     pub measures: Measures,
-    /// Why the run is nonsense ([`plausibility::nonsense`]); `None` if it is not.
+    /// The reason if the run is nonsense ([`plausibility::nonsense`]), else `None`.
     pub nonsense: Option<String>,
 }
 

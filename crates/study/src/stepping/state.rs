@@ -24,13 +24,13 @@ pub struct SteppedState {
     pub version: u32,
     /// Tells wedges of other parameters or tolerances apart.
     pub(super) fingerprint: u64,
-    /// Where the neighbours were at time zero.
+    /// The poses of the neighbours at time zero.
     pub(super) start: Neighbours,
-    /// Where the coil's force came from at time zero.
+    /// The source of the coil's force at time zero.
     pub(super) start_coil: CoilInput,
-    /// Where the neighbours are.
+    /// The poses of the neighbours.
     pub neighbours: Neighbours,
-    /// Where the coil's force comes from.
+    /// The source of the coil's force.
     pub coil: CoilInput,
     /// Coefficients of friction of column and slope.
     pub friction: [f64; 2],

@@ -30,9 +30,9 @@ pub struct TruckSummary {
     pub units: Units,
     /// True if the run came to its end.
     pub complete: bool,
-    /// Why and when it stopped, if it did not.
+    /// Reason and time of the stop, if it is incomplete.
     pub stopped: Option<Stopped>,
-    /// Why its numbers are not to be used, although they are kept: its energy ledger does not close to 1e-2.
+    /// The reason for not using its numbers, which are kept: its energy ledger does not close to 1e-2.
     pub failed: Option<String>,
     /// Warnings about the numbers; empty for a sound run.
     pub warnings: Vec<String>,
@@ -49,7 +49,7 @@ pub struct TruckSummary {
     pub extremes: BTreeMap<String, Extremes>,
     /// The energy ledger at the end; losses by element.
     pub ledger: LedgerSummary,
-    /// Where the energy of a cycle comes from and goes.
+    /// Sources and sinks of the energy of a cycle.
     #[serde(default)]
     pub energy: EnergySummary,
     /// The integration method.
@@ -67,7 +67,7 @@ run_summary!(TruckSummary, ledger.largest_relative_residual);
 /// Energies a cycle of the first periodic motion, over whole cycles after the first one.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Cycles {
-    /// Why there are none; empty where there are.
+    /// The reason if there are none, else empty.
     pub missing: String,
     /// Number of whole cycles.
     pub count: u32,

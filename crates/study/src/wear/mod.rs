@@ -166,7 +166,7 @@ pub struct WearHistory {
     pub states: Vec<WearState>,
     /// The case with the depths of the last state.
     pub case: Case,
-    /// Why it ended before the last cycle.
+    /// The reason if it ended before the last cycle.
     pub stopped: Option<WearStop>,
 }
 

@@ -77,7 +77,7 @@ pub struct Wheelset {
     pub creep: CreepLaw,
     /// The search for contact.
     pub search: SearchMode,
-    /// Where it begins.
+    /// Its start on the track.
     pub start: RigStart,
     /// Duration of the run, s; none: to the end of the track.
     pub duration: Option<f64>,
@@ -114,7 +114,7 @@ pub enum WheelsetError {
     /// A number is not admissible.
     #[error("{what} is {value}; it must be {must}")]
     Number {
-        /// Which one, with its unit.
+        /// Its name, with its unit.
         what: &'static str,
         /// Its value, SI.
         value: f64,
@@ -131,9 +131,9 @@ pub enum WheelsetError {
         track: String,
         /// Its length, m.
         length: f64,
-        /// Where the run begins, m.
+        /// The distance along the track at which the run begins, m.
         start: f64,
-        /// Where it ends, m.
+        /// The distance at which it ends, m.
         end: f64,
         /// Its duration, s.
         duration: f64,

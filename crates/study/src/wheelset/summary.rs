@@ -27,11 +27,11 @@ pub struct WheelsetSummary {
     pub given: BTreeMap<String, String>,
     /// True if the run came to its end.
     pub complete: bool,
-    /// Where a wheel derailed, if one did: the run ends there.
+    /// The derailment, if a wheel derailed: the run ends there.
     pub derailment: Option<Derailment>,
-    /// Why and when it stopped, if it could not go on.
+    /// Reason and time of the stop, if it could not go on.
     pub stopped: Option<Stopped>,
-    /// Why its numbers are not to be used, although they are kept: its energy ledger does not close to 1e-2.
+    /// The reason for not using its numbers, which are kept: its energy ledger does not close to 1e-2.
     pub failed: Option<String>,
     /// Warnings about the numbers; empty for a sound run.
     pub warnings: Vec<String>,
@@ -58,7 +58,7 @@ run_summary!(WheelsetSummary, ledger.largest_relative_residual);
 pub struct Derailment {
     /// The wheel: `left` or `right`.
     pub wheel: String,
-    /// Where it stands: `flange_tip`, `rim_edge` or `off_rail`.
+    /// The part of the wheel on which it stands: `flange_tip`, `rim_edge` or `off_rail`.
     pub seat: String,
     /// The output time, s.
     pub time: f64,

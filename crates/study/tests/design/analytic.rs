@@ -1,4 +1,4 @@
-//! Which variants a study has, against what the methods' papers and others' programs say.
+//! The variants of a study, against the methods' papers and the programs of others.
 
 use study::any_case::AnyCase;
 use study::design::{DIMENSIONS, LatinHypercube, Sobol, Value};

@@ -1,4 +1,4 @@
-//! Where wedges jam, and what is the same in all four.
+//! Jamming of wedges, and the symmetry of all four.
 #![allow(clippy::unwrap_used)]
 
 use mechanics::motion::Motion;

@@ -174,7 +174,7 @@ fn energy_half_trucks_warn_and_fail_by_the_same_limits() {
     }
 }
 
-/// Where nothing moves, where a wedge falls free, and where it is at rest from the first row to the last.
+/// Runs in which nothing moves, a wedge falls free, or it is at rest from the first row to the last.
 #[test]
 fn limits_runs_without_motion_have_sensible_residuals() {
     let still = "bolster.vertical=0 in";

@@ -1,4 +1,4 @@
-//! Where the energy of a cycle goes: divisions sum to the ledger and are integrals of powers; what flows in
+//! Division of the energy of a cycle: divisions sum to the ledger and are integrals of powers; what flows in
 //! flows out; a face left out is noticed; what has no cycle says why.
 #![allow(clippy::unwrap_used)]
 

@@ -9,7 +9,7 @@ use super::{References, simple};
 use crate::component::{OK, Status, call};
 use crate::pointers::{put, slice};
 
-/// Why there is no answer to a question about a step.
+/// The answer to questions about a step under way.
 const NO_STEP: &str = "no step is under way: steps are finished when fmi2DoStep returns, and its status is \
                        all there is to know";
 

@@ -22,7 +22,7 @@ pub struct EventInfo {
     pub values_of_continuous_states_changed: c_int,
     /// There is a time event ahead.
     pub next_event_time_defined: c_int,
-    /// When.
+    /// The time of the next event.
     pub next_event_time: f64,
 }
 

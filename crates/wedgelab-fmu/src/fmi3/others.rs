@@ -1,6 +1,6 @@
-//! Functions of FMI 3.0 for what the FMU does not have: other types of variables, clocks, configuration,
-//! scheduled execution, adjoint and output derivatives. They do nothing when asked for nothing, and refuse
-//! everything else.
+//! Functions of FMI 3.0 for features that the FMU does not have: other types of variables, clocks,
+//! configuration, scheduled execution, adjoint and output derivatives. They do nothing when asked for
+//! nothing, and refuse everything else.
 #![allow(clippy::missing_safety_doc)]
 
 use std::ffi::{c_char, c_void};

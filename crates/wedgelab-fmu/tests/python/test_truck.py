@@ -93,8 +93,8 @@ def test_limits_symmetric_wedges_give_equal_forces(truck, step):
     apart = np.abs(force - force[0]).max(axis=0) / scale
     print(step, height.min(), height.max(), scale, apart[time < 0.01].max(), apart.max())
     assert all(np.isfinite(result[name]).all() for name in result.dtype.names)
-    # The same to rounding (mirrored wedges sum their corners in another order), which ringing contacts and the places where steps land
-    # behind kinks make grow: 3e-9 was seen within 0.01 s.
+    # The same to rounding (mirrored wedges sum their corners in another order), which ringing contacts and the places where steps end
+    # after discontinuities make grow: 3e-9 was seen within 0.01 s.
     assert apart[time < 0.01].max() < 1e-8
     assert apart.max() < 1e-5
     # A tenth of a metre a second on springs of 2 Hz would give 8 mm; friction takes some of it.

@@ -1,4 +1,4 @@
-//! The commands, one file each: arguments and what they do.
+//! The commands, one file each: arguments and execution.
 
 pub mod case;
 pub mod certify;

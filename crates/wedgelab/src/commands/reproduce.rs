@@ -45,13 +45,13 @@ const USUAL: &str = "reproduction";
 /// statements with verdicts claims.json, each figure as SVG and PNG, and for each run runs/NAME/result.csv,
 /// result.mat, case.toml and summary.json; prints a table of the runs. Without --only it also runs the
 /// half-truck of the comparison program's files (28 runs: result.csv and summary.json) for the report's
-/// comparison, and the three-piece truck with four wedges that have mass on its 16 loaded rigs, reported in
-/// truck.html (numbers in truck.json): loops, warp, wedges, closed forms, influence of contact and bristle
-/// stiffness. With --sensitivity N the twelve runs are made at N points of the space of the parameters that
-/// the thesis leaves open (contact stiffness and damping, line of action of the coil, start, inertia,
-/// position of B), and the report states for each statement the part of that space in which it holds and the
-/// deciding parameter (sensitivity.json). Points are kept in the folder sensitivity; a larger N reuses them,
-/// and so does the same command after an interruption.
+/// comparison, and the three-piece truck with four wedges that have mass on 32 rigs, loaded and empty,
+/// reported in truck.html (numbers in truck.json): loops, warp, wedges, closed forms, influence of contact
+/// and bristle stiffness. With --sensitivity N the twelve runs are made at N points of the space of the
+/// parameters that the thesis leaves open (contact stiffness and damping, line of action of the coil, start,
+/// inertia, position of B), and the report states for each statement the part of that space in which it holds
+/// and the deciding parameter (sensitivity.json). Points are kept in the folder sensitivity; a larger N
+/// reuses them, and so does the same command after an interruption.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

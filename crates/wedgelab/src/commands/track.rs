@@ -1,4 +1,4 @@
-//! `wedgelab track`: what a car will meet on a track.
+//! `wedgelab track`: the course of a track: curves, superelevation, grades and irregularities.
 
 use std::io::{self, Write};
 use std::path::PathBuf;

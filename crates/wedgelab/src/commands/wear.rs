@@ -1,4 +1,4 @@
-//! `wedgelab wear`: what many cycles wear off a wedge's faces.
+//! `wedgelab wear`: the wear of a wedge's faces over many cycles.
 
 use std::io::{self, Write};
 use std::path::PathBuf;

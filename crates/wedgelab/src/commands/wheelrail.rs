@@ -1,4 +1,4 @@
-//! `wedgelab wheelrail`: profiles of wheels and rails, and how a wheelset rolls on them.
+//! `wedgelab wheelrail`: profiles of wheels and rails, and the motion of a wheelset on them.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

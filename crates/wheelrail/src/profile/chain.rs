@@ -275,7 +275,7 @@ fn fillet(before: &ChainElement, radius: f64, after: &ChainElement) -> Option<[f
         .min_by(|a, b| turn(a).total_cmp(&turn(b)))
 }
 
-/// Where the center of a touching circle can be.
+/// The locus of the center of a touching circle.
 enum Locus {
     Line([f64; 2], f64),
     Circle([f64; 2], f64),

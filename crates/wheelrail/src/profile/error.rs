@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use input::file::ReadError;
 use thiserror::Error;
 
-/// Where a mistake stands.
+/// The place of a mistake.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ProfilePlace {
     /// The file as named, or the name of a profile that is no file.
@@ -59,7 +59,7 @@ pub enum ProfileError {
     /// A line is not what it should be.
     #[error("{place}: {found}")]
     Line {
-        /// Where.
+        /// The place.
         place: ProfilePlace,
         /// The mistake.
         found: String,
@@ -69,7 +69,7 @@ pub enum ProfileError {
     /// A rail where a wheel is expected, or a wheel where a rail is.
     #[error("{place}: this is the profile of a {found}; a {expected} is expected")]
     Kind {
-        /// Where.
+        /// The place.
         place: ProfilePlace,
         /// The kind that the file names.
         found: &'static str,
@@ -79,7 +79,7 @@ pub enum ProfileError {
     /// Too few points.
     #[error("{place}: {points} different points are too few for a profile")]
     TooFew {
-        /// Where.
+        /// The place.
         place: ProfilePlace,
         /// Their number.
         points: usize,
@@ -90,7 +90,7 @@ pub enum ProfileError {
         width * 1e3, expected
     )]
     Units {
-        /// Where.
+        /// The place.
         place: ProfilePlace,
         /// Wheel or rail.
         kind: &'static str,
@@ -107,7 +107,7 @@ pub enum ProfileError {
         at[0] * 1e3, at[1] * 1e3
     )]
     SelfCrossing {
-        /// Where one of the crossing pieces begins.
+        /// The start of one of the crossing pieces.
         place: ProfilePlace,
         /// The other one.
         other: ProfilePlace,
@@ -117,7 +117,7 @@ pub enum ProfileError {
     /// The profile lies on the wrong side of its datum.
     #[error("{place}: {found}")]
     Orientation {
-        /// Where.
+        /// The place.
         place: ProfilePlace,
         /// The mistake.
         found: String,
@@ -155,7 +155,7 @@ pub enum ProfileError {
     /// A number is not admissible.
     #[error("{what} is {value}; it must be {must}")]
     Number {
-        /// Which number.
+        /// The number's name.
         what: &'static str,
         /// Its value, SI.
         value: f64,

@@ -89,7 +89,7 @@ pub enum TrackError {
     LooseSpiral {
         /// The segment, from 1.
         segment: usize,
-        /// Where it stands.
+        /// Its place among the segments, in words.
         place: &'static str,
     },
     /// Superelevation as large as the distance of the rails.

@@ -5,7 +5,7 @@ use super::samples::Samples;
 use super::shape::Shape;
 use super::spectrum::Realization;
 
-/// Which rails an irregularity is on.
+/// The rails that have an irregularity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rails {
     /// The left rail.
@@ -18,7 +18,7 @@ pub enum Rails {
     Against,
 }
 
-/// Where an irregularity leads.
+/// The direction of an irregularity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// To the left.

@@ -72,7 +72,7 @@ pub enum MeasuredError {
     Missing {
         /// The file.
         name: String,
-        /// Which one.
+        /// The missing column.
         needed: &'static str,
     },
     /// Values cannot be a spline.

@@ -60,7 +60,7 @@ pub enum WedgeBodyError {
     Value {
         /// The connection's number.
         connection: u32,
-        /// Which value.
+        /// The name of the value.
         what: &'static str,
         /// The value.
         value: f64,

@@ -46,7 +46,7 @@ pub struct MountedWedge {
     pub faces: [usize; 2],
     /// Its coil among the elements.
     pub coil: usize,
-    /// Where its coil stands: in the pocket (constant) or on the side frame (variable).
+    /// The place of its coil: in the pocket (constant) or on the side frame (variable).
     pub damping: Damping,
     /// Its center of gravity in the drawn layout, m.
     pub center: [f64; 3],

@@ -1,4 +1,4 @@
-//! Requests and answers, `wedgelab.explore/1`: what `docs/explore.md` describes. No network here.
+//! Requests and answers, `wedgelab.explore/1`, described in `docs/explore.md`. No network here.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -87,7 +87,7 @@ pub struct Mistake {
     pub help: String,
 }
 
-/// Why there is no answer.
+/// The reason if there is no answer.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Refused {
     /// Mistakes in the typed text.

@@ -24,7 +24,7 @@ pub enum Base {
         name: String,
         /// Its contents.
         text: String,
-        /// Where its tables are.
+        /// The folder of its tables.
         folder: PathBuf,
     },
 }

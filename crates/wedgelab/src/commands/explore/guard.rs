@@ -1,4 +1,4 @@
-//! Which requests are answered: those that a page of this very server can make, or a person who typed its
+//! The requests that are answered: those that a page of this very server can make, or a person who typed its
 //! address.
 //!
 //! A server on 127.0.0.1 can be reached by every page that the same person has open, and by every user of the

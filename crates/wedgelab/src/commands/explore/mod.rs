@@ -1,10 +1,10 @@
 //! `wedgelab explore`: a page on which every value of a case can be changed, and each change runs it again.
 //!
-//! - [`guard`], [`token`]: which requests are answered.
+//! - [`guard`], [`token`]: the requests that are answered.
 //! - [`base`]: the case that changes are laid over.
-//! - [`outcome`]: a run of a wedge, of a truck or of a car, what the page shows of it, its files.
+//! - [`outcome`]: a run of a wedge, of a truck or of a car: its data for the page, its files.
 //! - [`api`]: requests and answers, `wedgelab.explore/1`, described in `docs/explore.md`.
-//! - [`limits`]: what a request, a connection, and all of them may take.
+//! - [`limits`]: limits of a request, of a connection, and of all of them.
 //! - [`routes`]: reading requests, work on other threads, answering.
 //! - [`connections`]: taking connections, within time limits.
 //! - [`browser`]: calling a browser with the page.

@@ -1,4 +1,4 @@
-//! A run of the explorer, of a wedge, of a truck or of a car: what the page shows of it, and its files.
+//! A run of the explorer, of a wedge, of a truck or of a car: its data for the page, and its files.
 
 use std::io;
 use std::ops::ControlFlow;
@@ -66,7 +66,7 @@ pub struct Loop {
     energy_per: &'static str,
     /// Energy, J; none where there are no cycles.
     energy: Option<f64>,
-    /// Why there is none; empty where there is one.
+    /// The reason if there is none, else empty.
     missing: String,
 }
 
@@ -107,7 +107,7 @@ pub fn compute(case: AnyCase, wanted: impl Fn() -> bool) -> Result<Outcome, Refu
     Ok(outcome)
 }
 
-/// Why half-trucks are refused.
+/// The reason for refusing half-trucks.
 pub const NO_HALF_TRUCK: &str =
     "the explorer takes wedges, trucks and cars, not the half-trucks of NUCARS's files";
 

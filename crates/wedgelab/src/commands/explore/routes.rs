@@ -1,4 +1,4 @@
-//! Routes: what is asked for, read within its limits, done on another thread, and answered.
+//! Routes: a request is read within its limits, executed on another thread, and answered.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! `wedgelab nucars check`: what is wrong or doubtful with files.
+//! `wedgelab nucars check`: mistakes and doubtful data in files.
 
 use std::io::{self, Write};
 use std::path::PathBuf;

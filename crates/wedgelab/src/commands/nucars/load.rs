@@ -1,4 +1,4 @@
-//! Saying what was found in files.
+//! Messages about findings in files.
 
 use miette::Report;
 use nucars::{Finding, Findings};

@@ -311,7 +311,7 @@ pub fn check_built_in(
 
 /// A run file with its files, which can be run.
 pub struct RunToMake {
-    /// Where the run file is.
+    /// The path of the run file.
     pub path: PathBuf,
     /// All files.
     pub files: RunFiles,

@@ -1,4 +1,4 @@
-//! The state that an interrupted `wedgelab reproduce` leaves, and how to go on.
+//! The state that an interrupted `wedgelab reproduce` leaves, and the command that continues it.
 
 use std::path::{Path, PathBuf};
 

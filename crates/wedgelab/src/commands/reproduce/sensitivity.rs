@@ -1,4 +1,5 @@
-//! The thesis's statements over what the thesis leaves open: the points are computed, kept, and judged.
+//! The thesis's statements over the parameters that the thesis leaves open: the points are computed, kept,
+//! and judged.
 
 use std::collections::BTreeMap;
 use std::path::Path;

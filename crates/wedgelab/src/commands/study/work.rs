@@ -1,4 +1,4 @@
-//! Computing what a study lacks, several runs at a time.
+//! Computing the missing runs of a study, several at a time.
 
 use std::path::Path;
 
