@@ -96,17 +96,20 @@ fn issue_029_every_member_of_an_instance_edited_by_hand_is_refused_or_goes_on() 
             (FmuModel::HalfTruck, Interface::CoSimulation),
             (FmuModel::HalfTruck, Interface::ModelExchange),
         ] {
-            scope.spawn(move || every_member_is_refused_or_goes_on(model, interface));
+            for half in [0, 1] {
+                scope.spawn(move || every_other_member_is_refused_or_goes_on(model, interface, half));
+            }
         }
     });
 }
 
-fn every_member_is_refused_or_goes_on(model: FmuModel, interface: Interface) {
+/// Of all edits those with even numbers are half 0, those with odd numbers half 1.
+fn every_other_member_is_refused_or_goes_on(model: FmuModel, interface: Interface, half: usize) {
     let mut instance = under_way(model, interface);
     let good = instance.save();
     let saved: Value = serde_json::from_slice(&good.to_bytes().unwrap()).unwrap();
     let (mut refused, mut stopped, mut went_on) = (0, 0, 0);
-    for (what, state) in damage::damaged(&saved) {
+    for (what, state) in damage::damaged(&saved).skip(half).step_by(2) {
         let bytes = serde_json::to_vec(&state).unwrap();
         let restored = Saved::from_bytes(&bytes).and_then(|state| instance.restore(&state));
         if let Err(error) = restored {
@@ -126,7 +129,7 @@ fn every_member_is_refused_or_goes_on(model: FmuModel, interface: Interface) {
     }
     println!("{model:?} {interface:?}: {refused} refused, {stopped} stopped, {went_on} went on");
     assert!(
-        refused > 300 && went_on > 50,
+        refused > 150 && went_on > 25,
         "{model:?} {interface:?}: {refused} {stopped} {went_on}"
     );
     // As if nothing had been.
