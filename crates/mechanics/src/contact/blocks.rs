@@ -251,9 +251,15 @@ impl ContactFace<Interface> {
     ) {
         for (number, (block, at)) in points.blocks.iter().zip(&points.kinematics).enumerate() {
             let first = LANES * number;
-            let deflection = block.deflection(deflections, first);
-            let forces = self.point_force(&block.properties, closed(block, at), at, deflection);
-            each(first..first + block.count, at.gap, forces.friction.load);
+            // The slip of open points may be that of an earlier state ([`Points::update_if_open`]).
+            let load = if is_open(at) {
+                Lanes::zero()
+            } else {
+                let deflection = block.deflection(deflections, first);
+                let forces = self.point_force(&block.properties, closed(block, at), at, deflection);
+                forces.friction.load
+            };
+            each(first..first + block.count, at.gap, load);
         }
     }
 
