@@ -125,10 +125,6 @@ impl Coil {
         relative: &RelativeMotion<S>,
         spring: impl FnOnce(S) -> S,
     ) -> CoilForce<S> {
-        // A coil that ends at the body's origin, as in a wedge, needs no lever.
-        if self.end == Vector::zero() {
-            return self.at_end(relative, spring);
-        }
         let coil = self.at_end(&relative.at(self.end), spring);
         let arm: Vector<S> = relative.rotation.apply(self.end);
         CoilForce {
@@ -164,7 +160,7 @@ impl Coil {
     }
 
     /// Returns the wrench of the coil on its body if marker B does not rotate: [`Coil::on_body`] with fewer
-    /// products.
+    /// products; with it a wedge takes 1 to 3 % more instructions.
     #[inline(always)]
     pub(crate) fn wrench_on_body(
         &self,

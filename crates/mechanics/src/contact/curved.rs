@@ -28,8 +28,6 @@ pub(crate) struct CurvedMotion<'s> {
 }
 
 impl FaceMotion for CurvedMotion<'_> {
-    const CURVED: bool = true;
-
     #[inline(always)]
     fn kinematics(&self, block: &PointBlock, bend: Option<&mut Bend<Lanes>>) -> PointKinematics<Lanes> {
         let relative = self.relative;

@@ -12,9 +12,8 @@ use crate::vector::{Matrix, Vector};
 
 /// The motion that gives four points their contact kinematics, and the body the wrench of their forces.
 pub(crate) trait FaceMotion {
-    /// True if the surface is curved: then it has a normal for each point, in a [`Bend`].
-    const CURVED: bool;
-    /// Returns the contact kinematics of four points, and writes the local geometry of the surface there.
+    /// Returns the contact kinematics of four points, and writes the local geometry of a curved surface
+    /// there.
     fn kinematics(&self, block: &PointBlock, bend: Option<&mut Bend<Lanes>>) -> PointKinematics<Lanes>;
     /// Returns the wrench on the body: forces along the marker's axes, moments (body axes), losses in
     /// friction and in contact damping.
@@ -22,7 +21,7 @@ pub(crate) trait FaceMotion {
 }
 
 /// A plane and its motion in the axes of the body: gap, gap rate and slip are linear in the coordinates of
-/// points.
+/// points. As a [`super::CurvedMotion`] a wedge takes 18 % more instructions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlaneMotion {
     distance: f64,
@@ -36,6 +35,8 @@ pub(crate) struct PlaneMotion {
 
 impl PlaneMotion {
     /// Returns the plane's motion if marker B does not rotate: `v_i = c_i + (e_i × ω)·r` with ω in body axes.
+    /// With [`PlaneMotion::new`] instead a wedge takes 1 to 3 % more instructions (such shares:
+    /// decision 0077).
     #[inline(always)]
     pub fn of(relative_frame: &RelativeFrame<f64>, body: &Kinematics<f64>) -> Self {
         let rotation: Matrix<f64> = relative_frame.rotation.times(body.orientation.rotation);
@@ -51,7 +52,7 @@ impl PlaneMotion {
         }
     }
 
-    /// Returns distance and normal alone, as in [`PlaneMotion::of`].
+    /// Returns distance and normal alone, as in [`PlaneMotion::of`], for [`super::Points::update_if_open`].
     #[inline(always)]
     pub fn distance_and_normal(
         relative_frame: &RelativeFrame<f64>,
@@ -64,6 +65,7 @@ impl PlaneMotion {
         )
     }
 
+    /// Returns the plane's motion if marker B may rotate.
     #[inline(always)]
     pub fn new(relative: &RelativeMotion<f64>) -> Self {
         let Matrix([n, t1, t2]) = relative.rotation;
@@ -82,16 +84,13 @@ impl PlaneMotion {
 }
 
 impl FaceMotion for PlaneMotion {
-    const CURVED: bool = false;
-
-    /// Returns the contact kinematics, the gap rate with contact damping only.
     #[inline(always)]
     fn kinematics(&self, block: &PointBlock, _: Option<&mut Bend<Lanes>>) -> PointKinematics<Lanes> {
-        let (position, damped) = (block.position, block.properties.damped);
+        let position = block.position;
         let speed = |i: usize| -> Lanes { self.growth[i].dot::<Lanes, Lanes>(position) + self.speeds[i] };
         PointKinematics {
             gap: self.normal.dot::<Lanes, Lanes>(position) + self.distance,
-            gap_rate: if damped { speed(0) } else { Lanes::ZERO },
+            gap_rate: speed(0),
             slip: [speed(1), speed(2)],
         }
     }

@@ -22,7 +22,6 @@ use crate::vector::Vector;
 fn by_velocity(
     derivatives: &PointDerivatives,
     [normal, first, second]: [Lanes; 3],
-    damped: bool,
     out: &mut [Lanes; OUTPUTS],
 ) {
     for (o, out) in out.iter_mut().enumerate() {
@@ -30,14 +29,13 @@ fn by_velocity(
         if o != 0 && o != 4 {
             *out += derivatives.by_slip[0][o] * first + derivatives.by_slip[1][o] * second;
         }
-        if damped {
-            *out += derivatives.by_rate[o] * normal;
-        }
+        *out += derivatives.by_rate[o] * normal;
     }
 }
 
 impl Points {
-    /// Returns the tangent of a face where its law was differentiated. `rates` receives the derivatives of
+    /// Returns the tangent of a face where its law was differentiated, of a plane by itself: with
+    /// [`Points::curved_tangent`] runs take 2 to 10 % more instructions. `rates` receives the derivatives of
     /// the rates of internal states, of four points at a time: those of the first state of each, and of the
     /// second; it is empty where there are none.
     #[inline(always)]
@@ -52,7 +50,6 @@ impl Points {
             if !derivatives.active {
                 continue;
             }
-            let damped = block.properties.damped;
             let arm: Vector<Lanes> = relative.rotation.apply(block.position);
             let [x, y, z] = arm.0;
             let own = Vector(derivatives.force);
@@ -85,14 +82,12 @@ impl Points {
                 &derivatives.by_gap,
                 none,
             );
-            if damped {
-                add(
-                    &mut by.velocity[0],
-                    &mut rate.velocity[0],
-                    &derivatives.by_rate,
-                    none,
-                );
-            }
+            add(
+                &mut by.velocity[0],
+                &mut rate.velocity[0],
+                &derivatives.by_rate,
+                none,
+            );
             for (k, by_slip) in derivatives.by_slip.iter().enumerate() {
                 add(&mut by.velocity[1 + k], &mut rate.velocity[1 + k], by_slip, none);
             }
@@ -102,10 +97,10 @@ impl Points {
                 let moved = Vector(moved);
                 let mut out = derivatives.by_gap.map(|by| by * moved.0[0]);
                 let carried: Vector<Lanes> = spin.cross(moved);
-                by_velocity(derivatives, carried.0, damped, &mut out);
+                by_velocity(derivatives, carried.0, &mut out);
                 add(&mut by.rotation[k], &mut rate.rotation[k], &out, moved.cross(own));
                 let mut out = [zero; OUTPUTS];
-                by_velocity(derivatives, moved.0, damped, &mut out);
+                by_velocity(derivatives, moved.0, &mut out);
                 let (by, rate) = (&mut by.angular_velocity[k], &mut rate.angular_velocity[k]);
                 add(by, rate, &out, none);
             }

@@ -97,12 +97,10 @@ impl Projection {
 struct End {
     /// Derivatives of d by positions, and of v by their rates.
     ways: [Vector<f64>; 3],
-    /// Derivatives of v by positions, unless zero.
-    carried: Option<[Vector<f64>; 3]>,
+    /// Derivatives of v by positions.
+    carried: [Vector<f64>; 3],
     /// Derivatives by the angles. Those of v and ω by their rates equal those of d and φ by the angles.
     angles: [Change; 3],
-    /// True if the angles change d.
-    swing: bool,
     /// The axes of the body's reference frame (with a fourth direction), and of its free angles.
     along: Projection,
     about: Projection,
@@ -112,13 +110,10 @@ impl End {
     #[inline(always)]
     fn by_position(&self, free: &FreeBody, index: usize, columns: &TangentColumns) -> TangentColumn {
         match free.row(index) {
-            (0, k) => {
-                let own = combined(&columns.position, self.ways[k]);
-                match &self.carried {
-                    None => own,
-                    Some(carried) => sum(own, combined(&columns.velocity, carried[k])),
-                }
-            }
+            (0, k) => sum(
+                combined(&columns.position, self.ways[k]),
+                combined(&columns.velocity, self.carried[k]),
+            ),
             (_, l) => columns.along(&self.angles[l]),
         }
     }
@@ -129,12 +124,10 @@ impl End {
             (0, k) => combined(&columns.velocity, self.ways[k]),
             (_, l) => {
                 let change = &self.angles[l];
-                let own = combined(&columns.angular_velocity, change.rotation);
-                if self.swing {
-                    sum(own, combined(&columns.velocity, change.position))
-                } else {
-                    own
-                }
+                sum(
+                    combined(&columns.angular_velocity, change.rotation),
+                    combined(&columns.velocity, change.position),
+                )
             }
         }
     }
@@ -152,7 +145,7 @@ pub(super) struct Chain<'c> {
     /// Marker A from the origins of the two bodies.
     arm: Vector<f64>,
     reach: Vector<f64>,
-    /// Angular velocity of a marker that turns, and marker A from it.
+    /// Angular velocity of a prescribed marker, and marker A from it.
     spin: Option<(Vector<f64>, Vector<f64>)>,
     a: End,
     b: Option<End>,
@@ -176,30 +169,24 @@ impl<'c> Chain<'c> {
         let relative_frame = &mounted.relative_frame;
         let to_marker = |v: Vector<f64>| -> Vector<f64> { relative.rotation.apply(v) };
         let ways = [0, 1, 2].map(|k| relative_frame.rotation.column(k));
-        let spins = relative_frame.angular_velocity != Vector::zero();
-        let swing = arm != Vector::zero();
         let axes = a.axes.map(to_marker);
         let mut angles = [Change::NONE; 3];
         for (l, axis) in axes.iter().enumerate() {
             let axis_rate = to_marker(cross(a.axes[l], a.spin) + a.axis_rates[l]);
-            let mut change = Change {
+            let position = cross(*axis, arm);
+            angles[l] = Change {
+                position,
                 rotation: *axis,
+                velocity: cross(axis_rate, arm) + cross(relative.angular_velocity, position),
                 angular_velocity: axis_rate,
-                ..Change::NONE
             };
-            if swing {
-                change.position = cross(*axis, arm);
-                change.velocity = cross(axis_rate, arm) + cross(relative.angular_velocity, change.position);
-            }
-            angles[l] = change;
         }
         let end_a = End {
-            carried: spins.then(|| ways.map(|way| cross(relative_frame.angular_velocity, way))),
+            carried: ways.map(|way| cross(relative_frame.angular_velocity, way)),
             along: Projection::new([ways[0], ways[1], ways[2], relative_frame.marker_velocity]),
             about: Projection::new([axes[0], axes[1], axes[2], Vector::zero()]),
             ways,
             angles,
-            swing,
         };
         let seat: Vector<f64> = mounted.marker.rotation.apply_transposed(mounted.marker.origin);
         let reach = relative.position + seat;
@@ -222,9 +209,8 @@ impl<'c> Chain<'c> {
             let [x, y, z] = directions;
             End {
                 ways: directions.map(|way| -way),
-                carried: Some(directions.map(|way| cross(spin, way))),
+                carried: directions.map(|way| cross(spin, way)),
                 angles,
-                swing: true,
                 along: Projection::new([x, y, z, Vector::zero()]),
                 about: Projection::new([axes[0], axes[1], axes[2], Vector::zero()]),
             }
@@ -233,7 +219,8 @@ impl<'c> Chain<'c> {
             tangent: &mounted.tangent,
             arm,
             reach,
-            spin: (mounted.prescribed && mounted.translation.is_none())
+            spin: mounted
+                .prescribed
                 .then_some((relative_frame.marker_angular_velocity, relative.position)),
             a: end_a,
             b: end_b,
@@ -243,11 +230,7 @@ impl<'c> Chain<'c> {
     /// Returns the moment about the origin of body a of a force and a moment about marker A.
     #[inline(always)]
     fn about_a(&self, force: Vector<f64>, moment: Vector<f64>) -> Vector<f64> {
-        if self.a.swing {
-            moment + cross(self.arm, force)
-        } else {
-            moment
-        }
+        moment + cross(self.arm, force)
     }
 
     /// Returns the rows at body b of a force and a moment about marker A on body a.
@@ -279,10 +262,7 @@ impl<'c> Chain<'c> {
                 (0, k) => self.a.ways[k],
                 (_, l) => {
                     let change = &self.a.angles[l];
-                    if self.a.swing {
-                        about += cross(change.position, force);
-                    }
-                    about = about - cross(change.rotation, moment);
+                    about = about + cross(change.position, force) - cross(change.rotation, moment);
                     change.position
                 }
             };

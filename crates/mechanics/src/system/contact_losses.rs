@@ -15,7 +15,6 @@ impl System {
         let [_, _, internal, _] = self.layout.split(x);
         for (number, face) in self.faces.iter().enumerate() {
             let target = &mut losses[self.points_of(number)];
-            target.fill([0.0; 2]);
             let relative: RelativeMotion<f64> = face.relative_frame.relative(&self.kinematics[face.body]);
             let deflections = &internal[face.first_internal..][..face.internal_count];
             face.element.evaluate(&relative, deflections, |point, contact| {

@@ -102,20 +102,13 @@ fn threshold(law: &FrictionLaw) -> usize {
 /// Up to four numbers, the rest zeros.
 #[inline(always)]
 fn take(numbers: &[f64]) -> Lanes {
-    match numbers.as_array::<LANES>() {
-        Some(all) => Lanes::new(*all),
-        None => Lanes::new(std::array::from_fn(|i| numbers.get(i).copied().unwrap_or(0.0))),
-    }
+    Lanes::new(std::array::from_fn(|i| numbers.get(i).copied().unwrap_or(0.0)))
 }
 
 /// Writes up to four numbers.
 #[inline(always)]
 fn put(target: &mut [f64], numbers: Lanes) {
-    let numbers = numbers.to_array();
-    match target.as_mut_array::<LANES>() {
-        Some(all) => *all = numbers,
-        None => target.copy_from_slice(&numbers[..target.len()]),
-    }
+    target.copy_from_slice(&numbers.to_array()[..target.len()]);
 }
 
 /// Returns the event functions of up to four points: positive while the contact state lasts. See
@@ -123,10 +116,6 @@ fn put(target: &mut [f64], numbers: Lanes) {
 #[inline(always)]
 fn margins_of(contact_states: &[u8], gap: Lanes, load: Lanes, law: usize) -> Lanes {
     let stays_open = gap - CLOSING_GAP;
-    let all = |contact_state: ContactState| contact_states.iter().all(|own| *own == contact_state as u8);
-    if all(ContactState::Open) {
-        return stays_open;
-    }
     let which = |contact_state: ContactState| {
         LaneMask::new(std::array::from_fn(|i| {
             contact_states.get(i) == Some(&(contact_state as u8))
@@ -134,11 +123,7 @@ fn margins_of(contact_states: &[u8], gap: Lanes, load: Lanes, law: usize) -> Lan
     };
     let stays_closed = (OPENING_GAP - gap) / BAND;
     let (stays_stuck, keeps_slipping) = (SLIP_LOAD[law] - load, load - STICK_LOAD[law]);
-    let friction = if all(ContactState::Slip) {
-        keeps_slipping
-    } else {
-        Lanes::blend(which(ContactState::Stick), stays_stuck, keeps_slipping)
-    };
+    let friction = Lanes::blend(which(ContactState::Stick), stays_stuck, keeps_slipping);
     // Without a force the load has no meaning; nor has NaN.
     let bears = gap.below(OPENING_GAP.into()).and(friction.below(stays_closed));
     let stays = Lanes::blend(bears, friction, stays_closed);
@@ -150,6 +135,7 @@ impl System {
     /// The functions below need it.
     #[inline(always)]
     pub(super) fn update_points(&mut self) {
+        // Computed anew, runs would take 0 to 5 % more instructions.
         if self.points_updated {
             return;
         }
@@ -355,7 +341,6 @@ impl System {
         let [_, _, internal, _] = self.layout.split(x);
         for (number, face) in self.faces.iter().enumerate() {
             let target = &mut speeds[self.points_of(number)];
-            target.fill(0.0);
             let relative: RelativeMotion<f64> = face.relative_frame.relative(&self.kinematics[face.body]);
             let deflections = &internal[face.first_internal..][..face.internal_count];
             face.element.evaluate(&relative, deflections, |point, contact| {

@@ -121,22 +121,16 @@ impl System {
         for mounted in &self.faces {
             let motion = inputs.element_kinematics(mounted);
             let face = &mounted.element;
-            let first = out.points.len();
-            for point in &face.points {
-                let contact = face.geometry(point, &motion.relative);
-                out.points.push(PointEvaluation {
-                    gap: contact.gap,
-                    normal: S::zero(),
-                    slip: contact.slip,
-                    friction: [S::zero(); 2],
-                });
-            }
             let internal = &inputs.internal[mounted.first_internal..][..mounted.internal_count];
             let rates = &mut out.internal_rates[mounted.first_internal..][..mounted.internal_count];
-            let points = &mut out.points[first..];
+            let points = &mut out.points;
             let sum = face.evaluate(&motion.relative, internal, |point, contact| {
-                points[point].normal = contact.normal;
-                points[point].friction = contact.friction.force;
+                points.push(PointEvaluation {
+                    gap: contact.gap,
+                    normal: contact.normal,
+                    slip: contact.slip,
+                    friction: contact.friction.force,
+                });
                 if !rates.is_empty() {
                     rates[2 * point..2 * point + 2].copy_from_slice(&contact.friction.rate);
                 }

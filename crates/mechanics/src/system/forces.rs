@@ -28,14 +28,15 @@ pub(super) trait Mountable: Sized {
         rates: &mut [f64],
     ) -> BodyWrench;
 
-    /// Returns the same if marker B does not rotate; `None` if the wrench is zero.
+    /// Returns the same if marker B does not rotate. Without this and its loop over the bodies a wedge
+    /// takes 7 to 12 % more instructions, a truck 1 %.
     fn body_wrench_of_frame(
         &self,
         points: &mut Points,
         ends: (&RelativeFrame<f64>, &Kinematics<f64>),
         internal: &[f64],
         rates: &mut [f64],
-    ) -> Option<BodyWrench>;
+    ) -> BodyWrench;
 
     /// Returns the position of marker A from the origin of its body, body axes, m.
     fn marker(&self) -> Vector<f64> {
@@ -88,14 +89,14 @@ impl Mountable for ContactFace<Interface> {
         (relative_frame, body): (&RelativeFrame<f64>, &Kinematics<f64>),
         internal: &[f64],
         rates: &mut [f64],
-    ) -> Option<BodyWrench> {
+    ) -> BodyWrench {
         if points.is_curved() {
-            return Some(self.body_wrench(points, &relative_frame.relative(body), internal, rates));
+            return self.body_wrench(points, &relative_frame.relative(body), internal, rates);
         }
         if points.update_if_open(relative_frame, body) {
-            return None;
+            return BodyWrench::ZERO;
         }
-        Some(self.wrench_on_body(points, &PlaneMotion::of(relative_frame, body), internal, rates))
+        self.wrench_on_body(points, &PlaneMotion::of(relative_frame, body), internal, rates)
     }
 
     #[inline(always)]
@@ -143,8 +144,8 @@ impl Mountable for Coil {
         (relative_frame, body): (&RelativeFrame<f64>, &Kinematics<f64>),
         _: &[f64],
         _: &mut [f64],
-    ) -> Option<BodyWrench> {
-        Some(self.wrench_on_body(relative_frame, body))
+    ) -> BodyWrench {
+        self.wrench_on_body(relative_frame, body)
     }
 
     fn marker(&self) -> Vector<f64> {
@@ -181,8 +182,8 @@ impl Mountable for Marked {
         (relative_frame, body): (&RelativeFrame<f64>, &Kinematics<f64>),
         internal: &[f64],
         rates: &mut [f64],
-    ) -> Option<BodyWrench> {
-        Some(self.body_wrench(points, &relative_frame.relative(body), internal, rates))
+    ) -> BodyWrench {
+        self.body_wrench(points, &relative_frame.relative(body), internal, rates)
     }
 
     fn marker(&self) -> Vector<f64> {
@@ -407,20 +408,14 @@ fn push<E: Mountable>(
 ) {
     let relative_frame = &mounted.relative_frame;
     let ends = (relative_frame, kinematics);
-    let energy_terms = &mounted.energy_terms;
-    match mounted
+    let wrench = mounted
         .element
-        .body_wrench_of_frame(&mut mounted.points, ends, internal, rates)
-    {
-        Some(wrench) => {
-            *force += relative_frame.rotation.apply_transposed::<f64, f64>(wrench.force);
-            *moment += wrench.moment;
-            write_powers(energy_terms, wrench.powers, powers);
-            if mounted.prescribed {
-                *work += relative_frame.marker_velocity.dot::<f64, f64>(wrench.force);
-            }
-        }
-        None => write_powers(energy_terms, [0.0; 2], powers),
+        .body_wrench_of_frame(&mut mounted.points, ends, internal, rates);
+    *force += relative_frame.rotation.apply_transposed::<f64, f64>(wrench.force);
+    *moment += wrench.moment;
+    write_powers(&mounted.energy_terms, wrench.powers, powers);
+    if mounted.prescribed {
+        *work += relative_frame.marker_velocity.dot::<f64, f64>(wrench.force);
     }
 }
 

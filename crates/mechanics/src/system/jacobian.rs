@@ -242,11 +242,7 @@ fn differentiate_element<E: Mountable>(
 ) {
     let body: RelativeMotion<f64> = mounted.relative_frame.relative(&bodies.kinematics[mounted.body]);
     let point = mounted.element.marker();
-    let (arm, relative) = if point == Vector::zero() {
-        (point, body)
-    } else {
-        (body.rotation.apply(point), body.at(point))
-    };
+    let (arm, relative) = (body.rotation.apply(point), body.at(point));
     mounted.tangent = mounted
         .element
         .tangent(&mounted.points, &relative, &mut mounted.rate_tangents);

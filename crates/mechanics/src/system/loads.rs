@@ -8,7 +8,7 @@ use super::observe::{BodyState, CoilState, FaceState};
 use super::{CLOSING_GAP, ContactState, Mounted, STICK_LOAD, System};
 use crate::body::Kinematics;
 use crate::contact::{ContactFace, Interface};
-use crate::link::{BodyWrench, RelativeMotion};
+use crate::link::RelativeMotion;
 use crate::vector::Vector;
 
 /// Wrench of a face on the body with its points (SI, fixed axes).
@@ -118,11 +118,6 @@ impl System {
                 mounted
                     .element
                     .body_wrench_of_frame(&mut mounted.points, ends, internal, &mut out.rates)
-                    .unwrap_or(BodyWrench {
-                        force: Vector::zero(),
-                        moment: Vector::zero(),
-                        powers: [0.0; 2],
-                    })
             } else {
                 let relative: RelativeMotion<f64> = mounted.relative_frame.relative(kinematics);
                 mounted

@@ -368,12 +368,8 @@ impl System {
         let face = &mounted.element;
         let relative: RelativeMotion<f64> = mounted.relative_frame.relative(&self.kinematics[mounted.body]);
         let deflections = &internal[mounted.first_internal..][..mounted.internal_count];
-        let mut points: Vec<PointContact<f64>> = face
-            .points
-            .iter()
-            .map(|point| face.geometry(point, &relative))
-            .collect();
-        let sum = face.evaluate(&relative, deflections, |i, contact| points[i] = *contact);
+        let mut points = Vec::with_capacity(face.points.len());
+        let sum = face.evaluate(&relative, deflections, |_, contact| points.push(*contact));
         let (axes, origin) = self.marker_pose(mounted.on, &mounted.marker);
         let mut state = FaceState {
             axes,

@@ -151,6 +151,7 @@ fn element_in_time<E: Mountable>(
 }
 
 /// The same if marker B translates; `acceleration` is that of the body's frame relative to it.
+/// Without this runs take 0 to 7 % more instructions.
 #[inline(always)]
 fn translating_in_time<E: Mountable>(
     mounted: &Mounted<E>,

@@ -34,15 +34,16 @@ fn normal_force_of_a_contact() {
                 &[],
                 |_, contact| contacts.push(*contact),
             );
-            if gap >= 0.0 {
-                open += 1;
-                assert!(contacts.is_empty());
-                assert_eq!(sum.force.0, [0.0; 3]);
-                continue;
-            }
             let [contact] = contacts[..] else {
                 panic!("one point")
             };
+            assert_eq!(contact.gap, gap);
+            if gap >= 0.0 {
+                open += 1;
+                assert_eq!((contact.normal, contact.friction.force), (0.0, [0.0; 2]));
+                assert_eq!(sum.force.0, [0.0; 3]);
+                continue;
+            }
             let normal = (-k * gap - damping * velocity[0]).max(0.0);
             close(contact.normal, normal, 1e-11);
             assert!(contact.normal >= 0.0, "contact must not pull");
