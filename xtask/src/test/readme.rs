@@ -108,8 +108,8 @@ mod tests {
         for text in [
             "![",
             "## Which numbers to trust",
-            "## What it cannot do",
-            "hold always",
+            "## Limits",
+            "always hold",
             "NUCARS",
         ] {
             assert!(readme.contains(text), "{text}");

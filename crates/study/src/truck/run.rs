@@ -25,7 +25,7 @@ use crate::losses::stroke::Stroke;
 use crate::losses::{LossCounts, LossRecorder};
 use crate::metrics::Extremes;
 use crate::plausibility;
-use crate::progress;
+use crate::progress::{self, ADVANCE, Pace};
 use crate::result::RunResult;
 use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError, append, check_finite, check_length};
 use crate::summary::{LedgerSummary, Stopped, SummaryValue};
@@ -150,9 +150,15 @@ impl TruckCase {
         let still = Truck::new(&held(&self.parameters))?;
         let layout = still.system.layout();
         let mut integrator = Integrator::new(still.system, self.options(), 0.0, &truck.initial_state)?;
+        let mut pace = Pace::of(&integrator);
         while integrator.time() < self.settle {
-            integrator.step_to(self.settle).map_err(|error| RunError::Step {
-                reason: format!("while the truck settles: {error}"),
+            let step = integrator.step_to(self.settle).map_err(|error| error.to_string());
+            let progress = step.and_then(|_| {
+                pace.check(&integrator, ADVANCE)
+                    .map_err(|stalled| stalled.to_string())
+            });
+            progress.map_err(|reason| RunError::Step {
+                reason: format!("while the truck settles: {reason}"),
                 contacts: "not stated".to_owned(),
             })?;
         }

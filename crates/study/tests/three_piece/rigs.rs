@@ -1,6 +1,7 @@
 //! The rigs: energy ledgers, symmetry, and what is known of each.
 #![allow(clippy::unwrap_used)]
 
+use study::run::Run;
 use study::truck::loop_curve::{LoopCurve, LoopKind};
 use study::truck::warp::WarpCurve;
 use study::truck::{WEDGE_NAMES, builtin};
@@ -334,4 +335,22 @@ fn energy_of_the_loop_is_what_is_lost() {
         "{} and {lost} J",
         curve.energy
     );
+}
+
+/// The rule for runs that hardly progress holds before a run, too.
+#[test]
+fn limits_a_truck_that_hardly_settles_stops_by_the_rule() {
+    let set = [
+        "contact.stiffness=5e12 lbf/in",
+        "simulation.relative_tolerance=1e-12",
+        "start.settle=1 s",
+    ];
+    let error = Run::new(&case("truck_vertical_constant", &set)).err().unwrap();
+    let text = error.to_string();
+    for part in [
+        "while the truck settles: the run hardly progresses at 0.",
+        "150000 are admissible for 0.1 s",
+    ] {
+        assert!(text.contains(part), "{text}");
+    }
 }
