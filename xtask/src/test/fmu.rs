@@ -23,7 +23,7 @@ pub fn check(workspace: &Workspace) -> Outcome {
     let mut pytest = Command::new(&python);
     pytest
         .args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"])
-        // On all cores; two tests take a third of the time, so whoever has nothing to do takes over.
+        // On all cores; two tests take more than half of the time, so whoever has nothing to do takes over.
         .args(["--numprocesses", "auto", "--dist", "worksteal"])
         .arg(&tests)
         .env("WEDGELAB", program)
