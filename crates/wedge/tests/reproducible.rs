@@ -2,9 +2,12 @@
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod common;
+#[path = "../../mechanics/tests/common/margins.rs"]
+mod margins;
 
 use common::{Random, TOE, YAW, bristle, with_law};
 use integrate::{DiscontinuityFunctions, Problem};
+use margins::margins;
 use mechanics::system::System;
 use wedge::parameters::{Damping, Parameters};
 use wedge::{Wedge, thesis};
@@ -28,27 +31,6 @@ fn discontinuities(system: &mut System, time: f64, x: &[f64]) -> Vec<f64> {
 /// Returns the bits as numbers: zero may have another sign, and what is not a number is as good as another.
 fn equal(a: f64, b: f64) -> bool {
     a == b || a.is_nan() && b.is_nan()
-}
-
-/// Event functions of all contact points, and the next contact states, from the event variables of all at
-/// once.
-fn margins(system: &mut System, time: f64, x: &[f64], contact_states: &[u8]) -> (Vec<f64>, Vec<u8>) {
-    let mut variables = vec![f64::NAN; system.structure().event_variables()];
-    system.event_variables(None, time, x, &mut variables);
-    let (mut margins, mut next) = (vec![f64::NAN; contact_states.len()], contact_states.to_vec());
-    for (number, group) in system.structure().event_groups.into_iter().enumerate() {
-        let (own, variables) = (group.discrete_states, &variables[group.variables]);
-        system.event_functions(
-            number,
-            variables,
-            &contact_states[own.clone()],
-            &mut margins[own.clone()],
-        );
-        for (index, next) in next[own].iter_mut().enumerate() {
-            *next = system.next_discrete_state(number, variables, index, *next);
-        }
-    }
-    (margins, next)
 }
 
 /// Returns the signs of all groups, one after the other.

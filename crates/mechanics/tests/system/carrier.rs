@@ -1,6 +1,5 @@
 //! Carriers: what goes with a body but does not turn with its last angle, as bearings do with an axle that
 //! spins.
-#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use integrate::{Integrator, Method, Options, Problem};
 use mechanics::body::Body;

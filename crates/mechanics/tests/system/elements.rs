@@ -1,6 +1,5 @@
 //! Force elements of any kind: derivatives at both ends, momentum, the energy ledger; bodies with finite and
 //! with linearized kinematics.
-#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use crate::common::Random;
 use integrate::{Integrator, Options, Problem};

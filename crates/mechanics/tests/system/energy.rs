@@ -1,5 +1,4 @@
 //! Energy: kept where nothing is lost, and accounted for where something is.
-#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use crate::common::{ALL, Ledger, UP, body, coil, face, ground, integrate, model, momenta, norm, options};
 use integrate::{Method, Options, Problem};

@@ -2,7 +2,6 @@
 //! written here from positions and rotation matrices alone: velocities and angular velocities come from
 //! differentiating these by numbers with three nilpotent units (exact to rounding), so that no formula of the
 //! library is used twice.
-#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use crate::common::{ALL, Random, UP, body, coil, face, ground, model, rates};
 use integrate::Problem;

@@ -1,5 +1,4 @@
 //! Models that make no system, tables that make no law, and what is written and read back.
-#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use crate::common::{ALL, body, coil, face, ground, model};
 use mechanics::body::Body;

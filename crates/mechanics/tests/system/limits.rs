@@ -1,5 +1,4 @@
 //! Limits of models: a mass that friction stops, creep, rest in equilibrium, momentum, the same bits again.
-#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use crate::common::{
     ALL, Random, UP, add, body, coil, cross, difference, face, ground, integrate, model, momenta, norm,

@@ -3,6 +3,8 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/margins.rs"]
+mod margins;
 
 mod carrier;
 mod eigenvalues;

@@ -1,6 +1,5 @@
 //! Findings of observers of runs: none within the limits; beyond them one with place, time and value, for any
 //! model.
-#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use crate::common::{ALL, UP, body, coil, face, ground, model};
 use mechanics::body::Body;

@@ -1,5 +1,4 @@
 //! Friction by speed, load and place, and the stick-slip oscillation that it excites.
-#![allow(missing_docs, clippy::unwrap_used)]
 
 use crate::common::{UP, coil, difference, face, ground, integrate, model, norm, options, over, rates};
 use integrate::Method;

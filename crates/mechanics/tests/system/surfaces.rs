@@ -1,5 +1,4 @@
 //! Curved surfaces, and grids of points on them.
-#![allow(missing_docs, clippy::unwrap_used)]
 
 use crate::common::{Ledger, Random, coil, ground, integrate, norm, options, over, rates};
 use integrate::Method;

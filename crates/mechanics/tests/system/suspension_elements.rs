@@ -1,6 +1,5 @@
 //! Elements of suspensions: closed forms, both ends' derivatives against differences, the energy ledger,
 //! momentum of free bodies.
-#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
 use crate::common::Random;
 use integrate::{Integrator, Options, Problem};

@@ -1,5 +1,6 @@
 //! Bad input: every message says what was found and expected, and helps.
 
+use crate::problems::in_words;
 use study::car::CarCase;
 use study::case::Tables;
 
@@ -7,13 +8,7 @@ use study::case::Tables;
 fn refused(lines: &str) -> String {
     let text = format!("model = \"car\"\n{lines}");
     let error = CarCase::parse("case.toml", &text, Tables::nowhere(), &[]).unwrap_err();
-    let problems = error.problems().iter();
-    problems
-        .map(|problem| {
-            let help = miette::Diagnostic::help(problem).map(|help| help.to_string());
-            format!("{problem}\n{}\n", help.unwrap_or_default())
-        })
-        .collect()
+    in_words(error.problems())
 }
 
 #[test]

@@ -3,6 +3,8 @@
 
 mod case;
 mod input;
+#[path = "../common/problems.rs"]
+mod problems;
 mod run;
 mod stability;
 mod statistics;

@@ -1,7 +1,5 @@
 //! Cases: the thesis's values, round trips, and every motion.
 
-#![allow(clippy::unwrap_used)]
-
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
 use mechanics::motion::{Motion, RampProfile};

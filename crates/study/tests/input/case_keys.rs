@@ -1,5 +1,4 @@
 //! reproduction: the page docs/case-keys.md holds the keys of this build.
-#![allow(missing_docs, clippy::unwrap_used)]
 
 #[path = "../case_keys/page.rs"]
 mod page;

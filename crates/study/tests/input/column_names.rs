@@ -1,8 +1,6 @@
 //! The columns of runs against the rule for names in `docs/conventions.md`: objects, quantities, units and
 //! exceptions are read from the tables of that page, so that the page stays true.
 
-#![allow(clippy::unwrap_used)]
-
 use std::collections::BTreeSet;
 
 use mechanics::output::Column;

@@ -1,5 +1,4 @@
 //! The sections of the wedge's faces: read, written, refused; the same in trucks.
-#![allow(missing_docs, clippy::unwrap_used)]
 
 use mechanics::surface::SurfaceProfile;
 use study::case::{Case, CaseError, Tables};

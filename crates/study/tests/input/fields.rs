@@ -1,7 +1,5 @@
 //! The list of fields: it holds the whole case, and what it says can be set.
 
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use study::case::{Case, Field, Input, builtin};

@@ -1,7 +1,5 @@
 //! Issue 29: what ended the program, took it seconds or was called a success.
 
-#![allow(clippy::unwrap_used, clippy::expect_used)]
-
 use std::fs;
 use std::path::Path;
 

@@ -1,7 +1,5 @@
 //! Tables that a case names, where those who name them may not read every file.
 
-#![allow(clippy::unwrap_used)]
-
 use std::fs;
 use std::path::Path;
 

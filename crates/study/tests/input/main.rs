@@ -3,6 +3,8 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/problems.rs"]
+mod problems;
 
 mod case;
 mod case_keys;

@@ -1,7 +1,5 @@
 //! Bad input: every message says what was found and expected, marks the place, and helps.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common::{check, errors, only};
 use std::path::Path;
 use study::case::Case;

@@ -1,7 +1,5 @@
 //! Bad motions and tables, in the case and in files beside it.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common::{check, errors, only};
 use study::case::{Case, CaseError};
 

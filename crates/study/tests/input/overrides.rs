@@ -1,7 +1,5 @@
 //! `--set`, good and bad, and names of built-in cases.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common::only;
 use study::any_case::AnyCase;
 use study::case::{Case, CaseError, builtin};

@@ -1,6 +1,6 @@
 //! Track files: what they become, and what is said of mistakes in them.
-#![allow(missing_docs, clippy::unwrap_used)]
 
+use crate::problems::in_words;
 use study::track::TrackFile;
 
 const FOOT: f64 = 0.3048;
@@ -39,13 +39,7 @@ start = "50 ft"
 
 fn refused(text: &str) -> String {
     let error = TrackFile::parse("track.toml", text).unwrap_err();
-    let problems = error.problems().iter();
-    problems
-        .map(|problem| {
-            let help = miette::Diagnostic::help(problem).map(|help| help.to_string());
-            format!("{problem}\n{}\n", help.unwrap_or_default())
-        })
-        .collect()
+    in_words(error.problems())
 }
 
 /// A curve of 10 degrees has a radius of 573.7 ft, right curves and their superelevation have the signs of
@@ -197,13 +191,7 @@ fn in_folder(files: &[(&str, String)]) -> tempfile::TempDir {
 
 fn refused_file(folder: &tempfile::TempDir) -> String {
     let error = TrackFile::read(&folder.path().join("track.toml")).unwrap_err();
-    let problems = error.problems().iter();
-    problems
-        .map(|problem| {
-            let help = miette::Diagnostic::help(problem).map(|help| help.to_string());
-            format!("{problem}\n{}\n", help.unwrap_or_default())
-        })
-        .collect()
+    in_words(error.problems())
 }
 
 /// A table beside the track file gives irregularities and the center line; support and cubic spirals are

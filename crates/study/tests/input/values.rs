@@ -1,5 +1,4 @@
 //! Cases that programs make: values over a case, bare numbers in SI units.
-#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 use std::path::Path;
 

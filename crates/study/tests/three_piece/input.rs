@@ -1,6 +1,7 @@
 //! Bad input: every message says what was found and expected, and helps.
 #![allow(clippy::unwrap_used)]
 
+use crate::problems::in_words;
 use study::any_case::AnyCase;
 use study::case::{Case, Tables};
 use study::run::Run;
@@ -10,13 +11,7 @@ use study::truck::{TruckCase, builtin};
 fn refused(lines: &str) -> String {
     let text = format!("model = \"truck\"\n{lines}");
     let error = TruckCase::parse("case.toml", &text, Tables::nowhere(), &[]).unwrap_err();
-    let problems = error.problems().iter();
-    problems
-        .map(|problem| {
-            let help = miette::Diagnostic::help(problem).map(|help| help.to_string());
-            format!("{problem}\n{}\n", help.unwrap_or_default())
-        })
-        .collect()
+    in_words(error.problems())
 }
 
 #[test]

@@ -4,6 +4,8 @@ mod common;
 mod input;
 mod kinds;
 mod massless;
+#[path = "../common/problems.rs"]
+mod problems;
 mod reproducible;
 mod rigs;
 mod thesis_wedge;

@@ -1,5 +1,4 @@
 //! Metrics and cases against closed forms.
-#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 use std::f64::consts::PI;
 

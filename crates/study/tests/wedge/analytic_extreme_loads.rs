@@ -1,6 +1,5 @@
 //! Extreme loads of wedges and trucks against closed forms: lock-up and release, an overturned toe, bottomed
 //! nests, impact of a lifted car, ten times the load. Each ends with a closed ledger.
-#![allow(clippy::unwrap_used, clippy::panic)]
 
 #[path = "../three_piece/common.rs"]
 mod trucks;

@@ -1,5 +1,4 @@
 //! Lock-up maps: the closed form and the rigs check each other.
-#![allow(clippy::unwrap_used)]
 
 use std::ops::ControlFlow;
 

@@ -1,5 +1,4 @@
 //! Results converge as the tolerance falls; they do not depend on when they are written.
-#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 use crate::runs::{averages, run_all};
 use integrate::Method;

@@ -1,6 +1,5 @@
 //! Energy ledgers: every built-in case beyond the thesis closes its own without warnings; and how runs are
 //! judged that do not.
-#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 use mechanics::energy_balance::Verdict;
 use nucars::truck::Choices;

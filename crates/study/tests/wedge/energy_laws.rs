@@ -1,6 +1,5 @@
 //! Loss and equivalent damping against closed forms: dampers, Coulomb friction over amplitude, frequency,
 //! load and toe, bristles below break-away.
-#![allow(clippy::unwrap_used)]
 
 use std::f64::consts::PI;
 

@@ -1,6 +1,5 @@
 //! Division of the energy of a cycle: divisions sum to the ledger and are integrals of powers; what flows in
 //! flows out; a face left out is noticed; what has no cycle says why.
-#![allow(clippy::unwrap_used)]
 
 use std::collections::BTreeMap;
 

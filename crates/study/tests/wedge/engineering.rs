@@ -1,5 +1,4 @@
 //! Accuracy of studies at engineering accuracy: against runs of the default method at a close tolerance.
-#![allow(clippy::unwrap_used)] // it may stop where it stands
 
 use study::case::{Case, builtin};
 use study::design::ENGINEERING;

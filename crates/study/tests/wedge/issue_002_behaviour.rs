@@ -1,6 +1,5 @@
 //! A compiler turned right source into a wrong Jacobian (docs/decisions/0008): results stayed right, but runs
 //! took twenty times as many steps. The number of steps is what shows it.
-#![allow(clippy::unwrap_used)]
 
 use study::case::builtin;
 use study::run::Run;

@@ -1,5 +1,4 @@
 //! Issue 36: a corner without normal force is open, in every place that tells contact states.
-#![allow(missing_docs, clippy::unwrap_used)]
 
 use study::case::{Case, builtin};
 use study::result::RunResult;

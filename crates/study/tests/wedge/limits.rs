@@ -1,5 +1,4 @@
 //! Cases at their limits: what a warped wedge can bear, and runs that hardly progress.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use crate::runs::{LBF, LBF_IN, column};
 use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection, SlopeFriction};

@@ -1,5 +1,4 @@
 //! Runs say what is implausible in them, with place, time, amount and what to do; sound ones say nothing.
-#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 use std::path::Path;
 

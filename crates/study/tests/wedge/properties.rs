@@ -1,5 +1,4 @@
 //! Random valid wedges: everything stays finite, the ledger closes, friction never adds energy.
-#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;

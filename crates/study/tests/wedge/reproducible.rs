@@ -1,5 +1,4 @@
 //! The same bits: from run to run, for any number of threads, across save and continue.
-#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 use crate::runs::run_all;
 use study::case::{Case, builtin};

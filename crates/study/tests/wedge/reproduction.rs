@@ -1,6 +1,5 @@
 //! The thesis's twelve runs: the two anchors, the orderings and envelopes that the thesis states of its
 //! figures, lift-off.
-#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 use crate::runs::{INCH, LBF, LBF_IN, TWELVE, averages, column, twelve};
 use study::result::RunResult;

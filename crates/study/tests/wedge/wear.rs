@@ -1,5 +1,4 @@
 //! Wear of a wedge's faces: volumes by closed forms on every grid, pressure that evens out, steps, stops.
-#![allow(missing_docs, clippy::unwrap_used)]
 
 use std::ops::ControlFlow;
 
