@@ -1,11 +1,11 @@
-// Bundles the viewer and the explorer into dist/viewer.js, dist/explorer.js and their styles, or into the folder that is named.
+// Bundles the viewer and the explorer into viewer.js, explorer.js and their styles in the folder that is named, or in crates/report/viewer.
 import { readFile, writeFile, mkdir } from "node:fs/promises";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
-const out = process.argv[2] ?? join(root, "dist");
+const out = process.argv[2] ?? join(root, "../crates/report/viewer");
 
 const { outputFiles } = await build({
   absWorkingDir: root,

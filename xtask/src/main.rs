@@ -55,7 +55,7 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "viewer",
-        about: "bundle the interactive part of the report's page (needs Node.js)",
+        about: "bundle the interactive part of pages anew (needs Node.js)",
         run: viewer::run,
     },
     Command {

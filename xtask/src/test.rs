@@ -72,10 +72,9 @@ const CHECKS: &[Check] = &[
         "links between pages lead somewhere, source files that they name exist",
         links::check,
     ),
-    // Before everything that compiles: what is compiled after it holds the viewer.
     Check::new(
         "viewer",
-        "the pages' interactive part: types, lints, unit tests (needs Node.js)",
+        "the pages' interactive part: types, lints, unit tests, its bundle (needs Node.js)",
         viewer::check,
     ),
     Check::new("clippy", "no lint warns", clippy),

@@ -1,5 +1,5 @@
-//! `cargo xtask viewer`: the report page's interactive part, bundled into `viewer/dist`, where `report` takes
-//! it from.
+//! `cargo xtask viewer`: the interactive part of pages, bundled into `crates/report/viewer`. The bundle is in
+//! the repository, so that building needs Rust alone; the check `viewer` compares it with its sources.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,14 +10,17 @@ use crate::shell::{self, Workspace};
 const HELP: &str = "\
 Usage: cargo xtask viewer
 
-Bundles the interactive part of the report's page (TypeScript in `viewer`) into `viewer/dist`; what is built \
-with cargo after
-that holds it. Needs Node.js 20.19 or later with npm; fetches the packages of its lock file once.";
+Bundles the interactive part of pages (TypeScript in `viewer`) into `crates/report/viewer`, which is
+committed. Only those who change `viewer` need it. Needs Node.js 20.19 or later with npm; fetches the
+packages of its lock file once.";
+
+/// The files of the bundle.
+const FILES: [&str; 4] = ["viewer.js", "viewer.css", "explorer.js", "explorer.css"];
 
 const LOCK: &str = "package-lock.json";
 
 /// The message where Node.js is missing.
-const NODE: &str = "The viewer needs Node.js 20.19 or later with npm, and network the first time \
+const NODE: &str = "Bundling the viewer needs Node.js 20.19 or later with npm, and network the first time \
                     (https://nodejs.org; Debian: apt-get install nodejs npm).";
 
 /// Runs the command.
@@ -33,7 +36,7 @@ pub fn run(workspace: &Workspace, arguments: &[String]) -> ExitCode {
             return ExitCode::from(2);
         }
     }
-    match install(workspace).and_then(|()| bundle(workspace)) {
+    match install(workspace).and_then(|()| bundle(workspace, &committed(workspace))) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             eprintln!("{message}");
@@ -71,9 +74,36 @@ pub fn install(workspace: &Workspace) -> Result<(), String> {
     Ok(())
 }
 
-/// Bundles the viewer.
-pub fn bundle(workspace: &Workspace) -> Result<(), String> {
-    shell::run(&mut node(workspace, ["scripts/bundle.mjs"]))
+/// Returns the folder of the bundle that is in the repository.
+fn committed(workspace: &Workspace) -> PathBuf {
+    workspace.root.join("crates/report/viewer")
+}
+
+/// Bundles the viewer into a folder.
+fn bundle(workspace: &Workspace, folder: &Path) -> Result<(), String> {
+    shell::run(node(workspace, ["scripts/bundle.mjs"]).arg(folder))
+}
+
+/// Bundles the viewer anew and compares it with the bundle in the repository.
+///
+/// # Errors
+/// A file differs.
+pub fn compare(workspace: &Workspace) -> Result<(), String> {
+    let fresh = workspace.target.join("viewer");
+    bundle(workspace, &fresh)?;
+    let committed = committed(workspace);
+    let stale: Vec<&str> = FILES
+        .into_iter()
+        .filter(|name| !same(&fresh.join(name), &committed.join(name)))
+        .collect();
+    if stale.is_empty() {
+        return Ok(());
+    }
+    Err(format!(
+        "{} in {} differ from their sources in `viewer`: run `cargo xtask viewer` and commit its result.",
+        stale.join(", "),
+        committed.display()
+    ))
 }
 
 /// Returns whether both files are there and hold the same.

@@ -15,8 +15,8 @@ use study::run::Run;
 use crate::certificate_files::{self, CertificateFindings, NAMES};
 use crate::figures::car::CarRun;
 use crate::files::{FileError, Folder};
+use crate::page as pages;
 use crate::page::certificate::{self as page, Against, WorstRun};
-use crate::page::{self as pages, Viewer};
 use crate::run_files::RunFiles;
 use crate::study_folder::{StudyFolder, StudyFolderError};
 
@@ -41,7 +41,7 @@ pub fn finish(
     if stop.load(Ordering::Relaxed) {
         return Ok(None);
     }
-    let page = page::render(certificate, &findings, &worst, against, Viewer::embedded());
+    let page = page::render(certificate, &findings, &worst, against);
     let page = page.map_err(|error| unwritable(folder.path(), error))?;
     let files = Folder::check(folder.path(), &NAMES, true)?;
     certificate_files::write(certificate, &findings, &page, &files)
@@ -123,7 +123,7 @@ fn one(
     // The same run gives the same files.
     let folder = Folder::check(path.join(&own), &names, true)?;
     run.case.write(&folder, &run.result)?;
-    let html = pages::car_run::render(&run, Viewer::embedded());
+    let html = pages::car_run::render(&run);
     let html = html.map_err(|error| unwritable(folder.path(), error))?;
     let written: Result<(), FileError> =
         folder.write(|files| files.add(pages::FILE_NAME, |out| out.write_all(html.as_bytes())));

@@ -445,7 +445,7 @@ fn the_page_tells_how_far_they_agree() {
     };
     let mut contents = Contents {
         beyond: &[],
-        interactive: None,
+        view: "{}",
         outcomes,
         claims: &claims,
         sensitivity: None,

@@ -146,7 +146,7 @@ fn the_page_has_every_number_with_its_remark_and_every_rig() {
         rigs: &results,
         findings: findings(),
         figures: &[],
-        interactive: None,
+        view: "{}",
     });
     for check in &findings().checks {
         assert!(

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use quantity::System as Units;
 use report::claims::Claims;
 use report::figures::CaseOutcome;
-use report::page::{self, Contents, Viewer};
+use report::page::{self, Contents};
 use report::sections;
 use report::view::View;
 use report::view::run::{Detail, Recording};
@@ -287,36 +287,29 @@ fn figures_hold_their_curves_in_si() {
 }
 
 #[test]
-fn the_page_takes_viewer_and_data_or_does_without() {
+fn issue_048_the_page_holds_its_data_script_and_style() {
     let outcomes = [outcome("cdrun_toe_0_psi_0", &["simulation.duration=0.1 s"])];
     let view = View::new(Units::Us, full(&outcomes), []).to_json().unwrap();
-    let viewer = Viewer {
-        script: "start()",
-        style: ".a{}",
-    };
-    let page = |interactive| {
-        page::render(&Contents {
-            outcomes: &outcomes,
-            beyond: &[],
-            claims: &Claims::of(Vec::new()),
-            sensitivity: None,
-            comparison: None,
-            truck: false,
-            sections: &[],
-            interactive,
-        })
-    };
-    let with = page(Some((viewer, view.as_str())));
+    let page = page::render(&Contents {
+        outcomes: &outcomes,
+        beyond: &[],
+        claims: &Claims::of(Vec::new()),
+        sensitivity: None,
+        comparison: None,
+        truck: false,
+        sections: &[],
+        view: &view,
+    });
     for part in [
-        "<script>start()</script>",
-        "<style>.a{}</style>",
+        "<style>.wl-",
         "<script type=\"application/json\" id=\"wedgelab-view\">{\"schema\":\"wedgelab.view/1\"",
+        "<div data-shown=\"cdrun_toe_0_psi_0\"",
     ] {
-        assert!(with.contains(part), "{part}");
+        assert!(page.contains(part), "{part}");
     }
-    let without = page(None);
-    assert!(!without.contains("wedgelab-view") && !without.contains("<div data-shown"));
-    assert_eq!(without.matches("<script").count(), 1, "what folds tables");
+    // What folds tables, the data, the viewer with three.js.
+    assert_eq!(page.matches("<script").count(), 3);
+    assert!(page.contains("three.js") && page.len() > 600_000);
     assert_eq!(outcomes[0].1.summary.units, Units::Us);
 }
 

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use std::sync::LazyLock;
 
 use report::figures::car::CarRun;
-use report::page::{Viewer, car_run};
+use report::page::car_run;
 use report::view::car::scene;
 use study::car::CarCase;
 use study::case::Tables;
@@ -191,11 +191,6 @@ fn analytic_halves_of_split_wedges_are_bodies_of_their_own() {
 #[test]
 fn input_the_page_moves() {
     let run = ran();
-    let viewer = Viewer {
-        style: "",
-        script: "",
-    };
-    let page = car_run::render(run, Some(viewer)).unwrap();
+    let page = car_run::render(run).unwrap();
     assert!(page.contains("data-run=\"curve\"") && page.contains("wedgelab-view"));
-    assert!(!car_run::render(run, None).unwrap().contains("data-run"));
 }

@@ -10,7 +10,7 @@ use mechanics::vector::{Matrix, Vector};
 use nucars::truck::{Choices, Wedges};
 use quantity::System as Units;
 use report::figures::truck::{TruckRun, exhibits};
-use report::page::{Viewer, half_truck_run, truck_run};
+use report::page::{half_truck_run, truck_run};
 use report::view::View;
 use report::view::run::{Detail, Recording};
 use report::view::scene::{Scene, SceneBody};
@@ -190,11 +190,7 @@ fn a_half_trucks_wedge_bodies_have_the_gaps_and_forces_of_the_run() {
                 }
             }
         }
-        let viewer = Viewer {
-            script: "start()",
-            style: ".a{}",
-        };
-        let page = half_truck_run::render(&case, &result, Some(&contacts), Some(viewer)).unwrap();
+        let page = half_truck_run::render(&case, &result, Some(&contacts)).unwrap();
         for text in [
             "with wedges that are bodies",
             "Wedges as bodies",
@@ -331,22 +327,16 @@ fn the_page_of_a_run_tells_loops_wedges_and_doubts() {
         assert!(names.contains(&name), "{names:?}");
     }
     run.result.summary.warnings.push("something <odd>".to_owned());
-    let viewer = Viewer {
-        script: "start()",
-        style: ".a{}",
-    };
-    let with = truck_run::render(&run, Some(viewer)).unwrap();
+    let page = truck_run::render(&run).unwrap();
     for part in [
         "something &lt;odd&gt;",
         "data-run=\"truck_vertical_constant\" open",
-        "<script>start()</script>",
         "trailing right",
         "Constant damping, bolster up and down",
     ] {
-        assert!(with.contains(part), "{part}");
+        assert!(page.contains(part), "{part}");
     }
-    let without = truck_run::render(&run, None).unwrap();
-    assert!(!without.contains("wedgelab-view") && without.contains("<svg"));
+    assert!(page.contains("wedgelab-view") && page.contains("<svg"));
     let warp = ran("truck_warp_nest_constant_rising", &["simulation.duration=4 s"]);
     assert!(
         exhibits(&warp)

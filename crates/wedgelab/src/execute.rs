@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use quantity::SixDigits;
 use report::files::Folder;
-use report::page::{self, Viewer};
+use report::page;
 use report::run_files::RunFiles;
 use study::car::CarCase;
 use study::car::motions::MotionTable;
@@ -121,9 +121,9 @@ pub fn write_quietly<C: RunFiles>(
 /// Writes the page of a run beside its files.
 pub fn write_page(
     folder: &Folder,
-    render: impl FnOnce(Option<Viewer>) -> Result<String, serde_json::Error>,
+    render: impl FnOnce() -> Result<String, serde_json::Error>,
 ) -> Result<(), Failure> {
-    let html = render(Viewer::embedded()).map_err(|error| {
+    let html = render().map_err(|error| {
         let message = format!("cannot write the page's data: {error}");
         Failure::Failed(Message::new(message, "").into())
     })?;

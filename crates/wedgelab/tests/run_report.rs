@@ -33,10 +33,10 @@ fn json(file: &Path) -> Value {
     serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap()
 }
 
-/// Returns the data of a page's interactive part, if this program was built with it.
-fn view(page: &str) -> Option<Value> {
-    let (_, rest) = page.split_once("id=\"wedgelab-view\">")?;
-    Some(serde_json::from_str(rest.split_once("</script>")?.0).unwrap())
+/// Returns the data of a page's interactive part.
+fn view(page: &str) -> Value {
+    let (_, rest) = page.split_once("id=\"wedgelab-view\">").unwrap();
+    serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
 }
 
 /// Returns the numbers in the row of a page's table that begins with these words, without what stands in
@@ -170,14 +170,13 @@ fn wedges_stand_side_by_side_with_the_numbers_of_their_summaries() {
         .as_f64()
         .unwrap();
     assert!((ledger - own).abs() <= 0.05 * own, "{ledger} is not {own}");
-    if let Some(view) = view(&page) {
-        let runs = view["runs"].as_array().unwrap();
-        assert_eq!(runs.len(), 2);
-        assert!(
-            runs.iter()
-                .all(|run| run["scene"]["bodies"].is_array() && run["loops"].is_array())
-        );
-    }
+    let view = view(&page);
+    let runs = view["runs"].as_array().unwrap();
+    assert_eq!(runs.len(), 2);
+    assert!(
+        runs.iter()
+            .all(|run| run["scene"]["bodies"].is_array() && run["loops"].is_array())
+    );
     // A page is not overwritten.
     assert_eq!(wedgelab(at, &["report", "one"]).code, Some(2));
     done(at, &["report", "one", "--force"]);
@@ -216,27 +215,26 @@ fn trucks_and_cars_are_read_with_what_their_pages_keep() {
         row(&page, "largest normal force of a column")[1],
         largest.into_iter().fold(f64::MIN, f64::max),
     );
-    if let Some(view) = view(&page) {
-        let runs = view["runs"].as_array().unwrap();
-        let run = |name: &str| runs.iter().find(|run| run["name"] == name).unwrap();
-        assert_eq!(
-            run("a")["scene"]["contacts"].as_array().unwrap().len(),
-            32,
-            "corners"
-        );
-        assert_eq!(
-            run("b")["scene"]["contacts"].as_array().unwrap().len(),
-            32,
-            "thinned"
-        );
-        assert!(run("car")["scene"]["track"].is_object(), "the track of the car");
-        let lists = view["data"].as_array().unwrap();
-        for run in runs {
-            let place = |own: &Value| usize::try_from(own.as_u64().unwrap()).unwrap();
-            assert!(lists[place(&run["time"])].is_string());
-            for column in run["columns"].as_object().unwrap().values() {
-                assert!(column.get("data").is_none_or(|own| place(own) < lists.len()));
-            }
+    let view = view(&page);
+    let runs = view["runs"].as_array().unwrap();
+    let run = |name: &str| runs.iter().find(|run| run["name"] == name).unwrap();
+    assert_eq!(
+        run("a")["scene"]["contacts"].as_array().unwrap().len(),
+        32,
+        "corners"
+    );
+    assert_eq!(
+        run("b")["scene"]["contacts"].as_array().unwrap().len(),
+        32,
+        "thinned"
+    );
+    assert!(run("car")["scene"]["track"].is_object(), "the track of the car");
+    let lists = view["data"].as_array().unwrap();
+    for run in runs {
+        let place = |own: &Value| usize::try_from(own.as_u64().unwrap()).unwrap();
+        assert!(lists[place(&run["time"])].is_string());
+        for column in run["columns"].as_object().unwrap().values() {
+            assert!(column.get("data").is_none_or(|own| place(own) < lists.len()));
         }
     }
     // Without its page a truck is made of its table, and a car is not seen.
@@ -244,13 +242,12 @@ fn trucks_and_cars_are_read_with_what_their_pages_keep() {
         fs::remove_file(at.join(name).join("index.html")).unwrap();
     }
     done(at, &["report", "a", "car", "--out", "bare"]);
-    if let Some(view) = view(&self::page(&at.join("bare"))) {
-        let runs = view["runs"].as_array().unwrap();
-        let scene = |name: &str| &runs.iter().find(|run| run["name"] == name).unwrap()["scene"];
-        assert_eq!(scene("a")["contacts"], serde_json::json!([]));
-        assert!(scene("a")["bodies"].is_array());
-        assert!(scene("car").is_null());
-    }
+    let bare = self::view(&self::page(&at.join("bare")));
+    let runs = bare["runs"].as_array().unwrap();
+    let scene = |name: &str| &runs.iter().find(|run| run["name"] == name).unwrap()["scene"];
+    assert_eq!(scene("a")["contacts"], serde_json::json!([]));
+    assert!(scene("a")["bodies"].is_array());
+    assert!(scene("car").is_null());
 }
 
 #[test]

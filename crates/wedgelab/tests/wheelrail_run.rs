@@ -72,15 +72,13 @@ fn reproduction_a_run_writes_table_summary_and_page() {
     assert_eq!(summary["rows"], rows);
     let page = std::fs::read_to_string(own.join("index.html")).unwrap();
     assert!(page.contains("A wheelset on the track curve") && page.contains("forces of the wheels"));
-    if page.contains("wedgelab-view") {
-        for part in [
-            "\"patches\":[{",
-            "\"track\":{",
-            "\"follow\":\"wheelset\"",
-            "\"revolved\":[",
-        ] {
-            assert!(page.contains(part), "{part}");
-        }
+    for part in [
+        "\"patches\":[{",
+        "\"track\":{",
+        "\"follow\":\"wheelset\"",
+        "\"revolved\":[",
+    ] {
+        assert!(page.contains(part), "{part}");
     }
     let again = command(
         folder.path(),

@@ -8,12 +8,12 @@ use super::Outcome;
 use crate::builds;
 use crate::debian;
 use crate::shell::{self, Workspace};
-use crate::viewer::{bundle, install, node};
+use crate::viewer::{compare, install, node};
 
 /// Programs that Chromium is called.
 const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
-/// Checks and bundles the viewer.
+/// Checks the viewer, and its bundle in the repository.
 pub fn check(workspace: &Workspace) -> Outcome {
     install(workspace)?;
     for arguments in [
@@ -23,14 +23,13 @@ pub fn check(workspace: &Workspace) -> Outcome {
     ] {
         shell::run(&mut node(workspace, arguments.iter().copied()))?;
     }
-    bundle(workspace)?;
+    compare(workspace)?;
     Ok(None)
 }
 
 /// Makes a report, and tries its pages and the explorer in a browser.
 pub fn browser(workspace: &Workspace) -> Outcome {
     install(workspace)?;
-    bundle(workspace)?;
     let chromium = chromium()?;
     let report = workspace.target.join("viewer-report");
     let program = builds::report(workspace, &report)?;

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use study::car::summary::CarSummary;
 use study::summary::SummaryValue;
 
-use super::{Viewer, interactive, moving, run_page, shown_in};
+use super::{data_of, moving, run_page, shown_in};
 use crate::figures::car::{CarRun, exhibits};
 use crate::figures::digits;
 use crate::view::run::{Detail, Recording};
@@ -14,14 +14,14 @@ use crate::view::run::{Detail, Recording};
 ///
 /// # Errors
 /// Errors of the JSON writer.
-pub fn render(run: &CarRun, viewer: Option<Viewer>) -> Result<String, serde_json::Error> {
+pub fn render(run: &CarRun) -> Result<String, serde_json::Error> {
     let summary = &run.result.summary;
     let exhibits = exhibits(run);
-    let recording = || Recording::of_car(&run.case, &run.result, run.motions.as_ref(), Detail::Thinned);
-    let data = interactive(viewer, summary.units, recording, &exhibits)?;
+    let recording = Recording::of_car(&run.case, &run.result, run.motions.as_ref(), Detail::Thinned);
+    let data = data_of(summary.units, recording, &exhibits)?;
     let main = html! {
         (doubts(summary))
-        @if data.is_some() { (moving(&summary.name)) }
+        (moving(&summary.name))
         section { h2 { "Limits" } (limits(summary)) }
         section { h2 { "Statistics" } (statistics(summary)) }
         section {
@@ -37,7 +37,7 @@ pub fn render(run: &CarRun, viewer: Option<Viewer>) -> Result<String, serde_json
         title_and_program,
         "a freight car on track",
         &main,
-        data,
+        &data,
     ))
 }
 

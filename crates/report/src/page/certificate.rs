@@ -5,7 +5,7 @@ use quantity::System as Units;
 use study::car::certificate::{Certificate, LimitVerdict, worst_run};
 use study::car::limits::Bound;
 
-use super::{Viewer, document, moving_as, shown_in};
+use super::{document, moving_as, shown_in};
 use crate::certificate_files::{CertificateFindings, NAMES};
 use crate::figures::car::{CarRun, exhibits};
 use crate::figures::certificate::over_speed;
@@ -63,7 +63,6 @@ pub fn render(
     findings: &CertificateFindings,
     worst: &[WorstRun],
     against: Option<&Against>,
-    viewer: Option<Viewer>,
 ) -> Result<String, serde_json::Error> {
     let regimes = 0..certificate.regimes.len();
     let over_speeds: Vec<Exhibit> = regimes
@@ -78,14 +77,8 @@ pub fn render(
             all.into_iter().filter(wanted).collect()
         })
         .collect();
-    let data = match viewer {
-        Some(viewer) => {
-            let recordings = worst.iter().map(second);
-            let shown = over_speeds.iter().chain(over_distances.iter().flatten());
-            Some((viewer, View::new(Units::Us, recordings, shown).to_json()?))
-        }
-        None => None,
-    };
+    let shown = over_speeds.iter().chain(over_distances.iter().flatten());
+    let data = View::new(Units::Us, worst.iter().map(second), shown).to_json()?;
     let main = html! {
         (summary(certificate, findings))
         @for (condition, own) in certificate.conditions.iter().enumerate() {
@@ -109,7 +102,7 @@ pub fn render(
                     .zip(&over_distances)
                     .filter(|(own, _)| own.regime == regime)
                 {
-                    (worst_of(certificate, findings, own, data.is_some()))
+                    (worst_of(certificate, findings, own))
                     @for exhibit in drawn { (shown_in(exhibit, &exhibit.figure.to_svg(), None)) }
                 }
             }
@@ -127,8 +120,7 @@ pub fn render(
         certificate.limits.source,
     );
     let heading = format!("Certificate: {}", certificate.car);
-    let interactive = data.as_ref().map(|(viewer, view)| (*viewer, view.as_str()));
-    Ok(document(&heading, &lead, None, &main, interactive))
+    Ok(document(&heading, &lead, None, &main, Some(&data)))
 }
 
 /// Returns the rows of a run around its worst second.
@@ -331,12 +323,7 @@ fn conditions(certificate: &Certificate, findings: &CertificateFindings) -> Mark
 }
 
 /// Returns the worst run of a regime: what is worst, its wedges, where its files are.
-fn worst_of(
-    certificate: &Certificate,
-    findings: &CertificateFindings,
-    own: &WorstRun,
-    moves: bool,
-) -> Markup {
+fn worst_of(certificate: &Certificate, findings: &CertificateFindings, own: &WorstRun) -> Markup {
     let Some(run) = worst_run(&findings.runs, own.regime) else {
         return html! {};
     };
@@ -347,7 +334,7 @@ fn worst_of(
             @if let Some((time, what)) = &own.worst { "From " (digits(*time)) " s on: " (what) ". " }
             a href={ (own.folder) "/" (super::FILE_NAME) } { "All of this run" } "."
         }
-        @if moves && own.run.motions.is_some() { (moving_as(&summary.name, "The worst second, \
+        @if own.run.motions.is_some() { (moving_as(&summary.name, "The worst second, \
                                                                             moving", own.regime == 0)) }
         div.wide {
             table {

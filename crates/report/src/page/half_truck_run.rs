@@ -6,7 +6,7 @@ use study::contacts::ContactTable;
 use study::half_truck::{HalfTruckCase, HalfTruckResult, HalfTruckSummary};
 use study::summary::SummaryValue;
 
-use super::{Viewer, doubts, interactive, moving, run_page, shown_in};
+use super::{data_of, doubts, moving, run_page, shown_in};
 use crate::drawing::{Figure, Panel, distinct};
 use crate::figures::{Exhibit, axis, curve};
 use crate::view::run::{Detail, Recording};
@@ -20,12 +20,11 @@ pub fn render(
     case: &HalfTruckCase,
     result: &HalfTruckResult,
     contacts: Option<&ContactTable>,
-    viewer: Option<Viewer>,
 ) -> Result<String, serde_json::Error> {
     let summary = &result.summary;
     let exhibit = loops(case, result);
-    let recording = || Recording::of_truck(case, result, contacts, Detail::Thinned);
-    let data = interactive(viewer, summary.units, recording, std::slice::from_ref(&exhibit))?;
+    let recording = Recording::of_truck(case, result, contacts, Detail::Thinned);
+    let data = data_of(summary.units, recording, std::slice::from_ref(&exhibit))?;
     let kind = if case.wedge_bodies.is_empty() {
         "massless wedges"
     } else {
@@ -34,7 +33,7 @@ pub fn render(
     let list = |texts: &[String]| html! { ul { @for text in texts { li { (text) } } } };
     let main = html! {
         (doubts(summary))
-        @if data.is_some() { (moving(&summary.name)) }
+        (moving(&summary.name))
         section { h2 { "Wedges" } (wedges(summary)) }
         section { h2 { "Loops" } (shown_in(&exhibit, &exhibit.figure.to_svg(), None)) }
         @if !case.wedge_notes.is_empty() {
@@ -48,7 +47,7 @@ pub fn render(
         (&summary.title, &summary.program),
         &what,
         &main,
-        data,
+        &data,
     ))
 }
 

@@ -31,7 +31,6 @@ use crate::figures::{CaseOutcome, Exhibit, capital};
 use crate::sensitivity::Sensitivity;
 use crate::view::View;
 use crate::view::run::Recording;
-pub use viewer::{MISSING, Viewer};
 
 /// The page's file name.
 pub const FILE_NAME: &str = "index.html";
@@ -83,9 +82,8 @@ pub struct Contents<'c> {
     pub sensitivity: Option<&'c Sensitivity>,
     /// The figures.
     pub sections: &'c [PageSection],
-    /// The page's interactive part with its data, JSON of [`crate::view::View`]; without it the page is
-    /// static.
-    pub interactive: Option<(Viewer, &'c str)>,
+    /// The data of the interactive part, JSON of [`View`].
+    pub view: &'c str,
     /// The comparison with the comparison program's wedges, if there is one.
     pub comparison: Option<Comparison<'c>>,
     /// True if the page of the three-piece truck is in the same folder.
@@ -144,9 +142,7 @@ pub fn render(contents: &Contents<'_>) -> String {
         @if !folded.is_empty() {
             section {
                 h2 id="run-by-run" { "Run by run" }
-                @if contents.interactive.is_some() {
-                    p { "Open a run to see it move in 3D, with its plots on the same clock." }
-                }
+                p { "Open a run to see it move in 3D, with its plots on the same clock." }
                 p {
                     "Of the thesis's runs, what the thesis does not show: the energy ledger, the state of \
                      each contact, the forces at the corners, how much of the contact sticks, and the power \
@@ -171,7 +167,7 @@ pub fn render(contents: &Contents<'_>) -> String {
         &lead,
         Some(&nav),
         &main,
-        contents.interactive,
+        Some(contents.view),
     )
 }
 
@@ -220,18 +216,9 @@ fn doubts(summary: &impl RunSummary) -> Markup {
     }
 }
 
-/// Returns the interactive part of a page with one run: the viewer, and its data as JSON.
-fn interactive(
-    viewer: Option<Viewer>,
-    units: Units,
-    recording: impl FnOnce() -> Recording,
-    exhibits: &[Exhibit],
-) -> Result<Option<(Viewer, String)>, serde_json::Error> {
-    let Some(viewer) = viewer else {
-        return Ok(None);
-    };
-    let view = View::new(units, [recording()], exhibits).to_json()?;
-    Ok(Some((viewer, view)))
+/// Returns the data of a page with one run, JSON of [`View`].
+fn data_of(units: Units, recording: Recording, exhibits: &[Exhibit]) -> Result<String, serde_json::Error> {
+    View::new(units, [recording], exhibits).to_json()
 }
 
 /// Returns the page of one run of a case with title and program, headed by the title or its name; `what` is
@@ -241,13 +228,12 @@ fn run_page(
     (title, program): (&str, &str),
     what: &str,
     main: &Markup,
-    data: Option<(Viewer, String)>,
+    data: &str,
 ) -> String {
     let name = summary.name();
     let heading = capital(if title.is_empty() { name } else { title });
     let lead = format!("The run {name} of {what}. Computed by {program}.");
-    let data = data.as_ref().map(|(viewer, view)| (*viewer, view.as_str()));
-    document(&heading, &lead, None, main, data)
+    document(&heading, &lead, None, main, Some(data))
 }
 
 /// Returns the part of the page of one run in which it is seen moving.
@@ -265,13 +251,13 @@ fn moving_as(name: &str, title: &str, open: bool) -> Markup {
 }
 
 /// Returns a page with its heading, what stands below it, a list of links to its parts (none: to its
-/// headings), and its interactive part if there is one.
+/// headings), and the data of its interactive part if it has one.
 fn document(
     heading: &str,
     lead: &impl Render,
     nav: Option<&Markup>,
     main: &Markup,
-    interactive: Option<(Viewer, &str)>,
+    view: Option<&str>,
 ) -> String {
     let (main, found) = match nav {
         Some(_) => (Cow::Borrowed(main.0.as_str()), None),
@@ -289,7 +275,7 @@ fn document(
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (heading) }
                 style { (PreEscaped(STYLE)) }
-                @if let Some((viewer, _)) = interactive { style { (PreEscaped(viewer.style)) } }
+                @if view.is_some() { style { (PreEscaped(viewer::STYLE)) } }
             }
             body.sided[nav.is_some()] {
                 a.skip href="#main" { "Skip to the content" }
@@ -299,9 +285,9 @@ fn document(
                 }
                 main id="main" { (PreEscaped(main)) }
                 script { (PreEscaped(SCRIPT)) }
-                @if let Some((viewer, data)) = interactive {
+                @if let Some(data) = view {
                     script type="application/json" id="wedgelab-view" { (PreEscaped(data)) }
-                    script { (PreEscaped(viewer.script)) }
+                    script { (PreEscaped(viewer::SCRIPT)) }
                 }
             }
         }

@@ -44,9 +44,9 @@ pub(super) fn section(contents: &Contents<'_>) -> Markup {
                 "Forces and energy are those of the run " a href={ "#run-" (anchor(name)) } { (name) } " ("
                 (first.0.title) "). Means are over " (branch_window(Some(first.0.parameters.damping)))
                 "; the energy is the mean of " (first.1.summary.averages.cycles) " whole cycles."
-                @if contents.interactive.is_some() { " Press play to see it move, or drag in a plot." }
+                " Press play to see it move, or drag in a plot."
             }
-            @if contents.interactive.is_some() { div data-shown=(name) {} }
+            div data-shown=(name) {}
         }
     }
 }

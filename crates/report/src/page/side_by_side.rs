@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use quantity::System as Units;
 use study::summary::SummaryValue;
 
-use super::{Viewer, anchor, document, moving_as, shown_in};
+use super::{anchor, document, moving_as, shown_in};
 use crate::figures::side_by_side::exhibits;
 use crate::figures::{Exhibit, capital, digits};
 use crate::run_folder::{AnySummary, KeyNumber, RunFolder, Seen};
@@ -16,20 +16,16 @@ use crate::view::View;
 ///
 /// # Errors
 /// Errors of the JSON writer.
-pub fn render(
-    runs: &[RunFolder],
-    links: &[String],
-    viewer: Option<Viewer>,
-) -> Result<String, serde_json::Error> {
+pub fn render(runs: &[RunFolder], links: &[String]) -> Result<String, serde_json::Error> {
     let exhibits = exhibits(runs);
-    let seen: Vec<Option<Seen>> = runs.iter().map(|run| viewer.and_then(|_| run.seen())).collect();
+    let seen: Vec<Option<Seen>> = runs.iter().map(RunFolder::seen).collect();
     let have_scene: Vec<Option<bool>> = seen.iter().map(|seen| seen.as_ref().map(has_scene)).collect();
-    let data = data(viewer, runs, seen, &exhibits)?;
+    let data = data(runs, seen, &exhibits)?;
     let (loops, others): (Vec<&Exhibit>, Vec<&Exhibit>) =
         exhibits.iter().partition(|own| own.name.contains("_loop"));
     let main = html! {
         (doubts(runs))
-        @if data.is_some() { (views(runs, &have_scene)) }
+        (views(runs, &have_scene))
         section { h2 id="numbers" { "Key numbers" } (numbers(runs)) }
         @if !loops.is_empty() {
             section {
@@ -53,8 +49,7 @@ pub fn render(
         [one] => capital(&one.label),
         _ => format!("{} runs: {}", runs.len(), labels.join(", ")),
     };
-    let data = data.as_ref().map(|(viewer, view)| (*viewer, view.as_str()));
-    Ok(document(&heading, &lead(runs), None, &main, data))
+    Ok(document(&heading, &lead(runs), None, &main, Some(&data)))
 }
 
 fn has_scene(seen: &Seen) -> bool {
@@ -69,16 +64,13 @@ fn has_cars(runs: &[RunFolder]) -> bool {
     runs.iter().any(rolls)
 }
 
-/// Returns the interactive part with its data.
+/// Returns the data of the interactive part, JSON of [`View`].
 fn data(
-    viewer: Option<Viewer>,
     runs: &[RunFolder],
     seen: Vec<Option<Seen>>,
     exhibits: &[Exhibit],
-) -> Result<Option<(Viewer, String)>, serde_json::Error> {
-    let (Some(viewer), Some(first)) = (viewer, runs.first()) else {
-        return Ok(None);
-    };
+) -> Result<String, serde_json::Error> {
+    let units = runs.first().map(RunFolder::units).unwrap_or_default();
     let (mut made, mut kept) = (Vec::new(), Vec::new());
     for own in seen.into_iter().flatten() {
         match own {
@@ -86,8 +78,7 @@ fn data(
             Seen::Kept(own) => kept.push(*own),
         }
     }
-    let view = View::new(first.units(), made, exhibits).to_json_with(kept)?;
-    Ok(Some((viewer, view)))
+    View::new(units, made, exhibits).to_json_with(kept)
 }
 
 fn lead(runs: &[RunFolder]) -> Markup {

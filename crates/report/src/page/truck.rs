@@ -6,7 +6,7 @@ use study::truck::WEDGE_NAMES;
 use study::truck::run::TruckResult;
 
 use super::truck_run::loss;
-use super::{DrawnFigure, Viewer, anchor, document, doubts, shown};
+use super::{DrawnFigure, anchor, document, doubts, shown};
 use crate::figures::{capital, digits};
 use crate::run_files;
 use crate::three_piece::{Basis, Check, Sensitivity, TruckFindings};
@@ -23,8 +23,8 @@ pub struct TruckContents<'c> {
     pub findings: &'c TruckFindings,
     /// The figures.
     pub figures: &'c [DrawnFigure],
-    /// The page's interactive part with its data.
-    pub interactive: Option<(Viewer, &'c str)>,
+    /// The data of the interactive part, JSON of [`crate::view::View`].
+    pub view: &'c str,
 }
 
 /// Returns the page as HTML.
@@ -76,7 +76,7 @@ pub fn render(contents: &TruckContents<'_>) -> String {
         &lead,
         None,
         &main,
-        contents.interactive,
+        Some(contents.view),
     )
 }
 
@@ -281,14 +281,11 @@ fn runs(contents: &TruckContents<'_>) -> Markup {
     html! {
         section {
             h2 id="runs" { "Rig by rig" }
-            @if contents.interactive.is_some() {
-                p { "Open a rig to see the truck move in 3D, with its plots on the same clock." }
-            }
+            p { "Open a rig to see the truck move in 3D, with its plots on the same clock." }
             @for run in contents.rigs {
                 @let summary = &run.summary;
                 (doubts(summary))
-                details id={ "run-" (anchor(&summary.name)) }
-                    data-run=[contents.interactive.map(|_| summary.name.as_str())] {
+                details id={ "run-" (anchor(&summary.name)) } data-run=(summary.name) {
                     summary { (summary.name) ": " (summary.title) }
                     p {
                         "Ledger residual " (format!("{:.1e}", summary.ledger.largest_relative_residual)) ", "

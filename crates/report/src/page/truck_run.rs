@@ -9,7 +9,7 @@ use study::summary::SummaryValue;
 use study::truck::WEDGE_NAMES;
 use study::truck::summary::TruckSummary;
 
-use super::{Viewer, doubts, interactive, moving, run_page, shown_in, side_by_side};
+use super::{data_of, doubts, moving, run_page, shown_in, side_by_side};
 use crate::figures::truck::{TruckRun, exhibits};
 use crate::run_folder::KeyNumber;
 use crate::view::run::{Detail, Recording};
@@ -18,15 +18,15 @@ use crate::view::run::{Detail, Recording};
 ///
 /// # Errors
 /// Errors of the JSON writer.
-pub fn render(run: &TruckRun, viewer: Option<Viewer>) -> Result<String, serde_json::Error> {
+pub fn render(run: &TruckRun) -> Result<String, serde_json::Error> {
     let summary = &run.result.summary;
     let exhibits = exhibits(run);
     let recording =
-        || Recording::of_three_piece_truck(&run.case, &run.result, run.contacts.as_ref(), Detail::Thinned);
-    let data = interactive(viewer, summary.units, recording, &exhibits)?;
+        Recording::of_three_piece_truck(&run.case, &run.result, run.contacts.as_ref(), Detail::Thinned);
+    let data = data_of(summary.units, recording, &exhibits)?;
     let main = html! {
         (doubts(summary))
-        @if data.is_some() { (moving(&summary.name)) }
+        (moving(&summary.name))
         section {
             h2 { "Key numbers" }
             (side_by_side::table(&[("value", KeyNumber::of_truck(summary))], summary.units))
@@ -47,7 +47,7 @@ pub fn render(run: &TruckRun, viewer: Option<Viewer>) -> Result<String, serde_js
         (&summary.title, &summary.program),
         what,
         &main,
-        data,
+        &data,
     ))
 }
 

@@ -6,7 +6,7 @@ use study::wheelset::WheelsetCase;
 use study::wheelset::run::WheelsetResult;
 use study::wheelset::summary::WheelsetSummary;
 
-use super::{Viewer, document, interactive, moving, shown_in};
+use super::{data_of, document, moving, shown_in};
 use crate::figures::wheelset::exhibits;
 use crate::view::run::{Detail, Recording};
 
@@ -14,22 +14,18 @@ use crate::view::run::{Detail, Recording};
 ///
 /// # Errors
 /// Errors of the JSON writer.
-pub fn render(
-    case: &WheelsetCase,
-    result: &WheelsetResult,
-    viewer: Option<Viewer>,
-) -> Result<String, serde_json::Error> {
+pub fn render(case: &WheelsetCase, result: &WheelsetResult) -> Result<String, serde_json::Error> {
     let summary = &result.summary;
     let exhibits = exhibits(case, result);
-    let recording = || Recording::of_wheelset(case, result, Detail::Thinned);
-    let data = interactive(viewer, summary.units, recording, &exhibits)?;
+    let recording = Recording::of_wheelset(case, result, Detail::Thinned);
+    let data = data_of(summary.units, recording, &exhibits)?;
     let lead = format!(
         "The run {} of one wheelset under a carriage. Computed by {}.",
         summary.name, summary.program
     );
     let main = html! {
         (state(summary))
-        @if data.is_some() { (moving(&summary.name)) }
+        (moving(&summary.name))
         section { h2 { "In numbers" } (numbers(summary)) }
         section {
             h2 { "Figures" }
@@ -45,9 +41,8 @@ pub fn render(
         }
         section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
     };
-    let data = data.as_ref().map(|(viewer, view)| (*viewer, view.as_str()));
     let heading = format!("A wheelset on the track {}", case.wheelset.track.name);
-    Ok(document(&heading, &lead, None, &main, data))
+    Ok(document(&heading, &lead, None, &main, Some(&data)))
 }
 
 /// Returns the place of derailment, and what makes its numbers doubtful.

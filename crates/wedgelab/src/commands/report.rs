@@ -5,8 +5,8 @@ use std::path::{Component, Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
+use report::page;
 use report::page::side_by_side;
-use report::page::{self, Viewer};
 use report::run_folder::{self, RunFolder};
 use serde_json::json;
 
@@ -65,7 +65,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let folder = folders::check(&arguments.out, &[page::FILE_NAME], arguments.force)?;
     let out = absolute(folder.path());
     let links: Vec<String> = places.iter().map(|place| link(&out, place)).collect();
-    write_page(&folder, |viewer| side_by_side::render(&runs, &links, viewer))?;
+    write_page(&folder, || side_by_side::render(&runs, &links))?;
     if arguments.json {
         let described = runs.iter().map(|run| {
             json!({
@@ -99,9 +99,6 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         for note in &run.notes {
             say(&format!("warning: {}: {note}", run.label));
         }
-    }
-    if Viewer::embedded().is_none() {
-        say(page::MISSING);
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -17,7 +17,7 @@ use report::agreement::{self, TruckOutcome};
 use report::claims::{self, Claims, Evidence};
 use report::figures::{CaseOutcome, Exhibit};
 use report::files::{FileError, Folder};
-use report::page::{self, Contents, Viewer};
+use report::page::{self, Contents};
 use report::sensitivity::Sensitivity;
 use report::three_piece::Basis;
 use report::view::View;
@@ -83,8 +83,8 @@ pub struct Arguments {
 /// A run whose files are written.
 struct ReproducedRun {
     outcome: CaseOutcome,
-    /// The data for the page, if it is interactive.
-    recording: Option<Recording>,
+    /// The data for the page.
+    recording: Recording,
     wall: Duration,
 }
 
@@ -155,7 +155,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .into_iter()
         .map(|kept| (kept.outcome, kept.recording))
         .unzip();
-    let recordings = recordings.into_iter().chain(of_trucks).flatten().collect();
+    let recordings = recordings.into_iter().chain(of_trucks).collect();
 
     let rigs: Vec<three_piece::Made> = rigs.into_iter().flatten().collect();
     let truck_report = if rigs.is_empty() {
@@ -207,9 +207,6 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     if let Some(explored) = &explored {
         writeln!(out, "{}", sensitivity::in_short(explored))?;
     }
-    if Viewer::embedded().is_none() {
-        writeln!(out, "{}", page::MISSING)?;
-    }
     out.flush()?;
     let mut code = ExitCode::SUCCESS;
     for ((_, result), folder) in outcomes.iter().zip(&places.runs) {
@@ -243,7 +240,7 @@ fn keep(case: Case, folder: &Folder, progress: &Progress) -> Result<Option<Repro
     let mut outcome = (case, done.result);
     let of_thesis = is_of_thesis(&outcome.0);
     let detail = if of_thesis { Detail::Full } else { Detail::Thinned };
-    let recording = Viewer::embedded().map(|_| Recording::of_wedge(&outcome, detail));
+    let recording = Recording::of_wedge(&outcome, detail);
     if !of_thesis {
         outcome.1.keep_columns(beyond::needs);
     }
@@ -307,18 +304,12 @@ fn write_report(
     let more = explored.and_then(sections::sensitivity).into_iter();
     let more = more.chain(sections::comparison(outcomes, half_trucks));
     plans.splice(run_by_run..run_by_run, more.chain(sections::beyond(others)));
-    if Viewer::embedded().is_some() {
-        plans.extend(sections::moving(others, half_trucks));
-    }
+    plans.extend(sections::moving(others, half_trucks));
     let exhibits: Vec<&Exhibit> = plans.iter().flat_map(|plan| &plan.exhibits).collect();
     let svgs = draw(&exhibits, &places.figures)?;
     let count = exhibits.len();
-    let interactive = Viewer::embedded()
-        .map(|viewer| {
-            let view = View::new(units.unwrap_or_default(), recordings, exhibits.iter().copied()).to_json();
-            view.map(|view| (viewer, view))
-        })
-        .transpose()
+    let view = View::new(units.unwrap_or_default(), recordings, exhibits.iter().copied())
+        .to_json()
         .map_err(|error| {
             let message = format!("cannot write the page's data: {error}");
             Failure::Failed(Message::new(message, "").into())
@@ -339,9 +330,7 @@ fn write_report(
         claims: &verdicts,
         sensitivity: explored,
         sections: &sections,
-        interactive: interactive
-            .as_ref()
-            .map(|(viewer, view)| (*viewer, view.as_str())),
+        view: &view,
         comparison: comparison.map(|units| page::Comparison {
             groups: &groups,
             trucks: half_trucks,

@@ -10,7 +10,7 @@ use quantity::{Kind, Number, Quantity, nearest};
 use report::figures::car::CarRun;
 use report::figures::truck::TruckRun;
 use report::files::Folder;
-use report::page::{self, Viewer};
+use report::page;
 use report::run_files::{CASE_FILE_NAME, RunFiles};
 use serde::Serialize;
 use serde_json::json;
@@ -217,14 +217,11 @@ fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failur
         result: done.result,
         contacts,
     };
-    write_page(&folder, |viewer| page::truck_run::render(&run, viewer))?;
+    write_page(&folder, || page::truck_run::render(&run))?;
     print_run(arguments, &folder, &names, &run.result.summary, || {
         let energy = energy::in_short(&run.result.summary.energy);
         (truck_table(&run.result), note(TRUCK_NOTE, energy))
     })?;
-    if Viewer::embedded().is_none() {
-        say(page::MISSING);
-    }
     match unsound::<TruckCase>(&run.result.summary, folder.path()) {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),
@@ -244,12 +241,9 @@ fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
         result: done.result,
         motions,
     };
-    write_page(&folder, |viewer| page::car_run::render(&run, viewer))?;
+    write_page(&folder, || page::car_run::render(&run))?;
     let summary = &run.result.summary;
     print_run(arguments, &folder, &names, summary, || limits_of_car(summary))?;
-    if Viewer::embedded().is_none() {
-        say(page::MISSING);
-    }
     match unsound::<CarCase>(summary, folder.path()) {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),

@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 use quantity::{Kind, Quantity, System as Units};
 use report::files::Folder;
-use report::page::{self, Viewer};
+use report::page;
 use report::run_files::RunFiles;
 use rolling::rig::RigStart;
 use rolling::wheelset::WheelsetBody;
@@ -232,7 +232,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         compute(&case, &progress).and_then(|done| write(&done, &case, &folder, &progress).map(|()| done));
     progress.finish();
     let result = done?.result;
-    let html = page::wheelset::render(&case, &result, Viewer::embedded()).map_err(|error| {
+    let html = page::wheelset::render(&case, &result).map_err(|error| {
         let message = format!("cannot write the page's data: {error}");
         Failure::Failed(Message::new(message, "").into())
     })?;
@@ -246,9 +246,6 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         folder.path().display(),
         names.join(", ")
     )?;
-    if Viewer::embedded().is_none() {
-        writeln!(out, "{}", page::MISSING)?;
-    }
     match unsound::<WheelsetCase>(&result.summary, folder.path()) {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),

@@ -57,25 +57,19 @@ pub fn routes(explorer: Arc<Explorer>, guard: Guard, patience: Patience) -> Rout
 }
 
 async fn page() -> Response {
-    match explorer::Explorer::embedded() {
-        Some(explorer) => Html(explorer.page()).into_response(),
-        None => text(StatusCode::SERVICE_UNAVAILABLE, explorer::MISSING),
-    }
+    Html(explorer::page()).into_response()
 }
 
 async fn script() -> Response {
-    part("text/javascript; charset=utf-8", |explorer| explorer.script)
+    part("text/javascript; charset=utf-8", explorer::SCRIPT)
 }
 
 async fn style() -> Response {
-    part("text/css; charset=utf-8", |explorer| explorer.style)
+    part("text/css; charset=utf-8", explorer::STYLE)
 }
 
-fn part(media: &'static str, of: fn(explorer::Explorer) -> &'static str) -> Response {
-    match explorer::Explorer::embedded() {
-        Some(explorer) => ([(header::CONTENT_TYPE, media)], of(explorer)).into_response(),
-        None => StatusCode::NOT_FOUND.into_response(),
-    }
+fn part(media: &'static str, text: &'static str) -> Response {
+    ([(header::CONTENT_TYPE, media)], text).into_response()
 }
 
 fn text(status: StatusCode, sentence: &str) -> Response {

@@ -4,7 +4,6 @@ use std::io::Write;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::Arc;
 
-use report::page::explorer;
 use tokio::net::TcpListener;
 use tokio::signal;
 
@@ -72,9 +71,6 @@ async fn listen(base: Base, (port, open): (u16, bool), patience: Patience) -> Re
             None
         }
     };
-    if explorer::Explorer::embedded().is_none() {
-        say(explorer::MISSING);
-    }
     let stop = async {
         end_asked_for().await;
         explorer.end();

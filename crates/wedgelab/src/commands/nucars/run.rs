@@ -10,7 +10,7 @@ use nucars::file_sets::{self, RunFiles, find, kind, load};
 use nucars::truck::{Choices, Wedges, Yaw};
 use quantity::{Kind, Quantity, System as Units, nearest};
 use report::half_truck_files;
-use report::page::{self, Viewer};
+use report::page;
 use study::half_truck::catalog::{self, CatalogEntry, YawCase};
 use study::half_truck::files::{Settings, case_of_run};
 use study::half_truck::{HalfTruckCase, HalfTruckStart, HalfTruckSummary, options};
@@ -182,8 +182,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let figure = Drawn::of(&page::half_truck_run::loops(&case, &done.result).figure)?;
     let figures = folders::check(folder.path().to_owned(), &FIGURE, true)?;
     figures.write(|files| figure.add(files, FIGURE[0], FIGURE[1]))?;
-    write_page(&folder, |viewer| {
-        page::half_truck_run::render(&case, &done.result, contacts.as_ref(), viewer)
+    write_page(&folder, || {
+        page::half_truck_run::render(&case, &done.result, contacts.as_ref())
     })?;
     let summary = &done.result.summary;
     if summary.yaw.as_ref().is_some_and(|yaw| yaw.is_missed()) {
@@ -207,9 +207,6 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         folder.path().display(),
         names.join(", ")
     )?;
-    if Viewer::embedded().is_none() {
-        writeln!(out, "{}", page::MISSING)?;
-    }
     match unsound::<HalfTruckCase>(summary, folder.path()) {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use report::figures::Exhibit;
 use report::figures::truck::{TruckRun, of_rigs};
 use report::files::{FileError, Files, Folder};
+use report::page::DrawnFigure;
 use report::page::truck::{self, TruckContents};
-use report::page::{DrawnFigure, Viewer};
 use report::run_files;
 use report::three_piece::{self, Rigs, TruckFindings, Variant};
 use report::view::View;
@@ -106,7 +106,6 @@ fn one(planned: Planned, progress: &Progress) -> Result<Option<Made>, Failure> {
     }
     let recording = folder
         .as_ref()
-        .and(Viewer::embedded())
         .map(|_| Recording::of_three_piece_truck(&case, &done.result, contacts.as_ref(), Detail::Thinned));
     // Tables of corners are large, and only two are drawn.
     let contacts = contacts.filter(|_| DRAWN.contains(&key.as_str()));
@@ -150,12 +149,8 @@ pub fn report_on(made: Vec<Made>, figures: &Folder) -> Result<TruckReport, Failu
         .first()
         .map(|run| run.result.summary.units)
         .unwrap_or_default();
-    let interactive = Viewer::embedded()
-        .map(|viewer| {
-            let view = View::new(units, recordings, &exhibits).to_json();
-            view.map(|view| (viewer, view))
-        })
-        .transpose()
+    let view = View::new(units, recordings, &exhibits)
+        .to_json()
         .map_err(|error| {
             let message = format!("cannot write the data of the truck's page: {error}");
             Failure::Failed(Message::new(message, "").into())
@@ -170,9 +165,7 @@ pub fn report_on(made: Vec<Made>, figures: &Folder) -> Result<TruckReport, Failu
         rigs: &results,
         findings: &findings,
         figures: &drawn,
-        interactive: interactive
-            .as_ref()
-            .map(|(viewer, view)| (*viewer, view.as_str())),
+        view: &view,
     });
     Ok(TruckReport {
         page,

@@ -8,7 +8,6 @@ use rayon::prelude::*;
 use report::agreement::{self, TruckOutcome};
 use report::files::Folder;
 use report::half_truck_files;
-use report::page::Viewer;
 use report::view::run::{Detail, Recording};
 use study::energy;
 use study::half_truck::HalfTruckCase;
@@ -62,8 +61,8 @@ pub fn plan(out: &Path, force: bool) -> Result<Vec<Planned>, Failure> {
         .collect())
 }
 
-/// A run with what the page shows of it, if it is interactive.
-pub type ReproducedTruck = (TruckOutcome, Option<Recording>);
+/// A run with what the page shows of it.
+pub type ReproducedTruck = (TruckOutcome, Recording);
 
 /// Runs them and writes their files, as many at a time as the pool has threads; `None` for those that were
 /// interrupted.
@@ -90,7 +89,7 @@ fn one(planned: Planned, progress: &Progress) -> Result<Option<ReproducedTruck>,
     for warning in energy::among(warnings).chain(plausibility::among(warnings)) {
         say(&format!("warning: {}: {warning}", case.name));
     }
-    let recording = Viewer::embedded().map(|_| Recording::of_truck(&case, &result, None, Detail::Thinned));
+    let recording = Recording::of_truck(&case, &result, None, Detail::Thinned);
     result.keep_columns(agreement::needs);
     Ok(Some(((entry, result), recording)))
 }
