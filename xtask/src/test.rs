@@ -132,7 +132,7 @@ const CHECKS: &[Check] = &[
     ),
     Check::new(
         "readme",
-        "the README's commands run in its order, and again where results exist; the tutorial's too",
+        "the commands of the README and of the tutorial run in their order",
         readme::check,
     ),
     Check::new(

@@ -15,4 +15,5 @@ pub mod inputs;
 pub mod limits;
 pub mod mutate;
 pub mod readers;
+pub mod reference;
 pub mod shown;

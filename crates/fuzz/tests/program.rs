@@ -25,7 +25,7 @@ fn whatever_breaks_is_found_and_found_again() {
         "--executions",
         "7",
         "--patience",
-        "3",
+        "6",
         "--save",
         folder,
     ];

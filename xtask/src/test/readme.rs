@@ -1,5 +1,4 @@
-//! The commands of the README run, in its order, in an empty folder, and once more where results exist; those
-//! of the tutorial run once.
+//! The commands of the README, and those of the tutorial, run in their order in an empty folder.
 
 use std::env;
 use std::fs;
@@ -25,15 +24,13 @@ const FROM_SOURCE: &str = "cargo run --release -- ";
 /// Runs the commands.
 pub fn check(workspace: &Workspace) -> Outcome {
     builds::wedgelab(workspace)?;
-    let readme = run(workspace, "README.md", 2)?;
-    let tutorial = run(workspace, "docs/tutorial.md", 1)?;
-    Ok(Some(format!(
-        "{readme} commands, twice; {tutorial} of the tutorial"
-    )))
+    let readme = run(workspace, "README.md")?;
+    let tutorial = run(workspace, "docs/tutorial.md")?;
+    Ok(Some(format!("{readme} commands, {tutorial} of the tutorial")))
 }
 
-/// Runs the commands of a page in an empty folder, some times over; returns how many there are.
-fn run(workspace: &Workspace, page: &str, times: usize) -> Result<usize, String> {
+/// Runs the commands of a page in an empty folder; returns how many there are.
+fn run(workspace: &Workspace, page: &str) -> Result<usize, String> {
     let text = fs::read_to_string(workspace.root.join(page))
         .map_err(|error| format!("{page} cannot be read: {error}"))?;
     let commands = commands(&text);
@@ -50,7 +47,7 @@ fn run(workspace: &Workspace, page: &str, times: usize) -> Result<usize, String>
     let others = env::var_os("PATH").unwrap_or_default();
     let path = env::join_paths(programs.chain(env::split_paths(&others).collect::<Vec<PathBuf>>()))
         .map_err(|error| format!("PATH cannot be set: {error}"))?;
-    for command in (0..times).flat_map(|_| &commands) {
+    for command in &commands {
         let mut shell = Command::new("bash");
         let options = ["-euo", "pipefail", "-c", command.as_str()];
         shell::run(shell.args(options).current_dir(&folder).env("PATH", &path))?;

@@ -5,6 +5,8 @@ use std::hint::black_box;
 use cpu_time::ThreadTime;
 
 use super::{ReadOutcome, Reader};
+use crate::limits::LONGEST_EXECUTION;
+use crate::reference;
 
 /// The reader.
 pub const BROKEN: Reader = Reader {
@@ -40,11 +42,12 @@ fn read(input: &[u8]) -> ReadOutcome {
             ReadOutcome::ACCEPTED
         }
         Ok("slow") => {
-            compute(2);
+            // Longer than the limit, however slow the machine is.
+            compute(|| 2.0 * LONGEST_EXECUTION.as_secs_f64() * reference::slowdown());
             ReadOutcome::ACCEPTED
         }
         Ok("endless") => {
-            compute(u64::MAX);
+            compute(|| f64::INFINITY);
             ReadOutcome::ACCEPTED
         }
         _ => ReadOutcome::NO_TEXT,
@@ -60,10 +63,10 @@ fn down(depth: u64) -> u64 {
     }
 }
 
-/// Computes for a time of the processor, whatever else it does.
-fn compute(seconds: u64) {
+/// Computes for a time of the processor (s), which may change while it computes.
+fn compute(seconds: impl Fn() -> f64) {
     let start = ThreadTime::now();
-    while start.elapsed().as_secs() < seconds {
+    while start.elapsed().as_secs_f64() < seconds() {
         black_box(0);
     }
 }

@@ -91,6 +91,8 @@ pub struct ReadOutcome {
     pub accepted: bool,
     /// Bytes of the longest text in which it was refused; zero, if it was accepted.
     pub message: usize,
+    /// Attempted steps of an integrator that it took, or that the rule of progress admits for them.
+    pub attempts: u64,
 }
 
 impl ReadOutcome {
@@ -98,11 +100,13 @@ impl ReadOutcome {
     const ACCEPTED: Self = Self {
         accepted: true,
         message: 0,
+        attempts: 0,
     };
     /// No UTF-8, which readers of text refuse before they read.
     const NO_TEXT: Self = Self {
         accepted: false,
         message: 0,
+        attempts: 0,
     };
 
     /// Refused with this error.
@@ -119,6 +123,7 @@ impl ReadOutcome {
         Self {
             accepted: false,
             message,
+            attempts: 0,
         }
     }
 
@@ -127,6 +132,7 @@ impl ReadOutcome {
         Self {
             accepted: self.accepted || other.accepted,
             message: self.message.max(other.message),
+            attempts: self.attempts.max(other.attempts),
         }
     }
 }

@@ -128,6 +128,7 @@ fn file(input: &[u8], kind: FileKind) -> ReadOutcome {
     ReadOutcome {
         accepted: !all.has_errors(),
         message: message_bytes(&all),
+        attempts: 0,
     }
 }
 

@@ -10,6 +10,7 @@ use fmi::source::Source;
 use serde::Deserialize;
 use study::case::{Case, builtin};
 use study::half_truck::files::Settings;
+use study::progress::most_attempts;
 use study::run::{Counts, Run, RunState};
 use study::stepping::{Neighbours, SteppedState, SteppedWedge};
 
@@ -117,8 +118,12 @@ fn driven(input: &[u8]) -> ReadOutcome {
     }
     let mut all = ReadOutcome::ACCEPTED;
     for _ in 0..STEPS {
-        let time = wedge.time() + STEP;
+        let (time, before) = (wedge.time() + STEP, attempts(&wedge));
         let stepped = wedge.step_to(&Neighbours::of(&case.parameters, time), time);
+        let took = attempts(&wedge).saturating_sub(before);
+        // The step that exceeds the number is made.
+        assert!(took <= most_attempts(STEP) + 1, "too many attempts: {took}");
+        all.attempts += took;
         if let Err(error) = stepped {
             all = all.or(ReadOutcome::refused_with(&error.to_string()));
             break;
@@ -128,6 +133,12 @@ fn driven(input: &[u8]) -> ReadOutcome {
     }
     assert!(wedge.state().to_bytes().is_ok(), "no bytes: of a state");
     all
+}
+
+/// Returns the attempted steps of a wedge's integrator so far.
+fn attempts(wedge: &SteppedWedge) -> u64 {
+    let statistics = wedge.statistics();
+    statistics.steps + statistics.rejected()
 }
 
 fn run_corpus() -> Vec<Vec<u8>> {
@@ -262,6 +273,9 @@ fn restore(mut instance: Instance, saved: &Saved) -> ReadOutcome {
     }
     let mut all = ReadOutcome::ACCEPTED;
     for _ in 0..STEPS {
+        if instance.interface() == Interface::CoSimulation {
+            all.attempts += most_attempts(STEP);
+        }
         if let Err(error) = go_on(&mut instance) {
             all = all.or(ReadOutcome::refused_with(&error));
             break;

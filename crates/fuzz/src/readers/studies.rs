@@ -292,5 +292,6 @@ fn record_bytes(input: &[u8]) -> ReadOutcome {
     ReadOutcome {
         accepted: !found.records.is_empty(),
         message: 0,
+        attempts: 0,
     }
 }
