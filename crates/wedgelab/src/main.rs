@@ -26,11 +26,11 @@ use commands::{
 };
 use failure::Failure;
 
-/// A laboratory for railway friction wedges.
+/// A laboratory for railway friction wedges, three-piece trucks and freight cars on track.
 ///
 /// Wedgelab computes the friction wedge of a three-piece truck: a rigid body between side frame and bolster,
-/// with unilateral contact, stick-slip friction and its control coil, as in Steets (2007); and whole trucks
-/// with four of them.
+/// with unilateral contact, stick-slip friction and its control coil, as in Steets (2007); whole trucks with
+/// four of them; and freight cars with two such trucks, whose wheels roll on track.
 #[derive(Debug, Parser)]
 #[command(
     name = "wedgelab",
@@ -41,7 +41,7 @@ Begin with:
   wedgelab reproduce                 the thesis's twelve runs, into the folder reproduction/
   wedgelab case                      the built-in cases
   wedgelab case NAME > my.toml       a complete case file to change ...
-  wedgelab run my.toml               ... and to run
+  wedgelab run my.toml               ... and to run: a wedge, a truck, a car
   wedgelab energy NAME               where the energy of a cycle goes
   wedgelab warp                      warp of a whole truck with four wedges
   wedgelab lock-up                   where a wedge locks up, over two of its parameters

@@ -192,7 +192,13 @@ fn results_are_overwritten_only_by_force() {
     assert_ne!(fs::read_to_string(path.join("x/result.csv")).unwrap(), "mine");
     assert_eq!(
         names(&path.join("x")),
-        ["case.toml", "result.csv", "result.mat", "summary.json"]
+        [
+            "case.toml",
+            "index.html",
+            "result.csv",
+            "result.mat",
+            "summary.json"
+        ]
     );
 
     // Found before anything is computed.

@@ -183,6 +183,24 @@ fn wedges_stand_side_by_side_with_the_numbers_of_their_summaries() {
 }
 
 #[test]
+fn issue_048_the_run_of_a_wedge_has_a_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    run(at, WEDGE, "8", &[], "one");
+    let page = page(&at.join("one"));
+    let view = view(&page);
+    assert!(view["runs"][0]["scene"]["bodies"].is_array() && view["runs"][0]["loops"].is_array());
+    let summary = json(&at.join("one").join("summary.json"));
+    let up = summary
+        .pointer("/averages/up/vertical_wedge_force/value")
+        .unwrap();
+    near(
+        row(&page, "mean vertical wedge force, bolster going up")[0],
+        up.as_f64().unwrap(),
+    );
+}
+
+#[test]
 fn trucks_and_cars_are_read_with_what_their_pages_keep() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();

@@ -15,6 +15,7 @@ pub mod study;
 pub mod truck;
 pub mod truck_run;
 mod viewer;
+pub mod wedge_run;
 pub mod wheelset;
 
 use std::borrow::Cow;

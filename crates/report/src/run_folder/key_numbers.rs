@@ -53,7 +53,13 @@ impl KeyNumber {
         }
     }
 
-    /// Those of a truck's run.
+    /// Returns the key numbers of a wedge's run; without its damping the window of means is told in general.
+    #[must_use]
+    pub fn of_wedge(summary: &Summary, damping: Option<Damping>) -> Vec<Self> {
+        of_wedge(summary, damping)
+    }
+
+    /// Returns the key numbers of a truck's run.
     #[must_use]
     pub fn of_truck(summary: &TruckSummary) -> Vec<Self> {
         of_truck(summary)

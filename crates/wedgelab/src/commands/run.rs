@@ -35,13 +35,13 @@ use crate::saved::{self, Parts, Saved};
 use crate::select::built_in_elsewhere;
 use crate::table::TerminalTable;
 
-/// Run one case
+/// Run one case: a wedge, a truck or a car
 ///
 /// Runs a case file, of a wedge, of a truck or of a car on track, and writes result.csv (the time histories),
 /// result.mat (the same, of a wedge under the thesis's names), case.toml (the case, completed) and
 /// summary.json (averages, extremes, events, energy ledger, solver statistics, assumptions) into a folder
-/// named as the case; of a truck also index.html with the truck moving in 3D, its loops and wedges; of a car
-/// index.html with the car on its track, limits, statistics and figures over the distance.
+/// named as the case; and index.html: a wedge moving in 3D with its loops and key numbers; a truck, its loops
+/// and wedges; a car on its track, limits, statistics and figures over the distance.
 ///
 /// A run with --save or --continue writes the same files except index.html. Its rows have the same bits as
 /// those of the whole run.
@@ -101,11 +101,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return execute_in_parts(&case, arguments);
     }
     match case {
-        AnyCase::Wedge(case) => run(&*case, arguments, |done| {
-            let summary = &done.result.summary;
-            let energy = energy::in_short(&summary.energy);
-            (table([(summary, done.wall)]), note(TABLE_NOTE, energy))
-        }),
+        AnyCase::Wedge(case) => run_wedge(*case, arguments),
         AnyCase::Truck(case) => run_truck(&case, arguments),
         AnyCase::Car(case) => run_car(&case, arguments),
         AnyCase::HalfTruck(case) => Err(not_here(&case.name)),
@@ -120,21 +116,22 @@ fn begin(name: &str, files: &[&str], arguments: &Arguments) -> Result<(Folder, P
     Ok((folder, Progress::new(1, arguments.quiet)))
 }
 
-/// Runs a case of any model and writes its files; `shown` gives the table to print and what its columns are.
-fn run<C: RunFiles>(
-    case: &C,
-    arguments: &Arguments,
-    shown: impl FnOnce(&Done<C::Output>) -> (TerminalTable, String),
-) -> Result<ExitCode, Failure> {
-    let (folder, progress) = begin(case.name(), &case.names(), arguments)?;
+/// Runs a wedge, and writes its page besides.
+fn run_wedge(case: Case, arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let names = [case.names(), vec![page::FILE_NAME]].concat();
+    let (folder, progress) = begin(&case.name, &names, arguments)?;
     let done =
-        compute(case, &progress).and_then(|done| write(&done, case, &folder, &progress).map(|()| done));
+        compute(&case, &progress).and_then(|done| write(&done, &case, &folder, &progress).map(|()| done));
     progress.finish();
     let done = done?;
-    print_run(arguments, &folder, &case.names(), &done.result.summary, || {
-        shown(&done)
+    let (wall, run) = (done.wall, (case, done.result));
+    write_page(&folder, || page::wedge_run::render(&run))?;
+    let summary = &run.1.summary;
+    print_run(arguments, &folder, &names, summary, || {
+        let energy = energy::in_short(&summary.energy);
+        (table([(summary, wall)]), note(TABLE_NOTE, energy))
     })?;
-    match unsound::<C>(&done.result.summary, folder.path()) {
+    match unsound::<Case>(summary, folder.path()) {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),
     }

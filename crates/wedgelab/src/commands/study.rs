@@ -23,7 +23,7 @@ use crate::interrupt;
 use crate::json;
 use crate::select::built_in_elsewhere;
 
-/// Run many variants of a case
+/// Run many variants of a wedge, a half-truck, a truck or a car
 ///
 /// Reads a study file (TOML): a case, and parameters to vary as full factorial, Latin hypercube, Sobol'
 /// sequence or list. Computes the measures of every variant (energies per cycle, equivalent damping and
