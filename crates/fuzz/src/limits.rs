@@ -18,8 +18,8 @@ pub const FINITE_COMPARISONS: bool = true;
 /// profile, which is what the program is compiled with; without the [`ATTEMPT`]s of an integrator.
 pub const LONGEST_EXECUTION: Duration = Duration::from_secs(1);
 
-/// Processor time of an attempted step of the integrator on that machine, dev profile. Their number has a bound
-/// of its own, [`study::progress::most_attempts`].
+/// Processor time of an attempted step of the integrator on that machine, dev profile. Their number has a
+/// bound of its own, [`study::progress::most_attempts`].
 pub const ATTEMPT: Duration = Duration::from_micros(15);
 
 /// Bytes of memory that a process with one reader may hold at a time.

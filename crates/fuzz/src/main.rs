@@ -45,8 +45,8 @@ const WRONG: u8 = 2;
 
 /// Give broken inputs to every reader, and tell what breaks a promise: a panic, an abort, more than 1 s or 1
 /// GB for an input, a message of more than 64 KiB, a place outside the text, a document that is another one
-/// once it is written and read again. The second is that of a machine as fast as the one on which the limit was
-/// chosen; a reference workload tells how much slower this one is.
+/// once it is written and read again. The second is that of a machine as fast as the one on which the limit
+/// was chosen; a reference workload tells how much slower this one is.
 #[derive(Debug, Parser)]
 #[command(
     name = "fuzz",

@@ -1,9 +1,9 @@
 //! A reference workload: how fast this machine is at the moment, compared with the one on which
 //! [`limits::LONGEST_EXECUTION`](crate::limits::LONGEST_EXECUTION) was chosen.
 //!
-//! A limit of processor time depends on the machine: on a processor whose core is shared with another thread an
-//! input takes up to twice as long. The workload does what readers do (numbers to text and back, allocation,
-//! sorting), so that it takes longer by the same factor.
+//! A limit of processor time depends on the machine: on a processor whose core is shared with another thread
+//! an input takes up to twice as long. The workload does what readers do (numbers to text and back,
+//! allocation, sorting), so that it takes longer by the same factor.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -13,10 +13,10 @@ use cpu_time::ThreadTime;
 /// Numbers of the workload.
 const COUNT: u32 = 100_000;
 
-/// Processor time of the workload on the machine of the limit (two cores, AVX2, nothing beside).
+/// Processor time of the workload on the machine of the limit (AVX2, nothing beside).
 const NOMINAL: Duration = Duration::from_millis(45);
 
-/// Returns the factor by which this machine is slower at the moment than the machine of the limit; at least 1.
+/// Returns the factor by which this machine is slower at the moment than that of the limit; at least 1.
 #[must_use]
 pub fn slowdown() -> f64 {
     let start = ThreadTime::now();
