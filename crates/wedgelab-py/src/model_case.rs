@@ -7,7 +7,7 @@ use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 use study::car::{CarCase, builtin as cars};
-use study::case::{CaseError, Tables, text_of};
+use study::case::{CaseError, text_of};
 use study::truck::{TruckCase, builtin as trucks};
 use toml::Table;
 
@@ -55,7 +55,7 @@ macro_rules! model_case {
             fn built_in(class: &Bound<'_, PyType>, name: &str, given: &Bound<'_, PyDict>) -> PyResult<Self> {
                 over(class.py(), given, |values| {
                     let text = $builtin::text(name)?;
-                    $case::of_values(&format!("{name}.toml"), text, values, Tables::nowhere())
+                    $case::of_values(&format!("{name}.toml"), text, values, Path::new(""))
                 })
                 .map(Self::new)
             }

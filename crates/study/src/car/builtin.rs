@@ -1,14 +1,15 @@
 //! The built-in cars, after the [regimes](Regime) by which freight cars are assessed. Every one is the text
 //! of a case file.
 
+use std::path::Path;
 use std::sync::LazyLock;
 
 use quantity::Quantity;
 
 use super::CarCase;
 use super::regime::Regime;
+use crate::case::CaseError;
 use crate::case::builtin::{BuiltIn, CaseGroup, names_in, text_in};
-use crate::case::{CaseError, Tables};
 
 /// Irregularities of a track of FRA class 4 by spectra, tapered at the start.
 const CLASS_4: &str = "
@@ -199,12 +200,13 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     names_in(groups())
 }
 
-/// Returns the built-in car of this name, with `--set` overrides (`path.key=value`).
+/// Returns the built-in car of this name, with `--set` overrides (`path.key=value`); files that
+/// these name are looked for from the current folder.
 ///
 /// # Errors
 /// There is none of this name, or an override is wrong.
 pub fn case_with(name: &str, overrides: &[String]) -> Result<CarCase, CaseError> {
-    CarCase::parse(&format!("{name}.toml"), text(name)?, Tables::nowhere(), overrides)
+    CarCase::parse(&format!("{name}.toml"), text(name)?, Path::new(""), overrides)
 }
 
 /// Returns the case file of the built-in car of this name.

@@ -39,7 +39,15 @@ pub(super) fn track(r: &mut CaseReader<'_>) -> Option<(Track, Support)> {
     // Its keys are read by the reader of track files.
     r.known_elsewhere();
     if let Some(entry) = section.table.entry("file") {
-        section.allow_in(&["file"], &[], "a track that is a file", r.problems);
+        for own in section.table.entries.iter().filter(|own| own.key != "file") {
+            let message = format!(
+                "`track.{}` has no effect: `track.file` is the whole track",
+                own.key
+            );
+            let problem = Problem::new(message).at(&own.key_place).label("not used");
+            let help = "leave out one of the two, or write this into the track file";
+            r.problems.push(problem.help(help));
+        }
         let NodeValue::Text(file) = &entry.node.value else {
             let message = format!(
                 "`track.file` is {}; a name is expected",

@@ -7,11 +7,72 @@ use std::sync::Arc;
 /// The name of overrides as a source.
 pub(super) const SOURCE: &str = "--set";
 
+/// A key that excludes others of its table: an override that sets it takes the place of those that the case
+/// gives.
+struct Exclusive {
+    table: &'static str,
+    key: &'static str,
+    /// The excluded keys; `None`: all others.
+    excluded: Option<&'static [&'static str]>,
+    /// A value with which the excluded keys stay.
+    unless: Option<&'static str>,
+}
+
+const EXCLUSIVE: [Exclusive; 4] = [
+    Exclusive {
+        table: "track",
+        key: "file",
+        excluded: None,
+        unless: None,
+    },
+    Exclusive {
+        table: "track",
+        key: "segments",
+        excluded: Some(&["file", "center_line"]),
+        unless: None,
+    },
+    Exclusive {
+        table: "track",
+        key: "center_line",
+        excluded: Some(&["file", "segments", "grades"]),
+        unless: None,
+    },
+    Exclusive {
+        table: "lading",
+        key: "kind",
+        excluded: Some(&["masses"]),
+        unless: Some("masses"),
+    },
+];
+
+/// Removes what an override excludes of the case. What another override sets stays, and is a mistake.
+fn exclude(tree: &mut TableNode, path: &[TableEntry], entry: &TableEntry) {
+    let [table] = path else { return };
+    let rule = EXCLUSIVE
+        .iter()
+        .find(|rule| rule.table == table.key && rule.key == entry.key);
+    let Some(rule) = rule else { return };
+    if matches!(&entry.node.value, NodeValue::Text(text) if Some(text.as_str()) == rule.unless) {
+        return;
+    }
+    let table = tree.entries.iter_mut().find(|own| own.key == rule.table);
+    if let Some(NodeValue::Table(table)) = table.map(|own| &mut own.node.value) {
+        table.entries.retain(|own| {
+            let excluded = rule.excluded.is_none_or(|keys| keys.contains(&own.key.as_str()));
+            own.key == rule.key || !excluded || own.key_place.source.name() == SOURCE
+        });
+    }
+}
+
 /// Lays every override over the tree; the problems are those of the overrides themselves.
 pub(crate) fn apply(tree: &mut TableNode, overrides: &[String]) -> Problems {
     let mut problems = Problems::new();
     for text in overrides {
-        match parse(text).and_then(|(path, entry)| set(tree, &path, entry)) {
+        let laid = parse(text).and_then(|(path, entry)| {
+            exclude(tree, &path, &entry);
+            set(tree, &path, entry)
+        });
+        match laid {
             Ok(()) => {}
             Err(found) => problems.append(found),
         }

@@ -254,6 +254,12 @@ impl Problems {
         self.kept.is_empty()
     }
 
+    /// Returns whether a mistake was found exactly there.
+    pub fn is_at(&self, place: &TomlLocation) -> bool {
+        let same = |own: &TomlLocation| Arc::ptr_eq(&own.source, &place.source) && own.span == place.span;
+        self.kept.iter().filter_map(|own| own.place.as_ref()).any(same)
+    }
+
     pub fn kept(&self) -> &[Problem] {
         &self.kept
     }

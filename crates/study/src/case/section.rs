@@ -122,6 +122,10 @@ impl<'a> CaseSection<'a> {
             .iter()
             .filter(|entry| !keys.contains(&entry.key.as_str()))
         {
+            // A key with another mistake is known, but its reader stopped there.
+            if problems.is_at(&entry.node.place) {
+                continue;
+            }
             problems.push_with(|| {
                 let owner = elsewhere
                     .iter()

@@ -1,10 +1,11 @@
 //! The built-in trucks: rigs, in groups. Every one is the text of a case file.
 
+use std::path::Path;
 use std::sync::LazyLock;
 
 use super::TruckCase;
+use crate::case::CaseError;
 use crate::case::builtin::{BuiltIn, CaseGroup, names_in, text_in};
-use crate::case::{CaseError, Tables};
 
 /// Dampings, each with the height by which an empty car stands above the loaded one, in.
 const DAMPINGS: [(&str, f64); 2] = [("constant", 1.936), ("variable", 1.976)];
@@ -403,12 +404,13 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     names_in(groups())
 }
 
-/// Returns the built-in truck of this name, with `--set` overrides (`path.key=value`).
+/// Returns the built-in truck of this name, with `--set` overrides (`path.key=value`); files that
+/// these name are looked for from the current folder.
 ///
 /// # Errors
 /// There is none of this name, or an override is wrong.
 pub fn case_with(name: &str, overrides: &[String]) -> Result<TruckCase, CaseError> {
-    TruckCase::parse(&format!("{name}.toml"), text(name)?, Tables::nowhere(), overrides)
+    TruckCase::parse(&format!("{name}.toml"), text(name)?, Path::new(""), overrides)
 }
 
 /// Returns the case file of the built-in truck of this name.

@@ -1,7 +1,7 @@
 //! Bad input: every message says what was found and expected, and helps.
 
 use crate::problems::in_words;
-use study::car::CarCase;
+use study::car::{CarCase, builtin};
 use study::case::Tables;
 
 /// Returns the messages of a case with `model = "car"` and these lines, with their help.
@@ -9,6 +9,40 @@ fn refused(lines: &str) -> String {
     let text = format!("model = \"car\"\n{lines}");
     let error = CarCase::parse("case.toml", &text, Tables::nowhere(), &[]).unwrap_err();
     in_words(error.problems())
+}
+
+/// An override takes the place of what it excludes; keys with another mistake are not called unknown.
+#[test]
+fn issue_048_overrides_replace_what_they_exclude() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bend.toml");
+    std::fs::write(&path, "[[segments]]\ntangent = \"700 ft\"\n").unwrap();
+    let file = format!("track.file={:?}", path.display().to_string());
+    let length = |case: &CarCase| case.parameters.track.center_line.length();
+    for name in builtin::names() {
+        let case = builtin::case_with(name, &[file.clone(), "simulation.duration=0.1 s".to_owned()]).unwrap();
+        assert!((length(&case) - 700.0 * 0.3048).abs() < 1e-9, "{name}");
+        assert!(case.parameters.track.irregularities.is_empty(), "{name}");
+    }
+    // And back again.
+    let text = format!("model = \"car\"\n{file}\nsimulation.duration = \"0.1 s\"");
+    let set = ["track.segments=[{ tangent = \"800 ft\" }]".to_owned()];
+    let case = CarCase::parse("case.toml", &text, Tables::from(folder.path()), &set).unwrap();
+    assert!((length(&case) - 800.0 * 0.3048).abs() < 1e-9);
+
+    let text = "model = \"car\"\nlading.kind = \"masses\"\n[[lading.masses]]\nweight = \"1 kip\"\n\
+                place = [\"0 in\", \"0 in\", \"70 in\"]\n\
+                inertia = [\"0 lbf in s^2\", \"0 lbf in s^2\", \"0 lbf in s^2\"]\n";
+    let over = |set: &str| CarCase::parse("case.toml", text, Tables::nowhere(), &[set.to_owned()]);
+    assert!(over("lading.kind=empty").unwrap().parameters.lading.is_empty());
+    assert_eq!(over("lading.kind=masses").unwrap().parameters.lading.len(), 1);
+
+    let error = builtin::case_with("car_tangent_empty", &["speed.value=0 mph".to_owned()]).unwrap_err();
+    assert_eq!(error.problems().len(), 1, "{}", in_words(error.problems()));
+    // Two overrides that exclude each other are a mistake.
+    let both = [file, "track.segments=[{ tangent = \"900 ft\" }]".to_owned()];
+    let error = builtin::case_with("car_tangent_empty", &both).unwrap_err();
+    assert!(in_words(error.problems()).contains("has no effect"));
 }
 
 #[test]
@@ -119,6 +153,10 @@ fn input_messages_say_what_is_wrong_and_what_to_write() {
             &["there is no key `lenght`", "track.segments[0]"],
         ),
         ("track.file = \"bend.toml\"", &["`track.file`", "is not read"]),
+        (
+            "track.file = \"bend.toml\"\ntrack.segments = [{ tangent = \"900 ft\" }]",
+            &["`track.segments` has no effect: `track.file` is the whole track"],
+        ),
         (
             "lading.kind = \"masses\"",
             &["`lading.kind` is \"masses\", but there are none", "weight = "],
