@@ -52,11 +52,15 @@ fn timed(text: String) -> (Read<SystemFile>, f64) {
     (read, start.elapsed().as_secs_f64())
 }
 
-/// All records of a large file are read, in time.
-fn large_files(bytes: usize, most: f64) {
+/// A wide limit, s: hundreds of times as long as reading takes, which something quadratic exceeds all the same.
+const HANGS: f64 = 60.0;
+
+/// All records of a large file are read, and it does not hang.
+fn large_files(bytes: usize) {
     for section in SECTIONS {
         let (text, added) = large(section, bytes);
         let (read, seconds) = timed(text);
+        println!("{section}: {seconds:.2} s");
         assert!(
             !read.findings.has_errors(),
             "{section}: {:?}",
@@ -69,7 +73,7 @@ fn large_files(bytes: usize, most: f64) {
             _ => (tree.piecewise_linear.len(), 11),
         };
         assert_eq!(found, before + added, "{section}");
-        assert!(seconds < most, "{section}: {seconds} s");
+        assert!(seconds < HANGS, "{section}: {seconds} s");
         let checked = check::system(&read);
         assert!(checked.list().len() <= 300);
     }
@@ -80,14 +84,14 @@ const SECTIONS: [&str; 3] = ["\\CONNECTION DATA", "\\CHARACTERISTIC DATA", "\\PW
 #[test]
 fn large_files_take_time_in_proportion() {
     // A hundredth of a second is needed for each MB, or less; something quadratic would need minutes.
-    large_files(4_000_000, 4.0);
+    large_files(4_000_000);
 }
 
-/// For the release profile, on a machine that does nothing else.
+/// Prints how long a hundred megabytes take.
 #[test]
-#[ignore = "a hundred megabytes: cargo test --release -p nucars --test limits -- --ignored"]
-fn a_hundred_megabytes_take_two_seconds() {
-    large_files(100_000_000, 2.0);
+#[ignore = "a hundred megabytes: cargo test --release -p nucars --test limits -- --ignored --nocapture"]
+fn a_hundred_megabytes_are_read() {
+    large_files(100_000_000);
 }
 
 #[test]
@@ -124,7 +128,7 @@ fn large_nonsense_takes_time_in_proportion() {
                     AnyFile::Run(read) => read.findings,
                 };
                 let seconds = start.elapsed().as_secs_f64();
-                assert!(seconds < 4.0, "{line:?} after {head:?} as {kind}: {seconds} s");
+                assert!(seconds < HANGS, "{line:?} after {head:?} as {kind}: {seconds} s");
                 assert!(
                     findings.has_errors() || kind == FileKind::Data,
                     "{line:?} after {head:?} as {kind}"

@@ -98,6 +98,22 @@ impl Server {
         post(&self.host, &self.authorization(), path, body)
     }
 
+    /// Waits until it computes: until it has taken a quarter of a second of processor time from now on.
+    #[cfg(target_os = "linux")]
+    pub fn computes(&self) {
+        let (started, start) = (Instant::now(), ticks(self.child.id()));
+        while ticks(self.child.id()) < start + 25 {
+            assert!(started.elapsed() < LONG, "it does not begin");
+            thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// Waits until it computes, on a machine that is not too slow.
+    #[cfg(not(target_os = "linux"))]
+    pub fn computes(&self) {
+        std::thread::sleep(Duration::from_secs(2));
+    }
+
     /// Ends it with a signal; gives the exit code.
     #[cfg(unix)]
     pub fn end(&mut self, signal: &str) -> Option<i32> {
@@ -118,6 +134,14 @@ impl Server {
         }
         None
     }
+}
+
+/// Ticks of processor time that a process has taken.
+#[cfg(target_os = "linux")]
+pub fn ticks(pid: u32) -> u64 {
+    let text = std::fs::read_to_string(format!("/proc/{pid}/stat")).unwrap();
+    let fields: Vec<&str> = text.rsplit_once(')').unwrap().1.split_whitespace().collect();
+    fields[11].parse::<u64>().unwrap() + fields[12].parse::<u64>().unwrap()
 }
 
 impl Drop for Server {

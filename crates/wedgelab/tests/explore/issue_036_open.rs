@@ -76,12 +76,14 @@ fn issue_036_a_browser_is_called_with_a_file_that_leads_to_the_page() {
 #[test]
 fn input_issue_036_without_a_browser_the_address_is_what_there_is() {
     let folder = tempfile::tempdir().unwrap();
-    let (child, line) = start(folder.path(), Path::new("/there/is/none"));
+    let (mut child, line) = start(folder.path(), Path::new("/there/is/none"));
     assert!(line.contains("http://127.0.0.1:"), "{line}");
-    std::thread::sleep(Duration::from_millis(300));
-    let err = end(child);
-    assert!(
-        err.contains("no browser can be called") && err.contains("open the address yourself"),
-        "{err}"
-    );
+    let mut err = String::new();
+    let mut shown = BufReader::new(child.stderr.take().unwrap());
+    while !err.contains("open the address yourself") {
+        assert!(shown.read_line(&mut err).unwrap() > 0, "{err}");
+    }
+    assert!(err.contains("no browser can be called"), "{err}");
+    child.kill().unwrap();
+    child.wait().unwrap();
 }
