@@ -110,12 +110,12 @@ impl StudyFolder {
         let description = serde_json::to_string_pretty(&study.description())
             .map_err(|error| write_error(path, io::Error::other(error)))?;
         let manifest = path.join(STUDY_FILE);
-        let exists = manifest.is_file();
-        if !exists {
+        if !manifest.is_file() {
             refuse_foreign(path)?;
         }
-        // Says in its own words what is wrong with a path.
-        let folder = Folder::check(path, &[STUDY_FILE], exists)?;
+        // Says in its own words what is wrong with a path. Whether there is a study is asked again below the
+        // lock: another program may have begun it meanwhile.
+        let folder = Folder::check(path, &[STUDY_FILE], true)?;
         fs::create_dir_all(path.join(PARTS)).map_err(|reason| write_error(path, reason))?;
         let lock = OpenOptions::new()
             .create(true)
@@ -126,7 +126,7 @@ impl StudyFolder {
         let lock = Locked::new(lock).map_err(|_| StudyFolderError::Busy {
             folder: path.to_owned(),
         })?;
-        if exists {
+        if manifest.is_file() {
             let found = read_text(&manifest, &MANIFEST).map_err(|error| unreadable(&manifest, error))?;
             error::compare(path, &manifest, &found, &description)?;
         } else {
@@ -344,7 +344,9 @@ fn refuse_foreign(path: &Path) -> Result<(), StudyFolderError> {
         false => &[SERIES],
     };
     let own = |name: &str| {
-        name == LOCK_FILE || name == PARTS || name.starts_with(files::HIDDEN) || made.contains(&name)
+        [LOCK_FILE, PARTS, STUDY_FILE].contains(&name)
+            || name.starts_with(files::HIDDEN)
+            || made.contains(&name)
     };
     let mut names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
     match names.find(|name| !own(name)) {

@@ -4,7 +4,10 @@ use std::fs;
 use std::io::Write;
 use std::path::Path;
 use std::process::Command;
+use std::sync::Barrier;
 
+use report::study_folder::{StudyFolder, StudyFolderError};
+use study::design::Study;
 use tempfile::tempdir;
 
 use crate::common::{Output, SMALL, WHOLE, done, kept, names, output, refused, table, wedgelab};
@@ -140,6 +143,33 @@ fn input_damaged_parts_are_computed_again_and_foreign_ones_refused() {
     fs::remove_file(&part).unwrap();
     done(path, &["study", "small.toml", "--out", "a", "--quiet"]);
     assert!(table(&path.join("a")) == whole);
+}
+
+/// Of programs that begin a study in a folder at once, one works there and the others say so.
+#[test]
+fn issue_048_studies_begun_at_once_say_that_another_program_works_there() {
+    const PROGRAMS: usize = 8;
+    let folder = tempdir().unwrap();
+    let path = folder.path();
+    fs::write(path.join("small.toml"), SMALL).unwrap();
+    let study = Study::read(&path.join("small.toml")).unwrap();
+    for round in 0..40 {
+        let (own, together) = (path.join(round.to_string()), Barrier::new(PROGRAMS));
+        let begin = || {
+            together.wait();
+            let opened = StudyFolder::open(&own, &study);
+            together.wait();
+            opened.map(|_| ())
+        };
+        let opened: Vec<_> = std::thread::scope(|scope| {
+            let programs: Vec<_> = (0..PROGRAMS).map(|_| scope.spawn(begin)).collect();
+            programs.into_iter().map(|own| own.join().unwrap()).collect()
+        });
+        assert_eq!(opened.iter().filter(|own| own.is_ok()).count(), 1);
+        for error in opened.into_iter().filter_map(Result::err) {
+            assert!(matches!(error, StudyFolderError::Busy { .. }), "{error}");
+        }
+    }
 }
 
 #[test]
