@@ -192,7 +192,6 @@ pub(crate) fn sets<'o>(outcomes: &'o [CaseOutcome], trucks: &'o [TruckOutcome]) 
                     && parameters.toe > 0.0
                     && (yaw(case) != 0.0) == yawed
                     && result.summary.complete
-                    && result.summary.failed.is_none()
             });
             let wanted = if yawed {
                 YawCase::Intended
@@ -206,7 +205,6 @@ pub(crate) fn sets<'o>(outcomes: &'o [CaseOutcome], trucks: &'o [TruckOutcome]) 
                         && entry.toe == ToeCase::Out
                         && entry.yaw == wanted
                         && result.summary.complete
-                        && result.summary.failed.is_none()
                 })
                 .collect();
             // Type 6.9 first, as in the thesis's legends.

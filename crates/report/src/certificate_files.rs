@@ -92,7 +92,7 @@ fn columns() -> Vec<ParquetColumn> {
         column("regime", "", "the regime", text),
         column("condition", "", "the condition", text),
         column("speed_mph", unit, "speed", Content::Number),
-        column("status", "", "complete, refused, stopped or failed", text),
+        column("status", "", "complete, refused, stopped, failed or derailed", text),
         column(
             "limit",
             "",
@@ -106,13 +106,14 @@ fn columns() -> Vec<ParquetColumn> {
         column(
             "margin",
             "",
-            "what is left, in parts of the limit; negative where it is not kept",
+            "what is left, in parts of the limit; negative where it is not kept; of a run that derailed, of the \
+             part until then",
             Content::Number,
         ),
         column(
             "verdict",
             "",
-            "kept or exceeded; missing where nothing was measured",
+            "kept or exceeded (all limits, where a wheel left its rail); missing where nothing was measured",
             text,
         ),
         column("note", "", "what else is to be said of the run", text),

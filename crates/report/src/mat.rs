@@ -106,11 +106,11 @@ pub fn write_columns<S: RunSummary>(
 
 /// Returns the sentence on a run that is incomplete or has failed.
 pub fn soundness(summary: &impl RunSummary) -> String {
-    let stopped = summary
-        .stopped()
-        .map(|stopped| format!("incomplete: the run stopped at {} s\n", stopped.time));
+    let outcome = summary.outcome();
+    let end = outcome.end();
+    let incomplete = end.map(|end| format!("incomplete: the run {} at {} s\n", outcome.word(), end.time));
     let failed = summary.failed().map(|reason| format!("failed: {reason}\n"));
-    stopped.into_iter().chain(failed).collect()
+    incomplete.into_iter().chain(failed).collect()
 }
 
 /// Writes the file of a truck's run: every column of its table under its full name, and a text on them.
@@ -299,12 +299,7 @@ fn about(result: &RunResult, variables: &[Variable]) -> String {
         "{}: {}\nwritten by {}; names as in Steets (2007), appendices D and E\n",
         summary.name, summary.title, summary.program
     );
-    if let Some(stopped) = &summary.stopped {
-        text.push_str(&format!("incomplete: the run stopped at {} s\n", stopped.time));
-    }
-    if let Some(reason) = &summary.failed {
-        text.push_str(&format!("failed: {reason}\n"));
-    }
+    text += &soundness(summary);
     for variable in variables {
         text.push_str(&format!(
             "{} ({}): {}\n",

@@ -8,6 +8,8 @@ use study::records::{Record, Status};
 
 /// The measure of how well the energy ledger closes.
 const LEDGER_RESIDUAL: &str = "ledger_residual";
+/// The measure that a wheel left its rail.
+const DERAILED: &str = "derailed";
 /// A list of values longer than this is cut into parts.
 const MOST_LEVELS: usize = 40;
 const MOST_PARTS: u64 = 16;
@@ -300,8 +302,8 @@ pub struct Digest {
     pub jam: Option<Jam>,
     /// All runs together.
     pub all: MetricCell,
-    /// Runs that are complete, refused, stopped, failed.
-    pub ended: [u64; 4],
+    /// Runs that are complete, refused, stopped, failed, derailed.
+    pub ended: [u64; Status::ALL.len()],
     /// The first runs that are not complete, and why.
     pub reasons: Vec<(u64, String)>,
     /// Complete runs whose energy ledger closes badly ([`mechanics::energy_balance::DOUBTFUL`]).
@@ -341,7 +343,7 @@ impl Digest {
             jam: Jam::new(study, &axes),
             axes,
             all: none,
-            ended: [0; 4],
+            ended: [0; Status::ALL.len()],
             reasons: Vec::new(),
             doubtful: 0,
             worst_residual: (0.0, 0),
@@ -377,9 +379,12 @@ impl Digest {
                 self.worst_residual = (residual, record.number);
             }
         }
-        // The measures of a run that failed are in the table, and nowhere else.
-        let none = Measures::default();
-        let measures = if complete { &record.measures } else { &none };
+        // The measures of other runs are in the table, and nowhere else: but that they derailed.
+        let others = match record.status {
+            Status::Derailed => derailment(study, &record.measures),
+            _ => Measures::default(),
+        };
+        let measures = if complete { &record.measures } else { &others };
         let places: Vec<Option<usize>> = self
             .axes
             .iter()
@@ -408,6 +413,13 @@ impl Digest {
             }
         }
     }
+}
+
+/// Returns the measures of a run that derailed, without those that are of the part until then.
+fn derailment(study: &Study, measures: &Measures) -> Measures {
+    let names = study.measures().iter().map(|own| own.name == DERAILED);
+    let kept = names.zip(&measures.0);
+    Measures(kept.map(|(kept, value)| if kept { *value } else { f64::NAN }).collect())
 }
 
 fn add(cell: &mut [Gathered], measures: &Measures) {

@@ -419,7 +419,8 @@ pub fn columns(study: &Study) -> Vec<ParquetColumn> {
             "status".to_owned(),
             "",
             "complete; refused: its values make no run; stopped: it did not come to its end; failed: its \
-             energy ledger does not close, and its measures are not to be used"
+             energy ledger does not close, and its measures are not to be used; derailed: a wheel left its \
+             rail, where it ended, and its measures are of the part until then"
                 .to_owned(),
             Content::Text,
         ),

@@ -16,9 +16,10 @@ use crate::half_truck::files::{FilesError, Settings, case_of_run};
 use crate::half_truck::{HalfTruckCase, catalog};
 use crate::measures::{self, Definitions, Judged, Unmeasured, half_truck};
 use crate::metrics::Cycle;
+use crate::outcome::Outcome;
 use crate::result::RunResult;
 use crate::run::{Run, RunCase, RunError};
-use crate::summary::{RunSummary, Stopped};
+use crate::summary::RunSummary;
 use crate::truck::{self, TruckCase};
 
 /// A case of any model.
@@ -197,7 +198,7 @@ fn named(source: &str, text: &str, overrides: &[String]) -> Option<Model> {
 pub struct AnyResult {
     columns: Vec<Column>,
     values: Vec<Vec<f64>>,
-    stopped: Option<Stopped>,
+    outcome: Outcome,
     warnings: Vec<String>,
     failed: Option<String>,
     largest_relative_residual: f64,
@@ -208,7 +209,7 @@ impl AnyResult {
         Self {
             columns: result.columns,
             values: result.values,
-            stopped: result.summary.stopped().cloned(),
+            outcome: result.summary.outcome(),
             warnings: result.summary.warnings().to_vec(),
             failed: result.summary.failed().map(str::to_owned),
             largest_relative_residual: result.summary.largest_relative_residual(),
@@ -222,10 +223,10 @@ impl AnyResult {
         Some(&self.values[index])
     }
 
-    /// Returns the reason and time of the run's stop, if it did not come to its end.
+    /// Returns how the run ended.
     #[must_use]
-    pub fn stopped(&self) -> Option<&Stopped> {
-        self.stopped.as_ref()
+    pub fn outcome(&self) -> &Outcome {
+        &self.outcome
     }
 
     /// Returns the warnings about the numbers.

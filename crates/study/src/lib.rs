@@ -32,6 +32,7 @@ pub mod lock_up;
 pub mod losses;
 pub mod measures;
 pub mod metrics;
+pub mod outcome;
 pub mod patches;
 pub mod plausibility;
 pub mod progress;

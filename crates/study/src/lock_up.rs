@@ -23,8 +23,10 @@ use wedge::outputs::FACES;
 
 use crate::case::{Case, CaseError, Tables, bounds};
 use crate::closed_form;
+use crate::outcome::Outcome;
 use crate::result::RunResult;
 use crate::run::Run;
+use crate::summary::RunSummary;
 
 /// Travel and duration of the bolster's press.
 const PRESS: &str = "bolster.longitudinal={ shape = \"ramp\", amplitude = \"-0.3 in\", duration = \"1.5 s\", \
@@ -460,9 +462,16 @@ fn cell(case: &Case) -> MapPoint {
             return cell;
         }
     };
-    if let Some(stopped) = &result.summary.stopped {
-        cell.found = RigOutcome::Unknown(stopped.reason.clone());
-        return cell;
+    match result.summary.outcome() {
+        Outcome::Complete => {}
+        Outcome::Failed(reason) => {
+            cell.found = RigOutcome::Unknown(reason);
+            return cell;
+        }
+        Outcome::Stopped(end) | Outcome::Derailed(end) => {
+            cell.found = RigOutcome::Unknown(end.reason);
+            return cell;
+        }
     }
     let last = |name: &str| {
         let column = result.column(name).and_then(|values| values.last().copied());

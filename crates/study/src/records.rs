@@ -18,9 +18,11 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use mechanics::energy_balance::{FAILED, Verdict};
+use quantity::SixDigits;
 
 use crate::design::Study;
 use crate::measures::{Definitions, Judged, Measures, Unmeasured};
+use crate::outcome::Outcome;
 
 const MAGIC: [u8; 4] = *b"WLR2";
 const HEAD: usize = 12;
@@ -45,9 +47,20 @@ pub enum Status {
     /// It came to its end, but its energy ledger does not close, or it is nonsense: it has measures, which
     /// are not to be used.
     Failed,
+    /// A wheel left its rail, where it ended: it has measures of the part until then.
+    Derailed,
 }
 
 impl Status {
+    /// All of them, in the order of their numbers.
+    pub const ALL: [Self; 5] = [
+        Self::Complete,
+        Self::Refused,
+        Self::Stopped,
+        Self::Failed,
+        Self::Derailed,
+    ];
+
     /// Returns its name in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -56,13 +69,12 @@ impl Status {
             Self::Refused => "refused",
             Self::Stopped => "stopped",
             Self::Failed => "failed",
+            Self::Derailed => "derailed",
         }
     }
 
     fn from_number(number: u8) -> Option<Self> {
-        [Self::Complete, Self::Refused, Self::Stopped, Self::Failed]
-            .into_iter()
-            .find(|status| *status as u8 == number)
+        Self::ALL.into_iter().find(|status| *status as u8 == number)
     }
 }
 
@@ -73,7 +85,7 @@ pub struct Record {
     pub number: u64,
     /// The way in which it ended.
     pub status: Status,
-    /// The reason if it has no measures or has failed, else empty.
+    /// The reason if it is not complete, else empty.
     pub reason: String,
     /// Its measures, SI; empty if it has none.
     pub measures: Measures,
@@ -113,11 +125,11 @@ fn compute(study: &Study, number: u64) -> Record {
 /// Returns the outcome of a variant as its record.
 fn record(definitions: &Definitions, number: u64, outcome: Result<Judged, Unmeasured>) -> Record {
     let (status, reason, measures) = match outcome {
-        Ok(Judged { measures, nonsense }) => match definitions.not_finite(&measures) {
-            None => match ledger(definitions, &measures).or(nonsense) {
-                None => (Status::Complete, String::new(), measures),
-                Some(reason) => (Status::Failed, shortened(reason), measures),
-            },
+        Ok(Judged { measures, outcome }) => match definitions.not_finite(&measures) {
+            None => {
+                let (status, reason) = judged(outcome, ledger(definitions, &measures));
+                (status, shortened(reason), measures)
+            }
             Some(name) => {
                 let reason = format!("`{name}` is not a finite number");
                 (Status::Stopped, reason, Measures::default())
@@ -131,6 +143,21 @@ fn record(definitions: &Definitions, number: u64, outcome: Result<Judged, Unmeas
         status,
         reason,
         measures,
+    }
+}
+
+/// Returns the status of a variant that has measures, and the reason; `ledger` is that of its energy ledger, if
+/// it does not close.
+fn judged(outcome: Outcome, ledger: Option<String>) -> (Status, String) {
+    match (outcome, ledger) {
+        (Outcome::Derailed(end), ledger) => {
+            let also = ledger.map_or(String::new(), |reason| format!("; {reason}"));
+            let time = SixDigits(end.time);
+            (Status::Derailed, format!("at {time} s {}{also}", end.reason))
+        }
+        (_, Some(reason)) | (Outcome::Failed(reason), None) => (Status::Failed, reason),
+        (Outcome::Stopped(end), None) => (Status::Stopped, end.reason),
+        (Outcome::Complete, None) => (Status::Complete, String::new()),
     }
 }
 

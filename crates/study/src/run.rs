@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use integrate::{Integrator, Options, SetupError};
-use mechanics::energy_balance::{EnergyBalance, Entries};
+use mechanics::energy_balance::{EnergyBalance, Entries, Verdict};
 use mechanics::output::Column;
 use mechanics::plausibility::{Plausibility, PlausibilityFinding};
 use mechanics::system::{ModelError, NoEquilibrium, System};
@@ -330,6 +330,12 @@ impl<C: RunCase> Run<C> {
     #[must_use]
     pub fn is_finished(&self) -> bool {
         self.time() >= self.rows.end
+    }
+
+    /// Returns whether a run that ends now is complete: nothing stopped it before its end, and its energy
+    /// ledger closes.
+    pub(crate) fn is_complete(&self, stopped: Option<&Stopped>) -> bool {
+        stopped.is_none() && self.is_finished() && self.energy_balance.verdict() != Verdict::Failed
     }
 
     /// Returns the state, to be continued by [`Run::resume`].

@@ -15,6 +15,7 @@ use crate::finite::{find, is_finite};
 use crate::jam::JamMargins;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
+use crate::outcome::{Outcome, RunEnd};
 use crate::result::ContactEvent;
 use crate::run::{Run, RunCase};
 
@@ -55,11 +56,36 @@ pub trait RunSummary {
     fn warnings(&self) -> &[String];
     /// Returns the relative residual of the energy ledger.
     fn largest_relative_residual(&self) -> f64;
+    /// Returns where a wheel left its rail, if one did.
+    fn derailed(&self) -> Option<RunEnd> {
+        None
+    }
+    /// Returns the distance along the track at the end, of models that run on one.
+    fn reached(&self) -> Option<SummaryValue> {
+        None
+    }
+    /// Returns how the run ended. A run that did not come to its end is `Derailed` or `Stopped` even if its
+    /// energy ledger does not close, which [`RunSummary::failed`] and its warnings say.
+    fn outcome(&self) -> Outcome {
+        if let Some(end) = self.derailed() {
+            return Outcome::Derailed(end);
+        }
+        match (self.stopped(), self.failed()) {
+            (Some(stopped), _) => Outcome::Stopped(RunEnd {
+                time: stopped.time,
+                reason: stopped.reason.clone(),
+                distance: self.reached(),
+            }),
+            (None, Some(reason)) => Outcome::Failed(reason.to_owned()),
+            (None, None) => Outcome::Complete,
+        }
+    }
 }
 
-/// Implements [`RunSummary`]; the residual is found under `$residual`.
+/// Implements [`RunSummary`]; the residual is found under `$residual`. Summaries of models that run on a track
+/// name their functions for `derailed` and `reached`.
 macro_rules! run_summary {
-    ($summary:ty, $($residual:ident).+) => {
+    ($summary:ty, $($residual:ident).+ $(, derailed: $derailed:path, reached: $reached:path)?) => {
         impl $crate::summary::RunSummary for $summary {
             fn name(&self) -> &str {
                 &self.name
@@ -84,6 +110,15 @@ macro_rules! run_summary {
             fn largest_relative_residual(&self) -> f64 {
                 self.$($residual).+
             }
+            $(
+                fn derailed(&self) -> Option<$crate::outcome::RunEnd> {
+                    $derailed(self)
+                }
+
+                fn reached(&self) -> Option<$crate::summary::SummaryValue> {
+                    $reached(self)
+                }
+            )?
         }
     };
 }
@@ -105,7 +140,7 @@ pub struct Summary {
     pub title: String,
     /// Units of the numbers: `us` or `si`.
     pub units: Units,
-    /// True if the run came to its end.
+    /// True if the run came to its end and its energy ledger closes to 1e-2.
     pub complete: bool,
     /// Reason and time of the stop, if it is incomplete.
     pub stopped: Option<Stopped>,

@@ -7,6 +7,7 @@ use quantity::System as Units;
 use rolling::rig::RigStart;
 use rolling::wheelset::WheelsetBody;
 use study::run::Run;
+use study::summary::RunSummary;
 use study::track::TrackFile;
 use study::wheelset::run::WheelsetResult;
 use study::wheelset::{SearchMode, Wheelset, WheelsetCase};
@@ -132,7 +133,7 @@ fn analytic_rows_of_a_curve_balance() {
 
 /// A wheelset that is steered into its rail climbs, and the run ends there with place and time.
 #[test]
-fn limits_a_derailment_is_a_result_with_place_and_time() {
+fn issue_047_a_derailment_is_told_with_place_and_time() {
     let mut steered = wheelset(
         "[[segments]]\ntangent = \"200 m\"\n[support]\nkind = \"rigid\"\n",
         5.0,
@@ -156,6 +157,17 @@ fn limits_a_derailment_is_a_result_with_place_and_time() {
         derailment.distance.value
     );
     assert!(derailment.words().contains("left wheel") && derailment.distance.unit == "m");
+    let outcome = summary.outcome();
+    assert_eq!(outcome.word(), "derailed");
+    let end = outcome.end().unwrap();
+    assert_eq!(
+        (end.time, end.distance.as_ref()),
+        (derailment.time, Some(&derailment.distance))
+    );
+    assert!(
+        outcome.told().unwrap().contains("is incomplete: the left wheel"),
+        "{outcome:?}"
+    );
     // It went up the flange.
     assert!(
         result

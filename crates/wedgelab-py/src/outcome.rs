@@ -320,7 +320,26 @@ impl NativeResult {
         }
     }
 
-    /// Returns the reason and time of its stop, if it is not complete.
+    /// Returns how it ended in one word: `complete`, `derailed`, `stopped` or `failed`.
+    #[getter]
+    fn outcome(&self) -> &'static str {
+        self.table.summary.get().outcome().word()
+    }
+
+    /// Returns the predicate of a sentence on it, with the reason; `None` of a complete run.
+    #[getter]
+    fn told(&self) -> Option<String> {
+        self.table.summary.get().outcome().told()
+    }
+
+    /// Returns the time and the reason why a wheel left its rail, if one did.
+    #[getter]
+    fn derailed(&self) -> Option<(f64, String)> {
+        let derailed = self.table.summary.get().derailed();
+        derailed.map(|end| (end.time, end.reason))
+    }
+
+    /// Returns the reason and time of its stop, if it could not go on.
     #[getter]
     fn stopped(&self) -> Option<(f64, String)> {
         let stopped = self.table.summary.get().stopped();

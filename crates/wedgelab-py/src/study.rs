@@ -193,8 +193,9 @@ impl NativeStudyFolder {
     }
 }
 
-/// The outcome: runs complete, refused, stopped, failed; the first reasons; a warning about energy ledgers.
-type Ended = ([u64; 4], Vec<(u64, String)>, Option<String>);
+/// The outcome: runs complete, refused, stopped, failed, derailed; the first reasons; a warning about energy
+/// ledgers.
+type Ended = ([u64; 5], Vec<(u64, String)>, Option<String>);
 
 #[pymethods]
 impl NativeStudyFolder {

@@ -1,5 +1,6 @@
 //! Running one case, writing its files, and its row in the table.
 
+use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -12,9 +13,10 @@ use study::car::CarCase;
 use study::car::motions::MotionTable;
 use study::car::run::CarResult;
 use study::contacts::{ContactTable, TakesCorners};
+use study::outcome::Outcome;
 use study::result::RunResult;
 use study::run::{Run, RunCase, RunError};
-use study::summary::{RunSummary, Stopped, Summary, SummaryValue};
+use study::summary::{RunSummary, Summary, SummaryValue};
 
 use crate::failure::{Failure, Message, say};
 use crate::interrupt;
@@ -110,8 +112,9 @@ pub fn write_quietly<C: RunFiles>(
     progress: &Progress,
 ) -> Result<(), Failure> {
     case.write(folder, &done.result)?;
-    let how = match done.result.summary.stopped() {
-        Some(stopped) => format!("stopped at {} s", SixDigits(stopped.time)),
+    let outcome = done.result.summary.outcome();
+    let how = match outcome.end() {
+        Some(end) => format!("{} at {} s", outcome.word(), SixDigits(end.time)),
         None => format!("{:.2} s", done.wall.as_secs_f64()),
     };
     progress.done(case.name(), &how);
@@ -148,65 +151,43 @@ pub fn execute_whole<C: RunFiles>(
     Ok(Some(done))
 }
 
-/// Returns the message of a run that is incomplete or has failed; `None` if it is sound.
+/// Returns the message of a run that is not complete; `None` if it is.
 pub fn unsound<C: RunFiles>(summary: &C::Summary, folder: &Path) -> Option<Failure> {
-    if let Some(stopped) = summary.stopped() {
-        return Some(stopped_run(summary.name(), stopped, folder, C::WHAT_TO_TRY));
-    }
-    let reason = summary.failed()?;
-    Some(failed_run(summary.name(), reason, folder))
-}
-
-/// Returns the message of a run that is incomplete or has failed and of which nothing is written; `None` if
-/// it is sound.
-pub fn unsound_unwritten<C: RunFiles>(summary: &C::Summary) -> Option<Failure> {
-    let name = summary.name();
-    let nothing = "nothing of it is written";
-    let (message, advice) = match (summary.stopped(), summary.failed()) {
-        (Some(stopped), _) => (
-            stopped_message(name, stopped),
-            with_suspects(nothing, C::WHAT_TO_TRY),
-        ),
-        (None, Some(reason)) => (failed_message(name, reason), nothing.to_owned()),
-        (None, None) => return None,
+    let folder = folder.display();
+    let kept = match summary.outcome() {
+        Outcome::Failed(_) => format!("its files are in {folder}, marked as failed; do not use their numbers"),
+        _ => format!("what was computed until then is in {folder}, marked as incomplete"),
     };
-    Some(Failure::Failed(Message::new(message, advice).into()))
+    unsound_with::<C>(summary, &kept)
 }
 
-/// Returns a run that came to its end but failed, and whose files are written.
-fn failed_run(name: &str, reason: &str, folder: &Path) -> Failure {
-    let message = failed_message(name, reason);
-    let kept = format!(
-        "its files are in {}, marked as failed; do not use their numbers",
-        folder.display()
-    );
-    Failure::Failed(Message::new(message, kept).into())
+/// Returns the message of a run that is not complete and of which nothing is written; `None` if it is.
+pub fn unsound_unwritten<C: RunFiles>(summary: &C::Summary) -> Option<Failure> {
+    unsound_with::<C>(summary, "nothing of it is written")
 }
 
-/// Returns a run that stopped and whose files are written; `suspects` says what to try if it could not go on.
-fn stopped_run(name: &str, stopped: &Stopped, folder: &Path, suspects: &str) -> Failure {
-    let message = stopped_message(name, stopped);
-    let kept = format!(
-        "what was computed until then is in {}, marked as incomplete",
-        folder.display()
-    );
-    if interrupt::is_reason(Some(stopped)) {
-        let advice = format!("{kept}; the same command with --force computes the whole run, from its start");
-        return Failure::Interrupted(Message::new(message, advice).into());
+/// Returns the same; `kept` says where its files are.
+fn unsound_with<C: RunFiles>(summary: &C::Summary, kept: &str) -> Option<Failure> {
+    let outcome = summary.outcome();
+    let message = format!("the run {} {}", summary.name(), outcome.told()?);
+    let failure = |advice: String| Message::new(message, advice).into();
+    Some(match outcome {
+        Outcome::Derailed(_) => Failure::Derailed(failure(kept.to_owned())),
+        Outcome::Stopped(_) if interrupt::is_reason(summary.stopped()) => Failure::Interrupted(failure(
+            format!("{kept}; the same command with --force computes the whole run, from its start"),
+        )),
+        Outcome::Stopped(_) => Failure::Failed(failure(with_suspects(kept, C::WHAT_TO_TRY))),
+        Outcome::Failed(_) | Outcome::Complete => Failure::Failed(failure(kept.to_owned())),
+    })
+}
+
+/// Writes above the table of a run that is not complete why, and what the table holds.
+pub fn write_outcome(summary: &impl RunSummary, out: &mut impl Write) -> io::Result<()> {
+    let outcome = summary.outcome();
+    match (outcome.told(), outcome.numbers()) {
+        (Some(told), Some(numbers)) => writeln!(out, "The run {} {told}.\n{numbers}\n", summary.name()),
+        _ => Ok(()),
     }
-    Failure::Failed(Message::new(message, with_suspects(&kept, suspects)).into())
-}
-
-fn stopped_message(name: &str, stopped: &Stopped) -> String {
-    format!(
-        "the run {name} stopped at {} s and is incomplete: {}",
-        SixDigits(stopped.time),
-        stopped.reason
-    )
-}
-
-fn failed_message(name: &str, reason: &str) -> String {
-    format!("the run {name} has failed: {reason}")
 }
 
 /// Returns the message about the files of a run, with advice if it could not go on.

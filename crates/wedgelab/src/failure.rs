@@ -18,6 +18,8 @@ use crate::interrupt;
 pub const FAILED: u8 = 1;
 /// Exit code: the input is wrong.
 pub const INPUT: u8 = 2;
+/// Exit code: a wheel left its rail, where the run ended; its files are written.
+pub const DERAILED: u8 = 3;
 
 /// Reasons why the program stops.
 #[derive(Debug)]
@@ -26,6 +28,8 @@ pub enum Failure {
     Input(Report),
     /// A run could not finish, or something could not be written.
     Failed(Report),
+    /// A wheel left its rail, where the run ended.
+    Derailed(Report),
     /// A signal ended the command; this is what it leaves.
     Interrupted(Report),
     /// Nobody reads the output any more.
@@ -38,6 +42,7 @@ impl Failure {
         let (report, code) = match self {
             Self::Input(report) => (report, INPUT),
             Self::Failed(report) => (report, FAILED),
+            Self::Derailed(report) => (report, DERAILED),
             Self::Interrupted(report) => (report, interrupt::code().unwrap_or(FAILED)),
             Self::NobodyReads => return ExitCode::from(interrupt::code().unwrap_or(0)),
         };

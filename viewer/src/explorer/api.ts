@@ -66,6 +66,8 @@ export interface Summary {
   units: "us" | "si";
   complete: boolean;
   stopped: { time: number; reason: string } | null;
+  /** Of cars: a wheel left its rail, where the run ended. */
+  derailed?: { time: number; what: string } | null;
   failed: string | null;
   warnings: string[];
 }

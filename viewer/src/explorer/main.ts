@@ -304,6 +304,9 @@ class Explorer {
     if (summary.stopped) {
       notes.unshift({ path: "", message: `The run stopped at ${summary.stopped.time.toPrecision(4)} s: ${summary.stopped.reason}`, help: "Values far from the thesis's are the first suspects." });
     }
+    if (summary.derailed) {
+      notes.unshift({ path: "", message: `The run derailed at ${summary.derailed.time.toPrecision(4)} s: ${summary.derailed.what}`, help: "All values are of the part until then." });
+    }
     if (loop.missing) {
       notes.push({ path: "", message: `No energy per ${loop.energy_per}: ${loop.missing}`, help: "" });
     }

@@ -1,11 +1,11 @@
-//! Energies per cycle, from the summaries beside the results.
+//! Energies per cycle and outcomes, from the summaries beside the results.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use input::file::{Expected, Reason, read};
 use input::{FileType, limits, shortened};
-use quantity::{Kind, System as Units};
+use quantity::{Kind, SixDigits, System as Units};
 use serde::Deserialize;
 use study::summary::SummaryValue;
 
@@ -22,10 +22,21 @@ const SUMMARY_FILE: Expected = Expected {
 /// The part of a summary that is read.
 #[derive(Deserialize)]
 struct SummaryPart {
+    #[serde(default)]
     averages: AveragesPart,
+    stopped: Option<EndPart>,
+    #[serde(alias = "derailment")]
+    derailed: Option<EndPart>,
+    failed: Option<String>,
 }
 
+/// The end of a run before its time.
 #[derive(Deserialize)]
+struct EndPart {
+    time: f64,
+}
+
+#[derive(Default, Deserialize)]
 struct AveragesPart {
     energy_per_cycle: BTreeMap<String, SummaryValue>,
 }
@@ -35,7 +46,10 @@ pub(super) fn energies(entries: &[ComparedResult], units: Units, notes: &mut Vec
     let mut read = entries
         .iter()
         .map(|entry| match summary_beside(&entry.table.file) {
-            Ok(found) => found.map(|part| part.averages.energy_per_cycle),
+            Ok(found) => found.map(|part| {
+                notes.extend(unsound(&entry.label, &part));
+                part.averages.energy_per_cycle
+            }),
             Err(error) => {
                 let label = &entry.label;
                 notes.push(format!(
@@ -64,6 +78,20 @@ pub(super) fn energies(entries: &[ComparedResult], units: Units, notes: &mut Vec
         }
     }
     energies
+}
+
+/// Returns the note on a run that is not complete.
+fn unsound(label: &str, part: &SummaryPart) -> Option<String> {
+    let ends = [("derailed", &part.derailed), ("stopped", &part.stopped)];
+    let ended = ends.into_iter().find_map(|(verb, end)| Some((verb, end.as_ref()?.time)));
+    match (ended, &part.failed) {
+        (Some((verb, time)), _) => Some(format!(
+            "{label} {verb} at {} s and is incomplete: its numbers are of the part until then.",
+            SixDigits(time)
+        )),
+        (None, Some(_)) => Some(format!("{label} has failed: do not use its numbers.")),
+        (None, None) => None,
+    }
 }
 
 /// Returns the summary beside a `result.csv`, if there is one.

@@ -1,6 +1,7 @@
 //! Figures of a certificate: what is limited, and what the wedges do, over the speed.
 
 use ::study::car::certificate::{Assessed, Certificate};
+use ::study::records::Status;
 use quantity::{Kind, System as Units};
 
 use super::{Exhibit, axis, capital};
@@ -18,6 +19,7 @@ pub fn over_speed(certificate: &Certificate, findings: &CertificateFindings, reg
             let (colour, line) = distinct(condition);
             let runs = findings.runs.iter();
             let own = runs.filter(|run| run.regime == regime && run.condition == condition);
+            let own = own.filter(|run| run.status == Status::Complete.name());
             let mut points: Vec<(f64, f64)> = own
                 .filter_map(|run| Some((run.speed_si * Kind::TravelSpeed.from_si(units), value(run)?)))
                 .collect();
@@ -102,7 +104,8 @@ pub fn over_speed(certificate: &Certificate, findings: &CertificateFindings, reg
             caption: format!(
                 "{}. What is limited, with its limit (dotted); then the energy that the friction of all \
                  wedges took in a run, and the share of the time after settling in which no point of a \
-                 wedge's faces slips, mean of all wedges. Limits: {}, {}.",
+                 wedge's faces slips, mean of all wedges. Runs that did not reach the end of their track, or \
+                 failed, are not drawn. Limits: {}, {}.",
                 capital(&own.title),
                 certificate.limits.title,
                 certificate.limits.source

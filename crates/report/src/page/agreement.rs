@@ -5,7 +5,7 @@ use quantity::{Kind, System as Units};
 use study::energy;
 use study::metrics::{WINDOWS, window_of};
 use study::plausibility;
-use study::summary::SummaryValue;
+use study::summary::{RunSummary, SummaryValue};
 
 use crate::agreement::{AgreementGroup, COMPONENT, TruckOutcome, mean_yaw, percent};
 use crate::figures::{capital, digits};
@@ -154,9 +154,9 @@ fn trucks(trucks: &[TruckOutcome]) -> Markup {
             }
         }
         @for (entry, result) in trucks {
-            @if let Some(stopped) = &result.summary.stopped {
-                p.warning { (entry.name()) " stopped at " (stopped.time) " s and is incomplete: \
-                                                                          " (stopped.reason) }
+            @let outcome = result.summary.outcome();
+            @if let (Some(_), Some(told)) = (outcome.end(), outcome.told()) {
+                p.warning { (entry.name()) " " (told) }
             }
             @let warnings = &result.summary.warnings;
             @for warning in energy::among(warnings).chain(plausibility::among(warnings)) {

@@ -3,7 +3,7 @@
 
 use maud::{Markup, html};
 use study::car::summary::CarSummary;
-use study::summary::SummaryValue;
+use study::summary::{RunSummary, SummaryValue};
 
 use super::{data_of, moving, run_page, shown_in};
 use crate::figures::car::{CarRun, exhibits};
@@ -20,7 +20,7 @@ pub fn render(run: &CarRun) -> Result<String, serde_json::Error> {
     let recording = Recording::of_car(&run.case, &run.result, run.motions.as_ref(), Detail::Thinned);
     let data = data_of(summary.units, recording, &exhibits)?;
     let main = html! {
-        (doubts(summary))
+        (super::doubts(summary))
         (moving(&summary.name))
         section { h2 { "Limits" } (limits(summary)) }
         section { h2 { "Statistics" } (statistics(summary)) }
@@ -41,17 +41,14 @@ pub fn render(run: &CarRun) -> Result<String, serde_json::Error> {
     ))
 }
 
-fn doubts(summary: &CarSummary) -> Markup {
-    html! {
-        @if let Some(own) = &summary.derailed {
-            p.warning { (summary.name) " derails at " (digits(own.time)) " s: " (own.what) }
-        }
-        (super::doubts(summary))
-    }
+/// Returns the sentence above numbers that are not of the whole run.
+fn partial(summary: &CarSummary) -> Markup {
+    html! { @if let Some(text) = summary.outcome().numbers() { p.warning { (text) } } }
 }
 
 fn limits(summary: &CarSummary) -> Markup {
     html! {
+        (partial(summary))
         p {
             "The worst value of each kind beside limits that are remembered of AAR M-1001, chapter XI: \
              check them against your edition of the standard. A limit counts for the regimes named. Margin: \
@@ -93,6 +90,7 @@ fn statistics(summary: &CarSummary) -> Markup {
             })
     };
     html! {
+        (partial(summary))
         details {
             summary { "All statistics, raw and filtered" }
             div.wide {

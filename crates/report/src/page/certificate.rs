@@ -4,6 +4,7 @@ use maud::{Markup, html};
 use quantity::System as Units;
 use study::car::certificate::{Certificate, LimitVerdict, worst_run};
 use study::car::limits::Bound;
+use study::records::Status;
 
 use super::{document, moving_as, shown_in};
 use crate::certificate_files::{CertificateFindings, NAMES};
@@ -146,7 +147,7 @@ fn summary(certificate: &Certificate, findings: &CertificateFindings) -> Markup 
     let unsound = findings
         .runs
         .iter()
-        .filter(|run| run.status != "complete" || run.derailed);
+        .filter(|run| run.status != Status::Complete.name());
     let unsound: Vec<_> = unsound.collect();
     let without = certificate.without_limits();
     html! {
@@ -232,6 +233,9 @@ fn limits(
                                 (own.worst.as_ref().map_or("–".to_owned(), |worst| {
                                     value(worst.value, &limit.unit)
                                 }))
+                                @if own.worst.as_ref().is_some_and(|worst| worst.until_derailed) {
+                                    " until it derailed"
+                                }
                             }
                             td.number { (own.worst.as_ref().map_or("–", |worst| worst.speed.as_str())) }
                             td.number {
@@ -330,6 +334,7 @@ fn worst_of(certificate: &Certificate, findings: &CertificateFindings, own: &Wor
     let summary = &own.run.result.summary;
     html! {
         h3 { "The worst run: " (run.speed) ", " (certificate.conditions[run.condition].title) }
+        (super::doubts_about("The run", summary))
         p {
             @if let Some((time, what)) = &own.worst { "From " (digits(*time)) " s on: " (what) ". " }
             a href={ (own.folder) "/" (super::FILE_NAME) } { "All of this run" } "."

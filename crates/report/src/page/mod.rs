@@ -205,12 +205,17 @@ fn shown_in(exhibit: &Exhibit, svg: &str, folder: Option<&str>) -> Markup {
 /// The text on a run that has failed, after its name.
 const FAILED: &str = " has failed: do not use its numbers";
 
-/// Returns the list of what makes the numbers of a run doubtful.
+/// Returns the list of what a run lacks to be complete and of what makes its numbers doubtful.
 fn doubts(summary: &impl RunSummary) -> Markup {
-    let name = summary.name();
+    doubts_about(summary.name(), summary)
+}
+
+/// Returns the same of a run that is called `name`.
+fn doubts_about(name: &str, summary: &dyn RunSummary) -> Markup {
+    let outcome = summary.outcome();
     html! {
-        @if let Some(stopped) = summary.stopped() {
-            p.warning { (name) " stopped at " (stopped.time) " s and is incomplete: " (stopped.reason) }
+        @if let (Some(_), Some(told), Some(numbers)) = (outcome.end(), outcome.told(), outcome.numbers()) {
+            p.warning { (name) " " (told) ". " (numbers) }
         }
         @for warning in summary.warnings() { p.warning { (name) ": " (warning) } }
         @if summary.failed().is_some() { p.warning { (name) (FAILED) } }

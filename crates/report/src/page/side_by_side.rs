@@ -104,15 +104,8 @@ fn lead(runs: &[RunFolder]) -> Markup {
 fn doubts(runs: &[RunFolder]) -> Markup {
     html! {
         @for run in runs {
-            @let (name, shared) = (&run.label, run.summary.shared());
-            @if let Some(text) = run.summary.derailed() { p.warning { (name) " " (text) } }
-            @if let Some(stopped) = shared.stopped() {
-                p.warning { (name) " stopped at " (digits(stopped.time)) " s and is incomplete: \
-                                                                          " (stopped.reason) }
-            }
-            @for warning in shared.warnings() { p.warning { (name) ": " (warning) } }
-            @if shared.failed().is_some() { p.warning { (name) (super::FAILED) } }
-            @for note in &run.notes { p.warning { (name) ": " (note) } }
+            (super::doubts_about(&run.label, run.summary.shared()))
+            @for note in &run.notes { p.warning { (run.label) ": " (note) } }
         }
     }
 }
@@ -264,6 +257,11 @@ fn limits(runs: &[RunFolder]) -> Markup {
                     "The worst value of each kind beside limits that are remembered of AAR M-1001, chapter \
                      XI: check them against your edition of the standard. A limit counts for the regimes \
                      named. In brackets: margin, what is left in parts of the limit."
+                    @for (run, _) in &cars {
+                        @if let Some(end) = run.summary.shared().outcome().end() {
+                            " Those of " (run.label) " are of the part until " (end.place()) "."
+                        }
+                    }
                 }
                 div.wide {
                     table {

@@ -89,10 +89,14 @@ fn lead(study: &Study, digest: &Digest) -> String {
              long may have forces some 10 % off)"
         }
     };
-    let [complete, refused, stopped, failed] = digest.ended;
+    let [complete, refused, stopped, failed, derailed] = digest.ended;
+    let derailed = match derailed {
+        0 => String::new(),
+        count => format!(", {count} derailed"),
+    };
     format!(
         "{} runs of the case {}: {how}, at {accuracy}. {complete} are complete, {refused} were refused, \
-         {stopped} stopped on their way, {failed} failed.",
+         {stopped} stopped on their way, {failed} failed{derailed}.",
         study.count(),
         study.base.name()
     )
@@ -167,9 +171,10 @@ fn failures(digest: &Digest) -> Markup {
         @if failed > 0 {
             div.warning {
                 p {
-                    (failed) " runs are left out of all figures: they have no measures, or have failed: \
-                              their energy ledger does not close, or their bodies left the range in which \
-                              the model means something. The first ones:"
+                    (failed) " runs are left out of all figures: they have no measures, or derailed on \
+                              their way (figures of `derailed` alone count those), or have failed: their \
+                              energy ledger does not close, or their bodies left the range in which the \
+                              model means something. The first ones:"
                 }
                 ul { @for (number, reason) in &digest.reasons { li { "run " (number) ": " (reason) } } }
             }

@@ -24,7 +24,7 @@ pub fn render(case: &WheelsetCase, result: &WheelsetResult) -> Result<String, se
         summary.name, summary.program
     );
     let main = html! {
-        (state(summary))
+        (super::doubts(summary))
         (moving(&summary.name))
         section { h2 { "In numbers" } (numbers(summary)) }
         section {
@@ -43,14 +43,6 @@ pub fn render(case: &WheelsetCase, result: &WheelsetResult) -> Result<String, se
     };
     let heading = format!("A wheelset on the track {}", case.wheelset.track.name);
     Ok(document(&heading, &lead, None, &main, Some(&data)))
-}
-
-/// Returns the place of derailment, and what makes its numbers doubtful.
-fn state(summary: &WheelsetSummary) -> Markup {
-    html! {
-        @if let Some(derailment) = &summary.derailment { p.warning { "Derailed: " (derailment.words()) "." } }
-        (super::doubts(summary))
-    }
 }
 
 /// Extremes of the wheels, and how the wheelset hunts.

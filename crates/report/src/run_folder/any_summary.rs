@@ -163,22 +163,6 @@ impl AnySummary {
             Self::Wheelset(own) => (own.statistics.steps, own.relative_tolerance),
         }
     }
-
-    /// Returns the place where a wheel left its rail, in words, if one did.
-    #[must_use]
-    pub fn derailed(&self) -> Option<String> {
-        match self {
-            Self::Car(own) => own
-                .derailed
-                .as_ref()
-                .map(|own| format!("derails at {} s: {}", crate::figures::digits(own.time), own.what)),
-            Self::Wheelset(own) => own
-                .derailment
-                .as_ref()
-                .map(|own| format!("derails: {}", own.words())),
-            _ => None,
-        }
-    }
 }
 
 impl<'s> Ledger<'s> {

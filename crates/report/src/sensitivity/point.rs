@@ -5,6 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use study::case::{Case, builtin};
 use study::result::RunResult;
 use study::run::Run;
+use study::summary::RunSummary;
 
 use super::axes;
 use crate::agreement::TruckOutcome;
@@ -32,10 +33,8 @@ pub fn compute(set: &[String], trucks: &[TruckOutcome]) -> PointOutcome {
             .unwrap_or_else(|_| Err("a mistake of Wedgelab itself".to_owned()));
         match run {
             Ok((case, result)) => {
-                let summary = &result.summary;
-                let stopped = summary.stopped.as_ref().map(|stopped| &stopped.reason);
-                let why = stopped.or(summary.failed.as_ref());
-                unsound.extend(why.map(|why| format!("{name}: {why}")));
+                let why = result.summary.outcome().told();
+                unsound.extend(why.map(|why| format!("{name} {why}")));
                 runs.push((case, result));
             }
             Err(why) => unsound.push(format!("{name}: {why}")),

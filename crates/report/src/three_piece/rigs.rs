@@ -141,8 +141,7 @@ impl Rigs {
     #[must_use]
     pub fn get(&self, key: &str) -> Option<(&TruckCase, &TruckResult)> {
         let (case, result) = self.runs.get(key)?;
-        let sound = result.summary.complete && result.summary.failed.is_none();
-        sound.then_some((case, result))
+        result.summary.complete.then_some((case, result))
     }
 
     /// Returns all runs with their keys.

@@ -7,6 +7,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use mechanics::energy_balance::Verdict;
 use quantity::{Kind, Quantity};
 use serde::Serialize;
 
@@ -79,7 +80,7 @@ pub struct Assessed {
     pub status: &'static str,
     /// The remark: why it has no numbers, or where the car derailed; may be empty.
     pub note: String,
-    /// True if a wheel left its rail: no limit is kept then.
+    /// True if a wheel left its rail: no limit is kept then, and values are of the part until then.
     pub derailed: bool,
     /// The limits.
     pub checks: Vec<KeptLimit>,
@@ -165,14 +166,20 @@ impl Certificate {
         let note = match (derailed, measured("end_distance")) {
             (true, Some(at)) => {
                 let feet = at * Kind::Distance.from_si(quantity::System::Us);
-                format!("derailed {feet:.0} ft along the track: the run ends there")
+                let also = if record.reason.is_empty() { "" } else { "; " };
+                format!(
+                    "derailed {feet:.0} ft along the track: the run ends there, and values and margins are of \
+                     the part until then{also}{}",
+                    record.reason
+                )
             }
             _ => record.reason.clone(),
         };
         let place = |limit: &Limit| limit.is_for(&regime);
         let limits = self.limits.limits.iter().enumerate();
         let checks = limits.filter(|(_, limit)| place(limit)).map(|(number, limit)| {
-            let usable = record.status == Status::Complete;
+            let closes = measured("ledger_residual").is_none_or(|own| Verdict::of(own) != Verdict::Failed);
+            let usable = record.status == Status::Complete || record.status == Status::Derailed && closes;
             let found = measured(limit.measure.name).filter(|_| usable);
             let value = found.map(|own| limit.in_unit(own));
             KeptLimit {
@@ -195,7 +202,7 @@ impl Certificate {
                 .unwrap_or(0),
             speed: speed.map(|own| own.shown().into_owned()).unwrap_or_default(),
             speed_si: speed.and_then(|own| own.in_unit("m/s")).unwrap_or(f64::NAN),
-            status: record.status.name(),
+            status: if derailed { Status::Derailed } else { record.status }.name(),
             note,
             derailed,
             checks: checks.collect(),
@@ -232,6 +239,8 @@ pub struct WorstSpeed {
     pub value: f64,
     /// The margin, in parts of the limit.
     pub margin: f64,
+    /// True if a wheel left its rail in that run: value and margin are of the part until then.
+    pub until_derailed: bool,
 }
 
 impl LimitVerdict {
@@ -284,6 +293,7 @@ pub fn verdicts(runs: &[Assessed]) -> Vec<LimitVerdict> {
                     speed: run.speed.clone(),
                     value,
                     margin,
+                    until_derailed: run.derailed,
                 });
             }
         }
@@ -293,13 +303,13 @@ pub fn verdicts(runs: &[Assessed]) -> Vec<LimitVerdict> {
 }
 
 /// Returns the run of a regime that is worst: the first in which a wheel left its rail, else that with the
-/// least margin, else the fastest; `None` if none is complete.
+/// least margin, else the fastest; `None` if none is complete or derailed.
 #[must_use]
 pub fn worst_run(runs: &[Assessed], regime: usize) -> Option<&Assessed> {
     let complete = Status::Complete.name();
     let own = runs
         .iter()
-        .filter(|run| run.regime == regime && run.status == complete);
+        .filter(|run| run.regime == regime && (run.derailed || run.status == complete));
     let rank = |run: &Assessed| match run.derailed {
         true => f64::NEG_INFINITY,
         false => {

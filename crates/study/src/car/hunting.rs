@@ -24,7 +24,9 @@ use wheelrail::track::{Direction, Irregularity, Placed, Rails};
 use super::CarCase;
 use super::run::CarResult;
 use super::track::tangent;
+use crate::outcome::Outcome;
 use crate::run::{Run, RunError};
+use crate::summary::RunSummary;
 
 /// Time of a window in which an amplitude is taken, s: at least a period of hunting and of the body's sway.
 const WINDOW: f64 = 1.5;
@@ -90,7 +92,9 @@ pub struct Ramp {
     pub points: Vec<Point>,
     /// The speed at which hunting ends (falling) or begins (rising).
     pub boundary: Boundary,
-    /// Warnings about its numbers: warnings of the run, a derailment.
+    /// The outcome of its run.
+    pub outcome: Outcome,
+    /// Warnings about its numbers: what the run lacks to be complete, warnings of the run.
     pub warnings: Vec<String>,
 }
 
@@ -220,25 +224,29 @@ fn one(
         interrupted |= next.is_break();
         next
     });
-    if let Some(stopped) = result.summary.stopped.as_ref().filter(|_| !interrupted) {
+    let outcome = result.summary.outcome();
+    if let Outcome::Stopped(end) = &outcome
+        && !interrupted
+    {
         return Err(HuntingError::Stopped {
             which: if falls { "falling" } else { "rising" },
-            time: stopped.time,
-            reason: stopped.reason.clone(),
+            time: end.time,
+            reason: end.reason.clone(),
         });
     }
     let points = points(&result);
-    let boundary = match result.summary.derailed {
-        Some(_) => {
+    let boundary = match outcome {
+        Outcome::Derailed(_) => {
             let last = result.column("speed").and_then(|values| values.last());
             Boundary::Derails(last.copied().unwrap_or_default())
         }
-        None => boundary(&points, settings.threshold, falls),
+        _ => boundary(&points, settings.threshold, falls),
     };
     let ramp = Ramp {
         points,
         boundary,
-        warnings: result.summary.warnings,
+        warnings: outcome.told().into_iter().chain(result.summary.warnings).collect(),
+        outcome,
     };
     Ok((ramp, !interrupted))
 }

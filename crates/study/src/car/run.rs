@@ -256,18 +256,14 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     let mut values = std::mem::take(&mut run.recorder.values);
     let balance = run.energy_balance;
     let derailed = run.recorder.derailed.take();
-    // A derailment is a result.
+    let complete = run.is_complete(stopped.as_ref());
+    // A derailment is a result, though not of a complete run.
     let stopped = stopped.filter(|_| derailed.is_none());
     let mut warnings: Vec<String> = energy::warning(&balance, energy::WHAT_TO_DO)
         .into_iter()
         .collect();
     warnings.extend(plausibility::warnings_of_rolling(&run));
     warnings.extend(run.case.doubts.iter().cloned());
-    warnings.extend(
-        derailed
-            .iter()
-            .map(|own| format!("derailed at {:.3} s: {}", own.time, own.what)),
-    );
     let statistics = statistics_of(&run, &columns, &values);
     warnings.extend(statistics.remarks.iter().cloned());
     if run.case.rules.filtered_columns {
@@ -313,7 +309,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         name: run.case.name.clone(),
         title: run.case.title.clone(),
         units,
-        complete: stopped.is_none() && (run.is_finished() || derailed.is_some()),
+        complete,
         stopped,
         derailed,
         failed: energy::failure(&balance, energy::WHAT_TO_DO),

@@ -10,6 +10,7 @@ use super::limits::LimitCheck;
 use super::statistics::Statistic;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
+use crate::outcome::RunEnd;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
 
 /// The schema's name and version.
@@ -28,11 +29,11 @@ pub struct CarSummary {
     pub title: String,
     /// Units of the numbers.
     pub units: Units,
-    /// True if the run came to its end.
+    /// True if the run came to its end and its energy ledger closes to 1e-2.
     pub complete: bool,
     /// Reason and time of the stop, if it is incomplete.
     pub stopped: Option<Stopped>,
-    /// The derailment, if a wheel left its rail: the run ends there, and is complete.
+    /// The derailment, if a wheel left its rail: the run ends there, and is incomplete.
     pub derailed: Option<Derailed>,
     /// The reason for not using its numbers, which are kept: its energy ledger does not close to 1e-2.
     pub failed: Option<String>,
@@ -72,7 +73,26 @@ pub struct CarSummary {
     pub assumptions: Vec<String>,
 }
 
-run_summary!(CarSummary, ledger.largest_relative_residual);
+run_summary!(
+    CarSummary,
+    ledger.largest_relative_residual,
+    derailed: CarSummary::end_of_derailed,
+    reached: CarSummary::end_distance
+);
+
+impl CarSummary {
+    fn end_of_derailed(&self) -> Option<RunEnd> {
+        self.derailed.as_ref().map(|own| RunEnd {
+            time: own.time,
+            reason: own.what.clone(),
+            distance: self.end_distance(),
+        })
+    }
+
+    fn end_distance(&self) -> Option<SummaryValue> {
+        Some(self.distance[1].clone())
+    }
+}
 
 /// The place at which a wheel left its rail.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -10,7 +10,7 @@ pub mod least_squares;
 mod student;
 
 use input::bounded;
-use quantity::{Quantity, SixDigits};
+use quantity::Quantity;
 use thiserror::Error;
 
 use crate::any_case::AnyCase;
@@ -206,12 +206,9 @@ pub struct Fit {
 /// The run cannot begin or stops, ends before the last time, or has no such column.
 pub fn course(case: &AnyCase, column: &str, times: &[f64]) -> Result<Vec<f64>, String> {
     let result = case.run().map_err(|error| error.to_string())?;
-    if let Some(stopped) = result.stopped() {
-        return Err(format!(
-            "the run stopped at {} s: {}",
-            SixDigits(stopped.time),
-            stopped.reason
-        ));
+    let outcome = result.outcome();
+    if let (Some(_), Some(told)) = (outcome.end(), outcome.told()) {
+        return Err(format!("the run {told}"));
     }
     let (Some(rows), Some(values)) = (result.column("time"), result.column(column)) else {
         return Err(format!("runs have no column `{column}`"));

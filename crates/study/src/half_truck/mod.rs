@@ -91,7 +91,7 @@ pub struct HalfTruckSummary {
     pub title: String,
     /// Units of the numbers.
     pub units: Units,
-    /// True if the run came to its end.
+    /// True if the run came to its end and its energy ledger closes to 1e-2.
     pub complete: bool,
     /// Reason and time of the stop, if it is incomplete.
     pub stopped: Option<Stopped>,

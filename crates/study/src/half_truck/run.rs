@@ -221,7 +221,7 @@ impl TakesCorners for HalfTruckRecorder {
 }
 
 fn output(run: Run<HalfTruckCase>, stopped: Option<Stopped>) -> HalfTruckResult {
-    let complete = stopped.is_none() && run.is_finished();
+    let complete = run.is_complete(stopped.as_ref());
     let case = run.case.clone();
     let balance = run.energy_balance;
     let joules = |value| SummaryValue::new(value, Kind::Energy, case.units);
@@ -481,7 +481,7 @@ fn wedge(case: &HalfTruckCase, result: &HalfTruckResult, works: &Works, place: u
         return summary;
     };
     let friction = column("column_friction");
-    let energy = works.per_cycle(place).filter(|_| result.summary.complete);
+    let energy = works.per_cycle(place).filter(|_| result.summary.stopped.is_none());
     summary.energy_per_cycle = energy.map(|energy| SummaryValue::new(energy, Kind::Energy, units));
     let equivalent = energy.map(|energy| cycle.equivalent_damping(energy));
     summary.equivalent_damping = equivalent.map(|value| SummaryValue::new(value, Kind::Damping, units));

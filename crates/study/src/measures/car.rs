@@ -81,15 +81,15 @@ pub fn definitions() -> Definitions {
 /// Runs a car, measures it in the order of [`definitions`], and judges whether the measures mean something.
 ///
 /// # Errors
-/// The run cannot begin or does not come to its end.
+/// The run cannot begin or stops on its way.
 pub fn judge(case: &CarCase) -> Result<Judged, Unmeasured> {
     // The summary's numbers are in the units of the results.
     let mut case = case.clone();
     case.simulation.output_units = Units::Si;
-    let (result, nonsense) = run_whole(&case, plausibility::nonsense_in_car)?;
+    let (result, outcome) = run_whole(&case, plausibility::nonsense_in_car)?;
     Ok(Judged {
         measures: measures(&result),
-        nonsense,
+        outcome,
     })
 }
 

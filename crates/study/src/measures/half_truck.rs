@@ -118,10 +118,10 @@ pub fn judge(case: &HalfTruckCase) -> Result<Judged, Unmeasured> {
         units: Units::Si,
         ..case.clone()
     };
-    let (result, nonsense) = run_whole(&case, plausibility::nonsense)?;
+    let (result, outcome) = run_whole(&case, plausibility::nonsense)?;
     Ok(Judged {
         measures: of_summary(&case, &result.summary),
-        nonsense,
+        outcome,
     })
 }
 

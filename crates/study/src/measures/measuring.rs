@@ -19,6 +19,7 @@ use super::{COUNT, Measures, place};
 use crate::case::Case;
 use crate::closed_form;
 use crate::metrics::{Cycle, first_harmonic};
+use crate::outcome::Outcome;
 use crate::plausibility;
 use crate::progress;
 use crate::result::RunResult;
@@ -35,13 +36,13 @@ pub enum Unmeasured {
     Stopped(String),
 }
 
-/// The measures of a run, and why they mean nothing if they do not.
+/// The measures of a run, and what they stand for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judged {
-    /// The measures.
+    /// The measures; of a run that derailed, of the part until then.
     pub measures: Measures,
-    /// The reason if the run is nonsense ([`plausibility::nonsense`]), else `None`.
-    pub nonsense: Option<String>,
+    /// The run's outcome, which is no stop; a run that is nonsense ([`plausibility::nonsense`]) has failed.
+    pub outcome: Outcome,
 }
 
 /// Runs a case and measures it.
@@ -61,14 +62,15 @@ pub fn judge(case: &Case) -> Result<Judged, Unmeasured> {
     run.finish(|_| ())
 }
 
-/// Runs a case to its end. Returns its result and, by `nonsense`, why it means nothing.
+/// Runs a case to its end, or until it derails. Returns its result and its outcome; by `nonsense`, a run that
+/// means nothing has failed.
 ///
 /// # Errors
-/// The run cannot begin or does not come to its end.
+/// The run cannot begin or stops on its way.
 pub(super) fn run_whole<C, S>(
     case: &C,
     nonsense: impl FnOnce(&Run<C>) -> Option<String>,
-) -> Result<(RunResult<S>, Option<String>), Unmeasured>
+) -> Result<(RunResult<S>, Outcome), Unmeasured>
 where
     C: RunCase<Output = RunResult<S>>,
     S: RunSummary,
@@ -77,14 +79,14 @@ where
     let stopped = run.go_on_while(|_| ControlFlow::Continue(()));
     let nonsense = nonsense(&run);
     let result = run.result(stopped);
-    match result.summary.stopped() {
-        Some(stopped) => Err(Unmeasured::Stopped(format!(
-            "{}; {}",
-            stopped.reason,
-            C::WHAT_TO_TRY
-        ))),
-        None => Ok((result, nonsense)),
-    }
+    let outcome = match (result.summary.outcome(), nonsense) {
+        (Outcome::Stopped(end), _) => {
+            return Err(Unmeasured::Stopped(format!("{}; {}", end.reason, C::WHAT_TO_TRY)));
+        }
+        (Outcome::Complete, Some(reason)) => Outcome::Failed(reason),
+        (outcome, _) => outcome,
+    };
+    Ok((result, outcome))
 }
 
 /// A wedge's case of which only measures are wanted.
@@ -133,7 +135,7 @@ impl RunCase for Measured<'_> {
                 )))
             }
             None => Ok(Judged {
-                nonsense: plausibility::nonsense(&run),
+                outcome: plausibility::nonsense(&run).map_or(Outcome::Complete, Outcome::Failed),
                 measures: run
                     .recorder
                     .finish(&run.integrator, run.energy_balance.relative_residual()),

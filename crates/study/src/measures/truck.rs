@@ -144,10 +144,10 @@ pub fn judge(case: &TruckCase) -> Result<Judged, Unmeasured> {
     // The summary's numbers are in the units of the results.
     let mut case = case.clone();
     case.simulation.output_units = Units::Si;
-    let (result, nonsense) = run_whole(&case, plausibility::nonsense_in_truck)?;
+    let (result, outcome) = run_whole(&case, plausibility::nonsense_in_truck)?;
     Ok(Judged {
         measures: measures(&case, &result),
-        nonsense,
+        outcome,
     })
 }
 

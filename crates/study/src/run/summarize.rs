@@ -61,7 +61,7 @@ pub(super) fn summary(run: &mut Run<Case>, stopped: Option<Stopped>) -> Summary 
         name: run.case.name.clone(),
         title: run.case.title.clone(),
         units,
-        complete: stopped.is_none() && run.is_finished(),
+        complete: run.is_complete(stopped.as_ref()),
         stopped,
         failed: energy::failure(&run.energy_balance, what_to_do(damped)),
         rows: time.len(),

@@ -315,7 +315,7 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
         name: run.case.name.clone(),
         title: run.case.title.clone(),
         units,
-        complete: stopped.is_none() && run.is_finished(),
+        complete: run.is_complete(stopped.as_ref()),
         stopped,
         failed: energy::failure(&balance, energy::WHAT_TO_DO),
         warnings,

@@ -145,7 +145,8 @@ fn output(mut run: Run<WheelsetCase>, stopped: Option<Stopped>) -> WheelsetResul
         time: found.time,
         distance: SummaryValue::new(found.distance, Kind::Length, units),
     });
-    // A derailment is a result, no failure of the run.
+    let complete = run.is_complete(stopped.as_ref());
+    // A derailment is a result, though not of a complete run.
     let stopped = stopped.filter(|_| derailment.is_none());
     let balance = run.energy_balance;
     let mut warnings: Vec<String> = energy::warning(&balance, LOWER_THE_TOLERANCE)
@@ -168,7 +169,7 @@ fn output(mut run: Run<WheelsetCase>, stopped: Option<Stopped>) -> WheelsetResul
         name: run.case.wheelset.name.clone(),
         units,
         given: run.case.wheelset.given.clone(),
-        complete: stopped.is_none() && derailment.is_none() && run.is_finished(),
+        complete,
         derailment,
         stopped,
         failed: energy::failure(&balance, LOWER_THE_TOLERANCE),

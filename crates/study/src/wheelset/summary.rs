@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 
 use integrate::Statistics;
-use quantity::System as Units;
+use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
 use crate::metrics::Extremes;
+use crate::outcome::RunEnd;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
 
 /// The schema's name and version.
@@ -25,7 +26,7 @@ pub struct WheelsetSummary {
     pub units: Units,
     /// The given values by name, in words.
     pub given: BTreeMap<String, String>,
-    /// True if the run came to its end.
+    /// True if the run came to its end and its energy ledger closes to 1e-2.
     pub complete: bool,
     /// The derailment, if a wheel derailed: the run ends there.
     pub derailment: Option<Derailment>,
@@ -51,7 +52,43 @@ pub struct WheelsetSummary {
     pub assumptions: Vec<String>,
 }
 
-run_summary!(WheelsetSummary, ledger.largest_relative_residual);
+run_summary!(
+    WheelsetSummary,
+    ledger.largest_relative_residual,
+    derailed: WheelsetSummary::end_of_derailed,
+    reached: WheelsetSummary::end_distance
+);
+
+impl WheelsetSummary {
+    fn end_of_derailed(&self) -> Option<RunEnd> {
+        self.derailment.as_ref().map(|own| RunEnd {
+            time: own.time,
+            reason: own.words(),
+            distance: Some(along_track(&own.distance)),
+        })
+    }
+
+    /// Returns the distance along the track that was reached: a wheelset only rolls forward.
+    fn end_distance(&self) -> Option<SummaryValue> {
+        let unit = Kind::Length.label(self.units);
+        let value = self.extremes.get(&format!("distance_{unit}"))?.maximum;
+        Some(along_track(&SummaryValue {
+            value,
+            unit: unit.to_owned(),
+        }))
+    }
+}
+
+/// Returns a distance along the track, in feet instead of inches.
+fn along_track(distance: &SummaryValue) -> SummaryValue {
+    match distance.unit.as_str() {
+        "in" => SummaryValue {
+            value: distance.value / 12.0,
+            unit: "ft".to_owned(),
+        },
+        _ => distance.clone(),
+    }
+}
 
 /// A derailed wheel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -75,10 +112,7 @@ impl Derailment {
             "rim_edge" => "stands on the outer edge of its rim and is about to fall between the rails",
             _ => "is off its rail",
         };
-        let (value, unit) = match self.distance.unit.as_str() {
-            "in" => (self.distance.value / 12.0, "ft"),
-            unit => (self.distance.value, unit),
-        };
+        let SummaryValue { value, unit } = along_track(&self.distance);
         format!(
             "the {} wheel {what} at {value:.2} {unit} along the track, {:.4} s after the start",
             self.wheel, self.time

@@ -1,12 +1,18 @@
 //! Runs: columns, ledger, saved states, derailment.
 
 use std::ops::ControlFlow;
+use std::path::PathBuf;
 
 use quantity::System;
+use study::any_case::CaseSource;
 use study::car::CarCase;
 use study::car::run::CarResult;
 use study::case::Tables;
+use study::design::{Study, StudySource};
+use study::outcome::Outcome;
+use study::records::{self, Status};
 use study::run::Run;
+use study::summary::RunSummary;
 
 fn case(lines: &str) -> CarCase {
     let text = format!("model = \"car\"\nstart.settle = \"0 s\"\n{lines}");
@@ -226,29 +232,86 @@ fn limits_a_stopped_run_keeps_its_rows() {
     assert_eq!(result.summary.stopped.as_ref().unwrap().reason, "enough");
 }
 
-/// Rails that jump sideways under a wheel: it leaves its rail, which is a result with its place; a track that
-/// only leads to the side is followed.
+/// Returns an empty car whose rails jump sideways within this length, ft.
+fn jog(length: f64) -> CarCase {
+    case(&jog_lines(length))
+}
+
+fn jog_lines(length: f64) -> String {
+    format!(
+        "lading.kind = \"empty\"\nspeed.value = \"60 mph\"\n[[track.segments]]\ntangent = \"600 ft\"\n\
+         [[track.irregularities]]\nshape = \"jog\"\nrails = \"both\"\ndirection = \"lateral\"\n\
+         offset = \"5 in\"\nlength = \"{length} ft\"\nstart = \"50 ft\"\n[simulation]\n\
+         duration = \"0.4 s\"\n"
+    )
+}
+
+/// Rails that jump sideways under a wheel: it leaves its rail, which is a result with its place, but no
+/// complete run; a track that only leads to the side is followed.
 #[test]
-fn limits_a_derailment_is_a_result() {
-    let jog = |length: f64| {
-        case(&format!(
-            "lading.kind = \"empty\"\nspeed.value = \"60 mph\"\n[[track.segments]]\ntangent = \"600 ft\"\n\
-             [[track.irregularities]]\nshape = \"jog\"\nrails = \"both\"\ndirection = \"lateral\"\n\
-             offset = \"5 in\"\nlength = \"{length} ft\"\nstart = \"50 ft\"\n[simulation]\n\
-             duration = \"0.4 s\"\n"
-        ))
-    };
+fn issue_047_a_derailment_is_a_result_that_is_not_complete() {
     let result = run(&jog(3.0));
     let summary = &result.summary;
     let derailed = summary.derailed.as_ref().unwrap();
-    assert!(summary.complete && summary.stopped.is_none());
+    assert!(!summary.complete && summary.stopped.is_none());
+    let outcome = summary.outcome();
+    let end = outcome.end().unwrap();
+    assert_eq!((outcome.word(), end.time), ("derailed", derailed.time));
+    let reached = result.column("distance").unwrap().last().unwrap() / 0.3048;
+    assert!((end.distance.as_ref().unwrap().value - reached).abs() < 1e-9);
+    let told = outcome.told().unwrap();
+    assert!(
+        told.starts_with("derailed at 0.") && told.contains("is incomplete"),
+        "{told}"
+    );
+    assert!(outcome.numbers().unwrap().contains(&end.place()));
     assert_eq!((derailed.axle, derailed.distance.unit.as_str()), (1, "ft"));
     assert!((50.0..60.0).contains(&derailed.distance.value), "{derailed:?}");
-    assert!(summary.warnings.iter().any(|own| own.contains("left its rail")));
+    assert!(told.contains("left its rail at"), "{told}");
     // The row that shows it is kept.
     assert_eq!(result.column("time").unwrap().last(), Some(&derailed.time));
     let followed = run(&jog(400.0));
     assert!(followed.summary.derailed.is_none() && followed.summary.complete);
+    assert_eq!(followed.summary.outcome(), Outcome::Complete);
+}
+
+/// A variant that derails is a record of its own kind, with its reason and its measures; a variant beside it
+/// is complete.
+#[test]
+fn issue_047_a_study_tells_which_variants_derailed() {
+    let text = "case = \"car.toml\"\nsampling = \"list\"\n[[variants]]\n\
+                simulation.duration = \"0.4 s\"\n[[variants]]\nsimulation.duration = \"0.05 s\"\n";
+    let study = Study::of_source(StudySource {
+        name: "study.toml".to_owned(),
+        text: text.to_owned(),
+        folder: PathBuf::new(),
+        case: CaseSource::File {
+            name: "car.toml".to_owned(),
+            text: format!("model = \"car\"\nstart.settle = \"0 s\"\n{}", jog_lines(3.0)),
+            folder: PathBuf::new(),
+        },
+    })
+    .unwrap();
+    let [gone, whole] = [0, 1].map(|number| records::run(&study, number));
+    assert_eq!(
+        (gone.status, whole.status),
+        (Status::Derailed, Status::Complete),
+        "{whole:?}"
+    );
+    assert_eq!(gone.status.name(), "derailed");
+    assert!(
+        gone.reason.starts_with("at 0.") && gone.reason.contains("left its rail"),
+        "{}",
+        gone.reason
+    );
+    let derailed = [&gone, &whole].map(|own| study.measures().get(&own.measures, "derailed"));
+    assert_eq!(derailed, [Some(1.0), Some(0.0)]);
+    let mut bytes = Vec::new();
+    gone.write(study.fingerprint(), &mut bytes);
+    let [again] = &records::read(study.fingerprint(), &bytes).records[..] else {
+        panic!("one record");
+    };
+    assert_eq!((again.status, &again.reason), (gone.status, &gone.reason));
 }
 
 /// The industry's wedges in a curve: it ends, without warnings, and tells which wedges it has.

@@ -127,11 +127,13 @@ fn analytic_margins_and_verdicts() {
 
 /// A car that derails keeps no limit; a run without numbers leaves them unknown.
 #[test]
-fn analytic_derailed_and_missing_runs_are_said() {
+fn issue_047_derailed_and_missing_runs_are_said() {
     let mut certificate = Certificate::new(&request(&["twist_and_roll"])).unwrap();
     certificate.limits = lowered("6 deg");
     let values = |number| certificate.study.values(number);
-    let derailed = record(&certificate, 0, &[("derailed", 1.0), ("end_distance", 152.4)]);
+    let mut derailed = record(&certificate, 0, &[("derailed", 1.0), ("end_distance", 152.4)]);
+    derailed.status = Status::Derailed;
+    derailed.reason = "at 3 s the left wheel of axle 1 left its rail".to_owned();
     let mut stopped = record(&certificate, 1, &[]);
     stopped.status = Status::Stopped;
     stopped.reason = "the step became too small".to_owned();
@@ -141,7 +143,20 @@ fn analytic_derailed_and_missing_runs_are_said() {
     let missing = certificate.assess(&values(1), &stopped);
     assert!(gone.note.contains("derailed 500 ft"), "{}", gone.note);
     assert_eq!(missing.note, "the step became too small");
+    assert!(
+        gone.note.ends_with("of the part until then; at 3 s the left wheel of axle 1 left its rail"),
+        "{}",
+        gone.note
+    );
+    assert_eq!((gone.status, missing.status), ("derailed", "stopped"));
+    // Its roll of 0 deg keeps the limit only until it derailed.
+    assert_eq!(gone.keeps(&gone.checks[0]), Some(false));
+    assert_eq!(
+        worst_run(&[good.clone(), gone.clone()], 0).map(|own| own.status),
+        Some("derailed")
+    );
     let first = verdicts(&[gone, missing.clone()]);
+    assert!(first[0].worst.as_ref().unwrap().until_derailed);
     assert_eq!(
         (first[0].word(), first[0].derailed.as_slice()),
         ("exceeded", &["16 mph".to_owned()][..])

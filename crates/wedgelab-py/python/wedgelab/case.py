@@ -348,8 +348,8 @@ class Case(CompleteCase):
         """Runs the case to its end, without the interpreter lock; Ctrl-C stops it.
 
         ``columns`` are the names (without units) of those that are kept; without it, all. ``progress`` is called some 20 times
-        a second with the time reached, s; an exception in it ends the run. A run that cannot go on, or whose energy ledger does not close to
-        1e-2, raises `RunError`, which has what was computed as ``result``; with ``incomplete="keep"`` it is returned instead. An
+        a second with the time reached, s; an exception in it ends the run. A run that cannot go on, that derails, or whose energy ledger does not
+        close to 1e-2, raises `RunError`, which has what was computed as ``result``; with ``incomplete="keep"`` it is returned instead. An
         `EnergyWarning` tells of a ledger that does not close to 1e-3, a `PlausibilityWarning` of what is implausible.
         """
         result: Result = checked(Result(self._run(columns, progress)), incomplete)

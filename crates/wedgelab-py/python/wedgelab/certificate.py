@@ -41,6 +41,8 @@ class Verdict:
     """The speed of the worst run, with its unit."""
     run: int | None
     """The number of the worst run."""
+    until_derailed: bool
+    """Whether a wheel left its rail in the worst run: value and margin are of the part until then."""
     derailed: tuple[str, ...]
     """Speeds at which a wheel left its rail."""
     missing: tuple[str, ...]
@@ -139,6 +141,7 @@ def _verdict(own: dict[str, Any]) -> Verdict:
         margin=worst.get("margin"),
         speed=worst.get("speed"),
         run=worst.get("run"),
+        until_derailed=worst.get("until_derailed", False),
         derailed=tuple(own["derailed"]),
         missing=tuple(own["missing"]),
     )

@@ -127,8 +127,8 @@ class PlausibilityWarning(UserWarning):
 
 
 class RunError(WedgelabError, RuntimeError):
-    """A run cannot begin, cannot go on, or has failed because its energy ledger does not close to 1e-2; ``result`` has what was
-    computed."""
+    """A run cannot begin, cannot go on, has derailed, or has failed because its energy ledger does not close to 1e-2; ``result`` has
+    what was computed."""
 
     def __init__(self, message: str, shown: str | None = None, result: AnyResult | None = None) -> None:
         super().__init__(message, shown)

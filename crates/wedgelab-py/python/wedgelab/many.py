@@ -19,7 +19,6 @@ from .result import (
     HalfTruckResult,
     Result,
     TruckResult,
-    is_sound,
     result_of,
     unsound_error,
     warn,
@@ -82,7 +81,7 @@ def run_many(
     summary only. ``progress=True`` writes to the standard error, on a terminal one line and elsewhere at most ten; a function is called with how many are done and how many there are. Ctrl-C
     stops all of them.
 
-    Runs that cannot begin or go on: with ``errors="raise"`` all others are finished, then the first of them is raised, with everything
+    Runs that are not complete: with ``errors="raise"`` all others are finished, then the first of them is raised, with everything
     that came out as its ``results``; with ``errors="keep"`` the list has the exceptions in their places.
     """
     natives: list[NativeCase | NativeHalfTruckCase | NativeTruckCase | NativeCarCase] = []
@@ -117,7 +116,7 @@ def _finished(one: Any) -> AnyResult | WedgelabError:
     if isinstance(one, WedgelabError):
         return one
     result: AnyResult = result_of(one)
-    if not is_sound(result):
+    if not result.is_complete:
         return unsound_error(result)
     warn(result, stacklevel=4)
     return result

@@ -348,9 +348,24 @@ class _Base:
         return list(self.summary.warnings)
 
     @property
+    def outcome(self) -> str:
+        """How the run ended: ``complete``, ``derailed``, ``stopped`` or ``failed``."""
+        return self._native.outcome
+
+    @property
     def is_complete(self) -> bool:
-        """Whether the run came to its end."""
-        return self._native.stopped is None
+        """Whether the run came to its end and its energy ledger closes to 1e-2."""
+        return self.outcome == "complete"
+
+    @property
+    def derailed(self) -> tuple[float, str] | None:
+        """When (s) and how a wheel left its rail, if one did; the run ends there, and all its numbers are of the part until then."""
+        return self._native.derailed
+
+    @property
+    def stopped(self) -> tuple[float, str] | None:
+        """When (s) and why the run stopped, if it could not go on; all its numbers are of the part until then."""
+        return self._native.stopped
 
     @property
     def failed(self) -> str | None:
@@ -377,16 +392,17 @@ class _Base:
         return ax
 
     def __repr__(self) -> str:
-        how = "" if self.is_complete else ", incomplete"
+        how = "" if self.is_complete else f", {self.outcome}"
         return f"<{type(self).__name__} of {self.summary.name}: {self.rows} rows, {len(self)} columns{how}>"
 
     def _repr_html_(self) -> str:
         columns = ((name, own.unit, own.text) for name, own in self.columns.items())
-        how = "" if self.is_complete else ", incomplete"
+        how = "" if self.is_complete else f", {self.outcome}"
         title = f"{self.summary.name}: {self.summary.title}" if self.summary.title else self.summary.name
         note = "Bare names are in SI units; assumptions and summary say what the numbers rest on."
         texts = [_html.table(("column", "unit", "what it is"), list(columns), most=30)]
-        warned = "".join(f"<p>Warning: {_html.escape(text)}</p>" for text in self.warnings)
+        told = [] if self.is_complete else [f"The run {self._native.told}"]
+        warned = "".join(f"<p>Warning: {_html.escape(text)}</p>" for text in [*told, *self.warnings])
         return _html.page(f"{title} ({self.rows} rows, {len(self)} columns{how})", [warned, *texts], note)
 
 
@@ -577,15 +593,10 @@ def checked(result: Any, incomplete: str) -> Any:
     """The result, or, if it is incomplete or has failed and that is not wanted, an exception that has it."""
     if incomplete not in ("raise", "keep"):
         raise WedgelabError(f'incomplete cannot be {incomplete!r}; write "raise" or "keep"')
-    if incomplete == "keep" or is_sound(result):
+    if incomplete == "keep" or result.is_complete:
         warn(result, stacklevel=4)
         return result
     raise unsound_error(result)
-
-
-def is_sound(result: Any) -> bool:
-    """Whether a run came to its end and has not failed."""
-    return result._native.stopped is None and result._native.failed is None
 
 
 def warn(result: Any, stacklevel: int) -> None:
@@ -597,15 +608,12 @@ def warn(result: Any, stacklevel: int) -> None:
 
 
 def unsound_error(result: Any) -> RunError:
-    """Why a result is incomplete, or has failed."""
-    if result._native.stopped is None:
-        message = f"the run {result.summary.name} has failed: {result._native.failed}"
-        advice = "the exception's `result` has what was computed; do not use its numbers"
-        return RunError(message, f"  × {message}\n  help: {advice}", result)
-    time, reason = result._native.stopped
-    message = f"the run {result.summary.name} stopped at {time:.6g} s and is incomplete: {reason}"
-    advice = (
-        "the exception's `result` has what was computed until then; values far from the thesis's are the first suspects: try a softer "
-        "contact.stiffness, a larger friction.reference_speed, another simulation.relative_tolerance"
-    )
+    """Why a result is not complete."""
+    message = f"the run {result.summary.name} {result._native.told}"
+    advice = {
+        "failed": "the exception's `result` has what was computed; do not use its numbers",
+        "derailed": "the exception's `result` has what was computed until then",
+        "stopped": "the exception's `result` has what was computed until then; values far from the thesis's are the first suspects: try "
+        "a softer contact.stiffness, a larger friction.reference_speed, another simulation.relative_tolerance",
+    }[result.outcome]
     return RunError(message, f"  × {message}\n  help: {advice}", result)

@@ -61,6 +61,8 @@ class StudyOutcome:
     """How many stopped on their way."""
     failed: int
     """How many came to their end, but their energy ledger does not close to 1e-2; their measures are in the table."""
+    derailed: int
+    """How many derailed, where they ended; their measures in the table are of the part until then."""
     reasons: Mapping[int, str]
     """Why, of the first ones that are not complete, by their numbers."""
     warnings: list[str]
@@ -175,7 +177,7 @@ def opened(study: Study, folder: PathLike | None, yes: bool) -> Iterator[tuple[N
 
 def finished(study: Study, native: NativeStudyFolder, path: Path, before: int) -> StudyOutcome:
     """Makes table and page of a study all of whose runs are kept."""
-    (complete, refused, stopped, failed), reasons, warning = native.finish()
+    (complete, refused, stopped, failed, derailed), reasons, warning = native.finish()
     return StudyOutcome(
         folder=path,
         table=path / "table.parquet",
@@ -187,6 +189,7 @@ def finished(study: Study, native: NativeStudyFolder, path: Path, before: int) -
         refused=refused,
         stopped=stopped,
         failed=failed,
+        derailed=derailed,
         reasons=MappingProxyType(dict(reasons)),
         warnings=[] if warning is None else [warning],
     )

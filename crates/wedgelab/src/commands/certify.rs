@@ -13,6 +13,7 @@ use report::page::certificate::{self as page, Against};
 use report::study_folder::TABLE_FILE;
 use serde_json::json;
 use study::car::certificate::{Certificate, Request};
+use study::records::Status;
 
 use super::study::work;
 use crate::execute::jobs;
@@ -152,6 +153,7 @@ pub fn assess(car: &Path, regimes: &[String], common: &Common, ending: &str) -> 
             "folder": path,
             "files": NAMES.iter().chain([&TABLE_FILE]).collect::<Vec<_>>(),
             "runs": findings.runs.len(),
+            "incomplete": findings.runs.iter().filter(|run| run.status != Status::Complete.name()).count(),
             "before": done.before,
             "kept": kept,
             "exceeded": exceeded,
@@ -253,7 +255,8 @@ fn print(certificate: &Certificate, findings: &CertificateFindings, path: &Path)
             limit.name.clone(),
             third,
             worst.map_or("-".to_owned(), |worst| {
-                format!("{:.3} {}", worst.value, limit.unit)
+                let until = if worst.until_derailed { ", until it derailed" } else { "" };
+                format!("{:.3} {}{until}", worst.value, limit.unit)
             }),
             format!("{} {}", limit.value, limit.unit),
             worst.map_or("-".to_owned(), |worst| format!("{:.0}", 100.0 * worst.margin)),
@@ -270,6 +273,16 @@ fn print(certificate: &Certificate, findings: &CertificateFindings, path: &Path)
         certificate.limits.title,
         certificate.limits.source
     )?;
+    let ended = |word: &str| findings.runs.iter().filter(|run| run.status == word).count();
+    let others: Vec<String> = Status::ALL[1..]
+        .iter()
+        .map(|status| (ended(status.name()), status.name()))
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, name)| format!("{count} {name}"))
+        .collect();
+    if !others.is_empty() {
+        writeln!(out, "Not complete: {}.", others.join(", "))?;
+    }
     for run in findings.runs.iter().filter(|run| !run.note.is_empty()).take(5) {
         writeln!(
             out,

@@ -72,6 +72,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
                 "label": run.label,
                 "folder": run.folder,
                 "schema": run.summary.schema(),
+                "outcome": run.summary.shared().outcome().word(),
                 "notes": run.notes,
                 "numbers": run.key_numbers().into_iter().map(|number| json!({
                     "what": number.what,
@@ -96,6 +97,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         )?;
     }
     for run in &runs {
+        if let Some(told) = run.summary.shared().outcome().told() {
+            say(&format!("warning: {} {told}", run.label));
+        }
         for note in &run.notes {
             say(&format!("warning: {}: {note}", run.label));
         }

@@ -27,7 +27,7 @@ use study::case::{Case, builtin};
 use study::half_truck::HalfTruckCase;
 use study::truck::TruckCase;
 
-use crate::execute::{TABLE_NOTE, execute_whole, table, unsound};
+use crate::execute::{TABLE_NOTE, execute_whole, table, unsound, write_outcome};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -175,6 +175,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     })?;
 
     let mut out = io::stdout().lock();
+    for (_, result) in &outcomes {
+        write_outcome(&result.summary, &mut out)?;
+    }
     let summaries = outcomes.iter().map(|(_, result)| &result.summary);
     table(summaries.zip(walls.iter().copied())).write(&mut out)?;
     writeln!(

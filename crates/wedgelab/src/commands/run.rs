@@ -18,13 +18,15 @@ use study::any_case::AnyCase;
 use study::car::summary::CarSummary;
 use study::car::{self, CarCase};
 use study::case::{Case, builtin};
+use study::outcome::Outcome;
 use study::summary::RunSummary;
 use study::truck::run::TruckResult;
 use study::truck::{self, TruckCase, WEDGE_NAMES};
 
 use super::energy;
 use crate::execute::{
-    Done, TABLE_NOTE, compute, compute_with_contacts, compute_with_motions, table, unsound, write, write_page,
+    Done, TABLE_NOTE, compute, compute_with_contacts, compute_with_motions, table, unsound, write,
+    write_outcome, write_page,
 };
 use crate::failure::{Failure, Message, say};
 use crate::folders;
@@ -181,8 +183,11 @@ fn run_in_parts<C: RunFiles>(
         say(&format!(
             "saved at {time} s in {path}; --continue {path} goes on from there"
         ));
-    } else if arguments.save.is_some() && summary.stopped().is_none() {
-        say("the run came to its end; no state is saved");
+    } else if arguments.save.is_some() {
+        match summary.outcome() {
+            Outcome::Complete | Outcome::Failed(_) => say("the run came to its end; no state is saved"),
+            Outcome::Derailed(_) | Outcome::Stopped(_) => say("the run cannot go on; no state is saved"),
+        }
     }
     let saved = summary.stopped().is_some_and(|own| saved::is_reason(&own.reason));
     match unsound::<C>(summary, folder.path()) {
@@ -252,7 +257,7 @@ fn print_run(
     arguments: &Arguments,
     folder: &Folder,
     names: &[&str],
-    summary: &impl Serialize,
+    summary: &(impl Serialize + RunSummary),
     words: impl FnOnce() -> (TerminalTable, String),
 ) -> Result<(), Failure> {
     let path = folder.path();
@@ -261,6 +266,7 @@ fn print_run(
     }
     let mut out = io::stdout().lock();
     let (table, note) = words();
+    write_outcome(summary, &mut out)?;
     table.write(&mut out)?;
     let page = if names.contains(&page::FILE_NAME) {
         " (open it in a browser)"

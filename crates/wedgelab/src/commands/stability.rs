@@ -13,6 +13,7 @@ use study::any_case::AnyCase;
 use study::car::CarCase;
 use study::car::hunting::{Boundary, Hunting, HuntingError, HuntingSettings, hunting};
 use study::car::stability::{FRICTION, Stability, stability};
+use study::outcome::Outcome;
 
 use super::run::read_any;
 use crate::drawn::Drawn;
@@ -240,8 +241,18 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         folder.path().display(),
         written.join(", ")
     )?;
+    let ramps = runs.iter().flat_map(|runs| [Some(&runs.falling), runs.rising.as_ref()]);
+    let failed = ramps.flatten().find_map(|ramp| match &ramp.outcome {
+        Outcome::Failed(reason) => Some(reason),
+        _ => None,
+    });
     if found.complete && runs.as_ref().is_none_or(|runs| runs.complete) {
-        Ok(ExitCode::SUCCESS)
+        let Some(reason) = failed else {
+            return Ok(ExitCode::SUCCESS);
+        };
+        let message = format!("a run of {} over speeds has failed: {reason}", case.name);
+        let advice = "its files are written; do not use the numbers of that run";
+        Err(Failure::Failed(Message::new(message, advice).into()))
     } else {
         let message = "interrupted: the speeds that were computed are written".to_owned();
         Err(Failure::Interrupted(Message::new(message, "").into()))

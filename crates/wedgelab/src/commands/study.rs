@@ -142,7 +142,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     let wall = clock.elapsed().as_secs_f64();
     let digest = study_work::finish(&study, &folder)?;
-    let [complete, refused, stopped, failed] = digest.ended;
+    let [complete, refused, stopped, failed, derailed] = digest.ended;
     if let Some(warning) = digest.warning() {
         say(&format!("warning: {warning}"));
     }
@@ -157,6 +157,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             "refused": refused,
             "stopped": stopped,
             "failed": failed,
+            "derailed": derailed,
             "before": done.before,
             "reasons": reasons.collect::<Vec<_>>(),
         }))?;
@@ -169,6 +170,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     if failed > 0 {
         write!(out, ", {failed} failed")?;
+    }
+    if derailed > 0 {
+        write!(out, ", {derailed} derailed")?;
     }
     if done.before > 0 {
         write!(out, "; {} were there before", done.before)?;

@@ -22,7 +22,7 @@ use wheelrail::hertz::Material;
 
 use super::wheelrail::{DEVIATION, WheelRailPair};
 use super::wheelrail_contact::{Creep, of_angle, of_length, of_speed};
-use crate::execute::{compute, unsound, write};
+use crate::execute::{compute, unsound, write, write_outcome};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -35,7 +35,7 @@ Axes: x along the track, y to the left, z up. The carriage follows the track: la
 direction, a
 load square to it, a drive that holds the speed. A wheel on the tip of its flange or off its rail has \
 derailed: the run
-ends there, and place and time are its result.
+ends there, place and time are its result, and the exit code is 3.
 
 Examples:
   wedgelab wheelrail run aar_1b 136re my_track.toml --speed \"60 mph\"
@@ -239,6 +239,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     Folder::check(folder.path(), &[page::FILE_NAME], true)?
         .write(|files| files.add(page::FILE_NAME, |out| out.write_all(html.as_bytes())))?;
     let mut out = io::stdout().lock();
+    write_outcome(&result.summary, &mut out)?;
     print_summary(&result.summary, &mut out)?;
     writeln!(
         out,
@@ -411,9 +412,6 @@ fn print_summary(summary: &WheelsetSummary, out: &mut impl Write) -> io::Result<
              vibration has {:.2} Hz and a\ndamping ratio of {:.3}: {what}.",
             found.frequency_hz, found.damping_ratio
         )?;
-    }
-    if let Some(derailment) = &summary.derailment {
-        writeln!(out, "\nDerailed: {}.", derailment.words())?;
     }
     Ok(())
 }

@@ -19,7 +19,7 @@ use super::files::Instead;
 use super::load::print_findings;
 use crate::commands::run::is_built_in;
 use crate::drawn::Drawn;
-use crate::execute::{compute_with_contacts, unsound, write, write_page};
+use crate::execute::{compute_with_contacts, unsound, write, write_outcome, write_page};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
@@ -62,7 +62,7 @@ lbf/in\" --out bodies
   wedgelab nucars run half_truck.run --set wedges.column_friction=0.3 --set 'body.2.mass=\"2000 lb\"' --out \
 softer
 
-Exit codes: 0 done; 1 the run could not finish or files could not be written; 2 the input is wrong;
+Exit codes: 0 done; 1 the run could not finish or has failed, or files could not be written; 2 the input is wrong;
 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM: what was computed is written.")]
 pub struct Arguments {
     /// Run file (.RUN), or, if there is no such file, the name of a built-in run
@@ -191,6 +191,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     let mut out = io::stdout().lock();
     writeln!(out, "{}\n", summary.title)?;
+    write_outcome(summary, &mut out)?;
     table(summary).write(&mut out)?;
     if !case.wedge_notes.is_empty() {
         writeln!(out, "\nWedges as bodies:")?;
