@@ -92,7 +92,12 @@ fn columns() -> Vec<ParquetColumn> {
         column("regime", "", "the regime", text),
         column("condition", "", "the condition", text),
         column("speed_mph", unit, "speed", Content::Number),
-        column("status", "", "complete, refused, stopped, failed or derailed", text),
+        column(
+            "status",
+            "",
+            "complete, refused, stopped, failed or derailed",
+            text,
+        ),
         column(
             "limit",
             "",

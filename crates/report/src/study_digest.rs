@@ -419,7 +419,10 @@ impl Digest {
 fn derailment(study: &Study, measures: &Measures) -> Measures {
     let names = study.measures().iter().map(|own| own.name == DERAILED);
     let kept = names.zip(&measures.0);
-    Measures(kept.map(|(kept, value)| if kept { *value } else { f64::NAN }).collect())
+    Measures(
+        kept.map(|(kept, value)| if kept { *value } else { f64::NAN })
+            .collect(),
+    )
 }
 
 fn add(cell: &mut [Gathered], measures: &Measures) {

@@ -1,6 +1,7 @@
 """Freight cars on track from Python: cases, runs, many at a time, and what goes wrong."""
 
 import pickle
+import warnings
 
 import numpy as np
 import pytest
@@ -39,3 +40,40 @@ def test_reproducible_for_any_number_of_workers_and_through_pickle() -> None:
 def test_input_mistakes_are_case_errors() -> None:
     with pytest.raises(wl.CaseError, match="coasting"):
         wl.CarCase("car_tangent_loaded", {"speed.value": "0 mph"})
+
+
+# An empty car on rails that jump sideways: a wheel leaves its rail.
+JUMP = """
+model = "car"
+start.settle = "0 s"
+lading.kind = "empty"
+speed.value = "60 mph"
+[[track.segments]]
+tangent = "600 ft"
+[[track.irregularities]]
+shape = "jog"
+rails = "both"
+direction = "lateral"
+offset = "5 in"
+length = "3 ft"
+start = "70 ft"
+[simulation]
+duration = "0.4 s"
+"""
+
+
+def test_issue_047_a_derailed_run_is_an_error_that_has_its_result() -> None:
+    case = wl.CarCase.parse(JUMP)
+    with pytest.raises(wl.RunError, match="derailed at .* and is incomplete: the .* left its rail") as caught:
+        case.run()
+    result = caught.value.result
+    assert result is not None and result.outcome == "derailed" and not result.is_complete
+    assert result.derailed is not None and result.stopped is None and result.failed is None
+    time, what = result.derailed
+    assert time == result["time"][-1] and "left its rail" in what
+    assert result.summary.complete is False
+    with warnings.catch_warnings():
+        # It is implausible, too.
+        warnings.simplefilter("ignore")
+        kept = case.run(incomplete="keep")
+    assert kept.rows == result.rows and repr(kept).endswith("derailed>")

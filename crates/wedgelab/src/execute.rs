@@ -155,7 +155,9 @@ pub fn execute_whole<C: RunFiles>(
 pub fn unsound<C: RunFiles>(summary: &C::Summary, folder: &Path) -> Option<Failure> {
     let folder = folder.display();
     let kept = match summary.outcome() {
-        Outcome::Failed(_) => format!("its files are in {folder}, marked as failed; do not use their numbers"),
+        Outcome::Failed(_) => {
+            format!("its files are in {folder}, marked as failed; do not use their numbers")
+        }
         _ => format!("what was computed until then is in {folder}, marked as incomplete"),
     };
     unsound_with::<C>(summary, &kept)

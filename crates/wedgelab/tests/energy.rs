@@ -63,7 +63,10 @@ fn energy_a_ledger_that_does_not_close_is_a_failure_that_keeps_the_files() {
     assert!(summary["failed"].as_str().unwrap().contains("(above 1e-2)"));
     assert_eq!(summary["complete"], false);
     assert_eq!(summary["rows"], 1001);
-    let told = done.out.find("has failed: the energy ledger does not close").unwrap();
+    let told = done
+        .out
+        .find("has failed: the energy ledger does not close")
+        .unwrap();
     assert!(told < done.out.find("ledger residual").unwrap(), "{}", done.out);
     let table = fs::read_to_string(out.join("result.csv")).unwrap();
     assert_eq!(table.lines().count(), 1002);

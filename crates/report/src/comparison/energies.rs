@@ -83,7 +83,9 @@ pub(super) fn energies(entries: &[ComparedResult], units: Units, notes: &mut Vec
 /// Returns the note on a run that is not complete.
 fn unsound(label: &str, part: &SummaryPart) -> Option<String> {
     let ends = [("derailed", &part.derailed), ("stopped", &part.stopped)];
-    let ended = ends.into_iter().find_map(|(verb, end)| Some((verb, end.as_ref()?.time)));
+    let ended = ends
+        .into_iter()
+        .find_map(|(verb, end)| Some((verb, end.as_ref()?.time)));
     match (ended, &part.failed) {
         (Some((verb, time)), _) => Some(format!(
             "{label} {verb} at {} s and is incomplete: its numbers are of the part until then.",

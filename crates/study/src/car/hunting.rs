@@ -245,7 +245,11 @@ fn one(
     let ramp = Ramp {
         points,
         boundary,
-        warnings: outcome.told().into_iter().chain(result.summary.warnings).collect(),
+        warnings: outcome
+            .told()
+            .into_iter()
+            .chain(result.summary.warnings)
+            .collect(),
         outcome,
     };
     Ok((ramp, !interrupted))

@@ -481,7 +481,9 @@ fn wedge(case: &HalfTruckCase, result: &HalfTruckResult, works: &Works, place: u
         return summary;
     };
     let friction = column("column_friction");
-    let energy = works.per_cycle(place).filter(|_| result.summary.stopped.is_none());
+    let energy = works
+        .per_cycle(place)
+        .filter(|_| result.summary.stopped.is_none());
     summary.energy_per_cycle = energy.map(|energy| SummaryValue::new(energy, Kind::Energy, units));
     let equivalent = energy.map(|energy| cycle.equivalent_damping(energy));
     summary.equivalent_damping = equivalent.map(|value| SummaryValue::new(value, Kind::Damping, units));

@@ -280,7 +280,7 @@ fn issue_047_a_derailment_is_a_result_that_is_not_complete() {
 #[test]
 fn issue_047_a_study_tells_which_variants_derailed() {
     let text = "case = \"car.toml\"\nsampling = \"list\"\n[[variants]]\n\
-                simulation.duration = \"0.4 s\"\n[[variants]]\nsimulation.duration = \"0.05 s\"\n";
+                simulation.duration = \"0.4 s\"\n[[variants]]\nsimulation.duration = \"0.02 s\"\n";
     let study = Study::of_source(StudySource {
         name: "study.toml".to_owned(),
         text: text.to_owned(),

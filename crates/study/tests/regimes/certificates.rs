@@ -144,7 +144,8 @@ fn issue_047_derailed_and_missing_runs_are_said() {
     assert!(gone.note.contains("derailed 500 ft"), "{}", gone.note);
     assert_eq!(missing.note, "the step became too small");
     assert!(
-        gone.note.ends_with("of the part until then; at 3 s the left wheel of axle 1 left its rail"),
+        gone.note
+            .ends_with("of the part until then; at 3 s the left wheel of axle 1 left its rail"),
         "{}",
         gone.note
     );

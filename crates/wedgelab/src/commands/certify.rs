@@ -255,7 +255,11 @@ fn print(certificate: &Certificate, findings: &CertificateFindings, path: &Path)
             limit.name.clone(),
             third,
             worst.map_or("-".to_owned(), |worst| {
-                let until = if worst.until_derailed { ", until it derailed" } else { "" };
+                let until = if worst.until_derailed {
+                    ", until it derailed"
+                } else {
+                    ""
+                };
                 format!("{:.3} {}{until}", worst.value, limit.unit)
             }),
             format!("{} {}", limit.value, limit.unit),

@@ -241,7 +241,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         folder.path().display(),
         written.join(", ")
     )?;
-    let ramps = runs.iter().flat_map(|runs| [Some(&runs.falling), runs.rising.as_ref()]);
+    let ramps = runs
+        .iter()
+        .flat_map(|runs| [Some(&runs.falling), runs.rising.as_ref()]);
     let failed = ramps.flatten().find_map(|ramp| match &ramp.outcome {
         Outcome::Failed(reason) => Some(reason),
         _ => None,
