@@ -111,8 +111,8 @@ fn columns() -> Vec<ParquetColumn> {
         column(
             "margin",
             "",
-            "what is left, in parts of the limit; negative where it is not kept; of a run that derailed, of the \
-             part until then",
+            "what is left, in parts of the limit; negative where it is not kept; of a run that derailed, of \
+             the part until then",
             Content::Number,
         ),
         column(

@@ -146,8 +146,8 @@ fn record(definitions: &Definitions, number: u64, outcome: Result<Judged, Unmeas
     }
 }
 
-/// Returns the status of a variant that has measures, and the reason; `ledger` is that of its energy ledger, if
-/// it does not close.
+/// Returns the status of a variant that has measures, and the reason; `ledger` is that of its energy ledger,
+/// if it does not close.
 fn judged(outcome: Outcome, ledger: Option<String>) -> (Status, String) {
     match (outcome, ledger) {
         (Outcome::Derailed(end), ledger) => {

@@ -82,8 +82,8 @@ pub trait RunSummary {
     }
 }
 
-/// Implements [`RunSummary`]; the residual is found under `$residual`. Summaries of models that run on a track
-/// name their functions for `derailed` and `reached`.
+/// Implements [`RunSummary`]; the residual is found under `$residual`. Summaries of models that run on a
+/// track name their functions for `derailed` and `reached`.
 macro_rules! run_summary {
     ($summary:ty, $($residual:ident).+ $(, derailed: $derailed:path, reached: $reached:path)?) => {
         impl $crate::summary::RunSummary for $summary {

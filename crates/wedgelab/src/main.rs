@@ -52,9 +52,9 @@ Begin with:
   wedgelab compare RESULT RESULT     differences and overlay figures
   wedgelab report RUN RUN            a page of any runs, side by side
 
-Exit codes: 0 done; 1 a run could not finish or has failed, or files could not be written; 2 the input is wrong;
-3 a wheel left its rail, where the run ended (its files are written, marked incomplete);
-129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM.
+Exit codes: 0 done; 1 a run could not finish or has failed, or files could not be written;
+2 the input is wrong; 3 a wheel left its rail, where the run ended (its files are written, marked
+incomplete); 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM.
 A first signal stops runs at their next step: what was computed is written, marked incomplete.
 A second one ends the program at once. Neither leaves half a file."
 )]

@@ -168,8 +168,8 @@ impl Certificate {
                 let feet = at * Kind::Distance.from_si(quantity::System::Us);
                 let also = if record.reason.is_empty() { "" } else { "; " };
                 format!(
-                    "derailed {feet:.0} ft along the track: the run ends there, and values and margins are of \
-                     the part until then{also}{}",
+                    "derailed {feet:.0} ft along the track: the run ends there, and values and margins are \
+                     of the part until then{also}{}",
                     record.reason
                 )
             }
