@@ -19,7 +19,7 @@ use super::{COUNT, Measures, place};
 use crate::case::Case;
 use crate::closed_form;
 use crate::metrics::{Cycle, first_harmonic};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, RunEnd};
 use crate::plausibility;
 use crate::progress;
 use crate::result::RunResult;
@@ -84,6 +84,10 @@ where
             return Err(Unmeasured::Stopped(format!("{}; {}", end.reason, C::WHAT_TO_TRY)));
         }
         (Outcome::Complete, Some(reason)) => Outcome::Failed(reason),
+        (Outcome::Derailed(end), Some(reason)) => Outcome::Derailed(RunEnd {
+            reason: format!("{}; {reason}", end.reason),
+            ..end
+        }),
         (outcome, _) => outcome,
     };
     Ok((result, outcome))

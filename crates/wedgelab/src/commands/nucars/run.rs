@@ -63,7 +63,8 @@ lbf/in\" --out bodies
 softer
 
 Exit codes: 0 done; 1 the run could not finish or has failed, or files could not be written;
-2 the input is wrong; 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM: what was computed is written.")]
+2 the input is wrong; 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM: what was computed is
+written.")]
 pub struct Arguments {
     /// Run file (.RUN), or, if there is no such file, the name of a built-in run
     #[arg(value_name = "FILE", required_unless_present = "list")]
