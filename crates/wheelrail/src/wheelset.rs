@@ -22,7 +22,7 @@ pub struct Layout {
     pub tape_distance: f64,
     /// Gauge.
     pub gauge: f64,
-    /// Depth below the top of the rail at which gauge is measured.
+    /// Depth below the datum of the rails' profiles, z = 0 of their files, at which gauge is measured.
     pub gauge_depth: f64,
 }
 
@@ -66,11 +66,11 @@ impl RigidPosition {
 }
 
 impl RigidWheelset {
-    /// Returns wheels (left, right) of nominal radii (m) on rails, which are placed by gauge and top.
+    /// Returns wheels (left, right) of nominal radii (m) on rails, which are placed by gauge and highest point.
     ///
     /// # Errors
-    /// A profile is of the wrong kind, a number is not admissible, or the wheelset does not fit between the
-    /// rails.
+    /// A profile is of the wrong kind, a number is not admissible, the datum of a rail is not its top, or the
+    /// wheelset does not fit between the rails.
     pub fn new(
         wheels: [&Profile; 2],
         radii: [f64; 2],

@@ -28,16 +28,17 @@ fn cones(slope: f64) -> RigidWheelset {
     RigidWheelset::new([&wheel; 2], [RADIUS; 2], [&rail; 2], layout, STEEL).unwrap()
 }
 
+const INCH: f64 = 0.0254;
+const FREIGHT: Layout = Layout {
+    tape_distance: (53.0 + 3.0 / 32.0 + 2.0 * (3.0 + 1.0 / 16.0)) * INCH,
+    gauge: 56.5 * INCH,
+    gauge_depth: nominal::GAUGE_DEPTH,
+};
+
 fn freight() -> RigidWheelset {
-    const INCH: f64 = 0.0254;
     let wheel = nominal::aar_1b().unwrap();
     let rail = nominal::rail_136re().unwrap().inclined(nominal::INCLINATION);
-    let layout = Layout {
-        tape_distance: (53.0 + 3.0 / 32.0 + 2.0 * (3.0 + 1.0 / 16.0)) * INCH,
-        gauge: 56.5 * INCH,
-        gauge_depth: nominal::GAUGE_DEPTH,
-    };
-    RigidWheelset::new([&wheel; 2], [18.0 * INCH; 2], [&rail; 2], layout, STEEL).unwrap()
+    RigidWheelset::new([&wheel; 2], [18.0 * INCH; 2], [&rail; 2], FREIGHT, STEEL).unwrap()
 }
 
 fn manchester() -> RigidWheelset {
@@ -122,7 +123,7 @@ fn reproduction_conicities_of_en_15302_from_profiles() {
     let layout = Layout {
         tape_distance: 1.5,
         gauge: 1.435,
-        gauge_depth: rail.top()[1] + 0.014 - 1e-6,
+        gauge_depth: 0.014,
     };
     let wheelset = RigidWheelset::new([&wheel; 2], [RADIUS; 2], [&rail; 2], layout, STEEL).unwrap();
     for row in reference("rolling_radius_difference_e1.csv") {
@@ -160,6 +161,112 @@ fn reproduction_conicities_of_en_15302_from_profiles() {
             "at {} mm: {found}",
             row[0]
         );
+    }
+}
+
+/// EN 15302, cases E1 to E4, from the profiles: all conicities lie within the limits of the standard, and
+/// the rail's axis 750 mm from the middle of the track, as the standard has it. The rail is inclined in its
+/// points: its highest point lies 0.49 mm above its datum, on the field side. Measured below that, E4 is
+/// outside of its limits.
+#[test]
+fn issue_047_the_gauge_is_measured_from_the_datum_of_the_rail() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/en15302");
+    let rail = Profile::read(&folder.join("rail_a.csv"), ProfileKind::Rail, 0.0).unwrap();
+    let [y, top] = rail.top();
+    assert!((top - 0.492e-3).abs() < 1e-6 && y > 0.01, "{y} {top}");
+    let outside = |case: usize, gauge_depth: f64| {
+        let wheel = folder.join(format!("wheel_{}.csv", ["a", "b", "h", "i"][case - 1]));
+        let wheel = Profile::read(&wheel, ProfileKind::Wheel, 0.0).unwrap();
+        let layout = Layout {
+            tape_distance: 1.5,
+            gauge: 1.435,
+            gauge_depth,
+        };
+        let wheelset = RigidWheelset::new([&wheel; 2], [RADIUS; 2], [&rail; 2], layout, STEEL).unwrap();
+        let table = RollingRadiusDifference::of_positions(&wheelset.sweep(9e-3, 360, true)).unwrap();
+        let (mut compared, mut outside) = (0, 0);
+        for row in reference(&format!("conicity_e{case}.csv")) {
+            // Where the difference is zero about the middle, the wheelset does not swing.
+            let Ok(found) = table.equivalent_conicity(1e-3 * row[0], RADIUS, 1.5) else {
+                continue;
+            };
+            compared += 1;
+            outside += usize::from(!(row[3]..=row[2]).contains(&found.by_wavelength));
+        }
+        assert!(compared > 55, "E{case}: {compared}");
+        (wheelset.rail_origins(), outside)
+    };
+    for case in 1..=4 {
+        let (origins, outside) = outside(case, 0.014);
+        assert!(
+            origins.iter().all(|origin| (origin - 0.75).abs() < 1e-9),
+            "{origins:?}"
+        );
+        assert_eq!(outside, 0, "E{case}");
+    }
+    assert_eq!(outside(4, 0.014 - top).1, 11);
+}
+
+/// A rail that is inclined by the program has its gauge below the highest point that it has then, as one that
+/// stands on the track: 49 CFR 213.53 measures below the top of the rail.
+#[test]
+fn analytic_an_inclined_rail_keeps_its_datum_below_its_highest_point() {
+    let rail = nominal::rail_136re().unwrap();
+    for slope in [0.0, 0.025, 0.05] {
+        let inclined = rail.inclined(slope).moved([0.0, 0.01]);
+        assert_eq!(inclined.datum_depth(), 0.0);
+        let level = inclined.top()[1] - nominal::GAUGE_DEPTH;
+        let points = inclined.curve().sample(1e-5);
+        let above = points.iter().filter(|(_, point)| point.position[1] >= level);
+        let inner = above
+            .map(|(_, point)| point.position[0])
+            .fold(f64::INFINITY, f64::min);
+        assert!((inclined.gauge_point(nominal::GAUGE_DEPTH) - inner).abs() < 1e-6);
+    }
+    let lifted = Profile::of_curve("lifted", ProfileKind::Rail, rail.curve().moved(0.0, [0.0, 1e-3]));
+    assert!((lifted.datum_depth() - 1e-3).abs() < 1e-12);
+    assert!((lifted.inclined(0.025).datum_depth() - 1e-3).abs() < 1e-12);
+    assert!(lifted.gauge_point(0.005) < rail.gauge_point(0.005));
+    assert!((lifted.gauge_point(0.005) - rail.gauge_point(0.006)).abs() < 1e-9);
+}
+
+/// A rail whose datum is not its top is not measured in silence: by the number of points above, below and
+/// beside the levels at which gauge is measured.
+#[test]
+fn issue_047_a_datum_far_from_the_top_of_the_rail_is_told() {
+    let (wheel, rail) = (nominal::aar_1b().unwrap(), nominal::rail_136re().unwrap());
+    let with = |height: f64, gauge_depth: f64| {
+        let curve = rail.curve().moved(0.0, [0.0, height]);
+        let moved = Profile::of_curve("moved.csv", ProfileKind::Rail, curve);
+        let layout = Layout {
+            gauge_depth,
+            ..FREIGHT
+        };
+        RigidWheelset::new([&wheel; 2], [0.4572; 2], [&moved; 2], layout, STEEL)
+    };
+    for height in [-1.9e-3, -6e-3, 1.9e-3] {
+        with(height, 0.014).unwrap();
+    }
+    for height in [-0.1, -0.02, -8e-3, 5e-3, 0.03, 0.1857] {
+        let error = with(height, 0.014).unwrap_err();
+        assert!(matches!(error, ProfileError::Datum { .. }), "{height}: {error}");
+        let (message, remedy) = (error.to_string(), error.remedy());
+        assert!(
+            message.contains(&format!("z = {:.3} mm", 1e3 * height)),
+            "{message}"
+        );
+        assert!(
+            remedy.contains(&format!("add {:.3} mm to z", -1e3 * height)),
+            "{remedy}"
+        );
+        // The depth that is offered is accepted, and is as far below the highest point as the one given.
+        let depth = 0.014 - height;
+        assert_eq!(remedy.contains("a gauge depth of"), depth > 0.0, "{remedy}");
+        if depth > 0.0 {
+            let [origin, _] = with(height, depth).unwrap().rail_origins();
+            let [upright, _] = with(0.0, 0.014).unwrap().rail_origins();
+            assert!((origin - upright).abs() < 1e-9, "{height}: {origin} {upright}");
+        }
     }
 }
 

@@ -71,7 +71,7 @@ pub(super) fn rails(r: &mut CaseReader<'_>) -> Rails {
     let mut gauge = 56.5 * INCH;
     r.quantity("gauge", LENGTH, &mut gauge, "between the gauge sides");
     let mut gauge_depth = nominal::GAUGE_DEPTH;
-    let comment = "below the top of rail, where gauge is measured";
+    let comment = "below the datum of the rail, z = 0 of its file, where gauge is measured";
     r.quantity("gauge_depth", LENGTH, &mut gauge_depth, comment);
     let mut deviation = DEVIATION;
     let form: QuantityForm = (Measure::Length, Range::NotNegative, Reach::FromZero(1e-4));
@@ -158,7 +158,18 @@ pub(super) fn wheels(r: &mut CaseReader<'_>, parameters: &mut Parameters, rails:
                 law,
             });
         }
-        Err(error) => wrong(r, "wheels.profile", &error),
+        Err(error) => {
+            let of_rail = matches!(error, ProfileError::Datum { .. });
+            wrong(
+                r,
+                if of_rail {
+                    "rails.profile"
+                } else {
+                    "wheels.profile"
+                },
+                &error,
+            );
+        }
     }
 }
 

@@ -214,9 +214,9 @@ class Wheelset:
         shear_modulus: float = _STEEL,
         poisson: float = _POISSON,
     ) -> None:
-        """Gauge is measured ``gauge_depth`` below the top of the rail; the tape circles of the wheels, of the nominal
-        ``radius``, are ``tape_distance`` apart; ``shear_modulus`` in Pa. Rails stand as their profile is: incline nominal ones
-        (``Profile.nominal("136re").inclined(1 / 40)``)."""
+        """Gauge is measured ``gauge_depth`` below the datum of the rail, z = 0 of its points (its top, for nominal ones); the
+        tape circles of the wheels, of the nominal ``radius``, are ``tape_distance`` apart; ``shear_modulus`` in Pa. Rails stand
+        as their profile is: incline nominal ones (``Profile.nominal("136re").inclined(1 / 40)``)."""
         for given, what in ((wheel, "wheel"), (rail, "rail")):
             if not isinstance(given, Profile):
                 raise WheelRailError(f"{what} is a {type(given).__name__}; a Profile is expected, such as Profile.read(...)")

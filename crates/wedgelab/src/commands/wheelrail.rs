@@ -70,8 +70,8 @@ pub(super) struct WheelRailPair {
     /// Gauge
     #[arg(long, default_value = "56.5 in", value_parser = length)]
     gauge: Quantity,
-    /// Depth below the top of the rail at which gauge is measured [default: 5/8 in; 14 mm for rails from
-    /// .prr]
+    /// Depth below the datum of the rail, z = 0 of its file, at which gauge is measured [default: 5/8 in;
+    /// 14 mm for rails from .prr]
     #[arg(long, value_name = "DEPTH", value_parser = length)]
     gauge_depth: Option<Quantity>,
     /// Distance of the tape circles of the wheels [default: 59.21875 in; 1500 mm for wheels from .prw]
@@ -193,7 +193,14 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             )?;
         }
     }
-    writeln!(out)?;
+    let [center, _] = wheelset.rail_origins();
+    let gauge_point = 0.5 * layout.gauge - center;
+    writeln!(out, "  {}", placed(&rail, gauge_point, layout.gauge_depth))?;
+    writeln!(
+        out,
+        "  y = 0 lies {:.3} mm from the middle of the track\n",
+        1e3 * center
+    )?;
     table(&positions, &conicity, largest).write(&mut out)?;
     writeln!(
         out,
@@ -218,6 +225,23 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         )?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Returns where gauge is measured on a rail, and what that depth is counted from.
+fn placed(rail: &Profile, gauge_point: f64, depth: f64) -> String {
+    let datum = match rail.datum_depth() {
+        0.0 => "the top".to_owned(),
+        own => format!(
+            "its datum z = 0, which lies {:.3} mm {} its highest point",
+            1e3 * own.abs(),
+            if own > 0.0 { "below" } else { "above" }
+        ),
+    };
+    format!(
+        "gauge point at y = {:.3} mm, {:.3} mm below {datum}",
+        1e3 * gauge_point,
+        1e3 * depth
+    )
 }
 
 pub(super) fn wrong(error: &ProfileError) -> Failure {

@@ -2,7 +2,7 @@
 
 use super::error::{ProfileError, ProfilePlace};
 use super::points::Points;
-use super::{ProfileKind, SMALLEST_SPACING};
+use super::{ProfileKind, SMALLEST_SPACING, shape};
 
 /// A flange or a rail's side reaches at least this far from the tread, m.
 pub(super) const FLANGE: f64 = 0.015;
@@ -16,7 +16,7 @@ fn widths(kind: ProfileKind) -> ([f64; 2], &'static str) {
 }
 
 /// Orders points from the gauge side to the field side, takes away those closer than [`SMALLEST_SPACING`] to
-/// their neighbor, and checks number, size, crossings and orientation.
+/// their neighbor, and checks number, size, kind, orientation and crossings.
 pub(super) fn checked(points: &Points, kind: ProfileKind) -> Result<Points, ProfileError> {
     let name = &points.name;
     if let Some(found) = points.kind
@@ -37,6 +37,7 @@ pub(super) fn checked(points: &Points, kind: ProfileKind) -> Result<Points, Prof
     }
     units(&kept, kind)?;
     height(&kept)?;
+    shape::check(&kept, kind)?;
     orientation(&kept, kind)?;
     crossings(&kept)?;
     Ok(kept)

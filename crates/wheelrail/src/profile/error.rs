@@ -76,6 +76,18 @@ pub enum ProfileError {
         /// The requested thing.
         expected: &'static str,
     },
+    /// A wheel by its shape where a rail is expected, or a rail where a wheel is.
+    #[error("{place}: this looks like a {found}, where a {expected} is expected: {sign}")]
+    Shape {
+        /// The place.
+        place: ProfilePlace,
+        /// The kind that the shape tells.
+        found: &'static str,
+        /// The requested kind.
+        expected: &'static str,
+        /// The part of the shape that tells it.
+        sign: String,
+    },
     /// Too few points.
     #[error("{place}: {points} different points are too few for a profile")]
     TooFew {
@@ -123,6 +135,20 @@ pub enum ProfileError {
         found: String,
         /// The advice.
         remedy: String,
+    },
+    /// The datum of a rail is not its top.
+    #[error(
+        "{rail}: its highest point is at z = {:.3} mm; the gauge is measured {:.3} mm below z = 0, the top of \
+         rail of the file, which is {} its highest point",
+        top * 1e3, depth * 1e3, from_top(depth + top)
+    )]
+    Datum {
+        /// The rail.
+        rail: String,
+        /// Height of its highest point above its datum, m.
+        top: f64,
+        /// Depth below the datum at which gauge is measured, m.
+        depth: f64,
     },
     /// The wheelset does not fit between the rails.
     #[error(
@@ -177,6 +203,27 @@ impl ProfileError {
                 remedy.clone()
             }
             Self::Kind { .. } => "exchange the files of wheel and rail".into(),
+            Self::Shape { expected, .. } => format!(
+                "name a file of a {expected} here, or {}; if wheel and rail are exchanged, exchange them",
+                match *expected {
+                    "rail" => "136re",
+                    _ => "aar_1b",
+                }
+            ),
+            Self::Datum { top, depth, .. } => {
+                let [lift, deeper, depth] = [-top, depth - top, *depth].map(|length| 1e3 * length);
+                let shift = format!(
+                    "if z = 0 is not the top of rail, add {lift:.3} mm to z of all points, in a file of Simpack by \
+                     shift.z"
+                );
+                match deeper > 0.0 {
+                    true => format!(
+                        "{shift}; if it is, as that of a new rail beside a worn one, a gauge depth of {deeper:.3} \
+                         mm lies {depth:.3} mm below the highest point"
+                    ),
+                    false => shift,
+                }
+            }
             Self::TooFew { .. } => {
                 "give at least five points, closer together where the profile is curved".into()
             }
@@ -191,4 +238,10 @@ impl ProfileError {
             Self::Number { what, must, .. } => format!("give a {what} that is {must}"),
         }
     }
+}
+
+/// Returns a depth (m) below a point in words.
+fn from_top(depth: f64) -> String {
+    let side = if depth < 0.0 { "above" } else { "below" };
+    format!("{:.3} mm {side}", 1e3 * depth.abs())
 }

@@ -11,6 +11,8 @@ use wheelrail::wheelset::{Layout, RigidWheelset};
 
 #[path = "benchmark.rs"]
 mod benchmark;
+#[path = "en15302.rs"]
+mod en15302;
 
 const SHEAR: f64 = 82e9;
 const POISSON: f64 = 0.28;
@@ -36,7 +38,7 @@ pub fn page() -> String {
         spin,
         benchmark::manchester,
         conicity,
-        en15302,
+        en15302::en15302,
     ] {
         out.push('\n');
         part(&mut out);
@@ -383,68 +385,6 @@ fn conicity(out: &mut String) {
                 format!("{:.2}", found.wavelength),
                 format!("{klingel:.2}"),
                 format!("{:.1}", 1e9 * error),
-            ],
-        );
-    }
-}
-
-fn reference(file: &str) -> Vec<Vec<f64>> {
-    let text = std::fs::read_to_string(data("en15302").join(file)).unwrap_or_default();
-    let number = |cell: &str| cell.trim().parse().unwrap_or(f64::NAN);
-    text.lines()
-        .skip(2)
-        .map(|line| line.split(',').map(number).collect())
-        .collect()
-}
-
-fn en15302(out: &mut String) {
-    line(out, "## EN 15302\n");
-    line(
-        out,
-        "Reference cases E1 to E3: equivalent conicity from the given rolling radius differences, by \
-         amplitude; to lie",
-    );
-    line(out, "within 0.0015.\n");
-    table(
-        out,
-        &[
-            "case",
-            "at 3 mm here",
-            "standard",
-            "amplitudes compared",
-            "largest difference",
-            "at, mm",
-        ],
-    );
-    for case in 1..=3 {
-        let rows = reference(&format!("rolling_radius_difference_e{case}.csv"));
-        let Ok(table) = RollingRadiusDifference::new(rows.iter().map(|row| [1e-3 * row[0], 1e-3 * row[1]]))
-        else {
-            continue;
-        };
-        let (mut at_three, mut compared, mut largest) = ([f64::NAN; 2], 0, [0.0_f64; 2]);
-        for own in reference(&format!("conicity_e{case}.csv")) {
-            let Ok(found) = table.equivalent_conicity(1e-3 * own[0], 0.46, 1.5) else {
-                continue;
-            };
-            compared += 1;
-            if (own[0] - 3.0).abs() < 1e-9 {
-                at_three = [found.by_wavelength, own[1]];
-            }
-            let difference = (found.by_wavelength - own[1]).abs();
-            if difference > largest[0] {
-                largest = [difference, own[0]];
-            }
-        }
-        row(
-            out,
-            &[
-                format!("E{case}"),
-                format!("{:.4}", at_three[0]),
-                format!("{:.4}", at_three[1]),
-                format!("{compared}"),
-                format!("{:.4}", largest[0]),
-                format!("{:.1}", largest[1]),
             ],
         );
     }
