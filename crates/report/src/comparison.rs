@@ -9,6 +9,7 @@ use std::io::{self, Write};
 
 use quantity::{Kind, System as Units};
 
+use crate::csv::RowWriter;
 use crate::drawing::Figure;
 use crate::overlay::{self, Axes};
 use crate::plot;
@@ -247,62 +248,49 @@ impl Comparison {
     /// # Errors
     /// The writer's.
     pub fn write(&self, entries: &[ComparedResult], out: &mut dyn Write) -> io::Result<()> {
-        let mut table = ::csv::Writer::from_writer(out);
-        table.write_record([
+        let mut table = RowWriter::new(out);
+        table.texts([
             "column",
             "unit",
             "result",
             "compared_with",
             "largest_difference",
             "time_s",
+        ]);
+        table.texts([
             "largest_relative",
             "rms_difference",
             "rms_relative",
             "range",
             "mean",
-            "mean_of_compared_with",
-        ])?;
+        ]);
+        table.text("mean_of_compared_with").end()?;
         let label = |index: usize| entries.get(index).map_or("", |entry| entry.label.as_str());
-        let number = |value: f64| {
-            if value.is_finite() {
-                value.to_string()
-            } else {
-                String::new()
-            }
-        };
         for one in &self.differences {
-            table.write_record([
-                &one.column,
-                one.unit,
-                label(one.result),
-                label(0),
-                &number(one.largest),
-                &number(one.time),
-                &number(one.largest.abs() / one.range),
-                &number(one.root_mean_square),
-                &number(one.root_mean_square / one.range),
-                &number(one.range),
-                &number(one.mean),
-                &number(one.mean_of_first),
-            ])?;
+            table.texts([&one.column, one.unit, label(one.result), label(0)]);
+            table
+                .finite(one.largest)
+                .finite(one.time)
+                .finite(one.largest.abs() / one.range);
+            table
+                .finite(one.root_mean_square)
+                .finite(one.root_mean_square / one.range);
+            table
+                .finite(one.range)
+                .finite(one.mean)
+                .finite(one.mean_of_first)
+                .end()?;
         }
         for one in &self.energies {
-            table.write_record([
-                &format!("energy_per_cycle_{}", one.place),
-                one.unit,
-                label(one.result),
-                label(0),
-                &number(one.value - one.first),
-                "",
-                "",
-                "",
-                "",
-                "",
-                &number(one.value),
-                &number(one.first),
-            ])?;
+            table.text(&format!("energy_per_cycle_{}", one.place));
+            table.texts([one.unit, label(one.result), label(0)]);
+            table.finite(one.value - one.first);
+            for _ in 0..5 {
+                table.missing();
+            }
+            table.finite(one.value).finite(one.first).end()?;
         }
-        table.flush()
+        Ok(())
     }
 }
 

@@ -5,6 +5,7 @@
 //! integers. What is missing or no number is an empty cell; texts with a comma, a quotation mark or an end of
 //! line are in quotation marks (RFC 4180).
 
+use std::fmt::Display;
 use std::io::{self, Write};
 
 use mechanics::output::Column;
@@ -38,21 +39,17 @@ pub fn write_columns(
     if columns.len() != values.len() || values.iter().any(|values| values.len() != rows) {
         return Err(io::Error::other("the columns of the result differ in length"));
     }
-    let mut line = Vec::new();
+    let mut table = RowWriter::new(out);
     for column in columns {
-        separate(&mut line);
-        line.extend_from_slice(column.full_name(units).as_bytes());
+        table.text(&column.full_name(units));
     }
-    end(&mut line, out)?;
+    table.end()?;
     let kinds: Vec<Kind> = columns.iter().map(|column| column.kind).collect();
-    let mut decimal = ryu::Buffer::new();
     for row in 0..rows {
         for (kind, values) in kinds.iter().zip(values) {
-            separate(&mut line);
-            let value = converted(values[row], *kind, units);
-            number(&mut line, value, &mut decimal);
+            table.number(converted(values[row], *kind, units));
         }
-        end(&mut line, out)?;
+        table.end()?;
     }
     Ok(())
 }
@@ -68,12 +65,7 @@ pub fn converted(si: f64, kind: Kind, units: Units) -> f64 {
 /// # Errors
 /// The writer's.
 pub fn write_header<'n>(names: impl Iterator<Item = &'n str>, out: &mut dyn Write) -> io::Result<()> {
-    let mut line = Vec::new();
-    for (place, name) in names.enumerate() {
-        next(&mut line, place);
-        quoted(&mut line, name);
-    }
-    end(&mut line, out)
+    RowWriter::new(out).texts(names).end()
 }
 
 /// Writes a row.
@@ -81,48 +73,100 @@ pub fn write_header<'n>(names: impl Iterator<Item = &'n str>, out: &mut dyn Writ
 /// # Errors
 /// The writer's.
 pub fn write_cells(cells: &[Cell<'_>], out: &mut dyn Write) -> io::Result<()> {
-    let (mut line, mut decimal) = (Vec::new(), ryu::Buffer::new());
-    for (place, cell) in cells.iter().enumerate() {
-        next(&mut line, place);
+    let mut row = RowWriter::new(out);
+    for cell in cells {
         match cell {
-            Cell::Integer(value) => line.extend_from_slice(value.to_string().as_bytes()),
-            Cell::Number(value) if value.is_finite() => number(&mut line, *value, &mut decimal),
-            Cell::Number(_) | Cell::Missing => {}
-            Cell::Text(text) => quoted(&mut line, text),
+            Cell::Integer(value) => row.shown(value),
+            Cell::Number(value) if value.is_finite() => row.number(*value),
+            Cell::Number(_) | Cell::Missing => row.missing(),
+            Cell::Text(text) => row.text(text),
+        };
+    }
+    row.end()
+}
+
+/// Writes a table cell by cell; [`RowWriter::end`] ends a row. All tables of this crate are written by it.
+pub struct RowWriter<'w> {
+    out: &'w mut dyn Write,
+    line: Vec<u8>,
+    /// Whether the row has a cell: the first may be empty.
+    begun: bool,
+    decimal: ryu::Buffer,
+}
+
+impl<'w> RowWriter<'w> {
+    /// Returns a writer of rows.
+    pub fn new(out: &'w mut dyn Write) -> Self {
+        Self {
+            out,
+            line: Vec::new(),
+            begun: false,
+            decimal: ryu::Buffer::new(),
         }
     }
-    end(&mut line, out)
-}
 
-fn number(line: &mut Vec<u8>, value: f64, decimal: &mut ryu::Buffer) {
-    let text = decimal.format(value);
-    line.extend_from_slice(text.strip_suffix(".0").unwrap_or(text).as_bytes());
-}
-
-fn quoted(line: &mut Vec<u8>, text: &str) {
-    if text.contains(['"', ',', '\n', '\r']) {
-        line.extend_from_slice(format!("\"{}\"", text.replace('"', "\"\"")).as_bytes());
-    } else {
-        line.extend_from_slice(text.as_bytes());
+    /// Adds an empty cell.
+    pub fn missing(&mut self) -> &mut Self {
+        if self.begun {
+            self.line.push(b',');
+        }
+        self.begun = true;
+        self
     }
-}
 
-/// The first cells may be empty, so that it is the place that tells whether a comma is due.
-fn next(line: &mut Vec<u8>, place: usize) {
-    if place > 0 {
-        line.push(b',');
+    /// Adds a text, in quotation marks where it has a comma, a quotation mark or an end of line.
+    pub fn text(&mut self, text: &str) -> &mut Self {
+        self.missing();
+        if text.contains(['"', ',', '\n', '\r']) {
+            self.line
+                .extend_from_slice(format!("\"{}\"", text.replace('"', "\"\"")).as_bytes());
+        } else {
+            self.line.extend_from_slice(text.as_bytes());
+        }
+        self
     }
-}
 
-fn separate(line: &mut Vec<u8>) {
-    if !line.is_empty() {
-        line.push(b',');
+    /// Adds texts.
+    pub fn texts<'t>(&mut self, texts: impl IntoIterator<Item = &'t str>) -> &mut Self {
+        for text in texts {
+            self.text(text);
+        }
+        self
     }
-}
 
-fn end(line: &mut Vec<u8>, out: &mut dyn Write) -> io::Result<()> {
-    line.push(b'\n');
-    out.write_all(line)?;
-    line.clear();
-    Ok(())
+    /// Adds a number in its shortest form, with an exponent where that is shorter.
+    pub fn number(&mut self, value: f64) -> &mut Self {
+        self.missing();
+        let text = self.decimal.format(value);
+        self.line
+            .extend_from_slice(text.strip_suffix(".0").unwrap_or(text).as_bytes());
+        self
+    }
+
+    /// Adds a number as it is displayed.
+    pub fn shown(&mut self, number: impl Display) -> &mut Self {
+        self.missing();
+        write!(self.line, "{number}").unwrap_or_default();
+        self
+    }
+
+    /// Adds a number as it is displayed, or an empty cell where it is not finite.
+    pub fn finite(&mut self, number: f64) -> &mut Self {
+        match number.is_finite() {
+            true => self.shown(number),
+            false => self.missing(),
+        }
+    }
+
+    /// Ends the row.
+    ///
+    /// # Errors
+    /// The writer's.
+    pub fn end(&mut self) -> io::Result<()> {
+        self.line.push(b'\n');
+        self.out.write_all(&self.line)?;
+        self.line.clear();
+        self.begun = false;
+        Ok(())
+    }
 }

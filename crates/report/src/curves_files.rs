@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use quantity::System as Units;
 use study::truck::loop_curve::{LoopCurve, LoopKind};
 
-use crate::csv::converted;
+use crate::csv::{RowWriter, converted};
 use crate::drawing::{Figure, Panel, PlotCurve, distinct};
 use crate::figures::axis;
 
@@ -38,19 +38,16 @@ pub fn write(loops: &[LabeledLoop], out: &mut dyn Write) -> io::Result<()> {
         return Ok(());
     };
     let ([motion, resistance], [a, b]) = (names(first.kind), first.kind.kinds());
-    writeln!(
-        out,
-        "test,{motion}_{},{resistance}_{}",
-        a.suffix(Units::Us),
-        b.suffix(Units::Us)
-    )?;
+    let mut table = RowWriter::new(out);
+    table.text("test");
+    table.text(&format!("{motion}_{}", a.suffix(Units::Us)));
+    table
+        .text(&format!("{resistance}_{}", b.suffix(Units::Us)))
+        .end()?;
     for (label, own) in loops {
         for (motion, resistance) in own.motion.iter().zip(&own.resistance) {
-            let values = [
-                converted(*motion, a, Units::Us),
-                converted(*resistance, b, Units::Us),
-            ];
-            writeln!(out, "{},{},{}", label.replace(',', ";"), values[0], values[1])?;
+            table.text(label).shown(converted(*motion, a, Units::Us));
+            table.shown(converted(*resistance, b, Units::Us)).end()?;
         }
     }
     Ok(())

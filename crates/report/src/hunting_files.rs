@@ -8,6 +8,7 @@ use serde::Serialize;
 use study::car::hunting::{Boundary, Hunting, Point, Ramp};
 use study::car::stability::{FRICTION, Stability};
 
+use crate::csv::RowWriter;
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures::axis;
 use crate::summary::write_json;
@@ -38,25 +39,30 @@ fn ramps(found: &Hunting) -> Vec<(&'static str, &Ramp)> {
 /// # Errors
 /// The writer's.
 pub fn write_table(found: &Hunting, units: Units, out: &mut dyn Write) -> io::Result<()> {
-    let length = Kind::Length.suffix(units);
-    writeln!(
-        out,
-        "ramp,time_s,speed_{},axle_1_lateral_amplitude_{length},axle_2_lateral_amplitude_{length},\
-         axle_3_lateral_amplitude_{length},axle_4_lateral_amplitude_{length},\
-         body_lateral_acceleration_amplitude_{}",
-        Kind::TravelSpeed.suffix(units),
-        Kind::RideAcceleration.suffix(units)
-    )?;
+    let mut table = RowWriter::new(out);
+    table
+        .texts(["ramp", "time_s"])
+        .text(&format!("speed_{}", Kind::TravelSpeed.suffix(units)));
+    for axle in 1..=4 {
+        table.text(&format!(
+            "axle_{axle}_lateral_amplitude_{}",
+            Kind::Length.suffix(units)
+        ));
+    }
+    let acceleration = Kind::RideAcceleration.suffix(units);
+    table
+        .text(&format!("body_lateral_acceleration_amplitude_{acceleration}"))
+        .end()?;
     for (name, ramp) in ramps(found) {
         for point in &ramp.points {
-            let [a, b, c, d] = point.axles.map(|own| own * Kind::Length.from_si(units));
-            writeln!(
-                out,
-                "{name},{},{},{a},{b},{c},{d},{}",
-                point.time,
-                point.speed * Kind::TravelSpeed.from_si(units),
-                point.acceleration * Kind::RideAcceleration.from_si(units)
-            )?;
+            table.text(name).shown(point.time);
+            table.shown(point.speed * Kind::TravelSpeed.from_si(units));
+            for own in point.axles {
+                table.shown(own * Kind::Length.from_si(units));
+            }
+            table
+                .shown(point.acceleration * Kind::RideAcceleration.from_si(units))
+                .end()?;
         }
     }
     Ok(())

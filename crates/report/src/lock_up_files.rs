@@ -8,6 +8,7 @@ use study::case::Case;
 use study::lock_up::{LockUpMap, MapAxis, RigOutcome};
 
 use crate::contour::{self, HeightGrid};
+use crate::csv::RowWriter;
 use crate::drawing::{Colour, Figure, Line, Mark, Panel, PlotCurve};
 use crate::figures::study::contour_curves;
 
@@ -44,40 +45,36 @@ fn heading(axis: MapAxis, units: Units) -> String {
 /// The writer's.
 pub fn write_table(map: &LockUpMap, units: Units, out: &mut dyn Write) -> io::Result<()> {
     let [first, second] = map.spans.map(|span| span.axis);
-    writeln!(
-        out,
-        "{},{},closing_angle_deg,lock_up_margin_deg,found,holding_column,holding_slope,column_force_ratio,\
-         quasi_static_column_force_ratio,reason",
-        heading(first, units),
-        heading(second, units)
-    )?;
-    let number = |value: f64| match value.is_finite() {
-        true => value.to_string(),
-        false => String::new(),
-    };
+    let mut table = RowWriter::new(out);
+    table.text(&heading(first, units)).text(&heading(second, units));
+    table.texts([
+        "closing_angle_deg",
+        "lock_up_margin_deg",
+        "found",
+        "holding_column",
+        "holding_slope",
+        "column_force_ratio",
+        "quasi_static_column_force_ratio",
+        "reason",
+    ]);
+    table.end()?;
     let points = map.values[1].len();
     for (place, cell) in map.cells.iter().enumerate() {
-        let values = [
-            map.values[0][place / points] * first.unit(units).1,
-            map.values[1][place % points] * second.unit(units).1,
-        ];
-        let reason = match &cell.found {
-            RigOutcome::Unknown(reason) => reason.replace([',', '\n', '"'], ";"),
-            _ => String::new(),
+        table.shown(map.values[0][place / points] * first.unit(units).1);
+        table.shown(map.values[1][place % points] * second.unit(units).1);
+        table.shown(cell.closing_angle.to_degrees());
+        table.shown(cell.margin.to_degrees());
+        table.text(cell.found.name());
+        table
+            .finite(cell.holding[0])
+            .finite(cell.holding[1])
+            .finite(cell.ratio);
+        table.finite(cell.expected_ratio.unwrap_or(f64::NAN));
+        match &cell.found {
+            RigOutcome::Unknown(reason) => table.text(reason),
+            _ => table.missing(),
         };
-        writeln!(
-            out,
-            "{},{},{},{},{},{},{},{},{},{reason}",
-            values[0],
-            values[1],
-            cell.closing_angle.to_degrees(),
-            cell.margin.to_degrees(),
-            cell.found.name(),
-            number(cell.holding[0]),
-            number(cell.holding[1]),
-            number(cell.ratio),
-            cell.expected_ratio.map(number).unwrap_or_default(),
-        )?;
+        table.end()?;
     }
     Ok(())
 }

@@ -6,6 +6,7 @@ use quantity::{Kind, System as Units};
 use serde::Serialize;
 use study::car::stability::{Branch, FRICTION, Mode, Stability};
 
+use crate::csv::RowWriter;
 use crate::drawing::{Figure, Panel, PlotCurve, distinct};
 use crate::figures::axis;
 use crate::summary::write_json;
@@ -34,25 +35,24 @@ fn name(branch: &Branch) -> &'static str {
 /// # Errors
 /// The writer's.
 pub fn write_table(found: &Stability, units: Units, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(
-        out,
-        "speed_{},friction,growth_per_s,frequency_hz,damping_ratio",
-        Kind::TravelSpeed.suffix(units)
-    )?;
+    let mut table = RowWriter::new(out);
+    table.text(&format!("speed_{}", Kind::TravelSpeed.suffix(units)));
+    table
+        .texts(["friction", "growth_per_s", "frequency_hz", "damping_ratio"])
+        .end()?;
     for branch in &found.branches {
         for (speed, modes) in found.speeds.iter().zip(&branch.modes) {
             for mode in modes {
                 let angular_frequency = 2.0 * std::f64::consts::PI * mode.frequency;
                 let ratio = -mode.growth / libm::hypot(mode.growth, angular_frequency);
-                writeln!(
-                    out,
-                    "{},{},{},{},{}",
-                    speed * Kind::TravelSpeed.from_si(units),
-                    name(branch),
-                    mode.growth,
-                    mode.frequency,
-                    ratio
-                )?;
+                table
+                    .shown(speed * Kind::TravelSpeed.from_si(units))
+                    .text(name(branch));
+                table
+                    .shown(mode.growth)
+                    .shown(mode.frequency)
+                    .shown(ratio)
+                    .end()?;
             }
         }
     }

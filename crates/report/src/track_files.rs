@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use wheelrail::track::{RailPlace, Track};
 
+use crate::csv::RowWriter;
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 /// The table.
@@ -157,44 +158,48 @@ impl<'t> Survey<'t> {
     /// # Errors
     /// The writer's.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        write!(
-            out,
-            "distance_ft,x_ft,y_ft,z_ft,heading_rad,curvature_per_ft,degree_of_curve,superelevation_in,grade"
-        )?;
+        let mut table = RowWriter::new(out);
+        table.texts([
+            "distance_ft",
+            "x_ft",
+            "y_ft",
+            "z_ft",
+            "heading_rad",
+            "curvature_per_ft",
+        ]);
+        table.texts(["degree_of_curve", "superelevation_in", "grade"]);
         for measured in MeasuredTrack::ALL {
-            write!(out, ",{}_in", measured.name())?;
+            table.text(&format!("{}_in", measured.name()));
         }
-        write!(out, ",cross_level_in,gauge_deviation_in")?;
+        table.texts(["cross_level_in", "gauge_deviation_in"]);
         for measured in MeasuredTrack::ALL {
             for chord in CHORDS {
-                write!(out, ",{}_offset_{chord}_ft_in", measured.name())?;
+                table.text(&format!("{}_offset_{chord}_ft_in", measured.name()));
             }
         }
-        writeln!(out)?;
+        table.end()?;
         for row in &self.rows {
             let station = self.track.center_line.at(row.distance);
-            let [x, y, z] = station.position.map(|own| own / FOOT);
-            write!(
-                out,
-                "{},{x},{y},{z},{},{},{},{},{}",
-                row.distance / FOOT,
-                station.heading,
-                station.curvature[0] * FOOT,
-                degree(station.curvature[0]),
-                station.superelevation[0] / INCH,
-                station.grade
-            )?;
+            table.shown(row.distance / FOOT);
+            for own in station.position {
+                table.shown(own / FOOT);
+            }
+            table.shown(station.heading).shown(station.curvature[0] * FOOT);
+            table
+                .shown(degree(station.curvature[0]))
+                .shown(station.superelevation[0] / INCH);
+            table.shown(station.grade);
             for measured in MeasuredTrack::ALL {
-                write!(out, ",{}", measured.of(&row.rails) / INCH)?;
+                table.shown(measured.of(&row.rails) / INCH);
             }
             let [left, right] = &row.rails;
             let cross_level = station.superelevation[0] + right.vertical[0] - left.vertical[0];
             let gauge = left.lateral[0] - right.lateral[0];
-            write!(out, ",{},{}", cross_level / INCH, gauge / INCH)?;
+            table.shown(cross_level / INCH).shown(gauge / INCH);
             for offset in row.offsets.iter().flatten() {
-                write!(out, ",{}", offset / INCH)?;
+                table.shown(offset / INCH);
             }
-            writeln!(out)?;
+            table.end()?;
         }
         Ok(())
     }

@@ -8,7 +8,7 @@ use quantity::{Kind, System as Units};
 use study::truck::run::TruckResult;
 use study::truck::warp::{Growth, NUCARS_STIFFNESS, PARTS, WarpCurve};
 
-use crate::csv::converted;
+use crate::csv::{RowWriter, converted};
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 use crate::figures::axis;
 
@@ -44,39 +44,36 @@ pub struct Tested {
 /// # Errors
 /// The writer's.
 pub fn write_stiffness(tests: &[Tested], out: &mut dyn Write) -> io::Result<()> {
-    write!(
-        out,
-        "test,warp_angle_rad,warp_moment_lbf_in,warp_stiffness_lbf_in_per_rad"
-    )?;
+    let mut table = RowWriter::new(out);
+    table.texts([
+        "test",
+        "warp_angle_rad",
+        "warp_moment_lbf_in",
+        "warp_stiffness_lbf_in_per_rad",
+    ]);
     for (name, ..) in PARTS {
-        write!(out, ",{name}_lbf_in")?;
+        table.text(&format!("{name}_lbf_in"));
     }
-    writeln!(out, ",growth")?;
-    let us = |value: f64| converted(value, Kind::Moment, Units::Us);
+    table.text("growth").end()?;
+    let us = |value: f64| format!("{:.1}", converted(value, Kind::Moment, Units::Us));
     for test in tests {
         for ((angle, stiffness), parts) in test.curve.stiffness.iter().zip(&test.curve.parts) {
-            let label = test.label.replace(',', ";");
-            write!(
-                out,
-                "{label},{angle},{:.1},{:.1}",
-                us(angle * stiffness),
-                us(*stiffness)
-            )?;
+            table.text(&test.label).shown(angle);
+            table.text(&us(angle * stiffness)).text(&us(*stiffness));
             for part in parts {
-                write!(out, ",{:.1}", us(*part))?;
+                table.text(&us(*part));
             }
-            writeln!(out, ",{}", test.curve.growth.name())?;
+            table.text(test.curve.growth.name()).end()?;
         }
     }
     for (name, stiffness) in NUCARS_STIFFNESS {
         for angle in [0.010, 0.020] {
-            let name = name.replace(',', "");
-            writeln!(
-                out,
-                "{name},{angle},{:.1},{:.1},,,,,,,",
-                us(angle * stiffness),
-                us(stiffness)
-            )?;
+            table.text(name).shown(angle);
+            table.text(&us(angle * stiffness)).text(&us(stiffness));
+            for _ in PARTS {
+                table.missing();
+            }
+            table.missing().end()?;
         }
     }
     Ok(())
@@ -87,28 +84,23 @@ pub fn write_stiffness(tests: &[Tested], out: &mut dyn Write) -> io::Result<()> 
 /// # Errors
 /// The writer's.
 pub fn write_loops(tests: &[Tested], out: &mut dyn Write) -> io::Result<()> {
-    write!(out, "test,time_s,warp_angle_rad,warp_moment_lbf_in")?;
+    let mut table = RowWriter::new(out);
+    table.texts(["test", "time_s", "warp_angle_rad", "warp_moment_lbf_in"]);
     for (name, ..) in PARTS {
-        write!(out, ",{name}_lbf_in")?;
+        table.text(&format!("{name}_lbf_in"));
     }
-    writeln!(out)?;
+    table.end()?;
     for test in tests {
         let column = |name: &str| test.result.column(name).unwrap_or_default();
         let mut columns = vec![column("warp_moment")];
         columns.extend(PARTS.map(|(name, ..)| column(&format!("warp_moment_{name}"))));
         let (times, angles) = (column("time"), column("warp_angle"));
         for row in test.curve.rows.clone() {
-            write!(
-                out,
-                "{},{},{}",
-                test.label.replace(',', ";"),
-                times[row],
-                angles[row]
-            )?;
+            table.text(&test.label).shown(times[row]).shown(angles[row]);
             for column in &columns {
-                write!(out, ",{}", converted(column[row], Kind::Moment, Units::Us))?;
+                table.shown(converted(column[row], Kind::Moment, Units::Us));
             }
-            writeln!(out)?;
+            table.end()?;
         }
     }
     Ok(())

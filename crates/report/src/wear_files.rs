@@ -8,7 +8,7 @@ use study::wear::{LIMIT, WearHistory, WearLaw, WearPlan, WearState, maps};
 use wedge::face::{DepthMap, FaceProperties};
 use wedge::outputs::FACES;
 
-use crate::csv::converted;
+use crate::csv::{RowWriter, converted};
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures::{axis, capital, digits, over_face};
 
@@ -119,22 +119,22 @@ pub fn write_course(history: &WearHistory, out: &mut dyn Write) -> io::Result<()
     let units = history.case.simulation.output_units;
     let worn = history.states.iter().any(|state| state.counterfaces.is_some());
     let numbers = numbers(worn);
-    write!(out, "cycles")?;
+    let mut table = RowWriter::new(out);
+    table.text("cycles");
     for (name, kind, _) in &numbers {
         let unit = kind.map_or(volume(0.0, units).1, |kind| kind.suffix(units));
-        write!(out, ",{name}_{unit}")?;
+        table.text(&format!("{name}_{unit}"));
     }
-    writeln!(out)?;
+    table.end()?;
     for state in &history.states {
-        write!(out, "{}", state.cycles)?;
+        table.shown(state.cycles);
         for (_, kind, of) in &numbers {
-            let value = match kind {
+            table.shown(match kind {
                 Some(kind) => converted(of(state), *kind, units),
                 None => volume(of(state), units).0,
-            };
-            write!(out, ",{value}")?;
+            });
         }
-        writeln!(out)?;
+        table.end()?;
     }
     Ok(())
 }
@@ -151,10 +151,12 @@ fn faces(history: &WearHistory) -> [&FaceProperties; 2] {
 pub fn write_points(history: &WearHistory, out: &mut dyn Write) -> io::Result<()> {
     let units = history.case.simulation.output_units;
     let (length, pressure) = (Kind::Length.suffix(units), Kind::Pressure.suffix(units));
-    writeln!(
-        out,
-        "cycles,face,point,up_{length},across_{length},depth_{length},mean_pressure_{pressure}"
-    )?;
+    let mut table = RowWriter::new(out);
+    table.texts(["cycles", "face", "point"]);
+    for name in ["up", "across", "depth"] {
+        table.text(&format!("{name}_{length}"));
+    }
+    table.text(&format!("mean_pressure_{pressure}")).end()?;
     let rectangles = history.case.parameters.rectangles();
     for state in &history.states {
         for (number, face) in faces(history).into_iter().enumerate() {
@@ -163,15 +165,13 @@ pub fn write_points(history: &WearHistory, out: &mut dyn Write) -> io::Result<()
             points.sort_by_key(|(_, point)| (point.row, point.column));
             for (i, point) in points {
                 let (up, across) = rectangles[number].distances(&point);
-                let [up, across, depth] =
-                    [up, across, own.depths[i]].map(|value| converted(value, Kind::Length, units));
-                let pressure = converted(own.pressures[i], Kind::Pressure, units);
-                writeln!(
-                    out,
-                    "{},{name},{},{up},{across},{depth},{pressure}",
-                    state.cycles,
-                    point.number()
-                )?;
+                table.shown(state.cycles).text(name).shown(point.number());
+                for length in [up, across, own.depths[i]] {
+                    table.shown(converted(length, Kind::Length, units));
+                }
+                table
+                    .shown(converted(own.pressures[i], Kind::Pressure, units))
+                    .end()?;
             }
         }
     }
@@ -207,10 +207,16 @@ fn write_map<'m>(
 ) -> io::Result<()> {
     let units = history.case.simulation.output_units;
     let unit = Kind::Length.label(units);
-    writeln!(out, "up [{unit}], across [{unit}], depth [{unit}]")?;
+    let mut table = RowWriter::new(out);
+    for name in ["up", " across", " depth"] {
+        table.text(&format!("{name} [{unit}]"));
+    }
+    table.end()?;
     for point in map.flat_map(DepthMap::points) {
-        let [up, across, depth] = point.map(|value| converted(value, Kind::Length, units));
-        writeln!(out, "{up},{across},{depth}")?;
+        for value in point {
+            table.shown(converted(value, Kind::Length, units));
+        }
+        table.end()?;
     }
     Ok(())
 }

@@ -6,6 +6,7 @@ use std::io::{self, Write};
 use wheelrail::profile::Profile;
 use wheelrail::wheelset::RigidPosition;
 
+use crate::csv::RowWriter;
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 /// The table.
@@ -25,25 +26,21 @@ const INCH: f64 = 0.0254;
 /// # Errors
 /// The writer's.
 pub fn write(positions: &[RigidPosition], out: &mut dyn Write) -> io::Result<()> {
-    writeln!(
-        out,
-        "shift_in,rolling_radius_difference_in,left_contact_angle_rad,right_contact_angle_rad,roll_rad,\
-         left_wheel_place_in,right_wheel_place_in,left_rail_place_in,right_rail_place_in"
-    )?;
+    let mut table = RowWriter::new(out);
+    table.texts(["shift_in", "rolling_radius_difference_in"]);
+    table.texts(["left_contact_angle_rad", "right_contact_angle_rad", "roll_rad"]);
+    table.texts(["left_wheel_place_in", "right_wheel_place_in"]);
+    table.texts(["left_rail_place_in", "right_rail_place_in"]).end()?;
     for position in positions {
         let [left, right] = position.contact_angles();
         let [a, b] = &position.touches;
-        writeln!(
-            out,
-            "{},{},{left},{right},{},{},{},{},{}",
-            position.shift / INCH,
-            position.rolling_radius_difference() / INCH,
-            position.roll,
-            a.profile / INCH,
-            b.profile / INCH,
-            a.place[1] / INCH,
-            b.place[1] / INCH
-        )?;
+        table.shown(position.shift / INCH);
+        table.shown(position.rolling_radius_difference() / INCH);
+        table.shown(left).shown(right).shown(position.roll);
+        for place in [a.profile, b.profile, a.place[1], b.place[1]] {
+            table.shown(place / INCH);
+        }
+        table.end()?;
     }
     Ok(())
 }

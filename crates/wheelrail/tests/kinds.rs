@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use wheelrail::profile::{Points, Profile, ProfileError, ProfileKind, nominal};
+use wheelrail::profile::{Points, Profile, ProfileError, ProfileKind, check_gauge, nominal};
 
 /// Points along a profile, m.
 fn sampled(profile: &Profile, spacing: f64) -> Vec<[f64; 2]> {
@@ -181,6 +181,37 @@ fn rails() -> Vec<(&'static str, Vec<[f64; 2]>)> {
         ),
         0.012,
     );
+    // A crossing's nose of 20 mm beside a plateau 38 mm below, and a wing rail beside its flangeway.
+    let nose = placed(
+        drawn(
+            [-0.005, -0.034],
+            &[
+                line(32.0, 80.0),
+                arc(4.5, 80.0, 0.0),
+                line(10.0, 0.0),
+                arc(4.5, 0.0, -80.0),
+                line(30.0, -80.0),
+                arc(4.5, -80.0, 0.0),
+                line(45.0, 0.0),
+            ],
+        ),
+        0.008,
+    );
+    let mirrored = |points: &[[f64; 2]]| points.iter().map(|[y, z]| [-y, *z]).collect::<Vec<_>>();
+    let wing = mirrored(&nose);
+    let stock = placed(
+        drawn(
+            [0.0, 0.0],
+            &[
+                line(45.0, 0.0),
+                arc(4.5, 0.0, 80.0),
+                line(30.0, 80.0),
+                arc(13.0, 80.0, 3.0),
+                line(30.0, 0.0),
+            ],
+        ),
+        0.07,
+    );
     // A rail with head, web and foot: 136RE's sizes.
     let head = upright.clone();
     let mut whole = vec![[-0.0762, -0.1857], [-0.0762, -0.174]];
@@ -215,6 +246,9 @@ fn rails() -> Vec<(&'static str, Vec<[f64; 2]>)> {
             "grooved, without its field side",
             grooved.iter().copied().filter(|[y, _]| *y < 0.03).collect(),
         ),
+        ("the nose, part of a crossing without its other side", nose),
+        ("the wing, without its other side", wing),
+        ("a head beside a wide flangeway, without its field side", stock),
         ("UIC60", file("manchester/MBench_UIC60_v3.prr").points),
         ("S-UIC 519-A", file("en15302/rail_a.csv").points),
         (
@@ -224,15 +258,16 @@ fn rails() -> Vec<(&'static str, Vec<[f64; 2]>)> {
     ]
 }
 
-/// Every wheel is read as a wheel and refused as a rail, with noise, from either end, upside down and
-/// mirrored.
+/// Every wheel is read as a wheel and refused as a rail, with noise, from either end and mirrored. Upside down
+/// it may be a crossing's nose; then its datum is far from its highest point, which is told where gauge is
+/// measured.
 #[test]
 fn issue_047_a_wheel_is_no_rail() {
     for (name, points) in wheels() {
         made(&points, ProfileKind::Wheel).unwrap_or_else(|error| panic!("{name}: {error}"));
         made(&noisy(&points), ProfileKind::Wheel).unwrap_or_else(|error| panic!("{name}: {error}"));
-        for signs in [[1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]] {
-            let image: Vec<[f64; 2]> = points.iter().map(|[y, z]| [signs[0] * y, signs[1] * z]).collect();
+        for side in [1.0, -1.0] {
+            let image: Vec<[f64; 2]> = points.iter().map(|[y, z]| [side * y, *z]).collect();
             refused(&image, ProfileKind::Rail, name);
             refused(&noisy(&image), ProfileKind::Rail, name);
         }
@@ -241,6 +276,18 @@ fn issue_047_a_wheel_is_no_rail() {
         // The datum does not count: from the back of the flange on.
         let shifted: Vec<[f64; 2]> = points.iter().map(|[y, z]| [y + 0.1, z + 0.03]).collect();
         refused(&shifted, ProfileKind::Rail, name);
+        let upside_down: Vec<[f64; 2]> = points.iter().map(|[y, z]| [*y, -z]).collect();
+        let wheel = nominal::cone(0.05, 0.05).unwrap();
+        let error = made(&upside_down, ProfileKind::Rail)
+            .and_then(|rail| check_gauge(&wheel, &rail, 1.5, 1.435, 0.014))
+            .unwrap_err();
+        assert!(
+            matches!(
+                error,
+                ProfileError::Datum { .. } | ProfileError::Orientation { .. }
+            ),
+            "{name}: {error}"
+        );
     }
 }
 

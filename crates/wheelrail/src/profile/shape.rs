@@ -10,7 +10,8 @@
 //! any hollow of a wheel where there is one.
 //!
 //! Nothing is said of what may be either: lines and arcs without a flange, a rail's crown alone, a wheel
-//! without the tip of its flange. The datum does not count, and a wheel is recognized upside down and mirrored.
+//! without the tip of its flange, a wheel upside down, which has the shape of a crossing's nose. The datum does
+//! not count, nor does the side of the flange.
 
 use super::ProfileKind;
 use super::error::{ProfileError, ProfilePlace};
@@ -24,6 +25,8 @@ const HEIGHTS: [f64; 2] = [15e-3, 45e-3];
 const LEVEL: f64 = 0.35;
 /// A flange's face is at least so steep, rad, and so much steeper than the tip.
 const FACE: [f64; 2] = [0.8, 0.44];
+/// Largest width of a flange 5 mm above its tip, m: the floor of a flangeway is wider.
+const FLANGE: f64 = 35e-3;
 /// Least width of a tread, m.
 const TREAD: f64 = 20e-3;
 /// Least width of a keeper, m.
@@ -44,37 +47,31 @@ pub(super) fn check(points: &Points, kind: ProfileKind) -> Result<(), ProfileErr
     let Some(curve) = evenly(&points.points) else {
         return Ok(());
     };
-    let flanges = [[1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(|signs| flange(&curve, signs));
-    let (found, sign) = match kind {
-        ProfileKind::Rail => {
-            let Some(one) = flanges.iter().flatten().next() else {
-                return Ok(());
-            };
-            let sign = format!(
-                "it has a flange of {:.1} mm at y = {:.1} mm, and beside that a tread",
-                1e3 * one.height,
-                1e3 * one.at
-            );
+    // With the flange at smaller y, or at larger y.
+    let wheel = |upright: f64| {
+        [1.0, -1.0]
+            .into_iter()
+            .find_map(|side| flange(&curve, [side, upright]))
+    };
+    let (found, sign) = match (kind, wheel(1.0)) {
+        (ProfileKind::Rail, None) => return Ok(()),
+        (ProfileKind::Rail, Some(flange)) => {
+            let [height, at] = [flange.height, flange.at].map(|length| 1e3 * length);
+            let sign =
+                format!("it has a flange of {height:.1} mm at y = {at:.1} mm, and a tread beside that");
             (ProfileKind::Wheel, sign)
         }
-        ProfileKind::Wheel => {
+        (ProfileKind::Wheel, flange) => {
+            let least = if flange.is_some() { HOLLOW } else { HEAD };
+            let head = head(&curve).filter(|(_, falls)| falls.iter().all(|fall| *fall > least));
             // A wheel upside down has its own message.
-            let [upright, upside_down] =
-                [&flanges[..2], &flanges[2..]].map(|two| two.iter().any(Option::is_some));
-            let least = if upright { HOLLOW } else { HEAD };
-            let Some((top, falls)) = head(&curve).filter(|(_, falls)| falls.iter().all(|fall| *fall > least))
-            else {
+            let Some((top, falls)) = head.filter(|_| wheel(-1.0).is_none()) else {
                 return Ok(());
             };
-            if upside_down {
-                return Ok(());
-            }
+            let [top, left, right] = [top, falls[0], falls[1]].map(|length| 1e3 * length);
             let sign = format!(
-                "it is highest at y = {:.1} mm, and falls by {:.1} mm towards smaller y, by {:.1} mm towards larger \
-                 y",
-                1e3 * top,
-                1e3 * falls[0],
-                1e3 * falls[1]
+                "it is highest at y = {top:.1} mm, and falls by {left:.1} mm towards smaller y, by {right:.1} mm \
+                 towards larger y"
             );
             (ProfileKind::Rail, sign)
         }
@@ -136,9 +133,11 @@ fn flange(points: &[[f64; 2]], signs: [f64; 2]) -> Option<Flange> {
     let (keeper, _) = level(0..tip);
     let begin = (tip..last).find(|i| points[*i][1] - bottom > HEIGHTS[0] && angle(*i).abs() < LEVEL)?;
     let steepest = (tip..begin).map(angle).fold(f64::NEG_INFINITY, f64::max);
+    let flange = points[..begin].iter().filter(|[_, z]| z - bottom < 5e-3).count() as f64 * SPACING;
     let falls = points[begin..].iter().any(|[_, z]| height - z > HOLLOW);
     let from_tip = angle(tip);
     let found = tread > TREAD
+        && flange < FLANGE
         && keeper < KEEPER
         && height - bottom < HEIGHTS[1]
         && !falls
