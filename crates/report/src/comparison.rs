@@ -15,7 +15,7 @@ use crate::overlay::{self, Axes};
 use crate::plot;
 use crate::table::{ResultTable, TableColumn};
 use choose::choose;
-use energies::energies;
+use energies::{SummaryPart, energies, summaries};
 pub use error::ComparisonError;
 
 mod choose;
@@ -131,7 +131,7 @@ pub struct Comparison {
 
 impl Comparison {
     /// Compares results with the first of them; `columns` chooses, empty: the main ones that all have, else
-    /// all that all have.
+    /// all that all have, if they are runs of one model.
     ///
     /// # Errors
     /// See [`ComparisonError`].
@@ -142,7 +142,9 @@ impl Comparison {
             });
         };
         let mut notes = Vec::new();
-        let columns = choose(first, others, columns, &mut notes)?;
+        let summaries = summaries(entries, &mut notes);
+        let models: Vec<_> = summaries.iter().map(SummaryPart::model).collect();
+        let columns = choose(entries, &models, columns, &mut notes)?;
         let span = common_span(entries)?;
         let within = |time: &f64| *time >= span.0 && *time <= span.1;
         let times: Vec<f64> = first.table.times().iter().copied().filter(within).collect();
@@ -168,7 +170,7 @@ impl Comparison {
             units,
             span,
             rows: times.len(),
-            energies: energies(entries, units, &mut notes),
+            energies: energies(&summaries, units),
             notes,
             columns,
             differences,

@@ -8,10 +8,12 @@ use std::path::Path;
 
 use quantity::System as Units;
 use report::files::{FileError, Folder, check_all};
-use report::{csv, mat, run_files};
+use report::{csv, curves_files, lock_up_files, mat, run_files};
 use study::case::{Case, builtin};
+use study::lock_up::{LockUpMap, MapAxis, MapPoint, MapRange, RigOutcome};
 use study::result::RunResult;
 use study::run::Run;
+use study::truck::loop_curve::{LoopCurve, LoopKind};
 
 const FIXED: &str = "time_s,bolster_vertical_in,wedge_x_in,wedge_z_in,wedge_pitch_rad,wedge_yaw_rad,\
                      longitudinal_wedge_force_lbf,vertical_wedge_force_lbf,vertical_force_on_side_frame_lbf,\
@@ -218,4 +220,87 @@ fn what_is_in_the_way_is_named() {
     ];
     let error = check_all(all, false).unwrap_err().to_string();
     assert!(error.ends_with("and 1 more"), "{error}");
+}
+
+/// Texts in tables are read back as they were written, whatever is in them.
+#[test]
+fn issue_047_texts_in_tables_read_back_the_same() {
+    const REASONS: [&str; 6] = [
+        "the wedge lifts off, slides",
+        "\"quoted\" at the beginning, and \"\"twice",
+        "two\nlines\r\nor three",
+        ",",
+        "\"",
+        "plain; with a semicolon",
+    ];
+    let read = |bytes: &[u8]| -> Vec<Vec<String>> {
+        let mut reader = ::csv::ReaderBuilder::new().has_headers(false).from_reader(bytes);
+        let records = reader.records().map(Result::unwrap);
+        records
+            .map(|record| record.iter().map(str::to_owned).collect())
+            .collect()
+    };
+    let span = |axis| MapRange {
+        axis,
+        ends: [0.1, 0.2],
+    };
+    let map = LockUpMap {
+        spans: [span(MapAxis::Angle), span(MapAxis::Friction)],
+        values: [vec![0.1], vec![0.1; REASONS.len()]],
+        cells: REASONS
+            .iter()
+            .map(|reason| MapPoint {
+                found: RigOutcome::Unknown((*reason).to_owned()),
+                closing_angle: 0.1,
+                margin: 0.1,
+                holding: [f64::NAN, 0.5],
+                ratio: f64::INFINITY,
+                expected_ratio: None,
+            })
+            .collect(),
+        interrupted: None,
+    };
+    let mut bytes = Vec::new();
+    lock_up_files::write_table(&map, Units::Us, &mut bytes).unwrap();
+    let rows = read(&bytes);
+    assert_eq!(rows.len(), 1 + REASONS.len());
+    for (row, reason) in rows[1..].iter().zip(REASONS) {
+        assert_eq!(row[9], reason);
+        // What is no number is an empty cell.
+        assert_eq!(row[5..9], ["", "0.5", "", ""]);
+    }
+    let mut loops: Vec<curves_files::LabeledLoop> = Vec::new();
+    for reason in REASONS {
+        let own = LoopCurve {
+            kind: LoopKind::Roll,
+            rows: 0..1,
+            motion: vec![0.5],
+            resistance: vec![0.0],
+            amplitude: 0.0,
+            stiffness: 0.0,
+            friction: 0.0,
+            energy: 0.0,
+            loss_ratio: 0.0,
+        };
+        loops.push((reason.to_owned(), own));
+    }
+    let mut bytes = Vec::new();
+    curves_files::write(&loops, &mut bytes).unwrap();
+    let rows = read(&bytes);
+    assert_eq!(rows.len(), 1 + REASONS.len());
+    for (row, reason) in rows[1..].iter().zip(REASONS) {
+        assert_eq!(row[..], [reason, "0.5", "0"]);
+    }
+    // The writer itself: first cells may be empty.
+    let mut bytes = Vec::new();
+    let mut rows = csv::RowWriter::new(&mut bytes);
+    rows.missing()
+        .text("a,b")
+        .number(1e-7)
+        .shown(1e-7)
+        .finite(f64::NAN)
+        .end()
+        .unwrap();
+    rows.text("").end().unwrap();
+    assert_eq!(String::from_utf8(bytes).unwrap(), ",\"a,b\",1e-7,0.0000001,\n\n");
 }

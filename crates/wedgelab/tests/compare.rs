@@ -354,6 +354,168 @@ fn results_that_do_not_fit() {
     assert!(!out.contains("energy per cycle"), "{out}");
 }
 
+/// Runs of a wedge, a truck, a half-truck, a car and a wheelset are not compared by names that happen to be
+/// the same; chosen columns are. Columns of one of them alone are named.
+#[test]
+fn issue_047_runs_of_different_models_are_not_compared_by_name() {
+    let folder = temporary();
+    let path = folder.path();
+    for (case, duration, out) in [
+        ("vdrun_toe_0_psi_0", "0.05 s", "wedge"),
+        ("planar_variable", "0.05 s", "planar"),
+        ("truck_drop_constant", "0.02 s", "truck"),
+    ] {
+        let duration = format!("simulation.duration={duration}");
+        done(path, &["run", case, "--quiet", "--set", &duration, "--out", out]);
+    }
+    let model = |model: &str, schema: &str, columns: &str| {
+        fs::create_dir(path.join(model)).unwrap();
+        let width = columns.split(',').count();
+        let rows = [0.0, 0.02].map(|time| format!("{time}{}\n", ",1".repeat(width)));
+        let text = format!("time_s,{columns}\n{}", rows.concat());
+        fs::write(path.join(model).join("result.csv"), text).unwrap();
+        let summary = format!("{{ \"schema\": \"{schema}\" }}");
+        fs::write(path.join(model).join("summary.json"), summary).unwrap();
+    };
+    let shared = "bolster_roll_rad,stored_energy_change_lbf_in,ledger_residual_lbf_in";
+    model("half_truck", "wedgelab.truck/2", shared);
+    model("car", "wedgelab.car/1", shared);
+    model("wheelset", "wedgelab.wheelset/1", shared);
+    for (first, own) in [("wedge", "a wedge"), ("truck", "a truck")] {
+        for (second, other) in [
+            ("wedge", "a wedge"),
+            ("truck", "a truck"),
+            ("half_truck", "a half-truck"),
+            ("car", "a car"),
+            ("wheelset", "a wheelset"),
+        ] {
+            if first == second {
+                continue;
+            }
+            for (first, own, second, other) in [(first, own, second, other), (second, other, first, own)] {
+                let texts = [
+                    &*format!("`{first}/result.csv` is a run of {own}"),
+                    &*format!("`{second}/result.csv` one of {other}"),
+                    "choose by --columns",
+                    "--map NAME=OTHER",
+                    "stored_energy_change",
+                ];
+                refused(path, &["compare", first, second], &texts);
+            }
+        }
+    }
+    let chosen = [
+        "compare",
+        "wedge",
+        "truck",
+        "--columns",
+        "bolster_roll",
+        "--out",
+        "roll",
+    ];
+    let out = done(path, &chosen);
+    assert!(
+        out.contains("bolster_roll") && !out.contains("ledger_residual"),
+        "{out}"
+    );
+    // Summaries of trucks have no averages, which is no fault of theirs.
+    assert!(!out.contains("cannot be read"), "{out}");
+
+    let out = done(path, &["compare", "wedge", "planar", "--out", "two"]);
+    assert!(!out.contains(" has not: "), "{out}");
+    fs::write(
+        path.join("rig.csv"),
+        "time_s,wedge_z_in,stroke_in,load_lbf\n0,0,1,2\n0.05,0.1,2,3\n",
+    )
+    .unwrap();
+    let out = done(path, &["compare", "wedge", "rig.csv", "--out", "rig"]);
+    assert!(out.contains("rig has, and wedge has not: stroke, load."), "{out}");
+    assert!(
+        out.contains("wedge has, and rig has not: bolster_vertical, ") && out.contains(" more."),
+        "{out}"
+    );
+}
+
+/// A column without unit is named with what to write; where nothing is left, nothing is compared.
+#[test]
+fn issue_047_columns_without_units_are_named() {
+    let folder = temporary();
+    let path = folder.path();
+    let write = |name: &str, header: &str| {
+        let cells = header.split(',').count();
+        let row = |time: f64, value: &str| format!("{time}{}\n", format!(",{value}").repeat(cells - 1));
+        fs::write(
+            path.join(name),
+            format!("{header}\n{}{}", row(0.0, "1"), row(1.0, "2")),
+        )
+        .unwrap();
+    };
+    write("car.csv", "time_s,speed_mph,bolster_z_in,axle_1_1_vertical_lbf");
+    write("bare.csv", "time_s,speed,bolster_z");
+    write("half.csv", "time_s,speed_mph,bolster_z");
+    write("odd.csv", "time_s,axle_1_1_vertical_stone");
+    write("timeless.csv", "time,speed_mph");
+    for (first, second) in [("car.csv", "bare.csv"), ("bare.csv", "car.csv")] {
+        refused(
+            path,
+            &["compare", first, second],
+            &[
+                "can be compared: `speed` has no unit in `bare.csv`, and is a speed in `car.csv`; `bolster_z` has no unit",
+                "write speed_",
+                "bolster_z_in or bolster_z_m",
+            ],
+        );
+    }
+    refused(
+        path,
+        &["compare", "car.csv", "bare.csv", "--columns", "bolster_z"],
+        &[
+            "`bolster_z` has no unit in `bare.csv`, and is a length in `car.csv`",
+            "write bolster_z_in or bolster_z_m",
+        ],
+    );
+    let out = done(path, &["compare", "car.csv", "half.csv", "--out", "half"]);
+    assert!(
+        out.contains("`bolster_z` has no unit in `half.csv`")
+            && out.contains("left out: write bolster_z_in or"),
+        "{out}"
+    );
+    assert!(
+        out.contains("car has, and half has not: axle_1_1_vertical."),
+        "{out}"
+    );
+    near(
+        difference(&path.join("half"), "speed", "half", "largest_difference"),
+        0.0,
+    );
+    refused(
+        path,
+        &["compare", "car.csv", "odd.csv"],
+        &[
+            "no column in common",
+            "the unit `stone` of `axle_1_1_vertical_stone` is not known: write axle_1_1_vertical_lbf or axle_1_1_vertical_N",
+        ],
+    );
+    let output = wedgelab(path, &["compare", "car.csv", "timeless.csv"]);
+    assert!(
+        output.code == Some(2) && output.err.contains("write time_s"),
+        "{}",
+        output.err
+    );
+    assert!(!output.err.contains("time_s or time_s"), "{}", output.err);
+}
+
+/// A first result that hardly moves has no percentages of its range in the table.
+#[test]
+fn issue_047_percentages_beyond_all_measure_are_not_printed() {
+    let folder = temporary();
+    let path = folder.path();
+    fs::write(path.join("still.csv"), "time_s,stroke_in\n0,0\n1,1e-6\n").unwrap();
+    fs::write(path.join("moving.csv"), "time_s,stroke_in\n0,0\n1,2\n").unwrap();
+    let out = done(path, &["compare", "still.csv", "moving.csv"]);
+    assert!(out.contains("> 10000") && !out.contains("199999900"), "{out}");
+}
+
 /// Names of others may hold what no file is to be named.
 #[test]
 fn odd_names_stay_in_the_folder() {

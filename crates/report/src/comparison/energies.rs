@@ -1,4 +1,4 @@
-//! Energies per cycle and outcomes, from the summaries beside the results.
+//! What the summaries beside the results say: models, energies per cycle, outcomes.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -19,9 +19,11 @@ const SUMMARY_FILE: Expected = Expected {
     most: limits::RECORD_FILE,
 };
 
-/// The part of a summary that is read.
-#[derive(Deserialize)]
-struct SummaryPart {
+/// The part of a summary that is read; only those of wedges have averages.
+#[derive(Default, Deserialize)]
+pub(super) struct SummaryPart {
+    #[serde(default)]
+    schema: String,
     #[serde(default)]
     averages: AveragesPart,
     stopped: Option<EndPart>,
@@ -38,32 +40,57 @@ struct EndPart {
 
 #[derive(Default, Deserialize)]
 struct AveragesPart {
+    #[serde(default)]
     energy_per_cycle: BTreeMap<String, SummaryValue>,
 }
 
-/// Energies per cycle of the results whose summaries have them, as the first one's has.
-pub(super) fn energies(entries: &[ComparedResult], units: Units, notes: &mut Vec<String>) -> Vec<Energy> {
-    let mut read = entries
-        .iter()
-        .map(|entry| match summary_beside(&entry.table.file) {
-            Ok(found) => found.map(|part| {
-                notes.extend(unsound(&entry.label, &part));
-                part.averages.energy_per_cycle
-            }),
-            Err(error) => {
-                let label = &entry.label;
-                notes.push(format!(
-                    "The summary.json of {label} is left out, it cannot be read: {error}."
-                ));
-                None
-            }
+/// Schemas of the summaries of runs, and what they are about.
+const MODELS: [(&str, &str); 5] = [
+    (study::summary::SCHEMA, "a wedge"),
+    (study::half_truck::SCHEMA, "a half-truck"),
+    (study::truck::summary::SCHEMA, "a truck"),
+    (study::car::summary::SCHEMA, "a car"),
+    (study::wheelset::summary::SCHEMA, "a wheelset"),
+];
+
+impl SummaryPart {
+    /// Returns what the run is about, as far as it is known.
+    pub(super) fn model(&self) -> Option<&'static str> {
+        let family = |schema: &str| schema.split('/').next().map(str::to_owned);
+        let found = MODELS
+            .iter()
+            .find(|(schema, _)| family(schema) == family(&self.schema));
+        found.map(|(_, model)| *model)
+    }
+}
+
+/// Returns the summaries beside the results; an empty one where there is none or it cannot be read. Runs that
+/// are not complete are noted.
+pub(super) fn summaries(entries: &[ComparedResult], notes: &mut Vec<String>) -> Vec<SummaryPart> {
+    let read = entries.iter().map(|entry| {
+        let found = summary_beside(&entry.table.file).unwrap_or_else(|error| {
+            let label = &entry.label;
+            notes.push(format!(
+                "The summary.json of {label} is left out, it cannot be read: {error}."
+            ));
+            None
         });
-    let first = read.next().flatten().unwrap_or_default();
-    let others: Vec<_> = read.collect();
+        let found = found.unwrap_or_default();
+        notes.extend(unsound(&entry.label, &found));
+        found
+    });
+    read.collect()
+}
+
+/// Returns energies per cycle of the results whose summaries have them, as the first one's has.
+pub(super) fn energies(summaries: &[SummaryPart], units: Units) -> Vec<Energy> {
+    let Some((first, others)) = summaries.split_first() else {
+        return Vec::new();
+    };
     let mut energies = Vec::new();
-    for (place, own) in &first {
+    for (place, own) in &first.averages.energy_per_cycle {
         for (k, other) in others.iter().enumerate() {
-            let theirs = other.as_ref().and_then(|all| all.get(place));
+            let theirs = other.averages.energy_per_cycle.get(place);
             if let (Some(first), Some(value)) =
                 (energy(own, units), theirs.and_then(|one| energy(one, units)))
             {

@@ -25,6 +25,60 @@ pub enum ComparisonError {
         /// Names that are near each other.
         advice: String,
     },
+    /// Runs of different models.
+    #[error(
+        "`{}` is a run of {own} and `{}` one of {other}: a name that both have need not be the same quantity",
+        .first.display(), .second.display()
+    )]
+    #[diagnostic(help(
+        "choose by --columns those that are (both have {common}), with --map NAME=OTHER where names differ"
+    ))]
+    Models {
+        /// The first result.
+        first: PathBuf,
+        /// What it is a run of.
+        own: &'static str,
+        /// The other.
+        second: PathBuf,
+        /// What the other is a run of.
+        other: &'static str,
+        /// Names of columns that both have.
+        common: String,
+    },
+    /// Columns of the same names, none of which can be compared.
+    #[error(
+        "no column of `{}` and `{}` can be compared: {reasons}",
+        .first.display(), .second.display()
+    )]
+    #[diagnostic(help("{advice}"))]
+    NothingComparable {
+        /// The first result.
+        first: PathBuf,
+        /// The other.
+        second: PathBuf,
+        /// The reasons, column by column.
+        reasons: String,
+        /// What to write instead.
+        advice: String,
+    },
+    /// A column without unit that has one in the other result.
+    #[error(
+        "`{column}` has no unit in `{}`, and is {kind} in `{}`",
+        .first.display(), .second.display()
+    )]
+    #[diagnostic(help("{advice}"))]
+    NoUnit {
+        /// The column.
+        column: String,
+        /// The result in which it has no unit.
+        first: PathBuf,
+        /// The one in which it has one.
+        second: PathBuf,
+        /// Its kind there.
+        kind: &'static str,
+        /// The names with unit.
+        advice: String,
+    },
     /// Two columns of one name measure different things.
     #[error("`{column}` is {own} in `{}` and {other} in `{}`", .first.display(), .second.display())]
     #[diagnostic(help("rename one of the two, or leave the column out with --columns"))]

@@ -152,14 +152,18 @@ fn understand(
     }
     if let Some(kind) = known.get(cell) {
         if !kind.suffix(Units::Us).is_empty() {
-            let example = |units| format!("{cell}_{}", kind.suffix(units));
+            let [us, si] = [Units::Us, Units::Si].map(|units| format!("{cell}_{}", kind.suffix(units)));
+            let advice = match us == si {
+                true => format!("write {us}"),
+                false => format!("write {us} or {si}"),
+            };
             return Err(place.error(
                 format!(
                     "column {} (`{cell}`) has no unit; {} is expected",
                     index + 1,
                     kind.name()
                 ),
-                format!("write {} or {}", example(Units::Us), example(Units::Si)),
+                advice,
             ));
         }
         return Ok(plain(cell, *kind));

@@ -20,8 +20,9 @@ use crate::table::TerminalTable;
 ///
 /// Compares results with the first of them: those of runs (the folder or its result.csv) and other CSV files
 /// with columns of the same names, such as time_s, wedge_x_in. Different units are converted and different
-/// times interpolated, with a message. Prints the differences, and writes them as differences.csv with a
-/// figure for each column and the hysteresis loops.
+/// times interpolated, with a message. Of runs of different models (a wedge, a truck) only columns chosen by
+/// --columns are compared. Prints the differences, and writes them as differences.csv with a figure for each
+/// column and the hysteresis loops.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -214,10 +215,11 @@ fn differences(comparison: &Comparison, entries: &[ComparedResult]) -> TerminalT
     );
     let percent = |value: f64, range: f64| {
         let part = 100.0 * value.abs() / range;
-        if part.is_finite() {
-            format!("{part:.2}")
-        } else {
-            "-".to_owned()
+        match part.is_finite() {
+            // The first hardly moves: the percentage says nothing else.
+            true if part > 1e4 => "> 10000".to_owned(),
+            true => format!("{part:.2}"),
+            false => "-".to_owned(),
         }
     };
     for one in &comparison.differences {
