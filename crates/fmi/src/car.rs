@@ -53,6 +53,7 @@ pub fn plant(case: &CarCase) -> Result<Plant, Error> {
         })),
         table_takes_rates: true,
         numbers: [Vec::new(), Vec::new()],
+        rolls: true,
         residual_of_stored: false,
         options: case.simulation.options(),
         initial: Some(initial),

@@ -1,5 +1,6 @@
 //! The elements whose quantities the variables show.
 
+use mechanics::plausibility::{Location, PlausibilityFinding};
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
@@ -225,6 +226,10 @@ pub trait Element: Send {
     fn outputs(&mut self, out: &mut [f64]) -> Result<(), Error>;
     /// Returns the values to observe.
     fn columns(&mut self, out: &mut [f64]);
+    /// Returns what has been implausible so far, the present instant included.
+    fn findings(&mut self) -> Vec<PlausibilityFinding>;
+    /// Returns the place of a finding in words.
+    fn place(&self, location: Location) -> String;
     /// Derivatives along a direction of states and inputs.
     ///
     /// # Errors

@@ -45,6 +45,7 @@ pub mod three_piece;
 pub mod truck;
 pub mod unit;
 pub mod variable;
+mod watch;
 pub mod wedge;
 
 pub use error::{Category, Error, Severity};

@@ -1,5 +1,8 @@
 //! The quasi-static wedge behind the variables. Its only states are what it accumulates: work and losses.
 
+use mechanics::plausibility::{
+    FindingKind, LARGEST_COMPRESSION_SHARE, LIFTED_SHARE, Location, PlausibilityFinding,
+};
 use mechanics::system::scales;
 use numerics::scalar::{Dual, Real};
 use quantity::Kind;
@@ -13,6 +16,7 @@ use wedge::quasi_static::{PlanePlace, PlaneReading, read};
 use crate::Error;
 use crate::element::{Element, ElementState, Entries, QuantityEntry, Setting, Slopes};
 use crate::instance::damaged;
+use crate::system::rate_of;
 use crate::unit::Unit;
 use crate::wedge::entries::NEIGHBOURS;
 use crate::wedge::parameters;
@@ -73,12 +77,12 @@ pub fn entries(case: &Case) -> Result<Entries, Error> {
             entry.rate = Some(first + 2 + number);
             inputs.push(entry);
         }
-        for (axis, k) in [("x", 0), ("z", 2)] {
+        for axis in ["x", "z"] {
             inputs.push(QuantityEntry::real(
                 format!("{name}_{axis}_rate"),
                 unit(Kind::Speed),
-                Some(place.rate[k]),
-                format!("rate of {name}_{axis}"),
+                Some(0.0),
+                rate_of(&format!("{name}_{axis}")),
             ));
         }
     }
@@ -426,6 +430,33 @@ impl Element for QuasiStaticElement {
     }
 
     fn columns(&mut self, _: &mut [f64]) {}
+
+    fn findings(&mut self) -> Vec<PlausibilityFinding> {
+        let Ok(reading) = self.here() else {
+            return Vec::new();
+        };
+        let (compression, coil) = (reading.coil_compression, &self.parameters.coil);
+        let lifted = FindingKind::Lifted { pulls: coil.pulls };
+        let solid = (FindingKind::Solid, compression, LARGEST_COMPRESSION_SHARE);
+        let checks = [solid, (lifted, -compression, LIFTED_SHARE)];
+        let is_inside = self.coil_mode != 2;
+        let found = checks.into_iter().filter_map(|(kind, value, share)| {
+            let limit = share * coil.free_length;
+            (value > limit && is_inside).then_some(PlausibilityFinding {
+                kind,
+                location: Location::Coil(0),
+                time: Some(self.time),
+                since: None,
+                value,
+                limit,
+            })
+        });
+        found.collect()
+    }
+
+    fn place(&self, _: Location) -> String {
+        "the coil of the wedge".to_owned()
+    }
 
     fn jacobian_vector_product(&mut self, _: &[f64], inputs: &[f64]) -> Result<Slopes, Error> {
         let change = |k: usize| inputs.get(k).copied().unwrap_or(0.0);

@@ -46,6 +46,7 @@ pub fn plant(case: &TruckCase, driven: bool) -> Result<Plant, Error> {
             table.read(seen, start, row);
         })),
         numbers: [Vec::new(), Vec::new()],
+        rolls: false,
         residual_of_stored: false,
         options: Options {
             relative_tolerance: case.simulation.relative_tolerance,

@@ -116,9 +116,11 @@ impl Component {
     }
 
     fn wants(&self, message: &Message) -> bool {
-        // What is refused or has failed is always said.
-        matches!(message.severity, Severity::Error | Severity::Discard)
-            || (self.logging && self.categories[index(message.category)])
+        // What is refused, has failed or is doubtful is always said.
+        matches!(
+            message.category,
+            Category::Error | Category::Discard | Category::Warning
+        ) || (self.logging && self.categories[index(message.category)])
     }
 }
 
@@ -237,6 +239,10 @@ pub(crate) unsafe fn call(
         messages.extend(unanswered.map(|why| refusal(function, Severity::Discard, &why)));
         messages.extend(failure.map(|why| refusal(function, Severity::Error, &why)));
         messages.retain(|message| component.wants(message));
+        let is_doubtful = messages
+            .iter()
+            .any(|message| message.category == Category::Warning);
+        let status = if is_doubtful { status.max(WARNING) } else { status };
         if messages.is_empty() {
             return status;
         }

@@ -157,6 +157,7 @@ impl HalfTruck {
             ports,
             table: Some(Box::new(move |seen, _, row| columns.read(seen, row))),
             numbers: [case.truck.bodies.clone(), case.truck.connections.clone()],
+            rolls: false,
             residual_of_stored: false,
             options: Options {
                 relative_tolerance: case.relative_tolerance,

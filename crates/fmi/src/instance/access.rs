@@ -185,6 +185,9 @@ impl Instance {
                 if let Some(input) = self.values.inputs.get_mut(i) {
                     *input = value;
                 }
+                if let Some(set) = self.values.set.get_mut(i) {
+                    *set |= !self.phase.is_before_start();
+                }
                 self.stale = true;
                 if self.phase.is_before_start() {
                     self.element = None;

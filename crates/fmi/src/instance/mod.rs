@@ -7,11 +7,13 @@ mod access;
 mod phase;
 mod save;
 mod step;
+mod warn;
 
 pub use phase::Phase;
 pub use save::Saved;
 pub(crate) use save::{check_finite, damaged};
 pub use step::EventUpdate;
+use warn::Warned;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -21,8 +23,10 @@ use study::case::Case;
 
 use crate::description::{Description, FmuModel, Version};
 use crate::element::{Element, Interface, Setting};
+use crate::extrapolate::Point;
 use crate::source::Source;
 use crate::variable::Start;
+use crate::watch::{Doubt, positions};
 use crate::{Category, Error, Severity, resources};
 
 /// A message for the importer's log.
@@ -52,8 +56,12 @@ struct Values {
     inputs: Vec<f64>,
     /// Derivatives of the inputs, for the next step only.
     slopes: Vec<Option<f64>>,
-    /// Inputs one communication step earlier, and its length, s.
-    before: Option<(Vec<f64>, f64)>,
+    /// True for each input that has been set since the initialization.
+    set: Vec<bool>,
+    /// Inputs at earlier points, the latest last.
+    past: Vec<Point>,
+    /// Doubts about positions and their rates.
+    doubts: Vec<Doubt>,
 }
 
 /// An instance.
@@ -77,6 +85,8 @@ pub struct Instance {
     /// True if changes of contact states are logged.
     log_events: bool,
     log: Vec<Message>,
+    /// The warnings that have been given: each is given once.
+    warned: Vec<Warned>,
 }
 
 impl std::fmt::Debug for Instance {
@@ -166,6 +176,7 @@ impl Instance {
             columns: None,
             log_events: false,
             log: Vec::new(),
+            warned: Vec::new(),
         })
     }
 
@@ -249,6 +260,10 @@ impl Instance {
     pub fn exit_initialization(&mut self) -> Result<(), Error> {
         self.require("initialization ends", &[Phase::Initialization])?;
         self.build()?;
+        self.values.past.push(Point {
+            time: self.time,
+            inputs: self.values.inputs.clone(),
+        });
         self.phase = match self.interface {
             Interface::ModelExchange => Phase::Event,
             Interface::CoSimulation => Phase::Step,
@@ -282,6 +297,7 @@ impl Instance {
         self.element = None;
         self.changed();
         self.stale = false;
+        self.warned.clear();
     }
 
     /// Returns the element under the values set so far.
@@ -369,7 +385,9 @@ impl Values {
                 .collect(),
             inputs: entries.inputs.iter().map(real).collect(),
             slopes: vec![None; entries.inputs.len()],
-            before: None,
+            set: vec![false; entries.inputs.len()],
+            past: Vec::new(),
+            doubts: vec![Doubt::default(); positions(&entries.inputs).count()],
         }
     }
 }

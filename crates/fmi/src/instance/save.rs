@@ -9,10 +9,12 @@ pub(crate) use check::{check_finite, damaged};
 use super::{Experiment, Instance, Phase};
 use crate::Error;
 use crate::element::{ElementState, Interface};
+use crate::extrapolate::Point;
 use crate::limits;
+use crate::watch::Doubt;
 
 /// Version of [`Saved`].
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// A saved instance: plain data, restorable in another process.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,7 +33,9 @@ pub struct Saved {
     options: Vec<i32>,
     inputs: Vec<f64>,
     slopes: Vec<Option<f64>>,
-    before: Option<(Vec<f64>, f64)>,
+    set: Vec<bool>,
+    past: Vec<Point>,
+    doubts: Vec<Doubt>,
     stale: bool,
     element: Option<ElementState>,
 }
@@ -79,7 +83,9 @@ impl Instance {
             options: self.values.options.clone(),
             inputs: self.values.inputs.clone(),
             slopes: self.values.slopes.clone(),
-            before: self.values.before.clone(),
+            set: self.values.set.clone(),
+            past: self.values.past.clone(),
+            doubts: self.values.doubts.clone(),
             stale: self.stale,
             element: self.element.as_ref().map(|element| element.save()),
         }
@@ -140,7 +146,9 @@ impl Instance {
         self.values.options.clone_from(&saved.options);
         self.values.inputs.clone_from(&saved.inputs);
         self.values.slopes.clone_from(&saved.slopes);
-        self.values.before.clone_from(&saved.before);
+        self.values.set.clone_from(&saved.set);
+        self.values.past.clone_from(&saved.past);
+        self.values.doubts.clone_from(&saved.doubts);
         self.stale = saved.stale;
         self.changed();
         Ok(())
@@ -172,6 +180,7 @@ impl Instance {
             columns: None,
             log_events: false,
             log: Vec::new(),
+            warned: Vec::new(),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Instance, Phase};
 use crate::element::Interface;
-use crate::extrapolate::{Known, Understanding, end_of_step};
+use crate::extrapolate::{Known, Point, Understanding, end_of_step};
 use crate::{Category, Error, Severity};
 
 /// The changes by handling events.
@@ -23,7 +23,7 @@ const EVALUATES: &[Phase] = &[
 ];
 
 impl Instance {
-    fn option(&self, name: &str) -> bool {
+    pub(super) fn option(&self, name: &str) -> bool {
         let place = self
             .description
             .entries
@@ -72,14 +72,19 @@ impl Instance {
             derive_rates: self.option("derive_rates"),
             at_end: self.option("inputs_at_end"),
         };
+        let point = Point {
+            time: if how.at_end { end } else { self.time },
+            inputs: self.values.inputs.clone(),
+        };
+        self.watch_inputs(&point, length, Some(how));
+        // The inputs of the initialization hold until others are set for the same time.
+        self.values.past.retain(|past| past.time < point.time);
         let known = Known {
+            time: point.time,
             values: &self.values.inputs,
             slopes: &self.values.slopes,
-            before: self
-                .values
-                .before
-                .as_ref()
-                .map(|(values, length)| (&values[..], *length)),
+            set: &self.values.set,
+            past: &self.values.past,
         };
         let inputs = end_of_step(&self.description.entries.inputs, known, length, how);
         let before: Vec<u8> = match &self.element {
@@ -93,9 +98,10 @@ impl Instance {
             return Err(error);
         }
         self.time = end;
-        self.values.before = Some((self.values.inputs.clone(), length));
+        self.values.keep(point);
         self.values.slopes.fill(None);
         self.log_modes(&before);
+        self.watch_element();
         Ok(())
     }
 
@@ -178,7 +184,26 @@ impl Instance {
     /// # Errors
     /// Called out of order.
     pub fn completed_integrator_step(&mut self) -> Result<(), Error> {
-        self.exchange("an integrator step is complete", &[Phase::Continuous])
+        self.exchange("an integrator step is complete", &[Phase::Continuous])?;
+        self.fresh()?;
+        let past = self.values.past.last();
+        let Some(length) = past
+            .map(|past| self.time - past.time)
+            .filter(|length| *length != 0.0)
+        else {
+            return Ok(());
+        };
+        let point = Point {
+            time: self.time,
+            inputs: self.values.inputs.clone(),
+        };
+        if length > 0.0 {
+            self.watch_inputs(&point, length, None);
+        }
+        self.values.past.retain(|past| past.time < point.time);
+        self.values.keep(point);
+        self.watch_element();
+        Ok(())
     }
 
     /// Sets time, s.

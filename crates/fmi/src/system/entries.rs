@@ -44,14 +44,20 @@ pub(crate) fn load(prefix: &str, on: &str, coordinate: usize, text: &str) -> Qua
     )
 }
 
-/// Adds inputs for value and rate of a coordinate of a prescribed body; they start where its own motion does.
+/// Returns the description of the input that is the rate of a position.
+pub(crate) fn rate_of(position: &str) -> String {
+    format!("rate of {position}; never set, co-simulation finds it from {position}")
+}
+
+/// Adds inputs for value and rate of a coordinate of a prescribed body; they start where its own motion does,
+/// at rest.
 pub(crate) fn add_motion(
     (inputs, ports): (&mut Vec<QuantityEntry>, &mut Ports),
     (body, own): (usize, &Body),
     coordinate: usize,
     (name, text): (&str, &str),
 ) {
-    let [value, rate, _] = own.frame.motions[coordinate].evaluate(0.0, 0.0);
+    let [value, ..] = own.frame.motions[coordinate].evaluate(0.0, 0.0);
     let (kind, rate_kind) = kinds(coordinate);
     let position = inputs.len();
     let mut entry = QuantityEntry::real(name, unit(kind), Some(value), text);
@@ -60,8 +66,8 @@ pub(crate) fn add_motion(
     inputs.push(QuantityEntry::real(
         format!("{name}_rate"),
         unit(rate_kind),
-        Some(rate),
-        format!("rate of {name}"),
+        Some(0.0),
+        rate_of(name),
     ));
     ports.motions.push(MotionPort {
         body,

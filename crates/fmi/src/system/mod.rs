@@ -12,6 +12,7 @@ mod ports;
 mod state;
 
 use integrate::{Integrator, Options, Problem};
+use mechanics::plausibility::{FindingKind, Location, Plausibility, PlausibilityFinding};
 use mechanics::system::{Contacts, Observation, StaticFriction, System};
 use study::progress::{self, Pace};
 
@@ -19,7 +20,7 @@ use crate::Error;
 use crate::element::{Element, ElementState, Interface, Setting, Slopes};
 pub(crate) use entries::{
     accumulated, accumulators, add_loads, add_motion, add_table, contact, contacts, deflection, internals,
-    kinds, ledger, load, motions, motions_along_axes, options, unit,
+    kinds, ledger, load, motions, motions_along_axes, options, rate_of, unit,
 };
 use inputs::{InputLoads, lead, place};
 pub use ports::{LoadPort, MotionPort, Plant, PortDirection, Ports, Reading, Six, StartPort, TableReader};
@@ -68,6 +69,7 @@ pub struct SystemElement {
     row: Vec<f64>,
     /// Rates of the states, for the table.
     table_rates: Vec<f64>,
+    plausibility: Plausibility,
 }
 
 impl SystemElement {
@@ -119,6 +121,7 @@ impl SystemElement {
         };
         let reports_contacts = !plant.entries.modes.is_empty();
         let contacts = reports_contacts.then(|| Contacts::new(&mut plant.system, time, &states));
+        let plausibility = Plausibility::new(&mut plant.system, time, &states);
         states.push(0.0);
         Ok(Self {
             plant,
@@ -133,6 +136,7 @@ impl SystemElement {
             piece_start: time,
             row: Vec::new(),
             table_rates: Vec::new(),
+            plausibility,
         })
     }
 
@@ -388,6 +392,19 @@ impl Element for SystemElement {
         for (target, value) in out.iter_mut().zip(own.chain(balance)) {
             *target = value;
         }
+    }
+
+    fn findings(&mut self) -> Vec<PlausibilityFinding> {
+        let (system, states) = (&mut self.plant.system, &self.states[..self.states.len() - 1]);
+        self.plausibility.note(system, self.time, states);
+        let mut findings = self.plausibility.present(system);
+        // What runs along a track leaves its place.
+        findings.retain(|own| !(self.plant.rolls && own.kind == FindingKind::Displacement));
+        findings
+    }
+
+    fn place(&self, location: Location) -> String {
+        location.describe(&self.plant.system)
     }
 
     fn jacobian_vector_product(&mut self, _: &[f64], _: &[f64]) -> Result<Slopes, Error> {

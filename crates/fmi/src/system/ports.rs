@@ -142,6 +142,8 @@ pub struct Plant {
     pub table_takes_rates: bool,
     /// Numbers of bodies and of connections in files, for messages; may be empty.
     pub numbers: [Vec<u32>; 2],
+    /// True if it runs along a track: that it leaves its place is not implausible.
+    pub rolls: bool,
     /// True if the ledger's residual is the stored and lost energy less the work; else it is its negative.
     pub residual_of_stored: bool,
     /// Options of its integration; their relative tolerance holds if the importer gives none.

@@ -49,6 +49,7 @@ pub fn plant(case: &Case) -> Result<Plant, Error> {
         ports: ports(&points),
         table: None,
         numbers: [Vec::new(), Vec::new()],
+        rolls: false,
         residual_of_stored: true,
         options: Options {
             relative_tolerance: case.simulation.relative_tolerance,

@@ -13,6 +13,7 @@ use wedge::parameters::Start as StartOfRun;
 use super::parameters;
 use crate::Error;
 use crate::element::{Entries, QuantityEntry};
+use crate::system::rate_of;
 use crate::unit::Unit;
 
 /// Neighbours, in the order of the inputs.
@@ -211,8 +212,9 @@ fn inputs(start: &Neighbours) -> Vec<QuantityEntry> {
             inputs.push(QuantityEntry::real(
                 format!("{name}_{axis}_rate"),
                 unit(kind),
-                Some(place.rate[k]),
-                format!("rate of {name}_{axis}"),
+                // At rest: held positions do not move.
+                Some(0.0),
+                rate_of(&format!("{name}_{axis}")),
             ));
         }
     }

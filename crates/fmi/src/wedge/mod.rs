@@ -4,6 +4,7 @@ pub(crate) mod entries;
 pub(crate) mod parameters;
 
 use integrate::Options;
+use mechanics::plausibility::{Location, PlausibilityFinding};
 use numerics::scalar::Dual;
 use serde::{Deserialize, Serialize};
 use study::case::Case;
@@ -265,6 +266,24 @@ impl Element for WedgeElement {
         for (target, value) in out.iter_mut().zip(values.chain([relative])) {
             *target = value;
         }
+    }
+
+    fn findings(&mut self) -> Vec<PlausibilityFinding> {
+        let (mut findings, zero) = match &mut self.core {
+            Core::Driven(wedge) => (wedge.findings(), self.start_time),
+            Core::Equations(equations) => (equations.findings(), 0.0),
+        };
+        for time in findings
+            .iter_mut()
+            .flat_map(|own| [&mut own.time, &mut own.since])
+        {
+            *time = time.map(|time| time + zero);
+        }
+        findings
+    }
+
+    fn place(&self, location: Location) -> String {
+        location.describe(self.equations().system())
     }
 
     fn jacobian_vector_product(&mut self, states: &[f64], inputs: &[f64]) -> Result<Slopes, Error> {

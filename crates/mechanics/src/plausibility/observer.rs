@@ -171,6 +171,13 @@ impl Plausibility {
         self.record.rows += 1;
     }
 
+    /// Returns the findings so far of a run that goes on, without those that only the whole of it shows:
+    /// what overlap at the start releases, and scatter from output time to output time.
+    #[must_use]
+    pub fn present(&self, system: &System) -> Vec<PlausibilityFinding> {
+        self.findings(system, &EnergyBalance::new(0.0), 0.0)
+    }
+
     /// Returns the findings, by kind of element and place; `balance` is the run's energy balance, and
     /// `interval` its output interval, s.
     #[must_use]

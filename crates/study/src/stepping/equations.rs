@@ -5,6 +5,7 @@ use std::fmt;
 
 use integrate::{Problem, SetupError};
 use mechanics::output::Column;
+use mechanics::plausibility::{Plausibility, PlausibilityFinding};
 use mechanics::system::{
     ContactState, Contacts, ElementEvaluation, Energies, InputError, JacobianVectorProduct, MotionChange,
     Observation, StateDirection, System,
@@ -105,6 +106,7 @@ pub struct Equations {
     neighbours: Neighbours,
     coil: CoilInput,
     friction: [f64; 2],
+    plausibility: Plausibility,
     /// Evaluation of all elements here, if it is known already.
     evaluation: ElementEvaluation<f64>,
     evaluated: bool,
@@ -135,6 +137,7 @@ impl Equations {
         let x = wedge.initial_state.clone();
         let start_energy = wedge.system.observe(0.0, &x).energies.total();
         let contacts = Contacts::new(&mut wedge.system, 0.0, &x);
+        let plausibility = Plausibility::new(&mut wedge.system, 0.0, &x);
         Ok(Self {
             outputs: Outputs::new(&wedge.parameters),
             friction: [
@@ -151,6 +154,7 @@ impl Equations {
             neighbours: *start,
             coil,
             wedge,
+            plausibility,
             evaluation: ElementEvaluation::default(),
             evaluated: false,
         })
@@ -211,6 +215,13 @@ impl Equations {
     #[must_use]
     pub fn friction(&self) -> [f64; 2] {
         self.friction
+    }
+
+    /// Returns what has been implausible so far, at the start, at the instants at which it was called, and
+    /// here.
+    pub fn findings(&mut self) -> Vec<PlausibilityFinding> {
+        self.plausibility.note(&mut self.wedge.system, self.time, &self.x);
+        self.plausibility.present(&self.wedge.system)
     }
 
     /// Sets time (s) and states.

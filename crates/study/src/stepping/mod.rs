@@ -31,6 +31,7 @@ pub use wedge::inputs::{CoilInput, NeighbourState, Neighbours, Reading};
 
 use integrate::{Integrator, Options, Statistics};
 use mechanics::output::Column;
+use mechanics::plausibility::PlausibilityFinding;
 use mechanics::system::{ElementEvaluation, Energies, JacobianVectorProduct, System};
 
 use crate::case::{Case, Simulation};
@@ -136,6 +137,11 @@ impl SteppedWedge {
     /// Returns the evaluation of all corners and the coil.
     pub fn evaluation(&mut self) -> &ElementEvaluation<f64> {
         self.equations.evaluation()
+    }
+
+    /// Returns what has been implausible so far, see [`Equations::findings`].
+    pub fn findings(&mut self) -> Vec<PlausibilityFinding> {
+        self.equations.findings()
     }
 
     /// Writes the rates of the states, see [`Equations::rates`].

@@ -7,6 +7,8 @@ use super::super::check_experiment;
 use super::{Instance, Phase, Saved};
 use crate::Error;
 use crate::element::Interface;
+use crate::extrapolate::KEPT_POINTS;
+use crate::watch::Doubt;
 
 /// Returns a member of a saved state that cannot be.
 pub(crate) fn damaged(member: &str, found: impl Display, expected: impl Display) -> Error {
@@ -36,16 +38,13 @@ impl Saved {
     /// Checks whether it can be a state of this instance, as far as that can be said without its element.
     pub(super) fn check(&self, instance: &Instance) -> Result<(), Error> {
         let values = &instance.values;
-        let before = self
-            .before
-            .as_ref()
-            .map_or(values.inputs.len(), |(before, _)| before.len());
         for (member, own, found) in [
             ("parameters", values.parameters.len(), self.parameters.len()),
             ("options", values.options.len(), self.options.len()),
             ("inputs", values.inputs.len(), self.inputs.len()),
             ("slopes", values.slopes.len(), self.slopes.len()),
-            ("before", values.inputs.len(), before),
+            ("set", values.set.len(), self.set.len()),
+            ("doubts", values.doubts.len(), self.doubts.len()),
         ] {
             if own != found {
                 return Err(damaged(
@@ -61,18 +60,41 @@ impl Saved {
         check_finite("parameters", &self.parameters)?;
         check_finite("inputs", &self.inputs)?;
         check_finite("slopes", self.slopes.iter().flatten())?;
-        if let Some((before, length)) = &self.before {
-            check_finite("before", before)?;
-            if !(*length > 0.0 && length.is_finite()) {
-                return Err(damaged(
-                    "the length of the step before",
-                    length,
-                    "positive and finite",
-                ));
-            }
-        }
+        check_finite("doubts", self.doubts.iter().flat_map(Doubt::values))?;
+        self.check_past(values.inputs.len())?;
         self.check_options(instance)?;
         self.check_phase()
+    }
+
+    fn check_past(&self, inputs: usize) -> Result<(), Error> {
+        if self.past.len() > KEPT_POINTS {
+            let expected = format!("a list of at most {KEPT_POINTS}");
+            return Err(damaged(
+                "past",
+                format!("a list of {}", self.past.len()),
+                expected,
+            ));
+        }
+        // An importer that integrates may go back in time.
+        let mut span = match self.interface {
+            Interface::CoSimulation => [self.start, self.time],
+            Interface::ModelExchange => [f64::NEG_INFINITY, f64::INFINITY],
+        };
+        for (number, point) in self.past.iter().enumerate() {
+            let found = point.inputs.len();
+            if found != inputs {
+                let (found, expected) = (format!("a list of {found}"), format!("a list of {inputs}"));
+                return Err(damaged("past", found, expected));
+            }
+            check_finite("past", point.inputs.iter().chain([&point.time]))?;
+            let [least, greatest] = span;
+            if point.time < least || number > 0 && point.time == least || point.time > greatest {
+                let expected = "after the one before, and not after the instance's";
+                return Err(damaged("the time of an earlier point", point.time, expected));
+            }
+            span[0] = point.time;
+        }
+        Ok(())
     }
 
     fn check_options(&self, instance: &Instance) -> Result<(), Error> {
