@@ -120,6 +120,7 @@ fn cross_code_inputs_that_move_as_the_case_give_the_columns_of_the_run() {
     let mut part = Part::new(source(name, &set), Interface::CoSimulation);
     let reference = part.reference("inputs_at_end");
     part.instance.set_boolean(reference, true).unwrap();
+    part.set("bolster_z_motion_rate", 0.0254);
     part.begin();
     compare(&mut part, &result, &NAMES[2..], |part, end| {
         let (sine, cosine) = (2.0 * end).sin_cos();

@@ -417,4 +417,63 @@ mod tests {
             assert!(said().is_empty());
         }
     }
+
+    unsafe extern "C" fn keep(
+        log: *mut c_void,
+        status: Status,
+        category: *const c_char,
+        text: *const c_char,
+    ) {
+        // SAFETY: the environment is the list below, and texts are strings.
+        let (log, category, text) = unsafe {
+            let log = &mut *log.cast::<Vec<(Status, String, String)>>();
+            (log, CStr::from_ptr(category), CStr::from_ptr(text))
+        };
+        let [category, text] = [category, text].map(|text| text.to_str().unwrap().to_owned());
+        log.push((status, category, text));
+    }
+
+    /// Once, and the status of the call says so.
+    #[test]
+    fn issue_047_warnings_reach_the_logger_while_logging_is_off() {
+        let case = builtin::case("cdrun_toe_0_psi_0").unwrap();
+        let (two, side) = (Version::Two, Interface::CoSimulation);
+        let make = |name: &str| Instance::of_case(name, None, FmuModel::Wedge, case, two, side);
+        let mut log: Vec<(Status, String, String)> = Vec::new();
+        let logger = Logger::Three(keep, std::ptr::from_mut(&mut log).cast());
+        // SAFETY: the name is a string, and the logger is one; nobody else has the instance.
+        let statuses: Vec<Status> = unsafe {
+            let wedge = instantiate("fmiMake", logger, c"wedge".as_ptr(), false, make);
+            let begin = |component: &mut Component| {
+                component.instance.enter_initialization()?;
+                component.instance.exit_initialization().map(|()| OK)
+            };
+            assert_eq!(call("fmiBegin", wedge, begin), OK);
+            let step = |component: &mut Component, number: u32| {
+                let instance = &mut component.instance;
+                let variables = &instance.description().variables;
+                let find = |name: &str| variables.iter().find(|own| own.name == name).unwrap().reference;
+                let [position, rate] = ["bolster_z", "bolster_z_rate"].map(find);
+                instance.set_float(position, 1e-4 * f64::from(number))?;
+                instance.set_float(rate, 0.0)?;
+                instance.do_step(instance.time(), 0.002).map(|()| OK)
+            };
+            let steps = (0..10).map(|number| call("fmiDoStep", wedge, |component| step(component, number)));
+            let statuses = steps.collect();
+            free(wedge);
+            statuses
+        };
+        let [(WARNING, category, text)] = &log[..] else {
+            panic!("{log:?}")
+        };
+        assert!(
+            category == "logStatusWarning" && text.contains("`bolster_z`"),
+            "{text}"
+        );
+        let warned = statuses.iter().filter(|status| **status == WARNING).count();
+        assert!(
+            warned == 1 && statuses.iter().all(|status| *status <= WARNING),
+            "{statuses:?}"
+        );
+    }
 }

@@ -62,6 +62,8 @@ struct Values {
     past: Vec<Point>,
     /// Doubts about positions and their rates.
     doubts: Vec<Doubt>,
+    /// The first step may be made again, see [`Instance::begin_again`].
+    restartable: bool,
 }
 
 /// An instance.
@@ -388,6 +390,7 @@ impl Values {
             set: vec![false; entries.inputs.len()],
             past: Vec::new(),
             doubts: vec![Doubt::default(); positions(&entries.inputs).count()],
+            restartable: true,
         }
     }
 }

@@ -36,6 +36,7 @@ pub struct Saved {
     set: Vec<bool>,
     past: Vec<Point>,
     doubts: Vec<Doubt>,
+    restartable: bool,
     stale: bool,
     element: Option<ElementState>,
 }
@@ -86,6 +87,7 @@ impl Instance {
             set: self.values.set.clone(),
             past: self.values.past.clone(),
             doubts: self.values.doubts.clone(),
+            restartable: self.values.restartable,
             stale: self.stale,
             element: self.element.as_ref().map(|element| element.save()),
         }
@@ -149,6 +151,7 @@ impl Instance {
         self.values.set.clone_from(&saved.set);
         self.values.past.clone_from(&saved.past);
         self.values.doubts.clone_from(&saved.doubts);
+        self.values.restartable = saved.restartable;
         self.stale = saved.stale;
         self.changed();
         Ok(())

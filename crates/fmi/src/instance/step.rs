@@ -1,8 +1,9 @@
 //! Simulating: steps of co-simulation, and what model exchange asks for.
 
-use super::{Instance, Phase};
+use super::{Instance, Phase, Values};
 use crate::element::Interface;
 use crate::extrapolate::{Known, Point, Understanding, end_of_step};
+use crate::watch::positions;
 use crate::{Category, Error, Severity};
 
 /// The changes by handling events.
@@ -78,7 +79,14 @@ impl Instance {
         };
         self.watch_inputs(&point, length, Some(how));
         // The inputs of the initialization hold until others are set for the same time.
-        self.values.past.retain(|past| past.time < point.time);
+        if let Some(start) = self.values.past.pop_if(|past| past.time >= point.time) {
+            let knows_more = self.values.slopes.iter().any(Option::is_some);
+            self.values.restartable &= start.inputs == point.inputs && !knows_more;
+        }
+        if let Err(error) = self.begin_again(&point, how) {
+            self.phase = Phase::Failed;
+            return Err(error);
+        }
         let known = Known {
             time: point.time,
             values: &self.values.inputs,
@@ -103,6 +111,51 @@ impl Instance {
         self.log_modes(&before);
         self.watch_element();
         Ok(())
+    }
+
+    /// Makes the start anew, and the first step if it has been made, with rates of positions whose rate is
+    /// not given: they are known as soon as there are two points. Else neighbours would start at rest and
+    /// jerk, and friction remembers that for seconds.
+    fn begin_again(&mut self, point: &Point, how: Understanding) -> Result<(), Error> {
+        let Values {
+            past, set, inputs, ..
+        } = &self.values;
+        let [first] = &past[..] else { return Ok(()) };
+        if !self.values.restartable || first.time != self.experiment.start {
+            return Ok(());
+        }
+        let length = point.time - first.time;
+        let entries = &self.description.entries.inputs;
+        let known = Known {
+            time: first.time,
+            values: &first.inputs,
+            slopes: &[],
+            set,
+            past: &[],
+        };
+        let mut end = end_of_step(entries, known, length, how);
+        let (mut start, own) = (first.inputs.clone(), inputs.clone());
+        for (position, rate) in positions(entries) {
+            // A rate that was set in the initialization holds.
+            if how.derives(set, position, rate) && start[rate] == 0.0 {
+                start[rate] = (point.inputs[position] - start[position]) / length;
+                (end[position], end[rate]) = (point.inputs[position], start[rate]);
+            }
+        }
+        if start == first.inputs {
+            return Ok(());
+        }
+        let time = self.time;
+        self.values.inputs = start;
+        self.element = None;
+        let built = self.build().map(|_| ());
+        self.values.inputs = own;
+        built?;
+        if how.at_end {
+            Ok(())
+        } else {
+            self.build()?.step(&end, time)
+        }
     }
 
     /// Logs which contact states are others than before.

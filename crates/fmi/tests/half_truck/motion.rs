@@ -144,6 +144,10 @@ fn inputs_that_move_as_the_files_give_the_columns_of_the_run() {
     assert!(!ports.is_empty());
     let reference = part.reference("inputs_at_end");
     part.instance.set_boolean(reference, true).unwrap();
+    for (name, motion) in &ports {
+        let [_, rate, _] = motion.evaluate(0.0, 0.0);
+        part.set(&format!("{name}_rate"), rate);
+    }
     part.begin();
     let found = differences(&mut part, &the_run(NAME), |part, end| {
         for (name, motion) in &ports {
