@@ -230,6 +230,7 @@ impl Carried {
             losses,
             stored_change,
             residual: work - stored_change - losses,
+            admissible: 0.0,
         }
     }
 

@@ -124,6 +124,7 @@ pub fn ledger(observation: &Observation, start: f64) -> Entries {
         losses,
         stored_change,
         residual: work - stored_change - losses,
+        admissible: 0.0,
     }
 }
 

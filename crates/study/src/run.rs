@@ -247,6 +247,8 @@ pub struct Run<C: RunCase> {
     rows: Rows,
     next_row: u64,
     pace: Pace,
+    /// Relative tolerance.
+    tolerance: f64,
     buffer: Vec<f64>,
     contact_states: Vec<u8>,
 }
@@ -308,6 +310,7 @@ impl<C: RunCase> Run<C> {
             energy_balance: EnergyBalance::new(start_energy),
             plausibility,
             pace: Pace::of(&integrator),
+            tolerance: case.options().relative_tolerance,
             buffer: beginning.x,
             contact_states: integrator.discrete_states().to_vec(),
             integrator,
@@ -479,7 +482,8 @@ impl<C: RunCase> Run<C> {
                 contact_states: &self.contact_states,
                 start_energy: self.start_energy,
             };
-            let entries = self.recorder.row(&mut self.system, &row)?;
+            let mut entries = self.recorder.row(&mut self.system, &row)?;
+            entries.admissible = self.tolerance * self.system.energy_of_speed_errors(time, &self.buffer);
             self.energy_balance.note(time, &entries);
             if !first {
                 self.plausibility.note(&mut self.system, time, &self.buffer);

@@ -289,8 +289,11 @@ pub struct LedgerSummary {
     pub largest_residual: SummaryValue,
     /// The first output time with this residual, s.
     pub largest_residual_time: f64,
-    /// The measure of how well the ledger closes: [`mechanics::energy_balance::relative_residual`] of the
-    /// largest residual.
+    /// The residual that one step may leave, as the tolerance admits: below it nothing is wrong.
+    #[serde(default)]
+    pub admissible_residual: Option<SummaryValue>,
+    /// The measure of how well the ledger closes:
+    /// [`mechanics::energy_balance::EnergyBalance::relative_residual`].
     pub largest_relative_residual: f64,
 }
 
@@ -325,6 +328,7 @@ impl LedgerSummary {
             largest_stored_change: measure(balance.largest_stored_change),
             largest_residual: measure(balance.largest_residual),
             largest_residual_time: balance.largest_residual_time,
+            admissible_residual: Some(measure(balance.admissible)),
             largest_relative_residual: balance.relative_residual(),
         }
     }

@@ -136,6 +136,7 @@ impl Ledger {
                 + self.coil_damping_loss,
             stored_change: self.stored,
             residual: self.residual,
+            admissible: 0.0,
         }
     }
 }

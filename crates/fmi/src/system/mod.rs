@@ -383,6 +383,13 @@ impl Element for SystemElement {
         let of_stored = seen.residual(self.start_energy) - load_work;
         let mut ledger = self.plant.system.ledger_entries(&seen, self.start_energy);
         ledger.work += load_work;
+        let options = self
+            .integrator
+            .as_ref()
+            .map_or(&self.plant.options, Integrator::options);
+        let (tolerance, dimension) = (options.relative_tolerance, self.dimension());
+        let system = &mut self.plant.system;
+        ledger.admissible = tolerance * system.energy_of_speed_errors(self.time, &self.states[..dimension]);
         ledger.residual = if self.plant.residual_of_stored {
             of_stored
         } else {

@@ -5,20 +5,22 @@
 //! rate, the force on A is
 //!
 //! ```text
-//! (-k_s d_x, -k_s d_y, F(d_z)) f - c ḋ f,
+//! (-k_s f d_x, -k_s f d_y, F(d_z) + ½ k k_s f' |d_s|²) - c f ḋ,
 //! F(d_z) = max(0, F0 - k d_z) [+ k_solid (d_solid - d_z) beyond solid]
 //! ```
 //!
-//! where the fading factor `f = min(1, F / (0.05 F0))` acts on shear and damping alone: a coil off its seat
-//! carries neither. The force acts at A and its reaction on the other body at the same place, so that
-//! momentum and angular momentum are kept. Units: m, N, s.
+//! where the fading factor `f = t³ (10 - 15t + 6t²)` with `t = min(1, F / (0.05 F0))` acts on shear and damping
+//! alone: a coil off its seat carries neither. The force acts at A and its reaction on the other body at the same
+//! place, so that momentum and angular momentum are kept. Units: m, N, s.
 //!
 //! Energy: `½ k (F0/k - d_z)²` while the spring is on its seat, the solid coil's, and the shear's `½ k_s f
-//! |d_s|²`. What the fading takes out of the shear is lost: the power lost is `c f |ḋ|² - ½ k_s ḟ |d_s|²`.
+//! |d_s|²`. The force without damping is its gradient at any pose, so that the coil gives back exactly what it
+//! takes, also where it leaves its seat and comes down aside of its nominal place: there the seat pushes it up
+//! by the term with f', which is the work that the shear takes. The power lost is `c f |ḋ|²`, never negative.
 //!
-//! Defects: a coil that comes down on its seat aside of its nominal place has its whole shear force again, so
-//! that the second term is then negative. No moment by rotation of the seats, no change of shear stiffness
-//! with compression; discontinuities at solid height and at lift-off.
+//! Defects: a coil that comes down aside of its nominal place does not stand there with a new one, but is
+//! sheared again. No moment by rotation of the seats, no change of shear stiffness with compression; the
+//! stiffness jumps at solid height and at lift-off.
 
 use numerics::scalar::Real;
 
@@ -78,14 +80,18 @@ impl ShearSpring {
 
     /// Returns the fading factor and its derivative by the coil's load (1/N).
     #[inline(always)]
-    fn fading<S: Real>(&self, load: S) -> (S, f64) {
+    fn fading<S: Real>(&self, load: S) -> [S; 2] {
         let full = FADING * self.preload;
         if load.value() >= full {
-            (S::from(1.0), 0.0)
+            [S::from(1.0), S::zero()]
         } else if load.value() > 0.0 {
-            (load * (1.0 / full), 1.0 / full)
+            let share = load * (1.0 / full);
+            let rest = -share + 1.0;
+            let square = share * share;
+            let fading = square * share * ((share * 6.0 - 15.0) * share + 10.0);
+            [fading, square * rest * rest * (30.0 / full)]
         } else {
-            (S::zero(), 0.0)
+            [S::zero(); 2]
         }
     }
 }
@@ -102,24 +108,22 @@ impl Element for ShearSpring {
     #[inline(always)]
     fn evaluate<S: Real>(&self, motion: &RelativeMotion<S>) -> Wrench<S> {
         let ([x, y, z], velocity) = (motion.position.0, motion.velocity);
-        let (fading, slope) = self.fading(self.coil_load(z));
+        let [fading, slope] = self.fading(self.coil_load(z));
         let (shear, damping) = (fading * self.shear_stiffness, fading * self.damping);
-        let elastic = Vector([-x * shear, -y * shear, self.load(z)]);
+        let lifted = (x * x + y * y) * slope * (0.5 * self.stiffness * self.shear_stiffness);
+        let elastic = Vector([-x * shear, -y * shear, self.load(z) + lifted]);
         let damped: Vector<S> = velocity.scale(damping);
-        let fading_rate = velocity.0[2] * (-slope * self.stiffness);
-        let let_go = (x * x + y * y) * fading_rate * (-0.5 * self.shear_stiffness);
-        let loss: S = damped.dot(velocity);
         Wrench {
             force: elastic - damped,
             moment: Vector::zero(),
-            powers: [loss + let_go, S::zero()],
+            powers: [damped.dot(velocity), S::zero()],
         }
     }
 
     fn energy(&self, motion: &RelativeMotion<f64>) -> f64 {
         let [x, y, z] = motion.position.0;
         let load = self.coil_load(z);
-        let (fading, _) = self.fading(load);
+        let [fading, _] = self.fading(load);
         let solid = self
             .solid
             .map_or(0.0, |solid| unilateral_energy(solid.stiffness, solid.at - z));

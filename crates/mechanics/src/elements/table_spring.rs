@@ -14,9 +14,8 @@
 //! place. Units: m, N, s.
 //!
 //! Defects: seats hold the ends of the coil, so that shear, tilt and damping act without load too, also where
-//! the body is lifted off. A [`ShearSpring`](super::ShearSpring) lets go instead, at the price of an energy
-//! that comes back with the load: a body that bounces on it without preload would gain energy by that. The
-//! stiffness jumps at the points of the table.
+//! the body is lifted off. A [`ShearSpring`](super::ShearSpring) lets go instead. The stiffness jumps at the
+//! points of the table.
 
 use numerics::scalar::Real;
 

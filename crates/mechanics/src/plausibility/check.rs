@@ -1,14 +1,16 @@
 //! The quantities checked in a system, and the limits that follow from its geometry at the start.
 
 use super::{
-    FindingKind, LARGEST_COMPRESSION_SHARE, LARGEST_SMALL_ANGLE, LARGEST_TILT, LIFTED_SHARE, Location,
-    PENETRATION_SHARE,
+    FindingKind, LARGEST_COMPRESSION_SHARE, LARGEST_SMALL_ANGLE, LARGEST_TILT, LEAST_EXTENT_SHARE,
+    LEAST_LENGTH_SHARE, LIFTED_SHARE, Location, PENETRATION_SHARE,
 };
+use crate::body::Body;
 use crate::coil::CoilLaw;
 use crate::connection::Law;
 use crate::link::RelativeMotion;
-use crate::system::System;
+use crate::system::{EnergyTermKind, System};
 use crate::vector::Vector;
+use quantity::Kind;
 
 /// A quantity at a place, and its limit (SI).
 #[derive(Clone, Copy, Debug)]
@@ -42,19 +44,28 @@ pub(super) struct Checks {
     /// Bodies that move, and whose displacements count as small: with linearized kinematics, or with
     /// connections that act on differences of coordinates.
     pub linearized: Vec<usize>,
+    /// The energy terms that are losses.
+    pub losses: Vec<usize>,
+    /// Least limit of a length, m.
+    least_length: f64,
 }
 
 impl Checks {
     /// Returns the checks of a system that was placed at its start.
     pub fn new(system: &System) -> Self {
-        let mut checks = Self::default();
+        let size = system_size(system);
+        let free = system.bodies().iter().filter(|body| !body.is_prescribed());
+        let scale = free.fold(size, |most, body| most.max(gyration(body)));
+        let mut checks = Self {
+            least_length: LEAST_LENGTH_SHARE * scale,
+            ..Self::default()
+        };
         for face in 0..system.faces().len() {
             checks.add_face(system, face);
         }
         for coil in 0..system.coils().len() {
             checks.add_coil(system, coil);
         }
-        let size = system_size(system);
         for element in 0..system.element_count() {
             checks.distances.push(system.element_distance(element));
             checks.add(FindingKind::Displacement, Location::Element(element), size);
@@ -84,11 +95,27 @@ impl Checks {
                 checks.add(FindingKind::BeyondTable, Location::Connection(number), limit);
             }
         }
+        for (number, term) in system.energy_terms().iter().enumerate() {
+            // What the simplified kinematics of massless wedges take is of either sign.
+            if !term.kind.is_work() && term.kind != EnergyTermKind::WedgeKinematics {
+                checks.losses.push(number);
+                // The limit is known when the run has ended.
+                checks.add(
+                    FindingKind::EnergyCreated,
+                    Location::EnergyTerm(number),
+                    f64::INFINITY,
+                );
+            }
+        }
         checks
     }
 
     fn add(&mut self, kind: FindingKind, location: Location, limit: f64) {
-        let limit = if limit > 0.0 { limit } else { f64::INFINITY };
+        let least = match kind.quantity() {
+            Kind::Length => self.least_length,
+            _ => 0.0,
+        };
+        let limit = if limit > least { limit } else { f64::INFINITY };
         self.all.push(PlausibilityCheck {
             kind,
             location,
@@ -112,14 +139,15 @@ impl Checks {
             stiffness += point.stiffness;
         }
         let extents = [1, 2].map(|k| high[k] - low[k]);
-        let mut size = extents
-            .into_iter()
-            .filter(|extent| *extent > 0.0)
-            .fold(f64::INFINITY, f64::min);
+        let least = self
+            .least_length
+            .max(LEAST_EXTENT_SHARE * extents[0].max(extents[1]));
+        // Points on a line have no extent across it, but for rounding.
+        let extents = extents.map(|extent| if extent > least { extent } else { f64::INFINITY });
+        let mut size = extents[0].min(extents[1]);
         if size.is_infinite() && !points.is_empty() {
             // A face without extents: the diameter of gyration stands for the size of the body.
-            let inertia = body.inertia.iter().fold(0.0, |most: f64, own| most.max(*own));
-            size = 2.0 * (inertia / body.mass).sqrt();
+            size = gyration(body);
         }
         let location = Location::Face { face, point: None };
         self.add(FindingKind::Separation, location, size);
@@ -169,6 +197,12 @@ impl Checks {
         };
         self.add(FindingKind::Lifted { pulls: coil.pulls }, location, lifted);
     }
+}
+
+/// Returns the largest diameter of gyration of a body, m.
+fn gyration(body: &Body) -> f64 {
+    let inertia = body.inertia.iter().fold(0.0, |most: f64, own| most.max(*own));
+    2.0 * (inertia / body.mass).sqrt()
 }
 
 /// Returns whether a table of abscissa and ordinate is straight: then it stands for a stiffness, whatever

@@ -29,6 +29,9 @@ pub enum Location {
     Element(usize),
     /// A connection.
     Connection(usize),
+    /// An energy term, of [`System::energy_terms`]: what loses the energy may be an element that is no other
+    /// place, or all connections.
+    EnergyTerm(usize),
 }
 
 impl Location {
@@ -47,6 +50,7 @@ impl Location {
             Self::Coil(number) => format!("coil {} of the {}", number + 1, body(system.coils()[number].body)),
             Self::Element(number) => format!("the element {}", system.element_name(number)),
             Self::Connection(number) => format!("the connection {}", system.connections()[number].name),
+            Self::EnergyTerm(number) => format!("`{}`", system.energy_terms()[number].name()),
         }
     }
 }
@@ -81,6 +85,8 @@ pub enum FindingKind {
     StoredAtStart,
     /// The coefficient of friction is out of proportion. The value is the coefficient.
     Friction,
+    /// A loss is below zero: an element creates energy. The value is the energy, J.
+    EnergyCreated,
     /// The normal force of a face scatters from output time to output time. The value is the output
     /// interval, s.
     CoarseOutput {
@@ -107,6 +113,7 @@ impl FindingKind {
             | Self::Lifted { .. }
             | Self::StoredAtStart
             | Self::Friction
+            | Self::EnergyCreated
             | Self::CoarseOutput { .. } => false,
         }
     }
@@ -116,7 +123,7 @@ impl FindingKind {
     pub fn quantity(self) -> Kind {
         match self {
             Self::Tilt | Self::LargeAngle(_) => Kind::Angle,
-            Self::StoredAtStart => Kind::Energy,
+            Self::StoredAtStart | Self::EnergyCreated => Kind::Energy,
             Self::Friction => Kind::Count,
             Self::CoarseOutput { .. } => Kind::Time,
             _ => Kind::Length,
@@ -151,6 +158,11 @@ impl FindingKind {
             }
             Self::StoredAtStart => "start from equilibrium or with faces that just touch",
             Self::Friction => "check the value for a slip of the pen",
+            Self::EnergyCreated => {
+                "the ledger closes with it, but no machine does that: do not use losses, damping and \
+                 stability of this run; look for a friction, a stiffness or a motion out of proportion at \
+                 this element, or take another law for it"
+            }
             Self::CoarseOutput { .. } => {
                 "shorten the output interval, or use averages, not single values, extremes or spectra"
             }
@@ -253,6 +265,11 @@ impl PlausibilityFinding {
                     Number(self.limit)
                 );
             }
+            FindingKind::EnergyCreated => (
+                "is a loss below zero: energy comes from nowhere",
+                format!("it has put in {value}"),
+                "the largest residual of the energy ledger, and a millionth of its turnover".to_owned(),
+            ),
             FindingKind::CoarseOutput { frequency, scatter } => {
                 return format!(
                     "the normal force at {place} scatters by {} % of its mean (or of the body's weight) \
@@ -290,6 +307,7 @@ impl fmt::Display for PlausibilityFinding {
             Location::Coil(number) => format!("coil {number}"),
             Location::Element(number) => format!("element {number}"),
             Location::Connection(number) => format!("connection {number}"),
+            Location::EnergyTerm(number) => format!("energy term {number}"),
         };
         write!(out, "{}; {}", self.words(&place, Units::Si), self.kind.advice())
     }

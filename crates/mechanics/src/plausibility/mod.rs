@@ -51,6 +51,14 @@ pub const LIFTED_SHARE: f64 = 0.02;
 /// % have 0.2.
 pub const LARGEST_SCATTER: f64 = 0.2;
 
+/// Extent of a face, as a share of its other one, below which it has none: of points on a line what is left
+/// across is rounding.
+pub const LEAST_EXTENT_SHARE: f64 = 0.01;
+
+/// Least limit of a length, as a share of the size of the model: smaller ones are rounding of places, and no
+/// limits.
+pub const LEAST_LENGTH_SHARE: f64 = 1e-6;
+
 /// Output times a period that show a vibration's amplitude to 5 %.
 pub const ROWS_A_PERIOD: f64 = 10.0;
 

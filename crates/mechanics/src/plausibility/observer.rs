@@ -3,7 +3,7 @@
 use integrate::MAXIMUM_COUNT;
 use serde::{Deserialize, Serialize};
 
-use super::check::Checks;
+use super::check::{Checks, PlausibilityCheck};
 use super::{
     FEWEST_ROWS, FindingKind, LARGEST_FRICTION, LARGEST_SCATTER, Location, PlausibilityFinding,
     RELEASED_SHARE, ROWS_A_PERIOD,
@@ -113,6 +113,13 @@ impl Plausibility {
         &self.record
     }
 
+    /// Returns all limits that follow from the system: the kind, the place and the limit (SI; infinite where
+    /// there is none).
+    pub fn limits(&self) -> impl Iterator<Item = (FindingKind, Location, f64)> {
+        let all = self.checks.all.iter();
+        all.map(|check| (check.kind, check.location, check.limit))
+    }
+
     /// Takes an output time (s) and the state then into account.
     pub fn note(&mut self, system: &mut System, time: f64, x: &[f64]) {
         system.place_at(time, x);
@@ -168,6 +175,10 @@ impl Plausibility {
             }
         }
         system.wedge_coil_deflections(x, |_, deflection| keep(-deflection, 0));
+        let [.., quadratures] = system.layout().split(x);
+        for loss in &self.checks.losses {
+            keep(-quadratures[*loss], 0);
+        }
         self.record.rows += 1;
     }
 
@@ -188,8 +199,12 @@ impl Plausibility {
         interval: f64,
     ) -> Vec<PlausibilityFinding> {
         let mut findings = Vec::new();
+        let limit = |check: &PlausibilityCheck| match check.kind {
+            FindingKind::EnergyCreated => balance.resolution(),
+            _ => check.limit,
+        };
         let pairs = self.checks.all.iter().zip(&self.record.worst);
-        for (check, worst) in pairs.filter(|(check, worst)| worst.value > check.limit) {
+        for (check, worst) in pairs.filter(|(check, worst)| worst.value > limit(check)) {
             let location = match (check.kind, check.location) {
                 (FindingKind::Penetration, Location::Face { face, .. }) => Location::Face {
                     face,
@@ -203,15 +218,10 @@ impl Plausibility {
                 time: Some(worst.time),
                 since: worst.since,
                 value: worst.value,
-                limit: check.limit,
+                limit: limit(check),
             });
         }
-        let scale = balance
-            .work
-            .abs()
-            .max(balance.losses.abs())
-            .max(balance.largest_stored_change)
-            .max(balance.stored_at_start);
+        let scale = balance.turnover().max(balance.stored_at_start);
         for (number, face) in self.record.faces.iter().enumerate() {
             let finding = |kind: FindingKind, value: f64, limit: f64| PlausibilityFinding {
                 kind,

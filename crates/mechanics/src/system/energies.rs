@@ -1,7 +1,8 @@
 //! The stored energies of a state, without other derived quantities.
 
-use super::{Energies, Linear, System};
+use super::{Energies, Linear, System, scales};
 use crate::link::RelativeMotion;
+use crate::vector::Vector;
 
 impl System {
     /// Returns the stored energies at `time` (s) and state `x`, J: the same bits as in [`System::observe`],
@@ -18,7 +19,7 @@ impl System {
             }
             let (body, frame) = (&self.bodies[free.body], &self.frames[free.body].motion);
             let kinematics = &self.kinematics[free.body];
-            let center = kinematics.point_position(frame, crate::vector::Vector(body.center_of_gravity));
+            let center = kinematics.point_position(frame, Vector(body.center_of_gravity));
             energies.kinetic += kinematics.kinetic_energy(body, frame);
             energies.gravity -= body.mass * self.gravity.dot::<f64, f64>(center);
         }
@@ -54,6 +55,37 @@ impl System {
                 .states(&self.bodies, coordinates, internal, &mut energies);
         }
         energies
+    }
+
+    /// Returns the energy by which errors of the speeds of all free bodies as large as their
+    /// [scales] would change the kinetic energy to first order, J: the sum of `m |v|` times the scale of
+    /// velocities and of `|I ω|` times that of angular velocities. Times the relative tolerance it is what
+    /// the integrator may err by in a step. No element's state matters, and it allocates nothing.
+    pub fn energy_of_speed_errors(&mut self, time: f64, x: &[f64]) -> f64 {
+        self.update_kinematics(time, x);
+        let mut energy = 0.0;
+        for free in &self.free {
+            if let Some(linear) = &free.linear {
+                let rate = &self.rates[free.body];
+                for (inertia, &k) in linear.inertia.iter().zip(&free.free) {
+                    let scale = if k < 3 {
+                        scales::VELOCITY
+                    } else {
+                        scales::ANGULAR_VELOCITY
+                    };
+                    energy += scale * inertia * rate[k].abs();
+                }
+                continue;
+            }
+            let (body, frame) = (&self.bodies[free.body], &self.frames[free.body].motion);
+            let kinematics = &self.kinematics[free.body];
+            let (velocity, omega) = kinematics.absolute(frame, Vector(body.center_of_gravity));
+            let w: Vector<f64> = kinematics.orientation.rotation.apply_transposed(omega);
+            let spin = Vector([0, 1, 2].map(|k| body.inertia[k] * w.0[k]));
+            energy += scales::VELOCITY * body.mass * velocity.dot::<f64, f64>(velocity).sqrt();
+            energy += scales::ANGULAR_VELOCITY * spin.dot::<f64, f64>(spin).sqrt();
+        }
+        energy
     }
 }
 

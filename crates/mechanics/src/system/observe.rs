@@ -181,6 +181,7 @@ impl System {
             losses: 0.0,
             stored_change: seen.energies.total() - start,
             residual: -seen.residual(start),
+            admissible: 0.0,
         };
         for (energy_term, value) in self.energy_terms.iter().zip(&seen.quadratures) {
             match energy_term.kind {

@@ -7,6 +7,8 @@ mod common;
 mod margins;
 
 mod carrier;
+mod closed_loops;
+mod created_energy;
 mod eigenvalues;
 mod elements;
 mod energy;

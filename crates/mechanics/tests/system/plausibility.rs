@@ -1,7 +1,7 @@
 //! Findings of observers of runs: none within the limits; beyond them one with place, time and value, for any
 //! model.
 
-use crate::common::{ALL, UP, body, coil, face, ground, model};
+use crate::common::{ALL, Random, UP, body, coil, face, ground, model};
 use mechanics::body::Body;
 use mechanics::characteristic::Characteristic;
 use mechanics::coil::CoilLaw;
@@ -11,11 +11,12 @@ use mechanics::energy_balance::{EnergyBalance, Entries};
 use mechanics::friction::FrictionLaw;
 use mechanics::link::Marker;
 use mechanics::plausibility::{
-    FindingKind, LARGEST_COMPRESSION_SHARE, LARGEST_SMALL_ANGLE, LARGEST_TILT, LIFTED_SHARE, Location,
-    PENETRATION_SHARE, Plausibility, PlausibilityFinding, PlausibilityRecord, RELEASED_SHARE,
+    FindingKind, LARGEST_COMPRESSION_SHARE, LARGEST_SMALL_ANGLE, LARGEST_TILT, LEAST_LENGTH_SHARE,
+    LIFTED_SHARE, Location, PENETRATION_SHARE, Plausibility, PlausibilityFinding, PlausibilityRecord,
+    RELEASED_SHARE,
 };
 use mechanics::system::{Model, System};
-use quantity::System as Units;
+use quantity::{Kind, System as Units};
 
 const LENGTH: f64 = 0.3;
 const WIDTH: f64 = 0.2;
@@ -353,4 +354,67 @@ fn input_a_finding_in_words_has_all_that_a_reader_needs() {
         shown.contains("25.4 m") && shown.ends_with(FindingKind::Separation.advice()),
         "{shown}"
     );
+}
+
+/// Two points on a line that is not quite straight along an axis, as of an adapter on a large wheel.
+#[test]
+fn issue_047_points_on_a_line_have_no_extent_across_it() {
+    let mut model = box_on_floor(0.3);
+    let points = [[-0.5 * LENGTH, 2e-13, 0.0], [0.5 * LENGTH, -2e-13, 0.0]];
+    let law = FrictionLaw::Tanh {
+        reference_speed: 1e-3,
+    };
+    model.faces[0].3 = face("sole", &points, STIFFNESS, 0.0, 0.3, law);
+    let across = found(
+        &mut system(model.clone()),
+        &[[0.0, 0.9 * LENGTH, 0.0, 0.0, 0.0, 0.0]],
+    );
+    assert!(across.is_empty(), "{across:?}");
+    let along = |v| [v, 0.0, 0.0, 0.0, 0.0, 0.0];
+    at_the_limit(&model, along, LENGTH, FindingKind::SlidOff);
+}
+
+/// Whatever the geometry, no length is limited by what is rounding at the size of the model.
+#[test]
+fn issue_047_no_limit_is_below_a_millionth_of_the_size_of_the_model() {
+    let mut random = Random(6);
+    let mut limits = 0;
+    for _ in 0..300 {
+        let sizes: [f64; 3] = std::array::from_fn(|_| 10f64.powf(random.between(-16.0, 0.0)));
+        let count = 1 + random.bits() % 6;
+        let points: Vec<[f64; 3]> = (0..count)
+            .map(|_| sizes.map(|size| size * random.between(-1.0, 1.0)))
+            .collect();
+        let law = FrictionLaw::Tanh {
+            reference_speed: 1e-3,
+        };
+        let place: [f64; 6] = random.vector(1.0);
+        let one = body("one", 5.0, [0.2, 0.3, 0.4], [0.0; 3], ALL, place);
+        let mut model = model(vec![one, ground()], [0.0, 0.0, -9.81]);
+        let own = face("sole", &points, STIFFNESS, 0.0, 0.3, law);
+        model
+            .faces
+            .push((0, 1, Marker::new([0.0; 3], random.vector(3.0)), own));
+        let length = 10f64.powf(random.between(-9.0, 0.0));
+        model.coils.push((
+            0,
+            1,
+            Marker::new([0.0; 3], [0.0; 3]),
+            coil([0.0; 3], [0.0; 3], 1e4, length),
+        ));
+        let mut system = system(model);
+        let start = system.initial_state();
+        let [x, y, z, ..] = place;
+        let size = (x * x + y * y + z * z).sqrt().max(2.0 * (0.4_f64 / 5.0).sqrt());
+        for (kind, location, limit) in Plausibility::new(&mut system, 0.0, &start).limits() {
+            if kind.quantity() == Kind::Length {
+                limits += usize::from(limit.is_finite());
+                assert!(
+                    limit >= LEAST_LENGTH_SHARE * size,
+                    "{kind:?} at {location:?}: {limit} of {size}"
+                );
+            }
+        }
+    }
+    assert!(limits > 500, "{limits} limits");
 }

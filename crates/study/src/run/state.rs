@@ -12,7 +12,7 @@ use crate::progress::Pace;
 use crate::rows::Rows;
 
 /// Version of [`RunState`].
-pub const RUN_STATE_VERSION: u32 = 5;
+pub const RUN_STATE_VERSION: u32 = 6;
 
 /// Everything needed to continue a run with the same bits; `N` is what the case's recorder has counted.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -96,6 +96,18 @@ impl<N> RunState<N> {
             "energy_balance.largest_residual_time",
             balance.largest_residual_time,
         )?;
+        check_size("energy_balance.admissible", balance.admissible)?;
+        for since in &balance.since {
+            check_size("energy_balance.since.time", since.time)?;
+            check_size(
+                "energy_balance.since.largest_stored_change",
+                since.largest_stored_change,
+            )?;
+            check_size("energy_balance.since.largest_growth", since.largest_growth)?;
+            for entry in since.entries {
+                check_finite("energy_balance.since.entries", entry)?;
+            }
+        }
         check_finite("energy_balance.work", balance.work)?;
         check_finite("energy_balance.losses", balance.losses)
     }
