@@ -4,9 +4,10 @@
 //! A car whose friction sticks runs on its wheels for a second, so that creep forces and loads agree;
 //! others are taken as they start, since nothing would damp what remains of the start. There its whole
 //! Jacobian matrix is taken (`System::eigenvalues`). Distance and spin stand in no force and give
-//! eigenvalues of zero. What friction does in wedges, plates, adapters and side bearings is a choice, since
-//! it decides: bristles that stick are springs; without friction these parts are free where nothing else
-//! holds them, and a car may buckle slowly, which is no vibration.
+//! eigenvalues of zero. The car coasts: a control of its speed would damp its pitch. What friction does in
+//! wedges, plates, adapters and side bearings is a choice, since it decides: bristles that stick are
+//! springs; without friction these parts are free where nothing else holds them, and a car may buckle
+//! slowly, which is no vibration.
 
 use integrate::{Integrator, Method, Options, SetupError, StepError};
 use mechanics::friction::FrictionLaw;
@@ -17,7 +18,7 @@ use wedge::parameters::FaceFriction;
 
 use crate::assemble::Car;
 use crate::error::BuildError;
-use crate::parameters::{Parameters, Wheels};
+use crate::parameters::{Drive, Parameters, Wheels};
 
 /// Friction in the linearization about steady running.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -131,6 +132,7 @@ impl Parameters {
             FrictionState::Stuck => self.clone(),
             FrictionState::Absent => self.without_friction(),
         };
+        running.drive = Drive::Coasting;
         running.start.speed = speed;
         running.start.wheelset_shifts = [0.0; 4];
         running.start.body_shift = 0.0;

@@ -3,9 +3,10 @@
 //!
 //! Marker A is the wheelset's center with axes forward, along the axle, up; marker B is the origin of the
 //! track's fixed axes. In the section of the center line that holds the center, with the lateral shift y at
-//! the height of the rails (y of the center plus r times the roll φ), the wheels touch at (0, ±l, -(r ± λ y))
-//! from the center, on planes of the slopes ±δ0 + ε y. At each contact, with the velocity v and the angular
-//! velocity ω of the wheelset's material there and the forward speed V,
+//! the height of the rails (y of the center plus r times the roll φ), the wheels touch at (0, ±l, ±l φ - (r ±
+//! λ y)) from the center, on planes of the slopes ±δ0 + ε y: a rolling radius is measured square to the axle,
+//! so that an axle that rolls on what carries it does not creep. At each contact, with the velocity v and the
+//! angular velocity ω of the wheelset's material there and the forward speed V,
 //!
 //! ```text
 //! ξx = vx/V,  ξy = vy/V,  φ = ω·n/V
@@ -18,7 +19,7 @@
 //! with the roll coefficient σ.
 //!
 //! Limits: no saturation, no flange, no lift-off; on straight track or in gentle curves, without
-//! irregularities. The forward speed is `√(v² + v_min²)`.
+//! irregularities. The forward speed is `√(v² + v_min²)`; where a wheelset rolls backward, f23 changes its sign.
 
 use std::sync::Arc;
 
@@ -121,12 +122,15 @@ impl Element for LinearOnTrack {
         let (geometry, creep) = (&self.wheelset.geometry, &self.wheelset.creep);
         let speed = (velocity[0] * velocity[0] + self.slowest * self.slowest).sqrt();
         let inverse = speed.recip();
+        // A wheelset that rolls backward is the mirror image of one that rolls forward.
+        let coupling = creep.f23 * velocity[0].value().signum();
         let (mut force, mut moment, mut loss) = ([S::zero(); 3], [S::zero(); 3], S::zero());
         for side in [1.0, -1.0] {
             let arm = [
                 S::zero(),
                 S::from(side * geometry.half_distance),
-                -(seen.shift * (side * geometry.conicity) + geometry.radius),
+                seen.roll * (side * geometry.half_distance)
+                    - (seen.shift * (side * geometry.conicity) + geometry.radius),
             ];
             let Vector(carried) = Vector(angular).cross::<S, S>(Vector(arm));
             let slip = [velocity[0] + carried[0], velocity[1] + carried[1]];
@@ -136,8 +140,8 @@ impl Element for LinearOnTrack {
             let mut turning = S::zero();
             if self.wheelset.spin {
                 turning = angular[2] - angular[1] * slope;
-                tangential[1] -= turning * creep.f23;
-                about = slip[1] * creep.f23 - turning * creep.f33;
+                tangential[1] -= turning * coupling;
+                about = slip[1] * coupling - turning * creep.f33;
             }
             let [x, y] = tangential.map(|part| part * inverse);
             let about = about * inverse;

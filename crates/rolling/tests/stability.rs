@@ -8,7 +8,12 @@ use std::f64::consts::TAU;
 use common::suspended::{SUSPENDED, critical_speed, growth_by_steps, hunting};
 use common::{coned_wheelset, linear};
 use integrate::{Integrator, Options};
-use rolling::rig::{Rig, RigStart};
+use mechanics::element::Element;
+use mechanics::link::RelativeMotion;
+use mechanics::vector::{Matrix, Vector};
+use rolling::linear::LinearOnTrack;
+use rolling::rig::{Rig, RigStart, Wheels};
+use wheelrail::conicity::LinearGeometry;
 
 /// `w² = (c1 kψ + c2 ky)/(c1 I + c2 m)`, `Vc² = c1 c2 w² / (X + (ky - m w²)(kψ - I w²))`, with c1 = 2 f22,
 /// c2 = 2 f11 l², X = 4 f11 f22 λ l / r.
@@ -107,4 +112,97 @@ fn analytic_kinematic_wavelength_of_coned_wheels() {
         let found = crossings[3] - crossings[1];
         assert!((found / klingel - 1.0).abs() < 0.01, "{slope}: {found} {klingel}");
     }
+}
+
+/// With the roll of cones on rails, `φ = λ y/l`, the contacts stay at the height of the rails, and the tilt
+/// of the axle makes the difference of the rolling radii: the wavelength is Klingel's, as without roll.
+#[test]
+fn issue_047_a_wheelset_that_rolls_with_its_shift_has_klingels_wavelength() {
+    let ([mass, inertia, ..], creep, geometry, _) = SUSPENDED[0];
+    let [conicity, radius, half_distance] = geometry;
+    let speed = 2.0;
+    let mut setup = linear([mass, inertia, 0.0, 0.0], creep, geometry, speed);
+    let Wheels::Linear { wheelset, .. } = &mut setup.wheels else {
+        panic!("linear wheels");
+    };
+    wheelset.geometry = LinearGeometry::of_cones(conicity, half_distance, radius);
+    let [_, frequency] = hunting(&setup, [0.1, 100.0], 2.0);
+    let kinematic = speed / (radius * half_distance / conicity).sqrt();
+    assert!(
+        (frequency / kinematic - 1.0).abs() < 1e-3,
+        "{frequency} {kinematic}"
+    );
+}
+
+/// An axle that rolls on what carries it keeps its rolling radii: cylinders do not creep along the rails.
+#[test]
+fn issue_047_an_axle_that_rolls_on_its_support_does_not_creep() {
+    let ([mass, inertia, ..], creep, [_, radius, half_distance], _) = SUSPENDED[0];
+    let speed = 20.0;
+    let setup = linear(
+        [mass, inertia, 0.0, 0.0],
+        creep,
+        [0.0, radius, half_distance],
+        speed,
+    );
+    let Wheels::Linear { wheelset, .. } = setup.wheels else {
+        panic!("linear wheels");
+    };
+    let element = LinearOnTrack {
+        name: String::new(),
+        lines: setup.lines,
+        wheelset,
+        support: [0.0; 2],
+        slowest: 0.1,
+    };
+    let roll: f64 = 1e-3;
+    let (sine, cosine) = roll.sin_cos();
+    let rotation = Matrix([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]]);
+    let wrench = element.evaluate(&RelativeMotion {
+        position: Vector([50.0, 0.0, radius]),
+        rotation,
+        velocity: Vector([speed, 0.0, 0.0]),
+        angular_velocity: Vector([0.0, cosine * speed / radius, sine * speed / radius]),
+    });
+    // Without the tilt of the arms: a creepage of l φ/r at each wheel.
+    let couple = 2.0 * creep[0] * half_distance * half_distance * roll / radius;
+    let Vector([_, _, yaw]) = wrench.moment;
+    assert!(yaw.abs() < 1e-2 * couple, "{yaw} N m of {couple}");
+}
+
+/// A wheelset that rolls backward is the mirror image of one that rolls forward: the same lateral force, the
+/// opposite longitudinal force and yaw moment.
+#[test]
+fn issue_047_spin_of_a_wheelset_that_rolls_backward_is_its_mirror_image() {
+    let ([mass, inertia, ..], creep, geometry, _) = SUSPENDED[0];
+    let setup = linear([mass, inertia, 0.0, 0.0], creep, geometry, 20.0);
+    let Wheels::Linear { mut wheelset, .. } = setup.wheels else {
+        panic!("linear wheels");
+    };
+    (wheelset.spin, wheelset.creep.f23, wheelset.creep.f33) = (true, 2e4, 50.0);
+    let element = LinearOnTrack {
+        name: String::new(),
+        lines: setup.lines,
+        wheelset,
+        support: [0.0; 2],
+        slowest: 0.1,
+    };
+    let radius = geometry[1];
+    let at = |speed: f64| {
+        element.evaluate(&RelativeMotion {
+            position: Vector([50.0, 1e-3, radius]),
+            rotation: Matrix([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+            velocity: Vector([speed, 0.01, 0.0]),
+            angular_velocity: Vector([0.0, speed / radius, 1e-3 * speed]),
+        })
+    };
+    let [ahead, back] = [at(20.0), at(-20.0)];
+    let (Vector([x, y, _]), Vector([_, _, yaw])) = (ahead.force, ahead.moment);
+    let (Vector([u, v, _]), Vector([_, _, turn])) = (back.force, back.moment);
+    assert!(y.abs() > 1.0 && yaw.abs() > 1.0, "{y} {yaw}");
+    assert!(
+        (x + u).abs() < 1e-9 * y.abs() && (y - v).abs() < 1e-9 * y.abs(),
+        "{x} {u}, {y} {v}"
+    );
+    assert!((yaw + turn).abs() < 1e-9 * yaw.abs(), "{yaw} {turn}");
 }

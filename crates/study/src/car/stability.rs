@@ -7,7 +7,7 @@
 use std::ops::ControlFlow;
 
 pub use car::{CriticalSpeed, FrictionState, LinearizeError, Mode};
-use car::{Drive, Parameters, Start};
+use car::{Parameters, Start};
 
 use super::CarCase;
 use super::track::tangent;
@@ -98,10 +98,6 @@ fn straight(parameters: &Parameters, fastest: f64) -> Option<Parameters> {
     let mut own = parameters.clone();
     let reach = own.reach();
     own.track = tangent(2.0 * reach + 3.0 * fastest + 10.0)?;
-    own.drive = match own.drive {
-        Drive::Held { gain } | Drive::Over { gain, .. } | Drive::History { gain, .. } => Drive::Held { gain },
-        Drive::Coasting => Drive::Coasting,
-    };
     own.start = Start {
         heading: 0.0,
         kind: own.start.kind,

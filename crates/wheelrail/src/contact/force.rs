@@ -135,13 +135,20 @@ impl ContactLaw {
             shear_modulus: material.shear_modulus(),
             coefficients: Coefficients::of(axes[0] / axes[1], material.poisson),
         };
-        let creep = match self.creep {
-            CreepLaw::Frictionless => CreepForces::none(),
-            CreepLaw::Linear => linear::forces(&loaded(), &creepage),
-            CreepLaw::ShenHedrickElkins => shen_hedrick_elkins::forces(&loaded(), &creepage),
-            CreepLaw::Polach(reduction) => polach::forces(&loaded(), &creepage, reduction),
-            CreepLaw::Fastsim(grid) => fastsim::forces(&loaded(), &creepage, grid),
+        // Creep laws are those of a wheel that rolls forward; one that rolls backward is its mirror image.
+        let sense = forward.value().signum();
+        let ahead = Creepage {
+            spin: creepage.spin * sense,
+            ..creepage
         };
+        let mut creep = match self.creep {
+            CreepLaw::Frictionless => CreepForces::none(),
+            CreepLaw::Linear => linear::forces(&loaded(), &ahead),
+            CreepLaw::ShenHedrickElkins => shen_hedrick_elkins::forces(&loaded(), &ahead),
+            CreepLaw::Polach(reduction) => polach::forces(&loaded(), &ahead, reduction),
+            CreepLaw::Fastsim(grid) => fastsim::forces(&loaded(), &ahead, grid),
+        };
+        creep.spin_moment = creep.spin_moment * sense;
         PatchForces {
             normal: load,
             elastic,

@@ -2,6 +2,8 @@
 //!
 //! `cargo run --release -p study --example car_validation`: some minutes on two cores.
 
+mod explained;
+
 use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -43,7 +45,7 @@ linear vehicles: [validation of wheelsets](validation-rolling.md).
 type Section = fn() -> Result<String, Failure>;
 
 fn main() -> Result<(), Failure> {
-    let sections: [Section; 9] = [
+    let sections: [Section; 11] = [
         hunting_over_speed,
         hunting_held,
         flange_contact,
@@ -53,13 +55,15 @@ fn main() -> Result<(), Failure> {
         bounce,
         stillness,
         headings,
+        explained::stuck_vibrations,
+        explained::ends_of_trucks,
     ];
     let chosen = std::env::args()
         .nth(1)
         .and_then(|word| word.parse::<usize>().ok());
     if let Some(number) = chosen {
         // One section, to look at.
-        let section = sections.get(number).ok_or("there are sections 0 to 8")?;
+        let section = sections.get(number).ok_or("there are sections 0 to 10")?;
         println!("{}", section()?);
         return Ok(());
     }
