@@ -19,7 +19,8 @@
 //! with the roll coefficient σ.
 //!
 //! Limits: no saturation, no flange, no lift-off; on straight track or in gentle curves, without
-//! irregularities. The forward speed is `√(v² + v_min²)`; where a wheelset rolls backward, f23 changes its sign.
+//! irregularities. The forward speed is `√(v² + v_min²)`; where a wheelset rolls backward, f23 changes its
+//! sign.
 
 use std::sync::Arc;
 
@@ -27,7 +28,7 @@ use mechanics::element::{Element, Wrench};
 use mechanics::link::RelativeMotion;
 use mechanics::vector::Vector;
 use numerics::scalar::Real;
-use wheelrail::contact::LinearWheelset;
+use wheelrail::contact::{LinearWheelset, rolling_sense};
 use wheelrail::track::{Line, RailLines};
 
 use crate::ahead::ahead;
@@ -123,7 +124,7 @@ impl Element for LinearOnTrack {
         let speed = (velocity[0] * velocity[0] + self.slowest * self.slowest).sqrt();
         let inverse = speed.recip();
         // A wheelset that rolls backward is the mirror image of one that rolls forward.
-        let coupling = creep.f23 * velocity[0].value().signum();
+        let coupling = rolling_sense(velocity[0], self.slowest) * creep.f23;
         let (mut force, mut moment, mut loss) = ([S::zero(); 3], [S::zero(); 3], S::zero());
         for side in [1.0, -1.0] {
             let arm = [

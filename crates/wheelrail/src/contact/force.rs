@@ -136,7 +136,7 @@ impl ContactLaw {
             coefficients: Coefficients::of(axes[0] / axes[1], material.poisson),
         };
         // Creep laws are those of a wheel that rolls forward; one that rolls backward is its mirror image.
-        let sense = forward.value().signum();
+        let sense = rolling_sense(forward, self.slowest);
         let ahead = Creepage {
             spin: creepage.spin * sense,
             ..creepage
@@ -251,6 +251,19 @@ impl ContactLaw {
             damping_power: damping,
             elastic_power: stored,
         }
+    }
+}
+
+/// Returns the sense in which a wheel rolls at a forward speed (m/s): 1 forward, -1 backward, between them
+/// linear below the smallest reference speed (m/s).
+#[inline(always)]
+#[must_use]
+pub fn rolling_sense<S: Real>(forward: S, slowest: f64) -> S {
+    let speed = forward.value();
+    if speed.abs() < slowest {
+        forward * (1.0 / slowest)
+    } else {
+        S::from(speed.signum())
     }
 }
 

@@ -37,7 +37,7 @@ mod section;
 mod table;
 
 pub use ellipse::{Ellipse, Ellipses};
-pub use force::{ContactLaw, CreepLaw, PatchForces, WheelForces, WheelMotion, stored_energy};
+pub use force::{ContactLaw, CreepLaw, PatchForces, WheelForces, WheelMotion, rolling_sense, stored_energy};
 pub use linear::{CreepCoefficients, LinearWheelset};
 pub use patch::ContactPatch;
 pub use pose::{Side, WheelPose};
