@@ -127,6 +127,17 @@ def test_profiles_are_points_and_back(tmp_path: Path) -> None:
     assert difference[0] == pytest.approx(difference[1], abs=2e-6)
 
 
+def test_issue_047_kinds_and_datums_of_profiles_are_told() -> None:
+    wheel, rail = wr.Profile.nominal("aar_1b"), wr.Profile.nominal("136re")
+    with pytest.raises(wl.WheelRailError, match="looks like a wheel"):
+        wr.Profile.from_points(*wheel.points("0.2 mm"), "rail")
+    with pytest.raises(wl.WheelRailError, match="looks like a rail"):
+        wr.Profile.from_points(*rail.points("0.2 mm"), "wheel")
+    y, z = rail.points("0.2 mm")
+    with pytest.raises(wl.WheelRailError, match=r"highest point is at z = 30.000 mm"):
+        wr.Wheelset(wheel, wr.Profile.from_points(y, np.asarray(z) + 0.03, "rail"))
+
+
 @pytest.mark.parametrize(
     ("given", "said"),
     [

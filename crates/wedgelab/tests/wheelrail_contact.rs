@@ -284,3 +284,78 @@ fn input_mistakes_are_refused_and_the_frame_is_reported() {
     );
     assert_eq!(found["given"]["nominal_radius_mm"], 457.2);
 }
+
+/// Every command refuses a wheel as the rail and a rail as the wheel, with exit code 2 and nothing written;
+/// `check` prints where gauge is measured, and the rail's place: 750 mm from the middle in EN 15302.
+#[test]
+fn issue_047_every_command_tells_wheels_from_rails_and_measures_gauge_from_the_datum() {
+    let data = profiles().join("../en15302");
+    let [wheel, rail] = ["wheel_a.csv", "rail_a.csv"].map(|file| data.join(file).display().to_string());
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("track.toml"),
+        "[[segments]]\ntangent = \"100 ft\"\n",
+    )
+    .unwrap();
+    let call = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_wedgelab"))
+            .current_dir(folder.path())
+            .arg("wheelrail")
+            .args(arguments)
+            .env_remove("FORCE_COLOR")
+            .output()
+            .unwrap();
+        let [out, err] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+        (output.status.code(), out, err)
+    };
+    for (wheel, rail, said) in [
+        (
+            &wheel,
+            &wheel,
+            "this looks like a wheel, where a rail is expected: it has a flange of 28.0 mm",
+        ),
+        (
+            &rail,
+            &rail,
+            "this looks like a rail, where a wheel is expected: it is highest at y = 14.6 mm",
+        ),
+        (&rail, &wheel, "this looks like a rail"),
+    ] {
+        for arguments in [
+            &["check", wheel, rail][..],
+            &["plot", wheel, rail],
+            &["contact", wheel, rail, "--load", "100 kN"],
+            &["run", wheel, rail, "track.toml", "--speed", "30 mph"],
+        ] {
+            let (code, _, err) = call(arguments);
+            assert!(
+                code == Some(2) && err.contains(said),
+                "{arguments:?}: {code:?} {err}"
+            );
+            assert!(err.contains("if wheel and rail are exchanged"), "{err}");
+        }
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    let arguments = [
+        "check",
+        &wheel,
+        &rail,
+        "--gauge",
+        "1435 mm",
+        "--gauge-depth",
+        "14 mm",
+        "--tape-distance",
+        "1500 mm",
+        "--deviation",
+        "0 mm",
+    ];
+    let (code, out, err) = call(&arguments);
+    assert_eq!(code, Some(0), "{err}");
+    for text in [
+        "gauge point at y = -32.500 mm, 14.000 mm below its datum z = 0",
+        "which lies 0.492 mm below its highest point",
+        "y = 0 lies 750.000 mm from the middle of the track",
+    ] {
+        assert!(out.contains(text), "{text}: {out}");
+    }
+}

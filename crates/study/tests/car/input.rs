@@ -3,6 +3,7 @@
 use crate::problems::in_words;
 use study::car::{CarCase, builtin};
 use study::case::Tables;
+use wheelrail::profile::{Profile, nominal};
 
 /// Returns the messages of a case with `model = "car"` and these lines, with their help.
 fn refused(lines: &str) -> String {
@@ -202,6 +203,60 @@ fn input_messages_say_what_is_wrong_and_what_to_write() {
         ("truck = 3", &["`truck` is a number; a table is expected"]),
     ] {
         let messages = refused(lines);
+        for part in parts {
+            assert!(messages.contains(part), "{lines}\nlacks: {part}\n{messages}");
+        }
+    }
+}
+
+/// A wheel as the rail, a rail as the wheel, and a rail whose z = 0 is its foot, from files beside the case.
+#[test]
+fn issue_047_profiles_of_the_other_kind_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |file: &str, profile: &Profile, height: f64| {
+        let sample = profile.curve().sample(5e-4);
+        let rows = sample.iter().map(|(_, point)| {
+            let [y, z] = point.position.map(|own| 1e3 * own);
+            format!("{y},{}\n", z + height)
+        });
+        let text = format!("y [mm],z [mm]\n{}", rows.collect::<String>());
+        std::fs::write(folder.path().join(file), text).unwrap();
+    };
+    write("wheel.csv", &nominal::aar_1b().unwrap(), 0.0);
+    write("rail.csv", &nominal::rail_136re().unwrap(), 0.0);
+    write("foot.csv", &nominal::rail_136re().unwrap(), 185.7);
+    let read = |lines: &str| {
+        let text = format!("model = \"car\"\n{lines}");
+        CarCase::parse("case.toml", &text, folder.path(), &[])
+    };
+    read("wheels.profile = \"wheel.csv\"\nrails.profile = \"rail.csv\"").unwrap();
+    for (lines, parts) in [
+        (
+            "rails.profile = \"wheel.csv\"",
+            [
+                "`rails.profile`",
+                "wheel.csv: this looks like a wheel",
+                "name a file of a rail here, or 136re",
+            ],
+        ),
+        (
+            "wheels.profile = \"rail.csv\"",
+            [
+                "`wheels.profile`",
+                "rail.csv: this looks like a rail",
+                "name a file of a wheel here, or aar_1b",
+            ],
+        ),
+        (
+            "rails.profile = \"foot.csv\"",
+            [
+                "`rails.profile`",
+                "its highest point is at z = 185.7",
+                "add -185.7",
+            ],
+        ),
+    ] {
+        let messages = in_words(read(lines).unwrap_err().problems());
         for part in parts {
             assert!(messages.contains(part), "{lines}\nlacks: {part}\n{messages}");
         }

@@ -79,7 +79,8 @@ fn profiles_of_en15302(out: &mut String) {
     );
     line(
         out,
-        "amplitudes from 1 mm to 7.5 mm at which the wheelset swings, and those within the standard's limits.\n",
+        "amplitudes from 1 mm to 7.5 mm at which the wheelset swings, and those within the standard's \
+         limits.\n",
     );
     let head = [
         "case",
