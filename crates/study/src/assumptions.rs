@@ -70,15 +70,30 @@ pub fn of(wedge: &Wedge) -> Vec<String> {
         Start::Equilibrium => "The run starts in frictionless static equilibrium.".to_owned(),
     });
     if p.wear != Wear::default() {
+        let flat = [&p.column_face, &p.slope_face].into_iter().all(|face| {
+            let surfaces = [&face.wedge_surface, &face.counterface];
+            surfaces.into_iter().all(|own| own.profile.is_flat())
+                && face.wedge_wear.is_none()
+                && face.counterface_wear.is_none()
+        });
         list.push(format!(
-            "The faces are worn by {:.4} in (column) and {:.4} in (slope), and still flat: a rigid wedge \
-             stands {:.4} in higher for it.",
+            "The faces are worn by {:.4} in (column) and {:.4} in (slope){}: a rigid wedge stands {:.4} in \
+             higher for it.",
             p.wear.column / INCH,
             p.wear.slope / INCH,
+            if flat { ", and still flat" } else { "" },
             p.wedge_rise() / INCH
         ));
     }
-    list.push("Friction holds a wedge where it came to rest, so the start matters for seconds.".to_owned());
+    let faces = [
+        p.column_face.friction(&p.column_friction),
+        p.slope_face.friction(&p.slope_friction),
+    ];
+    if faces.iter().any(|own| own.coefficient > 0.0) {
+        list.push(
+            "Friction holds a wedge where it came to rest, so the start matters for seconds.".to_owned(),
+        );
+    }
     list.push(
         "The bolster turns about the centre of its pocket's slope unless a centre is named; the side frame \
          about the centre of its column face."

@@ -8,6 +8,8 @@
 //! - Equivalent stiffness and damping of a force are those of its first harmonic, see [`first_harmonic`].
 
 use mechanics::motion::Motion;
+use mechanics::output::Column;
+use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 use wedge::parameters::{Damping, Parameters};
 
@@ -145,27 +147,34 @@ impl Extremes {
     /// Returns the extremes of `values` over `times`; `None` without values.
     #[must_use]
     pub fn of(times: &[f64], values: &[f64]) -> Option<Self> {
-        let (first, time) = (*values.first()?, *times.first()?);
-        let start = Self {
-            minimum: first,
-            minimum_time: time,
-            maximum: first,
-            maximum_time: time,
-        };
-        Some(
-            times
-                .iter()
-                .zip(values)
-                .fold(start, |mut extremes, (time, value)| {
-                    if *value < extremes.minimum {
-                        (extremes.minimum, extremes.minimum_time) = (*value, *time);
-                    }
-                    if *value > extremes.maximum {
-                        (extremes.maximum, extremes.maximum_time) = (*value, *time);
-                    }
-                    extremes
-                }),
-        )
+        let mut rows = times.iter().zip(values).map(|(time, value)| Self {
+            minimum: *value,
+            minimum_time: *time,
+            maximum: *value,
+            maximum_time: *time,
+        });
+        let first = rows.next()?;
+        Some(rows.fold(first, Self::then))
+    }
+
+    /// Returns the name of their column with its unit, and them in output units.
+    #[must_use]
+    pub fn named(mut self, column: &Column, units: Units) -> (String, Self) {
+        self.minimum *= column.kind.from_si(units);
+        self.maximum *= column.kind.from_si(units);
+        (column.full_name(units), self)
+    }
+
+    /// Returns the extremes of these rows and later ones.
+    #[must_use]
+    pub fn then(mut self, later: Self) -> Self {
+        if later.minimum < self.minimum {
+            (self.minimum, self.minimum_time) = (later.minimum, later.minimum_time);
+        }
+        if later.maximum > self.maximum {
+            (self.maximum, self.maximum_time) = (later.maximum, later.maximum_time);
+        }
+        self
     }
 }
 

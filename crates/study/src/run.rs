@@ -26,10 +26,13 @@ use crate::summary::Stopped;
 
 mod check;
 mod pressed;
+mod row_table;
 mod state;
 mod summarize;
 pub(crate) mod wedge_run;
 
+pub(crate) use row_table::RowTable;
+pub use row_table::SavedRows;
 pub use state::{RUN_STATE_VERSION, RunState};
 pub(crate) use state::{check_finite, check_length, check_size, damaged};
 pub use wedge_run::{Counts, EVENT_CAP};
@@ -93,7 +96,10 @@ pub enum RunError {
     #[error(transparent)]
     NotFinite(#[from] NotFinite),
     /// A saved state that this version cannot read.
-    #[error("the saved run state has version {found}; this program reads version {RUN_STATE_VERSION}")]
+    #[error(
+        "the saved run state has version {found}; this program reads version {RUN_STATE_VERSION}. Continue it \
+         with the program that saved it, or run the case from its start"
+    )]
     Version {
         /// The version found.
         found: u32,
@@ -176,6 +182,10 @@ pub trait RunCase: Clone {
     /// # Errors
     /// The case makes no system, or there is no such start.
     fn begin(&self) -> Result<Beginning<Self::Recorder>, RunError>;
+    /// Returns how long after a row (s) the rows lie that its values depend on: those of filtered columns.
+    fn look_ahead(&self) -> f64 {
+        0.0
+    }
     /// Returns the results of a run that has ended, or has stopped on its way.
     fn output(run: Run<Self>, stopped: Option<Stopped>) -> Self::Output;
 }
@@ -198,11 +208,17 @@ pub trait Recorder {
 
     /// Returns the counts so far.
     fn counts(&self) -> Self::Counts;
-    /// Goes on from what was counted until `time` (s).
+    /// Goes on from what was counted until `time` (s), with rows at `times` (s).
     ///
     /// # Errors
     /// [`RunError::Damaged`]: no run of this case can have counted that.
-    fn restore(&mut self, counts: Self::Counts, time: f64) -> Result<(), RunError>;
+    fn restore(&mut self, counts: Self::Counts, time: f64, times: &[f64]) -> Result<(), RunError>;
+    /// Takes the recorder of the same run as it goes on: what it has seen as far as [`RunCase::look_ahead`].
+    fn see_ahead(&mut self, _ahead: Self)
+    where
+        Self: Sized,
+    {
+    }
     /// Takes an accepted step. `system` has the integrator's smooth interval of time; `x` is scratch memory
     /// for a state.
     fn step(&mut self, integrator: &Integrator<System>, system: &mut System, x: &mut [f64]);
@@ -269,7 +285,8 @@ impl<C: RunCase> Run<C> {
         Ok(run)
     }
 
-    /// Returns a run that goes on from a saved state of the same case. Rows written before are not repeated.
+    /// Returns a run that goes on from a saved state of the same case. Rows written before are not repeated;
+    /// the summary is that of all rows.
     ///
     /// # Errors
     /// The state belongs to another version or another case, or is damaged.
@@ -285,8 +302,9 @@ impl<C: RunCase> Run<C> {
         })?;
         let integrator = Integrator::resume(beginning.system.clone(), case.options(), state.integrator)?;
         let mut run = Self::assemble(case, beginning, integrator, plausibility, state.start_energy);
-        run.recorder.restore(state.counts, time)?;
         run.next_row = state.next_row;
+        let times: Vec<f64> = (0..run.next_row).map(|row| run.rows.time(row)).collect();
+        run.recorder.restore(state.counts, time, &times)?;
         run.energy_balance = state.energy_balance;
         run.pace = state.pace;
         Ok(run)
@@ -341,7 +359,8 @@ impl<C: RunCase> Run<C> {
         stopped.is_none() && self.is_finished() && self.energy_balance.verdict() != Verdict::Failed
     }
 
-    /// Returns the state, to be continued by [`Run::resume`].
+    /// Returns the state, to be continued by [`Run::resume`]. The results so far are those of a part if
+    /// [`Run::look_ahead`] follows.
     #[must_use]
     pub fn state(&self) -> RunState<<C::Recorder as Recorder>::Counts> {
         RunState {
@@ -354,6 +373,24 @@ impl<C: RunCase> Run<C> {
             pace: self.pace,
             counts: self.recorder.counts(),
         }
+    }
+
+    /// Looks ahead, where the values of rows depend on later ones: a copy of the run goes on until all values
+    /// so far are known. The results of a run that was saved are then those of the same rows of a run that was
+    /// not.
+    ///
+    /// # Errors
+    /// The copy cannot begin.
+    pub fn look_ahead(&mut self) -> Result<(), RunError> {
+        let ahead = self.case.look_ahead();
+        if ahead > 0.0 {
+            let until = self.time() + ahead;
+            let mut copy = Self::resume(&self.case, self.state())?;
+            // Where it cannot go on, the run ends there, too.
+            while !copy.is_finished() && copy.time() < until && copy.advance().is_ok() {}
+            self.recorder.see_ahead(copy.recorder);
+        }
+        Ok(())
     }
 
     /// Makes one step of the integrator, with all rows and events that fall into it.

@@ -17,6 +17,10 @@ mod spectrum;
 /// cutoff f₀, without any delay, so that a peak stays where it is. The values are continued at both ends by
 /// their reflection in the end point.
 ///
+/// The backward pass goes block by block. Each begins so far behind its block that the beginning has died away
+/// to rounding. A filtered value hence depends on rows no more than [`LowPass::rows_ahead`] after it, to the
+/// last bit.
+///
 /// Limits: a real channel filters while it records and delays what it sees; one without phase uses what comes
 /// later. Rows must be so near that nothing above half their rate is in the values: it would be taken for
 /// something slower.
@@ -80,6 +84,25 @@ impl LowPass {
         1.0 / (1.0 + (SQRT_2 - 1.0) * libm::pow(ratio, 4.0))
     }
 
+    /// Rows of a block of the backward pass: a period of the cutoff.
+    fn block(&self) -> usize {
+        (1.0 / (self.cutoff * self.interval)).ceil() as usize
+    }
+
+    /// Rows in which what a pass begins with dies away to rounding: the poles of the filter have a size of
+    /// √a₂.
+    fn memory(&self) -> usize {
+        let [.., size] = self.coefficients;
+        (libm::log(f64::EPSILON) / (0.5 * libm::log(size))).ceil() as usize
+    }
+
+    /// Returns the number of rows after a row on which its filtered value depends: about eight periods of the
+    /// cutoff.
+    #[must_use]
+    pub fn rows_ahead(&self) -> usize {
+        self.block() + self.memory()
+    }
+
     /// Returns the filtered values.
     #[must_use]
     pub fn apply(&self, values: &[f64]) -> Vec<f64> {
@@ -100,8 +123,21 @@ impl LowPass {
                 .map(|value| 2.0 * last - value),
         );
         self.pass(long.iter_mut());
-        self.pass(long.iter_mut().rev());
-        long[pad..pad + values.len()].to_vec()
+        let (block, ahead) = (self.block(), self.rows_ahead());
+        let mut filtered = Vec::with_capacity(values.len());
+        let mut part = Vec::with_capacity(ahead);
+        for start in (0..values.len()).step_by(block) {
+            let from = if start + ahead <= values.len() {
+                pad + start + ahead
+            } else {
+                long.len()
+            };
+            part.clear();
+            part.extend(&long[pad + start..from]);
+            self.pass(part.iter_mut().rev());
+            filtered.extend(&part[..block.min(values.len() - start)]);
+        }
+        filtered
     }
 
     /// One pass, from the steady state of the first value.

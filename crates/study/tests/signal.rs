@@ -4,6 +4,7 @@
 
 use std::f64::consts::{PI, SQRT_2};
 
+use proptest::prelude::*;
 use study::signal::{
     LowPass, Spectrum, SpectrumError, TooCoarse, largest_deviation, largest_rms, percentile, sustained,
 };
@@ -49,6 +50,57 @@ fn limits_lines_pass_a_filter_to_their_ends() {
     assert!((filter.apply(&[2.0])[0] - 2.0).abs() < 1e-12);
     let two = filter.apply(&[2.0, 2.0]);
     assert!(two.iter().all(|value| (value - 2.0).abs() < 1e-12));
+}
+
+proptest! {
+    /// A filtered value is the same to the last bit whether the values end as far behind it as it looks ahead,
+    /// or anywhere later.
+    #[test]
+    fn issue_047_a_filter_looks_a_bounded_number_of_rows_ahead(
+        values in prop::collection::vec(-1e6..1e6_f64, 2..600),
+        cut in 0.0..1.0_f64,
+        cutoff in 5.0..50.0_f64,
+        interval in 0.001..0.005_f64,
+    ) {
+        let filter = LowPass::new(interval, cutoff).unwrap();
+        let rows = 1 + (cut * (values.len() - 1) as f64) as usize;
+        let seen = (rows + filter.rows_ahead()).min(values.len());
+        let (whole, part) = (filter.apply(&values), filter.apply(&values[..seen]));
+        prop_assert_eq!(whole.len(), values.len());
+        for row in 0..rows {
+            prop_assert_eq!(whole[row].to_bits(), part[row].to_bits(), "row {} of {}", row, rows);
+        }
+    }
+}
+
+/// The blocks of the backward pass cannot be seen: one pass from end to end has the same values to rounding.
+#[test]
+fn analytic_blocks_of_a_filter_are_one_pass() {
+    let (interval, cutoff) = (0.005, 15.0);
+    let filter = LowPass::new(interval, cutoff).unwrap();
+    let values: Vec<f64> = (0..3000).map(|row| f64::from(row * row % 1009) - 500.0).collect();
+    // Butterworth's filter of second order, forward, then over the turned values.
+    let k = (PI * cutoff * interval).tan() / (SQRT_2 - 1.0).sqrt().sqrt();
+    let scale = 1.0 / (1.0 + SQRT_2 * k + k * k);
+    let (b, a1, a2) = (
+        k * k * scale,
+        2.0 * (k * k - 1.0) * scale,
+        (1.0 - SQRT_2 * k + k * k) * scale,
+    );
+    let pass = |x: &[f64]| {
+        let mut y = vec![x[0]; x.len()];
+        for row in 2..x.len() {
+            y[row] = b * (x[row] + 2.0 * x[row - 1] + x[row - 2]) - a1 * y[row - 1] - a2 * y[row - 2];
+        }
+        y.reverse();
+        y
+    };
+    let one = pass(&pass(&values));
+    let filtered = filter.apply(&values);
+    for row in 500..2500 {
+        let error = (filtered[row] - one[row]).abs();
+        assert!(error < 1e-10 * 500.0, "row {row}: {error}");
+    }
 }
 
 #[test]

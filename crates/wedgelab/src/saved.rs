@@ -1,18 +1,20 @@
 //! Runs in parts: a state that a run is saved in, in one file with its case, and goes on from.
 //!
 //! The file is JSON: the schema, the case as it is printed, and the state, every number with all of its bits.
-//! A state belongs to its case: a run of another one does not go on from it.
+//! A state belongs to its case: a run of another one does not go on from it. It has the rows that the summary
+//! is made of, so that the summary of the last part is that of the whole run.
 
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use input::FileType;
 use input::file::{Expected, read_text};
+use input::limits::SAVED_STATE;
 use quantity::Number;
 use report::files::Folder;
-use report::summary::write_json;
 use serde::{Deserialize, Serialize};
-use study::run::{Recorder, Run, RunCase, RunState};
+use study::run::{RUN_STATE_VERSION, Recorder, Run, RunCase, RunError, RunState};
 
 use crate::execute::{Done, started};
 use crate::failure::{Failure, Message};
@@ -51,6 +53,12 @@ struct Written<'s, S> {
 struct Head {
     schema: String,
     case: String,
+    state: Version,
+}
+
+#[derive(Deserialize)]
+struct Version {
+    version: u32,
 }
 
 #[derive(Deserialize)]
@@ -122,7 +130,13 @@ pub fn compute<C: RunCase>(
                 case: parts.case,
                 state: &run.state(),
             };
-            folder.write(|files| files.add(name, |out| write_json(&written, out)))?;
+            let text = serde_json::to_vec(&written).map_err(io::Error::from)?;
+            if text.len() as u64 > SAVED_STATE {
+                return Err(too_large(text.len()).into());
+            }
+            folder.write(|files| files.add(name, |out| out.write_all(&text)))?;
+            run.look_ahead()
+                .map_err(|error| Message::new(error.to_string(), C::WHERE_TO_LOOK))?;
             Some(Saved {
                 time: run.time(),
                 path: folder.path().join(name),
@@ -134,6 +148,19 @@ pub fn compute<C: RunCase>(
     let result = run.result(stopped);
     let wall = start.elapsed();
     Ok((Done { result, wall }, saved))
+}
+
+/// Returns the failure of a state that could not be read again.
+fn too_large(bytes: usize) -> Message {
+    let message = format!(
+        "the state takes {} MB, and no more than {} MB are read again",
+        bytes >> 20,
+        SAVED_STATE >> 20
+    );
+    Message::new(
+        message,
+        "lengthen simulation.output_interval, or save earlier: the state holds the rows so far",
+    )
 }
 
 /// Returns the folder of a file that is to be written, and the file's name.
@@ -154,7 +181,7 @@ fn read<C: RunCase>(path: &Path, case: &str) -> Result<State<C>, Failure> {
     let expected = Expected {
         what: "saved state",
         types: &[FileType::Json],
-        most: input::limits::RECORD_FILE,
+        most: SAVED_STATE,
     };
     let text = read_text(path, &expected)
         .map_err(|error| Message::new(error.to_string(), error.help().unwrap_or_default()))?;
@@ -173,6 +200,15 @@ fn read<C: RunCase>(path: &Path, case: &str) -> Result<State<C>, Failure> {
         let line = first_difference(&head.case, case);
         let advice = format!("continue the case that was saved, with the same --set; {line}");
         return Err(Message::new(message, advice).into());
+    }
+    if head.state.version != RUN_STATE_VERSION {
+        let found = head.state.version;
+        let message = format!("`{path}`: {}", RunError::Version { found });
+        return Err(Message::new(
+            message,
+            "name a file that `wedgelab run --save` of this version wrote",
+        )
+        .into());
     }
     let body: Body<State<C>> = serde_json::from_str(&text).map_err(refused)?;
     Ok(body.state)

@@ -1,44 +1,103 @@
-//! The assumptions of a car's run in words.
+//! The assumptions of a car's run in words. What is said of a value holds for it, whether it is a built-in one
+//! or the case's own.
 
-use car::{Drive, StartKind, Wheels};
+use car::{Drive, Parameters, StartKind, Wheels};
+use rolling::track::RailSupport;
 use truck::{Wedge, WedgeKind};
-use wheelrail::contact::CreepLaw;
+use wheelrail::contact::{ContactLaw, CreepLaw};
+use wheelrail::profile::Profile;
 
 use super::CarCase;
+use super::statistics::Rules;
 use crate::truck::assumptions::of_kinds;
+
+/// Returns the assumption about a profile of wheels or rails; `typed` is what the user calls it: a nominal
+/// profile or a file.
+pub(crate) fn of_profile(whose: &str, typed: &str, profile: &Profile) -> String {
+    let name = input::shortened(typed);
+    match profile.note() {
+        "" if profile.name() == "cone" => {
+            format!("The profile of {whose} is {name}, a cone without a flange.")
+        }
+        "" => format!("The profile of {whose} is {name}."),
+        note => format!("The profile of {whose} is {name}: {note}."),
+    }
+}
+
+/// Returns the assumption about the rails' support in a field of gravity (m/s²); `own` begins the words.
+pub(crate) fn of_support(support: Option<&RailSupport>, own: &str, gravity: f64) -> String {
+    match support {
+        None => "Rails do not give way.".to_owned(),
+        Some(support) if *support == RailSupport::default_support("rail", gravity) => {
+            format!("{own}; its values are guesses.")
+        }
+        Some(_) => format!("{own}, with the values of the track."),
+    }
+}
+
+/// Returns the assumption about the contacts of wheels on rails.
+fn of_contacts(law: &ContactLaw, tables: bool) -> String {
+    let friction = law.friction;
+    format!(
+        "Wheels on rails: patches by overlap with Hertz's ellipses, {}{}.",
+        match law.creep {
+            CreepLaw::Frictionless => "no creep forces".to_owned(),
+            CreepLaw::Linear => "Kalker's linear creep without saturation".to_owned(),
+            CreepLaw::ShenHedrickElkins => {
+                format!("creep after Shen, Hedrick and Elkins, friction {friction}")
+            }
+            CreepLaw::Polach(_) => format!("creep after Polach, friction {friction}"),
+            CreepLaw::Fastsim(_) => format!("creep by FASTSIM, friction {friction}"),
+        },
+        if tables {
+            "; patches from tables over lateral shift, which have no flanges"
+        } else {
+            ""
+        }
+    )
+}
+
+/// Returns the assumption about wedges without mass and empirical warp springs, if there are any.
+fn of_warp(parameters: &Parameters) -> Option<String> {
+    let trucks = &parameters.trucks;
+    let massless = |own: &truck::Parameters| {
+        let kinds = own.wedges.iter();
+        kinds.filter(|own| own.kind == WedgeKind::Massless).count()
+    };
+    let springs = trucks.iter().filter(|own| own.warp_spring.is_some()).count();
+    match trucks.iter().map(massless).sum::<usize>() {
+        0 if springs == 0 => None,
+        0 => Some(
+            "An empirical warp spring acts beside wedges that have mass: warp is counted twice.".to_owned(),
+        ),
+        count => Some(format!(
+            "{count} of 8 wedges have no mass: the industry's elements, which do not lock in warp{}. Their \
+             slope friction acts against the wedge's slip on the slope (over 1 mm/s), so that it feeds no \
+             energy.",
+            match springs {
+                0 => " (warp_spring.kind = \"nothing\")",
+                1 => "; an empirical warp spring stands for it in one truck",
+                _ => "; an empirical warp spring stands for it",
+            }
+        )),
+    }
+}
 
 /// Returns the assumptions of a run.
 pub(super) fn of(case: &CarCase) -> Vec<String> {
     let p = &case.parameters;
     let mut list = vec![
         "Out of scope: flexible bodies, braking, coupler forces.".to_owned(),
-        "Bodies are rigid; coils, stops and faces are springs with dampers. Stiffnesses of contacts of \
-         wedges, center plates and adapters are guesses."
+        "Bodies are rigid; coils, stops and faces are springs with dampers. The built-in stiffnesses of \
+         contacts of wedges, center plates and adapters are guesses."
             .to_owned(),
     ];
     match &p.wheels {
         Wheels::OnRails(own) => {
-            list.push(
-                "The profiles AAR-1B and 136RE are nominal, from memory: check them against drawings, or \
-                 give profiles from files."
-                    .to_owned(),
-            );
-            list.push(format!(
-                "Wheels on rails: patches by overlap with Hertz's ellipses, {}, friction {}{}.",
-                match own.law.creep {
-                    CreepLaw::Frictionless => "no creep forces",
-                    CreepLaw::Linear => "Kalker's linear creep without saturation",
-                    CreepLaw::ShenHedrickElkins => "creep after Shen, Hedrick and Elkins",
-                    CreepLaw::Polach(_) => "creep after Polach",
-                    CreepLaw::Fastsim(_) => "creep by FASTSIM",
-                },
-                own.law.friction,
-                if own.tables {
-                    "; patches from tables over lateral shift, which have no flanges"
-                } else {
-                    ""
-                }
-            ));
+            let [wheel, rail] = &*own.profiles;
+            list.push(of_profile("the wheels", case.typed("wheels.profile"), wheel));
+            list.push(of_profile("the rails", case.typed("rails.profile"), rail));
+            list.push(of_contacts(&own.law, own.tables));
         }
         Wheels::Linear { .. } => list.push(
             "Linear wheels: geometry and creep of small motions, no flange, no saturation: for stability \
@@ -46,25 +105,11 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
                 .to_owned(),
         ),
     }
-    list.push(match &p.support {
-        Some(_) => "Each wheel has a piece of rail of its own on springs; its values are guesses.".to_owned(),
-        None => "Rails do not give way.".to_owned(),
-    });
+    let sprung = "Each wheel has a piece of rail of its own on springs";
+    list.push(of_support(p.support.as_ref(), sprung, p.gravity));
     let wedges: Vec<Wedge> = p.trucks.iter().flat_map(|own| own.wedges.clone()).collect();
     list.extend(of_kinds(&wedges));
-    let massless = p.trucks.iter().flat_map(|own| &own.wedges);
-    let massless = massless.filter(|own| own.kind == WedgeKind::Massless).count();
-    if massless > 0 {
-        list.push(format!(
-            "{massless} of 8 wedges have no mass: the industry's elements, which do not lock in warp{}. \
-             Their slope friction acts against the wedge's slip on the slope (over 1 mm/s), so that it feeds \
-             no energy.",
-            match p.trucks.iter().any(|own| own.warp_spring.is_some()) {
-                true => "; an empirical warp spring stands for it",
-                false => " (warp_spring.kind = \"nothing\")",
-            }
-        ));
-    }
+    list.extend(of_warp(p));
     list.push(match &p.drive {
         Drive::Held { .. } | Drive::Over { .. } => {
             "A force on the car body along the track holds the speed; it stands for all that pulls and \
@@ -78,22 +123,34 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
         }
         Drive::Coasting => "No force holds the speed.".to_owned(),
     });
-    list.push(match p.start.kind {
+    let start = match p.start.kind {
         StartKind::Equilibrium => {
-            "The car starts in equilibrium without friction, bristles undeflected, wheels rolling; \
-             statistics leave out the settling time."
+            "The car starts in equilibrium without friction, bristles undeflected, wheels rolling"
+        }
+        StartKind::Nominal => "The car starts in the nominal layout, which is that of the loaded car",
+    };
+    let shifts = p.start.wheelset_shifts.iter().chain([&p.start.body_shift]);
+    let moved = match shifts.into_iter().any(|own| *own != 0.0) {
+        true => ", moved aside by the shifts of [start]",
+        false => "",
+    };
+    list.push(format!(
+        "{start}{moved}; statistics begin at {} s (start.settle).",
+        p.start.settle
+    ));
+    let remembered = Rules {
+        filtered_columns: case.rules.filtered_columns,
+        ..Rules::default()
+    };
+    list.push(match case.rules == remembered {
+        true => {
+            "Filters, times, distances and limits of the statistics are remembered of AAR M-1001, chapter \
+                 XI: check them against your edition."
                 .to_owned()
         }
-        StartKind::Nominal => {
-            "The car starts in the nominal layout, which is that of the loaded car; statistics leave out \
-             the settling time."
-                .to_owned()
-        }
-    });
-    list.push(
-        "Filters, times, distances and limits of the statistics are remembered of AAR M-1001, chapter XI: \
-         check them against your edition."
+        false => "Filters, times and distances of the statistics are the case's own ([output]); built-in \
+                  ones and limits are remembered of AAR M-1001, chapter XI: check them against your edition."
             .to_owned(),
-    );
+    });
     list
 }

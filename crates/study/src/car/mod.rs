@@ -5,7 +5,7 @@
 //! beside what they allow; [`run`] records a run, [`motions`] what a picture of it needs; [`stability`]
 //! linearizes; [`hunting`] ramps the speed.
 
-mod assumptions;
+pub(crate) mod assumptions;
 pub mod builtin;
 pub mod certificate;
 mod checks;
@@ -17,6 +17,7 @@ mod lading;
 pub mod limits;
 pub mod motions;
 mod named;
+mod peaks;
 pub mod regime;
 pub mod run;
 mod sections;
@@ -156,6 +157,13 @@ impl CarCase {
     #[must_use]
     pub fn fields(&self) -> &[FieldSection] {
         &self.text.fields
+    }
+
+    /// Returns a value of the case as typed or by default; empty if there is none at this path.
+    fn typed(&self, path: &str) -> &str {
+        let fields = self.text.fields.iter().flat_map(|section| &section.fields);
+        let found = fields.into_iter().find(|field| field.path == path);
+        found.map_or("", |field| field.text.as_str())
     }
 
     /// Returns the speed at the start, m/s.

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
+use car::Wheels;
 use integrate::{Integrator, Options, Problem};
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
@@ -19,7 +20,7 @@ use super::columns::{CarTable, losses_of_wedge, points_of_wedges};
 use super::motions::MotionTable;
 use super::statistics::{self, Histories, SIDES, Statistics};
 use super::summary::{CarSummary, Derailed, SCHEMA};
-use super::{derailment, limits};
+use super::{derailment, limits, peaks};
 use crate::energy;
 use crate::finite::{find, is_finite};
 use crate::losses::EnergySummary;
@@ -27,7 +28,10 @@ use crate::metrics::Extremes;
 use crate::plausibility;
 use crate::progress;
 use crate::result::RunResult;
-use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError, append};
+use crate::run::{
+    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, check_length, damaged,
+};
+use crate::signal::LowPass;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue};
 
 /// The result of a run.
@@ -39,11 +43,11 @@ const MOST_FORCE: f64 = 5e6 * POUND_FORCE;
 /// Records a car's run: its table, and where it derails.
 pub struct CarRecorder {
     table: CarTable,
-    values: Vec<Vec<f64>>,
+    rows: RowTable,
+    /// The same rows and those after them that filtered values depend on, where the run has looked ahead.
+    ahead: Option<RowTable>,
     derailed: Option<Derailed>,
     units: Units,
-    /// The time at which rows begin, if the run continues a saved state, s.
-    continued: Option<f64>,
     row: Vec<f64>,
     /// Rates of the state.
     rates: Vec<f64>,
@@ -53,8 +57,8 @@ pub struct CarRecorder {
     counts: CarCounts,
     /// The start of the statistics, s.
     settle: f64,
-    /// Heights of the axles at the first row, m.
-    heights: Option<[f64; 4]>,
+    /// Heights of the axles at the start, m.
+    heights: [f64; 4],
     /// Poses of its bodies and forces of their faces, if asked for.
     motions: Option<MotionTable>,
 }
@@ -66,6 +70,8 @@ pub struct CarCounts {
     rows: u64,
     /// Those in which no point of a wedge's faces slips, by wedge.
     locked: Vec<u64>,
+    /// The rows themselves, as far as the summary needs them.
+    table: SavedRows,
 }
 
 impl RunCase for CarCase {
@@ -94,30 +100,43 @@ impl RunCase for CarCase {
 
     fn begin(&self) -> Result<Beginning<CarRecorder>, RunError> {
         let table = CarTable::new(&self.parameters)?;
-        let (car, columns) = (table.car(), table.columns().len());
+        let (car, columns) = (table.car(), table.columns());
         let points = points_of_wedges(&car.system);
+        let x = &car.initial_state;
+        let seen = car.system.clone().observe(0.0, x);
         Ok(Beginning {
             system: car.system.clone(),
             x: car.initial_state.clone(),
             recorder: CarRecorder {
-                values: vec![Vec::new(); columns],
-                row: Vec::with_capacity(columns),
-                rates: vec![0.0; car.initial_state.len()],
-                heights: None,
+                rows: RowTable::new(columns, |name| name == "speed" || statistics::need(name)),
+                ahead: None,
+                row: Vec::with_capacity(columns.len()),
+                rates: vec![0.0; x.len()],
+                heights: car
+                    .loads(&seen, &vec![0.0; x.len()])
+                    .axles
+                    .map(|axle| axle.height),
                 motions: None,
                 counts: CarCounts {
-                    rows: 0,
                     locked: vec![0; points.len()],
+                    ..CarCounts::default()
                 },
                 points,
                 settle: self.parameters.start.settle,
                 track: self.parameters.track.clone(),
                 derailed: None,
                 units: self.simulation.output_units,
-                continued: None,
                 table,
             },
         })
+    }
+
+    fn look_ahead(&self) -> f64 {
+        let rules = &self.rules;
+        let interval = self.simulation.output_interval;
+        let filters = [rules.wheel_filter, rules.acceleration_filter].map(|own| LowPass::new(interval, own));
+        let rows = filters.iter().flatten().map(LowPass::rows_ahead).max();
+        rows.map_or(0.0, |rows| (rows + 1) as f64 * interval)
     }
 
     fn output(run: Run<Self>, stopped: Option<Stopped>) -> CarResult {
@@ -161,13 +180,28 @@ impl Recorder for CarRecorder {
     type Counts = CarCounts;
 
     fn counts(&self) -> CarCounts {
-        self.counts.clone()
+        CarCounts {
+            table: self.rows.saved(),
+            ..self.counts.clone()
+        }
     }
 
-    fn restore(&mut self, counts: CarCounts, time: f64) -> Result<(), RunError> {
+    fn restore(&mut self, mut counts: CarCounts, _: f64, times: &[f64]) -> Result<(), RunError> {
+        let settled = times.iter().filter(|time| **time >= self.settle).count() as u64;
+        if counts.rows != settled {
+            return damaged("counts.rows", counts.rows, settled);
+        }
+        check_length("counts.locked", counts.locked.len(), self.points.len())?;
+        if let Some(own) = counts.locked.iter().find(|own| **own > settled) {
+            return damaged("counts.locked", own, format!("at most {settled}"));
+        }
+        self.rows.restore(std::mem::take(&mut counts.table), times)?;
         self.counts = counts;
-        self.continued = Some(time);
         Ok(())
+    }
+
+    fn see_ahead(&mut self, ahead: Self) {
+        self.ahead = Some(ahead.rows);
     }
 
     fn step(&mut self, _: &Integrator<System>, _: &mut System, _: &mut [f64]) {}
@@ -190,8 +224,7 @@ impl Recorder for CarRecorder {
         let loads = self
             .table
             .read(&observation, &self.rates, row.start_energy, &mut self.row);
-        let heights = *self.heights.get_or_insert(loads.axles.map(|axle| axle.height));
-        append(&mut self.values, self.table.columns(), &self.row, row.time)?;
+        self.rows.append(self.table.columns(), &self.row, row.time)?;
         if let Some(motions) = &mut self.motions {
             motions.take(self.table.car(), &observation);
         }
@@ -202,7 +235,7 @@ impl Recorder for CarRecorder {
                 *locked += u64::from(!points.iter().any(slips));
             }
         }
-        if let Some(own) = derailment::of(&loads, &self.track, heights) {
+        if let Some(own) = derailment::of(&loads, &self.track, self.heights) {
             let distance = SummaryValue::new(own.distance, Kind::Distance, self.units);
             let what = format!(
                 "the {} wheel of axle {} left its rail at {:.1} {}: {}",
@@ -253,7 +286,7 @@ impl Recorder for CarRecorder {
 fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     let units = run.case.simulation.output_units;
     let mut columns = run.recorder.table.columns().to_vec();
-    let mut values = std::mem::take(&mut run.recorder.values);
+    let table = std::mem::take(&mut run.recorder.rows);
     let balance = run.energy_balance;
     let derailed = run.recorder.derailed.take();
     let complete = run.is_complete(stopped.as_ref());
@@ -264,19 +297,23 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         .collect();
     warnings.extend(plausibility::warnings_of_rolling(&run));
     warnings.extend(run.case.doubts.iter().cloned());
-    let statistics = statistics_of(&run, &columns, &values);
-    warnings.extend(statistics.remarks.iter().cloned());
-    if run.case.rules.filtered_columns {
-        filtered(&run, &statistics, &mut columns, &mut values);
+    let method = run.case.simulation.method;
+    if let Wheels::OnRails(_) = run.case.parameters.wheels {
+        let loads = run.recorder.table.static_loads();
+        warnings.extend(peaks::warning(&table, loads, method, units));
     }
-    let column = |name: &str| found(&columns, &values, name);
+    let mut statistics = statistics_of(&run, &table);
+    peaks::remark(&mut statistics.values, method);
+    warnings.extend(statistics.remarks.iter().cloned());
+    let column = |name: &str| table.column(name);
     let time = column("time");
-    let mut extremes = BTreeMap::new();
-    for (column, values) in columns.iter().zip(&values).skip(1) {
-        if let Some(mut found) = Extremes::of(time, values) {
-            found.minimum *= column.kind.from_si(units);
-            found.maximum *= column.kind.from_si(units);
-            extremes.insert(column.full_name(units), found);
+    let mut extremes = table.summary_extremes(&columns, units);
+    let mut filtered_values = Vec::new();
+    if run.case.rules.filtered_columns {
+        for (column, values) in filtered(&run, &statistics, &columns, time.len()) {
+            extremes.extend(Extremes::of(time, &values).map(|own| own.named(&column, units)));
+            columns.push(column);
+            filtered_values.push(values);
         }
     }
     let ends = |name: &str, kind: Kind| {
@@ -294,7 +331,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
             );
         }
     }
-    let rows = time.len();
+    let rows = time.len() - table.before();
     let ledger = LedgerSummary::of_run(&mut run, units);
     let wedge_losses = losses(&mut run);
     let counts = &run.recorder.counts;
@@ -339,6 +376,9 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         summary.complete = false;
         summary.stopped = Some(run.stopped(format!("{what} is not a finite number")));
     }
+    let before = table.before();
+    let mut values = table.into_values();
+    values.extend(filtered_values.into_iter().map(|mut own| own.split_off(before)));
     CarResult {
         columns,
         values,
@@ -346,55 +386,44 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     }
 }
 
-/// Returns the values of a column; empty if there is none of this name.
-fn found<'v>(columns: &[Column], values: &'v [Vec<f64>], name: &str) -> &'v [f64] {
-    let place = columns.iter().position(|column| column.name == name);
-    place.map_or(&[][..], |place| values[place].as_slice())
-}
-
-fn statistics_of(run: &Run<CarCase>, columns: &[Column], values: &[Vec<f64>]) -> Statistics {
+fn statistics_of(run: &Run<CarCase>, table: &RowTable) -> Statistics {
     let line = &run.case.parameters.track.center_line;
     // Full curves: the curvature does not change there.
     let in_curve = |distance: f64| {
         let [curvature, rate] = line.at(distance).curvature;
         curvature.abs() > 1e-6 && rate.abs() < 1e-9
     };
+    let long = run.recorder.ahead.as_ref().unwrap_or(table);
     let histories = Histories {
-        column: &|name| found(columns, values, name),
+        column: &|name| long.column(name),
+        rows: table.column("time").len(),
         interval: run.case.simulation.output_interval,
         begin: run.case.parameters.start.settle,
         static_loads: run.recorder.table.static_loads(),
         in_curve: &in_curve,
     };
-    let mut statistics = Statistics::of(&histories, &run.case.rules, run.case.simulation.output_units);
-    if let Some(time) = run.recorder.continued {
-        statistics.remarks.push(format!(
-            "the run went on from a state saved at {time} s: rows before it are neither in its table nor in \
-             its statistics"
-        ));
-    }
-    statistics
+    Statistics::of(&histories, &run.case.rules, run.case.simulation.output_units)
 }
 
-/// Appends filtered columns.
+/// Returns the filtered columns with their values at all rows.
 fn filtered(
     run: &Run<CarCase>,
     statistics: &Statistics,
-    columns: &mut Vec<Column>,
-    values: &mut Vec<Vec<f64>>,
-) {
-    let rows = values.first().map_or(0, Vec::len);
+    columns: &[Column],
+    rows: usize,
+) -> Vec<(Column, Vec<f64>)> {
     let rules = &run.case.rules;
+    let mut all = Vec::new();
     let mut append = |of: &str, own: Vec<f64>, cutoff: f64| {
         let Some(raw) = columns.iter().find(|column| column.name == of).cloned() else {
             return;
         };
-        columns.push(Column {
+        let column = Column {
             name: format!("{of}_filtered"),
             text: format!("{}; below {cutoff} Hz", raw.text),
             ..raw
-        });
-        values.push(own);
+        };
+        all.push((column, own));
     };
     let whole = |name: &str| -> Option<Vec<f64>> {
         let own = statistics.filtered.iter().find(|own| own.of == name)?;
@@ -427,6 +456,7 @@ fn filtered(
             }
         }
     }
+    all
 }
 
 /// Returns the losses of the run until it reached a distance along the track (m).

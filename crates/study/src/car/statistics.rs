@@ -77,8 +77,10 @@ pub type StatisticColumn<'c> = &'c dyn Fn(&str) -> &'c [f64];
 
 /// The histories that statistics are taken of.
 pub struct Histories<'c> {
-    /// The columns.
+    /// The columns. Rows beyond those of the run so far count for filters alone.
     pub column: StatisticColumn<'c>,
+    /// Number of rows of the run so far.
+    pub rows: usize,
     /// Time between two rows, s.
     pub interval: f64,
     /// The start of the statistics, s.
@@ -170,9 +172,6 @@ impl Statistics {
     pub fn of(histories: &Histories<'_>, rules: &Rules, units: Units) -> Self {
         let column = histories.column;
         let all = column("time");
-        let from = all
-            .iter()
-            .position(|time| *time >= histories.begin * (1.0 - 1e-12));
         let mut own = Self {
             values: BTreeMap::new(),
             filtered: Vec::new(),
@@ -183,60 +182,80 @@ impl Statistics {
             [.., before, last] if last - before < histories.interval * (1.0 - 1e-6) => all.len() - 1,
             _ => all.len(),
         };
-        let Some(from) = from.filter(|from| from + 1 < even) else {
+        let rows = histories.rows.min(even);
+        for (cutoff, names) in [
+            (rules.wheel_filter, wheel_forces().collect::<Vec<_>>()),
+            (rules.acceleration_filter, accelerations().collect()),
+        ] {
+            match LowPass::new(histories.interval, cutoff) {
+                Ok(filter) => own.filtered.extend(names.into_iter().map(|name| {
+                    let mut values = filter.apply(&column(&name)[..even]);
+                    values.truncate(rows);
+                    Filtered { of: name, values }
+                })),
+                Err(error) => own.remarks.push(format!(
+                    "{error}: nothing is filtered by it; shorten simulation.output_interval"
+                )),
+            }
+        }
+        let from = all[..rows]
+            .iter()
+            .position(|time| *time >= histories.begin * (1.0 - 1e-12));
+        let Some(from) = from.filter(|from| from + 1 < rows) else {
             own.remarks.push(format!(
                 "the run does not reach beyond the settling time of {} s: there are no statistics",
                 histories.begin
             ));
             return own;
         };
-        let rows = Rows {
-            time: &all[from..even],
-            distance: &column("distance")[from..even],
-        };
-        let [wheel, ride] = [rules.wheel_filter, rules.acceleration_filter].map(|cutoff| {
-            let filter = LowPass::new(histories.interval, cutoff);
-            filter
-                .map_err(|error| {
-                    own.remarks.push(format!(
-                        "{error}: nothing is filtered by it; shorten simulation.output_interval"
-                    ));
-                })
-                .ok()
-        });
         let mut taker = Taker {
             histories,
             rules,
             units,
-            rows,
-            range: (from, even),
+            rows: Rows {
+                time: &all[from..rows],
+                distance: &column("distance")[from..rows],
+            },
+            range: (from, rows),
             taken: own,
         };
-        taker.wheels(wheel.as_ref());
-        taker.body(ride.as_ref());
+        taker.wheels();
+        taker.body();
         taker.taken
     }
 }
 
+/// Returns the names of the forces of wheels on rails.
+fn wheel_forces() -> impl Iterator<Item = String> {
+    let wheels = (1..=4).flat_map(|axle| SIDES.map(|side| format!("axle_{axle}_{side}")));
+    wheels.flat_map(|wheel| ["vertical", "lateral"].map(|what| format!("{wheel}_{what}")))
+}
+
+/// Returns the names of the accelerations at the truck centers.
+fn accelerations() -> impl Iterator<Item = String> {
+    let ends = (1..=2).flat_map(|end| ["lateral", "vertical"].map(|direction| (end, direction)));
+    ends.map(|(end, direction)| format!("body_at_truck_{end}_{direction}_acceleration"))
+}
+
+/// Returns whether statistics need all rows of a column.
+pub(super) fn need(name: &str) -> bool {
+    let others = ["distance", "body_roll"].contains(&name);
+    others || wheel_forces().chain(accelerations()).any(|own| own == name)
+}
+
 impl Taker<'_, '_> {
-    /// Returns a column, raw and filtered; the filtered one is kept.
-    fn pair(&mut self, name: &str, filter: Option<&LowPass>) -> Pair {
+    /// Returns a column, raw and filtered.
+    fn pair(&self, name: &str) -> Pair {
         let (from, to) = self.range;
         let values = (self.histories.column)(name);
-        let filtered = filter.map(|filter| filter.apply(&values[..to]));
-        if let Some(values) = &filtered {
-            self.taken.filtered.push(Filtered {
-                of: name.to_owned(),
-                values: values.clone(),
-            });
-        }
+        let filtered = self.taken.filtered.iter().find(|own| own.of == name);
         Pair {
             raw: values[from..to].to_vec(),
-            filtered: filtered.map(|values| values[from..].to_vec()),
+            filtered: filtered.map(|own| own.values[from..].to_vec()),
         }
     }
 
-    fn wheels(&mut self, filter: Option<&LowPass>) {
+    fn wheels(&mut self) {
         let (histories, rows, rules) = (self.histories, self.rows, self.rules);
         let curve: Vec<bool> = rows
             .distance
@@ -249,7 +268,7 @@ impl Taker<'_, '_> {
             for (side, load) in SIDES.into_iter().zip(loads) {
                 let stem = format!("axle_{axle}_{side}");
                 let [vertical, lateral] =
-                    ["vertical", "lateral"].map(|what| self.pair(&format!("{stem}_{what}"), filter));
+                    ["vertical", "lateral"].map(|what| self.pair(&format!("{stem}_{what}")));
                 let ratio = Pair::of([&lateral, &vertical], |[l, v]| ratio(l, v, load));
                 self.held(&format!("{stem}_l_over_v"), &ratio);
                 self.in_curves(&format!("{stem}_l_over_v"), &ratio, &curve);
@@ -359,17 +378,16 @@ impl Taker<'_, '_> {
         }
     }
 
-    fn body(&mut self, filter: Option<&LowPass>) {
+    fn body(&mut self) {
         let (rows, rules, (from, to)) = (self.rows, self.rules, self.range);
         let roll = Pair {
             raw: (self.histories.column)("body_roll")[from..to].to_vec(),
             filtered: None,
         };
         self.set("body_roll_peak_to_peak", &roll, Kind::Angle, whole(rows));
-        for end in 1..=2 {
-            for direction in ["lateral", "vertical"] {
-                let name = format!("body_at_truck_{end}_{direction}_acceleration");
-                let own = self.pair(&name, filter);
+        for name in accelerations() {
+            {
+                let own = self.pair(&name);
                 let kind = Kind::RideAcceleration;
                 self.set(&format!("{name}_peak_to_peak"), &own, kind, whole(rows));
                 self.set(&format!("{name}_largest"), &own, kind, |values| {

@@ -25,7 +25,8 @@ use crate::metrics::{Cycle, mean, window_of};
 use crate::plausibility;
 use crate::progress;
 use crate::run::{
-    Beginning, Recorder, Row, Run, RunCase, RunError, append, check_finite, check_length, damaged,
+    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, check_finite, check_length,
+    damaged,
 };
 use crate::summary::{Stopped, SummaryValue};
 
@@ -65,7 +66,7 @@ pub fn run_while(
 /// Records a half-truck's run: its table, and the work of its wedges' friction.
 pub struct HalfTruckRecorder {
     table: OutputTable,
-    values: Vec<Vec<f64>>,
+    rows: RowTable,
     works: Works,
     /// The corners of wedges' bodies, by their names.
     points: Vec<String>,
@@ -124,7 +125,7 @@ impl RunCase for HalfTruckCase {
         });
         Ok(Beginning {
             recorder: HalfTruckRecorder {
-                values: vec![Vec::new(); table.columns.len()],
+                rows: RowTable::new(&table.columns, |_| true),
                 row: Vec::with_capacity(table.columns.len()),
                 works: Works::new(self, &system),
                 points: points.collect(),
@@ -160,10 +161,13 @@ impl Recorder for HalfTruckRecorder {
     type Counts = HalfTruckCounts;
 
     fn counts(&self) -> HalfTruckCounts {
-        self.works.counts.clone()
+        HalfTruckCounts {
+            table: self.rows.saved(),
+            ..self.works.counts.clone()
+        }
     }
 
-    fn restore(&mut self, counts: HalfTruckCounts, time: f64) -> Result<(), RunError> {
+    fn restore(&mut self, mut counts: HalfTruckCounts, time: f64, times: &[f64]) -> Result<(), RunError> {
         check_length("counts.works", counts.works.len(), self.works.wedges.len())?;
         counts
             .works
@@ -173,6 +177,7 @@ impl Recorder for HalfTruckRecorder {
         if counts.reached.to_bits() != time.to_bits() {
             return damaged("counts.reached", counts.reached, format!("the time, {time} s"));
         }
+        self.rows.restore(std::mem::take(&mut counts.table), times)?;
         self.works.counts = counts;
         Ok(())
     }
@@ -185,7 +190,7 @@ impl Recorder for HalfTruckRecorder {
         let seen = system.observe(row.time, row.x);
         self.row.clear();
         self.table.read(&seen, row.start_energy, &mut self.row);
-        append(&mut self.values, &self.table.columns, &self.row, row.time)?;
+        self.rows.append(&self.table.columns, &self.row, row.time)?;
         if let Some(contacts) = &mut self.contacts {
             contacts.take(&seen, row.contact_states);
         }
@@ -220,14 +225,15 @@ impl TakesCorners for HalfTruckRecorder {
     }
 }
 
-fn output(run: Run<HalfTruckCase>, stopped: Option<Stopped>) -> HalfTruckResult {
+fn output(mut run: Run<HalfTruckCase>, stopped: Option<Stopped>) -> HalfTruckResult {
     let complete = run.is_complete(stopped.as_ref());
     let case = run.case.clone();
     let balance = run.energy_balance;
     let joules = |value| SummaryValue::new(value, Kind::Energy, case.units);
+    let table = std::mem::take(&mut run.recorder.rows);
     let mut result = HalfTruckResult {
         columns: run.recorder.table.columns.clone(),
-        values: run.recorder.values.clone(),
+        values: table.columns().to_vec(),
         summary: HalfTruckSummary {
             schema: SCHEMA.to_owned(),
             program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
@@ -256,6 +262,8 @@ fn output(run: Run<HalfTruckCase>, stopped: Option<Stopped>) -> HalfTruckResult 
         },
     };
     summarize(&case, &run.system, &run.recorder.works, &mut result);
+    result.summary.rows -= table.before();
+    result.values = table.into_values();
     if let Some(what) = first_not_finite(&result.summary)
         && result.summary.stopped.is_none()
     {
@@ -319,6 +327,8 @@ pub struct HalfTruckCounts {
     pub works: Vec<f64>,
     /// Until when it is taken, s.
     pub reached: f64,
+    /// The rows, as far as the summary needs them: all.
+    pub table: SavedRows,
 }
 
 impl Works {
@@ -331,7 +341,7 @@ impl Works {
             powers: [none.clone(), none.clone(), none.clone()],
             counts: HalfTruckCounts {
                 works: none,
-                reached: 0.0,
+                ..HalfTruckCounts::default()
             },
             losses: wedges.iter().map(loss).collect(),
             wedges,

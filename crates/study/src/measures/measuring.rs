@@ -206,7 +206,7 @@ impl Recorder for Measuring {
 
     fn counts(&self) {}
 
-    fn restore(&mut self, (): (), _: f64) -> Result<(), RunError> {
+    fn restore(&mut self, (): (), _: f64, _: &[f64]) -> Result<(), RunError> {
         Ok(())
     }
 

@@ -18,8 +18,7 @@ pub(super) fn warning(
     columns: &[Column],
     values: &[Vec<f64>],
 ) -> Option<String> {
-    let curved = |profile: &&FaceProfile| !profile.profile.is_flat();
-    let profile = [&own.wedge_surface, &own.counterface].into_iter().find(curved)?;
+    let profile = curved(own)?;
     let (name, grid) = (FACES[face], own.grid);
     let (count, way) = match profile.direction {
         FaceDirection::Up => (grid.up, "up"),
@@ -49,6 +48,12 @@ pub(super) fn warning(
          off by up to {:.0} %; for 1 % take {name}_face.grid = [{up}, {across}]",
         100.0 * error
     ))
+}
+
+/// Returns the curved surface of a face, if it has one.
+pub(super) fn curved(own: &FaceProperties) -> Option<&FaceProfile> {
+    let mut surfaces = [&own.wedge_surface, &own.counterface].into_iter();
+    surfaces.find(|own| !own.profile.is_flat())
 }
 
 /// Returns at how many places along a direction a face is pressed when its force is greatest.

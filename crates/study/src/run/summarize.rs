@@ -6,6 +6,7 @@ use integrate::Family;
 use mechanics::friction::FrictionLaw;
 use mechanics::system::scales;
 use quantity::Kind;
+use wedge::face::FaceProperties;
 use wedge::outputs::{FACES, Outputs};
 
 use super::{EVENT_CAP, Run, pressed};
@@ -15,7 +16,7 @@ use crate::closed_form;
 use crate::energy;
 use crate::jam::{self, JamMargins};
 use crate::losses::{EnergySummary, Equivalent};
-use crate::metrics::{Cycle, Extremes, FirstHarmonic, first_harmonic, mean, window_of};
+use crate::metrics::{Cycle, FirstHarmonic, first_harmonic, mean, window_of};
 use crate::plausibility;
 use crate::summary::{
     Averages, Events, FrictionSummary, LedgerSummary, SCHEMA, Solver, Stopped, Summary, SummaryValue,
@@ -34,21 +35,9 @@ const BRANCH_COLUMNS: [&str; 5] = [
 
 pub(super) fn summary(run: &mut Run<Case>, stopped: Option<Stopped>) -> Summary {
     let units = run.case.simulation.output_units;
-    let columns = run.recorder.outputs.columns().to_vec();
-    let time = run.recorder.values[0].clone();
-    let mut extremes = BTreeMap::new();
-    for (column, values) in columns
-        .iter()
-        .zip(&run.recorder.values)
-        .take(FIXED_COLUMNS)
-        .skip(1)
-    {
-        if let Some(mut found) = Extremes::of(&time, values) {
-            found.minimum *= column.kind.from_si(units);
-            found.maximum *= column.kind.from_si(units);
-            extremes.insert(column.full_name(units), found);
-        }
-    }
+    let table = &run.recorder.rows;
+    let extremes = table.summary_extremes(&run.recorder.outputs.columns()[..FIXED_COLUMNS], units);
+    let rows = table.column("time").len() - table.before();
     let ledger = ledger(run);
     let on_bolster = on_bolster(run);
     let damped = run.case.simulation.method.tableau().family == Family::DiagonallyImplicit;
@@ -64,7 +53,7 @@ pub(super) fn summary(run: &mut Run<Case>, stopped: Option<Stopped>) -> Summary 
         complete: run.is_complete(stopped.as_ref()),
         stopped,
         failed: energy::failure(&run.energy_balance, what_to_do(damped)),
-        rows: time.len(),
+        rows,
         averages: averages(run, on_bolster),
         extremes,
         events: events(run),
@@ -89,7 +78,7 @@ fn warnings(run: &Run<Case>, damped: bool) -> Vec<String> {
     warnings.extend(plausibility::warnings(run));
     let parameters = &run.case.parameters;
     let faces = [&parameters.column_face, &parameters.slope_face];
-    let (columns, values) = (run.recorder.outputs.columns(), &run.recorder.values);
+    let (columns, values) = (run.recorder.outputs.columns(), run.recorder.rows.columns());
     let few = faces.into_iter().enumerate();
     warnings.extend(few.filter_map(|(face, own)| pressed::warning(face, own, columns, values)));
     warnings.extend(jam::expelled(
@@ -152,7 +141,7 @@ fn averages(run: &Run<Case>, on_bolster: Option<FirstHarmonic>) -> Averages {
             Some(SummaryValue::new(on_bolster.damping, Kind::Damping, units));
     }
     let (times, positions, speeds) = (
-        &run.recorder.values[0],
+        run.recorder.rows.column("time"),
         column("bolster_vertical"),
         column("bolster_vertical_rate"),
     );
@@ -178,11 +167,25 @@ fn averages(run: &Run<Case>, on_bolster: Option<FirstHarmonic>) -> Averages {
     averages
 }
 
-/// Returns the values of a column; none if there is no such column.
+/// Returns the values of a column that [`reads`] has.
 fn column<'r>(run: &'r Run<Case>, name: &str) -> &'r [f64] {
-    let columns = run.recorder.outputs.columns();
-    let index = columns.iter().position(|column| column.name == name);
-    index.map_or(&[][..], |index| run.recorder.values[index].as_slice())
+    run.recorder.rows.column(name)
+}
+
+/// Returns whether the summary of a case reads a column row by row.
+pub(super) fn reads(case: &Case, name: &str) -> bool {
+    let parameters = &case.parameters;
+    let faces = FACES
+        .iter()
+        .zip([&parameters.column_face, &parameters.slope_face]);
+    let of_face = |(face, own): (&&str, &FaceProperties)| {
+        pressed::curved(own).is_some() && name.starts_with(*face) && name.ends_with("_pressure")
+    };
+    matches!(
+        name,
+        "bolster_vertical" | "bolster_vertical_rate" | "net_force_on_bolster_z"
+    ) || BRANCH_COLUMNS.contains(&name)
+        || faces.into_iter().any(of_face)
 }
 
 /// Returns stiffness and damping of the first harmonic of the vertical force on the bolster.
@@ -190,7 +193,7 @@ fn on_bolster(run: &Run<Case>) -> Option<FirstHarmonic> {
     let cycle = Cycle::of(&run.case.parameters)?;
     let (start, end, _) = cycle.window(run.case.simulation.duration)?;
     first_harmonic(
-        &run.recorder.values[0],
+        run.recorder.rows.column("time"),
         column(run, "bolster_vertical"),
         column(run, "net_force_on_bolster_z"),
         cycle.angular_frequency,

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use wedge::Wedge;
 use wedge::outputs::{FACES, Outputs, PointNames};
 
-use super::{Beginning, Recorder, Row, Run, RunCase, RunError, append, summarize};
+use super::{Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, summarize};
 use crate::case::Case;
 use crate::losses::stroke::Stroke;
 use crate::losses::{LossCounts, LossRecorder, Window};
@@ -43,6 +43,8 @@ pub struct Counts {
     pub probes: Vec<[f64; 2]>,
     /// Losses by point, contact state and part of the stroke.
     pub losses: LossCounts,
+    /// The rows, as far as the summary needs them.
+    pub table: SavedRows,
 }
 
 /// Records a wedge's run.
@@ -50,7 +52,7 @@ pub struct WedgeRecorder {
     pub(super) wedge: Wedge,
     pub(super) outputs: Outputs,
     pub(super) points: PointNames,
-    pub(super) values: Vec<Vec<f64>>,
+    pub(super) rows: RowTable,
     pub(super) counts: Counts,
     /// The ends of the averaging window, s; none without one.
     probe_times: Vec<f64>,
@@ -92,7 +94,7 @@ impl RunCase for Case {
             x: wedge.initial_state.clone(),
             recorder: WedgeRecorder {
                 points: PointNames::new(&wedge.parameters),
-                values: vec![Vec::new(); outputs.columns().len()],
+                rows: RowTable::new(outputs.columns(), |name| summarize::reads(self, name)),
                 counts: Counts {
                     crept: vec![0.0; points],
                     creep_speeds: vec![0.0; points],
@@ -119,7 +121,7 @@ impl RunCase for Case {
         }
         RunResult {
             columns: run.recorder.outputs.columns().to_vec(),
-            values: run.recorder.values,
+            values: run.recorder.rows.into_values(),
             summary,
         }
     }
@@ -139,14 +141,16 @@ impl Recorder for WedgeRecorder {
     fn counts(&self) -> Counts {
         Counts {
             losses: self.losses.counts(),
+            table: self.rows.saved(),
             ..self.counts.clone()
         }
     }
 
-    fn restore(&mut self, counts: Counts, time: f64) -> Result<(), RunError> {
+    fn restore(&mut self, mut counts: Counts, time: f64, times: &[f64]) -> Result<(), RunError> {
         let probes = self.probe_times.iter().filter(|probe| **probe <= time).count();
         counts.check(&self.points, probes)?;
         self.losses.restore(counts.losses.clone(), time)?;
+        self.rows.restore(std::mem::take(&mut counts.table), times)?;
         self.counts = counts;
         Ok(())
     }
@@ -164,7 +168,7 @@ impl Recorder for WedgeRecorder {
         let ledger = self
             .outputs
             .values(system, &seen, row.contact_states, row.start_energy, &mut self.row);
-        append(&mut self.values, self.outputs.columns(), &self.row, row.time)?;
+        self.rows.append(self.outputs.columns(), &self.row, row.time)?;
         Ok(ledger.entries())
     }
 

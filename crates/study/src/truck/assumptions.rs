@@ -33,21 +33,28 @@ pub(crate) fn of_kinds(wedges: &[Wedge]) -> Vec<String> {
 /// Returns the assumptions of a run.
 pub(super) fn of(case: &TruckCase) -> Vec<String> {
     let p = &case.parameters;
-    let [wedge, ..] = &p.wedges;
-    let stiffness = wedge.contact.stiffness * INCH / POUND_FORCE;
+    let stiffnesses = p
+        .wedges
+        .each_ref()
+        .map(|wedge| wedge.contact.stiffness * INCH / POUND_FORCE);
+    let [least, most] = [f64::min, f64::max].map(|of| stiffnesses.into_iter().fold(stiffnesses[0], of));
+    let stiffness = match least == most {
+        true => format!("is {least:.4e}"),
+        false => format!("is {least:.4e} to {most:.4e}"),
+    };
     let mut list = vec![
-        "Bodies are rigid; coils, stops and faces are springs with dampers. Coils act at one point each, \
-         with shear stiffness, and hold nothing when they are off their seats."
+        "Bodies are rigid; coils, stops and faces are springs with dampers. Coils act at one point each; \
+         load coils have shear stiffness, and hold nothing when they are off their seats."
             .to_owned(),
         format!(
-            "Contact stiffness is {stiffness:.4e} lbf/in per corner: no source gives one, nor one for \
+            "Contact stiffness {stiffness} lbf/in per corner: no source gives one, nor one for \
              bristles. In the built-in rigs contacts twice as stiff move the warp moment at 20 mrad by 58 % \
              where the nest locks (friction of 0.4) and by 0.2 % on a plateau (0.25); up and down, where \
              slopes stick, they move the largest column force by 8 to 13 %, and bristles twice as stiff by \
              6 to 13 %. `wedgelab reproduce` computes these numbers anew."
         ),
-        "Clearances of pockets (0.25 in), lands (0.21 in) and center plate's rim, damping of contacts, and \
-         inertias of empty cars are decided, not measured."
+        "The built-in clearances of pockets (0.25 in), lands (0.21 in) and center plate's rim, damping of \
+         contacts, and inertias of empty cars are decided, not measured."
             .to_owned(),
     ];
     for (name, wedge) in WEDGE_NAMES.iter().zip(&p.wedges) {
@@ -81,7 +88,10 @@ pub(super) fn of(case: &TruckCase) -> Vec<String> {
             "An empirical warp spring acts beside wedges that have mass: warp is counted twice.".to_owned(),
         );
     }
-    if p.damping == Damping::Constant {
+    let mut sticking = p.wedges.iter();
+    if p.damping == Damping::Constant
+        && sticking.all(|wedge| wedge.toe == 0.0 && wedge.kind != WedgeKind::Massless)
+    {
         list.push(
             "Constant damping without toe: slopes stick, the wedges go with the bolster, and the normal \
              forces of the columns are those that the start locked in."

@@ -23,11 +23,12 @@ use crate::finite::{find, is_finite};
 use crate::jam::{self, JamMargins};
 use crate::losses::stroke::Stroke;
 use crate::losses::{LossCounts, LossRecorder};
-use crate::metrics::Extremes;
 use crate::plausibility;
 use crate::progress::{self, ADVANCE, Pace};
 use crate::result::RunResult;
-use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError, append, check_finite, check_length};
+use crate::run::{
+    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, check_finite, check_length,
+};
 use crate::summary::{LedgerSummary, Stopped, SummaryValue};
 
 /// The result of a run.
@@ -38,10 +39,21 @@ const POUND_FORCE: f64 = 4.448_221_615_260_5;
 /// of a loaded half car.
 const MOST_FORCE: f64 = 5e6 * POUND_FORCE;
 
+/// Columns that the summary reads row by row.
+const KEPT: [&str; 7] = [
+    "warp_angle",
+    "warp_moment",
+    "bolster_z",
+    "left_side_frame_z",
+    "right_side_frame_z",
+    "left_nest_vertical_force",
+    "right_nest_vertical_force",
+];
+
 /// Records a truck's run: its table, and the energies at both ends of the whole cycles.
 pub struct TruckRecorder {
     table: TruckTable,
-    values: Vec<Vec<f64>>,
+    rows: RowTable,
     /// The ends of the whole cycles, s, and their number.
     window: Option<([f64; 2], u32)>,
     counts: TruckCounts,
@@ -60,6 +72,8 @@ pub struct TruckCounts {
     pub quadratures: Vec<Vec<f64>>,
     /// Losses by point, contact state and part of the stroke.
     pub losses: LossCounts,
+    /// The rows, as far as the summary needs them.
+    pub table: SavedRows,
 }
 
 /// Returns period (s) and beginning (s) of a motion, if it is periodic or a part of it is.
@@ -109,13 +123,12 @@ impl RunCase for TruckCase {
 
     fn begin(&self) -> Result<Beginning<TruckRecorder>, RunError> {
         let table = TruckTable::new(self)?;
-        let columns = table.columns().len();
         Ok(Beginning {
             system: table.system().clone(),
             x: self.settled(table.truck())?,
             recorder: TruckRecorder {
-                values: vec![Vec::new(); columns],
-                row: Vec::with_capacity(columns),
+                rows: RowTable::new(table.columns(), |name| KEPT.contains(&name)),
+                row: Vec::with_capacity(table.columns().len()),
                 window: window(self),
                 counts: TruckCounts::default(),
                 contacts: None,
@@ -183,11 +196,12 @@ impl Recorder for TruckRecorder {
     fn counts(&self) -> TruckCounts {
         TruckCounts {
             losses: self.losses.counts(),
+            table: self.rows.saved(),
             ..self.counts.clone()
         }
     }
 
-    fn restore(&mut self, counts: TruckCounts, time: f64) -> Result<(), RunError> {
+    fn restore(&mut self, mut counts: TruckCounts, time: f64, times: &[f64]) -> Result<(), RunError> {
         let ends = self.window.iter().flat_map(|(ends, _)| ends);
         let passed = ends.filter(|end| **end <= time).count();
         check_length("counts.quadratures", counts.quadratures.len(), passed)?;
@@ -199,6 +213,7 @@ impl Recorder for TruckRecorder {
                 .try_for_each(|value| check_finite("counts.quadratures", *value))?;
         }
         self.losses.restore(counts.losses.clone(), time)?;
+        self.rows.restore(std::mem::take(&mut counts.table), times)?;
         self.counts = counts;
         Ok(())
     }
@@ -236,7 +251,7 @@ impl Recorder for TruckRecorder {
                 time: row.time,
             });
         }
-        append(&mut self.values, self.table.columns(), &self.row, row.time)?;
+        self.rows.append(self.table.columns(), &self.row, row.time)?;
         if let Some(contacts) = &mut self.contacts {
             contacts.take(&observation, row.contact_states);
         }
@@ -286,7 +301,7 @@ impl TakesCorners for TruckRecorder {
 fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
     let units = run.case.simulation.output_units;
     let columns = run.recorder.table.columns().to_vec();
-    let values = std::mem::take(&mut run.recorder.values);
+    let table = std::mem::take(&mut run.recorder.rows);
     let balance = run.energy_balance;
     let mut warnings: Vec<String> = energy::warning(&balance, energy::WHAT_TO_DO)
         .into_iter()
@@ -296,19 +311,7 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
     warnings.extend(without_coil(&run.case));
     warnings.extend(closed(run.recorder.table.truck(), units));
     warnings.extend(expelled(&run.case.parameters));
-    let column = |name: &str| {
-        let place = columns.iter().position(|column| column.name == name);
-        place.map_or(&[][..], |place| values[place].as_slice())
-    };
-    let time = column("time");
-    let mut extremes = BTreeMap::new();
-    for (column, values) in columns.iter().zip(&values).skip(1) {
-        if let Some(mut found) = Extremes::of(time, values) {
-            found.minimum *= column.kind.from_si(units);
-            found.maximum *= column.kind.from_si(units);
-            extremes.insert(column.full_name(units), found);
-        }
-    }
+    let column = |name: &str| table.column(name);
     let mut summary = TruckSummary {
         schema: SCHEMA.to_owned(),
         program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
@@ -319,13 +322,13 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
         stopped,
         failed: energy::failure(&balance, energy::WHAT_TO_DO),
         warnings,
-        rows: time.len(),
+        rows: column("time").len() - table.before(),
         cycles: cycles(&run),
         warp_stiffness: warp_stiffnesses(column("warp_angle"), column("warp_moment"), units),
         jam: quasi_static(&run.case.parameters)
             .map(|(name, own)| (name.to_owned(), JamMargins::new(&own, 0.0, units)))
             .collect(),
-        extremes,
+        extremes: table.summary_extremes(&columns, units),
         energy: super::energies::of(&run, &column),
         ledger: LedgerSummary::of_run(&mut run, units),
         method: run.case.simulation.method.to_string(),
@@ -344,7 +347,7 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
     }
     TruckResult {
         columns,
-        values,
+        values: table.into_values(),
         summary,
     }
 }

@@ -22,6 +22,7 @@ use wheelrail::profile::{Profile, ProfileError};
 use wheelrail::track::{CenterLine, RailLines, Segment, Track, TrackError};
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
+use crate::car::assumptions::{of_profile, of_support};
 use crate::track::{Support, TrackFile};
 
 /// Damping α of the normal forces, s/m, on rigid and on sprung track; guesses.
@@ -228,10 +229,9 @@ impl WheelsetCase {
     pub fn assumptions(&self) -> Vec<String> {
         let own = &self.wheelset;
         let mut words = Vec::new();
-        for profile in [&own.wheel, &own.rail] {
-            if !profile.note().is_empty() {
-                words.push(format!("{}: {}", profile.name(), profile.note()));
-            }
+        for (what, profile) in [("wheel", &own.wheel), ("rail", &own.rail)] {
+            let typed = own.given.get(what).map_or(profile.name(), String::as_str);
+            words.push(of_profile(&format!("the {what}s"), typed, profile));
         }
         words.push(
             "One wheelset under a carriage that follows the track: its springs are lateral and yaw springs \
@@ -239,13 +239,13 @@ impl WheelsetCase {
              body, no truck."
                 .to_owned(),
         );
-        words.push(match &self.setup.support {
-            None => "The rails are rigid; normal forces are damped with 2 s/m (Hunt and Crossley), a guess."
-                .to_owned(),
-            Some(_) => "Each wheel has its own piece of sprung rail; its lateral values are guesses, and so \
-                        is the damping of normal forces of 0.3 s/m (Hunt and Crossley)."
-                .to_owned(),
-        });
+        let support = self.setup.support.as_ref();
+        let sprung = "Each wheel has its own piece of sprung rail";
+        words.push(of_support(support, sprung, STANDARD_GRAVITY));
+        words.push(format!(
+            "Normal forces are damped with {} s/m (Hunt and Crossley), a guess.",
+            DAMPING[usize::from(support.is_some())]
+        ));
         words.push(
             "Normal forces are Hertz's with curvatures averaged over each patch; up to three areas of \
              contact a wheel."

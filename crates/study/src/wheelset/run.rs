@@ -18,10 +18,9 @@ use super::WheelsetCase;
 use super::columns::{RigReader, SIDES, columns};
 use super::summary::{Derailment, Hunting, SCHEMA, WheelsetSummary};
 use crate::energy;
-use crate::metrics::Extremes;
 use crate::plausibility;
 use crate::result::RunResult;
-use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError, append};
+use crate::run::{Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows};
 use crate::summary::{LedgerSummary, Stopped, SummaryValue};
 
 /// The result of a run.
@@ -43,7 +42,7 @@ struct Derailed {
 pub struct WheelsetRecorder {
     reader: RigReader,
     columns: Vec<Column>,
-    values: Vec<Vec<f64>>,
+    rows: RowTable,
     row: Vec<f64>,
     derailed: Option<Derailed>,
 }
@@ -81,7 +80,7 @@ impl RunCase for WheelsetCase {
             system: rig.system.clone(),
             x: rig.start.clone(),
             recorder: WheelsetRecorder {
-                values: vec![Vec::new(); columns.len()],
+                rows: RowTable::new(&columns, |_| false),
                 row: Vec::with_capacity(columns.len()),
                 reader: RigReader::new(rig, self.setup.clone(), self.wheelset.radius),
                 columns,
@@ -96,12 +95,14 @@ impl RunCase for WheelsetCase {
 }
 
 impl Recorder for WheelsetRecorder {
-    type Counts = ();
+    type Counts = SavedRows;
 
-    fn counts(&self) {}
+    fn counts(&self) -> SavedRows {
+        self.rows.saved()
+    }
 
-    fn restore(&mut self, (): (), _time: f64) -> Result<(), RunError> {
-        Ok(())
+    fn restore(&mut self, rows: SavedRows, _time: f64, times: &[f64]) -> Result<(), RunError> {
+        self.rows.restore(rows, times)
     }
 
     fn step(&mut self, _integrator: &Integrator<System>, _system: &mut System, _x: &mut [f64]) {}
@@ -111,7 +112,7 @@ impl Recorder for WheelsetRecorder {
         let entries = system.ledger_entries(&seen, row.start_energy);
         self.row.clear();
         self.reader.read(&seen, &entries, &mut self.row);
-        append(&mut self.values, &self.columns, &self.row, row.time)?;
+        self.rows.append(&self.columns, &self.row, row.time)?;
         let seats = self.reader.rig().seats(&seen);
         if let Some(wheel) = seats.iter().position(|seat| *seat != Seat::OnRail) {
             self.derailed = Some(Derailed {
@@ -138,7 +139,7 @@ impl Recorder for WheelsetRecorder {
 fn output(mut run: Run<WheelsetCase>, stopped: Option<Stopped>) -> WheelsetResult {
     let units = run.case.wheelset.units;
     let columns = std::mem::take(&mut run.recorder.columns);
-    let values = std::mem::take(&mut run.recorder.values);
+    let table = std::mem::take(&mut run.recorder.rows);
     let derailment = run.recorder.derailed.map(|found| Derailment {
         wheel: SIDES[found.wheel].to_owned(),
         seat: found.seat.word().to_owned(),
@@ -153,16 +154,8 @@ fn output(mut run: Run<WheelsetCase>, stopped: Option<Stopped>) -> WheelsetResul
         .into_iter()
         .collect();
     warnings.extend(plausibility::warnings_of_rolling(&run));
-    let time = values.first().map_or(&[][..], Vec::as_slice);
-    let mut extremes = BTreeMap::new();
-    let shown = columns.iter().zip(&values).skip(1);
-    for (column, values) in shown.filter(|(column, _)| !column.name.contains("_patch_")) {
-        if let Some(mut found) = Extremes::of(time, values) {
-            found.minimum *= column.kind.from_si(units);
-            found.maximum *= column.kind.from_si(units);
-            extremes.insert(column.full_name(units), found);
-        }
-    }
+    let mut extremes = table.summary_extremes(&columns, units);
+    extremes.retain(|name, _| !name.contains("_patch_"));
     let summary = WheelsetSummary {
         schema: SCHEMA.to_owned(),
         program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
@@ -174,7 +167,7 @@ fn output(mut run: Run<WheelsetCase>, stopped: Option<Stopped>) -> WheelsetResul
         stopped,
         failed: energy::failure(&balance, LOWER_THE_TOLERANCE),
         warnings,
-        rows: time.len(),
+        rows: table.column("time").len() - table.before(),
         hunting: run.case.hunting().map(Hunting::of),
         extremes,
         ledger: LedgerSummary::of_run(&mut run, units),
@@ -184,7 +177,7 @@ fn output(mut run: Run<WheelsetCase>, stopped: Option<Stopped>) -> WheelsetResul
     };
     WheelsetResult {
         columns,
-        values,
+        values: table.into_values(),
         summary,
     }
 }

@@ -40,6 +40,7 @@ fn quiet() -> BTreeMap<String, Vec<f64>> {
 fn statistics(columns: &BTreeMap<String, Vec<f64>>, rules: &Rules) -> Statistics {
     let histories = Histories {
         column: &|name| columns.get(name).map_or(&[][..], Vec::as_slice),
+        rows: columns["time"].len(),
         interval: INTERVAL,
         begin: 2.0,
         static_loads: [[100e3; 2]; 4],

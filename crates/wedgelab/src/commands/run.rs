@@ -46,7 +46,8 @@ use crate::table::TerminalTable;
 /// and wedges; a car on its track, limits, statistics and figures over the distance.
 ///
 /// A run with --save or --continue writes the same files except index.html. Its rows have the same bits as
-/// those of the whole run.
+/// those of the whole run, filtered columns included, and the summary of the last part is that of the whole
+/// run.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
