@@ -214,11 +214,11 @@ fn issue_047_parts_of_a_wheelset_are_the_whole() {
 
 /// Short runs of cars whose filters look ahead by a part of them; a last row nearer than the others.
 const SHORT: [&str; 5] = [
-    "simulation.duration=0.4013 s",
-    "simulation.output_interval=0.002 s",
-    "start.settle=0.1 s",
-    "output.wheel_filter=100 Hz",
-    "output.acceleration_filter=60 Hz",
+    "simulation.duration=0.1506 s",
+    "simulation.output_interval=0.001 s",
+    "start.settle=0.04 s",
+    "output.wheel_filter=240 Hz",
+    "output.acceleration_filter=200 Hz",
 ];
 
 fn car(name: &str, more: &[&str]) -> CarCase {
@@ -229,7 +229,7 @@ fn car(name: &str, more: &[&str]) -> CarCase {
 #[test]
 fn issue_047_parts_of_cars_are_the_whole() {
     for name in car::builtin::names() {
-        check(name, &car(name, &[]), &two(name));
+        check(name, &car(name, &[]), &[Sequence::of(name).next()]);
     }
 }
 
@@ -241,7 +241,7 @@ fn issue_047_a_car_may_be_cut_anywhere() {
     for shares in [
         &[1e-9, 0.01][..],
         &[0.1, 0.24, 0.2455],
-        &[0.501, 0.502, 0.503],
+        &[0.501, 0.505],
         &[0.97, 0.999],
     ] {
         check(name, &car(name, &[]), shares);

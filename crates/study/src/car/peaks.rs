@@ -55,7 +55,7 @@ pub(super) fn warning(
     Some(format!(
         "wheels leave their rails and land {} times, first the {} at {:.3} s; the hardest landing is that of \
          the {} at {:.3} s, with {:.0} {} at the most: {method} damps impacts, and single peaks after a \
-         landing may be a third lower or higher than by rodas5p; set simulation.method = \"rodas5p\" for \
+         landing may be a third off; set simulation.method = \"rodas5p\" for \
          them, and use values that last (hold times) otherwise",
         all.len(),
         first.wheel,
@@ -76,7 +76,7 @@ pub(super) fn remark(statistics: &mut BTreeMap<String, Statistic>, method: Metho
         .iter_mut()
         .filter(|(name, _)| name.contains("_vertical_acceleration_"));
     for (_, own) in vertical.filter(|(_, own)| own.raw.is_some()) {
-        let words = format!("raw: up to about 3 % low, since {method} damps fast vibrations");
+        let words = format!("raw: up to 5 % low, since {method} damps fast vibrations");
         own.remark = match own.remark.as_str() {
             "" => words,
             other => format!("{other}; {words}"),

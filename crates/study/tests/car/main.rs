@@ -1,6 +1,7 @@
 //! Freight cars on track: cases, statistics, messages.
 #![allow(clippy::unwrap_used)]
 
+mod assumptions;
 mod case;
 mod input;
 #[path = "../common/problems.rs"]

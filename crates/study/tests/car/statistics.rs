@@ -242,4 +242,6 @@ fn limits_coarse_rows_and_short_runs_are_reported() {
         .collect();
     let statistics = self::statistics(&short, &Rules::default());
     assert!(statistics.values.is_empty() && statistics.remarks[0].contains("settling"));
+    // Its filtered columns are there all the same, as those of a longer run are.
+    assert!(statistics.filtered.len() == 20 && statistics.filtered.iter().all(|own| own.values.len() == 300));
 }
