@@ -398,7 +398,7 @@ fn issue_047_runs_of_different_models_are_not_compared_by_name() {
                     &*format!("`{second}/result.csv` one of {other}"),
                     "choose by --columns",
                     "--map NAME=OTHER",
-                    "stored_energy_change",
+                    "both have bolster_roll",
                 ];
                 refused(path, &["compare", first, second], &texts);
             }

@@ -66,7 +66,8 @@ impl RigidPosition {
 }
 
 impl RigidWheelset {
-    /// Returns wheels (left, right) of nominal radii (m) on rails, which are placed by gauge and highest point.
+    /// Returns wheels (left, right) of nominal radii (m) on rails, which are placed by gauge and highest
+    /// point.
     ///
     /// # Errors
     /// A profile is of the wrong kind, a number is not admissible, the datum of a rail is not its top, or the

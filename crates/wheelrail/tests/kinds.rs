@@ -259,8 +259,8 @@ fn rails() -> Vec<(&'static str, Vec<[f64; 2]>)> {
 }
 
 /// Every wheel is read as a wheel and refused as a rail, with noise, from either end and mirrored. Upside
-/// down it may be a crossing's nose; then its datum is far from its highest point, which is told where gauge is
-/// measured.
+/// down it may be a crossing's nose; then its datum is far from its highest point, which is told where gauge
+/// is measured.
 #[test]
 fn issue_047_a_wheel_is_no_rail() {
     for (name, points) in wheels() {

@@ -11,7 +11,8 @@ use crate::table::TableColumn;
 /// Most names of columns that a note lists.
 const LISTED: usize = 5;
 
-/// Returns the columns to compare, without units; `models` are what the runs are about, as far as it is known.
+/// Returns the columns to compare, without units; `models` are what the runs are about, as far as it is
+/// known.
 pub(super) fn choose(
     entries: &[ComparedResult],
     models: &[Option<&'static str>],

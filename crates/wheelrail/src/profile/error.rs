@@ -138,8 +138,8 @@ pub enum ProfileError {
     },
     /// The datum of a rail is not its top.
     #[error(
-        "{rail}: its highest point is at z = {:.3} mm; the gauge is measured {:.3} mm below z = 0, the top of \
-         rail of the file, which is {} its highest point",
+        "{rail}: its highest point is at z = {:.3} mm; the gauge is measured {:.3} mm below z = 0, the top \
+         of rail of the file, which is {} its highest point",
         top * 1e3, depth * 1e3, from_top(depth + top)
     )]
     Datum {
@@ -213,13 +213,13 @@ impl ProfileError {
             Self::Datum { top, depth, .. } => {
                 let [lift, deeper, depth] = [-top, depth - top, *depth].map(|length| 1e3 * length);
                 let shift = format!(
-                    "if z = 0 is not the top of rail, add {lift:.3} mm to z of all points, in a file of Simpack by \
-                     shift.z"
+                    "if z = 0 is not the top of rail, add {lift:.3} mm to z of all points, in a file of \
+                     Simpack by shift.z"
                 );
                 match deeper > 0.0 {
                     true => format!(
-                        "{shift}; if it is, as that of a new rail beside a worn one, a gauge depth of {deeper:.3} \
-                         mm lies {depth:.3} mm below the highest point"
+                        "{shift}; if it is, as that of a new rail beside a worn one, a gauge depth of \
+                         {deeper:.3} mm lies {depth:.3} mm below the highest point"
                     ),
                     false => shift,
                 }

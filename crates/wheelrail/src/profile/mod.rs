@@ -2,8 +2,8 @@
 //!
 //! **Axes.** y points to the field side, away from the track's center, and z up, on either side of the track;
 //! so one profile serves left and right. A wheel's origin lies in its tape circle: its radius at a point is
-//! the nominal radius less z. A rail's datum is z = 0, the top of rail of its file, from which the depth of the
-//! gauge is measured; rails are placed by gauge and highest point. Curves lead from the gauge side to the
+//! the nominal radius less z. A rail's datum is z = 0, the top of rail of its file, from which the depth of
+//! the gauge is measured; rails are placed by gauge and highest point. Curves lead from the gauge side to the
 //! field side. SI units.
 //!
 //! | profile | from |
@@ -40,8 +40,8 @@ const COARSE: f64 = 2e-4;
 
 /// A datum this close to the highest point of a rail is that point, m: rounding of lines and arcs.
 const ROUNDING: f64 = 1e-9;
-/// A datum further than this from the highest point of a rail is no top of rail but by wear, m: it lies 0.5 mm
-/// below in rails whose points are inclined by 1:20.
+/// A datum further than this from the highest point of a rail is no top of rail but by wear, m: it lies 0.5
+/// mm below in rails whose points are inclined by 1:20.
 const NEAR_TOP: f64 = 2e-3;
 /// Depths below the highest point at which gauge is measured then, m: 9 mm on tramways to 16 mm.
 const DEPTHS: [f64; 2] = [8e-3, 17e-3];

@@ -31,7 +31,8 @@ use quantity::INCH;
 use super::chain::{ChainElement, chain};
 use super::{Profile, ProfileError, ProfileKind};
 
-/// Depth below the datum of the rail, its top, at which gauge is measured in North America, m (49 CFR 213.53).
+/// Depth below the datum of the rail, its top, at which gauge is measured in North America, m (49 CFR
+/// 213.53).
 pub const GAUGE_DEPTH: f64 = 0.625 * INCH;
 /// Inclination of rails in North America.
 pub const INCLINATION: f64 = 1.0 / 40.0;

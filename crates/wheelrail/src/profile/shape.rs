@@ -1,17 +1,17 @@
 //! The kind of a profile by its shape: a wheel that is given as a rail, or a rail that is given as a wheel.
 //!
-//! **Wheel.** It has one flange and a tread. The flange is the lowest part; from its tip the curve steepens to
-//! the face of the flange and flattens again to the tread, [`HEIGHTS`] above the tip, which does not fall on
-//! its other side. That holds for new, worn and hollow wheels, with the back of the flange or from its tip on.
-//! The curve of a rail's gauge side does not steepen above its lowest point: it is convex. The groove of a
+//! **Wheel.** It has one flange and a tread. The flange is the lowest part; from its tip the curve steepens
+//! to the face of the flange and flattens again to the tread, [`HEIGHTS`] above the tip, which does not fall
+//! on its other side. That holds for new, worn and hollow wheels, with the back of the flange or from its tip
+//! on. The curve of a rail's gauge side does not steepen above its lowest point: it is convex. The groove of a
 //! grooved rail has the shape of a flange, but beyond it the keeper is level again, and the field side falls.
 //!
 //! **Rail.** It is highest inside and falls on both sides, by [`HEAD`] where there is no flange, by more than
 //! any hollow of a wheel where there is one.
 //!
 //! Nothing is said of what may be either: lines and arcs without a flange, a rail's crown alone, a wheel
-//! without the tip of its flange, a wheel upside down, which has the shape of a crossing's nose. The datum does
-//! not count, nor does the side of the flange.
+//! without the tip of its flange, a wheel upside down, which has the shape of a crossing's nose. The datum
+//! does not count, nor does the side of the flange.
 
 use super::ProfileKind;
 use super::error::{ProfileError, ProfilePlace};
@@ -70,8 +70,8 @@ pub(super) fn check(points: &Points, kind: ProfileKind) -> Result<(), ProfileErr
             };
             let [top, left, right] = [top, falls[0], falls[1]].map(|length| 1e3 * length);
             let sign = format!(
-                "it is highest at y = {top:.1} mm, and falls by {left:.1} mm towards smaller y, by {right:.1} mm \
-                 towards larger y"
+                "it is highest at y = {top:.1} mm, and falls by {left:.1} mm towards smaller y, by \
+                 {right:.1} mm towards larger y"
             );
             (ProfileKind::Rail, sign)
         }
