@@ -3,8 +3,9 @@
 //! **Wheel.** It has one flange and a tread. The flange is the lowest part; from its tip the curve steepens
 //! to the face of the flange and flattens again to the tread, [`HEIGHTS`] above the tip, which does not fall
 //! on its other side. That holds for new, worn and hollow wheels, with the back of the flange or from its tip
-//! on. The curve of a rail's gauge side does not steepen above its lowest point: it is convex. The groove of a
-//! grooved rail has the shape of a flange, but beyond it the keeper is level again, and the field side falls.
+//! on. The curve of a rail's gauge side does not steepen above its lowest point: it is convex. The groove of
+//! a grooved rail has the shape of a flange, but beyond it the keeper is level again, and the field side
+//! falls.
 //!
 //! **Rail.** It is highest inside and falls on both sides, by [`HEAD`] where there is no flange, by more than
 //! any hollow of a wheel where there is one.
