@@ -34,7 +34,10 @@ fn settings(cube: &LatinHypercube, number: u64, duration: f64) -> Vec<String> {
         format!("truck.lands.clearance=\"{} in\"", linear(8, 0.0, 1.0)),
         format!("truck.side_bearing.clearance=\"{} in\"", linear(9, 0.0, 1.0)),
         format!("truck.center_plate.rim_clearance=\"{} in\"", linear(10, 0.0, 0.5)),
-        format!("truck.load_springs.stiffness=\"{} lbf/in\"", logarithmic(11, 500.0, 1e5)),
+        format!(
+            "truck.load_springs.stiffness=\"{} lbf/in\"",
+            logarithmic(11, 500.0, 1e5)
+        ),
         format!("simulation.relative_tolerance={:e}", logarithmic(12, 1e-8, 1e-2)),
         format!("simulation.duration=\"{duration} s\""),
     ]
@@ -48,7 +51,9 @@ fn judge(cube: &LatinHypercube, numbers: std::ops::Range<u64>, duration: f64) {
         for _ in 0..2 {
             scope.spawn(|| {
                 loop {
-                    let Some(number) = next.lock().unwrap().next() else { break };
+                    let Some(number) = next.lock().unwrap().next() else {
+                        break;
+                    };
                     match judge_one(cube, number, duration) {
                         Ok(outcome) => counts.lock().unwrap()[outcome as usize] += 1,
                         Err(what) => wrong.lock().unwrap().push(what),
@@ -61,7 +66,10 @@ fn judge(cube: &LatinHypercube, numbers: std::ops::Range<u64>, duration: f64) {
     println!("{ended} ended, {derailed} derailed, {stopped} stopped, {refused} did not begin");
     let wrong = wrong.into_inner().unwrap();
     assert!(wrong.is_empty(), "{} wrong\n{}", wrong.len(), wrong.join("\n"));
-    assert!(ended > 0 && derailed + stopped + refused > 0, "the cars are not extreme");
+    assert!(
+        ended > 0 && derailed + stopped + refused > 0,
+        "the cars are not extreme"
+    );
 }
 
 #[derive(Clone, Copy)]
@@ -98,19 +106,37 @@ fn judge_one(cube: &LatinHypercube, number: u64, duration: f64) -> Result<Outcom
     let ledger = &summary.ledger;
     println!(
         "{number}: {attempts} attempts, {:.3} s, residual {:.1e}, {warnings} warnings {reason}",
-        result.column("time").and_then(|times| times.last().copied()).unwrap_or_default(),
+        result
+            .column("time")
+            .and_then(|times| times.last().copied())
+            .unwrap_or_default(),
         ledger.largest_relative_residual
     );
-    let told = |name: &str| summary.warnings.iter().any(|own| own.contains("below zero") && own.contains(name));
+    let told = |name: &str| {
+        summary
+            .warnings
+            .iter()
+            .any(|own| own.contains("below zero") && own.contains(name))
+    };
     let resolution = ledger.largest_residual.value;
-    let stated = summary.warnings.iter().any(|own| own.contains("is a loss below zero"));
+    let stated = summary
+        .warnings
+        .iter()
+        .any(|own| own.contains("is a loss below zero"));
     for (name, value) in &ledger.entries {
         let is_loss = name.ends_with("_loss");
         if is_loss && value.value < 0.0 {
-            println!("  {name}: {} of residual {resolution}, told {}", value.value, told(name));
+            println!(
+                "  {name}: {} of residual {resolution}, told {}",
+                value.value,
+                told(name)
+            );
         }
         if is_loss && -value.value > resolution.max(1e-5 * ledger.largest_stored_change.value) && !stated {
-            return Err(format!("{number}: {name} is {}, without a word: {settings:?}", value.value));
+            return Err(format!(
+                "{number}: {name} is {}, without a word: {settings:?}",
+                value.value
+            ));
         }
     }
     if matches!(outcome, Outcome::Stopped) && reason.is_empty() {

@@ -13,7 +13,12 @@ fn check<C: RunCase>(case: &C) -> usize {
     let x = beginning.x.clone();
     let observer = Plausibility::new(&mut beginning.system, 0.0, &x);
     let mut scale: f64 = 0.0;
-    for body in beginning.system.bodies().iter().filter(|body| !body.is_prescribed()) {
+    for body in beginning
+        .system
+        .bodies()
+        .iter()
+        .filter(|body| !body.is_prescribed())
+    {
         let inertia = body.inertia.iter().fold(0.0, |most: f64, own| most.max(*own));
         scale = scale.max(2.0 * (inertia / body.mass).sqrt());
     }

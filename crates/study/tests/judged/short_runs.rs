@@ -25,7 +25,10 @@ fn check<'n>(names: impl Iterator<Item = &'n str>, duration: f64) {
         // The floor is what the tolerance admits.
         let admissible = ledger.admissible_residual.as_ref().unwrap().value;
         let least = 1e-3 * ledger.largest_residual.value / admissible;
-        assert!(ledger.largest_relative_residual <= least * (1.0 + 1e-12), "{name}");
+        assert!(
+            ledger.largest_relative_residual <= least * (1.0 + 1e-12),
+            "{name}"
+        );
     }
 }
 
@@ -36,7 +39,11 @@ fn issue_047_ledgers_of_short_runs_of_all_built_in_cars_close() {
 
 #[test]
 fn issue_047_ledgers_of_runs_of_a_second_close() {
-    let blows = ["car_fra_class_1_empty", "car_hunting_roller_empty", "car_tangent_empty"];
+    let blows = [
+        "car_fra_class_1_empty",
+        "car_hunting_roller_empty",
+        "car_tangent_empty",
+    ];
     check(blows.into_iter(), 1.0);
 }
 

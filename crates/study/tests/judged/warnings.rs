@@ -17,13 +17,18 @@ fn wedge(settings: &[&str]) -> RunResult {
 
 /// Returns the number behind some words of a warning.
 fn number(text: &str, words: &str) -> f64 {
-    let rest = text.split(words).nth(1).unwrap_or_else(|| panic!("no `{words}` in {text}"));
+    let rest = text
+        .split(words)
+        .nth(1)
+        .unwrap_or_else(|| panic!("no `{words}` in {text}"));
     rest.split_whitespace().next().unwrap().parse().unwrap()
 }
 
 fn the_one(result: &RunResult, words: &str) -> String {
     let mut found = plausibility::among(&result.summary.warnings).filter(|own| own.contains(words));
-    let first = found.next().unwrap_or_else(|| panic!("no `{words}`: {:?}", result.summary.warnings));
+    let first = found
+        .next()
+        .unwrap_or_else(|| panic!("no `{words}`: {:?}", result.summary.warnings));
     first.to_owned()
 }
 
@@ -34,7 +39,11 @@ fn compare(text: &str, quantity: &str, times: &[f64], values: &[f64]) {
     let largest = values.iter().fold(f64::MIN, |most, own| most.max(*own));
     assert!((value / largest - 1.0).abs() < 1e-3, "{largest}: {text}");
     let row = values.iter().position(|own| *own == largest).unwrap();
-    assert!((number(text, " at ") - times[row]).abs() < 1e-6, "{}: {text}", times[row]);
+    assert!(
+        (number(text, " at ") - times[row]).abs() < 1e-6,
+        "{}: {text}",
+        times[row]
+    );
 }
 
 #[test]
@@ -47,8 +56,13 @@ fn issue_047_warnings_of_wedges_state_what_the_rows_hold() {
     let deepest = |row: usize| {
         let gaps = soft.columns.iter().filter(|own| own.name.ends_with("_gap"));
         let faces = ["side_frame", "bolster"].map(|face| if text.contains(face) { face } else { "" });
-        let own = gaps.filter(|own| faces.iter().all(|face| face.is_empty() || own.name.contains(face)));
-        own.map(|own| -column(&own.name)[row] / INCH).fold(f64::MIN, f64::max)
+        let own = gaps.filter(|own| {
+            faces
+                .iter()
+                .all(|face| face.is_empty() || own.name.contains(face))
+        });
+        own.map(|own| -column(&own.name)[row] / INCH)
+            .fold(f64::MIN, f64::max)
     };
     // The overlap of the start does not count.
     let mut depths: Vec<f64> = (0..times.len()).map(deepest).collect();
@@ -57,7 +71,10 @@ fn issue_047_warnings_of_wedges_state_what_the_rows_hold() {
     assert!(value > number(&text, "the limit is "), "{text}");
     let largest = depths.iter().fold(f64::MIN, |most, own| most.max(*own));
     assert!(value <= largest * 1.001, "{largest}: {text}");
-    assert!(depths.iter().any(|own| (own / value - 1.0).abs() < 1e-3), "{text}");
+    assert!(
+        depths.iter().any(|own| (own / value - 1.0).abs() < 1e-3),
+        "{text}"
+    );
 
     let lifted = wedge(&["bolster.vertical.amplitude=\"6 in\"", short]);
     let text = the_one(&lifted, "longer than its free length");
@@ -76,6 +93,10 @@ fn issue_047_a_heavy_car_has_not_slid_off_its_surfaces() {
         "car_tangent_loaded",
         &["car.weight=\"5e6 lbf\"", "simulation.duration=\"0.2 s\""],
     );
-    let slid = result.summary.warnings.iter().find(|own| own.contains("has slid off"));
+    let slid = result
+        .summary
+        .warnings
+        .iter()
+        .find(|own| own.contains("has slid off"));
     assert_eq!(slid, None);
 }
