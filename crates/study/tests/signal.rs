@@ -53,8 +53,8 @@ fn limits_lines_pass_a_filter_to_their_ends() {
 }
 
 proptest! {
-    /// A filtered value is the same to the last bit whether the values end as far behind it as it looks ahead,
-    /// or anywhere later.
+    /// A filtered value is the same to the last bit whether the values end as far behind it as it looks
+    /// ahead, or anywhere later.
     #[test]
     fn issue_047_a_filter_looks_a_bounded_number_of_rows_ahead(
         values in prop::collection::vec(-1e6..1e6_f64, 2..600),

@@ -80,7 +80,8 @@ fn issue_047_assumptions_are_those_of_other_values() {
             "creep by FASTSIM, friction 0.3",
         ),
         (
-            "[track]\nsegments = [{ tangent = \"5000 ft\" }]\n[track.support]\nkind = \"sprung\"\nmass = \"300 kg\"",
+            "[track]\nsegments = [{ tangent = \"5000 ft\" }]\n[track.support]\nkind = \"sprung\"\n\
+             mass = \"300 kg\"",
             "its values are guesses",
             "on springs, with the values of the track.",
         ),
