@@ -243,8 +243,9 @@ fn on_linear_wheels(factor: f64) -> Parameters {
 
 /// Growth (1/s) and frequency (Hz) of a separate linear model of the loaded car: 19 bodies as springs,
 /// dampers and masses in lbf, in, s, linearized by automatic differentiation about its frictionless
-/// equilibrium, its modes by the eigenvalues of `(M, C, K)`. With friction stuck the wheels' creep makes 2.289
-/// of the 2.342 1/s of the upper sway (2.459 Hz), so that twice the coefficients nearly halve its damping.
+/// equilibrium, its modes by the eigenvalues of `(M, C, K)`. With friction stuck the wheels' creep makes
+/// 2.289 of the 2.342 1/s of the upper sway (2.459 Hz), so that twice the coefficients nearly halve its
+/// damping.
 #[test]
 fn issue_047_stuck_vibrations_are_those_of_a_separate_linear_model() {
     for (factor, expected) in [

@@ -1,5 +1,5 @@
-//! Issue 47: inputs left alone hold a wedge still; a position without its rate works, or is warned of; what no
-//! machine does is warned of once.
+//! Issue 47: inputs left alone hold a wedge still; a position without its rate works, or is warned of; what
+//! no machine does is warned of once.
 #![allow(missing_docs, clippy::panic, clippy::unwrap_used)]
 
 use fmi::description::{Description, FmuModel, Version};
@@ -113,8 +113,8 @@ fn three_piece() -> Source {
 }
 
 fn car() -> Source {
-    let text = "model = \"car\"\nstart.settle = \"0 s\"\ntrack.support.kind = \"rigid\"\nspeed.value = \"40 mph\"\n\
-                [[track.segments]]\ntangent = \"2000 ft\"\n";
+    let text = "model = \"car\"\nstart.settle = \"0 s\"\ntrack.support.kind = \"rigid\"\n\
+                speed.value = \"40 mph\"\n[[track.segments]]\ntangent = \"2000 ft\"\n";
     let case = CarCase::parse("case.toml", text, Tables::nowhere(), &[]).unwrap();
     Source::Car(Box::new(case))
 }

@@ -17,8 +17,8 @@ pub const RESULT_CELLS: usize = 60_000_000;
 /// Largest file of records, summary or description of a study, in bytes.
 pub const RECORD_FILE: u64 = 64 << 20;
 
-/// Largest saved state of a run, in bytes: with [`OUTPUT_ROWS`] rows of the columns that a car's summary reads
-/// it has about 190 MB.
+/// Largest saved state of a run, in bytes: with [`OUTPUT_ROWS`] rows of the columns that a car's summary
+/// reads it has about 190 MB.
 pub const SAVED_STATE: u64 = 256 << 20;
 
 /// Longest line of a text, in bytes. A list of points may be written in one line.

@@ -12,12 +12,12 @@
 //! a wedge that is dropped, and small for a wagon that rolls over a joint. [`relative_residual`] is the
 //! measure for all runs.
 //!
-//! It has a floor: what the integrator does not promise is no fault. A step is accepted while the error of each
-//! speed is at most the tolerance times its scale ([`crate::system::scales`]), which changes the kinetic
+//! It has a floor: what the integrator does not promise is no fault. A step is accepted while the error of
+//! each speed is at most the tolerance times its scale ([`crate::system::scales`]), which changes the kinetic
 //! energy of what moves by as much as [`crate::system::System::energy_of_speed_errors`]. A residual of this
-//! size, the *admissible* one, is at the limit of [`DOUBTFUL`], however little else has happened: a blow at the
-//! start of a short run, say. The floor holds for what stays. A residual that goes on growing, by more than
-//! [`GROWING`] of what is turned over meanwhile, as that of an element that creates energy, has none.
+//! size, the *admissible* one, is at the limit of [`DOUBTFUL`], however little else has happened: a blow at
+//! the start of a short run, say. The floor holds for what stays. A residual that goes on growing, by more
+//! than [`GROWING`] of what is turned over meanwhile, as that of an element that creates energy, has none.
 
 use serde::{Deserialize, Serialize};
 

@@ -52,7 +52,8 @@ fn timed(text: String) -> (Read<SystemFile>, f64) {
     (read, start.elapsed().as_secs_f64())
 }
 
-/// A wide limit, s: hundreds of times as long as reading takes, which something quadratic exceeds all the same.
+/// A wide limit, s: hundreds of times as long as reading takes, which something quadratic exceeds all the
+/// same.
 const HANGS: f64 = 60.0;
 
 /// All records of a large file are read, and it does not hang.

@@ -97,8 +97,8 @@ pub enum RunError {
     NotFinite(#[from] NotFinite),
     /// A saved state that this version cannot read.
     #[error(
-        "the saved run state has version {found}; this program reads version {RUN_STATE_VERSION}. Continue it \
-         with the program that saved it, or run the case from its start"
+        "the saved run state has version {found}; this program reads version {RUN_STATE_VERSION}. \
+         Continue it with the program that saved it, or run the case from its start"
     )]
     Version {
         /// The version found.
@@ -376,8 +376,8 @@ impl<C: RunCase> Run<C> {
     }
 
     /// Looks ahead, where the values of rows depend on later ones: a copy of the run goes on until all values
-    /// so far are known. The results of a run that was saved are then those of the same rows of a run that was
-    /// not.
+    /// so far are known. The results of a run that was saved are then those of the same rows of a run that
+    /// was not.
     ///
     /// # Errors
     /// The copy cannot begin.

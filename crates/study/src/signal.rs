@@ -17,9 +17,9 @@ mod spectrum;
 /// cutoff f₀, without any delay, so that a peak stays where it is. The values are continued at both ends by
 /// their reflection in the end point.
 ///
-/// The backward pass goes block by block. Each begins so far behind its block that the beginning has died away
-/// to rounding. A filtered value hence depends on rows no more than [`LowPass::rows_ahead`] after it, to the
-/// last bit.
+/// The backward pass goes block by block. Each begins so far behind its block that the beginning has died
+/// away to rounding. A filtered value hence depends on rows no more than [`LowPass::rows_ahead`] after it, to
+/// the last bit.
 ///
 /// Limits: a real channel filters while it records and delays what it sees; one without phase uses what comes
 /// later. Rows must be so near that nothing above half their rate is in the values: it would be taken for

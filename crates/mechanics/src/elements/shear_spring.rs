@@ -9,14 +9,15 @@
 //! F(d_z) = max(0, F0 - k d_z) [+ k_solid (d_solid - d_z) beyond solid]
 //! ```
 //!
-//! where the fading factor `f = t³ (10 - 15t + 6t²)` with `t = min(1, F / (0.05 F0))` acts on shear and damping
-//! alone: a coil off its seat carries neither. The force acts at A and its reaction on the other body at the same
-//! place, so that momentum and angular momentum are kept. Units: m, N, s.
+//! where the fading factor `f = t³ (10 - 15t + 6t²)` with `t = min(1, F / (0.05 F0))` acts on shear and
+//! damping alone: a coil off its seat carries neither. The force acts at A and its reaction on the other body
+//! at the same place, so that momentum and angular momentum are kept. Units: m, N, s.
 //!
 //! Energy: `½ k (F0/k - d_z)²` while the spring is on its seat, the solid coil's, and the shear's `½ k_s f
 //! |d_s|²`. The force without damping is its gradient at any pose, so that the coil gives back exactly what it
-//! takes, also where it leaves its seat and comes down aside of its nominal place: there the seat pushes it up
-//! by the term with f', which is the work that the shear takes. The power lost is `c f |ḋ|²`, never negative.
+//! takes, also where it leaves its seat and comes down aside of its nominal place: there the seat pushes it
+//! up by the term with f', which is the work that the shear takes. The power lost is `c f |ḋ|²`, never
+//! negative.
 //!
 //! Defects: a coil that comes down aside of its nominal place does not stand there with a new one, but is
 //! sheared again. No moment by rotation of the seats, no change of shear stiffness with compression; the

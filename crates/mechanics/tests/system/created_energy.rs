@@ -1,5 +1,5 @@
-//! Elements that create energy, in a system that rolls along as a car does: whether they hide it or book it as
-//! a negative loss, they are found; the same system without them has nothing to say.
+//! Elements that create energy, in a system that rolls along as a car does: whether they hide it or book it
+//! as a negative loss, they are found; the same system without them has nothing to say.
 
 use crate::common::{body, ground, options};
 use integrate::{Integrator, Method, Problem};

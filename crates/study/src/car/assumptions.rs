@@ -1,5 +1,5 @@
-//! The assumptions of a car's run in words. What is said of a value holds for it, whether it is a built-in one
-//! or the case's own.
+//! The assumptions of a car's run in words. What is said of a value holds for it, whether it is a built-in
+//! one or the case's own.
 
 use car::{Drive, Parameters, StartKind, Wheels};
 use rolling::track::RailSupport;

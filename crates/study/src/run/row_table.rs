@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 use super::{NotFinite, RunError, append, check_finite, check_length, damaged};
 use crate::metrics::Extremes;
 
-/// The rows of a run, SI, one vector a column. A run that goes on from a saved state has the rows after it; of
-/// the time and of the columns that its summary reads row by row it has all rows since the start, and of all
-/// columns the extremes.
+/// The rows of a run, SI, one vector a column. A run that goes on from a saved state has the rows after it;
+/// of the time and of the columns that its summary reads row by row it has all rows since the start, and of
+/// all columns the extremes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RowTable {
     /// Names of the columns.
