@@ -83,9 +83,11 @@ fn issue_047_a_derailed_car_is_told_by_run_and_report() {
     assert!(what.contains("left its rail"), "{what}");
     let place = |text: &str, part: &str| text.find(part).unwrap_or_else(|| panic!("{part}: {text}"));
     let told = place(&run.out, "derailed at 0.");
-    assert!(told < place(&run.out, what) && place(&run.out, what) < place(&run.out, "margin"));
-    assert!(place(&run.out, "statistics and margins are of the part until 0.") < place(&run.out, "margin"));
-    assert!(place(&run.out, "ft along the track)") < place(&run.out, "margin"));
+    assert!(told < place(&run.out, what) && place(&run.out, what) < place(&run.out, "\nquantity"));
+    assert!(
+        place(&run.out, "statistics and margins are of the part until 0.") < place(&run.out, "\nquantity")
+    );
+    assert!(place(&run.out, "ft along the track)") < place(&run.out, "\nquantity"));
     assert!(run.err.contains("is incomplete") && run.err.contains("what was computed until then is in out"));
     let page = fs::read_to_string(at.join("out/index.html")).unwrap();
     let told = place(&page, "derailed at 0.");
