@@ -54,8 +54,8 @@ def test_issue_047_positions_alone_give_the_forces_of_the_run(fmus, forces, step
     print(step, bolster, side_frame, forces)
     assert not log, log
     assert np.abs(side_frame / forces - 1.0).max() < 0.01, (side_frame, forces)
-    # What the wedge does not carry itself goes to the bolster.
-    assert np.abs(bolster + side_frame + WEIGHT).max() < 0.01 * np.abs(forces).max()
+    # The wedge's weight and its vibration remain.
+    assert np.abs(bolster + side_frame + WEIGHT).max() < WEIGHT
 
 
 def test_issue_047_model_exchange_warns_of_positions_alone(fmus):

@@ -61,9 +61,9 @@ impl Saved {
         check_finite("inputs", &self.inputs)?;
         check_finite("slopes", self.slopes.iter().flatten())?;
         check_finite("doubts", self.doubts.iter().flat_map(Doubt::values))?;
-        self.check_past(values.inputs.len())?;
         self.check_options(instance)?;
-        self.check_phase()
+        self.check_phase()?;
+        self.check_past(values.inputs.len())
     }
 
     fn check_past(&self, inputs: usize) -> Result<(), Error> {
