@@ -241,7 +241,8 @@ fn by_itself(running: Option<(f64, f64)>) -> Matrices {
         own.stiffness[(first + 3, first + 3)] += SUPPORT[1];
         for side in [1.0, -1.0] {
             // Slip at the contact, forward and left, by the rates and by the displacements: the radius there
-            // grows with the shift at the height of the rails and with the roll, and the axle yaws.
+            // grows with the shift at the height of the rails, not with the roll on the support, and the
+            // axle yaws.
             let rates = [
                 [1.0, 0.0, 0.0, 0.0, -R, -side * HALF],
                 [0.0, 1.0, 0.0, R, 0.0, 0.0],
@@ -251,7 +252,7 @@ fn by_itself(running: Option<(f64, f64)>) -> Matrices {
                     0.0,
                     -spin * side * conicity,
                     0.0,
-                    -spin * side * (conicity * R + HALF),
+                    -spin * side * conicity * R,
                     0.0,
                     0.0,
                 ],
