@@ -92,10 +92,10 @@ fn issue_047_a_derailed_car_is_told_by_run_and_report() {
     let page = fs::read_to_string(at.join("out/index.html")).unwrap();
     let told = place(&page, "derailed at 0.");
     assert!(
-        told < place(&page, "<h2>Limits</h2>"),
+        told < place(&page, ">Limits</h2>"),
         "the reason stands above the limits"
     );
-    let limits = &page[place(&page, "<h2>Limits</h2>")..place(&page, "<h2>Statistics</h2>")];
+    let limits = &page[place(&page, ">Limits</h2>")..place(&page, ">Statistics</h2>")];
     assert!(
         limits.contains("are of the part until 0."),
         "limits say until where they hold"
