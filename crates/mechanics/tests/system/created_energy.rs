@@ -2,7 +2,7 @@
 //! as a negative loss, they are found; the same system without them has nothing to say.
 
 use crate::common::{body, ground, options};
-use integrate::{Integrator, Method, Problem};
+use integrate::{Integrator, Method};
 use mechanics::element::{Element, Wrench};
 use mechanics::elements::ShearSpring;
 use mechanics::energy_balance::{EnergyBalance, Verdict};
