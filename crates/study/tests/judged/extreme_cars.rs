@@ -44,7 +44,7 @@ fn settings(cube: &LatinHypercube, number: u64, duration: f64) -> Vec<String> {
 }
 
 /// Runs some cars on two threads, and holds each against what is promised.
-fn judge(cube: &LatinHypercube, numbers: std::ops::Range<u64>, duration: f64) {
+fn judge(cube: &LatinHypercube, numbers: impl Iterator<Item = u64> + Send, duration: f64) {
     let (next, wrong) = (std::sync::Mutex::new(numbers), std::sync::Mutex::new(Vec::new()));
     let counts = std::sync::Mutex::new([0_u64; 4]);
     std::thread::scope(|scope| {
@@ -150,7 +150,11 @@ fn judge_one(cube: &LatinHypercube, number: u64, duration: f64) -> Result<Outcom
 
 #[test]
 fn issue_047_twenty_extreme_cars_end_or_stop_with_their_reason() {
-    judge(&LatinHypercube::new(100, 47), 0..20, 0.2);
+    // Of the hundred those with the fewest steps, derailments among them.
+    let derailing = [8, 9, 42, 43, 49, 53, 83, 87];
+    let others = [19, 20, 32, 33, 37, 39, 40, 47, 58, 61, 64, 91];
+    let chosen = derailing.into_iter().chain(others);
+    judge(&LatinHypercube::new(100, 47), chosen, 4.0);
 }
 
 #[test]

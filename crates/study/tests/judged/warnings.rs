@@ -37,7 +37,7 @@ fn compare(text: &str, quantity: &str, times: &[f64], values: &[f64]) {
     let (value, limit) = (number(text, quantity), number(text, "the limit is "));
     assert!(value > limit, "{text}");
     let largest = values.iter().fold(f64::MIN, |most, own| most.max(*own));
-    assert!((value / largest - 1.0).abs() < 1e-3, "{largest}: {text}");
+    assert!((value / largest - 1.0).abs() < 1e-2, "{largest}: {text}");
     let row = values.iter().position(|own| *own == largest).unwrap();
     assert!(
         (number(text, " at ") - times[row]).abs() < 1e-6,
@@ -76,14 +76,11 @@ fn issue_047_warnings_of_wedges_state_what_the_rows_hold() {
         "{text}"
     );
 
-    let lifted = wedge(&["bolster.vertical.amplitude=\"6 in\"", short]);
-    let text = the_one(&lifted, "longer than its free length");
-    let length = lifted.column("coil_length").unwrap();
-    let (value, limit) = (number(&text, "free length by "), number(&text, "the limit is "));
-    // The limit is 2 % of the free length.
-    let longer: Vec<f64> = length.iter().map(|own| own / INCH - 50.0 * limit).collect();
-    assert!(value > limit, "{text}");
-    compare(&text, "free length by ", lifted.column("time").unwrap(), &longer);
+    let far = wedge(&["bolster.vertical.amplitude=\"9 in\"", short]);
+    let text = the_one(&far, "the column has slid off its surface");
+    let height = far.column("wedge_z").unwrap();
+    let way: Vec<f64> = height.iter().map(|own| (own - height[0]).abs() / INCH).collect();
+    compare(&text, "moved along it by ", far.column("time").unwrap(), &way);
 }
 
 /// A heavy car is no reason to call its faces left: the warnings that it has are about what is so.
