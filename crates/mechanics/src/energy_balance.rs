@@ -16,8 +16,9 @@
 //! each speed is at most the tolerance times its scale ([`crate::system::scales`]), which changes the kinetic
 //! energy of what moves by as much as [`crate::system::System::energy_of_speed_errors`]. A residual of this
 //! size, the *admissible* one, is at the limit of [`DOUBTFUL`], however little else has happened: a blow at
-//! the start of a short run, say. The floor holds for what stays. A residual that goes on growing, by more
-//! than [`GROWING`] of what is turned over meanwhile, as that of an element that creates energy, has none.
+//! the start of a short run, say. A tolerance above [`LOOSEST`] excuses no more: that it is too loose is what
+//! the ledger is to tell. And the floor holds for what stays. A residual that goes on growing, by more than
+//! [`GROWING`] of what is turned over meanwhile, as that of an element that creates energy, has none.
 
 use serde::{Deserialize, Serialize};
 
@@ -31,6 +32,9 @@ pub const FAILED: f64 = 1e-2;
 /// A residual that grows by more than this share of what is turned over meanwhile has no floor. Coarse steps
 /// that damp the end of a blow take up to some hundredths.
 pub const GROWING: f64 = 0.05;
+
+/// The loosest tolerance whose errors are admissible in a ledger.
+pub const LOOSEST: f64 = 1e-4;
 
 /// Energies up to this share of the stored energy are rounding: stored energy is a difference of sums with
 /// some ten entries, so that smaller energies cannot be distinguished from zero.
@@ -90,7 +94,7 @@ pub struct Entries {
     pub stored_change: f64,
     /// Work less change and losses, other entries included.
     pub residual: f64,
-    /// The residual that the error of one step may leave: the tolerance times
+    /// The residual that the error of one step may leave: the tolerance, at most [`LOOSEST`], times
     /// [`crate::system::System::energy_of_speed_errors`].
     pub admissible: f64,
 }

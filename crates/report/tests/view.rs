@@ -301,7 +301,7 @@ fn issue_048_the_page_holds_its_data_script_and_style() {
         view: &view,
     });
     for part in [
-        "<style>.wl-",
+        ".wl-scrubber",
         "<script type=\"application/json\" id=\"wedgelab-view\">{\"schema\":\"wedgelab.view/1\"",
         "<div data-shown=\"cdrun_toe_0_psi_0\"",
     ] {

@@ -4,7 +4,7 @@
 //! The checks and their limits are those of [`mechanics::plausibility`].
 
 use mechanics::plausibility::{FindingKind, Location, PlausibilityFinding};
-use mechanics::system::System;
+use mechanics::system::{EnergyTermKind, System};
 use quantity::System as Units;
 use wedge::outputs::{CORNERS, FACES, PointNames};
 
@@ -17,6 +17,12 @@ const BEGINNING: &str = "implausible: ";
 pub const NOTHING_GIVEN: &str = "the case file gives no values of wedge, coil, contact, friction and \
                                  motions: all are defaults, the thesis's with variable damping; write your \
                                  own (`wedgelab case` shows all keys)";
+
+/// The advice where the slopes of massless wedges create energy.
+const OF_MASSLESS_WEDGES: &str = "the law of the massless wedge gives the friction of its slope the direction of \
+                                  the column's, not of its own slip, so that a bolster that swings along \
+                                  feeds energy: do not use losses and damping of this run, or compare with \
+                                  wedges that are bodies (--option wedges=bodies)";
 
 /// Returns those of a run's warnings that are about something implausible.
 pub fn among(warnings: &[String]) -> impl Iterator<Item = &str> {
@@ -139,7 +145,13 @@ pub(crate) fn in_truck(
         _ => None,
     };
     let place = numbered.unwrap_or_else(|| finding.location.describe(system));
-    let (sentence, advice) = (finding.words(&place, units), finding.kind.advice());
+    let sentence = finding.words(&place, units);
+    let advice = match finding.location {
+        Location::EnergyTerm(term) if system.energy_terms()[term].kind == EnergyTermKind::SlopeFriction => {
+            OF_MASSLESS_WEDGES
+        }
+        _ => finding.kind.advice(),
+    };
     format!("{BEGINNING}{sentence}; {advice}")
 }
 

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use integrate::{Integrator, Options, SetupError};
-use mechanics::energy_balance::{EnergyBalance, Entries, Verdict};
+use mechanics::energy_balance::{EnergyBalance, Entries, LOOSEST, Verdict};
 use mechanics::output::Column;
 use mechanics::plausibility::{Plausibility, PlausibilityFinding};
 use mechanics::system::{ModelError, NoEquilibrium, System};
@@ -263,7 +263,7 @@ pub struct Run<C: RunCase> {
     rows: Rows,
     next_row: u64,
     pace: Pace,
-    /// Relative tolerance.
+    /// Relative tolerance, as far as the ledger admits its errors.
     tolerance: f64,
     buffer: Vec<f64>,
     contact_states: Vec<u8>,
@@ -328,7 +328,7 @@ impl<C: RunCase> Run<C> {
             energy_balance: EnergyBalance::new(start_energy),
             plausibility,
             pace: Pace::of(&integrator),
-            tolerance: case.options().relative_tolerance,
+            tolerance: case.options().relative_tolerance.min(LOOSEST),
             buffer: beginning.x,
             contact_states: integrator.discrete_states().to_vec(),
             integrator,

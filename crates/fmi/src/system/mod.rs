@@ -12,6 +12,7 @@ mod ports;
 mod state;
 
 use integrate::{Integrator, Options, Problem};
+use mechanics::energy_balance::LOOSEST;
 use mechanics::plausibility::{FindingKind, Location, Plausibility, PlausibilityFinding};
 use mechanics::system::{Contacts, Observation, StaticFriction, System};
 use study::progress::{self, Pace};
@@ -387,7 +388,7 @@ impl Element for SystemElement {
             .integrator
             .as_ref()
             .map_or(&self.plant.options, Integrator::options);
-        let (tolerance, dimension) = (options.relative_tolerance, self.dimension());
+        let (tolerance, dimension) = (options.relative_tolerance.min(LOOSEST), self.dimension());
         let system = &mut self.plant.system;
         ledger.admissible = tolerance * system.energy_of_speed_errors(self.time, &self.states[..dimension]);
         ledger.residual = if self.plant.residual_of_stored {

@@ -118,6 +118,9 @@ pub struct HalfTruckSummary {
     pub largest_residual: SummaryValue,
     /// The first output time with this residual, s.
     pub largest_residual_time: f64,
+    /// The residual that one step may leave, as the tolerance admits: below it nothing is wrong.
+    #[serde(default)]
+    pub admissible_residual: Option<SummaryValue>,
     /// The measure of how well the ledger closes: [`mechanics::energy_balance::relative_residual`] of the
     /// largest residual.
     pub largest_relative_residual: f64,

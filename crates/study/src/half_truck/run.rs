@@ -255,6 +255,7 @@ fn output(mut run: Run<HalfTruckCase>, stopped: Option<Stopped>) -> HalfTruckRes
             largest_stored_change: joules(balance.largest_stored_change),
             largest_residual: joules(balance.largest_residual),
             largest_residual_time: balance.largest_residual_time,
+            admissible_residual: Some(joules(balance.admissible)),
             largest_relative_residual: balance.relative_residual(),
             statistics: run.integrator.statistics().clone(),
             relative_tolerance: case.relative_tolerance,

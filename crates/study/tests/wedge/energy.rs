@@ -7,8 +7,10 @@ use study::case::{Case, builtin};
 use study::half_truck::catalog::entry;
 use study::result::RunResult;
 use study::run::Run;
-use study::summary::RunSummary;
+use study::summary::{RunSummary, SummaryValue};
 use study::{energy, half_truck};
+
+use crate::runs::LBF_IN;
 
 #[test]
 fn all_cases_beyond_the_thesis_close_their_ledgers() {
@@ -45,7 +47,13 @@ fn all_cases_beyond_the_thesis_close_their_ledgers() {
 
 /// Returns the relative residual from the columns of a table (SI) alone: the entries of its ledger by their
 /// names.
-fn by_hand(column: impl Fn(&str) -> Vec<f64>, work: &str, losses: &[&str], stored: &[&str]) -> f64 {
+fn by_hand(
+    column: impl Fn(&str) -> Vec<f64>,
+    work: &str,
+    losses: &[&str],
+    stored: &[&str],
+    admissible: &Option<SummaryValue>,
+) -> f64 {
     let last = |name: &str| column(name).last().copied().unwrap();
     let most = |values: Vec<f64>| values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
     let rows = column(work).len();
@@ -54,7 +62,11 @@ fn by_hand(column: impl Fn(&str) -> Vec<f64>, work: &str, losses: &[&str], store
         .collect();
     let changes = energy.iter().map(|now| now - energy[0]).collect();
     let losses: f64 = losses.iter().map(|name| last(name)).sum();
+    // A thousand times what one step may leave.
+    let admissible = admissible.as_ref().unwrap();
+    let unit = if admissible.unit == "J" { 1.0 } else { LBF_IN };
     let scale = last(work).abs().max(losses).max(most(changes));
+    let scale = scale.max(1e3 * unit * admissible.value);
     most(column("ledger_residual")) / scale
 }
 
@@ -69,6 +81,7 @@ fn of_wedge(result: &RunResult) -> f64 {
             "coil_damping_loss",
         ],
         &["stored_energy_change"],
+        &result.summary.ledger.admissible_residual,
     )
 }
 
@@ -116,6 +129,7 @@ fn energy_the_measure_is_what_a_hand_computes_from_the_columns() {
                 "coil_energy",
                 "accumulator_energy",
             ],
+            &result.summary.admissible_residual,
         );
         close(result.summary.largest_relative_residual, expected, name);
     }
