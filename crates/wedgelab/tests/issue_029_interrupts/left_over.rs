@@ -52,7 +52,7 @@ fn issue_029_the_next_start_removes_what_a_killed_run_left() {
     // In the destination, which exists.
     assert!(start_writing(path, &["--out", "b", "--force"]).kill());
     let left = names(&path.join("b"));
-    assert!(left.len() == 5 && left[0].starts_with(".wedgelab-"), "{left:?}");
+    assert!(left.len() == 6 && left[0].starts_with(".wedgelab-"), "{left:?}");
     assert_eq!(whole_run(&path.join("b"))["rows"], 6);
     let said = done(path, &[&SHORT[..], &["b", "--force", "--quiet"]].concat());
     contains(
