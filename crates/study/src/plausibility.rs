@@ -19,9 +19,10 @@ pub const NOTHING_GIVEN: &str = "the case file gives no values of wedge, coil, c
                                  own (`wedgelab case` shows all keys)";
 
 /// The advice where the slopes of massless wedges create energy.
-const OF_MASSLESS_WEDGES: &str = "the law of the massless wedge gives the friction of its slope the direction of the column's, not of its \
-     own slip, so that a bolster that swings along feeds energy: do not use losses and damping of this run, \
-     or compare with wedges that are bodies (--option wedges=bodies)";
+const OF_MASSLESS_WEDGES: &str = "the law of the massless wedge gives the friction of its slope the \
+                                  direction of the column's, not of its own slip, so that a bolster that \
+                                  swings along feeds energy: do not use losses and damping of this run, or \
+                                  compare with wedges that are bodies (--option wedges=bodies)";
 
 /// Returns those of a run's warnings that are about something implausible.
 pub fn among(warnings: &[String]) -> impl Iterator<Item = &str> {
