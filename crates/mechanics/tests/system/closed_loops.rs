@@ -164,12 +164,15 @@ fn check(name: &str, model: Model) {
     }
 }
 
+/// A marker on the body of this number.
+type End = (usize, Marker);
+
 #[test]
 fn issue_047_elements_without_losses_do_no_work_around_a_loop() {
     let [top, foot] = [[0.02, 0.05, -0.1], [0.02, 0.05, -0.1]];
     let tilted = Marker::new(foot, [0.2, -0.3, 0.4]);
     let at = Marker::new(top, [0.1, 0.2, -0.1]);
-    let with = |add: &dyn Fn(&mut Model, (usize, Marker), (usize, Marker))| {
+    let with = |add: &dyn Fn(&mut Model, End, End)| {
         let mut ways = [alone(), alone()];
         add(&mut ways[0], (0, at), (1, tilted));
         add(&mut ways[1], (1, tilted), (0, at));
