@@ -183,10 +183,13 @@ impl Plausibility {
     }
 
     /// Returns the findings so far of a run that goes on, without those that only the whole of it shows:
-    /// what overlap at the start releases, and scatter from output time to output time.
+    /// what overlap at the start releases, scatter from output time to output time, and losses below zero,
+    /// whose limit is the residual of the run's ledger.
     #[must_use]
     pub fn present(&self, system: &System) -> Vec<PlausibilityFinding> {
-        self.findings(system, &EnergyBalance::new(0.0), 0.0)
+        let mut findings = self.findings(system, &EnergyBalance::new(0.0), 0.0);
+        findings.retain(|own| own.kind != FindingKind::EnergyCreated);
+        findings
     }
 
     /// Returns the findings, by kind of element and place; `balance` is the run's energy balance, and
