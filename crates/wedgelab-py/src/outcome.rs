@@ -322,7 +322,8 @@ impl NativeResult {
 
     /// Returns how it ended in one word: `complete`, `derailed`, `stopped` or `failed`.
     #[getter]
-    fn outcome(&self) -> &'static str {
+    #[pyo3(name = "outcome")]
+    fn outcome_word(&self) -> &'static str {
         self.table.summary.get().outcome().word()
     }
 
