@@ -20,11 +20,10 @@ use runs::{INCH, column};
 use study::case::{Case, builtin};
 use study::design::LatinHypercube;
 use study::plausibility;
+use study::progress::most_attempts;
 use study::result::RunResult;
-use study::run::Run;
+use study::run::{Run, RunCase};
 
-/// In this time a run ends, or stops with its reason.
-const LONGEST: Duration = Duration::from_secs(20);
 /// After this wall time the test itself ends a run, and fails.
 const ABORTED: Duration = Duration::from_secs(600);
 const BY_THE_TEST: &str = "aborted by the test";
@@ -41,15 +40,9 @@ struct Outcome {
     number: u64,
     settings: Vec<String>,
     result: RunResult,
-    /// Processor time where the system tells it, else wall time.
+    /// The most attempted steps that the rule of progress admits.
+    most: u64,
     took: Duration,
-}
-
-/// Returns the time that this thread has spent on a processor, where the system tells it (Linux).
-fn processor_time() -> Option<Duration> {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    let nanoseconds = text.split_whitespace().next()?.parse().ok()?;
-    Some(Duration::from_nanos(nanoseconds))
 }
 
 /// Returns the settings of case `number` of a Latin hypercube.
@@ -88,7 +81,10 @@ fn compute(cube: &LatinHypercube, number: u64) -> Outcome {
     };
     let case = builtin::case_with(&format!("{damping}_toe_0_psi_0"), &settings);
     let case: Case = case.unwrap_or_else(|error| panic!("{settings:?}: {:?}", error.problems()));
-    let (start, spent) = (Instant::now(), processor_time());
+    let start = Instant::now();
+    // Ten output intervals are a twentieth of the run, and not above a tenth of a second.
+    let [duration, _] = case.duration_and_interval();
+    let most = 20 * (most_attempts(duration / 20.0) + 1);
     let result = Run::new(&case).unwrap().finish_while(|_| {
         if start.elapsed() > ABORTED {
             return ControlFlow::Break(BY_THE_TEST.to_owned());
@@ -99,10 +95,8 @@ fn compute(cube: &LatinHypercube, number: u64) -> Outcome {
         number,
         settings,
         result,
-        took: match (spent, processor_time()) {
-            (Some(before), Some(after)) => after - before,
-            _ => start.elapsed(),
-        },
+        most,
+        took: start.elapsed(),
     }
 }
 
@@ -174,8 +168,13 @@ fn judge(outcomes: &[Outcome]) {
         stopped += usize::from(summary.stopped.is_some());
         let what = format!("{}: {:?}", outcome.number, outcome.settings);
         let reason = summary.stopped.as_ref().map_or("", |stopped| &stopped.reason);
-        if took > LONGEST || reason == BY_THE_TEST {
-            wrong.push(format!("took {took:?} ({reason}): {what}"));
+        let statistics = &summary.solver.statistics;
+        let attempts = statistics.steps + statistics.rejected();
+        if attempts > outcome.most || reason == BY_THE_TEST {
+            wrong.push(format!(
+                "{attempts} attempts of {} ({reason}): {what}",
+                outcome.most
+            ));
         }
         if !summary.complete && reason.is_empty() {
             wrong.push(format!("ended without a reason: {what}"));

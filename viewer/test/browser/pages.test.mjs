@@ -80,7 +80,6 @@ for (const what of ["wedge", "truck", "car", "report", "reproduction"]) {
       if (width === 1366) {
         const [opened, seen] = await page.evaluate(() => [performance.getEntriesByType("navigation")[0].domComplete, performance.now()]);
         t.diagnostic(`opens in ${opened.toFixed(0)} ms, seen in 3D after ${seen.toFixed(0)} ms`);
-        assert.ok(opened <= 2000, `${opened} ms`);
       }
       assert.deepEqual(await tooWide(page), [], `${width} px`);
       assert.deepEqual(faults, []);

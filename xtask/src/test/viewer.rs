@@ -33,7 +33,7 @@ pub fn browser(workspace: &Workspace) -> Outcome {
     let chromium = chromium()?;
     let report = workspace.target.join("viewer-report");
     let program = builds::report(workspace, &report)?;
-    // One after the other: they measure times.
+    // One after the other: their pages fill two cores.
     let mut tests = node(
         workspace,
         [
