@@ -62,7 +62,7 @@ fn issue_029_the_next_start_removes_what_a_killed_run_left() {
             left[0]
         )],
     );
-    assert_eq!(names(&path.join("b")).len(), 4);
+    assert_eq!(names(&path.join("b")).len(), 5);
     let said = done(path, &[&SHORT[..], &["b", "--force"]].concat());
     assert!(!said.err.contains("removed"), "{}", said.err);
     // One that is refused removes nothing.
