@@ -40,7 +40,8 @@ def test_cross_code_input_derivatives_come_closer_to_a_run(fmus, run):
     errors = []
     step = 0.01
     for derivatives in [False, True]:
-        wedge = Wedge(fmus("2")).start()
+        z, rate = motion(0.0)
+        wedge = Wedge(fmus("2")).start(bolster_z=z, bolster_z_rate=rate)
         inputs = [wedge.references[name] for name in ("bolster_z", "bolster_z_rate")]
         references = (c_uint * 2)(*inputs)
         rows = []

@@ -32,12 +32,14 @@ class Wedge:
         self.fmu.instantiate()
         self.time = 0.0
 
-    def start(self):
+    def start(self, **values):
+        """Initializes the instance; `values` are inputs at the start."""
         if self.two:
             self.fmu.setupExperiment(startTime=0.0)
             self.fmu.enterInitializationMode()
         else:
             self.fmu.enterInitializationMode(startTime=0.0)
+        self.set(**values)
         self.fmu.exitInitializationMode()
         return self
 
