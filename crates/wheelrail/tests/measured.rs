@@ -6,12 +6,16 @@ use std::f64::consts::{PI, TAU};
 
 use wheelrail::track::chord::{self, ChordError};
 use wheelrail::track::{
-    CenterLine, CurveElements, Form, Irregularity, MeasuredError, MeasuredTable, RailPlace, Samples, Segment,
-    Track,
+    CenterLine, CurveElements, Form, Irregularity, LONGEST_GAP, MeasuredError, MeasuredTable, RailPlace,
+    Reading, Samples, Segment, Track,
 };
 
 const FOOT: f64 = 0.3048;
 const INCH: f64 = 0.0254;
+const SIGNS_KNOWN: Reading = Reading {
+    signs_known: true,
+    longest_gap: LONGEST_GAP,
+};
 
 fn line(length: f64) -> CenterLine {
     CenterLine::new(&[Segment::Tangent(length)], 59.5 * INCH, &[]).unwrap()
@@ -73,7 +77,7 @@ fn analytic_sign_row_and_units() {
     for k in 0..400 {
         text += &format!("{k}; 10; 0.5; 0.25; 57; 40\n");
     }
-    let table = MeasuredTable::parse("car.csv", &text, false).unwrap();
+    let table = MeasuredTable::parse("car.csv", &text, Reading::default()).unwrap();
     assert!((table.range()[1] - 399.0 * FOOT).abs() < 1e-9);
     let [left, right] = rails(&table, Form::SpaceCurve, 60.0);
     assert!((left.vertical[0] + 0.01).abs() < 1e-12 && (right.vertical[0] - 0.5 * INCH).abs() < 1e-12);
@@ -96,7 +100,7 @@ fn analytic_cross_level_less_superelevation() {
     for k in 0..400 {
         text += &format!("{k},0.1,4.2,4\n");
     }
-    let table = MeasuredTable::parse("car.csv", &text, true).unwrap();
+    let table = MeasuredTable::parse("car.csv", &text, SIGNS_KNOWN).unwrap();
     let [left, right] = rails(&table, Form::SpaceCurve, 60.0);
     assert!((right.vertical[0] - left.vertical[0] - 0.2 * INCH).abs() < 1e-12);
     assert!((0.5 * (right.vertical[0] + left.vertical[0]) - 0.1 * INCH).abs() < 1e-12);
@@ -135,6 +139,109 @@ fn analytic_chord_offsets_are_inverted() {
     assert!(matches!(long, ChordError::Range { .. }), "{long}");
 }
 
+/// A wave of 25 m and 5 mm at rows every 0.25 m.
+fn wave(rows: impl Iterator<Item = u32>, cell: impl Fn(u32, f64) -> String) -> String {
+    let row = |k| {
+        let value = 5.0 * (TAU * 0.25 * f64::from(k) / 25.0).sin();
+        format!("{};{}\n", 0.25 * f64::from(k), cell(k, value))
+    };
+    let rows: String = rows.map(row).collect();
+    format!("distance [m];profile [mm]\n{rows}")
+}
+
+/// Four rows without a number, or not there at all, are those of the wave to a thousandth of its amplitude, and are
+/// told; the same table with decimal commas is the same to the last bit.
+#[test]
+fn issue_048_gaps_are_filled_by_the_spline_and_counted() {
+    let whole = wave(0..1600, |_, value| value.to_string());
+    let empty = wave(0..1600, |k, value| match k {
+        300..304 => String::new(),
+        700 => "NaN".to_owned(),
+        _ => value.to_string(),
+    });
+    let absent = wave((0..1600).filter(|k| !(300..304).contains(k)), |_, value| {
+        value.to_string()
+    });
+    let told = |text: &str| {
+        let table = MeasuredTable::parse("car.csv", text, SIGNS_KNOWN).unwrap();
+        let places = [75.0, 75.25, 75.4, 75.9, 175.0, 210.0].map(|at| rails(&table, Form::SpaceCurve, at));
+        (table.filled(), places)
+    };
+    let (none, places) = told(&whole);
+    assert_eq!(none, None);
+    assert_eq!(told(&whole.replace('.', ",")), (none, places));
+    for (text, part) in [
+        (
+            &empty,
+            "fills 2 gaps, the longest of them 4 rows without profile between 74.75 m and 76 m",
+        ),
+        (
+            &absent,
+            "fills 1 gap, the longest of them 4 rows not there between 74.75 m and 76 m",
+        ),
+    ] {
+        let (told, own) = told(text);
+        assert!(told.as_ref().is_some_and(|told| told.contains(part)), "{told:?}");
+        for (own, place) in own.iter().zip(&places) {
+            let difference = own[0].vertical[0] - place[0].vertical[0];
+            assert!(difference.abs() < 5e-6, "{difference}");
+        }
+    }
+}
+
+/// A gap that is longer than stated, and rows without a number at an end of the table, are refused where the column is
+/// used; a table of unequal distances has no missing rows.
+#[test]
+fn issue_048_long_gaps_and_open_ends_are_refused() {
+    let text = wave(0..400, |k, value| match k {
+        200..210 => String::new(),
+        _ => value.to_string(),
+    });
+    let refused = |text: &str| {
+        let table = MeasuredTable::parse("car.csv", text, SIGNS_KNOWN).unwrap();
+        let error = table.irregularities(Form::SpaceCurve, 0.0, 10.0).unwrap_err();
+        (error.to_string(), error.remedy())
+    };
+    let (message, help) = refused(&text);
+    assert!(
+        message.contains("10 rows without profile between 49.75 m and 52.5 m"),
+        "{message}"
+    );
+    assert!(
+        message.contains("2.75 m; up to 1.524 m") && help.contains("gaps ="),
+        "{message} {help}"
+    );
+    let reading = Reading {
+        longest_gap: 3.0,
+        ..SIGNS_KNOWN
+    };
+    let table = MeasuredTable::parse("car.csv", &text, reading).unwrap();
+    assert!(table.irregularities(Form::SpaceCurve, 0.0, 10.0).is_ok());
+    assert!(table.filled().is_some());
+
+    let open = wave(
+        0..400,
+        |k, value| if k < 398 { value.to_string() } else { String::new() },
+    );
+    let (message, help) = refused(&open);
+    assert!(
+        message.contains("no number in 2 rows at 99.75 m") && help.contains("leave these rows out"),
+        "{message}"
+    );
+
+    let uneven: String = [0, 1, 3, 10, 11, 30, 31, 90]
+        .map(|at| format!("{at},0.1\n"))
+        .concat();
+    let table = MeasuredTable::parse(
+        "car.csv",
+        &format!("distance_m,profile_in\n{uneven}"),
+        SIGNS_KNOWN,
+    )
+    .unwrap();
+    assert!(table.irregularities(Form::SpaceCurve, 0.0, 10.0).is_ok());
+    assert_eq!(table.filled(), None);
+}
+
 /// Offsets are taken from their own columns where the chord is stated, and refused where they are given as
 /// profiles.
 #[test]
@@ -144,7 +251,7 @@ fn input_mid_chord_offsets_are_no_profiles() {
     for k in 0..2000 {
         text += &format!("{k},{},{}\n", 2.0 * wave(f64::from(k)), -2.0 * wave(f64::from(k)));
     }
-    let table = MeasuredTable::parse("car.csv", &text, true).unwrap();
+    let table = MeasuredTable::parse("car.csv", &text, SIGNS_KNOWN).unwrap();
     let error = table.irregularities(Form::SpaceCurve, 0.0, 30.0).unwrap_err();
     assert!(matches!(error, MeasuredError::MidChord { .. }), "{error}");
     assert!(
@@ -185,7 +292,7 @@ fn analytic_a_center_line_by_a_table_is_that_of_its_segments() {
         let degree = (2.0 * (0.5 * at.curvature[0] * 30.48).asin()).to_degrees();
         text += &format!("{k},{degree},{},{}\n", at.superelevation[0] / INCH, at.grade);
     }
-    let found = MeasuredTable::parse("line.csv", &text, true)
+    let found = MeasuredTable::parse("line.csv", &text, SIGNS_KNOWN)
         .unwrap()
         .center_line(59.5 * INCH)
         .unwrap();
@@ -250,7 +357,22 @@ fn analytic_cubic_spirals() {
 fn input_tables_that_are_wrong_are_refused_with_places() {
     let rows = "0,0.1\n1,0.1\n2,0.1\n3,0.1\n";
     for (text, signs_known, parts) in [
-        (String::new(), true, &["t.csv:1", "no header"][..]),
+        (
+            "distance_ft,left_profile_in\n0,0,1,5\n".to_owned(),
+            true,
+            &["t.csv:2", "4 cells under 2 titles", "points"][..],
+        ),
+        (
+            "distance_ft;left_profile_in\n0,5;1\n1.5;1\n".to_owned(),
+            true,
+            &["t.csv:3", "1.5 has a decimal point", "decimal commas"],
+        ),
+        (
+            "distance_ft,left_profile_in\n0,1\n,2\n".to_owned(),
+            true,
+            &["t.csv:3", "a number is missing, under distance"],
+        ),
+        (String::new(), true, &["t.csv:1", "no header"]),
         (
             format!("distance_ft,left_profile\n{rows}"),
             true,
@@ -279,7 +401,7 @@ fn input_tables_that_are_wrong_are_refused_with_places() {
         (
             "distance_ft,left_profile_in\n0,a\n".to_owned(),
             true,
-            &["t.csv:2", "a is no number of a track"],
+            &["t.csv:2", "a is no number, under left_profile"],
         ),
         (
             "distance_ft,left_profile_in\n0,1\n0,2\n".to_owned(),
@@ -288,7 +410,11 @@ fn input_tables_that_are_wrong_are_refused_with_places() {
         ),
         (format!("distance_ft,curvature [ft]\n{rows}"), true, &["1/ft"]),
     ] {
-        let message = MeasuredTable::parse("t.csv", &text, signs_known)
+        let reading = Reading {
+            signs_known,
+            ..SIGNS_KNOWN
+        };
+        let message = MeasuredTable::parse("t.csv", &text, reading)
             .unwrap_err()
             .to_string();
         assert!(
@@ -296,7 +422,7 @@ fn input_tables_that_are_wrong_are_refused_with_places() {
             "{text}: {message}"
         );
     }
-    let table = MeasuredTable::parse("t.csv", &format!("distance_ft,speed\n{rows}"), true).unwrap();
+    let table = MeasuredTable::parse("t.csv", &format!("distance_ft,speed\n{rows}"), SIGNS_KNOWN).unwrap();
     let error = table.irregularities(Form::SpaceCurve, 0.0, 0.1).unwrap_err();
     assert!(error.to_string().contains("left_profile"), "{error}");
     assert!(
@@ -306,13 +432,18 @@ fn input_tables_that_are_wrong_are_refused_with_places() {
             .to_string()
             .contains("curvature")
     );
-    let table = MeasuredTable::parse("t.csv", &format!("distance_ft,left_profile_in\n{rows}"), true).unwrap();
+    let table = MeasuredTable::parse(
+        "t.csv",
+        &format!("distance_ft,left_profile_in\n{rows}"),
+        SIGNS_KNOWN,
+    )
+    .unwrap();
     let error = table.irregularities(Form::SpaceCurve, 0.0, 30.0).unwrap_err();
     assert!(error.to_string().contains("taper"), "{error}");
     let placed = table.irregularities(Form::SpaceCurve, 0.0, 0.2).unwrap();
     assert!(matches!(placed[0].irregularity, Irregularity::Samples(_)));
     let late = "distance_ft,curvature [1/ft]\n5,0\n6,0\n";
-    let error = MeasuredTable::parse("t.csv", late, true)
+    let error = MeasuredTable::parse("t.csv", late, SIGNS_KNOWN)
         .unwrap()
         .center_line(1.5)
         .unwrap_err();

@@ -303,6 +303,36 @@ fn input_simpack_profiles_of_the_manchester_benchmark() {
 }
 
 /// The keys of Simpack that change points, in the order of their numbers.
+/// Comments of Simpack stand between points, too, behind `%` as behind `!`; decimal commas are read where commas
+/// separate nothing, and noticed where they do.
+#[test]
+fn issue_048_comments_and_decimal_commas_of_points() {
+    let bare = "header.begin\n type = 0\nheader.end\nspline.begin\n units.len.f = 1000.\n point.begin\n -1.5 0.1\n \
+                0. 0.0\n 1.5 0.1\n point.end\nspline.end\n";
+    let commented = bare
+        .replace(" 0. 0.0", "% top = 0\n 0. 0.0 % the top")
+        .replace(" point.end", "! last\n point.end");
+    let [bare, commented] = [bare, &commented].map(|text| Points::from_simpack("a.prr", text).unwrap());
+    assert_eq!(bare.points, commented.points);
+    assert_eq!(bare.points.len(), 3);
+
+    let points = Points::from_csv("a.csv", "y [mm]; z [mm]\n-1,5; 0,25\n1;2\n").unwrap();
+    assert_eq!(points.points, [[-1.5e-3, 0.25e-3], [1e-3, 2e-3]]);
+    for (text, parts) in [
+        (
+            "y [mm], z [mm]\n-1,5, 0,25\n",
+            ["line 2: there are 4 cells", "points"],
+        ),
+        (
+            "y [mm]; z [mm]\n-1,5; 0.25\n",
+            ["line 2: 0.25 has a decimal point", "decimal commas"],
+        ),
+    ] {
+        let error = Points::from_csv("a.csv", text).unwrap_err().to_string();
+        assert!(parts.iter().all(|part| error.contains(part)), "{error}");
+    }
+}
+
 #[test]
 fn input_simpack_keys_are_applied() {
     let text = "header.begin\n type = 0 ! rail\nheader.end\nspline.begin\n \
@@ -336,7 +366,11 @@ fn input_mistakes_in_files_are_reported_with_place_and_remedy() {
         ("y [mm], q [mm]\n", "line 1: the header has no column z", "z_down"),
         ("y [mm], y_gauge [mm], z [mm]\n", "two columns y", "keep one"),
         ("y [mm], z [mm]\n1,2\n1,abc\n", "line 3: abc", "decimal points"),
-        ("y [mm], z [mm]\n1,nan\n", "line 2: nan", "decimal points"),
+        (
+            "y [mm], z [mm]\n1,nan\n",
+            "line 2: a number is missing",
+            "decimal points",
+        ),
         (
             "y [mm], z [mm]\n1\n",
             "line 2: a number is missing",

@@ -4,7 +4,7 @@ use study::car::{self, CarCase};
 use study::track::TrackFile;
 use study::truck::{TruckCase, builtin};
 use wheelrail::profile::{Points, Profile, ProfileKind};
-use wheelrail::track::{Form, MeasuredTable};
+use wheelrail::track::{Form, MeasuredTable, Reading};
 
 use super::cases::{messages, refused};
 use super::{ReadOutcome, Reader, nowhere, refused_as_written};
@@ -249,7 +249,11 @@ fn measured(input: &[u8]) -> ReadOutcome {
         return ReadOutcome::NO_TEXT;
     };
     let read = |signs_known| {
-        let table = MeasuredTable::parse("table.csv", text, signs_known)?;
+        let reading = Reading {
+            signs_known,
+            ..Reading::default()
+        };
+        let table = MeasuredTable::parse("table.csv", text, reading)?;
         let forms = [
             Form::SpaceCurve,
             Form::MidChord {

@@ -63,10 +63,10 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
         own.gravity = parameters.gravity;
     }
     let line = track::track(r);
-    let sprung = !matches!(line, Some((_, Support::Rigid)));
-    if let Some((track, support)) = &line {
-        parameters.track = track.clone();
-        parameters.support = rail_support(support, parameters.gravity);
+    let sprung = !matches!(&line, Some(read) if read.support == Support::Rigid);
+    if let Some(read) = &line {
+        parameters.track = read.track.clone();
+        parameters.support = rail_support(&read.support, parameters.gravity);
     }
     let rails = wheels::rails(r);
     wheels::wheels(r, &mut parameters, rails, sprung);
@@ -76,8 +76,8 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     output(r, &mut rules);
     let simulation = simulation(r);
     // Without a track there is no place to look at.
-    line?;
-    let doubts = checks::all(r, &parameters, &simulation, carried);
+    let mut doubts = line?.doubts;
+    doubts.extend(checks::all(r, &parameters, &simulation, carried));
     Some(CarSections {
         parameters,
         rules,

@@ -10,7 +10,7 @@ use crate::case::section::CaseSection;
 use crate::case::text_of;
 use crate::case::tree::{self, NodeValue, TableNode};
 use crate::reader::CaseReader;
-use crate::track::{Support, of_section};
+use crate::track::{ReadTrack, Support, of_section};
 
 /// Length of a track that is not given, ft.
 const USUAL: f64 = 5000.0;
@@ -24,7 +24,7 @@ pub(super) fn tangent(length: f64) -> Option<Track> {
 }
 
 /// Reads the track.
-pub(super) fn track(r: &mut CaseReader<'_>) -> Option<(Track, Support)> {
+pub(super) fn track(r: &mut CaseReader<'_>) -> Option<ReadTrack> {
     r.section(
         "track",
         "The track: the keys of a track file, or file = \"my_track.toml\". Rails are at rest; what they lie \
@@ -34,7 +34,11 @@ pub(super) fn track(r: &mut CaseReader<'_>) -> Option<(Track, Support)> {
         // As it is written where it is given.
         let segments = format!("[\n    {{ tangent = \"{USUAL} ft\" }},\n]");
         r.write("segments", [segments.clone(), segments], meaning("segments"));
-        return Some((tangent(USUAL * 0.3048)?, Support::usual()));
+        return Some(ReadTrack {
+            track: tangent(USUAL * 0.3048)?,
+            support: Support::usual(),
+            doubts: Vec::new(),
+        });
     };
     // Its keys are read by the reader of track files.
     r.known_elsewhere();
@@ -83,7 +87,7 @@ fn meaning(key: &str) -> &'static str {
 }
 
 /// Reads a track file; measured tables that it names are looked for from its folder.
-fn from_file(r: &mut CaseReader<'_>, file: &str) -> Option<(TableNode, (Track, Support))> {
+fn from_file(r: &mut CaseReader<'_>, file: &str) -> Option<(TableNode, ReadTrack)> {
     let tables = r.tables();
     let shown = tables.shown(file);
     let refuse = |r: &mut CaseReader<'_>, reason: String, help: &str| {

@@ -1,6 +1,6 @@
 //! Measured tables in track files: irregularities, and the center line.
 
-use wheelrail::track::{CenterLine, Form, MeasuredError, MeasuredTable, Placed};
+use wheelrail::track::{CenterLine, Form, LONGEST_GAP, MeasuredError, MeasuredTable, Placed, Reading};
 
 use super::irregularity::named;
 use super::{length, optional_length};
@@ -28,6 +28,7 @@ fn table(section: &CaseSection<'_>, tables: Tables<'_>, problems: &mut Problems)
         Some(_) => section.choice("signs", SIGNS, problems)?,
         None => false,
     };
+    let longest_gap = optional_length(section, "gaps", LONGEST_GAP, problems)?;
     let path = match tables.locate(text) {
         Ok(path) => path,
         Err(refused) => {
@@ -45,7 +46,11 @@ fn table(section: &CaseSection<'_>, tables: Tables<'_>, problems: &mut Problems)
             return None;
         }
     };
-    MeasuredTable::read(&path, signs_known)
+    let reading = Reading {
+        signs_known,
+        longest_gap,
+    };
+    MeasuredTable::read(&path, reading)
         .map_err(|error| problems.push(wrong(section, &error)))
         .ok()
 }
@@ -55,10 +60,11 @@ pub(super) fn irregularities(
     section: &CaseSection<'_>,
     tables: Tables<'_>,
     end: Option<f64>,
+    doubts: &mut Vec<String>,
     problems: &mut Problems,
 ) -> Option<Vec<Placed>> {
     let keys = [
-        "table", "form", "signs", "chord", "shortest", "longest", "taper", "start", "beyond",
+        "table", "form", "signs", "gaps", "chord", "shortest", "longest", "taper", "start", "beyond",
     ];
     section.allow_in(&keys, &[], "a track", problems);
     let help = "write form = \"space_curve\" if the columns are the rails' own offsets; mid-chord offsets, \
@@ -107,6 +113,7 @@ pub(super) fn irregularities(
         return None;
     }
     level?;
+    doubts.extend(table.filled());
     table
         .irregularities(form, start, taper)
         .map_err(|error| problems.push(wrong(section, &error)))
@@ -118,10 +125,12 @@ pub(super) fn center_line(
     section: &CaseSection<'_>,
     tables: Tables<'_>,
     rail_distance: f64,
+    doubts: &mut Vec<String>,
     problems: &mut Problems,
 ) -> Option<CenterLine> {
-    section.allow_in(&["table", "signs"], &[], "a track", problems);
+    section.allow_in(&["table", "signs", "gaps"], &[], "a track", problems);
     let table = table(section, tables, problems)?;
+    doubts.extend(table.filled());
     table
         .center_line(rail_distance)
         .map_err(|error| problems.push(wrong(section, &error)))

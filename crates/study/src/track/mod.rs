@@ -52,6 +52,8 @@ pub struct TrackFile {
     pub track: Track,
     /// The support of its rails.
     pub support: Support,
+    /// Warnings of reading, such as gaps of a recording that were filled.
+    pub doubts: Vec<String>,
 }
 
 const KEYS: [&str; 8] = [
@@ -117,13 +119,25 @@ fn read(tree: &TableNode, source: &str, problems: &mut Problems) -> Option<Track
     };
     let folder = Path::new(source).parent().unwrap_or(Path::new(""));
     let read = of_section(&top, Tables::anywhere(folder), problems);
-    let (track, support) = read?;
+    let ReadTrack {
+        track,
+        support,
+        doubts,
+    } = read?;
     Some(TrackFile {
         name: name?,
         title: title.to_owned(),
         track,
         support,
+        doubts,
     })
+}
+
+/// A track as it is read, with the support of its rails and the warnings of reading.
+pub(crate) struct ReadTrack {
+    pub track: Track,
+    pub support: Support,
+    pub doubts: Vec<String>,
 }
 
 /// Reads what a track file says of the track and of what its rails lie on, from the file or from a table of a
@@ -132,7 +146,8 @@ pub(crate) fn of_section(
     top: &CaseSection<'_>,
     tables: Tables<'_>,
     problems: &mut Problems,
-) -> Option<(Track, Support)> {
+) -> Option<ReadTrack> {
+    let mut doubts = Vec::new();
     let tree = top.table;
     top.allow_in(&KEYS, &[], "a track", problems);
     let rail_distance = optional_length(top, "rail_distance", 59.5 * 0.0254, problems);
@@ -158,7 +173,13 @@ pub(crate) fn of_section(
         }
         (Some(_), None) => {
             let section = top.section("center_line", problems)?;
-            Some(measured::center_line(&section, tables, rail_distance?, problems)?)
+            Some(measured::center_line(
+                &section,
+                tables,
+                rail_distance?,
+                &mut doubts,
+                problems,
+            )?)
         }
         (None, _) => None,
     };
@@ -197,7 +218,7 @@ pub(crate) fn of_section(
     let irregularities: Vec<Option<Vec<Placed>>> = list(top, "irregularities", problems)
         .iter()
         .map(|section| match section.table.get("table") {
-            Some(_) => measured::irregularities(section, tables, end, problems),
+            Some(_) => measured::irregularities(section, tables, end, &mut doubts, problems),
             None => irregularity(section, end, problems).map(|placed| vec![placed]),
         })
         .collect();
@@ -206,7 +227,11 @@ pub(crate) fn of_section(
         center_line: center_line?,
         irregularities: irregularities.into_iter().flatten().collect(),
     };
-    Some((track, support?))
+    Some(ReadTrack {
+        track,
+        support: support?,
+        doubts,
+    })
 }
 
 /// Returns a track that comes back near itself at two distances (m).

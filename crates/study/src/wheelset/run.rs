@@ -154,6 +154,7 @@ fn output(mut run: Run<WheelsetCase>, stopped: Option<Stopped>) -> WheelsetResul
         .into_iter()
         .collect();
     warnings.extend(plausibility::warnings_of_rolling(&run));
+    warnings.extend(run.case.wheelset.track.doubts.iter().cloned());
     let mut extremes = table.summary_extremes(&columns, units);
     extremes.retain(|name, _| !name.contains("_patch_"));
     let summary = WheelsetSummary {

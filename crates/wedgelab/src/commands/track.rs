@@ -10,7 +10,7 @@ use report::track_files::{self, NAMES, Survey, degree};
 use study::track::TrackFile;
 
 use crate::drawn::Drawn;
-use crate::failure::{Failure, Message};
+use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::table::TerminalTable;
 
@@ -66,7 +66,11 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         force,
     } = &arguments.command;
     let TrackFile {
-        name, title, track, ..
+        name,
+        title,
+        track,
+        doubts,
+        ..
     } = TrackFile::read(path)?;
     let interval = interval.to_si();
     let length = track.center_line.length();
@@ -85,6 +89,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         files.add(track_files::TABLE, |out| survey.write(out))?;
         figure.add(files, track_files::FIGURE, track_files::PICTURE)
     })?;
+    for doubt in &doubts {
+        say(&format!("warning: {name}: {doubt}"));
+    }
     let sharpest = survey.sharpest();
     let mut out = io::stdout().lock();
     if !title.is_empty() {

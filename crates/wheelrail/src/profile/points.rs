@@ -11,16 +11,17 @@
 //! | `z`, `z_up` | up |
 //! | `z_down` | down |
 //!
-//! Other columns are left aside. Commas, semicolons and tabs separate; numbers have decimal points.
+//! Other columns are left aside. Commas, semicolons and tabs separate; numbers have decimal points, or decimal
+//! commas between semicolons and tabs.
 //!
-//! **Simpack.** Of the keys, the unit factor, shifts, rotation, bounds and mirroring are applied in the order
+//! **Simpack.** `!` and `%` begin comments, between points too. Of the keys, the unit factor, shifts, rotation, bounds and mirroring are applied in the order
 //! of their numbers in the file; approximations and weights are not. y is then positive to the field side (to
 //! the right, on the right side of the track) and z down.
 
 use std::path::Path;
 
 use input::file::Expected;
-use input::{limits, shortened};
+use input::{Separated, limits, shortened};
 use quantity::{Kind as Dimension, Quantity};
 
 use super::ProfileKind;
@@ -94,10 +95,10 @@ impl Points {
         let Some((number, header)) = lines.next() else {
             return Err(line_error(name, 1, "there is no header".into(), HEADER));
         };
-        let separator = [';', '\t', ','].into_iter().find(|s| header.contains(*s));
-        let separator = separator.unwrap_or(',');
+        let mut table = Separated::of(header);
+        let titles = table.cells(header).count();
         let mut columns: [Option<(usize, f64)>; 2] = [None; 2];
-        for (index, cell) in header.split(separator).enumerate() {
+        for (index, cell) in table.cells(header).enumerate() {
             let Some((axis, sign, unit)) = column(cell) else {
                 continue;
             };
@@ -126,11 +127,14 @@ impl Points {
         };
         let mut read = Self::new(name, &[]);
         for (number, line) in lines {
-            let cells: Vec<&str> = line.split(separator).collect();
+            if let Some(found) = table.surplus(line, titles) {
+                return Err(line_error(name, number + 1, found, POINT));
+            }
+            let cells: Vec<&str> = table.cells(line).collect();
             let mut point = [0.0; 2];
             for (axis, (index, factor)) in [y, z].into_iter().enumerate() {
-                let cell = cells.get(index).map_or("", |cell| cell.trim());
-                point[axis] = factor * number_of(name, number + 1, cell)?;
+                let cell = cells.get(index).copied().unwrap_or("");
+                point[axis] = factor * number_of(&mut table, name, number + 1, cell)?;
             }
             read.push(point, number + 1)?;
         }
@@ -144,11 +148,13 @@ impl Points {
     pub fn from_simpack(name: &str, text: &str) -> Result<Self, ProfileError> {
         let mut read = Self::new(name, &[]);
         let mut keys = SimpackKeys::default();
+        // Spaces separate, points are the decimal signs.
+        let mut table = Separated::of("");
         let (mut block, mut ended, mut last) = (String::new(), false, 1);
         for (index, line) in text.lines().enumerate() {
             let number = index + 1;
             last = number;
-            let line = line.split('!').next().unwrap_or("").trim();
+            let line = line.split(['!', '%']).next().unwrap_or("").trim();
             if line.is_empty() {
                 continue;
             }
@@ -161,7 +167,7 @@ impl Points {
                 let mut cells = line.split_whitespace();
                 let mut point = [0.0; 2];
                 for value in &mut point {
-                    *value = number_of(name, number, cells.next().unwrap_or(""))?;
+                    *value = number_of(&mut table, name, number, cells.next().unwrap_or(""))?;
                 }
                 read.push(point, number)?;
             } else if let Some((key, value)) = line.split_once('=') {
@@ -195,6 +201,8 @@ impl Points {
     }
 }
 
+const POINT: &str = "write one point a line, its numbers with decimal points, such as -12.5 (or with decimal \
+                     commas, where semicolons or tabs stand between the columns)";
 const HEADER: &str = "write a header such as: y [mm], z [mm] (y to the field side, z up; y_gauge and z_down \
                       for the opposite)";
 
@@ -206,21 +214,11 @@ fn line_error(name: &str, line: usize, found: String, remedy: &str) -> ProfileEr
     }
 }
 
-fn number_of(name: &str, line: usize, cell: &str) -> Result<f64, ProfileError> {
-    match cell.parse::<f64>() {
-        Ok(number) if number.is_finite() && number.abs() < 1e9 => Ok(number),
-        _ => {
-            let found = match cell {
-                "" => "a number is missing".into(),
-                _ => format!("{} is no number of a profile", shortened(cell)),
-            };
-            Err(line_error(
-                name,
-                line,
-                found,
-                "write one point a line, its numbers with decimal points, such as -12.5",
-            ))
-        }
+fn number_of(table: &mut Separated, name: &str, line: usize, cell: &str) -> Result<f64, ProfileError> {
+    match table.number(cell) {
+        Ok(number) if number.abs() < 1e9 => Ok(number),
+        Ok(number) => Err(line_error(name, line, format!("{number} is too large"), POINT)),
+        Err(error) => Err(line_error(name, line, error.to_string(), POINT)),
     }
 }
 
@@ -278,7 +276,7 @@ impl SimpackKeys {
         key: &str,
         value: &str,
     ) -> Result<(), ProfileError> {
-        let number = || number_of(name, line, value);
+        let number = || number_of(&mut Separated::of(""), name, line, value);
         match (block, key) {
             ("header", "type") => {
                 self.kind = Some(match number()? {

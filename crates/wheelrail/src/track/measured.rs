@@ -15,19 +15,22 @@
 //! | `curvature`, `degree_of_curve` | of the center line | `left`, `right` |
 //! | `grade` | rise by the distance | `up`, `down` |
 //!
-//! Other columns are left aside. Irregularities are **space curves**: the rail's own offset from its nominal
+//! Other columns are left aside. Numbers have decimal points, or decimal commas between semicolons and tabs. Cells
+//! without a number, and rows that a regular recording lacks, are gaps: see [`Gap`]. Irregularities are **space curves**: the rail's own offset from its nominal
 //! place. Mid-chord offsets are none, and are taken only where the caller states chord and wavelengths; see
 //! [`chord::invert`].
 
 use std::path::Path;
 
 use input::file::Expected;
-use input::{limits, shortened};
+use input::{CellError, Separated, limits, shortened};
+use quantity::SixDigits;
 use thiserror::Error;
 
 use super::center_line::{CenterLine, TrackError};
 use super::chord::{self, ChordError};
 use super::columns::{Head, TrackColumn, head, name_of, signs_of};
+use super::gaps::{self, Gap};
 use super::layout::{Direction, Irregularity, Placed, Rails};
 use super::samples::Samples;
 
@@ -75,6 +78,28 @@ pub enum MeasuredError {
         /// The missing column.
         needed: &'static str,
     },
+    /// A gap that is too long to be filled.
+    #[error("{name}: {gap}: a gap of {} m; up to {} m are filled", SixDigits(gap.length()), SixDigits(*.longest))]
+    Gap {
+        /// The file.
+        name: String,
+        /// The gap.
+        gap: Gap,
+        /// Length up to which gaps are filled, m.
+        longest: f64,
+    },
+    /// A column that has no number at an end of the table.
+    #[error("{name}: {column} has no number in {rows} rows at {at} m, at an end of the table")]
+    End {
+        /// The file.
+        name: String,
+        /// The column.
+        column: &'static str,
+        /// The number of rows.
+        rows: usize,
+        /// The distance of the table's end, m.
+        at: SixDigits,
+    },
     /// Values cannot be a spline.
     #[error("{what}")]
     Samples {
@@ -99,6 +124,12 @@ impl MeasuredError {
                                       ft\" and the wavelengths over which to invert it, such as shortest \
                                       = \"35 ft\", longest = \"370 ft\""
                 .to_owned(),
+            Self::Gap { .. } => "measure the gap, or state the length up to which the spline is to fill gaps, \
+                                 such as gaps = \"20 ft\": waves shorter than twice that length are lost in it"
+                .to_owned(),
+            Self::End { .. } => "leave these rows out: a table may end before the track (beyond = \"level\") and \
+                                 begin later (start)"
+                .to_owned(),
             Self::Missing { .. } => "docs/wheelrail.md lists the columns".to_owned(),
             Self::Chord(_) => "state other wavelengths, or give space curves".to_owned(),
             Self::File(_) | Self::Samples { .. } | Self::Track(_) => "look at the table".to_owned(),
@@ -120,36 +151,65 @@ pub enum Form {
     },
 }
 
+/// What the caller knows of a table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// There is no sign row, and signs are the first ones of the table above.
+    pub signs_known: bool,
+    /// Length up to which gaps are filled, m.
+    pub longest_gap: f64,
+}
+
+impl Default for Reading {
+    fn default() -> Self {
+        Self {
+            signs_known: false,
+            longest_gap: gaps::LONGEST_GAP,
+        }
+    }
+}
+
+/// A column of a table.
+#[derive(Clone, Debug, PartialEq)]
+struct Column {
+    what: TrackColumn,
+    /// The chord's name, such as `62_ft`, if the values are mid-chord offsets.
+    chord: Option<String>,
+    values: Vec<f64>,
+    gaps: Vec<Gap>,
+}
+
 /// A measured table, in SI units and with the signs of this crate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredTable {
     name: String,
     distances: Vec<f64>,
-    columns: Vec<(TrackColumn, Vec<f64>)>,
-    /// Columns of mid-chord offsets: what they are of, the chord's name (such as `62_ft`), values.
-    offsets: Vec<(TrackColumn, String, Vec<f64>)>,
+    columns: Vec<Column>,
+    /// Where whole rows are not there.
+    jumps: Vec<Gap>,
+    longest_gap: f64,
 }
 
 impl MeasuredTable {
-    /// Reads a file. `signs_known`: there is no sign row, and signs are the first ones of the table above.
+    /// Reads a file.
     ///
     /// # Errors
     /// The file cannot be read, or a line of it is wrong.
-    pub fn read(path: &Path, signs_known: bool) -> Result<Self, MeasuredError> {
+    pub fn read(path: &Path, reading: Reading) -> Result<Self, MeasuredError> {
         let expected = Expected {
             what: "table of track",
             types: &[],
             most: limits::TEXT_FILE,
         };
         let text = input::file::read_text(path, &expected)?;
-        Self::parse(&path.display().to_string(), &text, signs_known)
+        Self::parse(&path.display().to_string(), &text, reading)
     }
 
     /// As [`MeasuredTable::read`], from a text; `name` is what messages call it.
     ///
     /// # Errors
     /// A line is wrong.
-    pub fn parse(name: &str, text: &str, signs_known: bool) -> Result<Self, MeasuredError> {
+    pub fn parse(name: &str, text: &str, reading: Reading) -> Result<Self, MeasuredError> {
         let wrong = |line: usize, found: String, remedy: &str| MeasuredError::Line {
             name: name.to_owned(),
             line,
@@ -167,21 +227,19 @@ impl MeasuredTable {
         let Some((number, header)) = lines.next() else {
             return Err(wrong(1, "there is no header".into(), HEADER));
         };
-        let separator = [';', '\t', ',']
-            .into_iter()
-            .find(|own| header.contains(*own))
-            .unwrap_or(',');
+        let mut written = Separated::of(header);
+        let titles = written.cells(header).count();
         let mut heads: Vec<Head> = Vec::new();
-        for (index, cell) in header.split(separator).enumerate() {
+        for (index, cell) in written.cells(header).enumerate() {
             if let Some(head) = head(index, cell).map_err(|found| wrong(number, found, HEADER))? {
                 heads.push(head);
             }
         }
-        if !signs_known {
+        if !reading.signs_known {
             let (number, row) = lines
                 .next()
                 .ok_or_else(|| wrong(number + 1, "there is no sign row".into(), SIGNS))?;
-            let cells: Vec<&str> = row.split(separator).map(str::trim).collect();
+            let cells: Vec<&str> = written.cells(row).collect();
             for head in &mut heads {
                 let cell = cells.get(head.index).copied().unwrap_or("");
                 let [plus, minus] = signs_of(head.column);
@@ -206,28 +264,29 @@ impl MeasuredTable {
         let distance =
             distance.ok_or_else(|| wrong(number, "the header has no column distance".into(), HEADER))?;
         for (number, line) in lines {
-            let cells: Vec<&str> = line.split(separator).collect();
+            if let Some(found) = written.surplus(line, titles) {
+                return Err(wrong(number, found, "write a cell for each title"));
+            }
+            let cells: Vec<&str> = written.cells(line).collect();
             if columns[distance].len() == limits::TABLE_ROWS {
                 let found = format!("there are more than {} rows", limits::TABLE_ROWS);
                 return Err(wrong(number, found, "divide the track"));
             }
             for (head, values) in heads.iter().zip(&mut columns) {
-                let cell = cells.get(head.index).map_or("", |cell| cell.trim());
-                match cell.parse::<f64>() {
-                    Ok(value) if (head.factor * value).abs() <= LARGEST => values.push(head.factor * value),
-                    _ => {
-                        let found = format!(
-                            "{} is no number of a track, under {}",
-                            shortened(cell),
-                            name_of(head.column)
-                        );
-                        return Err(wrong(
-                            number,
-                            found,
-                            "fill gaps in the measurement; write numbers such as -0.25",
-                        ));
+                let cell = cells.get(head.index).copied().unwrap_or("");
+                let value = match written.number(cell) {
+                    Ok(value) if (head.factor * value).abs() <= LARGEST => head.factor * value,
+                    Ok(value) => {
+                        let found = format!("{value} is too large, under {}", name_of(head.column));
+                        return Err(wrong(number, found, "look at the unit of the column"));
                     }
-                }
+                    Err(CellError::Gap) if head.column != TrackColumn::Distance => f64::NAN,
+                    Err(error) => {
+                        let found = format!("{error}, under {}", name_of(head.column));
+                        return Err(wrong(number, found, error.remedy()));
+                    }
+                };
+                values.push(value);
             }
             let own = &columns[distance];
             if let [.., before, last] = own[..]
@@ -237,28 +296,60 @@ impl MeasuredTable {
                 return Err(wrong(number, found, "distances must rise from row to row"));
             }
         }
-        let mut table = Self {
-            name: name.to_owned(),
-            distances: std::mem::take(&mut columns[distance]),
-            columns: Vec::new(),
-            offsets: Vec::new(),
-        };
+        let distances = std::mem::take(&mut columns[distance]);
+        let mut filled = Vec::new();
         for (head, mut values) in heads.into_iter().zip(columns) {
-            match (head.column, head.chord) {
-                (TrackColumn::Distance, _) => {}
-                (column, Some(chord)) => table.offsets.push((column, chord, values)),
-                (column, None) => {
-                    if column == TrackColumn::Gauge {
-                        // The sign of a gauge is that of its deviation.
-                        values
-                            .iter_mut()
-                            .for_each(|value| *value = value.abs() - NOMINAL_GAUGE);
-                    }
-                    table.columns.push((column, values));
-                }
+            if head.column == TrackColumn::Distance {
+                continue;
             }
+            if head.column == TrackColumn::Gauge && head.chord.is_none() {
+                // The sign of a gauge is that of its deviation.
+                values
+                    .iter_mut()
+                    .for_each(|value| *value = value.abs() - NOMINAL_GAUGE);
+            }
+            filled.push(Column {
+                what: head.column,
+                gaps: gaps::fill(name_of(head.column), &distances, &mut values),
+                chord: head.chord,
+                values,
+            });
         }
-        Ok(table)
+        Ok(Self {
+            name: name.to_owned(),
+            jumps: gaps::missing_rows(&distances),
+            distances,
+            columns: filled,
+            longest_gap: reading.longest_gap,
+        })
+    }
+
+    /// Returns in words how many gaps the spline fills, if it fills any.
+    #[must_use]
+    pub fn filled(&self) -> Option<String> {
+        let own = self.columns.iter().flat_map(|column| &column.gaps);
+        let filled: Vec<&Gap> = own
+            .chain(&self.jumps)
+            .filter(|gap| gap.length() <= self.longest_gap)
+            .collect();
+        let longest =
+            filled
+                .iter()
+                .copied()
+                .reduce(|longest, gap| match gap.length() > longest.length() {
+                    true => gap,
+                    false => longest,
+                })?;
+        let gaps = match filled.len() {
+            1 => "1 gap".to_owned(),
+            count => format!("{count} gaps"),
+        };
+        let waves = SixDigits(2.0 * longest.length());
+        Some(format!(
+            "{}: the spline fills {gaps}, the longest of them {longest}; waves shorter than {waves} m are not known \
+             there",
+            self.name
+        ))
     }
 
     /// Returns the first and the last distance, m; zero if there is no row.
@@ -270,9 +361,39 @@ impl MeasuredTable {
         }
     }
 
-    fn column(&self, wanted: TrackColumn) -> Option<&[f64]> {
-        let found = self.columns.iter().find(|(column, _)| *column == wanted);
-        found.map(|(_, values)| values.as_slice())
+    /// Returns the values of a column, if there is one: those of a chord (such as `62_ft`), or the quantity itself.
+    fn column(&self, wanted: TrackColumn, chord: Option<&str>) -> Result<Option<&[f64]>, MeasuredError> {
+        let mut columns = self.columns.iter();
+        let Some(found) = columns.find(|own| own.what == wanted && own.chord.as_deref() == chord) else {
+            return Ok(None);
+        };
+        if let Some(gap) = found
+            .gaps
+            .iter()
+            .chain(&self.jumps)
+            .find(|gap| gap.length() > self.longest_gap)
+        {
+            return Err(MeasuredError::Gap {
+                name: self.name.clone(),
+                gap: gap.clone(),
+                longest: self.longest_gap,
+            });
+        }
+        let [first, last] = self.range();
+        let missing = |values: &mut dyn Iterator<Item = &f64>| values.take_while(|own| own.is_nan()).count();
+        let ends = [
+            (missing(&mut found.values.iter()), first),
+            (missing(&mut found.values.iter().rev()), last),
+        ];
+        match ends.into_iter().find(|(rows, _)| *rows > 0) {
+            Some((rows, at)) => Err(MeasuredError::End {
+                name: self.name.clone(),
+                column: name_of(wanted),
+                rows,
+                at: SixDigits(at),
+            }),
+            None => Ok(Some(&found.values)),
+        }
     }
 
     /// Returns the irregularities in the table, `start` (m) farther on and tapered within `taper` (m) at both
@@ -283,34 +404,33 @@ impl MeasuredTable {
     /// There are no irregularities, they are mid-chord offsets, or these cannot be inverted.
     pub fn irregularities(&self, form: Form, start: f64, taper: f64) -> Result<Vec<Placed>, MeasuredError> {
         let distances: Vec<f64> = self.distances.iter().map(|own| own + start).collect();
-        let values = |column: TrackColumn| -> Option<Vec<f64>> {
+        let values = |column: TrackColumn| -> Result<Option<Vec<f64>>, MeasuredError> {
+            let of_pair = [
+                TrackColumn::CrossLevel,
+                TrackColumn::GaugeDeviation,
+                TrackColumn::Gauge,
+            ];
             if let Form::MidChord { chord, .. } = form
-                && !matches!(
-                    column,
-                    TrackColumn::CrossLevel | TrackColumn::GaugeDeviation | TrackColumn::Gauge
-                )
+                && !of_pair.contains(&column)
+                && let Some(offsets) = self.column(column, Some(&format!("{:.0}_ft", chord / 0.3048)))?
             {
-                let name = format!("{:.0}_ft", chord / 0.3048);
-                let offset = self
-                    .offsets
-                    .iter()
-                    .find(|(own, chord, _)| *own == column && *chord == name);
-                if let Some((_, _, values)) = offset {
-                    return Some(values.clone());
-                }
+                return Ok(Some(offsets.to_vec()));
             }
-            let own = self.column(column)?.to_vec();
-            let design = self
-                .column(TrackColumn::Superelevation)
-                .filter(|_| column == TrackColumn::CrossLevel);
-            Some(match design {
+            let Some(own) = self.column(column, None)? else {
+                return Ok(None);
+            };
+            let design = match column {
+                TrackColumn::CrossLevel => self.column(TrackColumn::Superelevation, None)?,
+                _ => None,
+            };
+            Ok(Some(match design {
                 Some(design) => own.iter().zip(design).map(|(own, design)| own - design).collect(),
-                None => own,
-            })
+                None => own.to_vec(),
+            }))
         };
         let mut placed = Vec::new();
         let mut add = |column: TrackColumn, rails, direction, sign: f64| -> Result<bool, MeasuredError> {
-            let Some(own) = values(column) else {
+            let Some(own) = values(column)? else {
                 return Ok(false);
             };
             let own = match (form, rails) {
@@ -356,11 +476,13 @@ impl MeasuredTable {
                 }
             }
         }
-        match (placed.is_empty(), self.offsets.first()) {
+        let mut offsets = self.columns.iter();
+        let offset = offsets.find_map(|own| Some((own.what, own.chord.as_ref()?)));
+        match (placed.is_empty(), offset) {
             (false, _) => Ok(placed),
-            (true, Some((column, chord, _))) => Err(MeasuredError::MidChord {
+            (true, Some((column, chord))) => Err(MeasuredError::MidChord {
                 name: self.name.clone(),
-                column: format!("{}_offset_{chord}", name_of(*column)),
+                column: format!("{}_offset_{chord}", name_of(column)),
             }),
             (true, None) => Err(MeasuredError::Missing {
                 name: self.name.clone(),
@@ -396,19 +518,19 @@ impl MeasuredTable {
     /// The table has no curvature and no superelevation, does not begin at zero, or its track cannot be.
     pub fn center_line(&self, rail_distance: f64) -> Result<CenterLine, MeasuredError> {
         let zeros = vec![0.0; self.distances.len()];
-        let degrees: Option<Vec<f64>> = self.column(TrackColumn::DegreeOfCurve).map(|degrees| {
+        let degrees: Option<Vec<f64>> = self.column(TrackColumn::DegreeOfCurve, None)?.map(|degrees| {
             let curvature = |degree: &f64| 2.0 * libm::sin(0.5 * degree) / 30.48;
             degrees.iter().map(curvature).collect()
         });
-        let curvature = self.column(TrackColumn::Curvature).or(degrees.as_deref());
-        let superelevation = self.column(TrackColumn::Superelevation);
+        let curvature = self.column(TrackColumn::Curvature, None)?.or(degrees.as_deref());
+        let superelevation = self.column(TrackColumn::Superelevation, None)?;
         if curvature.is_none() && superelevation.is_none() {
             return Err(MeasuredError::Missing {
                 name: self.name.clone(),
                 needed: "curvature, degree_of_curve or superelevation",
             });
         }
-        let grades: Vec<[f64; 2]> = match self.column(TrackColumn::Grade) {
+        let grades: Vec<[f64; 2]> = match self.column(TrackColumn::Grade, None)? {
             Some(grades) => self
                 .distances
                 .iter()

@@ -7,6 +7,7 @@
 pub mod center_line;
 pub mod chord;
 mod columns;
+pub mod gaps;
 pub mod layout;
 pub mod measured;
 mod near_itself;
@@ -17,8 +18,9 @@ pub mod shape;
 pub mod spectrum;
 
 pub use center_line::{CenterLine, CurveElements, Segment, Station, TrackError};
+pub use gaps::{Gap, LONGEST_GAP};
 pub use layout::{Direction, Irregularity, Placed, RailPlace, Rails, Track};
-pub use measured::{Form, MeasuredError, MeasuredTable};
+pub use measured::{Form, MeasuredError, MeasuredTable, Reading};
 pub use near_itself::CLEARANCE;
 pub use rails::{Foot, Line, RailLines, TrackSection};
 pub use samples::Samples;

@@ -73,18 +73,13 @@ impl Samples {
             return [0.0; 3];
         }
         let k = self.distances.partition_point(|own| *own <= distance) - 1;
-        let h = self.distances[k + 1] - self.distances[k];
-        let (a, b) = (
-            (self.distances[k + 1] - distance) / h,
-            (distance - self.distances[k]) / h,
+        let pair = |own: &[f64]| [own[k], own[k + 1]];
+        let own = piece(
+            pair(&self.distances),
+            pair(&self.values),
+            pair(&self.seconds),
+            distance,
         );
-        let [y0, y1] = [self.values[k], self.values[k + 1]];
-        let [m0, m1] = [self.seconds[k], self.seconds[k + 1]];
-        let own = [
-            a * y0 + b * y1 + ((a * a * a - a) * m0 + (b * b * b - b) * m1) * h * h / 6.0,
-            (y1 - y0) / h + ((3.0 * b * b - 1.0) * m1 - (3.0 * a * a - 1.0) * m0) * h / 6.0,
-            a * m0 + b * m1,
-        ];
         let (inside, sense) = match distance - first < last - distance {
             true => (distance - first, 1.0),
             false => (last - distance, -1.0),
@@ -107,9 +102,21 @@ impl Samples {
     }
 }
 
+/// Returns value, slope and second derivative at a place within one piece of a spline: places, values and second
+/// derivatives of its ends.
+pub(super) fn piece([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], [m0, m1]: [f64; 2], at: f64) -> [f64; 3] {
+    let h = x1 - x0;
+    let (a, b) = ((x1 - at) / h, (at - x0) / h);
+    [
+        a * y0 + b * y1 + ((a * a * a - a) * m0 + (b * b * b - b) * m1) * h * h / 6.0,
+        (y1 - y0) / h + ((3.0 * b * b - 1.0) * m1 - (3.0 * a * a - 1.0) * m0) * h / 6.0,
+        a * m0 + b * m1,
+    ]
+}
+
 /// Returns the second derivatives of the spline with none at its ends, by elimination of the tridiagonal
 /// system.
-fn natural_spline(x: &[f64], y: &[f64]) -> Vec<f64> {
+pub(super) fn natural_spline(x: &[f64], y: &[f64]) -> Vec<f64> {
     let count = x.len();
     let (mut upper, mut right) = (vec![0.0; count], vec![0.0; count]);
     for k in 1..count - 1 {
