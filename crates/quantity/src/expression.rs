@@ -1,8 +1,8 @@
 //! Unit expressions: `lbf s/in`, `lb in^2`, `kN/mm`, `lbf/(in s)`.
 
 use crate::error::UnitError;
-use crate::units::{SYNONYMS, UNITS, find};
-use crate::{Dimension, nearest};
+use crate::units::{NamedUnit, SYNONYMS, UNITS, find};
+use crate::{Dimension, System, nearest};
 use input::{limits, shortened};
 use std::ops::Range;
 
@@ -11,6 +11,7 @@ use std::ops::Range;
 pub struct Unit {
     factor: f64,
     dimension: Dimension,
+    system: Option<System>,
 }
 
 impl Unit {
@@ -51,6 +52,12 @@ impl Unit {
     pub const fn dimension(self) -> Dimension {
         self.dimension
     }
+
+    /// Returns the system of units that it belongs to: none where both have it (`s`, `deg`), or where units of both
+    /// are multiplied (`lbf/mm`).
+    pub const fn system(self) -> Option<System> {
+        self.system
+    }
 }
 
 struct Parser<'a> {
@@ -68,6 +75,8 @@ struct Product {
     over: f64,
     under: f64,
     dimension: Dimension,
+    /// Whether there are units of the US customary system, and of SI.
+    systems: [bool; 2],
 }
 
 impl Product {
@@ -75,24 +84,30 @@ impl Product {
         over: 1.0,
         under: 1.0,
         dimension: Dimension::NONE,
+        systems: [false; 2],
     };
 
-    fn times(self, factor: f64, dimension: Dimension, power: i8) -> Option<Product> {
-        let raised = factor.powi(i32::from(power.unsigned_abs()));
-        let dimension = self.dimension.times(dimension, power)?;
-        Some(if power < 0 {
-            Product {
-                under: self.under * raised,
-                dimension,
-                ..self
-            }
+    fn times(mut self, unit: &NamedUnit, power: i8) -> Option<Product> {
+        let raised = unit.factor.powi(i32::from(power.unsigned_abs()));
+        self.dimension = self.dimension.times(unit.dimension, power)?;
+        if power < 0 {
+            self.under *= raised;
         } else {
-            Product {
-                over: self.over * raised,
-                dimension,
-                ..self
-            }
-        })
+            self.over *= raised;
+        }
+        if let Some(system) = unit.system {
+            self.systems[system as usize] = true;
+        }
+        Some(self)
+    }
+
+    /// Returns the system that all its units belong to.
+    const fn system(self) -> Option<System> {
+        match self.systems {
+            [true, false] => Some(System::Us),
+            [false, true] => Some(System::Si),
+            _ => None,
+        }
     }
 }
 
@@ -101,7 +116,11 @@ impl Parser<'_> {
         let product = self.product(1, false, Product::ONE)?;
         let (factor, dimension) = (product.over / product.under, product.dimension);
         if factor.is_normal() {
-            Ok(Unit { factor, dimension })
+            Ok(Unit {
+                factor,
+                dimension,
+                system: product.system(),
+            })
         } else {
             Err(self.bad(
                 0..self.text.len(),
@@ -197,7 +216,7 @@ impl Parser<'_> {
                 };
                 let power = self.power()?;
                 product
-                    .times(unit.factor, unit.dimension, sign * power)
+                    .times(unit, sign * power)
                     .ok_or_else(|| self.bad(start..self.at, "the powers of this unit are too high"))
             }
             Some(')') => Err(self.bad(start..start + 1, "this bracket was not opened")),

@@ -1,7 +1,7 @@
 //! The table of units. Every factor is exact by definition, or the exact rational number
 //! rounded once to the nearest `f64`.
 
-use crate::Dimension;
+use crate::{Dimension, System};
 use std::f64::consts::PI;
 
 /// The international inch, m (exact).
@@ -23,6 +23,8 @@ pub(crate) struct NamedUnit {
     /// One of these, in SI.
     pub factor: f64,
     pub dimension: Dimension,
+    /// The system of units that it belongs to; none for those of both.
+    pub system: Option<System>,
 }
 
 const LENGTH: Dimension = Dimension::new(0, 1, 0, 0);
@@ -37,60 +39,73 @@ const PRESSURE: Dimension = Dimension::new(1, -1, -2, 0);
 const ENERGY: Dimension = Dimension::new(1, 2, -2, 0);
 const POWER: Dimension = Dimension::new(1, 2, -3, 0);
 
-const fn unit(name: &'static str, factor: f64, dimension: Dimension) -> NamedUnit {
+const fn unit(name: &'static str, factor: f64, dimension: Dimension, system: Option<System>) -> NamedUnit {
     NamedUnit {
         name,
         factor,
         dimension,
+        system,
     }
+}
+
+const fn us(name: &'static str, factor: f64, dimension: Dimension) -> NamedUnit {
+    unit(name, factor, dimension, Some(System::Us))
+}
+
+const fn si(name: &'static str, factor: f64, dimension: Dimension) -> NamedUnit {
+    unit(name, factor, dimension, Some(System::Si))
+}
+
+const fn both(name: &'static str, factor: f64, dimension: Dimension) -> NamedUnit {
+    unit(name, factor, dimension, None)
 }
 
 /// Every unit with a name. `lb` alone is a mass, `lbf` the force; a frequency in `Hz` or `rpm`
 /// counts cycles, so that one of them is 2π rad.
 pub(crate) static UNITS: &[NamedUnit] = &[
-    unit("in", INCH, LENGTH),
-    unit("ft", FOOT, LENGTH),
-    unit("yd", 0.9144, LENGTH),
-    unit("mi", 1609.344, LENGTH),
-    unit("um", 1e-6, LENGTH),
-    unit("mm", 1e-3, LENGTH),
-    unit("cm", 1e-2, LENGTH),
-    unit("m", 1.0, LENGTH),
-    unit("km", 1e3, LENGTH),
-    unit("s", 1.0, TIME),
-    unit("ms", 1e-3, TIME),
-    unit("min", 60.0, TIME),
-    unit("h", 3600.0, TIME),
-    unit("lb", POUND, MASS),
+    us("in", INCH, LENGTH),
+    us("ft", FOOT, LENGTH),
+    us("yd", 0.9144, LENGTH),
+    us("mi", 1609.344, LENGTH),
+    si("um", 1e-6, LENGTH),
+    si("mm", 1e-3, LENGTH),
+    si("cm", 1e-2, LENGTH),
+    si("m", 1.0, LENGTH),
+    si("km", 1e3, LENGTH),
+    both("s", 1.0, TIME),
+    both("ms", 1e-3, TIME),
+    both("min", 60.0, TIME),
+    both("h", 3600.0, TIME),
+    us("lb", POUND, MASS),
     // lbf s²/ft
-    unit("slug", 14.593_902_937_206_364, MASS),
-    unit("kg", 1.0, MASS),
-    unit("t", 1e3, MASS),
-    unit("rad", 1.0, ANGLE),
-    unit("mrad", 1e-3, ANGLE),
-    unit("deg", PI / 180.0, ANGLE),
-    unit("°", PI / 180.0, ANGLE),
-    unit("rev", 2.0 * PI, ANGLE),
-    unit("Hz", 2.0 * PI, RATE),
-    unit("rpm", 2.0 * PI / 60.0, RATE),
-    unit("mph", MILE_PER_HOUR, SPEED),
-    unit("g0", STANDARD_GRAVITY, ACCELERATION),
-    unit("lbf", POUND_FORCE, FORCE),
-    unit("kip", 4_448.221_615_260_5, FORCE),
-    unit("N", 1.0, FORCE),
-    unit("kN", 1e3, FORCE),
-    unit("MN", 1e6, FORCE),
-    unit("psi", 6_894.757_293_168_362, PRESSURE),
-    unit("ksi", 6_894_757.293_168_362, PRESSURE),
-    unit("Pa", 1.0, PRESSURE),
-    unit("kPa", 1e3, PRESSURE),
-    unit("MPa", 1e6, PRESSURE),
-    unit("J", 1.0, ENERGY),
-    unit("kJ", 1e3, ENERGY),
-    unit("W", 1.0, POWER),
-    unit("kW", 1e3, POWER),
+    us("slug", 14.593_902_937_206_364, MASS),
+    si("kg", 1.0, MASS),
+    si("t", 1e3, MASS),
+    both("rad", 1.0, ANGLE),
+    both("mrad", 1e-3, ANGLE),
+    both("deg", PI / 180.0, ANGLE),
+    both("°", PI / 180.0, ANGLE),
+    both("rev", 2.0 * PI, ANGLE),
+    both("Hz", 2.0 * PI, RATE),
+    both("rpm", 2.0 * PI / 60.0, RATE),
+    us("mph", MILE_PER_HOUR, SPEED),
+    both("g0", STANDARD_GRAVITY, ACCELERATION),
+    us("lbf", POUND_FORCE, FORCE),
+    us("kip", 4_448.221_615_260_5, FORCE),
+    si("N", 1.0, FORCE),
+    si("kN", 1e3, FORCE),
+    si("MN", 1e6, FORCE),
+    us("psi", 6_894.757_293_168_362, PRESSURE),
+    us("ksi", 6_894_757.293_168_362, PRESSURE),
+    si("Pa", 1.0, PRESSURE),
+    si("kPa", 1e3, PRESSURE),
+    si("MPa", 1e6, PRESSURE),
+    si("J", 1.0, ENERGY),
+    si("kJ", 1e3, ENERGY),
+    si("W", 1.0, POWER),
+    si("kW", 1e3, POWER),
     // 550 ft lbf/s
-    unit("hp", 745.699_871_582_270_2, POWER),
+    us("hp", 745.699_871_582_270_2, POWER),
 ];
 
 /// Names people write, and what they are called here.

@@ -6,7 +6,8 @@
 //! not count.
 //!
 //! Numbers are kept as written, so that nothing is lost; [`TableColumn::si`] and [`TableColumn::in_units`]
-//! convert.
+//! convert. Those in other units than results are written with (`force_kN`, `speed [km/h]`) are converted when they
+//! are read.
 
 use std::fs;
 use std::io;
@@ -40,7 +41,7 @@ pub struct TableColumn {
     pub kind: Kind,
     /// The system of units of [`TableColumn::written`].
     pub units: Units,
-    /// The numbers as they stand in the file.
+    /// The numbers as they stand in the file, or converted to `units` from units of their own.
     pub written: Vec<f64>,
 }
 
@@ -250,6 +251,7 @@ impl Rows<'_> {
                     });
                 }
             };
+            let value = header.names[index].in_units(value, header.units);
             let before = self.columns[index].last().copied();
             if let Some(before) = before.filter(|before| index == header.time && value <= *before) {
                 return Err(TableError::NotIncreasing {

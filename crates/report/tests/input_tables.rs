@@ -369,3 +369,43 @@ fn columns_that_are_not_there_are_guessed() {
     assert!(advice("q").contains("its columns are time, bolster_vertical"));
     assert!(advice("q").ends_with("and 127 more"), "{}", advice("q"));
 }
+
+/// All units of the table of units, at the end of a name or in brackets, in one system of units.
+#[test]
+fn issue_048_tables_of_others_in_any_unit() {
+    let text = "time_ms,wedge_z_mm,vertical_wedge_force [kN],wedge_pitch_deg,speed [km/h],rate_kN_per_mm,least_min\n\
+                0,1.5,2,180,36,0.5,7\n500,2.5,3,90,72,0.25,8\n";
+    let table = parse(text).unwrap();
+    assert_eq!((table.units, table.times()), (Units::Si, &[0.0, 0.5][..]));
+    for (name, kind, first) in [
+        ("wedge_z", Kind::Length, 1.5e-3),
+        ("vertical_wedge_force", Kind::Force, 2000.0),
+        ("wedge_pitch", Kind::Angle, std::f64::consts::PI),
+        ("speed", Kind::Speed, 10.0),
+        ("rate", Kind::Stiffness, 5e5),
+        ("least_min", Kind::Dimensionless, 7.0),
+    ] {
+        let column = table.column(name).unwrap();
+        assert_eq!(column.kind, kind, "{name}");
+        assert!(
+            (column.si()[0] / first - 1.0).abs() < 1e-15,
+            "{name}: {}",
+            column.si()[0]
+        );
+    }
+
+    let us = parse("time_s,vertical_wedge_force_kip,speed_mph,force_in_lbf\n0,1.5,60,3\n1,2,60,3\n").unwrap();
+    assert_eq!(us.units, Units::Us);
+    assert_eq!(
+        us.column("vertical_wedge_force").unwrap().written,
+        [1500.0, 2000.0]
+    );
+    assert_eq!(us.column("force_in").unwrap().kind, Kind::Force);
+
+    says("time_s,wedge_z_kN\n0,1\n", &["a force; a length is expected"]);
+    says(
+        "time_s,wedge_z_mm,pull_kip\n0,1,1\n",
+        &["wedge_z_mm", "SI", "pull_kip"],
+    );
+    says("time_s,level [kN^5]\n0,1\n", &["a quantity that no column has"]);
+}

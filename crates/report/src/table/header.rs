@@ -1,10 +1,14 @@
 //! Names of columns: what, then unit.
+//!
+//! Units are those that results are written with (`force_lbf`, `force_N`), and every other one of the table of units,
+//! at the end of the name (`force_kN`, `stiffness_kN_per_mm`) or in brackets (`force [kN]`): such columns are converted
+//! to the system of units of the table.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use input::bounded;
-use quantity::{Kind, System as Units, nearest};
+use quantity::{Kind, System as Units, Unit, nearest};
 use wedge::outputs::Outputs;
 use wedge::parameters::Damping;
 
@@ -20,6 +24,18 @@ pub(super) struct Name {
     pub kind: Kind,
     /// `None` for units that both systems have, and for pure numbers.
     pub units: Option<Units>,
+    /// One of the unit in SI units, if it is none of those that results are written with.
+    pub unit: Option<f64>,
+}
+
+impl Name {
+    /// Returns the number in a system of units; without a unit of its own, the same bits as written.
+    pub fn in_units(&self, written: f64, units: Units) -> f64 {
+        match self.unit {
+            Some(unit) => written * unit * self.kind.from_si(units),
+            None => written,
+        }
+    }
 }
 
 /// The line of names, understood.
@@ -179,7 +195,11 @@ fn understand(
     let endings: Vec<(Kind, Units, usize, &str)> = all
         .filter_map(|(kind, units)| fits(kind, units).map(|(length, base)| (*kind, units, length, base)))
         .collect();
-    let Some(longest) = endings.iter().map(|(_, _, length, _)| *length).max() else {
+    let longest = endings.iter().map(|(_, _, length, _)| *length).max();
+    if let Some((base, unit)) = other_unit(cell, longest.unwrap_or(0)) {
+        return converted(place, index, cell, (base, unit), known);
+    }
+    let Some(longest) = longest else {
         return Ok(plain(cell, Kind::Dimensionless));
     };
     let longest: Vec<_> = endings
@@ -211,6 +231,84 @@ fn understand(
         base: base.to_owned(),
         kind,
         units: (!both).then_some(first_units),
+        unit: None,
+    })
+}
+
+/// Returns the name and the unit of a column whose unit, longer than `longest` bytes at the end of its name, is one of
+/// the table of units; none if there is no such unit.
+fn other_unit(cell: &str, longest: usize) -> Option<(&str, Unit)> {
+    if let Some((base, unit)) = cell.split_once(['[', '(']) {
+        let unit = unit.trim_end_matches([']', ')']);
+        return Some((base.trim(), Unit::parse(unit).ok()?)).filter(|(base, _)| !base.is_empty());
+    }
+    // `force_min` is rather a least force than a force of minutes.
+    const WORDS: [&str; 3] = ["min", "h", "t"];
+    cell.match_indices('_').find_map(|(at, _)| {
+        let (base, ending) = (&cell[..at], &cell[at + 1..]);
+        // `force_in_lbf` is no moment.
+        let inside = ending.starts_with("in_") && !ending.starts_with("in_per_");
+        if base.is_empty() || ending.len() <= longest || inside || (WORDS.contains(&ending) && base != "time")
+        {
+            return None;
+        }
+        let unit = Unit::parse(&expression(ending)).ok()?;
+        kind_of(unit)?;
+        Some((base, unit))
+    })
+}
+
+/// Returns the ending of a name as a unit: `kN_s_per_m2` is `kN s/(m^2)`.
+fn expression(ending: &str) -> String {
+    let product = |part: &str| -> String {
+        let powers = part
+            .split('_')
+            .map(|unit| match unit.split_at_checked(unit.len().max(1) - 1) {
+                Some((name, power @ ("2" | "3"))) => format!("{name}^{power}"),
+                _ => unit.to_owned(),
+            });
+        powers.collect::<Vec<String>>().join(" ")
+    };
+    let mut parts = ending.split("_per_").map(product);
+    let over = parts.next().unwrap_or_default();
+    parts.fold(over, |over, under| format!("{over}/({under})"))
+}
+
+/// Returns the first kind that a unit measures.
+fn kind_of(unit: Unit) -> Option<Kind> {
+    let mut kinds = Kind::ALL.into_iter();
+    kinds.find(|kind| *kind != Kind::Dimensionless && *kind != Kind::Count && kind.accepts(unit.dimension()))
+}
+
+/// Returns the name of a column with a unit of its own.
+fn converted(
+    place: &HeaderLocation<'_>,
+    index: usize,
+    cell: &str,
+    (base, unit): (&str, Unit),
+    known: &BTreeMap<String, Kind>,
+) -> Result<Name, TableError> {
+    let found = kind_of(unit);
+    let kind = match (known.get(base), found) {
+        (Some(own), _) if own.accepts(unit.dimension()) => *own,
+        (None, Some(kind)) => kind,
+        (own, found) => {
+            let found = found.map_or("a quantity that no column has", Kind::name);
+            let expected = own.map_or(String::new(), |own| format!("; {} is expected", own.name()));
+            let problem = format!(
+                "column {} (`{}`) is {found}{expected}",
+                index + 1,
+                bounded(cell.to_owned())
+            );
+            return Err(place.error(problem, "look at the unit, or leave the column out"));
+        }
+    };
+    Ok(Name {
+        full: cell.to_owned(),
+        base: base.to_owned(),
+        kind,
+        units: unit.system(),
+        unit: Some(unit.factor()),
     })
 }
 
@@ -220,5 +318,6 @@ fn plain(cell: &str, kind: Kind) -> Name {
         base: cell.to_owned(),
         kind,
         units: None,
+        unit: None,
     }
 }
