@@ -9,7 +9,6 @@ use mechanics::system::System;
 use mechanics::vector::Vector;
 use study::car::CarCase;
 use study::car::columns::CarTable;
-use study::case::Tables;
 
 use crate::Error;
 use crate::element::{Entries, QuantityEntry, Setting};
@@ -24,15 +23,9 @@ const AXES: usize = 3;
 /// Returns the car of a case; inputs can move its rails.
 ///
 /// # Errors
-/// The case makes no car, has wedges without mass, or names files.
+/// The case makes no car, or has wedges without mass.
 pub fn plant(case: &CarCase) -> Result<Plant, Error> {
     let mut parameters = case.parameters.clone();
-    if CarCase::parse("case.toml", case.to_toml_embedded(), Tables::nowhere(), &[]).is_err() {
-        return Err(Error::new(
-            "the case names profiles or measured track in files, which an FMU does not take along; take \
-             nominal profiles and irregularities that the case describes",
-        ));
-    }
     if parameters.has_connections() {
         return Err(Error::new(
             "FMUs of cars have wedges with mass, and those of the case have none or an empirical warp \

@@ -204,6 +204,10 @@ pub trait Element: Send {
     /// # Errors
     /// The integration cannot go on.
     fn step(&mut self, end: &[f64], time: f64) -> Result<(), Error>;
+    /// Returns the number of steps that the integrator has attempted so far (co-simulation).
+    fn attempts(&self) -> u64 {
+        0
+    }
     /// Writes the rates of the states.
     ///
     /// # Errors

@@ -158,16 +158,14 @@ pub fn fmu(
             description.xml(version)?.into_bytes(),
         ),
         (library, binary),
-        (
-            format!("resources/{}", description.file.0),
-            description.file.1.clone().into_bytes(),
-        ),
         (format!("resources/{MODEL}"), format!("{name}\n").into_bytes()),
         (
             "documentation/index.html".to_owned(),
             page(&description).into_bytes(),
         ),
     ];
+    let resources = description.files.iter();
+    files.extend(resources.map(|(name, bytes)| (format!("resources/{name}"), bytes.clone())));
     for (name, text) in LICENSES {
         files.push((
             format!("documentation/licenses/{name}.txt"),
@@ -306,13 +304,15 @@ fn page(description: &Description) -> String {
             escape(&variable.text)
         );
     }
+    let files = description.files.iter();
+    let files = files.map(|(name, _)| format!("<code>resources/{name}</code>"));
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{name}</title>\n\
          <style>body {{ font-family: sans-serif; max-width: 70em; margin: 2em auto; padding: 0 1em }} td, \
          th {{ text-align: left; padding: 0.1em 0.8em 0.1em 0; vertical-align: top }}</style></head>\n\
          <body>\n<h1>{name}</h1>\n<p>{text}</p>\n\
          <p>Made by wedgelab {version}. {conventions} All values are in SI units.</p>\n\
-         <p>What it is made of is in <code>resources/{file}</code>; licences are in \
+         <p>What it is made of is in {files}; licences are in \
          <code>documentation/licenses</code>.</p>\n<table>\n\
          <tr><th>variable</th><th>causality</th><th>variability</th><th>unit</th><th></th></tr>\n\
          {rows}</table>\n</body>\n</html>\n",
@@ -320,6 +320,6 @@ fn page(description: &Description) -> String {
         text = escape(&description.text),
         version = env!("CARGO_PKG_VERSION"),
         conventions = description.model.conventions(),
-        file = description.file.0,
+        files = files.collect::<Vec<String>>().join(", "),
     )
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use study::car::CarCase;
-use study::case::{Case, CaseError};
+use study::case::{Case, CaseError, Tables};
 use study::truck::TruckCase;
 
 use crate::description::FmuModel;
@@ -48,7 +48,7 @@ pub fn read(folder: &Path) -> Result<Source, Error> {
         return Ok(Source::ThreePieceTruck(Box::new(case)));
     }
     if model == FmuModel::Car {
-        let case = CarCase::parse(CASE, &text, folder, &[]).map_err(damaged)?;
+        let case = CarCase::parse(CASE, &text, Tables::below(folder), &[]).map_err(damaged)?;
         return Ok(Source::Car(Box::new(case)));
     }
     let case = Case::parse(CASE, &text, folder, &[]).map_err(damaged)?;

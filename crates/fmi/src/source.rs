@@ -10,7 +10,7 @@ use crate::element::{Element, Entries, Setting};
 use crate::half_truck::{self, HalfTruck};
 use crate::quasi_static::QuasiStaticElement;
 use crate::wedge::WedgeElement;
-use crate::{car, quasi_static, resources, three_piece, truck, wedge};
+use crate::{car, limits, quasi_static, resources, three_piece, truck, wedge};
 
 /// The source of an FMU.
 #[derive(Clone, Debug)]
@@ -79,18 +79,31 @@ impl Source {
         }
     }
 
-    /// Returns name and text of the file that says what it is made of.
-    #[must_use]
-    pub fn file(&self) -> (&'static str, String) {
-        match self {
+    /// Returns name and bytes of the files that say what it is made of: the case or run first, then the profiles and
+    /// measured tables of a car.
+    ///
+    /// # Errors
+    /// A profile or a table can no longer be read.
+    pub fn files(&self) -> Result<Vec<(String, Vec<u8>)>, Error> {
+        let mut named = Vec::new();
+        let (name, text) = match self {
             Self::Wedge(case) | Self::QuasiStatic(case) | Self::Truck(case) => {
                 let document = case.document.clone().with_tables_embedded();
                 (resources::CASE, document.to_toml())
             }
             Self::HalfTruck(own) => (half_truck::RESOURCE, own.text().to_owned()),
             Self::ThreePieceTruck(case) => (resources::CASE, case.to_toml_embedded().to_owned()),
-            Self::Car(case) => (resources::CASE, case.to_toml_embedded().to_owned()),
+            Self::Car(case) => {
+                let (text, files) = case.packed();
+                named = files;
+                (resources::CASE, text)
+            }
+        };
+        let mut files = vec![(name.to_owned(), text.into_bytes())];
+        for (name, path) in named {
+            files.push((name, limits::read(&path, limits::TEXT_FILE)?));
         }
+        Ok(files)
     }
 
     /// Returns all quantities.

@@ -230,13 +230,43 @@ fn input_what_an_fmu_cannot_take_is_refused() {
     let massless = case(&format!("truck.wedge.kind = \"massless\"\n{TRACK}"));
     let error = Description::new(&Source::Car(Box::new(massless))).unwrap_err();
     assert!(error.to_string().contains("take wedge bodies"), "{error}");
+}
+
+/// Profiles and measured tables go into the resources, and what is made of these has the same token and start.
+#[test]
+fn issue_048_an_fmu_takes_profiles_and_measured_track_along() {
     let folder = tempfile::tempdir().unwrap();
-    let points = "y_mm,z_mm\n-36,-12\n-30,-3\n-20,-1\n0,0\n20,-1\n30,-3\n36,-12\n";
-    std::fs::write(folder.path().join("rail.csv"), points).unwrap();
-    let text = format!("model = \"car\"\nrails.profile = \"rail.csv\"\n{TRACK}");
-    // A profile that is read, whatever it is, is a file.
-    if let Ok(own) = CarCase::parse("case.toml", &text, folder.path(), &[]) {
-        let error = Description::new(&Source::Car(Box::new(own))).unwrap_err();
-        assert!(error.to_string().contains("in files"), "{error}");
+    let beside = folder.path().join("tracks");
+    std::fs::create_dir(&beside).unwrap();
+    let wheel = include_str!("../../wheelrail/tests/data/manchester/MBench_S1002_v3.prw");
+    std::fs::write(folder.path().join("My wheel.PRW"), wheel).unwrap();
+    let rows: String = (0..600)
+        .map(|at| format!("{at},{}\n", 0.05 * f64::from(at % 7)))
+        .collect();
+    std::fs::write(beside.join("car.csv"), format!("distance_ft,profile_in\n{rows}")).unwrap();
+    let track = "segments = [{ tangent = \"500 ft\" }]\n[[irregularities]]\ntable = \"car.csv\"\nsigns = \
+                 \"usual\"\nform = \"space_curve\"\n";
+    std::fs::write(beside.join("line.toml"), track).unwrap();
+    let text = "model = \"car\"\nwheels.profile = \"My wheel.PRW\"\ntrack.file = \"tracks/line.toml\"\n";
+    let own = CarCase::parse("case.toml", text, folder.path(), &[]).unwrap();
+    let description = Description::new(&Source::Car(Box::new(own))).unwrap();
+    let names: Vec<&str> = description.files.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(
+        names,
+        ["case.toml", "files/1_wheels_profile.prw", "files/2_table.csv"]
+    );
+
+    let resources = tempfile::tempdir().unwrap();
+    std::fs::create_dir(resources.path().join("files")).unwrap();
+    for (name, bytes) in &description.files {
+        std::fs::write(resources.path().join(name), bytes).unwrap();
     }
+    std::fs::write(resources.path().join("model.txt"), description.model.name()).unwrap();
+    drop(folder);
+    let unpacked = fmi::resources::read(resources.path()).unwrap();
+    let again = Description::new(&unpacked).unwrap();
+    for version in [Version::Two, Version::Three] {
+        assert_eq!(again.token(version), description.token(version));
+    }
+    assert_eq!(again.files, description.files);
 }

@@ -468,3 +468,26 @@ fn issue_047_an_implausible_place_is_warned_of_once() {
         );
     }
 }
+
+/// A call that takes very many steps of the integrator is told, once; ordinary ones are not.
+#[test]
+fn issue_048_steps_that_take_much_work_are_warned_of_once() {
+    let of = |tolerance: &str| {
+        let set = [format!("simulation.relative_tolerance={tolerance}")];
+        Source::of_case(FmuModel::Wedge, builtin::case_with(NAME, &set).unwrap()).unwrap()
+    };
+    for (tolerance, told) in [("1e-6", 0), ("1e-11", 1)] {
+        let mut part = Part::of(of(tolerance), Interface::CoSimulation).begin();
+        for step in 0..4 {
+            let [value, rate] = height(0.25 * f64::from(step));
+            part.set("bolster_z", value);
+            part.set("bolster_z_rate", rate);
+            part.step(0.25);
+        }
+        let of_effort = part
+            .warnings
+            .iter()
+            .filter(|text| text.contains("steps of the integrator"));
+        assert_eq!(of_effort.count(), told, "{tolerance}: {:#?}", part.warnings);
+    }
+}

@@ -1,5 +1,7 @@
 //! The type of a file, from its first bytes.
 
+use crate::Separated;
+
 /// A type of file that users have around Wedgelab.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FileType {
@@ -7,10 +9,24 @@ pub enum FileType {
     Case,
     /// A study (TOML).
     Study,
+    /// A track file (TOML).
+    Track,
+    /// A regime: a track with speeds (TOML).
+    Regime,
+    /// Limits of rules (TOML).
+    Limits,
+    /// Conditions of a car (TOML).
+    Conditions,
     /// A file of NUCARS (keywords that begin with `\`).
     Nucars,
     /// A table of results (CSV with a column of times).
     Results,
+    /// A measured track (CSV with a column of distances).
+    MeasuredTrack,
+    /// A profile of a wheel or a rail (CSV with y and z, or Simpack's format).
+    Profile,
+    /// A certificate (JSON).
+    Certificate,
     /// JSON: a summary, the description of a study, a saved state.
     Json,
     /// A web page, such as a report.
@@ -34,11 +50,18 @@ pub const HEAD: usize = 1 << 16;
 
 impl FileType {
     /// All of them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 19] = [
         Self::Case,
         Self::Study,
+        Self::Track,
+        Self::Regime,
+        Self::Limits,
+        Self::Conditions,
         Self::Nucars,
         Self::Results,
+        Self::MeasuredTrack,
+        Self::Profile,
+        Self::Certificate,
         Self::Json,
         Self::Page,
         Self::Figure,
@@ -87,7 +110,10 @@ impl FileType {
             return Some(Self::Figure);
         }
         if begins("{") || begins("[{") {
-            return Some(Self::Json);
+            return match text.contains("\"wedgelab.certificate/") {
+                true => Some(Self::Certificate),
+                false => Some(Self::Json),
+            };
         }
         let lines = || text.split(['\n', '\r']).map(str::trim_end);
         if lines().any(is_nucars_keyword) {
@@ -96,12 +122,11 @@ impl FileType {
         if let Some(found) = toml_type(lines()) {
             return Some(found);
         }
+        if lines().any(|line| ["spline.begin", "point.begin"].contains(&line.trim())) {
+            return Some(Self::Profile);
+        }
         let mut rows = lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
-        let names = rows.next()?;
-        let has_time = names
-            .split(',')
-            .any(|name| ["time", "time_s"].contains(&name.trim()));
-        (has_time && names.contains(',')).then_some(Self::Results)
+        table_type(rows.next()?)
     }
 
     /// Returns its name with its article, for messages.
@@ -110,8 +135,15 @@ impl FileType {
         match self {
             Self::Case => "a case file",
             Self::Study => "a study file",
+            Self::Track => "a track file",
+            Self::Regime => "a regime's file",
+            Self::Limits => "a file of limits",
+            Self::Conditions => "a file of conditions",
             Self::Nucars => "a file of NUCARS",
             Self::Results => "a table of results",
+            Self::MeasuredTrack => "a measured track",
+            Self::Profile => "a profile of a wheel or a rail",
+            Self::Certificate => "a certificate",
             Self::Json => "a JSON file",
             Self::Page => "a web page",
             Self::Figure => "a figure",
@@ -129,6 +161,12 @@ impl FileType {
         match self {
             Self::Case => format!("`wedgelab run {path}` runs it"),
             Self::Study => format!("`wedgelab study {path}` runs it"),
+            Self::Track => {
+                format!("`wedgelab track show {path}` shows it; a case runs on it by track.file = \"{path}\"")
+            }
+            Self::Regime => format!("`wedgelab regime {path} CAR` runs a car in it"),
+            Self::Limits => format!("`wedgelab certify CAR --limits {path}` compares a car with them"),
+            Self::Conditions => format!("`wedgelab certify CAR --conditions {path}` runs a car in them"),
             Self::Nucars if path.to_ascii_lowercase().ends_with(".run") => {
                 format!("`wedgelab nucars run {path}` runs it, `wedgelab nucars check {path}` reads it")
             }
@@ -136,6 +174,16 @@ impl FileType {
                 format!("`wedgelab nucars check {path}` reads it; `wedgelab nucars run` takes the .RUN file")
             }
             Self::Results => format!("`wedgelab compare` and `wedgelab plot {path}` take it"),
+            Self::MeasuredTrack => format!(
+                "write a track file with [[irregularities]], table = \"{path}\" and form = \"space_curve\" or \
+                 \"mid_chord\"; `wedgelab track show` takes that file"
+            ),
+            Self::Profile => format!(
+                "`wedgelab wheelrail check` takes it; in a case, write wheels.profile = \"{path}\" or rails.profile"
+            ),
+            Self::Certificate => {
+                "`wedgelab certify CAR --against DIR` takes the folder that it lies in".to_owned()
+            }
             Self::Json => {
                 "`wedgelab compare` takes the folder that a summary.json lies in; no command takes other JSON"
                     .to_owned()
@@ -165,7 +213,40 @@ fn is_nucars_keyword(line: &str) -> bool {
     word.is_some_and(|word| word.starts_with(|letter: char| letter.is_ascii_alphabetic()))
 }
 
-/// Returns a case or a study, by the sections and keys that only one of them has.
+/// Returns results, a measured track or a profile, by the titles of columns.
+fn table_type(titles: &str) -> Option<FileType> {
+    const TRACK: [&str; 7] = [
+        "profile",
+        "alignment",
+        "cross_level",
+        "superelevation",
+        "gauge",
+        "curvature",
+        "degree_of_curve",
+    ];
+    let separated = Separated::of(titles);
+    let cells: Vec<String> = separated.cells(titles).map(str::to_ascii_lowercase).collect();
+    let any = |is: &dyn Fn(&str) -> bool| cells.iter().any(|cell| is(cell.trim_matches('"')));
+    if cells.len() < 2 {
+        return None;
+    }
+    if titles.contains(',') && any(&|cell| ["time", "time_s"].contains(&cell)) {
+        return Some(FileType::Results);
+    }
+    let is_track = |cell: &str| TRACK.iter().any(|name| cell.contains(name));
+    if any(&|cell| cell.starts_with("distance")) && any(&is_track) {
+        return Some(FileType::MeasuredTrack);
+    }
+    let axis = |name: &'static str| {
+        move |cell: &str| {
+            let title = cell.split(['[', '(']).next().unwrap_or("").trim();
+            title.split('_').next() == Some(name) && cell.contains(['[', '('])
+        }
+    };
+    (any(&axis("y")) && any(&axis("z"))).then_some(FileType::Profile)
+}
+
+/// Returns a case, a study, a track, a regime, limits or conditions, by the sections and keys that only one of them has.
 fn toml_type<'t>(lines: impl Iterator<Item = &'t str>) -> Option<FileType> {
     const CASE: [&str; 8] = [
         "[wedge]",
@@ -178,17 +259,38 @@ fn toml_type<'t>(lines: impl Iterator<Item = &'t str>) -> Option<FileType> {
         "[simulation]",
     ];
     const STUDY: [&str; 3] = ["[vary]", "[[variants]]", "[set]"];
+    const TRACK: [&str; 4] = [
+        "[[segments]]",
+        "[[grades]]",
+        "[[irregularities]]",
+        "[center_line]",
+    ];
     let mut found = None;
+    // Before the first section.
+    let mut top = true;
     for line in lines {
         let line = line.split('#').next().unwrap_or("").trim();
         let key = line.split(['=', '.']).next().unwrap_or("").trim();
+        let is_section = line.starts_with('[');
+        top &= !is_section;
+        let own = match key.trim_matches(['[', ']']) {
+            _ if TRACK.contains(&line) => Some(FileType::Track),
+            "limits" => Some(FileType::Limits),
+            "conditions" => Some(FileType::Conditions),
+            "segments" => Some(FileType::Track),
+            "looks_at" | "speeds" | "distance" | "settle" => Some(FileType::Regime),
+            _ => None,
+        };
+        if own.is_some() && (is_section || (top && line.contains('='))) {
+            return own;
+        }
         if STUDY.contains(&line) || (["sampling", "case"].contains(&key) && line.contains('=')) {
             return Some(FileType::Study);
         }
         let table = CASE
             .iter()
             .any(|section| *section == line || section.trim_matches(['[', ']']) == key);
-        if table && (line.starts_with('[') || line.contains('=')) {
+        if table && (is_section || line.contains('=')) {
             found = Some(FileType::Case);
         }
     }
@@ -202,7 +304,7 @@ mod tests {
     #[test]
     fn input_files_are_recognized_by_their_beginning() {
         let page = format!("\u{feff}<!DOCTYPE html>{}", "x".repeat(1000));
-        let files: [(&[u8], Option<FileType>); 20] = [
+        let files: [(&[u8], Option<FileType>); 32] = [
             (b"[wedge]\ndamping = \"constant\"", Some(FileType::Case)),
             (b"wedge.angle = \"32 deg\"", Some(FileType::Case)),
             (b"# a [vary] study?\n[bolster]\n", Some(FileType::Case)),
@@ -214,6 +316,33 @@ mod tests {
             (b"# remark\nwedge_x_in , time\n", Some(FileType::Results)),
             (b"time [s], value [in]\n0, 1\n", None),
             (b"{\"schema\": \"wedgelab.summary/1\"}", Some(FileType::Json)),
+            (
+                b"{\"schema\": \"wedgelab.certificate/1\"}",
+                Some(FileType::Certificate),
+            ),
+            (b"title = \"m\"\n[[segments]]\n", Some(FileType::Track)),
+            (b"segments = [{ tangent = \"1 ft\" }]", Some(FileType::Track)),
+            (
+                b"model = \"car\"\n[track]\nsegments = []\n[wedge]",
+                Some(FileType::Case),
+            ),
+            (b"speeds = [\"9 mph\"]\n[set]\n[track]\n", Some(FileType::Regime)),
+            (b"title = \"ours\"\n[[limits]]\n", Some(FileType::Limits)),
+            (
+                b"[conditions.worn]\ntitle = \"\"\n[conditions.worn.set]",
+                Some(FileType::Conditions),
+            ),
+            (
+                b"distance [m]; left_profile [mm]\n ; up\n",
+                Some(FileType::MeasuredTrack),
+            ),
+            (b"distance_ft,time_s,speed_mph\n0,0,1\n", Some(FileType::Results)),
+            (b"distance_ft,speed_mph\n0,1\n", None),
+            (b"# wheel\ny_gauge (in); z_down (in)\n", Some(FileType::Profile)),
+            (
+                b"header.begin\nheader.end\nspline.begin\n",
+                Some(FileType::Profile),
+            ),
             (page.as_bytes(), Some(FileType::Page)),
             (b"<?xml version=\"1.0\"?><svg/>", Some(FileType::Figure)),
             (b"\x89PNG\r\n", Some(FileType::Figure)),

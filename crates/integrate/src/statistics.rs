@@ -47,6 +47,12 @@ pub struct Statistics {
 }
 
 impl Statistics {
+    /// Returns the number of attempted steps, accepted and rejected.
+    #[must_use]
+    pub fn attempts(&self) -> u64 {
+        self.steps.saturating_add(self.rejected())
+    }
+
     /// Returns the number of rejected steps, whatever the reason.
     #[must_use]
     pub fn rejected(&self) -> u64 {

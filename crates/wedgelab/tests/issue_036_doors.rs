@@ -393,3 +393,68 @@ fn input_issue_036_truncated_files_point_at_their_end() {
     );
     assert!(missing.contains("it was cut off here"), "{said}");
 }
+
+/// A file in a wrong place is called by what it is, and the command that takes it is named.
+#[test]
+fn issue_048_files_in_wrong_places_are_recognized() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let rows: String = (0..1300).map(|at| format!("{at},0.1\n")).collect();
+    fs::write(
+        path.join("car.csv"),
+        format!("distance [ft],profile [in]\n,up\n{rows}"),
+    )
+    .unwrap();
+    fs::write(path.join("wheel.csv"), "y [mm],z [mm]\n0,0\n1,0\n").unwrap();
+    fs::write(
+        path.join("certificate.json"),
+        "{\"schema\": \"wedgelab.certificate/1\"}",
+    )
+    .unwrap();
+    for (name, file) in [
+        ("hunting", "regime.toml"),
+        ("aar_chapter_xi", "limits.toml"),
+        ("conditions", "conditions.toml"),
+    ] {
+        fs::write(path.join(file), done(path, &["regime", "--show", name])).unwrap();
+    }
+    fs::write(path.join("track.toml"), "[[segments]]\ntangent = \"500 ft\"\n").unwrap();
+    let files = [
+        ("car.csv", "a measured track", "[[irregularities]]"),
+        (
+            "wheel.csv",
+            "a profile of a wheel or a rail",
+            "wedgelab wheelrail check",
+        ),
+        ("certificate.json", "a certificate", "certify CAR --against DIR"),
+        (
+            "regime.toml",
+            "a regime's file",
+            "wedgelab regime regime.toml CAR",
+        ),
+        ("limits.toml", "a file of limits", "--limits limits.toml"),
+        (
+            "conditions.toml",
+            "a file of conditions",
+            "--conditions conditions.toml",
+        ),
+        ("track.toml", "a track file", "wedgelab track show track.toml"),
+    ];
+    let car = "car_tangent_empty";
+    let doors: [(&str, &[&str], &[&str]); 8] = [
+        ("", &["run"], &[]),
+        ("", &["study"], &[]),
+        ("track.toml", &["track", "show"], &[]),
+        ("regime.toml", &["regime"], &[car]),
+        ("limits.toml", &["certify", car, "--limits"], &[]),
+        ("conditions.toml", &["certify", car, "--conditions"], &[]),
+        ("wheel.csv", &["wheelrail", "check"], &["136re"]),
+        ("", &["plot"], &[]),
+    ];
+    for (own, before, after) in doors {
+        for (file, what, advice) in files.iter().filter(|(file, ..)| *file != own) {
+            let arguments = [before, &[*file][..], after].concat();
+            refused(path, &arguments, &[file, &format!("is {what}"), advice]);
+        }
+    }
+}

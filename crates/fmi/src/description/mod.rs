@@ -155,8 +155,8 @@ pub struct Description {
     pub tolerance: f64,
     /// Its step, s.
     pub step: f64,
-    /// Name and text of the file that says what the element is made of.
-    pub file: (&'static str, String),
+    /// Names and bytes of the files that say what the element is made of, the case or run first.
+    pub files: Vec<(String, Vec<u8>)>,
 }
 
 impl Description {
@@ -186,7 +186,7 @@ impl Description {
             stop_time,
             tolerance,
             step: 1e-3,
-            file: source.file(),
+            files: source.files()?,
         })
     }
 
@@ -216,7 +216,9 @@ impl Description {
             Version::Two => "2.0",
             Version::Three => "3.0",
         });
-        hash.update(&self.file.1);
+        for (_, bytes) in &self.files {
+            hash.update(bytes);
+        }
         for variable in &self.variables {
             hash.update(format!("{variable:?}"));
         }

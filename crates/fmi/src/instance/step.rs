@@ -99,8 +99,12 @@ impl Instance {
             Some(element) if self.log_events => element.modes().to_vec(),
             _ => Vec::new(),
         };
-        let stepped = self.build()?.step(&inputs, end);
+        let element = self.build()?;
+        let attempts = element.attempts();
+        let stepped = element.step(&inputs, end);
+        let attempts = element.attempts().saturating_sub(attempts);
         self.changed();
+        self.watch_effort(attempts, length, end);
         if let Err(error) = stepped {
             self.phase = Phase::Failed;
             return Err(error);

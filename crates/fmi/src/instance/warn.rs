@@ -3,13 +3,17 @@
 use std::mem::{Discriminant, discriminant};
 
 use mechanics::plausibility::FindingKind;
-use quantity::System as Units;
+use quantity::{SixDigits, System as Units};
 
 use super::{Instance, Values};
 use crate::element::Interface;
 use crate::extrapolate::{KEPT_POINTS, Point, Understanding};
 use crate::watch::{contradiction, too_fast};
 use crate::{Category, Severity};
+
+/// Attempted steps in one call, and in a second of its time, above which a call is said to take much work: fifty times
+/// what wedges and cars of ordinary cases take, and seconds of computing for a car.
+const EFFORT: [f64; 2] = [10_000.0, 50_000.0];
 
 /// The kinds of warnings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,6 +22,8 @@ pub(super) enum Warned {
     Contradiction,
     /// An input moves too fast.
     Speed,
+    /// A step takes much work.
+    Effort,
     /// Something in the model is implausible.
     Finding(Discriminant<FindingKind>),
 }
@@ -86,6 +92,24 @@ impl Instance {
         self.warn_once(Warned::Contradiction, || {
             format!("{text}; forces are wrong: {advice}")
         });
+    }
+
+    /// Looks at the number of steps that the integrator has attempted in a call, of a length (s) to a time (s).
+    pub(super) fn watch_effort(&mut self, attempts: u64, length: f64, time: f64) {
+        let [in_call, per_second] = EFFORT;
+        let count = attempts as f64;
+        if count > in_call && count > per_second * length {
+            self.warn_once(Warned::Effort, || {
+                format!(
+                    "the step of {} s to {} s took {attempts} steps of the integrator, where ordinary motion takes some \
+                     {} a second: calls like this may compute for minutes; look for inputs that jump or chatter, and \
+                     for a tolerance that is too small",
+                    SixDigits(length),
+                    SixDigits(time),
+                    per_second / 50.0
+                )
+            });
+        }
     }
 
     /// Looks at what the element has reached.

@@ -311,6 +311,11 @@ impl Element for SystemElement {
         self.follow(time)
     }
 
+    fn attempts(&self) -> u64 {
+        let made = self.integrator.as_ref();
+        made.map_or(0, |integrator| integrator.statistics().attempts())
+    }
+
     fn rates(&mut self, out: &mut [f64]) -> Result<(), Error> {
         let dimension = self.dimension();
         if out.len() != dimension + 1 {

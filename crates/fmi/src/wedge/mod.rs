@@ -202,6 +202,13 @@ impl Element for WedgeElement {
         Ok(())
     }
 
+    fn attempts(&self) -> u64 {
+        match &self.core {
+            Core::Equations(_) => 0,
+            Core::Driven(wedge) => wedge.statistics().attempts(),
+        }
+    }
+
     fn rates(&mut self, out: &mut [f64]) -> Result<(), Error> {
         match &mut self.core {
             Core::Equations(equations) => equations.rates(out)?,

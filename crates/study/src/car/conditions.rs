@@ -10,6 +10,8 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
+use input::FileType;
+
 use super::CarCase;
 use super::named::{self, BuiltInOrFile, find};
 use crate::case::problem::{Problem, Problems, TomlSource};
@@ -73,7 +75,7 @@ impl Condition {
 /// file.
 fn read(path: &Path) -> Result<Vec<Condition>, CaseError> {
     let help = "`wedgelab regime --show conditions` prints conditions to begin with";
-    let text = named::read(path, "file of conditions", help)?;
+    let text = named::read(path, "file of conditions", &[FileType::Conditions], help)?;
     let source = path.display().to_string();
     let found = parse(&source, &text)?;
     let tree = tree::parse(&TomlSource::new(source, text.as_str())).map_err(CaseError::new)?;

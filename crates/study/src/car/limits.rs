@@ -18,6 +18,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::LazyLock;
 
+use input::FileType;
 use quantity::{Kind, Quantity, System as Units, nearest};
 use serde::{Deserialize, Serialize};
 
@@ -214,7 +215,7 @@ impl LimitSet {
     /// It cannot be read, or something in it is wrong; all mistakes are reported together.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
         let help = "`wedgelab regime --show aar_chapter_xi` prints limits to begin with";
-        let text = named::read(path, "file of limits", help)?;
+        let text = named::read(path, "file of limits", &[FileType::Limits], help)?;
         Self::parse(&path.display().to_string(), &text)
     }
 

@@ -17,6 +17,7 @@ mod lading;
 pub mod limits;
 pub mod motions;
 mod named;
+mod packed;
 mod peaks;
 pub mod regime;
 pub mod run;
@@ -39,6 +40,7 @@ use crate::case::problem::{Problem, Problems};
 use crate::case::tree::TableNode;
 use crate::case::{self, CaseError, Simulation, Tables, name};
 use crate::reader::{CaseReader, CaseText};
+pub(crate) use packed::NamedFile;
 use statistics::Rules;
 
 /// The case of a car, ready to run.
@@ -56,6 +58,8 @@ pub struct CarCase {
     pub simulation: Simulation,
     /// Warnings of reading.
     pub doubts: Vec<String>,
+    /// Profiles and measured tables that were read.
+    files: Vec<NamedFile>,
     text: CaseText,
 }
 
@@ -183,6 +187,7 @@ fn read(
     let mut r = CaseReader::new(tree, tables, problems);
     let [name, title] = r.head(default_name, Model::Car, "\"car\": a freight car on track")?;
     let drawn = sections::everything(&mut r);
+    let files = std::mem::take(&mut r.files);
     let text = r.finish("a car's case");
     let sections::CarSections {
         parameters,
@@ -197,6 +202,7 @@ fn read(
         rules,
         simulation,
         doubts,
+        files,
         text,
     })
 }

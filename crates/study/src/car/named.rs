@@ -44,10 +44,15 @@ pub(super) fn find<'a, T>(
 }
 
 /// Reads such a file; `help` says where one to begin with is found.
-pub(super) fn read(path: &Path, what: &'static str, help: &str) -> Result<String, CaseError> {
+pub(super) fn read(
+    path: &Path,
+    what: &'static str,
+    types: &'static [FileType],
+    help: &str,
+) -> Result<String, CaseError> {
     let expected = Expected {
         what,
-        types: &[FileType::Case, FileType::Study],
+        types,
         most: limits::TEXT_FILE,
     };
     read_text(path, &expected).map_err(|error| {

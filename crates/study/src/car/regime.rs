@@ -23,6 +23,7 @@
 use std::path::{Path, absolute};
 use std::sync::LazyLock;
 
+use input::FileType;
 use quantity::{Kind, Quantity};
 
 use super::CarCase;
@@ -149,7 +150,7 @@ impl Regime {
     /// The file cannot be read, or something in it is wrong; all mistakes are reported together.
     pub fn read(path: &Path) -> Result<Regime, CaseError> {
         let help = "docs/regimes.md says how to write one, and has a regime to begin with";
-        let text = named::read(path, "regime's file", help)?;
+        let text = named::read(path, "regime's file", &[FileType::Regime], help)?;
         let regime = Self::parse(&path.display().to_string(), &text)?;
         regime.try_out(path)?;
         Ok(regime)

@@ -15,7 +15,7 @@ use crate::case::section::{CaseSection, Names, Range, quantity};
 use crate::case::tree::NodeValue;
 use crate::case::{Simulation, write};
 use crate::reader::{CaseReader, DAMPING, QuantityForm};
-use crate::track::Support;
+use crate::track::{Notes, Support};
 
 /// The contents of the sections.
 pub(super) struct CarSections {
@@ -76,7 +76,8 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     output(r, &mut rules);
     let simulation = simulation(r);
     // Without a track there is no place to look at.
-    let mut doubts = line?.doubts;
+    let Notes { mut doubts, files } = line?.notes;
+    r.files.extend(files);
     doubts.extend(checks::all(r, &parameters, &simulation, carried));
     Some(CarSections {
         parameters,

@@ -4,13 +4,13 @@ use std::path::Path;
 
 use wheelrail::track::{CenterLine, Segment, Track};
 
+use crate::case::Tables;
 use crate::case::field::quoted;
-use crate::case::problem::{Problem, TomlSource};
+use crate::case::problem::{Problem, Problems, TomlSource};
 use crate::case::section::CaseSection;
-use crate::case::text_of;
 use crate::case::tree::{self, NodeValue, TableNode};
 use crate::reader::CaseReader;
-use crate::track::{ReadTrack, Support, of_section};
+use crate::track::{Notes, ReadTrack, Support, of_section, text_of};
 
 /// Length of a track that is not given, ft.
 const USUAL: f64 = 5000.0;
@@ -37,7 +37,7 @@ pub(super) fn track(r: &mut CaseReader<'_>) -> Option<ReadTrack> {
         return Some(ReadTrack {
             track: tangent(USUAL * 0.3048)?,
             support: Support::usual(),
-            doubts: Vec::new(),
+            notes: Notes::default(),
         });
     };
     // Its keys are read by the reader of track files.
@@ -86,33 +86,47 @@ fn meaning(key: &str) -> &'static str {
     }
 }
 
-/// Reads a track file; measured tables that it names are looked for from its folder.
+/// Reads a track file; measured tables that it names are looked for from its folder. Of one that must not be quoted,
+/// messages tell the place and the kind of a mistake.
 fn from_file(r: &mut CaseReader<'_>, file: &str) -> Option<(TableNode, ReadTrack)> {
     let tables = r.tables();
+    let mut found = Problems::new();
+    let read = read_file(tables, file, &mut found);
+    let place = r.at("track.file").map(|node| node.place.clone());
     let shown = tables.shown(file);
-    let refuse = |r: &mut CaseReader<'_>, reason: String, help: &str| {
-        let problem = Problem::new(format!("`track.file`: {shown} {reason}")).label("this file");
-        r.problem("track.file", problem.help(help));
-    };
+    r.problems.append(found.map(|problem| match &place {
+        Some(place) if !tables.may_quote() => problem.without_quoting(&shown, "track.file", place),
+        Some(place) if problem.line_and_column().is_none() => problem.moved_to(place),
+        _ => problem,
+    }));
+    read
+}
+
+fn read_file(tables: Tables<'_>, file: &str, problems: &mut Problems) -> Option<(TableNode, ReadTrack)> {
+    let shown = tables.shown(file);
     let path = match tables.locate(file) {
         Ok(path) => path,
         Err(refused) => {
-            refuse(r, refused.reason, refused.help);
+            let problem = Problem::new(format!("`track.file`: {shown} {}", refused.reason));
+            problems.push(problem.label("this file").help(refused.help));
             return None;
         }
     };
     let text = match text_of(&path) {
         Ok(text) => text,
         Err(error) => {
-            r.problems.append(error.into_problems());
+            match tables.may_quote() {
+                true => problems.append(error.into_problems()),
+                false => problems.push(Problem::of_unquoted("track.file", &shown, None, "no track file")),
+            }
             return None;
         }
     };
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     let tree = match tree::parse(&TomlSource::new(&shown, text)) {
         Ok(tree) => tree,
-        Err(problems) => {
-            r.problems.append(problems);
+        Err(own) => {
+            problems.append(own);
             return None;
         }
     };
@@ -122,6 +136,6 @@ fn from_file(r: &mut CaseReader<'_>, file: &str) -> Option<(TableNode, ReadTrack
         place: None,
     };
     let folder = path.parent().unwrap_or(Path::new(""));
-    let found = of_section(&top, tables.beside(folder), r.problems)?;
+    let found = of_section(&top, tables.beside(folder), problems)?;
     Some((tree, found))
 }

@@ -13,6 +13,7 @@ use wheelrail::hertz::Material;
 use wheelrail::profile::{Profile, ProfileError, ProfileKind, nominal};
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
+use super::NamedFile;
 use crate::case::field::{Reach, Written};
 use crate::case::problem::Problem;
 use crate::case::section::{Names, Range};
@@ -380,15 +381,35 @@ fn profile(
                     return None;
                 }
             };
-            Profile::read(&file, kind, deviation)
+            let made = Profile::read(&file, kind, deviation);
+            r.files.push(NamedFile {
+                key: match kind {
+                    ProfileKind::Wheel => "wheels.profile",
+                    ProfileKind::Rail => "rails.profile",
+                },
+                typed: name.to_owned(),
+                path: file,
+            });
+            made
         }
     };
     made.map_err(|error| wrong(r, path, &error)).ok()
 }
 
 fn wrong(r: &mut CaseReader<'_>, path: &str, error: &ProfileError) {
-    let problem = Problem::new(format!("`{path}`: {error}"));
-    r.problem(path, problem.label("this profile").help(error.remedy()));
+    let problem = match (r.tables().may_quote(), r.files.is_empty()) {
+        (false, false) => {
+            let names: Vec<&str> = r.files.iter().map(|file| file.typed.as_str()).collect();
+            Problem::of_unquoted(
+                path,
+                &names.join(", "),
+                error.line(),
+                "no profile as it is needed here",
+            )
+        }
+        _ => Problem::new(format!("`{path}`: {error}")).help(error.remedy()),
+    };
+    r.problem(path, problem.label("this profile"));
 }
 
 /// Returns a slope as a ratio (`1:20`) or a number.

@@ -248,8 +248,8 @@ pub(crate) const STUDY_KEYS: [&str; 4] = ["sampling", "vary", "variants", "case"
 /// The expected case file.
 pub(crate) const CASE_FILE: Expected = Expected {
     what: "case file",
-    // Which of the two it is, the keys of its tree say.
-    types: &[FileType::Case, FileType::Study],
+    // Which of them it is, the keys of its tree say.
+    types: &[FileType::Case, FileType::Study, FileType::Track],
     most: limits::TEXT_FILE,
 };
 
@@ -258,14 +258,21 @@ pub(crate) const CASE_FILE: Expected = Expected {
 /// # Errors
 /// There is no such file, or it cannot be read, or it is not text, something else than a case, or too large.
 pub fn text_of(path: &Path) -> Result<String, CaseError> {
-    read_text(path, &CASE_FILE).map_err(|error| {
+    let missing = "check the path; `wedgelab case NAME` prints a built-in case to start from";
+    text_of_file(path, &CASE_FILE, missing)
+}
+
+/// Returns the text of a file of TOML; `missing` is the advice where there is no such file.
+///
+/// # Errors
+/// As [`text_of`].
+pub(crate) fn text_of_file(path: &Path, expected: &Expected, missing: &str) -> Result<String, CaseError> {
+    read_text(path, expected).map_err(|error| {
         let help = match error.reason {
-            Reason::NotFound => {
-                "check the path; `wedgelab case NAME` prints a built-in case to start from".to_owned()
-            }
+            Reason::NotFound => missing.to_owned(),
             _ => error
                 .help()
-                .unwrap_or_else(|| "a case file is TOML, saved as UTF-8".to_owned()),
+                .unwrap_or_else(|| format!("a {} is TOML, saved as UTF-8", expected.what)),
         };
         Problem::new(error.to_string()).help(help).into()
     })

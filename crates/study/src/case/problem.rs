@@ -111,12 +111,18 @@ impl Problem {
             "" => "not a table",
             label => label,
         };
-        Problem::new(format!("`{path}`: {file}, line {line}, column {column}: {kind}"))
+        let file = format!("{file}, line {line}, column {column}");
+        Self::of_unquoted(path, &file, None, kind)
             .at(named)
             .label("this file")
-            .help(
-                "the file is not quoted here; open it at that place, or see `wedgelab run`, which quotes it",
-            )
+    }
+
+    /// Returns a mistake in a file that must not be quoted: at a line, if it has one, and of a kind.
+    pub(crate) fn of_unquoted(path: &str, file: &str, line: Option<usize>, kind: &str) -> Self {
+        let place = line.map_or(String::new(), |line| format!(", line {line}"));
+        Problem::new(format!("`{path}`: {file}{place}: {kind}")).help(
+            "the file is not quoted here; open it at that place, or see `wedgelab run`, which quotes it",
+        )
     }
 
     /// Returns whether it is the key in front of `=` that is wrong in what was given to `--set`.

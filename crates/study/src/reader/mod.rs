@@ -14,6 +14,7 @@ pub(crate) use text::CaseText;
 
 use quantity::Kind;
 
+use crate::car::NamedFile;
 use crate::case::field::{Reach, Written};
 use crate::case::model::{MODELS, Model};
 use crate::case::problem::{Problem, Problems};
@@ -57,6 +58,8 @@ pub(crate) struct CaseReader<'r> {
     elsewhere: Vec<String>,
     /// The motions that were given, with their paths.
     pub motions: Vec<(String, motion::CaseMotion)>,
+    /// Profiles and measured tables that were read.
+    pub files: Vec<NamedFile>,
 }
 
 impl<'r> CaseReader<'r> {
@@ -72,6 +75,7 @@ impl<'r> CaseReader<'r> {
             known: vec![(String::new(), Vec::new())],
             elsewhere: Vec::new(),
             motions: Vec::new(),
+            files: Vec::new(),
         }
     }
 

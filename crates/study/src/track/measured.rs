@@ -3,7 +3,8 @@
 use wheelrail::track::{CenterLine, Form, LONGEST_GAP, MeasuredError, MeasuredTable, Placed, Reading};
 
 use super::irregularity::named;
-use super::{length, optional_length};
+use super::{Notes, length, optional_length};
+use crate::car::NamedFile;
 use crate::case::Tables;
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Names};
@@ -13,8 +14,17 @@ const SIGNS: Names<bool> = &[("row", false), ("usual", true)];
 const BEYOND: Names<bool> = &[("level", true)];
 
 /// Returns a mistake in a measured table, shown where the track file names it.
-fn wrong(section: &CaseSection<'_>, error: &MeasuredError) -> Problem {
-    let problem = Problem::new(format!("`{}`: {error}", section.path_of("table"))).help(error.remedy());
+fn wrong(section: &CaseSection<'_>, tables: Tables<'_>, error: &MeasuredError) -> Problem {
+    let path = section.path_of("table");
+    let problem = match tables.may_quote() {
+        true => Problem::new(format!("`{path}`: {error}")).help(error.remedy()),
+        false => Problem::of_unquoted(
+            &path,
+            "the table",
+            error.line(),
+            "no measured track as it is needed here",
+        ),
+    };
     match section.table.place_of("table") {
         Some(place) => problem.at(place).label("this table"),
         None => problem,
@@ -22,7 +32,12 @@ fn wrong(section: &CaseSection<'_>, error: &MeasuredError) -> Problem {
 }
 
 /// Returns the table that a section names, beside the track file.
-fn table(section: &CaseSection<'_>, tables: Tables<'_>, problems: &mut Problems) -> Option<MeasuredTable> {
+fn table(
+    section: &CaseSection<'_>,
+    tables: Tables<'_>,
+    notes: &mut Notes,
+    problems: &mut Problems,
+) -> Option<MeasuredTable> {
     let (text, _) = section.text("table", problems)?;
     let signs_known = match section.table.get("signs") {
         Some(_) => section.choice("signs", SIGNS, problems)?,
@@ -50,8 +65,14 @@ fn table(section: &CaseSection<'_>, tables: Tables<'_>, problems: &mut Problems)
         signs_known,
         longest_gap,
     };
-    MeasuredTable::read(&path, reading)
-        .map_err(|error| problems.push(wrong(section, &error)))
+    let table = MeasuredTable::read(&path, reading);
+    notes.files.push(NamedFile {
+        key: "table",
+        typed: text.to_owned(),
+        path,
+    });
+    table
+        .map_err(|error| problems.push(wrong(section, tables, &error)))
         .ok()
 }
 
@@ -60,7 +81,7 @@ pub(super) fn irregularities(
     section: &CaseSection<'_>,
     tables: Tables<'_>,
     end: Option<f64>,
-    doubts: &mut Vec<String>,
+    notes: &mut Notes,
     problems: &mut Problems,
 ) -> Option<Vec<Placed>> {
     let keys = [
@@ -91,7 +112,7 @@ pub(super) fn irregularities(
         Some(_) => section.choice("beyond", BEYOND, problems),
         None => Some(false),
     };
-    let table = table(section, tables, problems)?;
+    let table = table(section, tables, notes, problems)?;
     let (start, taper) = (start?, taper?);
     let last = table.range()[1] + start;
     if let (Some(false), Some(end)) = (level, end)
@@ -113,10 +134,10 @@ pub(super) fn irregularities(
         return None;
     }
     level?;
-    doubts.extend(table.filled());
+    notes.doubts.extend(table.filled());
     table
         .irregularities(form, start, taper)
-        .map_err(|error| problems.push(wrong(section, &error)))
+        .map_err(|error| problems.push(wrong(section, tables, &error)))
         .ok()
 }
 
@@ -125,14 +146,14 @@ pub(super) fn center_line(
     section: &CaseSection<'_>,
     tables: Tables<'_>,
     rail_distance: f64,
-    doubts: &mut Vec<String>,
+    notes: &mut Notes,
     problems: &mut Problems,
 ) -> Option<CenterLine> {
     section.allow_in(&["table", "signs", "gaps"], &[], "a track", problems);
-    let table = table(section, tables, problems)?;
-    doubts.extend(table.filled());
+    let table = table(section, tables, notes, problems)?;
+    notes.doubts.extend(table.filled());
     table
         .center_line(rail_distance)
-        .map_err(|error| problems.push(wrong(section, &error)))
+        .map_err(|error| problems.push(wrong(section, tables, &error)))
         .ok()
 }

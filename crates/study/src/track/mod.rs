@@ -30,13 +30,17 @@ mod support;
 
 use std::path::Path;
 
+use input::file::Expected;
+use input::{FileType, limits};
 use quantity::{Kind, Quantity};
 use wheelrail::track::{CLEARANCE, CenterLine, CurveElements, Placed, Segment, Track, TrackError};
 
 use crate::case::problem::{Problem, Problems, TomlSource};
 use crate::case::section::{CaseSection, Names, Range};
 use crate::case::tree::{self, NodeValue, TableNode, TreeNode};
-use crate::case::{CaseDocument, CaseError, STUDY_KEYS, Tables, name, text_of};
+use crate::case::{CaseDocument, CaseError, STUDY_KEYS, Tables, name, text_of_file};
+
+use crate::car::NamedFile;
 
 use irregularity::irregularity;
 pub use support::Support;
@@ -71,6 +75,23 @@ const SPIRALS: Names<bool> = &[("linear", false), ("cubic", true)];
 const FOOT: f64 = 0.3048;
 /// The longest track, m.
 const LONGEST: f64 = 1e6;
+
+/// The expected track file.
+const TRACK_FILE: Expected = Expected {
+    what: "track file",
+    // That a case or a study is none, the keys of its tree say.
+    types: &[FileType::Track, FileType::Case, FileType::Study],
+    most: limits::TEXT_FILE,
+};
+
+/// Returns the text of a track file.
+///
+/// # Errors
+/// There is no such file, or it cannot be read, or it is something else, or too large.
+pub(crate) fn text_of(path: &Path) -> Result<String, CaseError> {
+    let missing = "check the path; docs/wheelrail.md has a track file to begin with";
+    text_of_file(path, &TRACK_FILE, missing)
+}
 
 impl TrackFile {
     /// Reads a track file.
@@ -122,14 +143,14 @@ fn read(tree: &TableNode, source: &str, problems: &mut Problems) -> Option<Track
     let ReadTrack {
         track,
         support,
-        doubts,
+        notes,
     } = read?;
     Some(TrackFile {
         name: name?,
         title: title.to_owned(),
         track,
         support,
-        doubts,
+        doubts: notes.doubts,
     })
 }
 
@@ -137,7 +158,16 @@ fn read(tree: &TableNode, source: &str, problems: &mut Problems) -> Option<Track
 pub(crate) struct ReadTrack {
     pub track: Track,
     pub support: Support,
+    pub notes: Notes,
+}
+
+/// What is found on the way through a track's keys.
+#[derive(Default)]
+pub(crate) struct Notes {
+    /// Warnings of reading.
     pub doubts: Vec<String>,
+    /// Measured tables that were read.
+    pub files: Vec<NamedFile>,
 }
 
 /// Reads what a track file says of the track and of what its rails lie on, from the file or from a table of a
@@ -147,7 +177,7 @@ pub(crate) fn of_section(
     tables: Tables<'_>,
     problems: &mut Problems,
 ) -> Option<ReadTrack> {
-    let mut doubts = Vec::new();
+    let mut notes = Notes::default();
     let tree = top.table;
     top.allow_in(&KEYS, &[], "a track", problems);
     let rail_distance = optional_length(top, "rail_distance", 59.5 * 0.0254, problems);
@@ -177,7 +207,7 @@ pub(crate) fn of_section(
                 &section,
                 tables,
                 rail_distance?,
-                &mut doubts,
+                &mut notes,
                 problems,
             )?)
         }
@@ -218,7 +248,7 @@ pub(crate) fn of_section(
     let irregularities: Vec<Option<Vec<Placed>>> = list(top, "irregularities", problems)
         .iter()
         .map(|section| match section.table.get("table") {
-            Some(_) => measured::irregularities(section, tables, end, &mut doubts, problems),
+            Some(_) => measured::irregularities(section, tables, end, &mut notes, problems),
             None => irregularity(section, end, problems).map(|placed| vec![placed]),
         })
         .collect();
@@ -230,7 +260,7 @@ pub(crate) fn of_section(
     Some(ReadTrack {
         track,
         support: support?,
-        doubts,
+        notes,
     })
 }
 

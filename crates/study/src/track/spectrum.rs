@@ -1,7 +1,7 @@
 //! Spectra in track files: the published ones, and users' own by their coefficients and units.
 
 use wheelrail::track::rational::{COEFFICIENTS, DensityUnit, Rational, WavenumberUnit};
-use wheelrail::track::spectrum::{Realization, Spectrum};
+use wheelrail::track::spectrum::{MOST_TERMS, Realization, Spectrum};
 
 use super::irregularity::{named, whole};
 use super::optional_length;
@@ -150,10 +150,13 @@ pub(super) fn realized(
             1.0 / step / 0.3048,
             end / 0.3048
         ))
-        .help(format!(
-            "write terms = {:.0} or more",
-            (end * step * terms as f64).ceil()
-        ));
+        .help(match (end * step * terms as f64).ceil() {
+            needed if needed <= MOST_TERMS as f64 => format!("write terms = {needed:.0} or more"),
+            needed => format!(
+                "{needed:.0} terms would be needed, and {MOST_TERMS} are the most: shorten the track, or write a larger \
+                 shortest"
+            ),
+        });
         problems.push(match &section.place {
             Some(place) => problem.at(place).label("shorter than the track"),
             None => problem,

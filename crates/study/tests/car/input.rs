@@ -329,3 +329,74 @@ fn input_length_of_a_track_counts_the_speeds_over_distance() {
     assert!(slowing(1060.0).is_err());
     assert!(slowing(1080.0).is_ok());
 }
+
+/// Of files that a case names, a program that serves others tells the name as typed, the line and the kind of a
+/// mistake: no content, no folder.
+#[test]
+fn issue_048_profiles_and_tracks_are_not_quoted_to_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case");
+    std::fs::create_dir(&case).unwrap();
+    let rows: String = (0..600).map(|at| format!("{at},0.1\n")).collect();
+    for (name, text) in [
+        ("points.csv", "y [mm],z [mm]\n0,0\n1,SECRET\n".to_owned()),
+        ("shape.csv", "y [mm],z [mm]\n987654,0\n1,0\n".to_owned()),
+        ("words.csv", "SECRET: hunter2\n".to_owned()),
+        ("table.csv", format!("distance_ft,profile_in\n{rows}600,SECRET\n")),
+        (
+            "gap.csv",
+            format!("distance_ft,profile_in\n{rows}987654,0.1\n987655,\n"),
+        ),
+        ("toml.toml", "[[segments]]\ntangent = SECRET\n".to_owned()),
+        (
+            "keys.toml",
+            "[[segments]]\ntangent = \"987654 ft\"\nSECRET = 1\n".to_owned(),
+        ),
+        (
+            "names.toml",
+            "[[segments]]\ntangent = \"500 ft\"\n[[irregularities]]\ntable = \"table.csv\"\nform = \
+             \"space_curve\"\nsigns = \"usual\"\n"
+                .to_owned(),
+        ),
+    ] {
+        std::fs::write(case.join(name), text).unwrap();
+    }
+    let track = "segments = [{ tangent = \"500 ft\" }]\nirregularities = [{ form = \"space_curve\", signs = \"usual\", \
+                 table = ";
+    let texts = [
+        ("wheels.profile = \"points.csv\"", "points.csv, line 3"),
+        ("rails.profile = \"shape.csv\"", "shape.csv"),
+        ("rails.profile = \"words.csv\"", "words.csv, line 1"),
+        (
+            &format!("[track]\n{track}\"table.csv\" }}]"),
+            "the table, line 602",
+        ),
+        (&format!("[track]\n{track}\"gap.csv\" }}]"), "the table"),
+        ("track.file = \"toml.toml\"", "toml.toml, line 2"),
+        ("track.file = \"keys.toml\"", "keys.toml, line 3"),
+        ("track.file = \"names.toml\"", "names.toml, line 4"),
+        ("track.file = \"points.csv\"", "points.csv: no track file"),
+    ];
+    for (text, told) in texts {
+        let error = CarCase::parse(
+            "case.toml",
+            &format!("model = \"car\"\n{text}\n"),
+            Tables::below(&case),
+            &[],
+        )
+        .unwrap_err();
+        let shown = format!("{:?}", miette::Report::new(error));
+        assert!(shown.contains(told), "{text}: {shown}");
+        let secrets = [
+            "SECRET",
+            "hunter2",
+            "987654",
+            "300.79",
+            &folder.path().display().to_string(),
+        ];
+        assert!(
+            !secrets.iter().any(|secret| shown.contains(secret)),
+            "{text}: {shown}"
+        );
+    }
+}

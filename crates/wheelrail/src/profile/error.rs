@@ -191,6 +191,26 @@ pub enum ProfileError {
 }
 
 impl ProfileError {
+    /// Returns the line of the file, from 1, if the mistake lies in one.
+    #[must_use]
+    pub fn line(&self) -> Option<usize> {
+        match self {
+            Self::Line { place, .. }
+            | Self::Kind { place, .. }
+            | Self::Shape { place, .. }
+            | Self::TooFew { place, .. }
+            | Self::Units { place, .. }
+            | Self::SelfCrossing { place, .. }
+            | Self::Orientation { place, .. }
+            | Self::Joint { place, .. } => place.line,
+            Self::Read(_)
+            | Self::UnknownFile { .. }
+            | Self::Datum { .. }
+            | Self::WiderThanGauge { .. }
+            | Self::Number { .. } => None,
+        }
+    }
+
     /// Returns the remedy.
     #[must_use]
     pub fn remedy(&self) -> String {

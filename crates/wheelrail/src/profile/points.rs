@@ -21,7 +21,7 @@
 use std::path::Path;
 
 use input::file::Expected;
-use input::{Separated, limits, shortened};
+use input::{FileType, Separated, limits, shortened};
 use quantity::{Kind as Dimension, Quantity};
 
 use super::ProfileKind;
@@ -70,7 +70,7 @@ impl Points {
             };
         let expected = Expected {
             what: "profile",
-            types: &[],
+            types: &[FileType::Profile],
             most: limits::TEXT_FILE,
         };
         let text = input::file::read_text(path, &expected)?;

@@ -23,7 +23,7 @@
 use std::path::Path;
 
 use input::file::Expected;
-use input::{CellError, Separated, limits, shortened};
+use input::{CellError, FileType, Separated, limits, shortened};
 use quantity::SixDigits;
 use thiserror::Error;
 
@@ -115,6 +115,15 @@ pub enum MeasuredError {
 }
 
 impl MeasuredError {
+    /// Returns the line of the table, from 1, if the mistake lies in one.
+    #[must_use]
+    pub const fn line(&self) -> Option<usize> {
+        match self {
+            Self::Line { line, .. } => Some(*line),
+            _ => None,
+        }
+    }
+
     /// Returns the remedy.
     #[must_use]
     pub fn remedy(&self) -> String {
@@ -198,7 +207,7 @@ impl MeasuredTable {
     pub fn read(path: &Path, reading: Reading) -> Result<Self, MeasuredError> {
         let expected = Expected {
             what: "table of track",
-            types: &[],
+            types: &[FileType::MeasuredTrack],
             most: limits::TEXT_FILE,
         };
         let text = input::file::read_text(path, &expected)?;

@@ -1,16 +1,21 @@
 //! Connections: taken one by one, served within time limits, ended in peace.
+//!
+//! Everybody on the machine can connect, but only who has the token can hold a seat. A connection is a stranger
+//! until a request with the token has come over it; of more strangers than [`limits::STRANGERS`] the oldest is sent
+//! away.
 
+use std::collections::VecDeque;
 use std::pin::pin;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
-use axum::Router;
+use axum::{Extension, Router};
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::server::graceful::GracefulShutdown;
 use hyper_util::service::TowerToHyperService;
 use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::Semaphore;
+use tokio::sync::{Notify, OwnedSemaphorePermit, Semaphore};
 use tokio_io_timeout::TimeoutStream;
 
 use super::limits::{self, Patience};
@@ -25,31 +30,94 @@ pub async fn serve(listener: TcpListener, app: Router, patience: Patience, stop:
         .header_read_timeout(patience.head)
         .max_header_size(limits::HEAD);
     let open = GracefulShutdown::new();
-    let seats = Arc::new(Semaphore::new(limits::CONNECTIONS));
+    let hall = Arc::new(Hall::default());
     let mut stop = pin!(stop);
     loop {
-        let next = async {
-            let seat = Arc::clone(&seats).acquire_owned().await;
-            (seat, next(&listener).await)
-        };
-        let (seat, stream) = tokio::select! {
-            next = next => next,
+        let stream = tokio::select! {
+            stream = next(&listener) => stream,
             () = &mut stop => break,
         };
+        let visitor = Hall::enter(&hall);
         // Small answers go at once.
         let _ = stream.set_nodelay(true);
         let mut stream = TimeoutStream::new(stream);
         stream.set_write_timeout(Some(patience.write));
-        let service = TowerToHyperService::new(app.clone());
+        let service = TowerToHyperService::new(app.clone().layer(Extension(Arc::clone(&visitor))));
         let connection = open.watch(http.serve_connection(TokioIo::new(Box::pin(stream)), service));
         tokio::spawn(async move {
-            // What goes wrong on a connection concerns its client, who sees it end.
-            let _ = connection.await;
-            drop(seat);
+            tokio::select! {
+                // What goes wrong on a connection concerns its client, who sees it end.
+                _ = connection => {}
+                () = visitor.leave.notified() => {}
+            }
+            visitor.hall.forget(&visitor);
         });
     }
     drop(listener);
     let _ = tokio::time::timeout(patience.end, open.shutdown()).await;
+}
+
+/// Who is connected.
+struct Hall {
+    seats: Arc<Semaphore>,
+    /// Those who have not shown the token, the oldest first.
+    strangers: Mutex<VecDeque<Arc<Visitor>>>,
+}
+
+impl Default for Hall {
+    fn default() -> Self {
+        Self {
+            seats: Arc::new(Semaphore::new(limits::CONNECTIONS)),
+            strangers: Mutex::default(),
+        }
+    }
+}
+
+impl Hall {
+    /// Takes a stranger in; the oldest goes if there are too many.
+    fn enter(hall: &Arc<Self>) -> Arc<Visitor> {
+        let visitor = Arc::new(Visitor {
+            hall: Arc::clone(hall),
+            leave: Notify::new(),
+            seat: OnceLock::new(),
+        });
+        let mut strangers = hall.strangers.lock().unwrap_or_else(PoisonError::into_inner);
+        strangers.push_back(Arc::clone(&visitor));
+        if strangers.len() > limits::STRANGERS
+            && let Some(oldest) = strangers.pop_front()
+        {
+            oldest.leave.notify_one();
+        }
+        visitor
+    }
+
+    /// Takes one out of the strangers.
+    fn forget(&self, visitor: &Arc<Visitor>) {
+        let mut strangers = self.strangers.lock().unwrap_or_else(PoisonError::into_inner);
+        strangers.retain(|own| !Arc::ptr_eq(own, visitor));
+    }
+}
+
+/// One connection.
+pub struct Visitor {
+    hall: Arc<Hall>,
+    /// Told when it must go.
+    leave: Notify,
+    /// The seat of one who has shown the token.
+    seat: OnceLock<OwnedSemaphorePermit>,
+}
+
+impl Visitor {
+    /// Gives a seat to one who has shown the token; where all are taken, it stays a stranger.
+    pub fn seat(self: &Arc<Self>) {
+        if self.seat.get().is_some() {
+            return;
+        }
+        if let Ok(seat) = Arc::clone(&self.hall.seats).try_acquire_owned() {
+            let _ = self.seat.set(seat);
+            self.hall.forget(self);
+        }
+    }
 }
 
 async fn next(listener: &TcpListener) -> TcpStream {
@@ -193,19 +261,50 @@ mod tests {
         tokio::time::timeout(LONG, ended.recv()).await.unwrap().unwrap();
     }
 
+    /// Strangers that say nothing hold nobody up, and who has the token is not sent away for them.
     #[tokio::test]
-    async fn issue_029_more_connections_wait_until_there_is_room() {
-        let (address, _) = start(Router::new().route("/", get(async || "here")), pending()).await;
+    async fn issue_048_connections_without_the_token_hold_no_seat() {
+        let patient = Patience {
+            head: Duration::from_secs(3600),
+            ..BRIEF
+        };
+        let known = async |Extension(visitor): Extension<Arc<Visitor>>| {
+            visitor.seat();
+            "known"
+        };
+        let app = Router::new()
+            .route("/", get(async || "here"))
+            .route("/known", get(known));
+        let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
+        let address = listener.local_addr().unwrap();
+        tokio::spawn(serve(listener, app, patient, pending()));
+        let request = |path: &str| format!("GET {path} HTTP/1.1\r\nHost: a\r\n\r\n");
+        let answer = async |stream: &mut TcpStream, wanted: &str| {
+            let mut bytes = Vec::new();
+            while !bytes.ends_with(wanted.as_bytes()) {
+                let read = tokio::time::timeout(LONG, stream.read_buf(&mut bytes));
+                assert!(
+                    read.await.unwrap().unwrap() > 0,
+                    "{}",
+                    String::from_utf8_lossy(&bytes)
+                );
+            }
+        };
+        let mut friend = TcpStream::connect(address).await.unwrap();
+        friend.write_all(request("/known").as_bytes()).await.unwrap();
+        answer(&mut friend, "known").await;
+
         let mut silent = Vec::new();
-        for _ in 0..2 * limits::CONNECTIONS {
+        for _ in 0..2 * (limits::CONNECTIONS + limits::STRANGERS) {
             silent.push(TcpStream::connect(address).await.unwrap());
         }
         let mut stream = TcpStream::connect(address).await.unwrap();
-        stream
-            .write_all(b"GET / HTTP/1.1\r\nHost: a\r\n\r\n")
-            .await
-            .unwrap();
-        assert!(answered(&mut stream).await.ends_with("here"));
+        stream.write_all(request("/").as_bytes()).await.unwrap();
+        answer(&mut stream, "here").await;
+        // The oldest stranger is gone, the friend is not.
+        assert_eq!(answered(&mut silent[0]).await, "");
+        friend.write_all(request("/").as_bytes()).await.unwrap();
+        answer(&mut friend, "here").await;
     }
 
     #[tokio::test]

@@ -6,12 +6,14 @@
 //! cannot hide that name; other users do not know the token.
 
 use std::net::SocketAddr;
+use std::sync::Arc;
 
 use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderValue, StatusCode, Uri, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
+use super::connections::Visitor;
 use super::token::Token;
 
 /// Parts of the page that are the same for everybody.
@@ -93,7 +95,13 @@ const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'u
 pub async fn check(State(guard): State<Guard>, request: Request, next: Next) -> Response {
     let mut response = match guard.refusal(request.uri(), request.headers()) {
         Some(reason) => (StatusCode::FORBIDDEN, format!("{reason}\n")).into_response(),
-        None => next.run(request).await,
+        None => {
+            let visitor = request.extensions().get::<Arc<Visitor>>();
+            if let Some(visitor) = visitor.filter(|_| !PUBLIC.contains(&request.uri().path())) {
+                visitor.seat();
+            }
+            next.run(request).await
+        }
     };
     let headers = response.headers_mut();
     for (name, value) in [

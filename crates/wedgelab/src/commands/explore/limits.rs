@@ -17,8 +17,10 @@ pub const NAME: usize = 200;
 pub const TEXT: usize = 64 * 1024;
 /// Size of a request's first line and headers, bytes.
 pub const HEAD: usize = 16 * 1024;
-/// Connections at once; further ones wait.
+/// Connections at once that have shown the token; further ones stay strangers.
 pub const CONNECTIONS: usize = 64;
+/// Connections at once that have not; a further one ends the oldest.
+pub const STRANGERS: usize = 64;
 /// Runs and files being made or sent at once; further ones wait.
 pub const ANSWERS: usize = 4;
 /// Stack of a thread that makes an answer, bytes: a reader that goes one level down for every byte of a text
