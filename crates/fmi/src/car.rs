@@ -4,6 +4,8 @@
 //! each wheel, besides the track's own irregularities (a bridge, a rig), and push the car body. Outputs are
 //! the fixed columns of its results: wheel forces, places of axles, accelerations, nests and wedges.
 
+use std::sync::Arc;
+
 use mechanics::orientation::fixed;
 use mechanics::system::System;
 use mechanics::vector::Vector;
@@ -38,6 +40,8 @@ pub fn plant(case: &CarCase) -> Result<Plant, Error> {
     let (system, initial) = (car.system.clone(), car.initial_state.clone());
     let start = system.clone().observe(0.0, &initial).energies.total();
     let (entries, ports) = all(&table);
+    let table = Arc::new(table);
+    let watched = Arc::clone(&table);
     Ok(Plant {
         entries,
         ports,
@@ -45,6 +49,7 @@ pub fn plant(case: &CarCase) -> Result<Plant, Error> {
             table.read(seen, rates, start, row);
         })),
         table_takes_rates: true,
+        derailed: Some(Box::new(move |seen| watched.derailed(seen))),
         numbers: [Vec::new(), Vec::new()],
         rolls: true,
         residual_of_stored: false,

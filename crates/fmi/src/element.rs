@@ -232,6 +232,10 @@ pub trait Element: Send {
     fn columns(&mut self, out: &mut [f64]);
     /// Returns what has been implausible so far, the present instant included.
     fn findings(&mut self) -> Vec<PlausibilityFinding>;
+    /// Returns in words that a wheel has left its rail at the present instant, if one has.
+    fn derailed(&mut self) -> Option<String> {
+        None
+    }
     /// Returns the place of a finding in words.
     fn place(&self, location: Location) -> String;
     /// Derivatives along a direction of states and inputs.

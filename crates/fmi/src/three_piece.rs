@@ -54,6 +54,7 @@ pub fn plant(case: &TruckCase, driven: bool) -> Result<Plant, Error> {
         },
         initial: None,
         table_takes_rates: false,
+        derailed: None,
         system,
     })
 }

@@ -247,13 +247,13 @@ fn issue_048_an_fmu_takes_profiles_and_measured_track_along() {
     let track = "segments = [{ tangent = \"500 ft\" }]\n[[irregularities]]\ntable = \"car.csv\"\nsigns = \
                  \"usual\"\nform = \"space_curve\"\n";
     std::fs::write(beside.join("line.toml"), track).unwrap();
-    let text = "model = \"car\"\nwheels.profile = \"My wheel.PRW\"\ntrack.file = \"tracks/line.toml\"\n";
+    let text = "model = \"car\"\nwheels.profile = \"My wheel.PRW\"\ntrack.file = \"tracks/line.toml\"\nsimulation.duration = \"5 s\"\n";
     let own = CarCase::parse("case.toml", text, folder.path(), &[]).unwrap();
     let description = Description::new(&Source::Car(Box::new(own))).unwrap();
     let names: Vec<&str> = description.files.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(
         names,
-        ["case.toml", "files/1_wheels_profile.prw", "files/2_table.csv"]
+        ["case.toml", "files/1_table.csv", "files/2_wheels_profile.prw"]
     );
 
     let resources = tempfile::tempdir().unwrap();
@@ -265,6 +265,10 @@ fn issue_048_an_fmu_takes_profiles_and_measured_track_along() {
     drop(folder);
     let unpacked = fmi::resources::read(resources.path()).unwrap();
     let again = Description::new(&unpacked).unwrap();
+    assert_eq!(
+        String::from_utf8_lossy(&again.files[0].1),
+        String::from_utf8_lossy(&description.files[0].1)
+    );
     for version in [Version::Two, Version::Three] {
         assert_eq!(again.token(version), description.token(version));
     }

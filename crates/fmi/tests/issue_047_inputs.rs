@@ -472,22 +472,56 @@ fn issue_047_an_implausible_place_is_warned_of_once() {
 /// A call that takes very many steps of the integrator is told, once; ordinary ones are not.
 #[test]
 fn issue_048_steps_that_take_much_work_are_warned_of_once() {
-    let of = |tolerance: &str| {
-        let set = [format!("simulation.relative_tolerance={tolerance}")];
-        Source::of_case(FmuModel::Wedge, builtin::case_with(NAME, &set).unwrap()).unwrap()
+    // Its method ends a step at every row at least.
+    // Its method ends a step at every row at least.
+    let of = |interval: &str| {
+        let text = format!(
+            "model = \"car\"\nstart.settle = \"0 s\"\ntrack.support.kind = \"rigid\"\n[simulation]\nmethod = \
+             \"tr-bdf2\"\nduration = \"0.1 s\"\noutput_interval = \"{interval}\"\n[[track.segments]]\ntangent = \"500 ft\"\n"
+        );
+        let case = CarCase::parse("case.toml", &text, Tables::nowhere(), &[]).unwrap();
+        Source::Car(Box::new(case))
     };
-    for (tolerance, told) in [("1e-6", 0), ("1e-11", 1)] {
-        let mut part = Part::of(of(tolerance), Interface::CoSimulation).begin();
-        for step in 0..4 {
-            let [value, rate] = height(0.25 * f64::from(step));
-            part.set("bolster_z", value);
-            part.set("bolster_z_rate", rate);
-            part.step(0.25);
+    for (interval, told) in [("1e-3 s", 0), ("4e-6 s", 1)] {
+        let mut part = Part::of(of(interval), Interface::CoSimulation).begin();
+        for _ in 0..2 {
+            part.step(0.05);
         }
         let of_effort = part
             .warnings
             .iter()
             .filter(|text| text.contains("steps of the integrator"));
-        assert_eq!(of_effort.count(), told, "{tolerance}: {:#?}", part.warnings);
+        assert_eq!(of_effort.count(), told, "{interval}: {:#?}", part.warnings);
     }
+}
+
+/// A car that derails is told, once, at the next communication point.
+#[test]
+fn issue_047_a_car_that_derails_is_warned_of_once() {
+    let text = "model = \"car\"\nstart.settle = \"0 s\"\ntrack.support.kind = \"rigid\"\n\
+                speed.value = \"100 mph\"\nsimulation.duration = \"3 s\"\n[[track.segments]]\ntangent = \"200 ft\"\n\
+                [[track.segments]]\nspiral = \"60 ft\"\n[[track.segments]]\ncurve = \"600 ft\"\ndegree = \"20 deg\"\n";
+    let case = CarCase::parse("case.toml", text, Tables::nowhere(), &[]).unwrap();
+    let mut part = Part::of(Source::Car(Box::new(case)), Interface::CoSimulation).begin();
+    for _ in 0..150 {
+        let time = part.instance.time();
+        if part.instance.do_step(time, 0.02).is_err() {
+            break;
+        }
+        part.listen();
+        if part.warnings.iter().any(|text| text.starts_with("derailed: ")) {
+            break;
+        }
+    }
+    let told = part
+        .warnings
+        .iter()
+        .filter(|text| text.starts_with("derailed: the "));
+    let told: Vec<&String> = told.collect();
+    assert!(
+        matches!(told[..], [text] if text.contains("wheel of axle") && text.contains("left its rail")),
+        "{:.3} s: {:#?}",
+        part.instance.time(),
+        part.warnings
+    );
 }

@@ -165,6 +165,7 @@ impl HalfTruck {
             },
             initial: None,
             table_takes_rates: false,
+            derailed: None,
             system,
         })
     }

@@ -22,6 +22,8 @@ pub(super) enum Warned {
     Contradiction,
     /// An input moves too fast.
     Speed,
+    /// A wheel has left its rail.
+    Derailed,
     /// A step takes much work.
     Effort,
     /// Something in the model is implausible.
@@ -117,7 +119,14 @@ impl Instance {
         let Some(element) = &mut self.element else {
             return;
         };
-        for finding in element.findings() {
+        let derailed = element.derailed();
+        let findings = element.findings();
+        if let Some(what) = derailed {
+            self.warn_once(Warned::Derailed, || {
+                format!("derailed: {what}; what follows means nothing")
+            });
+        }
+        for finding in findings {
             let kind = Warned::Finding(discriminant(&finding.kind));
             let place = self
                 .element

@@ -416,6 +416,12 @@ impl Element for SystemElement {
         findings
     }
 
+    fn derailed(&mut self) -> Option<String> {
+        let watch = self.plant.derailed.as_ref()?;
+        let states = &self.states[..self.states.len() - 1];
+        watch(&self.plant.system.observe(self.time, states))
+    }
+
     fn place(&self, location: Location) -> String {
         location.describe(&self.plant.system)
     }

@@ -111,6 +111,9 @@ pub enum Reading {
 /// [`Plant::table_takes_rates`].
 pub type TableReader = Box<dyn FnMut(&Observation, &[f64], &mut Vec<f64>) + Send>;
 
+/// What says in words, at an observation, that a wheel has left its rail.
+pub type DerailmentWatch = Box<dyn Fn(&Observation) -> Option<String> + Send>;
+
 /// The ports of a system, by the numbers of its inputs, outputs, parameters and columns among its
 /// [`Entries`].
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -140,6 +143,8 @@ pub struct Plant {
     pub table: Option<TableReader>,
     /// True if the table reads the rates of the state, which cost an evaluation more.
     pub table_takes_rates: bool,
+    /// What says in words that a wheel has left its rail, at an observation; none of what runs on none.
+    pub derailed: Option<DerailmentWatch>,
     /// Numbers of bodies and of connections in files, for messages; may be empty.
     pub numbers: [Vec<u32>; 2],
     /// True if it runs along a track: that it leaves its place is not implausible.

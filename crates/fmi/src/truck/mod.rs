@@ -57,6 +57,7 @@ pub fn plant(case: &Case) -> Result<Plant, Error> {
         },
         initial: None,
         table_takes_rates: false,
+        derailed: None,
         system,
     })
 }

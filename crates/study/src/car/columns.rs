@@ -5,6 +5,7 @@ use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
 use quantity::Kind;
 use truck::{HALVES, WEDGE_NAMES, WedgeKind};
+use wheelrail::track::Track;
 
 use super::derailment;
 use super::statistics::{SIDES, ratio};
@@ -15,6 +16,9 @@ pub struct CarTable {
     car: Car,
     columns: Columns,
     static_loads: [[f64; 2]; 4],
+    track: Track,
+    /// Heights of the axles at the start, m.
+    heights: [f64; 4],
 }
 
 impl CarTable {
@@ -26,7 +30,12 @@ impl CarTable {
         let car = Car::new(parameters)?;
         let static_loads = derailment::static_loads(parameters);
         let columns = Columns::new(&car, &parameters.trucks, static_loads);
+        let x = &car.initial_state;
+        let seen = car.system.clone().observe(0.0, x);
+        let loads = car.loads(&seen, &vec![0.0; x.len()]);
         Ok(Self {
+            heights: loads.axles.map(|axle| axle.height),
+            track: parameters.track.clone(),
             car,
             columns,
             static_loads,
@@ -74,6 +83,22 @@ impl CarTable {
         };
         out.extend(self.columns.values.iter().map(|value| value(&seen)));
         loads
+    }
+}
+
+impl CarTable {
+    /// Returns the first wheel from the front that has left its rail.
+    pub(super) fn left(&self, loads: &Loads) -> Option<derailment::Left> {
+        derailment::of(loads, &self.track, self.heights)
+    }
+
+    /// Returns in words which wheel has left its rail at an observation, if one has.
+    #[must_use]
+    pub fn derailed(&self, observation: &Observation) -> Option<String> {
+        // Places of axles need no rates.
+        let rates = vec![0.0; self.car.initial_state.len()];
+        let left = self.left(&self.car.loads(observation, &rates))?;
+        Some(left.words(&format!("{:.1} m", left.distance)))
     }
 }
 

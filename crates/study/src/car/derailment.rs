@@ -3,6 +3,8 @@
 use car::{Loads, Parameters, Wheels};
 use wheelrail::track::Track;
 
+use super::statistics::SIDES;
+
 /// A wheelset this far from the middle of the rails has a wheel with its flange on top of the rail or beyond,
 /// m: the flange's clearance of 3/8 in, and from its face to its tip 7/8 in; 1 1/4 in with nominal profiles.
 const ON_TOP: f64 = 1.25 * 0.0254;
@@ -19,6 +21,17 @@ pub(super) struct Left {
     pub distance: f64,
     /// A description of the derailment.
     pub what: String,
+}
+
+impl Left {
+    /// Returns it in words; `at` is the place along the track with its unit.
+    pub fn words(&self, at: &str) -> String {
+        let (side, axle) = (SIDES[self.side], self.axle + 1);
+        format!(
+            "the {side} wheel of axle {axle} left its rail at {at}: {}",
+            self.what
+        )
+    }
 }
 
 /// Returns the first wheel from the front that has left its rail; `heights` are those of the axles at the

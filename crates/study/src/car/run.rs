@@ -12,7 +12,6 @@ use mechanics::system::{ContactState, System};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 use truck::WEDGE_NAMES;
-use wheelrail::track::Track;
 
 use super::CarCase;
 use super::checks::POUND_FORCE;
@@ -20,7 +19,7 @@ use super::columns::{CarTable, losses_of_wedge, points_of_wedges};
 use super::motions::MotionTable;
 use super::statistics::{self, Histories, SIDES, Statistics};
 use super::summary::{CarSummary, Derailed, SCHEMA};
-use super::{derailment, limits, peaks};
+use super::{limits, peaks};
 use crate::energy;
 use crate::finite::{find, is_finite};
 use crate::losses::EnergySummary;
@@ -51,14 +50,11 @@ pub struct CarRecorder {
     row: Vec<f64>,
     /// Rates of the state.
     rates: Vec<f64>,
-    track: Track,
     /// Places of the points of each wedge among the contact states.
     points: Vec<(String, Vec<usize>)>,
     counts: CarCounts,
     /// The start of the statistics, s.
     settle: f64,
-    /// Heights of the axles at the start, m.
-    heights: [f64; 4],
     /// Poses of its bodies and forces of their faces, if asked for.
     motions: Option<MotionTable>,
 }
@@ -103,7 +99,6 @@ impl RunCase for CarCase {
         let (car, columns) = (table.car(), table.columns());
         let points = points_of_wedges(&car.system);
         let x = &car.initial_state;
-        let seen = car.system.clone().observe(0.0, x);
         Ok(Beginning {
             system: car.system.clone(),
             x: car.initial_state.clone(),
@@ -112,10 +107,6 @@ impl RunCase for CarCase {
                 ahead: None,
                 row: Vec::with_capacity(columns.len()),
                 rates: vec![0.0; x.len()],
-                heights: car
-                    .loads(&seen, &vec![0.0; x.len()])
-                    .axles
-                    .map(|axle| axle.height),
                 motions: None,
                 counts: CarCounts {
                     locked: vec![0; points.len()],
@@ -123,7 +114,6 @@ impl RunCase for CarCase {
                 },
                 points,
                 settle: self.parameters.start.settle,
-                track: self.parameters.track.clone(),
                 derailed: None,
                 units: self.simulation.output_units,
                 table,
@@ -235,16 +225,9 @@ impl Recorder for CarRecorder {
                 *locked += u64::from(!points.iter().any(slips));
             }
         }
-        if let Some(own) = derailment::of(&loads, &self.track, self.heights) {
+        if let Some(own) = self.table.left(&loads) {
             let distance = SummaryValue::new(own.distance, Kind::Distance, self.units);
-            let what = format!(
-                "the {} wheel of axle {} left its rail at {:.1} {}: {}",
-                SIDES[own.side],
-                own.axle + 1,
-                distance.value,
-                distance.unit,
-                own.what
-            );
+            let what = own.words(&format!("{:.1} {}", distance.value, distance.unit));
             self.derailed = Some(Derailed {
                 time: row.time,
                 distance,

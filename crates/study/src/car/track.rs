@@ -63,7 +63,7 @@ pub(super) fn track(r: &mut CaseReader<'_>) -> Option<ReadTrack> {
         let (table, found) = from_file(r, file)?;
         r.write_typed("file", quoted(file), "a track file");
         for own in &table.entries {
-            r.write_embedded(&own.key, own.node.value.to_toml());
+            r.write_embedded(&own.key, own.node.value.to_toml(), meaning(&own.key));
         }
         return Some(found);
     }

@@ -223,8 +223,8 @@ impl<'r> CaseReader<'r> {
     }
 
     /// The same of the case with files written into it alone.
-    pub fn write_embedded(&mut self, key: &str, text: String) {
-        self.pages[1].line(key, Written::toml(text), "");
+    pub fn write_embedded(&mut self, key: &str, text: String, comment: &str) {
+        self.pages[1].line(key, Written::toml(text), comment);
     }
 
     /// Reads and writes down the top of a case: name, title and model. Returns name and title.
