@@ -13,7 +13,7 @@ use crate::{Category, Severity};
 
 /// Attempted steps in one call, and in a second of its time, above which a call is said to take much work: fifty times
 /// what wedges and cars of ordinary cases take, and seconds of computing for a car.
-const EFFORT: [f64; 2] = [10_000.0, 50_000.0];
+const EFFORT: [f64; 2] = [5_000.0, 50_000.0];
 
 /// The kinds of warnings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
