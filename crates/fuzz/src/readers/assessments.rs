@@ -150,13 +150,16 @@ pub const CERTIFICATES: Reader = Reader {
     read: certificate,
 };
 
-/// Arguments of which the first are of the command line, and the others of its messages.
+/// Arguments, one a line.
 const WANTED: [&str; 4] = [
     "regime twist_and_roll\nspeed 20 mph..40 mph\ncondition new\ncondition worn\n",
     "regime hunting\nspeed 60 mph\nspeed 100 km/h\nlimits fra_213_333\n",
     "regime spiral\nset lading.kind=empty\nset simulation.duration=3 s\nset wheels.creep=fastsim\n",
     "regime constant_curve\nset front_truck.friction.column=0.3\nset name=\"a car\"\n",
 ];
+
+/// Most values of each argument.
+const MOST_ASKED: usize = 3;
 
 /// Runs, one a line: number, status, measures, and behind `#` the reason.
 const MEASURED: [&str; 3] = [
@@ -183,22 +186,19 @@ fn request_with(regimes: &[String], conditions: &[String], limits: &str) -> Requ
     }
 }
 
-/// Makes the certificate, and the case of its first and its last run.
-fn asked(request: &Request) -> Result<Certificate, ReadOutcome> {
-    let certificate = Certificate::new(request).map_err(|error| refused(&error))?;
+/// Makes the certificate, and the case of its last run.
+fn asked(request: &Request) -> ReadOutcome {
+    let certificate = match Certificate::new(request) {
+        Ok(certificate) => certificate,
+        Err(error) => return refused(&error),
+    };
     let count = certificate.study.count();
     assert!(count > 0, "no runs: {}", certificate.car);
-    for number in [0, count - 1] {
-        if let Err(error) = certificate.study.case(number) {
-            return Err(refused(&error));
-        }
-    }
     let _ = certificate.without_limits();
-    Ok(certificate)
-}
-
-fn outcome(asked: Result<Certificate, ReadOutcome>) -> ReadOutcome {
-    asked.err().unwrap_or(ReadOutcome::ACCEPTED)
+    match certificate.study.case(count - 1) {
+        Ok(_) => ReadOutcome::ACCEPTED,
+        Err(error) => refused(&error),
+    }
 }
 
 /// A file that is named on the command line; what is read of it is what its text says.
@@ -211,7 +211,10 @@ fn named<T: PartialEq>(
         Ok(found) => {
             let text = std::fs::read_to_string(file).unwrap_or_default();
             let again = parse(&file.display().to_string(), &text);
-            assert!(again.is_ok_and(|again| again == found), "another one: of its text");
+            assert!(
+                again.is_ok_and(|again| again == found),
+                "another one: of its text"
+            );
             None
         }
         Err(error) => Some(refused(&error)),
@@ -223,7 +226,11 @@ fn regime(input: &[u8]) -> ReadOutcome {
         if let Some(refused) = named(file, Regime::read, Regime::parse) {
             return refused;
         }
-        outcome(asked(&request_with(&[file.display().to_string()], &[], "aar_chapter_xi")))
+        let speeds = Regime::read(file).map_or_else(|_| Vec::new(), |own| own.speeds);
+        asked(&Request {
+            speeds: speeds.into_iter().take(1).collect(),
+            ..request_with(&[file.display().to_string()], &[], "aar_chapter_xi")
+        })
     })
 }
 
@@ -236,7 +243,11 @@ fn limits(input: &[u8]) -> ReadOutcome {
         for limit in &set.limits {
             assert!(limit.value.is_finite(), "not finite: {}", limit.name);
             let margin = limit.margin(limit.value);
-            assert!(margin == 0.0, "a margin at the limit itself: {margin}, {}", limit.name);
+            assert!(
+                margin == 0.0,
+                "a margin at the limit itself: {margin}, {}",
+                limit.name
+            );
             let _ = limit.regimes_in_words();
         }
         ReadOutcome::ACCEPTED
@@ -256,7 +267,11 @@ fn condition_file(input: &[u8]) -> ReadOutcome {
         if let Some(refused) = named(file, read, conditions::parse) {
             return refused;
         }
-        outcome(asked(&request_with(&["spiral".to_owned()], &names, "aar_chapter_xi")))
+        let speeds = speeds::parse(&["30 mph".to_owned()], 2).unwrap_or_default();
+        asked(&Request {
+            speeds,
+            ..request_with(&["spiral".to_owned()], &names, "aar_chapter_xi")
+        })
     })
 }
 
@@ -267,8 +282,8 @@ fn request(input: &[u8]) -> ReadOutcome {
     let values = |key: &str| -> Vec<String> {
         let lines = text.lines().filter_map(|line| line.split_once(' '));
         let own = lines.filter(|(own, _)| *own == key);
-        // A text of the command line has an end where a file of lines has none.
-        own.map(|(_, value)| value.to_owned()).take(100).collect()
+        // Each run of a certificate is a case that is read.
+        own.map(|(_, value)| value.to_owned()).take(MOST_ASKED).collect()
     };
     let speeds = match speeds::parse(&values("speed"), 3) {
         Ok(speeds) => speeds,
@@ -277,15 +292,19 @@ fn request(input: &[u8]) -> ReadOutcome {
     let rising = speeds.windows(2).all(|pair| pair[0].to_si() < pair[1].to_si());
     assert!(rising, "speeds in no order: {speeds:?}");
     let limits = values("limits").pop();
-    outcome(asked(&Request {
+    let mut regimes = values("regime");
+    if regimes.is_empty() {
+        regimes.push("spiral".to_owned());
+    }
+    asked(&Request {
         set: values("set"),
         speeds,
         ..request_with(
-            &values("regime"),
+            &regimes,
             &values("condition"),
             limits.as_deref().unwrap_or("aar_chapter_xi"),
         )
-    }))
+    })
 }
 
 /// A certificate of four runs.
@@ -328,7 +347,11 @@ fn gathered(
 ) -> Result<(StudyFolder, CertificateFindings), ReadOutcome> {
     let refused = |error| ReadOutcome::refused(&error);
     let study = StudyFolder::open(folder, &certificate.study).map_err(refused)?;
-    for own in text.lines().take(100).filter_map(|line| record(certificate, line)) {
+    for own in text
+        .lines()
+        .take(100)
+        .filter_map(|line| record(certificate, line))
+    {
         study.keep(&own).map_err(refused)?;
     }
     for number in study.missing(0).map_err(refused)? {
@@ -351,7 +374,10 @@ fn assessed(input: &[u8]) -> ReadOutcome {
             Err(refused) => return refused,
         };
         let counts: usize = findings.counts().iter().sum();
-        assert!(counts == findings.verdicts.len(), "a verdict without a word: {counts}");
+        assert!(
+            counts == findings.verdicts.len(),
+            "a verdict without a word: {counts}"
+        );
         for own in &findings.verdicts {
             let told = own.worst.as_ref().is_some_and(|worst| worst.margin.is_nan());
             assert!(!told, "a margin that is no number: {}", own.word());
@@ -378,7 +404,9 @@ fn assessed(input: &[u8]) -> ReadOutcome {
 /// The findings beside which certificates are shown.
 static FINDINGS: LazyLock<Option<CertificateFindings>> = LazyLock::new(|| {
     let folder = tempfile::tempdir().ok()?;
-    gathered(SMALL.as_ref()?, MEASURED[0], folder.path()).ok().map(|(_, found)| found)
+    gathered(SMALL.as_ref()?, MEASURED[0], folder.path())
+        .ok()
+        .map(|(_, found)| found)
 });
 
 fn certificate_corpus() -> Vec<Vec<u8>> {

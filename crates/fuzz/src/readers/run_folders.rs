@@ -82,10 +82,7 @@ fn put(text: &str, folder: &Path) -> std::io::Result<()> {
 }
 
 /// Returns the folder of the first rows of a case's run as a text, with its page if one is rendered.
-fn folder_of<C: RunFiles>(
-    case: &C,
-    page: impl FnOnce(C::Output) -> Option<String>,
-) -> Option<Vec<u8>> {
+fn folder_of<C: RunFiles>(case: &C, page: impl FnOnce(C::Output) -> Option<String>) -> Option<Vec<u8>> {
     let folder = tempfile::tempdir().ok()?;
     let files = Folder::check(folder.path(), &case.names(), true).ok()?;
     case.write(&files, &Run::new(case).ok()?.finish(|_| ())).ok()?;
@@ -97,15 +94,22 @@ fn folder_of<C: RunFiles>(
 
 fn corpus() -> Vec<Vec<u8>> {
     let wedge = models::wedge().and_then(|case| {
-        folder_of(case, |result| page::wedge_run::render(&(case.clone(), result)).ok())
+        folder_of(case, |result| {
+            page::wedge_run::render(&(case.clone(), result)).ok()
+        })
     });
     let truck = models::truck().and_then(|case| folder_of(case, |_| None));
     let half_truck = models::half_truck().and_then(|case| {
-        folder_of(case, |result| page::half_truck_run::render(case, &result, None).ok())
+        folder_of(case, |result| {
+            page::half_truck_run::render(case, &result, None).ok()
+        })
     });
     let car = models::car().and_then(|case| folder_of(case, |_| None));
     let wheelset = models::wheelset().and_then(|case| folder_of(case, |_| None));
-    [wedge, truck, half_truck, car, wheelset].into_iter().flatten().collect()
+    [wedge, truck, half_truck, car, wheelset]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// The run of a wedge beside which others are shown.
@@ -139,7 +143,11 @@ fn reported(folder: &Path, other: &RunFolder) -> ReadOutcome {
         let _ = ReadOutcome::refused_with(&told);
     }
     for number in run.key_numbers() {
-        assert!(!number.value.value.is_nan(), "a key number that is none: {}", number.what);
+        assert!(
+            !number.value.value.is_nan(),
+            "a key number that is none: {}",
+            number.what
+        );
     }
     for runs in [vec![run.clone()], vec![other.clone(), run]] {
         let links: Vec<String> = runs.iter().map(|_| "../run/".to_owned()).collect();

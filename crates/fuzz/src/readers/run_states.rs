@@ -18,7 +18,11 @@ macro_rules! reader {
         #[doc = concat!("Saved states of ", $of, ".")]
         pub const $constant: Reader = Reader {
             name: $name,
-            about: concat!("saved states of ", $of, ", and three steps of the integrator from there"),
+            about: concat!(
+                "saved states of ",
+                $of,
+                ", and three steps of the integrator from there"
+            ),
             corpus: || $case().map_or_else(Vec::new, corpus),
             dictionary: DICTIONARY,
             read: |input| $case().map_or(ReadOutcome::NO_TEXT, |case| read(case, input)),
@@ -28,9 +32,19 @@ macro_rules! reader {
 
 reader!(WEDGES, "run_states", "runs of wedges", models::wedge);
 reader!(TRUCKS, "truck_states", "runs of trucks", models::truck);
-reader!(HALF_TRUCKS, "half_truck_states", "runs of half-trucks", models::half_truck);
+reader!(
+    HALF_TRUCKS,
+    "half_truck_states",
+    "runs of half-trucks",
+    models::half_truck
+);
 reader!(CARS, "car_states", "runs of cars", models::car);
-reader!(WHEELSETS, "wheelset_states", "runs of wheelsets", models::wheelset);
+reader!(
+    WHEELSETS,
+    "wheelset_states",
+    "runs of wheelsets",
+    models::wheelset
+);
 
 /// States along a run, each in its file. The files have the name of the case in place of its text, so that
 /// what is mutated is the state.

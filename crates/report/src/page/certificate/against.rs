@@ -163,8 +163,14 @@ mod tests {
         for (text, expected) in [
             (&cut[..cut.len() - 3], "line 2"),
             (&document("7"), "expected a sequence"),
-            (&document(&format!("[{}]", VERDICT.replace("0.1", "\"0.1\""))), "expected f64"),
-            ("{\"schema\": \"wedgelab.certificate/1\", \"car\": \"a\"}", "missing field `verdicts`"),
+            (
+                &document(&format!("[{}]", VERDICT.replace("0.1", "\"0.1\""))),
+                "expected f64",
+            ),
+            (
+                "{\"schema\": \"wedgelab.certificate/1\", \"car\": \"a\"}",
+                "missing field `verdicts`",
+            ),
             ("{\"schema\": \"\\u001b[31m\"}", "its schema is \"?[31m\""),
             ("PAR1", "a certificate is expected"),
         ] {
