@@ -154,7 +154,7 @@ pub const CERTIFICATES: Reader = Reader {
 const WANTED: [&str; 4] = [
     "regime twist_and_roll\nspeed 20 mph..40 mph\ncondition new\ncondition worn\n",
     "regime hunting\nspeed 60 mph\nspeed 100 km/h\nlimits fra_213_333\n",
-    "regime spiral\nset lading.kind=empty\nset simulation.duration=3 s\nset wheels.creep=fastsim\n",
+    "regime spiral\nset lading.kind=empty\nset wheels.creep=fastsim\n",
     "regime constant_curve\nset front_truck.friction.column=0.3\nset name=\"a car\"\n",
 ];
 

@@ -238,7 +238,7 @@ fn measured_corpus() -> Vec<Vec<u8>> {
         "distance [ft],left_profile [in],right_profile_offset_62_ft_in,gauge [in]\n,down,up,wide\n"
             .to_owned();
     let mut line = "distance_ft;degree_of_curve;superelevation_in;grade\n".to_owned();
-    for k in 0..40 {
+    for k in 0..80 {
         rails += &format!("{k},0.{k},-0.1,56.{k}\n");
         line += &format!("{};{k};0.1;0.01\n", 10 * k);
     }
@@ -248,11 +248,11 @@ fn measured_corpus() -> Vec<Vec<u8>> {
 /// Track files that take a table beside them, of which each table is one or the other.
 const WITH_TABLES: [&str; 4] = [
     "segments = [{ tangent = \"30 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\nform = \"space_curve\"\n\
-     beyond = \"level\"\n",
+     taper = \"10 ft\"\nbeyond = \"level\"\n",
     "segments = [{ tangent = \"30 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\nform = \"space_curve\"\n\
-     signs = \"usual\"\nstart = \"3 ft\"\ntaper = \"10 ft\"\n",
+     signs = \"usual\"\nstart = \"3 ft\"\ntaper = \"3 ft\"\n",
     "segments = [{ tangent = \"100 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\nform = \"mid_chord\"\n\
-     chord = \"62 ft\"\nshortest = \"36 ft\"\nlongest = \"330 ft\"\nbeyond = \"level\"\n",
+     chord = \"62 ft\"\nshortest = \"36 ft\"\nlongest = \"70 ft\"\ntaper = \"10 ft\"\nbeyond = \"level\"\n",
     "[center_line]\ntable = \"table.csv\"\nsigns = \"usual\"\n",
 ];
 
