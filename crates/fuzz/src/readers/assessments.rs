@@ -166,7 +166,7 @@ const MEASURED: [&str; 3] = [
     "0 complete body_roll_peak_to_peak=0.05 largest_l_over_v=0.6 ledger_residual=1e-4\n\
      1 complete body_roll_peak_to_peak=0.2 largest_l_over_v=0.9 ledger_residual=1e-4\n\
      2 stopped # it stopped\n3 refused # its values make no car\n",
-    "0 derailed derailed=1 end_distance=120.5 body_roll_peak_to_peak=0.15 ledger_residual=1e-3 # a wheel left\n\
+    "0 derailed derailed=1 end_distance=120.5 body_roll_peak_to_peak=0.15 ledger_residual=1e-3 # left\n\
      1 failed ledger_residual=0.5\n2 complete\n3 complete least_wheel_load=0.05\n",
     "",
 ];

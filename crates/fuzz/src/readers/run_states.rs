@@ -1,5 +1,5 @@
-//! Saved states of runs of every model, as `wedgelab run --continue` reads them. What is accepted goes on for a
-//! few steps, and can be saved and continued again.
+//! Saved states of runs of every model, as `wedgelab run --continue` reads them. What is accepted goes on for
+//! a few steps, and can be saved and continued again.
 
 use std::fmt::Debug;
 

@@ -247,10 +247,10 @@ fn measured_corpus() -> Vec<Vec<u8>> {
 
 /// Track files that take a table beside them, of which each table is one or the other.
 const WITH_TABLES: [&str; 4] = [
-    "segments = [{ tangent = \"30 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\nform = \"space_curve\"\n\
-     taper = \"10 ft\"\nbeyond = \"level\"\n",
-    "segments = [{ tangent = \"30 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\nform = \"space_curve\"\n\
-     signs = \"usual\"\nstart = \"3 ft\"\ntaper = \"3 ft\"\n",
+    "segments = [{ tangent = \"30 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\n\
+     form = \"space_curve\"\ntaper = \"10 ft\"\nbeyond = \"level\"\n",
+    "segments = [{ tangent = \"30 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\n\
+     form = \"space_curve\"\nsigns = \"usual\"\nstart = \"3 ft\"\ntaper = \"3 ft\"\n",
     "segments = [{ tangent = \"100 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\nform = \"mid_chord\"\n\
      chord = \"62 ft\"\nshortest = \"36 ft\"\nlongest = \"70 ft\"\ntaper = \"10 ft\"\nbeyond = \"level\"\n",
     "[center_line]\ntable = \"table.csv\"\nsigns = \"usual\"\n",

@@ -1,5 +1,5 @@
-//! Saved states of runs as files: JSON with the schema, the case as it is printed, and the state, every number
-//! with all of its bits. A state belongs to its case: a run of another one does not go on from it.
+//! Saved states of runs as files: JSON with the schema, the case as it is printed, and the state, every
+//! number with all of its bits. A state belongs to its case: a run of another one does not go on from it.
 
 use std::path::Path;
 
