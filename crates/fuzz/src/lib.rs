@@ -8,8 +8,7 @@
 //! these three.
 //!
 //! The program `fuzz` (`cargo xtask fuzz`) runs readers in processes of their own, so that aborts, overflows
-//! of the stack, hangs and memory are seen too. The folder `fuzz` of the repository has the same readers as
-//! targets of libFuzzer.
+//! of the stack, hangs and memory are seen too.
 
 pub mod inputs;
 pub mod limits;

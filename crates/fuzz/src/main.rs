@@ -12,7 +12,6 @@ macro_rules! say {
     }};
 }
 
-mod corpus;
 mod finding;
 mod folder;
 mod parent;
@@ -80,10 +79,6 @@ struct Cli {
     /// Folder for the inputs of findings
     #[arg(long, value_name = "DIR")]
     save: Option<PathBuf>,
-    /// Write the corpora of the readers and their dictionaries into a folder, as libFuzzer takes them, and
-    /// stop
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["seconds", "executions", "repeat"])]
-    corpus: Option<PathBuf>,
     /// Show one input and run it
     #[arg(long, value_name = "READER:SEED:NUMBER", conflicts_with_all = ["seconds", "executions", "reader"])]
     repeat: Option<Address>,
@@ -145,12 +140,6 @@ impl Cli {
     fn execute(self) -> Result<bool, String> {
         if let Some(address) = &self.repeat {
             return repeat::repeat(address, self.patience()?, self.shorten, self.save.as_deref());
-        }
-        if let Some(folder) = &self.corpus {
-            let written = corpus::write(&self.readers()?, folder);
-            return written
-                .map(|()| true)
-                .map_err(|error| format!("{} cannot be written to: {error}", folder.display()));
         }
         let plan = self.plan()?;
         let results = parent::run(&plan, &|result| {

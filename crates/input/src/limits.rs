@@ -42,6 +42,12 @@ pub const CASE_ROWS: usize = 300_000;
 /// Most parameters that a study varies, and most that it sets for all runs.
 pub const FACTORS: usize = 100;
 
+/// Most limits in a file of them: each is compared with all before it.
+pub const LIMITS: usize = 1000;
+
+/// Most conditions in a file of them: each is tried on a car, which takes some hundredths of a second.
+pub const CONDITIONS: usize = 100;
+
 /// Longest text of one quantity, number and unit together, in bytes.
 pub const QUANTITY: usize = 256;
 

@@ -101,13 +101,14 @@ impl Quantity {
         if trimmed.is_empty() {
             return Err(UnitError::Empty { expected });
         }
+        let too_long = || UnitError::BadNumber {
+            text: shortened(trimmed),
+            reason: format!("it has more than {} characters", limits::QUANTITY),
+            expected,
+            span: 0..text.len(),
+        };
         if text.len() > limits::QUANTITY {
-            return Err(UnitError::BadNumber {
-                text: shortened(trimmed),
-                reason: format!("it has more than {} characters", limits::QUANTITY),
-                expected,
-                span: 0..text.len(),
-            });
+            return Err(too_long());
         }
         let end = start + number_length(trimmed);
         let number = &text[start..end];
@@ -120,6 +121,11 @@ impl Quantity {
             span: start..end,
         };
         let value: f64 = number.parse().map_err(|_| not_finite())?;
+        // Written with a blank between number and unit it must be read again.
+        let written = number.len() + 1 + rest.trim().len();
+        if written > limits::QUANTITY {
+            return Err(too_long());
+        }
         if rest.trim().is_empty() {
             let number = shortened(number);
             return Err(UnitError::MissingUnit {

@@ -67,3 +67,17 @@ fn issue_029_numbers_are_written_in_short_and_read_back() {
         assert_eq!(text.parse::<f64>().unwrap().to_bits(), value.to_bits());
     }
 }
+
+/// A blank is written between number and unit: what had none, and was as long as may be, was refused then.
+#[test]
+fn issue_048_the_longest_quantities_are_read_as_written() {
+    let most = input::limits::QUANTITY;
+    for length in [most - 1, most] {
+        let text = format!("1979(lbf/in{})", " ".repeat(length - 12));
+        assert_eq!(text.len(), length);
+        match Quantity::parse(&text) {
+            Ok(quantity) => assert!(Quantity::parse(&quantity.to_string()).is_ok(), "{length}"),
+            Err(error) => assert!(length == most && error.to_string().contains("256"), "{error}"),
+        }
+    }
+}

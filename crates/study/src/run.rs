@@ -27,6 +27,7 @@ use crate::summary::Stopped;
 mod check;
 mod pressed;
 mod row_table;
+pub mod saved;
 mod state;
 mod summarize;
 pub(crate) mod wedge_run;

@@ -7,9 +7,11 @@ use miette::{Diagnostic, MietteHandlerOpts, Report};
 use nucars::file_sets::LoadError;
 use report::comparison::ComparisonError;
 use report::files::FileError;
+use report::page::certificate::AgainstError;
 use report::run_folder::RunFolderError;
 use report::table::TableError;
 use study::case::CaseError;
+use study::run::saved::SavedStateError;
 use thiserror::Error;
 
 use crate::interrupt;
@@ -71,6 +73,18 @@ impl From<TableError> for Failure {
 
 impl From<RunFolderError> for Failure {
     fn from(error: RunFolderError) -> Self {
+        Self::Input(error.into())
+    }
+}
+
+impl From<SavedStateError> for Failure {
+    fn from(error: SavedStateError) -> Self {
+        Self::Input(error.into())
+    }
+}
+
+impl From<AgainstError> for Failure {
+    fn from(error: AgainstError) -> Self {
         Self::Input(error.into())
     }
 }

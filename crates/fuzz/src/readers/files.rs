@@ -17,7 +17,7 @@ pub const FILES: Reader = Reader {
         b"MATLAB 5.0 MAT-file",
         b"PK\x03\x04",
         b"PAR1",
-        b"WLR1",
+        b"WLR2",
         b"\x89PNG",
         b"%PDF-",
         b"\x7fELF",

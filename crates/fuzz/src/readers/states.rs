@@ -1,4 +1,4 @@
-//! Saved states: of driven wedges, of runs, of instances of FMUs. What is accepted goes on for a few steps.
+//! Saved states: of driven wedges, of instances of FMUs. What is accepted goes on for a few steps.
 
 use std::sync::LazyLock;
 
@@ -8,13 +8,11 @@ use fmi::half_truck::HalfTruck;
 use fmi::instance::{Instance, Saved};
 use fmi::source::Source;
 use serde::Deserialize;
-use study::case::{Case, builtin};
 use study::half_truck::files::Settings;
 use study::progress::most_attempts;
-use study::run::{Counts, Run, RunState};
 use study::stepping::{Neighbours, SteppedState, SteppedWedge};
 
-use super::{ReadOutcome, Reader};
+use super::{ReadOutcome, Reader, models};
 
 /// States of driven wedges.
 pub const DRIVEN: Reader = Reader {
@@ -23,15 +21,6 @@ pub const DRIVEN: Reader = Reader {
     corpus: driven_corpus,
     dictionary: DICTIONARY,
     read: driven,
-};
-
-/// States of runs.
-pub const RUN_STATES: Reader = Reader {
-    name: "run_states",
-    about: "saved states of runs, and three steps of the integrator from there",
-    corpus: run_corpus,
-    dictionary: DICTIONARY,
-    read: run_state,
 };
 
 /// States of instances of FMUs.
@@ -43,7 +32,7 @@ pub const INSTANCES: Reader = Reader {
     read: instance,
 };
 
-const DICTIONARY: &[&[u8]] = &[
+pub(super) const DICTIONARY: &[&[u8]] = &[
     b"null",
     b"true",
     b"false",
@@ -69,17 +58,13 @@ const DICTIONARY: &[&[u8]] = &[
 
 /// Steps that are made from a state.
 const STEPS: usize = 3;
+/// Most attempts of one step of the integrator: each halves it at least, down to the resolution of time.
+const ATTEMPTS_OF_A_STEP: u64 = 60;
 /// Length of a driven step, s.
 const STEP: f64 = 1e-3;
 
-/// A short run of a yawed wedge.
-static CASE: LazyLock<Option<Case>> = LazyLock::new(|| {
-    let set = ["simulation.duration=0.02 s", "simulation.output_interval=0.002 s"];
-    builtin::case_with("cdrun_toe_out_0.2_psi_0.012", &set.map(str::to_owned)).ok()
-});
-
 fn driven_corpus() -> Vec<Vec<u8>> {
-    let Some(case) = CASE.as_ref() else {
+    let Some(case) = models::wedge() else {
         return Vec::new();
     };
     let mut states = Vec::new();
@@ -101,7 +86,7 @@ fn driven_corpus() -> Vec<Vec<u8>> {
 }
 
 fn driven(input: &[u8]) -> ReadOutcome {
-    let Some(case) = CASE.as_ref() else {
+    let Some(case) = models::wedge() else {
         return ReadOutcome::NO_TEXT;
     };
     let state = match SteppedState::from_bytes(input) {
@@ -121,8 +106,11 @@ fn driven(input: &[u8]) -> ReadOutcome {
         let (time, before) = (wedge.time() + STEP, attempts(&wedge));
         let stepped = wedge.step_to(&Neighbours::of(&case.parameters, time), time);
         let took = attempts(&wedge).saturating_sub(before);
-        // The step that exceeds the number is made.
-        assert!(took <= most_attempts(STEP) + 1, "too many attempts: {took}");
+        // The step that exceeds the number is made, with the attempts that it takes.
+        assert!(
+            took <= most_attempts(STEP) + ATTEMPTS_OF_A_STEP,
+            "too many attempts: {took}"
+        );
         all.attempts += took;
         if let Err(error) = stepped {
             all = all.or(ReadOutcome::refused_with(&error.to_string()));
@@ -139,50 +127,6 @@ fn driven(input: &[u8]) -> ReadOutcome {
 fn attempts(wedge: &SteppedWedge) -> u64 {
     let statistics = wedge.statistics();
     statistics.steps + statistics.rejected()
-}
-
-fn run_corpus() -> Vec<Vec<u8>> {
-    let Some(mut run) = CASE.as_ref().and_then(|case| Run::new(case).ok()) else {
-        return Vec::new();
-    };
-    let mut states = Vec::new();
-    for _ in 0..=STEPS {
-        states.extend(serde_json::to_vec(&run.state()));
-        for _ in 0..10 {
-            if run.is_finished() || run.advance().is_err() {
-                return states;
-            }
-        }
-    }
-    states
-}
-
-fn run_state(input: &[u8]) -> ReadOutcome {
-    let Some(case) = CASE.as_ref() else {
-        return ReadOutcome::NO_TEXT;
-    };
-    let state: RunState<Counts> = match serde_json::from_slice(input) {
-        Ok(state) => state,
-        // Whoever shows what serde says of a damaged text cuts it.
-        Err(error) => return ReadOutcome::refused_with(&input::bounded(error.to_string())),
-    };
-    let mut run = match Run::resume(case, state) {
-        Ok(run) => run,
-        Err(error) => return ReadOutcome::refused_with(&error.to_string()),
-    };
-    let mut all = ReadOutcome::ACCEPTED;
-    for _ in 0..STEPS {
-        if run.is_finished() {
-            break;
-        }
-        if let Err(error) = run.advance() {
-            all = all.or(ReadOutcome::refused_with(&error.to_string()));
-            break;
-        }
-    }
-    let _ = run.state();
-    let _ = run.result(None);
-    all
 }
 
 /// The FMUs whose states are read.
@@ -205,7 +149,7 @@ fn new_instance(place: usize) -> Option<Instance> {
     let (model, version, interface) = MODELS[place];
     let source = match model {
         FmuModel::HalfTruck => Source::HalfTruck(Box::new(HALF_TRUCK.as_ref()?.clone())),
-        _ => Source::of_case(model, CASE.as_ref()?.clone())?,
+        _ => Source::of_case(model, models::wedge()?.clone())?,
     };
     Instance::of("fuzz", None, source, version, interface).ok()
 }

@@ -64,9 +64,9 @@ pub const RECORDS: Reader = Reader {
     about: "records of a study's runs, and bodies of records",
     corpus: record_corpus,
     dictionary: &[
-        b"WLR1",
-        b"WLR1\xff\xff\xff\xff",
-        b"WLR1\x00\x10\x00\x00\x00\x00\x00\x00",
+        b"WLR2",
+        b"WLR2\xff\xff\xff\xff",
+        b"WLR2\x00\x10\x00\x00\x00\x00\x00\x00",
         b"\xff\xff\xff\xff",
         b"\x00\x00\x00\x00",
     ],
@@ -228,6 +228,8 @@ fn points_file(input: &[u8]) -> ReadOutcome {
 }
 
 const FINGERPRINT: u64 = 42;
+/// The beginning of a record.
+const MAGIC: &[u8] = b"WLR2";
 
 fn record(number: u64, status: Status, reason: &str) -> Record {
     let mut measures = Measures(vec![f64::NAN; of_wedges().len()]);
@@ -265,6 +267,15 @@ fn record_corpus() -> Vec<Vec<u8>> {
     ]
 }
 
+/// Returns a body as a record whose checksum is right.
+fn framed(body: &[u8]) -> Vec<u8> {
+    let mut framed = MAGIC.to_vec();
+    framed.extend((body.len() as u32).to_le_bytes());
+    framed.extend(crc32fast::hash(body).to_le_bytes());
+    framed.extend(body);
+    framed
+}
+
 fn record_bytes(input: &[u8]) -> ReadOutcome {
     let found = records::read(FINGERPRINT, input);
     assert!(found.lost <= input.len(), "too much lost: {}", found.lost);
@@ -283,15 +294,27 @@ fn record_bytes(input: &[u8]) -> ReadOutcome {
         "other records: written and read again"
     );
     // As the body of a record whose checksum is right.
-    let mut framed = b"WLR1".to_vec();
-    framed.extend((input.len() as u32).to_le_bytes());
-    framed.extend(crc32fast::hash(input).to_le_bytes());
-    framed.extend(input);
-    let framed = records::read(FINGERPRINT, &framed);
+    let framed = records::read(FINGERPRINT, &framed(input));
     assert!(framed.records.len() <= 1 + found.records.len(), "records made up");
     ReadOutcome {
         accepted: !found.records.is_empty(),
         message: 0,
         attempts: 0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn issue_048_framed_bodies_are_records() {
+        let mut bytes = Vec::new();
+        record(3, Status::Complete, "").write(FINGERPRINT, &mut bytes);
+        assert!(bytes.starts_with(MAGIC));
+        let body = &bytes[12..];
+        assert!(!record_bytes(body).accepted, "a body alone is no record");
+        assert_eq!(framed(body).len(), bytes.len());
+        assert_eq!(framed(body), bytes);
     }
 }

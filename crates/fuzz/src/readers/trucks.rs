@@ -1,13 +1,14 @@
 //! Trucks, cars, tracks and profiles of wheels and rails.
 
+use report::track_files::Survey;
 use study::car::{self, CarCase};
 use study::track::TrackFile;
 use study::truck::{TruckCase, builtin};
 use wheelrail::profile::{Points, Profile, ProfileKind};
-use wheelrail::track::{Form, MeasuredTable, Reading};
+use wheelrail::track::Track;
 
 use super::cases::{messages, refused};
-use super::{ReadOutcome, Reader, nowhere, refused_as_written};
+use super::{ReadOutcome, Reader, in_file, nowhere, refused_as_written};
 
 /// Cases of trucks.
 pub const TRUCKS: Reader = Reader {
@@ -237,49 +238,55 @@ fn measured_corpus() -> Vec<Vec<u8>> {
         "distance [ft],left_profile [in],right_profile_offset_62_ft_in,gauge [in]\n,down,up,wide\n"
             .to_owned();
     let mut line = "distance_ft;degree_of_curve;superelevation_in;grade\n".to_owned();
-    for k in 0..40 {
+    for k in 0..80 {
         rails += &format!("{k},0.{k},-0.1,56.{k}\n");
         line += &format!("{};{k};0.1;0.01\n", 10 * k);
     }
     vec![rails.into_bytes(), line.into_bytes()]
 }
 
+/// Track files that take a table beside them, of which each table is one or the other.
+const WITH_TABLES: [&str; 4] = [
+    "segments = [{ tangent = \"30 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\n\
+     form = \"space_curve\"\ntaper = \"10 ft\"\nbeyond = \"level\"\n",
+    "segments = [{ tangent = \"30 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\n\
+     form = \"space_curve\"\nsigns = \"usual\"\nstart = \"3 ft\"\ntaper = \"3 ft\"\n",
+    "segments = [{ tangent = \"100 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\nform = \"mid_chord\"\n\
+     chord = \"62 ft\"\nshortest = \"36 ft\"\nlongest = \"70 ft\"\ntaper = \"10 ft\"\nbeyond = \"level\"\n",
+    "[center_line]\ntable = \"table.csv\"\nsigns = \"usual\"\n",
+];
+
 fn measured(input: &[u8]) -> ReadOutcome {
-    let Ok(text) = std::str::from_utf8(input) else {
-        return ReadOutcome::NO_TEXT;
-    };
-    let read = |signs_known| {
-        let reading = Reading {
-            signs_known,
-            ..Reading::default()
-        };
-        let table = MeasuredTable::parse("table.csv", text, reading)?;
-        let forms = [
-            Form::SpaceCurve,
-            Form::MidChord {
-                chord: 18.8976,
-                wavelengths: [11.0, 100.0],
-            },
-        ];
-        for form in forms {
-            for placed in table.irregularities(form, 0.0, 1.0).into_iter().flatten() {
-                if let wheelrail::track::Irregularity::Samples(samples) = &placed.irregularity {
-                    let [first, last] = samples.range();
-                    let at = samples.at(0.5 * (first + last));
-                    assert!(at[0].is_finite(), "no value in {first} to {last} m");
-                }
+    in_file("table.csv", input, |table| {
+        let file = table.with_file_name("track.toml");
+        let read = |text: &&str| {
+            if std::fs::write(&file, text).is_err() {
+                return ReadOutcome::NO_TEXT;
             }
-        }
-        if let Ok(line) = table.center_line(1.5) {
-            let station = line.at(0.5 * line.length());
-            assert!(station.position.iter().all(|own| own.is_finite()), "no place");
-        }
-        Ok(ReadOutcome::ACCEPTED)
-    };
-    let refused = |error: wheelrail::track::MeasuredError| {
-        ReadOutcome::refused_with(&format!("{error}; {}", error.remedy()))
-    };
-    read(true).or_else(|_| read(false)).unwrap_or_else(refused)
+            match TrackFile::read(&file) {
+                Ok(file) => shown(&file.track),
+                Err(error) => refused(&error),
+            }
+        };
+        WITH_TABLES
+            .iter()
+            .map(read)
+            .fold(ReadOutcome::NO_TEXT, ReadOutcome::or)
+    })
+}
+
+/// What `wedgelab track show` shows of a track has numbers.
+fn shown(track: &Track) -> ReadOutcome {
+    let interval = (track.center_line.length() / 20.0).max(1e-3);
+    let mut table = Vec::new();
+    assert!(
+        Survey::new(track, interval).write(&mut table).is_ok(),
+        "no table: of a track"
+    );
+    let text = String::from_utf8_lossy(&table);
+    let none = ["NaN", "nan", "inf"].into_iter().find(|word| text.contains(word));
+    assert!(none.is_none(), "not finite: {none:?} in the table of a track");
+    ReadOutcome::ACCEPTED
 }
 
 fn profile_corpus() -> Vec<Vec<u8>> {

@@ -15,6 +15,10 @@ use crate::study_folder::TABLE_FILE;
 use crate::view::View;
 use crate::view::run::{Detail, Recording};
 
+pub use against::{Against, AgainstError, Other};
+
+mod against;
+
 /// The page's file name.
 pub const FILE_NAME: &str = super::FILE_NAME;
 /// The duration around the worst value that is shown moving, s.
@@ -33,26 +37,6 @@ pub struct WorstRun {
     pub folder: String,
     /// The start of the worst, s, and its name.
     pub worst: Option<(f64, String)>,
-}
-
-/// The verdict of another certificate on a limit.
-#[derive(Clone, Debug)]
-pub struct Other {
-    /// Regime, condition, limit.
-    pub key: [String; 3],
-    /// The worst value, in the limit's unit.
-    pub value: f64,
-    /// The margin, in parts of the limit.
-    pub margin: f64,
-}
-
-/// Another certificate, beside which this one is shown.
-#[derive(Clone, Debug)]
-pub struct Against {
-    /// Its car and folder, in words.
-    pub name: String,
-    /// Its criteria.
-    pub others: Vec<Other>,
 }
 
 /// Returns the page as HTML; it needs nothing else to be shown.
@@ -202,8 +186,7 @@ fn limits(
             &certificate.conditions[own.condition].name,
             &certificate.limits.limits[own.limit].name,
         ];
-        let found = against?.others.iter().find(|other| other.key.iter().eq(key));
-        found.map(|other| (other.value, other.margin))
+        against?.others.iter().find(|other| other.key.iter().eq(key))
     };
     html! {
         div.wide {
@@ -248,9 +231,9 @@ fn limits(
                             td { (said(own)) }
                             @if against.is_some() {
                                 @match other(own) {
-                                    Some((number, margin)) => {
-                                        td.number { (value(number, &limit.unit)) }
-                                        td.number { (percent(margin)) }
+                                    Some(other) => {
+                                        td.number { (value(other.value, &other.unit)) }
+                                        td.number { (percent(other.margin)) }
                                     }
                                     None => { td.number { "–" } td.number { "–" } }
                                 }
@@ -400,38 +383,4 @@ pub fn worst_second(certificate: &Certificate, regime: usize, run: &CarRun) -> O
     });
     let least = found.min_by(|a, b| a.0.total_cmp(&b.0));
     least.map(|(_, time, what)| (time, what))
-}
-
-/// Reads what another certificate says.
-///
-/// # Errors
-/// It is none, or of another version.
-pub fn against(name: &str, document: &serde_json::Value) -> Result<Against, String> {
-    let text = |value: &serde_json::Value, key: &str| {
-        value
-            .get(key)
-            .and_then(|own| own.as_str())
-            .unwrap_or_default()
-            .to_owned()
-    };
-    let schema = text(document, "schema");
-    if schema != crate::certificate_files::SCHEMA {
-        return Err(format!(
-            "its schema is \"{schema}\"; {} is expected",
-            crate::certificate_files::SCHEMA
-        ));
-    }
-    let verdicts = document.get("verdicts").and_then(|own| own.as_array());
-    let others = verdicts.into_iter().flatten().filter_map(|own| {
-        let worst = own.get("worst")?;
-        Some(Other {
-            key: ["regime", "condition", "limit"].map(|key| text(own, key)),
-            value: worst.get("value")?.as_f64()?,
-            margin: worst.get("margin")?.as_f64()?,
-        })
-    });
-    Ok(Against {
-        name: format!("{} ({name})", text(document, "car")),
-        others: others.collect(),
-    })
 }

@@ -20,6 +20,9 @@ use crate::case::{self, CaseError, overrides};
 use crate::design::{Study, StudySource, Value};
 use crate::records::{Record, Status};
 
+/// The name of the study's text, which is made here.
+const STUDY: &str = "certificate.toml";
+
 /// The request.
 #[derive(Clone, Debug)]
 pub struct Request {
@@ -124,11 +127,12 @@ impl Certificate {
         let (source, car) = car(request)?;
         let text = text(&regimes, &conditions, request, &car)?;
         let study = Study::of_source(StudySource {
-            name: "certificate.toml".to_owned(),
+            name: STUDY.to_owned(),
             text,
             folder: PathBuf::new(),
             case: source,
-        })?;
+        });
+        let study = study.map_err(|error| CaseError::new(error.into_problems().map(of_parts)))?;
         Ok(Self {
             car: car.name().to_owned(),
             study,
@@ -365,6 +369,18 @@ fn no_car(path: &Path) -> CaseError {
         .into()
 }
 
+/// Returns a mistake in the study's text, which nobody wrote, as one of what that was made of.
+fn of_parts(problem: Problem) -> Problem {
+    if problem.source_name() != Some(STUDY) {
+        return problem;
+    }
+    let message = format!("regimes, conditions and --set do not fit: {}", problem.message());
+    Problem::new(message).help(
+        "a key is set by one of them: take it out of the others, or name other regimes or conditions; of \
+         speed, duration and settling each regime takes care",
+    )
+}
+
 /// Writes the study.
 fn text(
     regimes: &[Regime],
@@ -417,4 +433,32 @@ fn text(
         lines(&mut text, &condition.set);
     }
     Ok(text + &rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn issue_048_what_does_not_fit_is_not_shown_in_a_text_that_nobody_wrote() {
+        let request = |set: &str, condition: &str| Request {
+            car: PathBuf::from("car_tangent_loaded"),
+            set: vec![set.to_owned()],
+            regimes: vec!["spiral".to_owned()],
+            speeds: Vec::new(),
+            conditions: vec![condition.to_owned()],
+            limits: "aar_chapter_xi".to_owned(),
+        };
+        for (set, condition) in [
+            ("simulation.duration=3 s", "as_given"),
+            ("start.settle=1 s", "as_given"),
+        ] {
+            let error = Certificate::new(&request(set, condition)).unwrap_err();
+            for problem in error.problems() {
+                assert_eq!(problem.source_name(), None, "{problem}");
+                assert!(problem.message().contains("--set"), "{problem}");
+                assert!(problem.advice().is_some(), "{problem}");
+            }
+        }
+    }
 }

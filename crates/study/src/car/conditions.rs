@@ -11,6 +11,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use input::FileType;
+use input::limits::CONDITIONS as MOST;
 
 use super::CarCase;
 use super::named::{self, BuiltInOrFile, find};
@@ -124,6 +125,16 @@ fn conditions(tree: &TableNode, problems: &mut Problems) -> Vec<Condition> {
     let Some(section) = top.section("conditions", problems) else {
         return Vec::new();
     };
+    let count = section.table.entries.len();
+    if count > MOST {
+        let message = format!("`conditions` has {count} conditions; at most {MOST} are read");
+        let problem = Problem::new(message).help("write several files, and a certificate with each");
+        problems.push(match section.place {
+            Some(place) => problem.at(&place).label("too many"),
+            None => problem,
+        });
+        return Vec::new();
+    }
     let mut found = Vec::new();
     for entry in &section.table.entries {
         let NodeValue::Table(table) = &entry.node.value else {
@@ -155,4 +166,24 @@ fn conditions(tree: &TableNode, problems: &mut Problems) -> Vec<Condition> {
         });
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn issue_048_more_conditions_than_can_be_tried_are_refused() {
+        let file = |count: usize| -> String {
+            let one = |k| format!("[conditions.c{k}]\ntitle = \"one\"\n");
+            (0..count).map(one).collect()
+        };
+        assert_eq!(parse("many.toml", &file(MOST)).unwrap().len(), MOST);
+        let error = parse("many.toml", &file(MOST + 1)).unwrap_err();
+        let [problem] = error.problems() else {
+            unreachable!("{error}");
+        };
+        assert!(problem.message().contains("at most 100"), "{problem}");
+        assert!(problem.advice().is_some());
+    }
 }

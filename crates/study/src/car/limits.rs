@@ -19,6 +19,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use input::FileType;
+use input::limits::LIMITS as MOST;
 use quantity::{Kind, Quantity, System as Units, nearest};
 use serde::{Deserialize, Serialize};
 
@@ -247,7 +248,13 @@ fn read(tree: &TableNode, name: &str, text: &str, problems: &mut Problems) -> Op
     let source = top.text("source", problems).map(|(text, _)| text.to_owned());
     let node = top.require("limits", HELP, problems)?;
     let items = match &node.value {
-        NodeValue::List(items) if !items.is_empty() => items.as_slice(),
+        NodeValue::List(items) if (1..=MOST).contains(&items.len()) => items.as_slice(),
+        NodeValue::List(items) if items.len() > MOST => {
+            let message = format!("`limits` has {} limits; at most {MOST} are read", items.len());
+            let problem = Problem::new(message).at(&node.place).label("too many");
+            problems.push(problem.help("write several files, and a certificate with each"));
+            &[]
+        }
         _ => {
             let problem = Problem::new("`limits` is no list of limits").at(&node.place);
             problems.push(problem.label("tables are expected").help(HELP));
@@ -463,4 +470,31 @@ pub fn of(statistics: &BTreeMap<String, Statistic>, units: Units) -> Vec<LimitCh
         .flat_map(|set| &set.limits);
     let checks = limits.filter_map(|limit| limit.check(statistics, units));
     checks.map(|(check, _)| check).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn issue_048_more_limits_than_can_be_compared_are_refused() {
+        let file = |count: usize| {
+            let one = |k| {
+                format!(
+                    "[[limits]]\nname = \"l{k}\"\nquantity = \"roll\"\nmeasure = \"body_roll_peak_to_peak\"\n\
+                     regimes = [\"r{k}\"]\nat_most = \"6 deg\"\n"
+                )
+            };
+            let all: String = (0..count).map(one).collect();
+            format!("title = \"many\"\nsource = \"ours\"\n{all}")
+        };
+        assert_eq!(
+            LimitSet::parse("many.toml", &file(MOST)).unwrap().limits.len(),
+            MOST
+        );
+        let error = LimitSet::parse("many.toml", &file(MOST + 1)).unwrap_err();
+        let problem = &error.problems()[0];
+        assert!(problem.message().contains("at most 1000"), "{problem}");
+        assert!(problem.line_and_column().is_some() && problem.advice().is_some());
+    }
 }

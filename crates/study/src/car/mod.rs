@@ -22,6 +22,7 @@ mod peaks;
 pub mod regime;
 pub mod run;
 mod sections;
+pub mod speeds;
 pub mod stability;
 pub mod statistics;
 pub mod summary;

@@ -59,30 +59,27 @@ pub(crate) fn parse(source: &Arc<TomlSource>) -> Result<TableNode, Problems> {
     if errors.is_empty() {
         return Ok(table_of(table.get_ref(), source));
     }
+    // Looked for once: there may be as many mistakes as bytes.
+    let end = source.text().trim_end().len();
     let mut problems = Problems::new();
     for error in &errors {
-        problems.push_with(|| syntax(error, source));
+        // The text ends there.
+        let ends = !source.text().is_empty() && error.span().map_or(0, |span| span.start) >= end;
+        problems.push_with(|| syntax(error, ends, source));
         // What is expected where a file ends is told once: more of it follows from the first.
-        if ends_at(error, source) {
+        if ends {
             break;
         }
     }
     Err(problems)
 }
 
-/// Returns whether a mistake is that the text ends.
-fn ends_at(error: &toml::de::Error, source: &TomlSource) -> bool {
-    let start = error.span().map_or(0, |span| span.start);
-    let rest = source.text().get(start..).unwrap_or_default();
-    !source.text().is_empty() && rest.trim().is_empty()
-}
-
-/// Returns a mistake of syntax.
-fn syntax(error: &toml::de::Error, source: &Arc<TomlSource>) -> Problem {
+/// Returns a mistake of syntax; `ends` tells whether it is that the text ends.
+fn syntax(error: &toml::de::Error, ends: bool, source: &Arc<TomlSource>) -> Problem {
     let message = error.message().lines().collect::<Vec<_>>().join(", ");
     let span = error.span().unwrap_or(0..0);
     // A label of no length is not drawn.
-    let (end, help) = match ends_at(error, source) {
+    let (end, help) = match ends {
         true => (
             ", and the file ends here",
             "what was begun is not ended: the file was cut off, or a quote or bracket is missing",
@@ -273,6 +270,24 @@ impl TableNode {
                     }
                 }
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each mistake looked through the blanks behind it: a megabyte of them took minutes.
+    #[test]
+    fn issue_048_many_mistakes_among_blanks_are_found_in_one_pass() {
+        for text in [
+            format!("a = 1{}\nb = 2\n", "\r".repeat(1 << 20)),
+            format!("a = {}", "\r".repeat(1 << 20)),
+        ] {
+            let problems = parse(&TomlSource::new("case.toml", text)).unwrap_err();
+            assert!(problems.kept().len() <= input::limits::MISTAKES);
+            assert!(!problems.is_empty());
         }
     }
 }

@@ -1,18 +1,17 @@
 //! `wedgelab certify`: a car in regimes, at speeds and in conditions, beside the limits of rules.
 
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use quantity::{Kind, Quantity};
 use report::certificate_files::{CertificateFindings, NAMES};
 use report::certificate_work;
-use report::page::certificate::{self as page, Against};
+use report::page::certificate::Against;
 use report::study_folder::TABLE_FILE;
 use serde_json::json;
 use study::car::certificate::{Certificate, Request};
+use study::car::speeds;
 use study::records::Status;
 
 use super::study::work;
@@ -113,7 +112,7 @@ pub fn assess(car: &Path, regimes: &[String], common: &Common, ending: &str) -> 
         car: car.to_owned(),
         set: common.set.clone(),
         regimes: regimes.to_vec(),
-        speeds: speeds(&common.speeds, common.steps)?,
+        speeds: speeds::parse(&common.speeds, common.steps)?,
         conditions,
         limits: common.limits.clone(),
     })?;
@@ -121,7 +120,7 @@ pub fn assess(car: &Path, regimes: &[String], common: &Common, ending: &str) -> 
         .out
         .clone()
         .unwrap_or_else(|| PathBuf::from(format!("{}_{ending}", certificate.car)));
-    let against = common.against.as_deref().map(other).transpose()?;
+    let against = common.against.as_deref().map(Against::read).transpose()?;
     for regime in certificate.without_limits() {
         say(&format!(
             "note: {} sets no limit for the regime {regime}",
@@ -173,58 +172,6 @@ fn interrupted(certificate: &Certificate, path: &Path, kept: u64) -> Failure {
         path.display()
     );
     Failure::Interrupted(Message::new(message, "the same command goes on from there").into())
-}
-
-/// Reads speeds: several, or from one to another.
-fn speeds(texts: &[String], steps: u32) -> Result<Vec<Quantity>, Message> {
-    const HELP: &str =
-        "write --speeds \"10 mph..70 mph\" --steps 6, or several speeds: --speeds \"30 mph\" \"50 mph\"";
-    let speed = |text: &str| {
-        let quantity = Quantity::parse_as(text.trim(), Kind::TravelSpeed)
-            .map_err(|error| Message::new(format!("the speed \"{}\": {error}", text.trim()), HELP))?;
-        match quantity.to_si() > 0.0 && quantity.to_si() < 1e3 {
-            true => Ok(quantity),
-            false => Err(Message::new(
-                format!("the speed {quantity} is not positive and below 1000 m/s"),
-                HELP,
-            )),
-        }
-    };
-    let mut found = Vec::new();
-    for text in texts {
-        let Some((from, to)) = text.split_once("..") else {
-            found.push(speed(text)?);
-            continue;
-        };
-        let (from, to) = (speed(from)?, speed(to)?);
-        let unit = from.unit_text();
-        let last = to.to_si() / from.to_si() * from.value();
-        for step in 0..steps {
-            let share = f64::from(step) / f64::from(steps - 1);
-            let value = from.value() + (last - from.value()) * share;
-            // Six digits are more than a speed has.
-            let value: f64 = format!("{value:.6e}").parse().unwrap_or(value);
-            found.push(speed(&format!("{value} {unit}"))?);
-        }
-    }
-    found.sort_by(|a, b| a.to_si().total_cmp(&b.to_si()));
-    found.dedup_by(|a, b| a.to_si() == b.to_si());
-    Ok(found)
-}
-
-/// Reads another certificate.
-fn other(folder: &Path) -> Result<Against, Failure> {
-    let file = folder.join(NAMES[2]);
-    let wrong = |reason: String| {
-        let message = format!("{} is no certificate to compare with: {reason}", file.display());
-        Message::new(
-            message,
-            "name the folder that `wedgelab certify` or `wedgelab regime` wrote",
-        )
-    };
-    let text = fs::read_to_string(&file).map_err(|error| wrong(error.to_string()))?;
-    let document = serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
-    Ok(page::against(&folder.display().to_string(), &document).map_err(wrong)?)
 }
 
 /// Prints the table of limits.
