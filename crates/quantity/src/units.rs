@@ -1,7 +1,7 @@
 //! The table of units. Every factor is exact by definition, or the exact rational number
 //! rounded once to the nearest `f64`.
 
-use crate::Dimension;
+use crate::{Dimension, System};
 use std::f64::consts::PI;
 
 /// The international inch, m (exact).
@@ -127,4 +127,15 @@ pub(crate) static SYNONYMS: &[(&str, &str)] = &[
 /// Returns the unit of this name.
 pub(crate) fn find(name: &str) -> Option<&'static NamedUnit> {
     UNITS.iter().find(|unit| unit.name == name)
+}
+
+/// Returns the system that a named unit belongs to; none if it belongs to both, such as seconds and degrees.
+pub(crate) fn system_of(name: &str) -> Option<System> {
+    match name {
+        "in" | "ft" | "yd" | "mi" | "lb" | "slug" | "mph" | "lbf" | "kip" | "psi" | "ksi" | "hp" => {
+            Some(System::Us)
+        }
+        "s" | "ms" | "min" | "h" | "rad" | "mrad" | "deg" | "°" | "rev" | "Hz" | "rpm" | "g0" => None,
+        _ => find(name).map(|_| System::Si),
+    }
 }
