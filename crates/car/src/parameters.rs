@@ -354,7 +354,8 @@ impl Parameters {
     /// Returns the heights of the center plates above the top of rail, m.
     #[must_use]
     pub fn plate_heights(&self) -> [f64; 2] {
-        let height = |own: &truck::Parameters| own.car_body.as_ref().map_or(0.0, |car| car.center_plate.height);
+        let height =
+            |own: &truck::Parameters| own.car_body.as_ref().map_or(0.0, |car| car.center_plate.height);
         self.trucks.each_ref().map(height)
     }
 

@@ -101,7 +101,12 @@ impl Parameters {
     }
 
     /// Returns why there is no equilibrium.
-    pub(crate) fn no_equilibrium(&self, system: &mut System, body: usize, error: NoEquilibrium) -> BuildError {
+    pub(crate) fn no_equilibrium(
+        &self,
+        system: &mut System,
+        body: usize,
+        error: NoEquilibrium,
+    ) -> BuildError {
         let turned = |system: &mut System, x: &[f64]| {
             let seen = system.observe(0.0, x);
             let nominal: Matrix<f64> = fixed(system.bodies()[body].frame.orientation);

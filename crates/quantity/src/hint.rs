@@ -16,7 +16,12 @@ pub fn length_hint(value: f64, [low, high]: [f64; 2]) -> Option<String> {
         .filter(|(.., factor)| inside(*factor))
         .map(|(words, unit, _)| format!("{words} (\"{} {unit}\")", Number(value)))
         .collect();
-    (!meant.is_empty()).then(|| format!("did you give {}? A number without unit is in m", meant.join(" or ")))
+    (!meant.is_empty()).then(|| {
+        format!(
+            "did you give {}? A number without unit is in m",
+            meant.join(" or ")
+        )
+    })
 }
 
 #[cfg(test)]
@@ -30,7 +35,11 @@ mod tests {
         assert!(hint.starts_with("did you give inches (\"56.5 in\")?"), "{hint}");
         let hint = length_hint(1435.0, gauge).unwrap();
         assert!(hint.contains("millimeters (\"1435 mm\")"), "{hint}");
-        assert!(length_hint(200.0, gauge).unwrap().contains("inches (\"200 in\") or millimeters"));
+        assert!(
+            length_hint(200.0, gauge)
+                .unwrap()
+                .contains("inches (\"200 in\") or millimeters")
+        );
         for value in [1.435, 0.0, f64::NAN, 1e9] {
             assert_eq!(length_hint(value, gauge), None);
         }

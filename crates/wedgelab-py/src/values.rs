@@ -95,7 +95,12 @@ fn of(value: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Value> {
     if let Ok(to_values) = value.getattr("_to_values") {
         let values = to_values.call0()?;
         if values.cast::<PyMapping>().is_ok() {
-            return Ok(Value::Table(nested_table(&values, path, depth + 1, Nones::LeftOut)?));
+            return Ok(Value::Table(nested_table(
+                &values,
+                path,
+                depth + 1,
+                Nones::LeftOut,
+            )?));
         }
         return of(&values, path, depth + 1);
     }

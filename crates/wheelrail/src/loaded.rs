@@ -345,7 +345,11 @@ impl RigidWheelset {
         });
         Pressed {
             force: total.force,
-            torque: axle.iter().zip(total.moment).map(|(axis, moment)| axis * moment).sum(),
+            torque: axle
+                .iter()
+                .zip(total.moment)
+                .map(|(axis, moment)| axis * moment)
+                .sum(),
             patches,
             profile,
         }

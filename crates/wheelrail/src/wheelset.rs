@@ -88,10 +88,7 @@ impl RigidWheelset {
             gauge,
             gauge_depth,
         } = layout;
-        for (what, value) in [
-            ("distance of the tape circles", tape_distance),
-            ("gauge", gauge),
-        ] {
+        for (what, value) in [("distance of the tape circles", tape_distance), ("gauge", gauge)] {
             let range = [0.1, 10.0];
             if !(value > range[0] && value < range[1]) {
                 return Err(ProfileError::Length { what, value, range });
@@ -152,7 +149,11 @@ impl RigidWheelset {
         }
         for _ in 0..40 {
             let middle = 0.5 * (short + reached);
-            *(if self.reaches(middle) { &mut reached } else { &mut short }) = middle;
+            *(if self.reaches(middle) {
+                &mut reached
+            } else {
+                &mut short
+            }) = middle;
         }
         let rims = self.pairs.iter().map(|pair| pair.wheel_range()[1]).sum::<f64>();
         Err(ProfileError::ShortOfRails {

@@ -51,7 +51,9 @@ impl NoEquilibrium {
         format!(
             "the start is nearly at rest, not quite: {} still accelerates by {:.1e} (m/s² or rad/s²) in {}, \
              less than {NEARLY_AT_REST:.0e} of gravity's; the run begins with this motion",
-            self.body, self.acceleration.abs(), self.coordinate
+            self.body,
+            self.acceleration.abs(),
+            self.coordinate
         )
     }
 }

@@ -329,3 +329,32 @@ fn input_length_of_a_track_counts_the_speeds_over_distance() {
     assert!(slowing(1060.0).is_err());
     assert!(slowing(1080.0).is_ok());
 }
+
+/// Numbers of metres that were meant in inches, and heights out of reach.
+#[test]
+fn issue_048_lengths_in_another_unit_are_hinted_at() {
+    let text = "model = \"car\"\n";
+    let error = CarCase::of_values(
+        "case.toml",
+        text,
+        Some("car.truck_distance = 486"),
+        Tables::nowhere(),
+    );
+    let words = in_words(error.unwrap_err().problems());
+    for part in [
+        "`car.truck_distance` is 486 m; it must be between 1 and 100 m",
+        "did you give inches (\"486 in\")",
+    ] {
+        assert!(words.contains(part), "{part}: {words}");
+    }
+    let words = refused("car.accelerometer_height = \"40 ft\"");
+    assert!(words.contains("between 0 and 10 m"), "{words}");
+    let words = refused("rails.gauge = \"66 in\"");
+    for part in [
+        "the wheels do not reach both rails",
+        "66.00 in",
+        "lower the gauge to",
+    ] {
+        assert!(words.contains(part), "{part}: {words}");
+    }
+}
