@@ -14,6 +14,7 @@ use crate::assemble::Nominal;
 use crate::body::{Carried, Pose, angles};
 use crate::error::BuildError;
 use crate::parameters::{Drive, Parameters};
+use crate::tipping::has_tipped;
 
 /// Returns the poses of all bodies in the equilibrium at rest on straight track, without friction, from the
 /// middle between the trucks; and the warning of a state that is nearly at rest.
@@ -23,6 +24,10 @@ pub(crate) fn at_rest(
     searches: &[Search],
     offsets: [f64; 2],
 ) -> Result<(Vec<Pose>, Option<String>), BuildError> {
+    // Tipped over, bodies may come to rest too.
+    if let Some(tipping) = parameters.tips_over() {
+        return Err(BuildError::Tips(tipping));
+    }
     let middle = parameters.reach() + 10.0;
     let straight = CenterLine::new(
         &[Segment::Tangent(2.0 * middle)],
@@ -63,6 +68,9 @@ pub(crate) fn at_rest(
     let found = system.start_at_rest(0.0, &system.initial_state(), StaticFriction::Following);
     let AtRest { state, warning } =
         found.map_err(|error| parameters.no_equilibrium(&mut system, nominal.numbers.body, error))?;
+    if has_tipped(&mut system, nominal.numbers.body, &state) {
+        return Err(BuildError::Tips(parameters.leans_over()));
+    }
     let seen: Observation = system.observe(0.0, &state);
     // Nothing holds the car along the track.
     let rolled = nominal

@@ -70,7 +70,7 @@ impl Parameters {
     }
 
     /// Returns how a car with its center of gravity between the side bearings leans over them.
-    fn leans_over(&self) -> Tipping {
+    pub(crate) fn leans_over(&self) -> Tipping {
         let center = self.center_of_gravity();
         let distance = self.side_bearing_distance();
         let lean = self.largest_lean();
@@ -107,22 +107,20 @@ impl Parameters {
         body: usize,
         error: NoEquilibrium,
     ) -> BuildError {
-        let turned = |system: &mut System, x: &[f64]| {
-            let seen = system.observe(0.0, x);
-            let nominal: Matrix<f64> = fixed(system.bodies()[body].frame.orientation);
-            let rotation: Matrix<f64> = seen.bodies[body].rotation.times(nominal.transpose());
-            // A direction that is no number is not upright either.
-            rotation.column(2).0[2].total_cmp(&UPRIGHT) != Ordering::Greater
-        };
-        let tipping = self.tips_over().or_else(|| {
-            let has_turned = turned(system, &error.nearest) || turned(system, &error.last);
-            has_turned.then(|| self.leans_over())
-        });
-        match tipping {
-            Some(tipping) => BuildError::Tips(tipping),
-            None => BuildError::Equilibrium(error),
+        match has_tipped(system, body, &error.nearest) || has_tipped(system, body, &error.last) {
+            true => BuildError::Tips(self.leans_over()),
+            false => BuildError::Equilibrium(error),
         }
     }
+}
+
+/// Returns whether the body of a car with this number has turned over in a state.
+pub(crate) fn has_tipped(system: &mut System, body: usize, x: &[f64]) -> bool {
+    let seen = system.observe(0.0, x);
+    let nominal: Matrix<f64> = fixed(system.bodies()[body].frame.orientation);
+    let rotation: Matrix<f64> = seen.bodies[body].rotation.times(nominal.transpose());
+    // A direction that is no number is not upright either.
+    rotation.column(2).0[2].total_cmp(&UPRIGHT) != Ordering::Greater
 }
 
 /// A length, m and in.

@@ -358,3 +358,25 @@ fn issue_048_lengths_in_another_unit_are_hinted_at() {
         assert!(words.contains(part), "{part}: {words}");
     }
 }
+
+/// The words at the key say where the first joint lies, and it lies there.
+#[test]
+fn issue_048_the_start_of_joints_is_their_first_lowest_point() {
+    let lines = "simulation.duration = \"0.1 s\"\n[[track.segments]]\ntangent = \"500 ft\"\n\
+                 [[track.irregularities]]\nshape = \"joints\"\nrails = \"left\"\ndirection = \"vertical\"\n\
+                 depth = \"0.75 in\"\nstart = \"100 ft\"\n";
+    let text = format!("model = \"car\"\n{lines}");
+    let case = CarCase::parse("case.toml", &text, Tables::nowhere(), &[]).unwrap();
+    assert!(
+        case.to_toml().contains("lowest point of the first joint"),
+        "{}",
+        case.to_toml()
+    );
+    let foot = 0.3048;
+    let height = |feet: f64| case.parameters.track.rails(feet * foot)[0].vertical[0];
+    assert_eq!(height(80.0), 0.0, "level until half a spacing before");
+    let lowest = (0..5000)
+        .map(|k| 75.0 + 0.01 * f64::from(k))
+        .min_by(|a, b| height(*a).total_cmp(&height(*b)));
+    assert!((lowest.unwrap() - 100.0).abs() < 0.02, "{lowest:?}");
+}

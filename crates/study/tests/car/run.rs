@@ -354,7 +354,11 @@ fn issue_048_a_start_that_is_nearly_at_rest_is_a_warning() {
 #[test]
 fn issue_048_the_height_of_the_accelerometers_is_a_key() {
     let values = |line: &str| {
-        let result = run(&case(&format!("{JOINT}simulation.duration = \"0.3 s\"\n{line}")));
+        let result = run(&case(&format!(
+            "{line}
+simulation.duration = \"0.3 s\"
+{JOINT}"
+        )));
         let column = result.column("body_at_truck_1_lateral_acceleration").unwrap();
         (column.to_vec(), result.columns)
     };
