@@ -83,6 +83,8 @@ pub struct Car {
     pub system: System,
     /// The state at time zero.
     pub initial_state: Vec<f64>,
+    /// The warning of a start in equilibrium that is nearly at rest.
+    pub start_warning: Option<String>,
     /// The lines of the rails.
     pub lines: Arc<RailLines>,
     /// The numbers of its bodies.
@@ -97,6 +99,8 @@ pub struct Car {
     pub(crate) truck_distance: f64,
     /// Heights of the center plates, m.
     pub(crate) plates: [f64; 2],
+    /// Heights of the accelerometers above the truck centers, m.
+    pub(crate) accelerometers: [f64; 2],
     pub(crate) gravity: f64,
 }
 
@@ -125,14 +129,18 @@ impl Car {
     /// The parameters make no car, or there is no equilibrium to start from.
     pub fn new(parameters: &Parameters) -> Result<Self, BuildError> {
         parameters.check()?;
+        if let Wheels::OnRails(wheels) = &parameters.wheels {
+            let reaches = wheels.geometry.check_reach();
+            reaches.map_err(|reason| BuildError::Reach { reason })?;
+        }
         let carried = Carried::new(parameters);
         let offsets = parameters.rail_offsets();
         let searches = searches(&parameters.wheels)?;
         let lines = Arc::new(RailLines::new(parameters.track.clone(), offsets));
         let heading = parameters.start.heading;
         let mut nominal = Nominal::new(parameters, &carried, &searches, &lines, heading);
-        let poses = match parameters.start.kind {
-            StartKind::Nominal => nominal.poses(),
+        let (poses, start_warning) = match parameters.start.kind {
+            StartKind::Nominal => (nominal.poses(), None),
             StartKind::Equilibrium => at_rest(parameters, &carried, &searches, offsets)?,
         };
         let axes: Matrix<f64> = rotation_z(libm::sincos(heading));
@@ -154,6 +162,7 @@ impl Car {
         Ok(Self {
             system,
             initial_state,
+            start_warning,
             lines,
             numbers: nominal.numbers,
             trucks: nominal.trucks,
@@ -161,10 +170,10 @@ impl Car {
             wheels: nominal.wheels,
             carried,
             truck_distance: parameters.truck_distance,
-            plates: parameters
-                .trucks
-                .each_ref()
-                .map(|own| own.car_body.as_ref().map_or(0.0, |car| car.center_plate.height)),
+            plates: parameters.plate_heights(),
+            accelerometers: parameters
+                .accelerometer_height
+                .map_or(parameters.plate_heights(), |own| [own; 2]),
             gravity: parameters.gravity,
         })
     }

@@ -132,6 +132,7 @@ impl Parameters {
                 Lading::Empty => Vec::new(),
             },
             truck_distance: 486.0 * INCH,
+            accelerometer_height: None,
             trucks: [own.clone(), own],
             wheelset: WheelsetBody {
                 mass: 2984.5 * POUND,

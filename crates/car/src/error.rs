@@ -3,24 +3,40 @@
 use mechanics::system::{ModelError, NoEquilibrium};
 use thiserror::Error;
 
+use crate::tipping::Tipping;
+
 /// A value that makes no car.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{message}")]
 pub struct InvalidParameter {
     message: String,
+    remedy: Option<String>,
 }
 
 impl InvalidParameter {
     pub(crate) fn new(what: &str, value: f64, must: &str) -> Self {
         Self {
             message: format!("{what} is {value}; it must be {must}"),
+            remedy: None,
         }
     }
 
     pub(crate) fn missing(message: &str) -> Self {
         Self {
             message: message.to_owned(),
+            remedy: None,
         }
+    }
+
+    /// Returns the same with a remedy.
+    pub(crate) fn with(self, remedy: Option<String>) -> Self {
+        Self { remedy, ..self }
+    }
+
+    /// Returns the remedy, if there is one besides what the message says.
+    #[must_use]
+    pub fn remedy(&self) -> Option<&str> {
+        self.remedy.as_deref()
     }
 }
 
@@ -39,6 +55,15 @@ pub enum BuildError {
     /// The straight track on which the car finds its equilibrium cannot be made.
     #[error(transparent)]
     Track(#[from] wheelrail::track::TrackError),
+    /// The wheels do not stand on both rails.
+    #[error("{reason}; {}", .reason.remedy())]
+    Reach {
+        /// The reason.
+        reason: wheelrail::profile::ProfileError,
+    },
+    /// The car tips.
+    #[error("cannot start from equilibrium: {0}")]
+    Tips(Tipping),
     /// There is no equilibrium to start from.
     #[error(
         "cannot start from equilibrium: {0}; look at lading off the center, coils that do not carry it, a \

@@ -46,10 +46,14 @@ mod loads;
 mod motions;
 mod parameters;
 mod start;
+mod tipping;
 
 pub use assemble::{Car, Numbers};
 pub use error::{BuildError, InvalidParameter};
 pub use linearize::{CriticalSpeed, FrictionState, LinearizeError, Mode};
 pub use loads::{AxleLoads, EndMotion, Loads, WheelLoads};
 pub use motions::{BodyMotion, Motions, TruckMotion, WheelsetAxes};
-pub use parameters::{Drive, Mass, Parameters, ProfiledWheels, Start, StartKind, Wheels};
+pub use parameters::{
+    ACCELEROMETER_HEIGHTS, Drive, Mass, Parameters, ProfiledWheels, Start, StartKind, TRUCK_DISTANCES, Wheels,
+};
+pub use tipping::{Support, Tipping};

@@ -5,8 +5,9 @@
 //! *longitudinal* one is positive where the wheel pushes the rail forward. Places are relative to the
 //! center line without irregularities: positive to the left; yaw is positive to the left, roll with the
 //! left side up. The track's plane is that of the center line's section at the body in question.
-//! *Accelerations* of the body are what accelerometers on it show, less gravity along its up: along its own
-//! left and up.
+//! *Accelerations* of the body are what accelerometers on it show, along its own left and up. They contain
+//! gravity's part along these axes, by roll and superelevation, but for the whole of it up: a level body at
+//! rest shows zero, one at rest that leans to the right by φ shows g sin φ laterally.
 
 use mechanics::body::Kinematics;
 use mechanics::element::Element;
@@ -69,9 +70,10 @@ pub struct EndMotion {
     pub lateral: f64,
     /// Above its height in the nominal layout, relative to the track's plane, m.
     pub vertical: f64,
-    /// Lateral acceleration, m/s².
+    /// Lateral acceleration of the accelerometer above the truck's center, m/s², gravity's part by roll and
+    /// superelevation included.
     pub lateral_acceleration: f64,
-    /// Vertical acceleration, m/s².
+    /// Vertical acceleration of the accelerometer, m/s², less gravity.
     pub vertical_acceleration: f64,
 }
 
@@ -233,10 +235,12 @@ impl Car {
 
     fn end(&self, t: usize, body: &BodyState, turned: &Matrix<f64>, rates: &[f64]) -> EndMotion {
         let half = 0.5 * self.truck_distance;
-        let nominal = [[half, -half][t], 0.0, self.plates[t]];
-        let point = body_marker(&self.carried, nominal).origin;
-        let arm: Vector<f64> = body.rotation.apply(point);
-        let place = body.origin + arm;
+        let arm_to = |height: f64| -> Vector<f64> {
+            let nominal = [[half, -half][t], 0.0, height];
+            body.rotation.apply(body_marker(&self.carried, nominal).origin)
+        };
+        let place = body.origin + arm_to(self.plates[t]);
+        let arm = arm_to(self.accelerometers[t]);
         let section = self.section(place);
         let [_, lateral, height] = section.of(self.arm(place, &section));
         let (system, number) = (&self.system, self.numbers.body);

@@ -6,6 +6,7 @@
 
 use std::sync::Arc;
 
+use quantity::length_hint;
 use rolling::track::RailSupport;
 use rolling::wheelset::WheelsetBody;
 use truck::{RigidBody, WedgeKind};
@@ -141,6 +142,12 @@ fn check_speeds(over: &str, unit: &str, speeds: &[[f64; 2]]) -> Result<(), Inval
     Ok(())
 }
 
+/// Distances between the trucks of a car, m: shorter than any wagon's, longer than any's.
+pub const TRUCK_DISTANCES: [f64; 2] = [1.0, 100.0];
+
+/// Heights at which a body can have accelerometers, m.
+pub const ACCELEROMETER_HEIGHTS: [f64; 2] = [0.0, 10.0];
+
 /// A car on a track.
 #[derive(Clone, Debug)]
 pub struct Parameters {
@@ -153,6 +160,9 @@ pub struct Parameters {
     pub lading: Vec<Mass>,
     /// From the center of one truck to that of the other, m.
     pub truck_distance: f64,
+    /// Height of the accelerometers on the body above the truck centers, above the top of rail in the nominal
+    /// layout, m; none: that of each truck's center plate.
+    pub accelerometer_height: Option<f64>,
     /// Front and rear truck. Each has wheelsets and a car body, of which the center plate and the side
     /// bearings count: mass, freedom and loads of the half body and of the wheelsets' motions are not used.
     /// Bolsters, side frames and wedge bodies are free in all six coordinates.
@@ -237,7 +247,26 @@ impl Parameters {
                 }
             }
         }
-        positive("the distance between the trucks (m)", self.truck_distance)?;
+        let [low, high] = TRUCK_DISTANCES;
+        if !(self.truck_distance > low && self.truck_distance < high) {
+            return Err(InvalidParameter::new(
+                "the distance between the trucks (m)",
+                self.truck_distance,
+                &format!("between {low} and {high} m"),
+            )
+            .with(length_hint(self.truck_distance, TRUCK_DISTANCES)));
+        }
+        if let Some(height) = self.accelerometer_height {
+            let [low, high] = ACCELEROMETER_HEIGHTS;
+            if !(low..=high).contains(&height) {
+                return Err(InvalidParameter::new(
+                    "the height of the accelerometers (m)",
+                    height,
+                    &format!("between {low} and {high} m"),
+                )
+                .with(length_hint(height, ACCELEROMETER_HEIGHTS)));
+            }
+        }
         positive("the mass of a wheelset (kg)", self.wheelset.mass)?;
         positive(
             "a wheelset's moment of inertia about the axle (kg·m²)",
@@ -278,6 +307,13 @@ impl Parameters {
         }
         let reach = self.reach();
         let length = self.track.center_line.length();
+        if 2.0 * reach > length {
+            return Err(InvalidParameter::missing(&format!(
+                "the track is {length:.2} m long, but the outermost axles of the car are {:.2} m apart",
+                2.0 * reach
+            ))
+            .with(Some("make the track longer".to_owned())));
+        }
         if distance < reach || distance + reach > length {
             return Err(InvalidParameter::new(
                 "the distance of the start (m)",
@@ -313,6 +349,14 @@ impl Parameters {
             ));
         }
         Ok(())
+    }
+
+    /// Returns the heights of the center plates above the top of rail, m.
+    #[must_use]
+    pub fn plate_heights(&self) -> [f64; 2] {
+        let height =
+            |own: &truck::Parameters| own.car_body.as_ref().map_or(0.0, |car| car.center_plate.height);
+        self.trucks.each_ref().map(height)
     }
 
     /// Returns whether a truck has wedges without mass or an empirical warp spring.

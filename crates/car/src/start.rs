@@ -5,7 +5,7 @@ use std::sync::Arc;
 use mechanics::connection::Law;
 use mechanics::friction::FrictionLaw;
 use mechanics::orientation::fixed;
-use mechanics::system::{Observation, StaticFriction, System};
+use mechanics::system::{AtRest, Observation, StaticFriction, System};
 use mechanics::vector::{Matrix, Vector};
 use rolling::wheel::Search;
 use wheelrail::track::{CenterLine, Line, RailLines, Segment, Track};
@@ -14,15 +14,20 @@ use crate::assemble::Nominal;
 use crate::body::{Carried, Pose, angles};
 use crate::error::BuildError;
 use crate::parameters::{Drive, Parameters};
+use crate::tipping::has_tipped;
 
 /// Returns the poses of all bodies in the equilibrium at rest on straight track, without friction, from the
-/// middle between the trucks.
+/// middle between the trucks; and the warning of a state that is nearly at rest.
 pub(crate) fn at_rest(
     parameters: &Parameters,
     carried: &Carried,
     searches: &[Search],
     offsets: [f64; 2],
-) -> Result<Vec<Pose>, BuildError> {
+) -> Result<(Vec<Pose>, Option<String>), BuildError> {
+    // Tipped over, bodies may come to rest too.
+    if let Some(tipping) = parameters.tips_over() {
+        return Err(BuildError::Tips(tipping));
+    }
     let middle = parameters.reach() + 10.0;
     let straight = CenterLine::new(
         &[Segment::Tangent(2.0 * middle)],
@@ -60,8 +65,13 @@ pub(crate) fn at_rest(
         }
     }
     let mut system = System::new(nominal.model)?;
-    let rest = system.equilibrium(0.0, &system.initial_state(), StaticFriction::Following)?;
-    let seen: Observation = system.observe(0.0, &rest);
+    let found = system.start_at_rest(0.0, &system.initial_state(), StaticFriction::Following);
+    let AtRest { state, warning } =
+        found.map_err(|error| parameters.no_equilibrium(&mut system, nominal.numbers.body, error))?;
+    if has_tipped(&mut system, nominal.numbers.body, &state) {
+        return Err(BuildError::Tips(parameters.leans_over()));
+    }
+    let seen: Observation = system.observe(0.0, &state);
     // Nothing holds the car along the track.
     let rolled = nominal
         .numbers
@@ -75,7 +85,7 @@ pub(crate) fn at_rest(
             rotation: state.rotation,
         }
     });
-    Ok(poses.collect())
+    Ok((poses.collect(), warning))
 }
 
 /// The poses of trucks and body on the track at the start, in fixed axes.

@@ -148,5 +148,5 @@ fn input_what_makes_no_car_is_named() {
     let said = message(|own| own.trucks[1].car_body = None);
     assert!(said.contains("the rear truck has no center plate"), "{said}");
     let said = message(|own| own.lading[0].place[1] = 3.0);
-    assert!(said.contains("a car that tips"), "{said}");
+    assert!(said.contains("the car tips to the left"), "{said}");
 }

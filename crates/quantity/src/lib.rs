@@ -24,6 +24,7 @@
 mod dimension;
 mod error;
 mod expression;
+mod hint;
 mod kind;
 mod nearest;
 mod parse;
@@ -32,6 +33,7 @@ mod units;
 pub use dimension::Dimension;
 pub use error::UnitError;
 pub use expression::Unit;
+pub use hint::length_hint;
 pub use kind::{Kind, System};
 pub use nearest::nearest;
 pub use parse::{Number, Quantity, SixDigits};

@@ -1,6 +1,7 @@
 //! Quantities as typed.
 
-use crate::{Dimension, Kind, Unit, UnitError};
+use crate::units::system_of;
+use crate::{Dimension, Kind, System, Unit, UnitError};
 use input::{limits, shortened};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
@@ -88,6 +89,13 @@ impl Quantity {
     /// Returns the dimension.
     pub fn dimension(&self) -> Dimension {
         self.unit.dimension()
+    }
+
+    /// Returns the system of units in which it was typed: that of the first part of its unit that belongs to
+    /// one alone. None if no part does, as in `3 deg/s`.
+    pub fn system(&self) -> Option<System> {
+        let mut names = self.unit_text().split(|c: char| !(c.is_alphabetic() || c == '°'));
+        names.find_map(system_of)
     }
 
     /// Returns the value in SI: one multiplication by the unit's factor.

@@ -143,3 +143,14 @@ pub(crate) static SYNONYMS: &[(&str, &str)] = &[
 pub(crate) fn find(name: &str) -> Option<&'static NamedUnit> {
     UNITS.iter().find(|unit| unit.name == name)
 }
+
+/// Returns the system that a named unit belongs to; none if it belongs to both, such as seconds and degrees.
+pub(crate) fn system_of(name: &str) -> Option<System> {
+    match name {
+        "in" | "ft" | "yd" | "mi" | "lb" | "slug" | "mph" | "lbf" | "kip" | "psi" | "ksi" | "hp" => {
+            Some(System::Us)
+        }
+        "s" | "ms" | "min" | "h" | "rad" | "mrad" | "deg" | "°" | "rev" | "Hz" | "rpm" | "g0" => None,
+        _ => find(name).map(|_| System::Si),
+    }
+}

@@ -200,6 +200,8 @@ pub struct Beginning<R> {
     pub x: Vec<f64>,
     /// The recorder of the run's results.
     pub recorder: R,
+    /// The warning of a start that is nearly at rest, where one at rest is asked for.
+    pub start_warning: Option<String>,
 }
 
 /// Takes the results from a run.
@@ -261,6 +263,8 @@ pub struct Run<C: RunCase> {
     pub(crate) start_energy: f64,
     pub(crate) energy_balance: EnergyBalance,
     pub(crate) plausibility: Plausibility,
+    /// See [`Beginning::start_warning`].
+    pub(crate) start_warning: Option<String>,
     rows: Rows,
     next_row: u64,
     pace: Pace,
@@ -328,6 +332,7 @@ impl<C: RunCase> Run<C> {
             start_energy,
             energy_balance: EnergyBalance::new(start_energy),
             plausibility,
+            start_warning: beginning.start_warning,
             pace: Pace::of(&integrator),
             tolerance: case.options().relative_tolerance.min(LOOSEST),
             buffer: beginning.x,

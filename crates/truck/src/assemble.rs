@@ -35,6 +35,8 @@ pub struct Truck {
     pub system: System,
     /// The state at time zero.
     pub initial_state: Vec<f64>,
+    /// The warning of a start in equilibrium that is nearly at rest.
+    pub start_warning: Option<String>,
     pub(crate) mounted: MountedTruck,
 }
 
@@ -82,9 +84,10 @@ impl Truck {
             Start::Equilibrium => {
                 let mut truck = truck;
                 let mut still = Self::with_gaps(&without_friction(&held(parameters)), [[0.0; 2]; 4])?.system;
-                let rest = still.equilibrium(0.0, &still.initial_state(), StaticFriction::Without)?;
+                let rest = still.start_at_rest(0.0, &still.initial_state(), StaticFriction::Without)?;
+                truck.start_warning = rest.warning;
                 let positions = truck.system.layout().speeds;
-                truck.initial_state[..positions].copy_from_slice(&rest[..positions]);
+                truck.initial_state[..positions].copy_from_slice(&rest.state[..positions]);
                 Ok(truck)
             }
         }
@@ -113,6 +116,7 @@ impl Truck {
         let system = System::new(model)?;
         Ok(Self {
             initial_state: system.initial_state(),
+            start_warning: None,
             system,
             mounted: MountedTruck::alone(parameters, mount, added),
         })

@@ -62,6 +62,8 @@ pub struct Wedge {
     pub pocket_shift: f64,
     /// The state at time zero.
     pub initial_state: Vec<f64>,
+    /// The warning of a start in equilibrium that is nearly at rest.
+    pub start_warning: Option<String>,
 }
 
 impl Wedge {
@@ -77,11 +79,13 @@ impl Wedge {
         }
         let system = System::new(model(&parameters, shifts))?;
         let mut initial_state = system.initial_state();
+        let mut start_warning = None;
         if parameters.start == Start::Equilibrium {
             let mut still = System::new(model(&held(&parameters), shifts))?;
-            let rest = still.equilibrium(0.0, &still.initial_state(), StaticFriction::Without)?;
+            let rest = still.start_at_rest(0.0, &still.initial_state(), StaticFriction::Without)?;
+            start_warning = rest.warning;
             let positions = system.layout().speeds;
-            initial_state[..positions].copy_from_slice(&rest[..positions]);
+            initial_state[..positions].copy_from_slice(&rest.state[..positions]);
         }
         Ok(Self {
             parameters,
@@ -89,6 +93,7 @@ impl Wedge {
             column_shift: shifts[0],
             pocket_shift: shifts[1],
             initial_state,
+            start_warning,
         })
     }
 }

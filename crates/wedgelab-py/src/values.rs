@@ -8,13 +8,21 @@ use toml::{Table, Value};
 use crate::errors::case_message;
 use crate::quantity::Quantity;
 
-/// Returns a mapping as TOML; keys with the value `None` are left out. `path` is where it stands, for
-/// messages.
+/// Returns a mapping as TOML. `path` is where it stands, for messages.
 pub fn table(mapping: &Bound<'_, PyAny>, path: &str) -> PyResult<Table> {
-    nested_table(mapping, path, 0)
+    nested_table(mapping, path, 0, Nones::Refused)
 }
 
-fn nested_table(mapping: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Table> {
+/// What the value `None` means.
+#[derive(Clone, Copy, PartialEq)]
+enum Nones {
+    /// Nothing: it is a mistake.
+    Refused,
+    /// Attributes of an object that were left out.
+    LeftOut,
+}
+
+fn nested_table(mapping: &Bound<'_, PyAny>, path: &str, depth: usize, nones: Nones) -> PyResult<Table> {
     let py = mapping.py();
     let Ok(mapping) = mapping.cast::<PyMapping>() else {
         let found = type_name(mapping);
@@ -37,14 +45,14 @@ fn nested_table(mapping: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResul
                 "keys are names, such as \"angle\"",
             ));
         };
-        if value.is_none() {
-            continue;
-        }
         let inner = if path.is_empty() {
             key.clone()
         } else {
             format!("{path}.{key}")
         };
+        if value.is_none() && nones == Nones::LeftOut {
+            continue;
+        }
         table.insert(key, of(&value, &inner, depth + 1)?);
     }
     Ok(table)
@@ -57,6 +65,13 @@ fn of(value: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Value> {
             value.py(),
             &format!("{} is nested more than {} deep", named(path), limits::NESTING),
             "nothing in a case is nested so deeply; look whether a list or a dict holds itself",
+        ));
+    }
+    if value.is_none() {
+        return Err(case_message(
+            value.py(),
+            &format!("{} is None, which is no value", named(path)),
+            "give a value, or leave the key out to keep what the case has",
         ));
     }
     if let Ok(quantity) = value.cast::<Quantity>() {
@@ -78,10 +93,19 @@ fn of(value: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Value> {
         return Ok(Value::Float(value.extract()?));
     }
     if let Ok(to_values) = value.getattr("_to_values") {
-        return of(&to_values.call0()?, path, depth + 1);
+        let values = to_values.call0()?;
+        if values.cast::<PyMapping>().is_ok() {
+            return Ok(Value::Table(nested_table(
+                &values,
+                path,
+                depth + 1,
+                Nones::LeftOut,
+            )?));
+        }
+        return of(&values, path, depth + 1);
     }
     if value.cast::<PyMapping>().is_ok() {
-        return Ok(Value::Table(nested_table(value, path, depth)?));
+        return Ok(Value::Table(nested_table(value, path, depth, Nones::Refused)?));
     }
     // NumPy's arrays and numbers.
     if let Ok(list) = value.getattr("tolist") {

@@ -28,6 +28,8 @@ const PATCHES: usize = 9;
 const OF_PATCH: usize = 13;
 /// Numbers of a wheel: center, height, lateral and vertical force.
 const OF_WHEEL: usize = 4;
+/// The advice where there is no conicity.
+const WHERE_TO_LOOK: &str = "look at gauge, tape distance and amplitude";
 /// Numbers of a track at a distance.
 const OF_TRACK: usize = 17;
 
@@ -39,9 +41,8 @@ fn of_profile(py: Python<'_>, error: &ProfileError) -> PyErr {
     refused(py, &error.to_string(), &error.remedy())
 }
 
-fn of_load(py: Python<'_>, error: &LoadError) -> PyErr {
-    refused(py, &error.to_string(), error.remedy())
-}
+/// Errors of points by their numbers: message and help.
+type Failed = Vec<(usize, String, String)>;
 
 /// A profile of a wheel or a rail.
 #[pyclass(frozen, module = "wedgelab._wedgelab", name = "NativeProfile")]
@@ -179,6 +180,35 @@ fn law_of(py: Python<'_>, name: &str, cells: usize) -> PyResult<CreepLaw> {
     })
 }
 
+/// Returns the attitude, load and law of a point of a question.
+fn point(columns: &[&[f64]], k: usize, creep: CreepLaw) -> (Attitude, f64, ContactLaw) {
+    let attitude = Attitude {
+        lateral: columns[0][k],
+        yaw: columns[1][k],
+        roll: columns[2][k],
+        speed: columns[3][k],
+        pitch_rate: columns[4][k],
+    };
+    let law = ContactLaw {
+        friction: columns[6][k],
+        damping: 0.0,
+        creep,
+        slowest: 0.0,
+    };
+    (attitude, columns[5][k], law)
+}
+
+/// Returns the values of the points that have one; the errors of the others go to `failed`.
+fn sorted<T>(made: Vec<Result<T, LoadError>>, failed: &mut Failed) -> Vec<Option<T>> {
+    let entries = made.into_iter().enumerate();
+    entries
+        .map(|(k, one)| {
+            one.map_err(|error| failed.push((k, error.to_string(), error.remedy())))
+                .ok()
+        })
+        .collect()
+}
+
 fn numbers(patch: &LoadedPatch) -> [f64; OF_PATCH] {
     [
         patch.share,
@@ -234,8 +264,36 @@ impl NativeWheelset {
         })
     }
 
+    /// Returns the pitch rates (rad/s) at which the wheelset rolls freely, NaN where there is none, and the
+    /// errors of those points; the given pitch rates do not count.
+    fn free_rolling<'py>(
+        &self,
+        py: Python<'py>,
+        given: [Given<'py>; 7],
+        creep: &str,
+        cells: usize,
+    ) -> PyResult<(Array<'py>, Failed)> {
+        let creep = law_of(py, creep, cells)?;
+        let (columns, count) = columns_of(&given)?;
+        let made: Vec<Result<f64, LoadError>> = guarded(py, || {
+            Ok(py.detach(|| {
+                (0..count)
+                    .map(|k| {
+                        let (attitude, load, law) = point(&columns, k, creep);
+                        self.wheelset.free_rolling(&attitude, load, &law)
+                    })
+                    .collect()
+            }))
+        })?;
+        let mut failed = Failed::new();
+        let rates = sorted(made, &mut failed).into_iter();
+        let rates = rates.map(|rate| rate.unwrap_or(f64::NAN)).collect();
+        Ok((PyArray1::from_vec(py, rates), failed))
+    }
+
     /// Returns the loaded wheels of one side. Arrays of one length in; out: numbers of patches (entry, patch,
-    /// number) as one flat array, numbers of wheels (entry, number), and the seats' names.
+    /// number) as one flat array, numbers of wheels (entry, number), the seats' names, and the errors of the
+    /// points that have no wheel, whose numbers are NaN and whose seat is empty.
     #[allow(clippy::too_many_arguments)]
     fn contact<'py>(
         &self,
@@ -244,47 +302,40 @@ impl NativeWheelset {
         given: [Given<'py>; 7],
         creep: &str,
         cells: usize,
-    ) -> PyResult<(Array<'py>, Array<'py>, Vec<&'static str>)> {
-        let law = law_of(py, creep, cells)?;
+    ) -> PyResult<(Array<'py>, Array<'py>, Vec<&'static str>, Failed)> {
+        let creep = law_of(py, creep, cells)?;
         let (columns, count) = columns_of(&given)?;
         let side = if left { Side::Left } else { Side::Right };
-        let made: Result<Vec<LoadedWheel>, LoadError> = guarded(py, || {
+        let made: Vec<Result<LoadedWheel, LoadError>> = guarded(py, || {
             Ok(py.detach(|| {
                 (0..count)
                     .map(|k| {
-                        let attitude = Attitude {
-                            lateral: columns[0][k],
-                            yaw: columns[1][k],
-                            roll: columns[2][k],
-                            speed: columns[3][k],
-                            pitch_rate: columns[4][k],
-                        };
-                        let law = ContactLaw {
-                            friction: columns[6][k],
-                            damping: 0.0,
-                            creep: law,
-                            slowest: 0.0,
-                        };
-                        self.wheelset.loaded(side, &attitude, columns[5][k], &law)
+                        let (attitude, load, law) = point(&columns, k, creep);
+                        self.wheelset.loaded(side, &attitude, load, &law)
                     })
                     .collect()
             }))
         })?;
-        let wheels = made.map_err(|error| of_load(py, &error))?;
+        let mut failed = Failed::new();
+        let wheels = sorted(made, &mut failed);
         let mut patches = vec![f64::NAN; count * PATCHES * OF_PATCH];
-        let mut whole = Vec::with_capacity(count * OF_WHEEL);
+        let mut whole = vec![f64::NAN; count * OF_WHEEL];
+        let mut seats = vec![""; count];
         for (k, wheel) in wheels.iter().enumerate() {
+            let Some(wheel) = wheel else { continue };
             for (j, patch) in wheel.patches.iter().take(PATCHES).enumerate() {
                 let at = (k * PATCHES + j) * OF_PATCH;
                 patches[at..at + OF_PATCH].copy_from_slice(&numbers(patch));
             }
-            whole.extend([wheel.center, wheel.height, wheel.force[0], wheel.force[1]]);
+            let own = [wheel.center, wheel.height, wheel.force[0], wheel.force[1]];
+            whole[k * OF_WHEEL..][..OF_WHEEL].copy_from_slice(&own);
+            seats[k] = wheel.seat.word();
         }
-        let seats = wheels.iter().map(|wheel| wheel.seat.word()).collect();
         Ok((
             PyArray1::from_vec(py, patches),
             PyArray1::from_vec(py, whole),
             seats,
+            failed,
         ))
     }
 
@@ -309,30 +360,35 @@ impl NativeWheelset {
     }
 
     /// Equivalent conicity after EN 15302 and by harmonic linearization at amplitudes (m), from a table of
-    /// `count` positions up to `largest` (m).
+    /// `count` positions up to `largest` (m); NaN where there is none, with the errors of those points.
     fn conicity<'py>(
         &self,
         py: Python<'py>,
         amplitudes: Given<'py>,
         largest: f64,
         count: usize,
-    ) -> PyResult<[Array<'py>; 2]> {
+    ) -> PyResult<([Array<'py>; 2], Failed)> {
         let amplitudes = amplitudes.as_slice()?;
         guarded(py, || {
-            let wrong = |text: String| refused(py, &text, "look at gauge, tape distance and amplitude");
+            let wrong = |text: String| refused(py, &text, WHERE_TO_LOOK);
             let positions = self.wheelset.sweep(largest, count, false);
             let table = RollingRadiusDifference::of_positions(&positions)
                 .map_err(|error| wrong(error.to_string()))?;
             let (radius, distance) = (self.wheelset.nominal_radius(), self.layout.tape_distance);
-            let found: Vec<[f64; 2]> = amplitudes
-                .iter()
-                .map(|amplitude| {
-                    let found = table.equivalent_conicity(*amplitude, radius, distance);
-                    let found = found.map_err(|error| wrong(error.to_string()))?;
-                    Ok([found.by_wavelength, found.by_linearization])
-                })
-                .collect::<PyResult<_>>()?;
-            Ok([0, 1].map(|k: usize| PyArray1::from_vec(py, found.iter().map(|row| row[k]).collect())))
+            let mut failed = Failed::new();
+            let mut found = Vec::with_capacity(amplitudes.len());
+            for (k, amplitude) in amplitudes.iter().enumerate() {
+                let one = table.equivalent_conicity(*amplitude, radius, distance);
+                found.push(match one {
+                    Ok(found) => [found.by_wavelength, found.by_linearization],
+                    Err(error) => {
+                        failed.push((k, error.to_string(), WHERE_TO_LOOK.to_owned()));
+                        [f64::NAN; 2]
+                    }
+                });
+            }
+            let column = |k: usize| PyArray1::from_vec(py, found.iter().map(|row| row[k]).collect());
+            Ok(([0, 1].map(column), failed))
         })
     }
 }

@@ -67,7 +67,7 @@ def test_limits_where_the_wedge_jams() -> None:
         ({"toe": 1.0}, "22.5 deg"),
         ({"mu_column": -0.1}, "0 or more"),
         ({"mu_slope": np.inf}, "0 or more"),
-        ({"coil_force": [1.0, 0.0]}, "coil pushes"),
+        ({"coil_force": [-1.0, 0.0]}, "coil pushes"),
         ({"coil_force": "3000 foo"}, "no unit"),
         ({"direction": "sideways"}, '"down", "up"'),
         ({"direction": 1}, '"down", "up"'),

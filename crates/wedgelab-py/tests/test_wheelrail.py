@@ -169,7 +169,7 @@ def test_input_others_are_explained(tmp_path: Path) -> None:
         wr.Profile.nominal("aar_1c")
     with pytest.raises(wl.WheelRailError, match='"wheel" or "rail"'):
         wr.Profile.read(bad, "tire")  # type: ignore[arg-type]
-    with pytest.raises(wl.WheelRailError, match="a must be positive"):
+    with pytest.raises(wl.WheelRailError, match="a is 0.0; it must be positive"):
         wr.creep_forces("polach", a=0.0, b=1e-3, load=1e4)
     with pytest.raises(wl.WheelRailError, match="wider|amplitude"):
         wr.Wheelset(wr.Profile.nominal("aar_1b"), wr.Profile.nominal("136re")).equivalent_conicity("30 mm")

@@ -12,6 +12,7 @@ mod progress;
 mod saved;
 mod select;
 mod table;
+mod units;
 
 use std::io::Write;
 use std::process::ExitCode;

@@ -64,6 +64,29 @@ fn refused(folder: &Path, arguments: &[&str], code: i32, texts: &[&str]) {
     assert_eq!(names(folder), before);
 }
 
+/// The help of tracks says where joints lie, and that of contact what is answered by default.
+#[test]
+fn issue_048_help_says_where_joints_lie_and_what_contact_answers() {
+    let folder = temporary();
+    for (arguments, parts) in [
+        (
+            &["track", "show", "--help"][..],
+            &["first joint's lowest point", "half a spacing"][..],
+        ),
+        (
+            &["wheelrail", "contact", "--help"],
+            &["that of free rolling", "Answers are in the units of the question"],
+        ),
+    ] {
+        let help = wedgelab(folder.path(), arguments).out;
+        let words = help.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            parts.iter().all(|part| words.contains(part)),
+            "{arguments:?}: {help}"
+        );
+    }
+}
+
 #[test]
 fn help_shows_examples() {
     let folder = temporary();

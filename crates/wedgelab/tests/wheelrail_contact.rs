@@ -206,7 +206,7 @@ fn limits_laws_agree_at_small_creepages_and_saturate() {
 #[test]
 fn limits_derailed_wheels_are_reported_with_their_places() {
     let at = |lateral: &str, json: bool| {
-        let arguments = ["aar_1b", "136re", "--load", "33 kip", "--lateral", lateral];
+        let arguments = ["aar_1b", "136re", "--load", "146.8 kN", "--lateral", lateral];
         let json: &[&str] = if json { &["--json"] } else { &[] };
         command(&[&arguments[..], json].concat())
     };
@@ -357,5 +357,119 @@ fn issue_047_every_command_tells_wheels_from_rails_and_measures_gauge_from_the_d
         "y = 0 lies 750.000 mm from the middle of the track",
     ] {
         assert!(out.contains(text), "{text}: {out}");
+    }
+}
+
+/// Without a pitch rate the axle has no torque: a wheelset in the middle has next to no longitudinal forces,
+/// those of a shifted one cancel. A given pitch rate counts.
+#[test]
+fn issue_048_a_wheelset_rolls_freely_by_default() {
+    let usual = [
+        "aar_1b", "136re", "--load", "146.8 kN", "--speed", "60 km/h", "--json",
+    ];
+    let found = answer(&usual);
+    for side in ["left", "right"] {
+        assert!(sum(&found, side, "fx_n").abs() < 1e-4 * 146.8e3, "{found:#}");
+    }
+    assert_eq!(found["given"]["free_rolling"], true);
+    let shifted = answer(&[&usual[..], &["--lateral", "6 mm"]].concat());
+    let [left, right] = ["left", "right"].map(|side| sum(&shifted, side, "fx_n"));
+    assert!(left > 1e3 && (left + right).abs() < 0.01 * left, "{left} {right}");
+    let rate = found["given"]["pitch_rate_rad_per_s"].as_f64().unwrap();
+    let given = answer(&[&usual[..], &["--pitch-rate", &format!("{} rad/s", 1.001 * rate)]].concat());
+    assert_eq!(given["given"]["free_rolling"], false);
+    assert!(sum(&given, "left", "fx_n") < -1e3, "{given:#}");
+    let (_, text, _) = command(&usual[..6]);
+    assert!(text.contains("rolls freely: pitch rate -"), "{text}");
+}
+
+/// Answers are in the units of the load; `--units` says otherwise. Both are the same contact.
+#[test]
+fn issue_048_answers_are_in_the_units_of_the_question() {
+    let of = |load: &str, more: &[&str]| {
+        let arguments = [
+            "aar_1b",
+            "136re",
+            "--load",
+            load,
+            "--lateral",
+            "0.25 in",
+            "--json",
+        ];
+        answer(&[&arguments[..], more].concat())
+    };
+    let (us, si) = (of("33 kip", &[]), of("33 kip", &["--units", "si"]));
+    assert_eq!(
+        (&us["units"], &si["units"]),
+        (&Value::from("us"), &Value::from("si"))
+    );
+    assert_eq!(us["units"], of("33000 lbf", &[])["units"]);
+    assert_eq!(of("146.8 kN", &[])["units"], "si");
+    assert_eq!(of("146.8 kN", &["--units", "us"])["units"], "us");
+    let pound_force = 4.448_221_615_260_5;
+    for (in_us, in_si, factor) in [
+        ("y_in", "y_mm", 25.4),
+        ("normal_lbf", "normal_n", pound_force),
+        ("fx_lbf", "fx_n", pound_force),
+        ("spin_moment_lbf_in", "spin_moment_nmm", 25.4 * pound_force),
+        ("spin_per_in", "spin_per_mm", 1.0 / 25.4),
+        ("a_in", "a_mm", 25.4),
+        (
+            "greatest_pressure_ksi",
+            "greatest_pressure_mpa",
+            6.894_757_293_168_362,
+        ),
+    ] {
+        let (a, b) = (sum(&us, "left", in_us), sum(&si, "left", in_si));
+        assert!((a * factor / b - 1.0).abs() < 1e-12, "{in_us}: {a} {b}");
+    }
+    assert!(
+        (us["given"]["load_lbf"].as_f64().unwrap() - 33e3).abs() < 1e-6,
+        "{us:#}"
+    );
+    let (_, text, _) = command(&["aar_1b", "136re", "--load", "33 kip"]);
+    assert!(text.contains("lbf"), "{text}");
+    assert!(!text.contains("mm"), "{text}");
+}
+
+/// A gauge at which wheels fall in is told with numbers by every command that runs on it.
+#[test]
+fn issue_048_a_gauge_too_wide_for_the_wheels_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("track.toml"),
+        "[[segments]]\ntangent = \"100 ft\"\n",
+    )
+    .unwrap();
+    for arguments in [
+        &["wheelrail", "check", "aar_1b", "136re", "--gauge", "68 in"][..],
+        &[
+            "wheelrail",
+            "run",
+            "aar_1b",
+            "136re",
+            "track.toml",
+            "--speed",
+            "30 mph",
+            "--gauge",
+            "68 in",
+        ],
+        &["run", "car_tangent_loaded", "--set", "rails.gauge=68 in"],
+    ] {
+        let output = Command::new(env!("CARGO_BIN_EXE_wedgelab"))
+            .current_dir(folder.path())
+            .args(arguments)
+            .env_remove("FORCE_COLOR")
+            .output()
+            .unwrap();
+        let err = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {err}");
+        for part in [
+            "the wheels do not reach both rails",
+            "68.00 in",
+            "lower the gauge to",
+        ] {
+            assert!(err.contains(part), "{arguments:?}: {part}: {err}");
+        }
     }
 }

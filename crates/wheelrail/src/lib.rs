@@ -6,6 +6,7 @@
 //! | contact: search for patches, normal force with damping, wrench on a wheel | [`contact`] |
 //! | a rigid wheelset on rails: rolling radii, contact angles | [`wheelset`] |
 //! | a wheelset under given loads, in the frame of the program CONTACT | [`loaded`] |
+//! | the pitch rate at which it rolls freely | [`free_rolling`] |
 //! | equivalent conicity, linear geometry | [`conicity`] |
 //! | elastic contact of two curved bodies | [`hertz`] |
 //! | creep forces: Kalker's coefficients and linear theory, Shen-Hedrick-Elkins, Polach, FASTSIM | [`creep`] |
@@ -32,6 +33,7 @@
 pub mod conicity;
 pub mod contact;
 pub mod creep;
+pub mod free_rolling;
 pub mod hertz;
 pub mod loaded;
 pub mod profile;

@@ -13,9 +13,10 @@
 
 use std::f64::consts::PI;
 
+use quantity::length_hint;
 use thiserror::Error;
 
-use crate::contact::{ContactLaw, Side, WheelMotion};
+use crate::contact::{ContactLaw, ContactPair, Side, WheelMotion};
 use crate::wheelset::RigidWheelset;
 
 /// Deepest rigid overlap at which a height is looked for, m. Hertz's theory ends long before.
@@ -26,6 +27,9 @@ const SHALLOWEST: f64 = 1e-7;
 const WITHIN: f64 = 1e-10;
 /// Distance to its outer edge within which a rim stands on its edge, m.
 const EDGE: f64 = 1e-3;
+/// Farthest lateral place of a wheelset, m, and its name in messages.
+const FARTHEST: f64 = 1.0;
+const LATERAL: &str = "the lateral place (m)";
 
 /// Position and velocity of a wheelset, in the frame of CONTACT.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +60,19 @@ pub enum Seat {
 }
 
 impl Seat {
+    /// Returns the part of a wheel over its rail on which it stands, by the place of contact on its profile
+    /// (m).
+    pub(crate) fn of(pair: &ContactPair, profile: f64) -> Self {
+        let [_, rim] = pair.wheel_range();
+        if pair.flange_crest().is_some_and(|crest| profile < crest) {
+            Self::FlangeTip
+        } else if profile > rim - EDGE {
+            Self::RimEdge
+        } else {
+            Self::OnRail
+        }
+    }
+
     /// Returns its name in files.
     #[must_use]
     pub fn word(self) -> &'static str {
@@ -106,6 +123,9 @@ pub struct LoadedWheel {
     pub height: f64,
     /// Lateral force on the rail, m to the right, and vertical force, down, N.
     pub force: [f64; 2],
+    /// Moment of the rail's forces on the wheel about the axle, N·m: positive where it turns the wheel
+    /// forward.
+    pub torque: f64,
     /// Its patches, the deepest first; none off the rail.
     pub patches: Vec<LoadedPatch>,
 }
@@ -139,25 +159,50 @@ pub enum LoadError {
         /// Lateral place of the first contact in the frame of CONTACT, m.
         place: f64,
     },
+    /// No pitch rate frees the axle from torque.
+    #[error(
+        "at no pitch rate between {fastest:.2} and {slowest:.2} rad/s does the wheelset roll freely: the \
+         torque on its axle is {:.0} and {:.0} N·m there, of one sign",
+        torques[0], torques[1]
+    )]
+    NoFreeRolling {
+        /// The pitch rate of the fastest rolling that was tried, rad/s.
+        fastest: f64,
+        /// That of the slowest, rad/s.
+        slowest: f64,
+        /// The torques there, N·m: positive where they turn the wheelset forward.
+        torques: [f64; 2],
+    },
 }
 
 impl LoadError {
     /// Returns the advice.
     #[must_use]
-    pub fn remedy(&self) -> &'static str {
-        match self {
-            Self::Number { .. } => "give a number in that range",
+    pub fn remedy(&self) -> String {
+        let words = match self {
+            Self::Number { what, value, .. } => {
+                let hint = (*what == LATERAL).then(|| length_hint(*value, [-FARTHEST, FARTHEST]));
+                return hint
+                    .flatten()
+                    .unwrap_or_else(|| "give a number in that range".to_owned());
+            }
             Self::NoHeight { .. } => {
                 "give the load of one wheel (freight cars have 30 to 160 kN); on a steep flange creep \
                  forces can carry or pull down the whole load: look at yaw, friction and creep law"
             }
-        }
+            Self::NoFreeRolling { .. } => {
+                "give the pitch rate; or look at the yaw, which turns the wheels across their rails"
+            }
+        };
+        words.to_owned()
     }
 }
 
 /// A wheel pressed down.
 struct Pressed {
     force: [f64; 3],
+    /// About the axle.
+    torque: f64,
     patches: Vec<LoadedPatch>,
     /// y on the wheel's profile of the patch that carries most, m.
     profile: Option<f64>,
@@ -191,16 +236,13 @@ impl RigidWheelset {
             center,
             height: f64::NAN,
             force: [0.0; 2],
+            torque: 0.0,
             patches: Vec::new(),
         };
         let center = on_track(pose(level).center[0]);
-        let Some(touch) = pair.touch(&pose(level)) else {
+        let Some(touch) = pair.touch_over_rail(&pose(level)) else {
             return Ok(off(center));
         };
-        let [low, high] = pair.rail_range();
-        if touch.place[1] < low || touch.place[1] > high {
-            return Ok(off(center));
-        }
         let touching = level + touch.overlap;
         let press = |depth: f64| self.pressed(side, attitude, touching - depth, law);
         // The first depth, by doublings, at which the load is carried.
@@ -250,14 +292,7 @@ impl RigidWheelset {
         }
         let pressed = press(found);
         let profile = pressed.profile.unwrap_or(touch.profile);
-        let [_, rim] = pair.wheel_range();
-        let seat = if pair.flange_crest().is_some_and(|crest| profile < crest) {
-            Seat::FlangeTip
-        } else if profile > rim - EDGE {
-            Seat::RimEdge
-        } else {
-            Seat::OnRail
-        };
+        let seat = Seat::of(pair, profile);
         let pose = pose(touching - found);
         Ok(LoadedWheel {
             seat,
@@ -265,6 +300,7 @@ impl RigidWheelset {
             height: pose.center[1],
             // On the rail, y to the right, z down: y turns twice, z turns twice.
             force: [pressed.force[1], pressed.force[2]],
+            torque: pressed.torque,
             patches: pressed.patches,
         })
     }
@@ -309,20 +345,25 @@ impl RigidWheelset {
         });
         Pressed {
             force: total.force,
+            torque: axle
+                .iter()
+                .zip(total.moment)
+                .map(|(axis, moment)| axis * moment)
+                .sum(),
             patches,
             profile,
         }
     }
 }
 
-fn check(attitude: &Attitude, load: f64, law: &ContactLaw) -> Result<(), LoadError> {
+pub(crate) fn check(attitude: &Attitude, load: f64, law: &ContactLaw) -> Result<(), LoadError> {
     let within = |limit: f64| move |value: f64| value.abs() <= limit;
     let positive = |value: f64| value > 0.0 && value.is_finite();
     let numbers: [(&'static str, f64, bool, &'static str); 7] = [
         (
-            "the lateral place (m)",
+            LATERAL,
             attitude.lateral,
-            within(1.0)(attitude.lateral),
+            within(FARTHEST)(attitude.lateral),
             "within 1 m",
         ),
         (

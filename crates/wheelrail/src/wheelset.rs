@@ -10,10 +10,14 @@
 
 use crate::contact::{ContactPair, RigidTouch, Side, WheelPose};
 use crate::hertz::Material;
+use crate::loaded::Seat;
 use crate::profile::{Profile, ProfileError, check_gauge};
 
 /// Largest roll that is looked for, rad.
 const LARGEST_ROLL: f64 = 0.3;
+
+/// Step of the search for the gauge at which wheels reach their rails, m.
+const REACH_STEP: f64 = 2e-3;
 
 /// Distances of a wheelset and a track, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,16 +88,10 @@ impl RigidWheelset {
             gauge,
             gauge_depth,
         } = layout;
-        for (what, value) in [
-            ("distance of the tape circles (m)", tape_distance),
-            ("gauge (m)", gauge),
-        ] {
-            if !(value > 0.1 && value < 10.0) {
-                return Err(ProfileError::Number {
-                    what,
-                    value,
-                    must: "between 0.1 and 10 m",
-                });
+        for (what, value) in [("distance of the tape circles", tape_distance), ("gauge", gauge)] {
+            let range = [0.1, 10.0];
+            if !(value > range[0] && value < range[1]) {
+                return Err(ProfileError::Length { what, value, range });
             }
         }
         let side = |i: usize| -> Result<(ContactPair, f64), ProfileError> {
@@ -127,6 +125,55 @@ impl RigidWheelset {
     #[must_use]
     pub fn nominal_radius(&self) -> f64 {
         0.5 * (self.pairs[0].nominal_radius() + self.pairs[1].nominal_radius())
+    }
+
+    /// Checks that the wheelset in the middle of the track stands on the treads of both wheels: not on the
+    /// outer edges of its rims, nor between or beside the rails.
+    ///
+    /// # Errors
+    /// [`ProfileError::ShortOfRails`].
+    pub fn check_reach(&self) -> Result<(), ProfileError> {
+        if self.reaches(0.0) {
+            return Ok(());
+        }
+        // How far rails must come inwards, by bisection, and with it the largest gauge.
+        let (mut short, mut reached) = (0.0, 0.0);
+        let mut inwards = REACH_STEP;
+        while inwards < 0.5 * self.layout.gauge {
+            if self.reaches(inwards) {
+                reached = inwards;
+                break;
+            }
+            short = inwards;
+            inwards += REACH_STEP;
+        }
+        for _ in 0..40 {
+            let middle = 0.5 * (short + reached);
+            *(if self.reaches(middle) {
+                &mut reached
+            } else {
+                &mut short
+            }) = middle;
+        }
+        let rims = self.pairs.iter().map(|pair| pair.wheel_range()[1]).sum::<f64>();
+        Err(ProfileError::ShortOfRails {
+            gauge: self.layout.gauge,
+            span: self.layout.tape_distance + rims,
+            largest: (reached > 0.0).then_some(self.layout.gauge - 2.0 * reached),
+        })
+    }
+
+    /// Returns whether both wheels stand on their treads in the middle of the track, with rails this far (m)
+    /// inwards of their places.
+    fn reaches(&self, inwards: f64) -> bool {
+        [Side::Left, Side::Right].into_iter().all(|side| {
+            let index = usize::from(side == Side::Right);
+            let sign = if side == Side::Left { 1.0 } else { -1.0 };
+            let pose = self.pose(side, [sign * inwards, self.nominal_radius()], 0.0, 0.0);
+            let pair = &self.pairs[index];
+            let touch = pair.touch_over_rail(&pose);
+            touch.is_some_and(|touch| Seat::of(pair, touch.profile) == Seat::OnRail)
+        })
     }
 
     /// Returns the position at a lateral shift (m) and a yaw (rad, to the left); none if a wheel is not over

@@ -368,7 +368,7 @@ fn input_wrong_profiles_are_refused() {
     ));
     assert!(matches!(
         ContactPair::new(&wheel, 457.2, &rail, STEEL),
-        Err(ProfileError::Number { .. })
+        Err(ProfileError::Length { .. })
     ));
     let soft = Material {
         youngs_modulus: 0.0,

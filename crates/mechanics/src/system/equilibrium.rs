@@ -23,6 +23,48 @@ pub struct NoEquilibrium {
     pub coordinate: &'static str,
     /// The acceleration that is left.
     pub acceleration: f64,
+    /// The state that came nearest to rest.
+    pub nearest: Vec<f64>,
+    /// The largest acceleration there, or rate of a deflection over 1 ms: m/s² or rad/s².
+    pub residual: f64,
+    /// The last state of the search: it shows where the bodies go.
+    pub last: Vec<f64>,
+}
+
+/// A run may start from a state whose largest acceleration is this share of gravity (of 1 m/s² without
+/// gravity; rad/s² as m/s²): each body lacks a ten thousandth of its weight to rest, as much as the relative
+/// tolerance of most runs leaves open.
+pub const NEARLY_AT_REST: f64 = 1e-4;
+
+impl NoEquilibrium {
+    /// Returns the state that came nearest to rest, if it is nearly at rest: see [`NEARLY_AT_REST`]. `gravity`
+    /// in m/s².
+    #[must_use]
+    pub fn nearly_at_rest(&self, gravity: f64) -> Option<&[f64]> {
+        let scale = if gravity.abs() > 0.0 { gravity.abs() } else { 1.0 };
+        (self.residual <= NEARLY_AT_REST * scale).then_some(&*self.nearest)
+    }
+
+    /// Returns the warning of a start from [`NoEquilibrium::nearly_at_rest`].
+    #[must_use]
+    pub fn warning(&self) -> String {
+        format!(
+            "the start is nearly at rest, not quite: {} still accelerates by {:.1e} (m/s² or rad/s²) in {}, \
+             less than {NEARLY_AT_REST:.0e} of gravity's; the run begins with this motion",
+            self.body,
+            self.acceleration.abs(),
+            self.coordinate
+        )
+    }
+}
+
+/// A start at rest, or nearly so.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AtRest {
+    /// The state.
+    pub state: Vec<f64>,
+    /// The warning of a state that is nearly at rest: [`NoEquilibrium::warning`].
+    pub warning: Option<String>,
 }
 
 /// The role of friction in a static equilibrium, where its force is not determined by the positions alone.
@@ -93,6 +135,29 @@ impl System {
         found
     }
 
+    /// As [`System::equilibrium`], but a state that is nearly at rest serves too, with a warning.
+    ///
+    /// # Errors
+    /// No state is nearly at rest ([`NEARLY_AT_REST`]).
+    pub fn start_at_rest(
+        &mut self,
+        time: f64,
+        x: &[f64],
+        friction: StaticFriction,
+    ) -> Result<AtRest, NoEquilibrium> {
+        let gravity = self.gravity.0.iter().fold(0.0, |sum, own| libm::hypot(sum, *own));
+        match self.equilibrium(time, x, friction) {
+            Ok(state) => Ok(AtRest { state, warning: None }),
+            Err(error) => match error.nearly_at_rest(gravity) {
+                Some(state) => Ok(AtRest {
+                    state: state.to_vec(),
+                    warning: Some(error.warning()),
+                }),
+                None => Err(error),
+            },
+        }
+    }
+
     fn settle(&mut self, time: f64, x: &[f64], friction: StaticFriction) -> Result<Vec<f64>, NoEquilibrium> {
         let n = self.layout.speeds;
         let states = 2 * n..2 * n + self.layout.internals;
@@ -112,7 +177,12 @@ impl System {
         let mut residual = size(&dx);
         let mut step = 1e-4;
         let (mut least, mut since) = (f64::INFINITY, 0);
+        let (mut nearest, mut lowest) = (x.clone(), f64::INFINITY);
         for _ in 0..ITERATIONS {
+            if residual < lowest {
+                lowest = residual;
+                nearest.copy_from_slice(&x);
+            }
             if residual < 0.5 * least {
                 (least, since) = (residual, 0);
             }
@@ -141,6 +211,9 @@ impl System {
                 self.derivative(time, &x, &mut dx);
             }
         }
+        if residual >= lowest {
+            self.derivative(time, &nearest, &mut dx);
+        }
         let worst = (0..n).fold(0, |w, i| if dx[n + i].abs() > dx[n + w].abs() { i } else { w });
         let free = self.free.iter().rev().find(|free| free.offset <= worst);
         let (body, coordinate) = free.map_or((String::new(), ""), |free| {
@@ -154,6 +227,9 @@ impl System {
             body,
             coordinate,
             acceleration: dx[n + worst],
+            residual: size(&dx),
+            nearest,
+            last: x,
         })
     }
 }

@@ -54,7 +54,7 @@ use applied_load::MountedLoad;
 pub use contact_states::{CLOSING_GAP, ContactState, OPENING_GAP, SLIP_LOAD, STICK_LOAD};
 pub use contacts::Contacts;
 pub use energy_term::{EnergyTerm, EnergyTermKind};
-pub use equilibrium::{NoEquilibrium, StaticFriction};
+pub use equilibrium::{AtRest, NEARLY_AT_REST, NoEquilibrium, StaticFriction};
 pub use evaluation::{CoilEvaluation, ElementEvaluation, Load, PointEvaluation};
 pub use inputs::InputError;
 pub use jacobian_vector_product::{JacobianVectorProduct, MotionChange, StateDirection};

@@ -150,6 +150,38 @@ fn the_half_truck_with_constant_damping_is_balanced_as_drawn() {
     }
 }
 
+/// A slope that is too small for a body to lose a ten thousandth of its weight is nearly level: the start has
+/// a warning with what is left. A steeper one has no equilibrium.
+#[test]
+fn issue_048_a_body_that_is_nearly_at_rest_is_a_start_with_a_warning() {
+    for (slope, nearly) in [(5e-4, true), (5e-3, false)] {
+        let free = Body::linearized("stone", [0.0; 3], ALL, 1.0, [1.0; 3]);
+        let mover = Body::linearized_prescribed("mover", [0.0; 3], vertical(Motion::Constant(0.0)));
+        let spring = |k| (k, SpringDamper::spring(Curve::linear(1e4)));
+        let held = Law::Springs(vec![spring(1), spring(2), spring(3), spring(4), spring(5)]);
+        let mut model = model(vec![free, mover], vec![connection(0, 1, [0.0; 3], held)]);
+        model.gravity = [slope, 0.0, -9.8];
+        let mut system = System::new(model).unwrap();
+        let x = system.initial_state();
+        let error = system.equilibrium(0.0, &x, StaticFriction::Without).unwrap_err();
+        assert!((error.residual - slope).abs() < 1e-9, "{error:?}");
+        assert_eq!(error.nearly_at_rest(9.8).is_some(), nearly);
+        match system.start_at_rest(0.0, &x, StaticFriction::Without) {
+            Ok(start) => {
+                let warning = start.warning.unwrap();
+                assert!(
+                    nearly && warning.contains("stone still accelerates by 5.0e-4"),
+                    "{warning}"
+                );
+                assert!(warning.contains("nearly at rest"), "{warning}");
+                let z = start.state[system.position_of(0, 2).unwrap()];
+                assert!((z + 9.8 / 1e4).abs() < 1e-6, "{z}");
+            }
+            Err(_) => assert!(!nearly),
+        }
+    }
+}
+
 /// No equilibrium: a body that nothing holds.
 #[test]
 fn a_falling_body_has_no_equilibrium() {

@@ -1,7 +1,7 @@
 //! Checks of several keys together: a lading that tips the car, a track that is too short, a curve that is
 //! too tight.
 
-use car::{Drive, Parameters};
+use car::{Drive, Parameters, Wheels};
 use quantity::Number;
 use truck::SideBearing;
 use wheelrail::track::CenterLine;
@@ -29,10 +29,30 @@ pub(super) fn all(
 ) -> Vec<String> {
     balance(r, parameters, lading);
     way(r, parameters, simulation);
-    if let Err(error) = parameters.check() {
-        r.problems.push(Problem::new(error.to_string()));
+    let reaches = reach(r, parameters);
+    if let (true, Err(error)) = (reaches, parameters.check()) {
+        let problem = Problem::new(error.to_string());
+        r.problems.push(match error.remedy() {
+            Some(remedy) => problem.help(remedy),
+            None => problem,
+        });
     }
     [height(parameters)].into_iter().flatten().collect()
+}
+
+/// Notes wheels that do not reach both rails; returns whether they do.
+fn reach(r: &mut CaseReader<'_>, parameters: &Parameters) -> bool {
+    let Wheels::OnRails(wheels) = &parameters.wheels else {
+        return true;
+    };
+    match wheels.geometry.check_reach() {
+        Ok(()) => true,
+        Err(error) => {
+            let problem = Problem::new(error.to_string()).label("too wide");
+            r.problem("rails.gauge", problem.help(error.remedy()));
+            false
+        }
+    }
 }
 
 /// A center of gravity outside of what carries the body.
@@ -51,12 +71,7 @@ fn balance(r: &mut CaseReader<'_>, parameters: &Parameters, lading: LadingKind) 
         let help = "move the masses of the lading between the trucks";
         r.problem(key, Problem::new(message).label("tips the car").help(help));
     }
-    let bearing = parameters
-        .trucks
-        .iter()
-        .filter_map(|own| own.car_body.as_ref())
-        .map(|own| own.side_bearings.distance)
-        .fold(f64::INFINITY, f64::min);
+    let bearing = parameters.side_bearing_distance();
     if left.abs() >= bearing {
         let message = format!(
             "the center of gravity of body and lading lies {:.1} in to the {} of the middle, beyond the \

@@ -1,6 +1,6 @@
 //! The sections of the car body and of what it carries.
 
-use car::{Mass, Parameters};
+use car::{ACCELEROMETER_HEIGHTS, Mass, Parameters, TRUCK_DISTANCES};
 use quantity::{Kind, STANDARD_GRAVITY};
 use truck::Lading;
 
@@ -8,7 +8,7 @@ use crate::case::field::{Reach, Written, quoted};
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Names, Range};
 use crate::case::tree::NodeValue;
-use crate::reader::{CaseReader, LENGTH, QuantityForm};
+use crate::reader::{CaseReader, QuantityForm};
 use crate::truck::sections;
 
 /// The kinds of lading.
@@ -150,11 +150,28 @@ pub(super) fn body(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
          between the trucks.",
     );
     sections::rigid_body(r, &mut parameters.body);
+    let distance: QuantityForm = (
+        Kind::Length,
+        Range::Between(TRUCK_DISTANCES[0], TRUCK_DISTANCES[1], "between 1 and 100 m"),
+        Reach::Positive,
+    );
     r.quantity(
         "truck_distance",
-        LENGTH,
+        distance,
         &mut parameters.truck_distance,
         "from the center of one truck to that of the other",
+    );
+    let height: QuantityForm = (
+        Kind::Length,
+        Range::UpTo(ACCELEROMETER_HEIGHTS[1], "between 0 and 10 m"),
+        Reach::Positive,
+    );
+    r.optional(
+        "accelerometer_height",
+        height,
+        &mut parameters.accelerometer_height,
+        "\"30 in\"",
+        "of the accelerometers over the truck centers, above the top of rail; left out: that of the center plate",
     );
     let gravity: QuantityForm = (
         Kind::Acceleration,

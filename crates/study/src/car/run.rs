@@ -102,6 +102,7 @@ impl RunCase for CarCase {
         Ok(Beginning {
             system: car.system.clone(),
             x: car.initial_state.clone(),
+            start_warning: car.start_warning.clone(),
             recorder: CarRecorder {
                 rows: RowTable::new(columns, |name| name == "speed" || statistics::need(name)),
                 ahead: None,
@@ -278,6 +279,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     let mut warnings: Vec<String> = energy::warning(&balance, energy::WHAT_TO_DO)
         .into_iter()
         .collect();
+    warnings.extend(run.start_warning.clone());
     warnings.extend(plausibility::warnings_of_rolling(&run));
     warnings.extend(run.case.doubts.iter().cloned());
     let method = run.case.simulation.method;

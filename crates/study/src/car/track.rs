@@ -79,7 +79,10 @@ pub(super) fn track(r: &mut CaseReader<'_>) -> Option<ReadTrack> {
 fn meaning(key: &str) -> &'static str {
     match key {
         "segments" => "one after the other: tangent, spiral, curve",
-        "irregularities" => "shapes, spectra, measured tables",
+        "irregularities" => {
+            "shapes, spectra, measured tables; `start` is the distance of the lowest point of the first joint, \
+             and of the beginning of a sine, dip or jog"
+        }
         "support" => "what the rails lie on: rigid or sprung",
         "name" => "of the track",
         _ => "as in a track file",

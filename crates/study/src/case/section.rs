@@ -32,6 +32,16 @@ impl Range {
         }
     }
 
+    /// Returns its ends, SI: infinite where it has none.
+    fn ends(self) -> [f64; 2] {
+        match self {
+            Range::Any => [f64::NEG_INFINITY, f64::INFINITY],
+            Range::Positive | Range::NotNegative => [0.0, f64::INFINITY],
+            Range::Between(low, high, _) => [low, high],
+            Range::UpTo(high, _) => [0.0, high],
+        }
+    }
+
     fn words(self) -> &'static str {
         match self {
             Range::Any => "a finite number",
@@ -439,7 +449,17 @@ pub(crate) fn out_of_range(quantity: &Quantity, path: &str, kind: Kind, range: R
         "`{path}` is {quantity}; it must be {}",
         said(range, kind, quantity)
     );
-    Some(Problem::new(message).help(format!("write for example \"{}\"", example(kind))))
+    // A number without unit was read as metres.
+    let hint = match kind {
+        Kind::Length | Kind::Distance if quantity.unit_text() == "m" => {
+            let most = bounds::largest(kind);
+            let [low, high] = range.ends();
+            quantity::length_hint(quantity.to_si(), [low.max(-most), high.min(most)])
+        }
+        _ => None,
+    };
+    let help = hint.unwrap_or_else(|| format!("write for example \"{}\"", example(kind)));
+    Some(Problem::new(message).help(help))
 }
 
 /// Returns an example of a quantity of this kind.

@@ -9,7 +9,7 @@ use mechanics::connection::Law;
 use mechanics::energy_balance::Entries;
 use mechanics::motion::Motion;
 use mechanics::plausibility::PlausibilityFinding;
-use mechanics::system::{ContactState, NoEquilibrium, StaticFriction, System};
+use mechanics::system::{AtRest, ContactState, NoEquilibrium, StaticFriction, System};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 use wedge::outputs::CORNERS;
@@ -34,11 +34,14 @@ use crate::summary::{Stopped, SummaryValue};
 ///
 /// # Errors
 /// There is no equilibrium.
-pub fn start(system: &mut System, start: HalfTruckStart) -> Result<Vec<f64>, NoEquilibrium> {
+pub fn start(system: &mut System, start: HalfTruckStart) -> Result<AtRest, NoEquilibrium> {
     let drawn = system.initial_state();
     match start {
-        HalfTruckStart::Drawn => Ok(drawn),
-        HalfTruckStart::Equilibrium => system.equilibrium(0.0, &drawn, StaticFriction::Without),
+        HalfTruckStart::Drawn => Ok(AtRest {
+            state: drawn,
+            warning: None,
+        }),
+        HalfTruckStart::Equilibrium => system.start_at_rest(0.0, &drawn, StaticFriction::Without),
     }
 }
 
@@ -109,7 +112,10 @@ impl RunCase for HalfTruckCase {
 
     fn begin(&self) -> Result<Beginning<HalfTruckRecorder>, RunError> {
         let mut system = System::new(self.truck.model.clone())?;
-        let x = match self.start {
+        let AtRest {
+            state: x,
+            warning: start_warning,
+        } = match self.start {
             HalfTruckStart::Equilibrium if !self.wedge_bodies.is_empty() => self.rest()?,
             other => start(&mut system, other)?,
         };
@@ -137,6 +143,7 @@ impl RunCase for HalfTruckCase {
             },
             system,
             x,
+            start_warning,
         })
     }
 
@@ -148,7 +155,7 @@ impl RunCase for HalfTruckCase {
 impl HalfTruckCase {
     /// Returns the state of rest without friction, also on the faces of wedges' bodies; with it the bristles,
     /// which are not deflected there, hold nothing.
-    fn rest(&self) -> Result<Vec<f64>, RunError> {
+    fn rest(&self) -> Result<AtRest, RunError> {
         let mut model = self.truck.model.clone();
         for (.., face) in &mut model.faces {
             face.coefficient = 0.0;
@@ -245,6 +252,7 @@ fn output(mut run: Run<HalfTruckCase>, stopped: Option<Stopped>) -> HalfTruckRes
             failed: energy::failure(&balance, energy::WHAT_TO_DO_WITH_FILES),
             warnings: energy::warning(&balance, energy::WHAT_TO_DO_WITH_FILES)
                 .into_iter()
+                .chain(run.start_warning.clone())
                 .chain(plausibility::warnings(&run))
                 .collect(),
             rows: 0,

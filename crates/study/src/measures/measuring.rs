@@ -126,6 +126,7 @@ impl RunCase for Measured<'_> {
             recorder: Measuring::new(wedge.parameters, self.0.simulation.duration),
             system: wedge.system,
             x: wedge.initial_state,
+            start_warning: wedge.start_warning,
         })
     }
 

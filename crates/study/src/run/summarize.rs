@@ -75,6 +75,7 @@ fn warnings(run: &Run<Case>, damped: bool) -> Vec<String> {
         ));
     }
     warnings.extend(energy::warning(&run.energy_balance, what_to_do(damped)));
+    warnings.extend(run.start_warning.clone());
     warnings.extend(plausibility::warnings(run));
     let parameters = &run.case.parameters;
     let faces = [&parameters.column_face, &parameters.slope_face];

@@ -92,6 +92,7 @@ impl RunCase for Case {
         Ok(Beginning {
             system: wedge.system.clone(),
             x: wedge.initial_state.clone(),
+            start_warning: wedge.start_warning.clone(),
             recorder: WedgeRecorder {
                 points: PointNames::new(&wedge.parameters),
                 rows: RowTable::new(outputs.columns(), |name| summarize::reads(self, name)),

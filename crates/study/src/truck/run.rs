@@ -126,6 +126,7 @@ impl RunCase for TruckCase {
         Ok(Beginning {
             system: table.system().clone(),
             x: self.settled(table.truck())?,
+            start_warning: table.truck().start_warning.clone(),
             recorder: TruckRecorder {
                 rows: RowTable::new(table.columns(), |name| KEPT.contains(&name)),
                 row: Vec::with_capacity(table.columns().len()),
@@ -306,6 +307,7 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
     let mut warnings: Vec<String> = energy::warning(&balance, energy::WHAT_TO_DO)
         .into_iter()
         .collect();
+    warnings.extend(run.start_warning.clone());
     warnings.extend(plausibility::warnings_by_kind(&run));
     warnings.extend(surplus(&run.case, units));
     warnings.extend(without_coil(&run.case));

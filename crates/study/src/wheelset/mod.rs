@@ -322,6 +322,7 @@ fn setup(wheelset: &Wheelset, track: Track) -> Result<Setup, WheelsetError> {
         wheelset.layout,
         wheelset.material,
     )?;
+    rigid.check_reach()?;
     let lines = Arc::new(RailLines::new(track, rigid.rail_origins()));
     let search = |index: usize| -> Result<Search, WheelsetError> {
         let pair = rigid.pairs()[index].clone();

@@ -79,6 +79,7 @@ impl RunCase for WheelsetCase {
         Ok(Beginning {
             system: rig.system.clone(),
             x: rig.start.clone(),
+            start_warning: None,
             recorder: WheelsetRecorder {
                 rows: RowTable::new(&columns, |_| false),
                 row: Vec::with_capacity(columns.len()),

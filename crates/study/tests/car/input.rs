@@ -400,3 +400,53 @@ fn issue_048_profiles_and_tracks_are_not_quoted_to_others() {
         );
     }
 }
+/// Numbers of metres that were meant in inches, and heights out of reach.
+#[test]
+fn issue_048_lengths_in_another_unit_are_hinted_at() {
+    let text = "model = \"car\"\n";
+    let error = CarCase::of_values(
+        "case.toml",
+        text,
+        Some("car.truck_distance = 486"),
+        Tables::nowhere(),
+    );
+    let words = in_words(error.unwrap_err().problems());
+    for part in [
+        "`car.truck_distance` is 486 m; it must be between 1 and 100 m",
+        "did you give inches (\"486 in\")",
+    ] {
+        assert!(words.contains(part), "{part}: {words}");
+    }
+    let words = refused("car.accelerometer_height = \"40 ft\"");
+    assert!(words.contains("between 0 and 10 m"), "{words}");
+    let words = refused("rails.gauge = \"66 in\"");
+    for part in [
+        "the wheels do not reach both rails",
+        "66.00 in",
+        "lower the gauge to",
+    ] {
+        assert!(words.contains(part), "{part}: {words}");
+    }
+}
+
+/// The words at the key say where the first joint lies, and it lies there.
+#[test]
+fn issue_048_the_start_of_joints_is_their_first_lowest_point() {
+    let lines = "simulation.duration = \"0.1 s\"\n[[track.segments]]\ntangent = \"500 ft\"\n\
+                 [[track.irregularities]]\nshape = \"joints\"\nrails = \"left\"\ndirection = \"vertical\"\n\
+                 depth = \"0.75 in\"\nstart = \"100 ft\"\n";
+    let text = format!("model = \"car\"\n{lines}");
+    let case = CarCase::parse("case.toml", &text, Tables::nowhere(), &[]).unwrap();
+    assert!(
+        case.to_toml().contains("lowest point of the first joint"),
+        "{}",
+        case.to_toml()
+    );
+    let foot = 0.3048;
+    let height = |feet: f64| case.parameters.track.rails(feet * foot)[0].vertical[0];
+    assert_eq!(height(80.0), 0.0, "level until half a spacing before");
+    let lowest = (0..5000)
+        .map(|k| 75.0 + 0.01 * f64::from(k))
+        .min_by(|a, b| height(*a).total_cmp(&height(*b)));
+    assert!((lowest.unwrap() - 100.0).abs() < 0.02, "{lowest:?}");
+}

@@ -332,3 +332,48 @@ fn limits_massless_wedges_run_in_a_curve() {
         .any(|line| line.contains("8 of 8 wedges have no mass"));
     assert!(reported, "{:?}", summary.assumptions);
 }
+
+/// A car that comes nearly to rest starts there, with a warning that says so.
+#[test]
+fn issue_048_a_start_that_is_nearly_at_rest_is_a_warning() {
+    let lading = "lading.kind = \"masses\"\nlading.masses = [{ weight = \"200 kip\", place = [\"280 in\", \"20 in\", \
+                  \"150 in\"], inertia = [\"1e6 lbf in s^2\", \"1e6 lbf in s^2\", \"1e6 lbf in s^2\"] }]\n\
+                  simulation.duration = \"0.02 s\"";
+    let summary = run(&case(lading)).summary;
+    let warnings = summary.warnings.join("\n");
+    assert!(warnings.contains("the start is nearly at rest"), "{warnings}");
+    let usual = run(&case("simulation.duration = \"0.02 s\"")).summary;
+    assert!(
+        !usual.warnings.join("\n").contains("nearly at rest"),
+        "{:?}",
+        usual.warnings
+    );
+}
+
+/// The height of the accelerometers is a key; left out, no number changes.
+#[test]
+fn issue_048_the_height_of_the_accelerometers_is_a_key() {
+    let values = |line: &str| {
+        let result = run(&case(&format!(
+            "{line}
+simulation.duration = \"0.3 s\"
+{JOINT}"
+        )));
+        let column = result.column("body_at_truck_1_lateral_acceleration").unwrap();
+        (column.to_vec(), result.columns)
+    };
+    let (usual, columns) = values("");
+    assert_eq!(usual, values("car.accelerometer_height = \"30 in\"").0);
+    assert_ne!(usual, values("car.accelerometer_height = \"80 in\"").0);
+    let own = columns
+        .iter()
+        .find(|own| own.name == "body_at_truck_1_lateral_acceleration")
+        .unwrap();
+    for part in [
+        "car.accelerometer_height",
+        "30 in above the rails",
+        "gravity's part by roll and superelevation",
+    ] {
+        assert!(own.text.contains(part), "{}", own.text);
+    }
+}

@@ -40,7 +40,7 @@ fn analytic_column_force_without_friction() {
         let without = ["wedges.column_friction=0", "wedges.slope_friction=0"];
         let case = bodies(name, 1.0, &without);
         let mut system = System::new(case.truck.model.clone()).unwrap();
-        let rest = start(&mut system, HalfTruckStart::Equilibrium).unwrap();
+        let rest = start(&mut system, HalfTruckStart::Equilibrium).unwrap().state;
         let seen = system.observe(0.0, &rest);
         let (theta, phi) = (angle.to_radians(), toe.to_radians());
         for (wedge, end) in case.wedge_bodies.iter().zip([1.0, 1.0, -1.0, -1.0]) {

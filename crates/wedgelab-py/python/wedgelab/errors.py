@@ -21,6 +21,7 @@ __all__ = [
     "MissingDependencyError",
     "NucarsError",
     "PlausibilityWarning",
+    "PointWarning",
     "Problem",
     "RunError",
     "StepError",
@@ -124,6 +125,10 @@ class EnergyWarning(UserWarning):
 
 class PlausibilityWarning(UserWarning):
     """A run is implausible: bodies, contacts or coils leave the range in which the model means something."""
+
+
+class PointWarning(UserWarning):
+    """Some points of an array have no answer, and are NaN: how many, which, and why."""
 
 
 class RunError(WedgelabError, RuntimeError):

@@ -9,6 +9,7 @@ from typing import Any, Union
 import numpy as np
 import numpy.typing as npt
 
+from ._points import tell, unmet
 from ._units import si
 from ._wedgelab import Quantity, slide
 from .errors import WedgelabError
@@ -23,7 +24,8 @@ Words = Union[str, Sequence[str], npt.NDArray[Any]]
 
 @dataclass(frozen=True)
 class Sliding:
-    """Steady sliding; arrays of the common shape of the arguments. Forces are NaN where the wedge jams."""
+    """Steady sliding; arrays of the common shape of the arguments. Forces are NaN where the wedge jams; the jam margin too where an
+    argument is out of its range."""
 
     column_normal: Floats
     """Normal force at the column, N."""
@@ -39,7 +41,7 @@ class Sliding:
     @property
     def jams(self) -> npt.NDArray[np.bool_]:
         """Where there is no steady sliding."""
-        return np.isnan(self.column_normal)
+        return np.isnan(self.column_normal) & ~np.isnan(self.jam_margin)
 
 
 def _values(value: Any, kind: str, what: str) -> Floats:
@@ -90,11 +92,6 @@ def _signs(value: Any, names: dict[str, float], what: str) -> Floats:
     return np.array([names[str(text)] for text in array.ravel()]).reshape(array.shape)
 
 
-def _check(holds: npt.NDArray[np.bool_], values: Floats, what: str, expected: str) -> None:
-    if not holds.all():
-        raise WedgelabError(f"{what} is {values[~holds].ravel()[0]}; it must be {expected}")
-
-
 def quasi_static(
     *,
     angle: Values = "32 deg",
@@ -110,6 +107,7 @@ def quasi_static(
     Every argument may be an array; they are broadcast. ``angle`` from the vertical and ``toe`` (``"0.2 deg out"``; numbers in
     rad, positive out), coefficients of friction of column and slope, force of the control coil upwards on the wedge (N), ``direction`` of the bolster
     (``"down"``, ``"up"``), and which way the slope's friction acts on the wedge: ``"as_moved"`` (rigid kinematics choose), ``"up"``, ``"down"`` the slope.
+    Points with an argument out of its range are NaN, with a `PointWarning`; if there are no others, that is an error.
     """
     values = [
         _values(angle, "angle", "angle"),
@@ -120,18 +118,33 @@ def quasi_static(
         _signs(direction, {"down": -1.0, "up": 1.0}, "direction"),
         _signs(slope_friction, {"as_moved": 0.0, "up": 1.0, "down": -1.0}, "slope_friction"),
     ]
-    right_angle = np.pi / 2
-    _check((values[0] > 0.0) & (values[0] < right_angle), values[0], "angle", "between 0 and pi/2 rad, both excluded")
-    _check(np.abs(values[1]) < right_angle / 4, values[1], "toe", "below pi/8 rad (22.5 deg) in size")
-    for friction, name in ((values[2], "mu_column"), (values[3], "mu_slope")):
-        _check((friction >= 0.0) & np.isfinite(friction), friction, name, "finite, 0 or more")
-    _check((values[4] > 0.0) & np.isfinite(values[4]), values[4], "coil_force", "positive and finite: the coil pushes")
     try:
         arrays = np.broadcast_arrays(*values)
     except ValueError:
         shapes = ", ".join(str(one.shape) for one in values)
         raise WedgelabError(f"the shapes of the arguments do not fit together: {shapes}") from None
     shape = arrays[0].shape
-    out = slide(*(np.ascontiguousarray(one, dtype=float).ravel() for one in arrays))
+    flat = [np.array(one, dtype=float).ravel() for one in arrays]
+    angles, toes, columns, slopes, forces, *_ = flat
+    right_angle = np.pi / 2
+    friction_is = "finite, 0 or more"
+    failed = unmet(
+        [
+            (
+                (angles > 0.0) & (angles < right_angle),
+                angles,
+                "angle",
+                "between 0 and pi/2 rad, both excluded (a number without unit is in rad)",
+            ),
+            (np.abs(toes) < right_angle / 4, toes, "toe", "below pi/8 rad (22.5 deg) in size"),
+            ((columns >= 0.0) & np.isfinite(columns), columns, "mu_column", friction_is),
+            ((slopes >= 0.0) & np.isfinite(slopes), slopes, "mu_slope", friction_is),
+            ((forces > 0.0) & np.isfinite(forces), forces, "coil_force", "positive and finite: the coil pushes"),
+        ]
+    )
+    tell("steady sliding", shape, failed, WedgelabError)
+    out = slide(*flat)
+    for one in out:
+        one[[k for k, _, _ in failed]] = np.nan
     normal, friction, slope, margin, branch = (one.reshape(shape) for one in out)
     return Sliding(normal, friction, slope, margin, branch > 0.0)

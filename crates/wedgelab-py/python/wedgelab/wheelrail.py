@@ -9,12 +9,13 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _wedgelab as _native
+from ._points import Failed, tell, unmet
 from ._units import si
 from .errors import WheelRailError
 from .quasi_static import Floats, Values, _values
@@ -50,10 +51,17 @@ def _flat(values: Sequence[Floats]) -> tuple[tuple[int, ...], list[Floats]]:
     return arrays[0].shape, [np.ascontiguousarray(one, dtype=float).ravel() for one in arrays]
 
 
-def _cells(cells: int) -> int:
-    if not 1 <= cells <= 1000:
-        raise WheelRailError(f"cells is {cells}; it must be between 1 and 1000")
-    return cells
+def _whole(value: Any, what: str, low: int, high: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
+        raise WheelRailError(f"{what} is {value!r}; it must be a whole number between {low} and {high}")
+    return int(value)
+
+
+def _law(creep: Any) -> str:
+    if not isinstance(creep, str):
+        laws = ", ".join(f'"{law}"' for law in get_args(CreepLaw))
+        raise WheelRailError(f"the creep law is {creep!r}; write one of {laws}")
+    return creep
 
 
 class Profile:
@@ -88,11 +96,11 @@ class Profile:
     @classmethod
     def cone(cls, slope: float, *, half_width: QuantityLike = "2 in") -> Profile:
         """The tread of a cone without flange; 0.05 is 1:20."""
-        return cls(_native.NativeProfile.cone(slope, si(half_width, "length", "half_width")))
+        return cls(_native.NativeProfile.cone(si(slope, "dimensionless", "slope"), si(half_width, "length", "half_width")))
 
     def inclined(self, slope: float) -> Profile:
         """The profile inclined towards the track's center, such as by 1/40."""
-        return Profile(self._native.inclined(slope))
+        return Profile(self._native.inclined(si(slope, "dimensionless", "slope")))
 
     def points(self, spacing: QuantityLike = "0.5 mm") -> tuple[Floats, Floats]:
         """y and z of points along the profile, m."""
@@ -172,7 +180,7 @@ class WheelContact:
     vertical_force: Floats
     """Vertical force on the rail, N."""
     seat: npt.NDArray[np.str_]
-    """``on_rail``, ``flange_tip`` (climbed), ``rim_edge`` (about to fall in), ``off_rail``."""
+    """``on_rail``, ``flange_tip`` (climbed), ``rim_edge`` (about to fall in), ``off_rail``; empty where there is no answer."""
 
 
 @dataclass(frozen=True)
@@ -183,6 +191,8 @@ class Contact:
     """The left wheel."""
     right: WheelContact
     """The right wheel."""
+    pitch_rate: Floats
+    """Pitch rate, rad/s: as given, or that of free rolling. Negative forward."""
 
 
 @dataclass(frozen=True)
@@ -220,16 +230,15 @@ class Wheelset:
         for given, what in ((wheel, "wheel"), (rail, "rail")):
             if not isinstance(given, Profile):
                 raise WheelRailError(f"{what} is a {type(given).__name__}; a Profile is expected, such as Profile.read(...)")
-        self._radius = si(radius, "length", "radius")
         self._native = _native.NativeWheelset(
             wheel._native,
             rail._native,
             si(gauge, "length", "gauge"),
             si(gauge_depth, "length", "gauge_depth"),
             si(tape_distance, "length", "tape_distance"),
-            self._radius,
-            float(shear_modulus),
-            float(poisson),
+            si(radius, "length", "radius"),
+            si(shear_modulus, "pressure", "shear_modulus"),
+            si(poisson, "dimensionless", "poisson"),
         )
 
     def contact(
@@ -248,32 +257,48 @@ class Wheelset:
         """The contact patches under a vertical load of each wheel, as ``wedgelab wheelrail contact`` gives them.
 
         **CONTACT's frame**: x forward, y to the right, z down. Lateral place and yaw are to the right, roll has the right side
-        down, forward rolling is a negative pitch rate (by default the speed over the nominal radius). Arguments may be arrays,
-        which are broadcast.
+        down, forward rolling is a negative pitch rate; without one the wheelset rolls freely: its axle spins so fast that the
+        rails' forces make no torque about it. Arguments may be arrays, which are broadcast. Answers are in SI units, as
+        everywhere in this package.
+
+        A point without an answer (a load that the rail carries at no height, an argument out of its range) is NaN with an empty
+        ``seat``, and a `PointWarning` tells how many, which, and why. If no point has an answer, that is an error.
         """
-        speeds = _values(speed, "speed", "speed")
-        rates = -speeds / self._radius if pitch_rate is None else _values(pitch_rate, "angular_speed", "pitch_rate")
+        law, count = _law(creep), _whole(cells, "cells", 1, 1000)
+        free = pitch_rate is None
         shape, flat = _flat(
             [
                 _values(lateral, "length", "lateral"),
                 _values(yaw, "angle", "yaw"),
                 _values(roll, "angle", "roll"),
-                speeds,
-                rates,
+                _values(speed, "speed", "speed"),
+                np.asarray(0.0) if free else _values(pitch_rate, "angular_speed", "pitch_rate"),
                 _values(load, "force", "load"),
                 _values(friction, "dimensionless", "friction"),
             ]
         )
-        left, right = (self._side(side, shape, flat, creep, cells) for side in (True, False))
-        return Contact(left, right)
+        failed: Failed = []
+        if free:
+            rates, failed = self._native.free_rolling(flat, law, count)
+            flat[4] = rates
+        without = {k for k, _, _ in failed}
+        sides = []
+        for left in (True, False):
+            side, own = self._side(left, shape, flat, law, count)
+            failed += [one for one in own if one[0] not in without]
+            sides.append(side)
+        tell("contact", shape, failed, WheelRailError)
+        return Contact(sides[0], sides[1], flat[4].reshape(shape))
 
-    def _side(self, left: bool, shape: tuple[int, ...], flat: list[Floats], creep: str, cells: int) -> WheelContact:
-        patches, whole, seats = self._native.contact(left, flat, creep, _cells(cells))
+    def _side(
+        self, left: bool, shape: tuple[int, ...], flat: list[Floats], creep: str, cells: int
+    ) -> tuple[WheelContact, Failed]:
+        patches, whole, seats, failed = self._native.contact(left, flat, creep, cells)
         of_patch = np.moveaxis(patches.reshape(*shape, _PATCHES, -1), -1, 0)
         of_wheel = np.moveaxis(whole.reshape(*shape, -1), -1, 0)
         names = [field.name for field in fields(WheelContact) if field.name != "seat"]
         numbers = dict(zip(names, [*of_patch, *of_wheel], strict=True))
-        return WheelContact(**numbers, seat=np.array(seats, dtype=np.str_).reshape(shape))
+        return WheelContact(**numbers, seat=np.array(seats, dtype=np.str_).reshape(shape)), failed
 
     def positions(self, shift: Values) -> Positions:
         """Rolling radius difference, contact angles and roll at lateral shifts (to the left, at the height of the rails'
@@ -291,13 +316,13 @@ class Wheelset:
     ) -> Floats:
         """Equivalent conicity at amplitudes: by the wavelength (EN 15302) or by harmonic linearization, from a table of
         rolling radius differences up to ``largest_shift``. The axle rolls, which the standard neglects (0.8 % with cones of
-        1:40)."""
+        1:40). Amplitudes that the table does not cover are NaN, with a `PointWarning`; if none is covered, that is an error."""
         if method not in ("wavelength", "linearization"):
             raise WheelRailError(f'method cannot be {method!r}; write "wavelength" or "linearization"')
-        if not 2 <= positions <= 100_000:
-            raise WheelRailError(f"positions is {positions}; it must be between 2 and 100000")
+        positions = _whole(positions, "positions", 2, 100_000)
         shape, (flat,) = _flat([_values(amplitude, "length", "amplitude")])
-        found = self._native.conicity(flat, si(largest_shift, "length", "largest_shift"), positions)
+        found, failed = self._native.conicity(flat, si(largest_shift, "length", "largest_shift"), positions)
+        tell("equivalent conicity", shape, failed, WheelRailError)
         return found[0 if method == "wavelength" else 1].reshape(shape)
 
 
@@ -337,7 +362,8 @@ def creep_forces(
     """Creep forces of an ellipse with the semi-axes ``a`` along and ``b`` across the rolling direction under a normal load.
 
     Creepages are velocities of the wheel relative to the rail over the rolling speed, ``spin`` in 1/m; forces act on the wheel
-    and oppose them. FASTSIM has ``cells`` by ``cells`` cells. Arguments may be arrays, which are broadcast.
+    and oppose them. FASTSIM has ``cells`` by ``cells`` cells. Arguments may be arrays, which are broadcast. Points with an
+    argument out of its range are NaN, with a `PointWarning`; if there are no others, that is an error.
     """
     values = [
         _values(a, "length", "a"),
@@ -348,17 +374,25 @@ def creep_forces(
         _values(lateral, "dimensionless", "lateral"),
         _values(spin, "dimensionless", "spin"),
     ]
-    for value, what in zip(values[:3], ("a", "b", "load"), strict=True):
-        if not ((value > 0.0) & np.isfinite(value)).all():
-            raise WheelRailError(f"{what} must be positive and finite everywhere")
-    if not ((values[3] >= 0.0) & np.isfinite(values[3])).all():
-        raise WheelRailError("friction must be finite, 0 or more, everywhere")
-    if not all(np.isfinite(value).all() for value in values[4:]):
-        raise WheelRailError("creepages and spin must be finite everywhere")
-    if not (shear_modulus > 0.0 and 0.0 <= poisson <= 0.5):
+    modulus, ratio = si(shear_modulus, "pressure", "shear_modulus"), si(poisson, "dimensionless", "poisson")
+    if not (modulus > 0.0 and 0.0 <= ratio <= 0.5):
         raise WheelRailError("shear_modulus (Pa) must be positive, and poisson between 0 and 0.5")
     shape, flat = _flat(values)
-    found = _native.creep_forces(law, flat, float(shear_modulus), float(poisson), _cells(cells))
+    names = ("a", "b", "load", "friction", "longitudinal", "lateral", "spin")
+    positive, not_negative, finite = "positive and finite", "finite, 0 or more", "a finite number"
+    conditions = []
+    for k, (own, what) in enumerate(zip(flat, names, strict=True)):
+        holds = np.isfinite(own) & (own > 0.0 if k < 3 else own >= 0.0 if k == 3 else True)
+        conditions.append((holds, own, what, positive if k < 3 else not_negative if k == 3 else finite))
+    failed = unmet(conditions)
+    tell("creep forces", shape, failed, WheelRailError)
+    out = [k for k, _, _ in failed]
+    flat = [own.copy() for own in flat]
+    for own in flat:
+        own[out] = 1.0
+    found = _native.creep_forces(_law(law), flat, modulus, ratio, _whole(cells, "cells", 1, 1000))
+    for one in found:
+        one[out] = np.nan
     return CreepForces(*(one.reshape(shape) for one in found))
 
 
@@ -435,9 +469,14 @@ class Track:
         return self._native.length
 
     def sample(self, distance: Values) -> TrackSample:
-        """The track at distances from its start, in plan."""
+        """The track at distances from its start, in plan; NaN, with a `PointWarning`, at distances that are not finite."""
         shape, (flat,) = _flat([_values(distance, "length", "distance")])
-        if not np.isfinite(flat).all():
-            raise WheelRailError("distances must be finite")
-        found = self._native.sample(flat).reshape(*shape, -1)
+        failed = unmet([(np.isfinite(flat), flat, "distance", "a finite number")])
+        tell("track", shape, failed, WheelRailError)
+        out = [k for k, _, _ in failed]
+        given = flat.copy()
+        given[out] = 0.0
+        found = self._native.sample(given).reshape(given.size, -1)
+        found[out] = np.nan
+        found = found.reshape(*shape, -1)
         return TrackSample(*np.moveaxis(found, -1, 0))

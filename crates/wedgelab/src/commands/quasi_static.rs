@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection, SlopeFriction};
 use quantity::{Kind, Quantity, System as Units};
 use serde_json::{Value, json};
@@ -12,6 +12,7 @@ use study::case::bounds;
 use crate::failure::Failure;
 use crate::json;
 use crate::table::TerminalTable;
+use crate::units::OutputUnits;
 
 /// Forces of the massless wedge in steady sliding, and its jam margin
 ///
@@ -66,14 +67,6 @@ pub struct Arguments {
     json: bool,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum OutputUnits {
-    /// US customary units
-    Us,
-    /// SI units
-    Si,
-}
-
 /// A toe angle as typed and in rad, positive out.
 #[derive(Clone, Debug)]
 struct Toe {
@@ -83,10 +76,7 @@ struct Toe {
 
 /// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let units = match arguments.units {
-        OutputUnits::Us => Units::Us,
-        OutputUnits::Si => Units::Si,
-    };
+    let units = arguments.units.system();
     let wedge = QuasiStaticWedge {
         angle: arguments.angle.to_si(),
         toe: arguments.toe.value,

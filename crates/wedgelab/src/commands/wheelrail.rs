@@ -162,6 +162,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let largest = pair.shift.to_si();
     let positions = wheelset.sweep(largest, POSITIONS, false);
     if positions.len() < 3 {
+        wheelset.check_reach().map_err(|error| wrong(&error))?;
         let message = "nowhere are both wheels over their rails";
         return Err(Message::new(message, "look at gauge and tape distance").into());
     }

@@ -1,22 +1,25 @@
 //! `wedgelab wheelrail contact`: the patches of a loaded wheelset, in the frame of the program CONTACT.
 
+mod answer;
+
 use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
-use quantity::{Kind, Quantity};
-use serde_json::{Value, json};
+use quantity::{Kind, Quantity, System as Units};
+use serde_json::json;
 use wheelrail::contact::{ContactLaw, CreepLaw, Side};
 use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
 use wheelrail::hertz::Material;
-use wheelrail::loaded::{Attitude, LoadedPatch, LoadedWheel, Seat};
+use wheelrail::loaded::{Attitude, LoadError};
 use wheelrail::wheelset::RigidWheelset;
 
 use super::wheelrail::{WheelRailPair, wrong};
 use crate::failure::{Failure, Message};
 use crate::json;
-use crate::table::TerminalTable;
+use crate::units::OutputUnits;
+use answer::{AnswerUnits, Entries};
 
 /// Frame and signs of the results: in the help, the table and the JSON.
 const FRAME: &str = "CONTACT's: x forward, y to the right, z down, from the middle of the track at the \
@@ -33,6 +36,11 @@ height of its
 own. Where two areas of contact grow together they are given as one patch with a share and as two with the \
 rest; forces
 contain the share.
+
+Without --pitch-rate the wheelset rolls freely: its axle spins so fast that the rails' forces make no torque
+about it.
+Answers are in the units of the question: those of --load, millimeters with N or inches with lbf, if not
+--units says otherwise.
 
 Examples:
   wedgelab wheelrail contact aar_1b 136re --lateral \"0.25 in\" --load \"33 kip\" --speed \"40 mph\"
@@ -86,7 +94,8 @@ pub struct Arguments {
         allow_hyphen_values = true,
     )]
     speed: Quantity,
-    /// Pitch rate: negative where the wheelset rolls forward [default: the speed over the nominal radius]
+    /// Pitch rate: negative where the wheelset rolls forward [default: that of free rolling, without torque
+    /// about the axle]
     #[arg(long, value_name = "RATE", value_parser = of_rate, allow_hyphen_values = true)]
     pitch_rate: Option<Quantity>,
     /// Coefficient of friction
@@ -114,6 +123,9 @@ pub struct Arguments {
     /// Poisson's ratio of both bodies
     #[arg(long, value_name = "NUMBER", default_value_t = 0.28)]
     poisson: f64,
+    /// Units of the answer [default: those of the load]
+    #[arg(long, value_enum)]
+    units: Option<OutputUnits>,
     #[arg(long, help = json::HELP)]
     json: bool,
 }
@@ -188,17 +200,6 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     let wheelset = RigidWheelset::new([&wheel; 2], [radius; 2], [&rail; 2], layout, material)
         .map_err(|error| wrong(&error))?;
-    let speed = arguments.speed.to_si();
-    let attitude = Attitude {
-        lateral: arguments.lateral.to_si(),
-        yaw: arguments.yaw.to_si(),
-        roll: arguments.roll.to_si(),
-        speed,
-        pitch_rate: arguments
-            .pitch_rate
-            .as_ref()
-            .map_or(-speed / radius, Quantity::to_si),
-    };
     let cells = usize::from(arguments.cells);
     let law = ContactLaw {
         friction: arguments.friction,
@@ -212,44 +213,70 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         slowest: 0.0,
     };
     let load = arguments.load.to_si();
-    let of_side = |side| {
-        let loaded = wheelset.loaded(side, &attitude, load, &law);
-        loaded.map_err(|error| Failure::from(Message::new(error.to_string(), error.remedy())))
+    let failed = |error: LoadError| Failure::from(Message::new(error.to_string(), error.remedy()));
+    let mut attitude = Attitude {
+        lateral: arguments.lateral.to_si(),
+        yaw: arguments.yaw.to_si(),
+        roll: arguments.roll.to_si(),
+        speed: arguments.speed.to_si(),
+        pitch_rate: 0.0,
     };
+    attitude.pitch_rate = match &arguments.pitch_rate {
+        Some(rate) => rate.to_si(),
+        None => wheelset.free_rolling(&attitude, load, &law).map_err(failed)?,
+    };
+    let of_side = |side| wheelset.loaded(side, &attitude, load, &law).map_err(failed);
     let wheels = [of_side(Side::Left)?, of_side(Side::Right)?];
+    let given = arguments.units.map(OutputUnits::system);
+    let units = AnswerUnits::of(given.or(arguments.load.system()).unwrap_or(Units::Si));
     let mut out = io::stdout().lock();
     if arguments.json {
         let creep = arguments.creep.to_possible_value();
-        let given = json!({
-            "wheel": wheel.name(),
-            "rail": rail.name(),
-            "gauge_mm": 1e3 * layout.gauge,
-            "gauge_depth_mm": 1e3 * layout.gauge_depth,
-            "tape_distance_mm": 1e3 * layout.tape_distance,
-            "nominal_radius_mm": 1e3 * radius,
-            "lateral_mm": 1e3 * attitude.lateral,
-            "yaw_rad": attitude.yaw,
-            "roll_rad": attitude.roll,
-            "speed_m_per_s": attitude.speed,
-            "pitch_rate_rad_per_s": attitude.pitch_rate,
-            "load_n": load,
-            "friction": law.friction,
-            "creep": creep.map(|value| value.get_name().to_owned()),
-            "cells": (arguments.creep == Creep::Fastsim).then_some(cells),
-            "shear_modulus_gpa": 1e-9 * arguments.shear_modulus,
-            "poisson": arguments.poisson,
-        });
+        let mut given = Entries::default();
+        given.put("wheel", wheel.name());
+        given.put("rail", rail.name());
+        given.add("gauge", layout.gauge, units.length);
+        given.add("gauge_depth", layout.gauge_depth, units.length);
+        given.add("tape_distance", layout.tape_distance, units.length);
+        given.add("nominal_radius", radius, units.length);
+        given.add("lateral", attitude.lateral, units.length);
+        given.put("yaw_rad", attitude.yaw);
+        given.put("roll_rad", attitude.roll);
+        given.add("speed", attitude.speed, units.speed);
+        given.put("pitch_rate_rad_per_s", attitude.pitch_rate);
+        given.put("free_rolling", arguments.pitch_rate.is_none());
+        given.add("load", load, units.force);
+        given.put("friction", law.friction);
+        given.put("creep", creep.map(|value| value.get_name().to_owned()));
+        given.put("cells", (arguments.creep == Creep::Fastsim).then_some(cells));
+        given.add("shear_modulus", arguments.shear_modulus, units.modulus);
+        given.put("poisson", arguments.poisson);
+        let patches = |side: usize| {
+            let patches = wheels[side].patches.iter();
+            patches.map(|patch| units.patch(patch)).collect::<Vec<_>>()
+        };
         let answer = json!({
             "frame": FRAME,
-            "given": given,
-            "left": wheels[0].patches.iter().map(patch).collect::<Vec<_>>(),
-            "right": wheels[1].patches.iter().map(patch).collect::<Vec<_>>(),
-            "left_wheel": whole(&wheels[0]),
-            "right_wheel": whole(&wheels[1]),
+            "units": units.system.name(),
+            "given": given.value(),
+            "left": patches(0),
+            "right": patches(1),
+            "left_wheel": units.wheel(&wheels[0]),
+            "right_wheel": units.wheel(&wheels[1]),
         });
         json::print(&answer)?;
     } else {
-        write(&wheels, &mut out)?;
+        units.write(&wheels, &mut out)?;
+        writeln!(
+            out,
+            "{}: pitch rate {:.5} rad/s; its speed over the nominal radius is {:.5} rad/s.",
+            match arguments.pitch_rate {
+                None => "The wheelset rolls freely",
+                Some(_) => "The wheelset turns as given",
+            },
+            attitude.pitch_rate,
+            attitude.speed / radius
+        )?;
         writeln!(
             out,
             "\nFrame: {}.",
@@ -257,102 +284,4 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         )?;
     }
     Ok(ExitCode::SUCCESS)
-}
-
-fn patch(patch: &LoadedPatch) -> Value {
-    json!({
-        "share": patch.share,
-        "y_mm": 1e3 * patch.y,
-        "angle_rad": patch.angle,
-        "normal_n": patch.normal,
-        "fx_n": patch.fx,
-        "fy_n": patch.fy,
-        "spin_moment_nmm": 1e3 * patch.spin_moment,
-        "creepage_x": patch.creepage[0],
-        "creepage_y": patch.creepage[1],
-        "spin_per_mm": 1e-3 * patch.spin,
-        "a_mm": 1e3 * patch.axes[0],
-        "b_mm": 1e3 * patch.axes[1],
-        "greatest_pressure_mpa": 1e-6 * patch.greatest_pressure,
-    })
-}
-
-/// Returns the wheel; its height is null if it has none.
-fn whole(wheel: &LoadedWheel) -> Value {
-    json!({
-        "seat": wheel.seat.word(),
-        "center_y_mm": 1e3 * wheel.center,
-        "height_mm": 1e3 * wheel.height,
-        "lateral_force_n": wheel.force[0],
-        "vertical_force_n": wheel.force[1],
-    })
-}
-
-fn write(wheels: &[LoadedWheel; 2], out: &mut impl Write) -> io::Result<()> {
-    let mut table = TerminalTable::new(
-        1,
-        &[
-            ("wheel", ""),
-            ("y", "mm"),
-            ("angle", "rad"),
-            ("share", ""),
-            ("normal", "N"),
-            ("Fx", "N"),
-            ("Fy", "N"),
-            ("Mz", "N mm"),
-            ("creepage x", "1e-3"),
-            ("y", "1e-3"),
-            ("spin", "1/mm"),
-            ("a", "mm"),
-            ("b", "mm"),
-            ("pressure", "MPa"),
-        ],
-    );
-    for (wheel, side) in wheels.iter().zip(["left", "right"]) {
-        for patch in &wheel.patches {
-            let [x, y] = patch.creepage;
-            table.row([
-                side.to_owned(),
-                format!("{:.2}", 1e3 * patch.y),
-                format!("{:.4}", patch.angle),
-                format!("{:.2}", patch.share),
-                format!("{:.1}", patch.normal),
-                format!("{:.1}", patch.fx),
-                format!("{:.1}", patch.fy),
-                format!("{:.0}", 1e3 * patch.spin_moment),
-                format!("{:.4}", 1e3 * x),
-                format!("{:.4}", 1e3 * y),
-                format!("{:.3e}", 1e-3 * patch.spin),
-                format!("{:.3}", 1e3 * patch.axes[0]),
-                format!("{:.3}", 1e3 * patch.axes[1]),
-                format!("{:.0}", 1e-6 * patch.greatest_pressure),
-            ]);
-        }
-    }
-    table.write(out)?;
-    writeln!(out)?;
-    for (wheel, side) in wheels.iter().zip(["left", "right"]) {
-        let (y, height) = (1e3 * wheel.center, 1e3 * wheel.height);
-        match wheel.seat {
-            Seat::OnRail => writeln!(
-                out,
-                "The {side} wheel's center is {height:.3} mm above the top of its rail."
-            )?,
-            Seat::FlangeTip => writeln!(
-                out,
-                "The {side} wheel has climbed: it stands on the tip of its flange, above the flange's \
-                 face; its center, at y = {y:.2} mm,\nis {height:.3} mm above the top of its rail."
-            )?,
-            Seat::RimEdge => writeln!(
-                out,
-                "The {side} wheel stands on the outer edge of its rim, about to fall between the rails; its \
-                 center is at y = {y:.2} mm."
-            )?,
-            Seat::OffRail => writeln!(
-                out,
-                "The {side} wheel is off its rail: its tape circle is at y = {y:.2} mm. It carries nothing."
-            )?,
-        }
-    }
-    Ok(())
 }

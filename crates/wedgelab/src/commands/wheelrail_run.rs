@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
-use quantity::{Kind, Quantity, System as Units};
+use quantity::{Kind, Quantity};
 use report::files::Folder;
 use report::page;
 use report::run_files::RunFiles;
@@ -28,6 +28,7 @@ use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
 use crate::table::TerminalTable;
+use crate::units::OutputUnits;
 
 /// Prints them with the long help of the command.
 const EXAMPLES: &str = "\
@@ -134,8 +135,8 @@ pub struct Arguments {
     #[arg(long, value_name = "NUMBER", default_value_t = 1e-5)]
     tolerance: f64,
     /// Units of the results
-    #[arg(long, value_enum, default_value_t = Shown::Us)]
-    units: Shown,
+    #[arg(long, value_enum, default_value_t = OutputUnits::Us)]
+    units: OutputUnits,
     /// Folder to write into [default: the track's name behind `wheelset_`]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -154,15 +155,6 @@ enum How {
     Search,
     /// Tables made beforehand
     Table,
-}
-
-/// Units of the results.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Shown {
-    /// US customary units
-    Us,
-    /// SI units
-    Si,
 }
 
 /// A number of a kind that quantities do not have, with its text.
@@ -293,10 +285,7 @@ fn wheelset(arguments: &Arguments, track: TrackFile, name: String) -> Result<Whe
         duration: arguments.duration.as_ref().map(Quantity::to_si),
         interval: arguments.interval.to_si(),
         relative_tolerance: arguments.tolerance,
-        units: match arguments.units {
-            Shown::Us => Units::Us,
-            Shown::Si => Units::Si,
-        },
+        units: arguments.units.system(),
     })
 }
 

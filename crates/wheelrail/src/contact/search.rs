@@ -146,11 +146,12 @@ impl ContactPair {
         rail: &Profile,
         material: Material,
     ) -> Result<Self, ProfileError> {
-        if !(radius > 0.05 && radius < 2.0) {
-            return Err(ProfileError::Number {
-                what: "wheel radius (m)",
+        let range = [0.05, 2.0];
+        if !(radius > range[0] && radius < range[1]) {
+            return Err(ProfileError::Length {
+                what: "wheel radius",
                 value: radius,
-                must: "between 0.05 and 2 m",
+                range,
             });
         }
         let ellipses = Ellipses::new(material).map_err(|_| ProfileError::Number {
@@ -201,6 +202,13 @@ impl ContactPair {
         let mut found = Vec::with_capacity(AREAS);
         self.search(pose, |patch| found.push(patch));
         found
+    }
+
+    /// Returns the same, none where the place is beside the rail.
+    pub(crate) fn touch_over_rail(&self, pose: &WheelPose<f64>) -> Option<RigidTouch> {
+        let [low, high] = self.rail_range();
+        self.touch(pose)
+            .filter(|touch| (low..=high).contains(&touch.place[1]))
     }
 
     /// Returns the place where the rigid profiles overlap most, or are closest; none if the wheel is not over

@@ -4,7 +4,10 @@ use std::fmt;
 use std::path::PathBuf;
 
 use input::file::ReadError;
+use quantity::length_hint;
 use thiserror::Error;
+
+const INCH: f64 = 0.0254;
 
 /// The place of a mistake.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -166,6 +169,20 @@ pub enum ProfileError {
         /// The gauge, m.
         gauge: f64,
     },
+    /// The wheels of a wheelset in the middle of the track do not stand on both rails.
+    #[error(
+        "the wheels do not reach both rails: at a gauge of {:.1} mm ({:.2} in) wheels that span {:.1} mm \
+         ({:.2} in) over the outer edges of their rims do not stand on their treads",
+        gauge * 1e3, gauge / INCH, span * 1e3, span / INCH
+    )]
+    ShortOfRails {
+        /// The gauge, m.
+        gauge: f64,
+        /// Distance of the outer edges of the rims, m.
+        span: f64,
+        /// The largest gauge at which they stand on both treads, m; none if there is none.
+        largest: Option<f64>,
+    },
     /// Lines and arcs do not join.
     #[error("{place}: element {element} (from 1) {found}")]
     Joint {
@@ -177,6 +194,16 @@ pub enum ProfileError {
         found: String,
         /// The advice.
         remedy: &'static str,
+    },
+    /// A length is outside its range.
+    #[error("{what} is {value} m; it must be between {} and {} m", range[0], range[1])]
+    Length {
+        /// The length's name.
+        what: &'static str,
+        /// Its value, m.
+        value: f64,
+        /// The smallest and the largest, m.
+        range: [f64; 2],
     },
     /// A number is not admissible.
     #[error("{what} is {value}; it must be {must}")]
@@ -254,7 +281,17 @@ impl ProfileError {
                 "look at unit and datum of the wheel profile, at the distance of the wheels and at the gauge"
                     .into()
             }
+            Self::ShortOfRails { largest, .. } => match largest {
+                Some(largest) => format!(
+                    "lower the gauge to {:.1} mm ({:.2} in) or less, or set the wheels further apart",
+                    largest * 1e3,
+                    largest / INCH
+                ),
+                None => "look at gauge, distance of the tape circles and the units of both profiles".into(),
+            },
             Self::Joint { remedy, .. } => (*remedy).into(),
+            Self::Length { what, value, range } => length_hint(*value, *range)
+                .unwrap_or_else(|| format!("give a {what} between {} and {} m", range[0], range[1])),
             Self::Number { what, must, .. } => format!("give a {what} that is {must}"),
         }
     }

@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use nucars::Severity;
 use nucars::file_sets::{self, RunFiles, find, kind, load};
 use nucars::truck::{Choices, Wedges, Yaw};
-use quantity::{Kind, Quantity, System as Units, nearest};
+use quantity::{Kind, Quantity, nearest};
 use report::half_truck_files;
 use report::page;
 use study::half_truck::catalog::{self, CatalogEntry, YawCase};
@@ -25,6 +25,7 @@ use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
 use crate::table::TerminalTable;
+use crate::units::OutputUnits;
 
 /// The files of the figure.
 const FIGURE: [&str; 2] = ["loops.svg", "loops.png"];
@@ -135,14 +136,6 @@ enum WedgesArgument {
     Bodies,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum OutputUnits {
-    /// US customary units
-    Us,
-    /// SI units
-    Si,
-}
-
 fn time(text: &str) -> Result<Quantity, String> {
     let quantity = Quantity::parse_as(text, Kind::Time).map_err(|error| error.to_string())?;
     if quantity.to_si() > 0.0 && quantity.to_si().is_finite() {
@@ -233,10 +226,7 @@ impl Arguments {
             all_outputs: self.all_outputs,
             interval: self.interval.to_si(),
             set: self.set.clone(),
-            units: match self.units {
-                OutputUnits::Us => Units::Us,
-                OutputUnits::Si => Units::Si,
-            },
+            units: self.units.system(),
             ..Settings::default()
         })
     }
