@@ -35,8 +35,7 @@ fn json(file: &Path) -> Value {
 
 /// Returns the data of a page's interactive part.
 fn view(page: &str) -> Value {
-    let (_, rest) = page.split_once("id=\"wedgelab-view\">").unwrap();
-    serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
+    serde_json::from_str(&report::view::kept::data_in(page).unwrap()).unwrap()
 }
 
 /// Returns the numbers in the row of a page's table that begins with these words, without what stands in

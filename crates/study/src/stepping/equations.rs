@@ -72,6 +72,18 @@ pub enum SteppingError {
         /// The progress and its place.
         why: String,
     },
+    /// Neighbours move far in one step.
+    #[error(
+        "in one step the bolster moves by {path} m in {coordinate} against the side frame; at most {} m are taken \
+         for a motion of a truck: give places in m or with their unit, or go there in several steps",
+        super::LARGEST_PATH
+    )]
+    TooFar {
+        /// The coordinate.
+        coordinate: &'static str,
+        /// The path, m.
+        path: f64,
+    },
     /// An earlier step failed.
     #[error("an earlier step failed; go back to a saved state, or begin anew")]
     Failed,
