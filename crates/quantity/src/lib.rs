@@ -35,6 +35,6 @@ pub use error::UnitError;
 pub use expression::Unit;
 pub use kind::{Kind, System};
 pub use nearest::nearest;
-pub use pattern::{fits_pattern, is_pattern};
 pub use parse::{Number, Quantity, SixDigits};
+pub use pattern::{fits_pattern, is_pattern};
 pub use units::{INCH, POUND, POUND_FORCE, STANDARD_GRAVITY};

@@ -87,6 +87,12 @@ pub fn converted(si: f64, kind: Kind, units: Units) -> f64 {
     si * kind.from_si(units)
 }
 
+/// Returns a number without the errors of a conversion: to twelve digits.
+#[must_use]
+pub fn rounded(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
+}
+
 /// Writes the names of columns.
 ///
 /// # Errors

@@ -159,7 +159,9 @@ impl Folder {
             superseded: Vec::new(),
         };
         write(&mut files)?;
-        let Files { names, superseded, .. } = files;
+        let Files {
+            names, superseded, ..
+        } = files;
         Staging::place(&self.path, || {
             if !exists && fs::rename(&stage, &self.path).is_ok() {
                 return Ok(());

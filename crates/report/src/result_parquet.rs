@@ -98,7 +98,12 @@ fn read_columns(file: &Path, bytes: Bytes) -> Result<Result<Read, TableError>, P
                 ColumnReader::FloatColumnReader(own) => numbers(own, rows, f64::from)?,
                 ColumnReader::Int32ColumnReader(own) => numbers(own, rows, f64::from)?,
                 ColumnReader::Int64ColumnReader(own) => numbers(own, rows, |value| value as f64)?,
-                _ => return Ok(Err(TableError::foreign(file, "a Parquet table with more than numbers"))),
+                _ => {
+                    return Ok(Err(TableError::foreign(
+                        file,
+                        "a Parquet table with more than numbers",
+                    )));
+                }
             };
             values.extend(of_group);
         }

@@ -100,10 +100,19 @@ impl ResultTable {
         for (index, (name, values)) in columns.iter().enumerate() {
             for (row, value) in values.iter().enumerate() {
                 let before = row.checked_sub(1).map(|row| values[row]);
-                check(file, row as u64 + 2, (index, name, *value), before.filter(|_| index == header.time))?;
+                check(
+                    file,
+                    row as u64 + 2,
+                    (index, name, *value),
+                    before.filter(|_| index == header.time),
+                )?;
             }
         }
-        Self::new(file, header, columns.into_iter().map(|(_, values)| values).collect())
+        Self::new(
+            file,
+            header,
+            columns.into_iter().map(|(_, values)| values).collect(),
+        )
     }
 
     fn new(file: &Path, header: Header, columns: Vec<Vec<f64>>) -> Result<Self, TableError> {
@@ -423,7 +432,10 @@ fn locate(path: &Path) -> Result<PathBuf, TableError> {
 #[must_use]
 pub fn in_folder(folder: &Path) -> Option<PathBuf> {
     let names = [result_parquet::FILE_NAME, crate::csv::FILE_NAME];
-    names.into_iter().map(|name| folder.join(name)).find(|file| file.exists())
+    names
+        .into_iter()
+        .map(|name| folder.join(name))
+        .find(|file| file.exists())
 }
 
 /// Returns whether a file has the name of the table of a run.

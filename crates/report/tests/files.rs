@@ -8,7 +8,8 @@ use std::path::Path;
 
 use quantity::System as Units;
 use report::files::{FileError, Folder, check_all};
-use report::{csv, curves_files, lock_up_files, mat, run_files};
+use report::run_files::{self, RunFiles};
+use report::{csv, curves_files, lock_up_files, mat};
 use study::case::{Case, builtin};
 use study::lock_up::{LockUpMap, MapAxis, MapPoint, MapRange, RigOutcome};
 use study::result::RunResult;

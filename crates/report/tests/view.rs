@@ -7,10 +7,10 @@ use std::collections::BTreeMap;
 use quantity::System as Units;
 use report::claims::Claims;
 use report::figures::CaseOutcome;
-use report::page::{self, Contents};
+use report::page::{self, Contents, packed};
 use report::sections;
-use report::view::View;
 use report::view::run::{Detail, Recording};
+use report::view::{View, kept};
 use serde_json::Value;
 use study::case::builtin;
 use study::half_truck::catalog;
@@ -300,10 +300,7 @@ fn issue_048_the_page_holds_its_data_script_and_style() {
         sections: &[],
         view: &view,
     });
-    for part in [
-        ".wl-scrubber",
-        "<div data-shown=\"cdrun_toe_0_psi_0\"",
-    ] {
+    for part in [".wl-scrubber", "<div data-shown=\"cdrun_toe_0_psi_0\""] {
         assert!(page.contains(part), "{part}");
     }
     let data = kept::data_in(&page).unwrap();

@@ -23,11 +23,8 @@ pub enum TableFormat {
 
 impl TableFormat {
     /// The formats with their names in cases and commands.
-    pub const NAMES: &'static [(&'static str, Self)] = &[
-        ("parquet", Self::Parquet),
-        ("csv", Self::Csv),
-        ("mat", Self::Mat),
-    ];
+    pub const NAMES: &'static [(&'static str, Self)] =
+        &[("parquet", Self::Parquet), ("csv", Self::Csv), ("mat", Self::Mat)];
 }
 
 /// The files that the time histories of a run are written into.
@@ -152,15 +149,25 @@ fn advice(pattern: &str, columns: &[Column]) -> String {
     let longest = pattern.split(['*', '?']).max_by_key(|part| part.len());
     // The longest beginning of the pattern's longest part that some name has in it.
     let part = longest.unwrap_or_default();
-    let beginnings = part.char_indices().map(|(end, sign)| &part[..end + sign.len_utf8()]);
-    let known = beginnings.rev().find(|own| own.len() > 2 && names().any(|name| name.contains(own)));
-    let shown: Vec<&str> = names().filter(|name| known.is_none_or(|own| name.contains(own))).collect();
+    let beginnings = part
+        .char_indices()
+        .map(|(end, sign)| &part[..end + sign.len_utf8()]);
+    let known = beginnings
+        .rev()
+        .find(|own| own.len() > 2 && names().any(|name| name.contains(own)));
+    let shown: Vec<&str> = names()
+        .filter(|name| known.is_none_or(|own| name.contains(own)))
+        .collect();
     let more = match shown.len().saturating_sub(MOST) {
         0 => String::new(),
         more => format!(", and {more} more"),
     };
     let list = shown[..shown.len().min(MOST)].join(", ");
-    let what = if is_pattern(pattern) { "; `*` is any text, `?` any character" } else { "" };
+    let what = if is_pattern(pattern) {
+        "; `*` is any text, `?` any character"
+    } else {
+        ""
+    };
     format!("columns are {list}{more}{what}")
 }
 

@@ -198,3 +198,25 @@ fn motion(
     });
     found.map(|(coordinate, body)| (format!("the {what} in {}", COORDINATES[coordinate]), body))
 }
+
+#[cfg(test)]
+mod tests {
+    use integrate::{Reason, StepError};
+
+    use super::describe;
+
+    #[test]
+    fn issue_048_the_state_that_cannot_be_computed_comes_first() {
+        let error = StepError {
+            time: 0.1,
+            step: 2e-15,
+            reason: Reason::Error,
+            index: Some(117),
+            scaled_error: 1.129,
+        };
+        let words = describe(&error, |_| "the speed in z of the wedge".to_owned());
+        let start =
+            "the speed in z of the wedge (state 117) cannot be computed: at time 0.1 even a step of 2e-15";
+        assert!(words.starts_with(start), "{words}");
+    }
+}

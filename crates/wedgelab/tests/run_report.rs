@@ -290,7 +290,10 @@ fn input_what_is_no_run_is_reported_with_the_command_that_takes_it() {
             vec!["table.csv"],
             ["is a table", "`wedgelab compare` and `wedgelab plot`"],
         ),
-        (vec!["empty"], ["holds no result.csv", "name the folder"]),
+        (
+            vec!["empty"],
+            ["holds no result.parquet or result.csv", "name the folder"],
+        ),
         (vec!["studied"], ["is the folder of a study", "index.html"]),
         (
             vec![TRUCK],

@@ -25,7 +25,9 @@ pub fn pack(text: &str) -> String {
 pub fn unpack(packed: &str) -> io::Result<String> {
     let bytes = STANDARD.decode(packed.trim()).map_err(io::Error::other)?;
     let mut text = String::new();
-    GzDecoder::new(bytes.as_slice()).take(limits::RECORD_FILE).read_to_string(&mut text)?;
+    GzDecoder::new(bytes.as_slice())
+        .take(limits::RECORD_FILE)
+        .read_to_string(&mut text)?;
     Ok(text)
 }
 

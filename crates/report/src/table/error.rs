@@ -209,9 +209,10 @@ impl TableError {
         Self::Foreign {
             file: file.to_owned(),
             what,
-            advice: "name a result.parquet or result.csv, the folder it is in, or another table with columns \
+            advice:
+                "name a result.parquet or result.csv, the folder it is in, or another table with columns \
                      such as time_s, wedge_x_in"
-                .to_owned(),
+                    .to_owned(),
         }
     }
 

@@ -111,12 +111,7 @@ fn panel(panel: &Panel, units: Units, precision: Precision, data: &mut Data) -> 
     }
 }
 
-fn curve(
-    curve: &PlotCurve,
-    (to_x, to_y): (f64, f64),
-    precision: Precision,
-    data: &mut Data,
-) -> ChartCurve {
+fn curve(curve: &PlotCurve, (to_x, to_y): (f64, f64), precision: Precision, data: &mut Data) -> ChartCurve {
     let points = thin(&curve.points, COLUMNS);
     let list = |axis: usize| -> Vec<f64> {
         let value = |point: &(f64, f64)| [point.0 * to_x, point.1 * to_y][axis];

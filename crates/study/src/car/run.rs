@@ -418,7 +418,10 @@ pub fn columns(case: &CarCase) -> Result<Vec<Column>, RunError> {
                 .any(|what| column.name.ends_with(what));
         of_wheels || column.name.ends_with("_acceleration")
     };
-    let filtered = raw.iter().filter(|_| case.rules.filtered_columns).filter(is_filtered);
+    let filtered = raw
+        .iter()
+        .filter(|_| case.rules.filtered_columns)
+        .filter(is_filtered);
     let filtered = filtered.map(|column| Column {
         name: format!("{}_filtered", column.name),
         ..column.clone()

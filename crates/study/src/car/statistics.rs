@@ -21,7 +21,7 @@
 
 use std::collections::BTreeMap;
 
-use quantity::{Kind, System as Units};
+use quantity::{Kind, SixDigits, System as Units};
 use serde::{Deserialize, Serialize};
 
 use crate::signal::{LowPass, WindowValue, largest_deviation, largest_rms, percentile, sustained};

@@ -214,10 +214,14 @@ impl SteppedWedge {
     fn check_path(&self, end: &Neighbours) -> Result<(), SteppingError> {
         let start = self.neighbours();
         for (coordinate, name) in mechanics::body::COORDINATES.into_iter().enumerate().take(3) {
-            let apart = |at: &Neighbours| at.bolster.position[coordinate] - at.side_frame.position[coordinate];
+            let apart =
+                |at: &Neighbours| at.bolster.position[coordinate] - at.side_frame.position[coordinate];
             let path = apart(end) - apart(start);
             if path.abs() > LARGEST_PATH {
-                return Err(SteppingError::TooFar { coordinate: name, path });
+                return Err(SteppingError::TooFar {
+                    coordinate: name,
+                    path,
+                });
             }
         }
         Ok(())

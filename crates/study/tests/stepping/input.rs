@@ -98,3 +98,22 @@ fn saved_states_of_others_are_refused() {
     ));
     wedge.restore(&state).unwrap();
 }
+
+/// Kilometres for millimetres: no truck moves so far in one step.
+#[test]
+fn issue_048_neighbours_that_part_by_a_kilometre_are_refused() {
+    let mut wedge = wedge();
+    let start = *wedge.neighbours();
+    let mut at = start;
+    at.bolster.position[2] += 1000.0;
+    let error = wedge.step(&at, 1.0).unwrap_err();
+    assert!(matches!(error, SteppingError::TooFar { .. }), "{error}");
+    for part in ["moves by 1000 m in z", "at most 1 m", "in several steps"] {
+        assert!(error.to_string().contains(part), "{error}");
+    }
+    // Nothing has happened to the wedge; both together may go as far as they like.
+    let mut both = start;
+    both.bolster.position[0] += 30.0;
+    both.side_frame.position[0] += 30.0;
+    wedge.step(&both, 1.0).unwrap();
+}

@@ -412,7 +412,8 @@ class _OfCase(_Base):
     __slots__ = ()
 
     def write(self, folder: str | os.PathLike[str], *, force: bool = False) -> list[str]:
-        """Writes what ``wedgelab run`` writes into a folder: result.csv, result.mat, case.toml, summary.json.
+        """Writes what ``wedgelab run`` writes into a folder: result.csv, result.mat, case.toml, summary.json; of a car
+        the files of ``output.tables`` in its case (result.parquet, result.csv) instead of the first two.
 
         Existing results are overwritten only with ``force``.
         """

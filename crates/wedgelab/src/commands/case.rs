@@ -60,8 +60,12 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     let names = select(std::slice::from_ref(name), built_in_names())?;
     if let ([first, .., last], None) = (names.as_slice(), &arguments.out) {
-        let message = format!("{} cases fit `{name}`, from {first} to {last}; one is printed", names.len());
-        let advice = format!("name one of them, or write each into a file: `wedgelab case '{name}' --out cases`");
+        let message = format!(
+            "{} cases fit `{name}`, from {first} to {last}; one is printed",
+            names.len()
+        );
+        let advice =
+            format!("name one of them, or write each into a file: `wedgelab case '{name}' --out cases`");
         return Err(Message::new(message, advice).into());
     }
     for name in names {

@@ -117,7 +117,8 @@ fn format(name: &str) -> Result<TableFormat, String> {
     let found = TableFormat::NAMES.iter().find(|(own, _)| *own == name);
     found.map(|(_, format)| *format).ok_or_else(|| {
         let names = TableFormat::NAMES.iter().map(|(own, _)| *own);
-        let near = nearest(name, names.clone()).map_or(String::new(), |near| format!("; did you mean {near}?"));
+        let near =
+            nearest(name, names.clone()).map_or(String::new(), |near| format!("; did you mean {near}?"));
         let names = names.collect::<Vec<_>>().join(", ");
         format!("the formats are {names}{near}")
     })
@@ -170,11 +171,7 @@ struct Place {
 }
 
 /// Returns the place for the files of a run, with these besides; a signal stops it from now on.
-fn begin<C: RunFiles>(
-    case: &C,
-    besides: &[&'static str],
-    arguments: &Arguments,
-) -> Result<Place, Failure> {
+fn begin<C: RunFiles>(case: &C, besides: &[&'static str], arguments: &Arguments) -> Result<Place, Failure> {
     let path = arguments.out.clone();
     let path = path.unwrap_or_else(|| PathBuf::from(case.name()));
     let output = output_of(case, arguments)?;
@@ -369,9 +366,15 @@ fn print_run(
 /// Returns the text about a car's run.
 fn limits_of_car(summary: &CarSummary) -> (TerminalTable, String) {
     if summary.limits.is_empty() {
-        let why = summary.warnings().iter().find(|own| own.starts_with(NO_STATISTICS));
+        let why = summary
+            .warnings()
+            .iter()
+            .find(|own| own.starts_with(NO_STATISTICS));
         let why = why.and_then(|own| own.strip_prefix(NO_STATISTICS));
-        (TerminalTable::new(1, &[]), format!("No statistics{}.", why.unwrap_or_default()))
+        (
+            TerminalTable::new(1, &[]),
+            format!("No statistics{}.", why.unwrap_or_default()),
+        )
     } else if summary.limits.iter().any(|own| own.unfiltered) {
         (car_table(summary), format!("{CAR_NOTE}\n{UNFILTERED_NOTE}"))
     } else {

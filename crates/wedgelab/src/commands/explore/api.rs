@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::Instant;
 
-use report::{run_files, summary};
 use report::view::View;
+use report::{run_files, summary};
 use serde::{Deserialize, Serialize};
 use study::any_case::AnyCase;
 use study::case::builtin::CaseGroup;
