@@ -8,7 +8,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use study::any_case::AnyCase;
-use study::car::CarCase;
 use study::car::certificate::{Assessed, Certificate, worst_run};
 use study::run::Run;
 

@@ -412,10 +412,10 @@ class _OfCase(_Base):
     __slots__ = ()
 
     def write(self, folder: str | os.PathLike[str], *, force: bool = False) -> list[str]:
-        """Writes what ``wedgelab run`` writes into a folder: result.csv, result.mat, case.toml, summary.json; of a car
-        the files of ``output.tables`` in its case (result.parquet, result.csv) instead of the first two.
+        """Writes what ``wedgelab run`` writes into a folder: result.csv, result.mat, case.toml, summary.json.
 
-        Existing results are overwritten only with ``force``.
+        Of a car the tables are those of ``output.tables`` in its case: result.parquet and a short result.csv. Existing results are
+        overwritten only with ``force``.
         """
         return self._native.write(folder, force)
 
