@@ -80,6 +80,7 @@ fn issue_048_who_reads_a_folder_reads_its_parquet() {
             "b/result.parquet",
             "--columns",
             "truck_1_warp_angle",
+            "--force",
         ],
         &["plot", "a", "--x", "distance", "--y", "axle_1_left_vertical"],
         &["report", "a", "b", "--out", "both"],
