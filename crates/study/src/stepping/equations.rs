@@ -10,6 +10,7 @@ use mechanics::system::{
     ContactState, Contacts, ElementEvaluation, Energies, InputError, JacobianVectorProduct, MotionChange,
     Observation, StateDirection, System,
 };
+use quantity::Number;
 use thiserror::Error;
 use wedge::inputs::{COIL, CoilInput, Neighbours, Reading};
 use wedge::outputs::{Ledger, Outputs};
@@ -74,8 +75,9 @@ pub enum SteppingError {
     },
     /// Neighbours move far in one step.
     #[error(
-        "in one step the bolster moves by {path} m in {coordinate} against the side frame; at most {} m are taken \
+        "in one step the bolster moves by {} m in {coordinate} against the side frame; at most {} m are taken \
          for a motion of a truck: give places in m or with their unit, or go there in several steps",
+        Number(*path),
         super::LARGEST_PATH
     )]
     TooFar {

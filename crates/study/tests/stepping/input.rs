@@ -61,7 +61,7 @@ fn a_wedge_that_cannot_go_on_says_so_until_it_is_restored() {
     let state = wedge.state();
     let mut far = *wedge.neighbours();
     far.bolster.position[0] = -1e300;
-    let error = wedge.step(&far, 1e-3).unwrap_err().to_string();
+    let error = wedge.step_to(&far, 1e-3).unwrap_err().to_string();
     assert!(error.contains("go back to a saved state"), "{error}");
     let at = *wedge.neighbours();
     assert!(matches!(
