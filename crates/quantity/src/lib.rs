@@ -28,6 +28,7 @@ mod hint;
 mod kind;
 mod nearest;
 mod parse;
+mod pattern;
 mod units;
 
 pub use dimension::Dimension;
@@ -37,4 +38,5 @@ pub use hint::length_hint;
 pub use kind::{Kind, System};
 pub use nearest::nearest;
 pub use parse::{Number, Quantity, SixDigits};
+pub use pattern::{fits_pattern, is_pattern};
 pub use units::{INCH, POUND, POUND_FORCE, STANDARD_GRAVITY};

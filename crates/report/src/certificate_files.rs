@@ -11,7 +11,7 @@ use study::car::certificate::{Assessed, Certificate, LimitVerdict, verdicts};
 use crate::csv;
 use crate::files::{FileError, Folder};
 use crate::page::certificate as page;
-use crate::parquet::{Cell, Content, ParquetColumn, TableWriter};
+use crate::parquet::{Cell, Content, ParquetColumn, Storage, TableWriter};
 use crate::study_folder::{STUDY_KEY, StudyFolder, StudyFolderError};
 use crate::summary;
 
@@ -182,7 +182,7 @@ fn parquet(
 ) -> io::Result<()> {
     let description = serde_json::to_string(&certificate.study.description()).map_err(io::Error::other)?;
     let metadata = [(STUDY_KEY, description)];
-    let mut table = TableWriter::new(out, columns(), &metadata).map_err(io::Error::other)?;
+    let mut table = TableWriter::new(out, columns(), Storage::Values, &metadata).map_err(io::Error::other)?;
     for row in rows(certificate, findings) {
         table.row(row).map_err(io::Error::other)?;
     }

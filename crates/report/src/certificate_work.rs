@@ -8,7 +8,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use study::any_case::AnyCase;
-use study::car::CarCase;
 use study::car::certificate::{Assessed, Certificate, worst_run};
 use study::run::Run;
 
@@ -119,7 +118,7 @@ fn one(
         motions,
     };
     let own = format!("{WORST}/{name}");
-    let names: Vec<&str> = CarCase::FILES.iter().copied().chain([pages::FILE_NAME]).collect();
+    let names = [run.case.names(&run.case.output_files()), vec![pages::FILE_NAME]].concat();
     // The same run gives the same files.
     let folder = Folder::check(path.join(&own), &names, true)?;
     run.case.write(&folder, &run.result)?;

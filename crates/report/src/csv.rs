@@ -35,29 +35,62 @@ pub fn write_columns(
     units: Units,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let rows = values.first().map_or(0, Vec::len);
-    if columns.len() != values.len() || values.iter().any(|values| values.len() != rows) {
-        return Err(io::Error::other("the columns of the result differ in length"));
+    if columns.len() != values.len() {
+        return Err(differing());
     }
-    let mut table = RowWriter::new(out);
-    for column in columns {
-        table.text(&column.full_name(units));
+    let values = values.iter().map(Vec::as_slice);
+    write_table(&columns.iter().zip(values).collect::<Vec<_>>(), units, out)
+}
+
+/// A table: descriptions of columns with their values, SI, all of the same length.
+pub type Table<'t> = [(&'t Column, &'t [f64])];
+
+/// Writes a table in a system of units.
+///
+/// # Errors
+/// The writer's; or the columns differ in length.
+pub fn write_table(table: &Table<'_>, units: Units, out: &mut dyn Write) -> io::Result<()> {
+    let rows = rows_of(table)?;
+    let mut cells = RowWriter::new(out);
+    for (column, _) in table {
+        cells.text(&column.full_name(units));
     }
-    table.end()?;
-    let kinds: Vec<Kind> = columns.iter().map(|column| column.kind).collect();
+    cells.end()?;
     for row in 0..rows {
-        for (kind, values) in kinds.iter().zip(values) {
-            table.number(converted(values[row], *kind, units));
+        for (column, values) in table {
+            cells.number(converted(values[row], column.kind, units));
         }
-        table.end()?;
+        cells.end()?;
     }
     Ok(())
+}
+
+/// Returns the number of rows of a table.
+///
+/// # Errors
+/// The columns differ in length.
+pub(crate) fn rows_of(table: &Table<'_>) -> io::Result<usize> {
+    let rows = table.first().map_or(0, |(_, values)| values.len());
+    match table.iter().any(|(_, values)| values.len() != rows) {
+        true => Err(differing()),
+        false => Ok(rows),
+    }
+}
+
+fn differing() -> io::Error {
+    io::Error::other("the columns of the result differ in length")
 }
 
 /// Returns an SI value as files have it.
 #[must_use]
 pub fn converted(si: f64, kind: Kind, units: Units) -> f64 {
     si * kind.from_si(units)
+}
+
+/// Returns a number without the errors of a conversion: to twelve digits.
+#[must_use]
+pub fn rounded(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
 }
 
 /// Writes the names of columns.

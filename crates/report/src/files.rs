@@ -156,15 +156,27 @@ impl Folder {
             folder: self,
             stage: &stage,
             names: Vec::new(),
+            superseded: Vec::new(),
         };
         write(&mut files)?;
-        let names = files.names;
+        let Files {
+            names, superseded, ..
+        } = files;
         Staging::place(&self.path, || {
             if !exists && fs::rename(&stage, &self.path).is_ok() {
                 return Ok(());
             }
             // The folder exists, perhaps since a moment ago.
-            self.refuse(names.iter().map(String::as_str))?;
+            self.refuse(names.iter().chain(&superseded).map(String::as_str))?;
+            for name in &superseded {
+                let file = self.path.join(name);
+                match fs::remove_file(&file) {
+                    Err(reason) if reason.kind() != io::ErrorKind::NotFound => {
+                        return Err(FileError::Write { file, reason });
+                    }
+                    _ => {}
+                }
+            }
             for name in &names {
                 let file = self.path.join(name);
                 fs::rename(stage.join(name), &file).map_err(|reason| FileError::Write { file, reason })?;
@@ -231,9 +243,16 @@ pub struct Files<'f> {
     folder: &'f Folder,
     stage: &'f Path,
     names: Vec<String>,
+    superseded: Vec<String>,
 }
 
 impl Files<'_> {
+    /// Has a file of an earlier result, which this one is not to lie beside, removed when the files come to their
+    /// place.
+    pub fn supersede(&mut self, name: &str) {
+        self.superseded.push(name.to_owned());
+    }
+
     /// Adds a file.
     ///
     /// # Errors

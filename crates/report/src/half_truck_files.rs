@@ -35,7 +35,6 @@ use study::half_truck::{HalfTruckCase, HalfTruckResult, yaw};
 use wedge::parameters::Damping;
 
 use crate::csv::converted;
-use crate::files::{FileError, Folder};
 use crate::{csv, mat, mat5, summary};
 
 /// The files of a half-truck's run.
@@ -133,30 +132,6 @@ fn sample(times: &[f64], values: &[f64], time: f64) -> f64 {
         (Some(before), None) => values[before],
         (None, _) => values.first().copied().unwrap_or_default(),
     }
-}
-
-/// Writes the files of a run, all of them or none. `script_interval` (s) is that of the array for the
-/// thesis's scripts.
-///
-/// # Errors
-/// A file cannot be written.
-pub fn write(
-    folder: &Folder,
-    case: &HalfTruckCase,
-    result: &HalfTruckResult,
-    script_interval: f64,
-) -> Result<(), FileError> {
-    folder.write(|files| {
-        files.add(csv::FILE_NAME, |out| {
-            csv::write_columns(&result.columns, &result.values, result.summary.units, out)
-        })?;
-        files.add(mat::FILE_NAME, |out| {
-            write_mat(case, result, script_interval, out)
-        })?;
-        files.add(summary::FILE_NAME, |out| {
-            summary::write_json(&result.summary, out)
-        })
-    })
 }
 
 /// Writes `result.mat`.

@@ -8,7 +8,7 @@ use serde::Serialize;
 use study::car::hunting::{Boundary, Hunting, Point, Ramp};
 use study::car::stability::{FRICTION, Stability};
 
-use crate::csv::RowWriter;
+use crate::csv::{RowWriter, rounded};
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures::axis;
 use crate::summary::write_json;
@@ -56,7 +56,7 @@ pub fn write_table(found: &Hunting, units: Units, out: &mut dyn Write) -> io::Re
     for (name, ramp) in ramps(found) {
         for point in &ramp.points {
             table.text(name).shown(point.time);
-            table.shown(point.speed * Kind::TravelSpeed.from_si(units));
+            table.shown(rounded(point.speed * Kind::TravelSpeed.from_si(units)));
             for own in point.axles {
                 table.shown(own * Kind::Length.from_si(units));
             }

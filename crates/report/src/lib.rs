@@ -4,7 +4,7 @@
 //! - [`sensitivity`]: how far these verdicts hang on what the thesis leaves open.
 //! - [`agreement`]: how far the stand-alone wedge and the comparison program's wedges agree.
 //! - [`beyond`]: figures of the cases beyond the thesis, one a group.
-//! - [`csv`]: the table `result.csv`.
+//! - [`csv`]: the table `result.csv`; [`result_parquet`]: `result.parquet`.
 //! - [`mat`]: the file `result.mat`, under the thesis's names; [`mat5`] is its format.
 //! - [`summary`]: the file `summary.json`.
 //! - [`files`]: writing whole results, or nothing.
@@ -59,6 +59,7 @@ mod overlay;
 pub mod page;
 pub mod parquet;
 pub mod plot;
+pub mod result_parquet;
 pub mod run_files;
 pub mod run_folder;
 pub mod sections;

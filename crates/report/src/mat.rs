@@ -31,15 +31,13 @@
 use std::io::{self, Write};
 
 use quantity::{Kind, System as Units};
-use study::car::run::CarResult;
 use study::case::Case;
 use study::result::RunResult;
 use study::summary::RunSummary;
-use study::truck::run::TruckResult;
 use wedge::outputs::CORNERS;
 use wedge::parameters::Damping;
 
-use crate::csv::converted;
+use crate::csv::{Table, converted};
 use crate::mat5;
 
 /// The file's name.
@@ -87,8 +85,13 @@ pub fn write_columns<S: RunSummary>(
     about: &mut String,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let units = result.summary.units();
-    for (column, values) in result.columns.iter().zip(&result.values) {
+    let values = result.values.iter().map(Vec::as_slice);
+    let table: Vec<_> = result.columns.iter().zip(values).collect();
+    write_table(&table, result.summary.units(), about, out)
+}
+
+fn write_table(table: &Table<'_>, units: Units, about: &mut String, out: &mut dyn Write) -> io::Result<()> {
+    for (column, values) in table {
         let name = column.full_name(units);
         let values: Vec<f64> = values
             .iter()
@@ -113,33 +116,21 @@ pub fn soundness(summary: &impl RunSummary) -> String {
     incomplete.into_iter().chain(failed).collect()
 }
 
-/// Writes the file of a truck's run: every column of its table under its full name, and a text on them.
+/// Writes the file of a run of a truck or car: the columns of a table under their full names, and a text on
+/// them; `texts` are the name and title of the case, and the program.
 ///
 /// # Errors
 /// The writer's.
-pub fn write_truck(result: &TruckResult, out: &mut dyn Write) -> io::Result<()> {
-    let own = &result.summary;
-    write_all(result, [&own.name, &own.title, &own.program], out)
-}
-
-/// Writes the same of a car's run.
-///
-/// # Errors
-/// The writer's.
-pub fn write_car(result: &CarResult, out: &mut dyn Write) -> io::Result<()> {
-    let own = &result.summary;
-    write_all(result, [&own.name, &own.title, &own.program], out)
-}
-
-fn write_all<S: RunSummary>(
-    result: &RunResult<S>,
+pub fn write_named<S: RunSummary>(
+    table: &Table<'_>,
+    summary: &S,
     [name, title, program]: [&str; 3],
     out: &mut dyn Write,
 ) -> io::Result<()> {
     mat5::header(&format!("{program}, case {name}"), out)?;
     let mut about = format!("{name}: {title}\nwritten by {program}\n");
-    about += &soundness(&result.summary);
-    write_columns(result, &mut about, out)?;
+    about += &soundness(summary);
+    write_table(table, summary.units(), &mut about, out)?;
     mat5::text("about", about.trim_end(), out)
 }
 

@@ -1,27 +1,44 @@
-//! The files of a run: the table, the same under the thesis's names, the completed case, the summary.
+//! The files of a run: its table in the formats asked for, the completed case, the summary.
+//!
+//! [`RunFiles::output_files`] says which tables a case is written into; a caller may ask for others. Tables that
+//! an earlier run left in the folder and that are not written now are removed with the rest, so that all tables
+//! of a folder are of one run.
 
+use std::io::{self, Write};
+
+use mechanics::output::Column;
 use serde::Serialize;
-use study::car::CarCase;
 use study::car::run::CarResult;
+use study::car::{self, CarCase};
 use study::case::Case;
 use study::half_truck::{HalfTruckCase, HalfTruckResult};
+use study::output_files::{OutputFiles, TableFormat};
 use study::result::RunResult;
-use study::run::RunCase;
+use study::run::{RunCase, RunError};
 use study::summary::RunSummary;
 use study::truck::TruckCase;
+use study::truck::columns::TruckTable;
 use study::truck::run::TruckResult;
 use study::wheelset::WheelsetCase;
 use study::wheelset::run::WheelsetResult;
 use wedge::face::Grid;
+use wedge::outputs::Outputs;
 
+use crate::csv::Table;
 use crate::figures::pressure_figure;
-use crate::files::{FileError, Folder};
-use crate::{csv, half_truck_files, mat, summary};
+use crate::files::{FileError, Files, Folder};
+use crate::{csv, half_truck_files, mat, result_parquet, summary};
 
 /// The name of the case's file.
 pub const CASE_FILE_NAME: &str = "case.toml";
-/// The files of a run.
+/// The files of a run of a wedge or truck, unless others are asked for.
 pub const NAMES: [&str; 4] = [csv::FILE_NAME, mat::FILE_NAME, CASE_FILE_NAME, summary::FILE_NAME];
+/// The files that the table of a run may be written into.
+pub const TABLES: [(TableFormat, &str); 3] = [
+    (TableFormat::Parquet, result_parquet::FILE_NAME),
+    (TableFormat::Csv, csv::FILE_NAME),
+    (TableFormat::Mat, mat::FILE_NAME),
+];
 
 /// The name of the figure of the pressure over faces with grids of points.
 pub const PRESSURE_FILE_NAME: &str = "pressure.svg";
@@ -30,126 +47,226 @@ pub const PRESSURE_FILE_NAME: &str = "pressure.svg";
 pub trait RunFiles: RunCase<Output = RunResult<Self::Summary>> {
     /// The summary of its runs.
     type Summary: RunSummary + Serialize;
-    /// The files of a run.
-    const FILES: &'static [&'static str];
 
-    /// Returns the files that [`RunFiles::write`] writes of this case.
-    fn names(&self) -> Vec<&'static str> {
-        Self::FILES.to_vec()
+    /// Returns the files of its table, unless others are asked for.
+    fn output_files(&self) -> OutputFiles {
+        OutputFiles::default()
     }
+
+    /// Returns the columns of its runs.
+    ///
+    /// # Errors
+    /// The case makes no system.
+    fn columns(&self) -> Result<Vec<Column>, RunError>;
+
+    /// Returns the files that [`RunFiles::write_as`] writes of this case.
+    fn names(&self, output: &OutputFiles) -> Vec<&'static str> {
+        let others = [CASE_FILE_NAME, summary::FILE_NAME];
+        table_names(output).chain(others).collect()
+    }
+
+    /// Writes the file under the name `result.mat`, of the columns of `table`.
+    ///
+    /// # Errors
+    /// The writer's.
+    fn write_mat(&self, result: &Self::Output, table: &Table<'_>, out: &mut dyn Write) -> io::Result<()>;
+
+    /// Adds the files besides the table.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    fn add_others(&self, files: &mut Files<'_>, result: &Self::Output) -> Result<(), FileError>;
 
     /// Writes the files of a run, all of them or none.
     ///
     /// # Errors
     /// A file cannot be written.
-    fn write(&self, folder: &Folder, result: &Self::Output) -> Result<(), FileError>;
+    fn write(&self, folder: &Folder, result: &Self::Output) -> Result<(), FileError> {
+        self.write_as(folder, result, &self.output_files())
+    }
+
+    /// Writes the files of a run, all of them or none, with the tables of `output`.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    fn write_as(
+        &self,
+        folder: &Folder,
+        result: &Self::Output,
+        output: &OutputFiles,
+    ) -> Result<(), FileError> {
+        folder.write(|files| {
+            for (format, name) in TABLES {
+                if output.has(format) {
+                    files.add(name, |out| self.write_table(result, format, output, out))?;
+                } else {
+                    files.supersede(name);
+                }
+            }
+            self.add_others(files, result)
+        })
+    }
+
+    /// Writes the table of a run in a format.
+    ///
+    /// # Errors
+    /// The writer's.
+    fn write_table(
+        &self,
+        result: &Self::Output,
+        format: TableFormat,
+        output: &OutputFiles,
+        out: &mut (dyn Write + Send),
+    ) -> io::Result<()> {
+        let units = result.summary.units();
+        let values = result.values.iter().map(Vec::as_slice);
+        let all = result.columns.iter().zip(values);
+        let table: Vec<_> = all.filter(|(own, _)| output.writes(format, own, units)).collect();
+        match format {
+            TableFormat::Parquet => result_parquet::write(&table, units, out),
+            TableFormat::Csv => csv::write_table(&table, units, out),
+            TableFormat::Mat => self.write_mat(result, &table, out),
+        }
+    }
+}
+
+/// Returns the names of the files of the table.
+pub fn table_names(output: &OutputFiles) -> impl Iterator<Item = &'static str> {
+    let written = TABLES.into_iter().filter(|(format, _)| output.has(*format));
+    written.map(|(_, name)| name)
 }
 
 impl RunFiles for Case {
     type Summary = study::summary::Summary;
-    const FILES: &'static [&'static str] = &NAMES;
 
-    fn names(&self) -> Vec<&'static str> {
+    fn columns(&self) -> Result<Vec<Column>, RunError> {
+        Ok(Outputs::new(&self.parameters).columns().to_vec())
+    }
+
+    fn names(&self, output: &OutputFiles) -> Vec<&'static str> {
         let faces = [&self.parameters.column_face, &self.parameters.slope_face];
         let pressure = faces.iter().any(|face| face.grid != Grid::default());
         let more = pressure.then_some(PRESSURE_FILE_NAME);
-        NAMES.into_iter().chain(more).collect()
+        let others = [CASE_FILE_NAME, summary::FILE_NAME].into_iter().chain(more);
+        table_names(output).chain(others).collect()
     }
 
-    fn write(&self, folder: &Folder, result: &RunResult) -> Result<(), FileError> {
-        write(folder, self, result)
+    /// The thesis's variables, whatever the columns of other tables.
+    fn write_mat(&self, result: &RunResult, _table: &Table<'_>, out: &mut dyn Write) -> io::Result<()> {
+        mat::write(self, result, out)
     }
-}
 
-impl RunFiles for HalfTruckCase {
-    type Summary = study::half_truck::HalfTruckSummary;
-    const FILES: &'static [&'static str] = &half_truck_files::NAMES;
-
-    fn write(&self, folder: &Folder, result: &HalfTruckResult) -> Result<(), FileError> {
-        half_truck_files::write(folder, self, result, self.script_interval)
-    }
-}
-
-impl RunFiles for TruckCase {
-    type Summary = study::truck::summary::TruckSummary;
-    const FILES: &'static [&'static str] = &NAMES;
-
-    fn write(&self, folder: &Folder, result: &TruckResult) -> Result<(), FileError> {
-        let units = self.simulation.output_units;
-        folder.write(|files| {
-            files.add(csv::FILE_NAME, |out| {
-                csv::write_columns(&result.columns, &result.values, units, out)
-            })?;
-            files.add(mat::FILE_NAME, |out| mat::write_truck(result, out))?;
-            files.add(CASE_FILE_NAME, |out| {
-                out.write_all(self.to_toml_embedded().as_bytes())
-            })?;
-            files.add(summary::FILE_NAME, |out| {
-                summary::write_json(&result.summary, out)
-            })
-        })
-    }
-}
-
-impl RunFiles for CarCase {
-    type Summary = study::car::summary::CarSummary;
-    const FILES: &'static [&'static str] = &NAMES;
-
-    fn write(&self, folder: &Folder, result: &CarResult) -> Result<(), FileError> {
-        let units = self.simulation.output_units;
-        folder.write(|files| {
-            files.add(csv::FILE_NAME, |out| {
-                csv::write_columns(&result.columns, &result.values, units, out)
-            })?;
-            files.add(mat::FILE_NAME, |out| mat::write_car(result, out))?;
-            files.add(CASE_FILE_NAME, |out| {
-                out.write_all(self.to_toml_embedded().as_bytes())
-            })?;
-            files.add(summary::FILE_NAME, |out| {
-                summary::write_json(&result.summary, out)
-            })
-        })
-    }
-}
-
-impl RunFiles for WheelsetCase {
-    type Summary = study::wheelset::summary::WheelsetSummary;
-    const FILES: &'static [&'static str] = &[csv::FILE_NAME, summary::FILE_NAME];
-
-    fn write(&self, folder: &Folder, result: &WheelsetResult) -> Result<(), FileError> {
-        let units = self.wheelset.units;
-        folder.write(|files| {
-            files.add(csv::FILE_NAME, |out| {
-                csv::write_columns(&result.columns, &result.values, units, out)
-            })?;
-            files.add(summary::FILE_NAME, |out| {
-                summary::write_json(&result.summary, out)
-            })
-        })
-    }
-}
-
-/// Writes the files of a run, all of them or none.
-///
-/// The case is written completed, with the tables that it took from other files inside, so that it runs
-/// anywhere.
-///
-/// # Errors
-/// A file cannot be written.
-pub fn write(folder: &Folder, case: &Case, result: &RunResult) -> Result<(), FileError> {
-    folder.write(|files| {
-        files.add(csv::FILE_NAME, |out| csv::write(result, out))?;
-        files.add(mat::FILE_NAME, |out| mat::write(case, result, out))?;
+    /// The case is written completed, with the tables that it took from other files inside, so that it runs
+    /// anywhere.
+    fn add_others(&self, files: &mut Files<'_>, result: &RunResult) -> Result<(), FileError> {
         files.add(CASE_FILE_NAME, |out| {
-            let document = case.document.clone().with_tables_embedded();
+            let document = self.document.clone().with_tables_embedded();
             out.write_all(document.to_toml().as_bytes())
         })?;
         files.add(summary::FILE_NAME, |out| summary::write(&result.summary, out))?;
-        if let Some(figure) = pressure_figure(case, result) {
+        if let Some(figure) = pressure_figure(self, result) {
             files.add(PRESSURE_FILE_NAME, |out| {
                 out.write_all(figure.to_svg().as_bytes())
             })?;
         }
         Ok(())
-    })
+    }
+}
+
+impl RunFiles for HalfTruckCase {
+    type Summary = study::half_truck::HalfTruckSummary;
+
+    fn columns(&self) -> Result<Vec<Column>, RunError> {
+        let beginning = self.begin()?;
+        let columns = study::half_truck::columns::Columns::new(self, &beginning.system);
+        Ok(columns.columns().to_vec())
+    }
+
+    fn names(&self, output: &OutputFiles) -> Vec<&'static str> {
+        table_names(output).chain([summary::FILE_NAME]).collect()
+    }
+
+    fn write_mat(&self, result: &HalfTruckResult, _table: &Table<'_>, out: &mut dyn Write) -> io::Result<()> {
+        half_truck_files::write_mat(self, result, self.script_interval, out)
+    }
+
+    fn add_others(&self, files: &mut Files<'_>, result: &HalfTruckResult) -> Result<(), FileError> {
+        add_summary(files, &result.summary)
+    }
+}
+
+impl RunFiles for TruckCase {
+    type Summary = study::truck::summary::TruckSummary;
+
+    fn columns(&self) -> Result<Vec<Column>, RunError> {
+        Ok(TruckTable::new(self)?.columns().to_vec())
+    }
+
+    fn write_mat(&self, result: &TruckResult, table: &Table<'_>, out: &mut dyn Write) -> io::Result<()> {
+        let own = &result.summary;
+        mat::write_named(table, own, [&own.name, &own.title, &own.program], out)
+    }
+
+    fn add_others(&self, files: &mut Files<'_>, result: &TruckResult) -> Result<(), FileError> {
+        add_case(files, self.to_toml_embedded())?;
+        add_summary(files, &result.summary)
+    }
+}
+
+impl RunFiles for CarCase {
+    type Summary = study::car::summary::CarSummary;
+
+    fn output_files(&self) -> OutputFiles {
+        self.output_files.clone()
+    }
+
+    fn columns(&self) -> Result<Vec<Column>, RunError> {
+        car::run::columns(self)
+    }
+
+    fn write_mat(&self, result: &CarResult, table: &Table<'_>, out: &mut dyn Write) -> io::Result<()> {
+        let own = &result.summary;
+        mat::write_named(table, own, [&own.name, &own.title, &own.program], out)
+    }
+
+    fn add_others(&self, files: &mut Files<'_>, result: &CarResult) -> Result<(), FileError> {
+        add_case(files, self.to_toml_embedded())?;
+        add_summary(files, &result.summary)
+    }
+}
+
+impl RunFiles for WheelsetCase {
+    type Summary = study::wheelset::summary::WheelsetSummary;
+
+    fn output_files(&self) -> OutputFiles {
+        OutputFiles {
+            tables: vec![TableFormat::Csv],
+            ..OutputFiles::default()
+        }
+    }
+
+    fn columns(&self) -> Result<Vec<Column>, RunError> {
+        Ok(study::wheelset::columns::columns())
+    }
+
+    fn names(&self, output: &OutputFiles) -> Vec<&'static str> {
+        table_names(output).chain([summary::FILE_NAME]).collect()
+    }
+
+    fn write_mat(&self, result: &WheelsetResult, table: &Table<'_>, out: &mut dyn Write) -> io::Result<()> {
+        let own = &result.summary;
+        mat::write_named(table, own, [&own.name, "", &own.program], out)
+    }
+
+    fn add_others(&self, files: &mut Files<'_>, result: &WheelsetResult) -> Result<(), FileError> {
+        add_summary(files, &result.summary)
+    }
+}
+
+fn add_case(files: &mut Files<'_>, text: &str) -> Result<(), FileError> {
+    files.add(CASE_FILE_NAME, |out| out.write_all(text.as_bytes()))
+}
+
+fn add_summary(files: &mut Files<'_>, summary: &impl Serialize) -> Result<(), FileError> {
+    files.add(summary::FILE_NAME, |out| summary::write_json(summary, out))
 }

@@ -4,9 +4,10 @@ use std::io::{self, Write};
 
 use quantity::{Kind, System as Units};
 use serde::Serialize;
-use study::car::stability::{Branch, FRICTION, Mode, Stability};
+use study::car::CarCase;
+use study::car::stability::{Branch, FRICTION, Mode, Stability, left_out};
 
-use crate::csv::RowWriter;
+use crate::csv::{RowWriter, rounded};
 use crate::drawing::{Figure, Panel, PlotCurve, distinct};
 use crate::figures::axis;
 use crate::summary::write_json;
@@ -46,7 +47,7 @@ pub fn write_table(found: &Stability, units: Units, out: &mut dyn Write) -> io::
                 let angular_frequency = 2.0 * std::f64::consts::PI * mode.frequency;
                 let ratio = -mode.growth / libm::hypot(mode.growth, angular_frequency);
                 table
-                    .shown(speed * Kind::TravelSpeed.from_si(units))
+                    .shown(rounded(speed * Kind::TravelSpeed.from_si(units)))
                     .text(name(branch));
                 table
                     .shown(mode.growth)
@@ -68,6 +69,9 @@ struct Document<'d> {
     speeds: Vec<f64>,
     branches: Vec<BranchDocument>,
     about: &'static str,
+    /// What of the case does not count.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    left_out: Option<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -85,11 +89,11 @@ struct BranchDocument {
 ///
 /// # Errors
 /// The writer's.
-pub fn write_numbers(case: &str, found: &Stability, units: Units, out: &mut dyn Write) -> io::Result<()> {
-    let speed = |si: f64| si * Kind::TravelSpeed.from_si(units);
+pub fn write_numbers(case: &CarCase, found: &Stability, units: Units, out: &mut dyn Write) -> io::Result<()> {
+    let speed = |si: f64| rounded(si * Kind::TravelSpeed.from_si(units));
     let document = Document {
         schema: SCHEMA,
-        name: case,
+        name: &case.name,
         complete: found.complete,
         speed_unit: Kind::TravelSpeed.label(units),
         speeds: found.speeds.iter().map(|own| speed(*own)).collect(),
@@ -106,6 +110,7 @@ pub fn write_numbers(case: &str, found: &Stability, units: Units, out: &mut dyn 
             .collect(),
         about: "Vibrations of 0.05 to 30 Hz about steady running on straight track. Friction stuck: \
                 bristles are springs; absent: no friction in wedges, plates, adapters, side bearings.",
+        left_out: left_out(case),
     };
     write_json(&document, out)
 }

@@ -28,7 +28,7 @@ use study::records::{self, Record};
 use crate::csv;
 use crate::files::{self, FileError, Folder, Locked};
 use crate::page::study as page;
-use crate::parquet::{Cell, Content, ParquetColumn, TableWriter};
+use crate::parquet::{Cell, Content, ParquetColumn, Storage, TableWriter};
 
 mod error;
 
@@ -282,7 +282,8 @@ impl StudyFolder {
         let written = folder.write(|files| {
             files.add(TABLE_FILE, |out| {
                 let metadata = [(STUDY_KEY, self.description.clone())];
-                let mut table = TableWriter::new(out, columns.clone(), &metadata).map_err(plain)?;
+                let mut table =
+                    TableWriter::new(out, columns.clone(), Storage::Values, &metadata).map_err(plain)?;
                 self.for_each(&mut unread, |record| {
                     let values = study.values(record.number);
                     table.row(cells(study, &values, record)).map_err(plain)?;

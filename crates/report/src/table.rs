@@ -5,6 +5,8 @@
 //! in any order; a name without a known unit is a pure number. Lines that begin with `#` and empty lines do
 //! not count.
 //!
+//! Parquet files ([`result_parquet`](crate::result_parquet)) are read with the same names.
+//!
 //! Numbers are kept as written, so that nothing is lost; [`TableColumn::si`] and [`TableColumn::in_units`]
 //! convert. Those in other units than results are written with (`force_kN`, `speed [km/h]`) are converted when they
 //! are read.
@@ -21,13 +23,15 @@ use quantity::{Kind, System as Units, nearest};
 pub use error::TableError;
 use header::{Header, HeaderLocation};
 
+use crate::result_parquet;
+
 mod error;
 mod header;
 
 /// The expected file of a result.
 const RESULT_FILE: Expected = Expected {
     what: "table of results",
-    types: &[FileType::Results],
+    types: &[FileType::Results, FileType::Parquet],
     most: limits::RESULT_FILE,
 };
 
@@ -75,14 +79,64 @@ pub struct ResultTable {
 }
 
 impl ResultTable {
-    /// Reads a result: a folder with a `result.csv`, such a file, or another CSV file of the same form.
+    /// Reads a result: a folder with a `result.parquet`, else a `result.csv`; such a file, or another CSV or
+    /// Parquet file of the same form.
     ///
     /// # Errors
     /// There is no such result, it is no table, or the table is wrong: see [`TableError`].
     pub fn read(path: &Path) -> Result<Self, TableError> {
         let file = locate(path)?;
         let bytes = read(&file, &RESULT_FILE).map_err(|error| TableError::of_file(&file, error))?;
-        Self::parse(&file, &bytes)
+        match FileType::of(&bytes) {
+            Some(FileType::Parquet) => Self::of_numbers(&file, result_parquet::read(&file, bytes)?),
+            _ => Self::parse(&file, &bytes),
+        }
+    }
+
+    /// Returns the table of columns with their names, of a Parquet file. Its rows count as lines of a CSV file
+    /// do: the names are the first.
+    fn of_numbers(file: &Path, columns: result_parquet::Read) -> Result<Self, TableError> {
+        let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
+        let header = header::read(&HeaderLocation { file, line: 1 }, &names)?;
+        for (index, (name, values)) in columns.iter().enumerate() {
+            for (row, value) in values.iter().enumerate() {
+                let before = row.checked_sub(1).map(|row| values[row]);
+                check(
+                    file,
+                    row as u64 + 2,
+                    (index, name, *value),
+                    before.filter(|_| index == header.time),
+                )?;
+            }
+        }
+        Self::new(
+            file,
+            header,
+            columns.into_iter().map(|(_, values)| values).collect(),
+        )
+    }
+
+    fn new(file: &Path, header: Header, columns: Vec<Vec<f64>>) -> Result<Self, TableError> {
+        let file = file.to_owned();
+        if columns.iter().all(Vec::is_empty) {
+            return Err(TableError::NoRows { file });
+        }
+        Ok(Self {
+            file,
+            units: header.units,
+            time: header.time,
+            columns: header
+                .names
+                .into_iter()
+                .zip(columns)
+                .map(|(name, written)| TableColumn {
+                    name: name.base,
+                    kind: name.kind,
+                    units: header.units,
+                    written,
+                })
+                .collect(),
+        })
     }
 
     /// Understands the content of a file.
@@ -238,31 +292,17 @@ impl Rows<'_> {
             return Ok(());
         }
         for (index, cell) in cells.iter().enumerate() {
-            let name = || header.names[index].full.clone();
-            let value = match cell.parse::<f64>() {
-                Ok(value) if value.is_finite() => value,
-                _ => {
-                    return Err(TableError::NotANumber {
-                        file: self.file.to_owned(),
-                        line,
-                        column: index + 1,
-                        name: name(),
-                        text: shortened(cell),
-                    });
-                }
+            let name = header.names[index].full.as_str();
+            let Ok(value) = cell.parse::<f64>() else {
+                return Err(not_a_number(self.file, line, (index, name), cell));
             };
             let value = header.names[index].in_units(value, header.units);
             let before = self.columns[index].last().copied();
-            if let Some(before) = before.filter(|before| index == header.time && value <= *before) {
-                return Err(TableError::NotIncreasing {
-                    file: self.file.to_owned(),
-                    line,
-                    column: index + 1,
-                    name: name(),
-                    time: value,
-                    before,
-                });
+            let before = before.filter(|_| index == header.time);
+            if !value.is_finite() {
+                return Err(not_a_number(self.file, line, (index, name), cell));
             }
+            check(self.file, line, (index, name, value), before)?;
             self.columns[index].push(value);
         }
         Ok(())
@@ -271,35 +311,52 @@ impl Rows<'_> {
     /// Returns the table; `None` if there was not even a line of names.
     fn finish(self) -> Option<Result<ResultTable, TableError>> {
         let (header, _) = self.header?;
-        let file = self.file.to_owned();
         if let Some((line, found)) = self.short {
             return Some(Err(TableError::Truncated {
-                file,
+                file: self.file.to_owned(),
                 line,
                 found,
                 expected: header.names.len(),
             }));
         }
-        if self.columns.iter().all(Vec::is_empty) {
-            return Some(Err(TableError::NoRows { file }));
-        }
-        let columns = header.names.into_iter().zip(self.columns);
-        Some(Ok(ResultTable {
-            file,
-            units: header.units,
-            time: header.time,
-            columns: columns
-                .map(|(name, written)| TableColumn {
-                    name: name.base,
-                    kind: name.kind,
-                    units: header.units,
-                    written,
-                })
-                .collect(),
-        }))
+        Some(ResultTable::new(self.file, header, self.columns))
     }
 }
 
+/// Checks that a value of a column (its place and name) is a number and, where it is the time, later than the one
+/// before.
+fn check(
+    file: &Path,
+    line: u64,
+    (index, name, value): (usize, &str, f64),
+    before: Option<f64>,
+) -> Result<(), TableError> {
+    if !value.is_finite() {
+        let text = if value.is_nan() { "nothing" } else { "infinite" };
+        return Err(not_a_number(file, line, (index, name), text));
+    }
+    match before.filter(|before| value <= *before) {
+        Some(before) => Err(TableError::NotIncreasing {
+            file: file.to_owned(),
+            line,
+            column: index + 1,
+            name: name.to_owned(),
+            time: value,
+            before,
+        }),
+        None => Ok(()),
+    }
+}
+
+fn not_a_number(file: &Path, line: u64, (index, name): (usize, &str), text: &str) -> TableError {
+    TableError::NotANumber {
+        file: file.to_owned(),
+        line,
+        column: index + 1,
+        name: name.to_owned(),
+        text: shortened(text),
+    }
+}
 /// Returns the line of a record. The reader's own count stands before the remarks and empty lines in front of
 /// the record.
 fn line_of(text: &str, place: &::csv::Position) -> u64 {
@@ -339,8 +396,7 @@ fn text_of<'b>(file: &Path, bytes: &'b [u8]) -> Result<&'b str, TableError> {
 /// Returns the file of a result.
 fn locate(path: &Path) -> Result<PathBuf, TableError> {
     if path.is_dir() {
-        let file = path.join(crate::csv::FILE_NAME);
-        if file.exists() {
+        if let Some(file) = in_folder(path) {
             return Ok(file);
         }
         let inside = results_below(path);
@@ -374,6 +430,23 @@ fn locate(path: &Path) -> Result<PathBuf, TableError> {
     })
 }
 
+/// Returns the file of the result in a folder: the Parquet file, which has all columns, before the CSV file.
+#[must_use]
+pub fn in_folder(folder: &Path) -> Option<PathBuf> {
+    let names = [result_parquet::FILE_NAME, crate::csv::FILE_NAME];
+    names
+        .into_iter()
+        .map(|name| folder.join(name))
+        .find(|file| file.exists())
+}
+
+/// Returns whether a file has the name of the table of a run.
+#[must_use]
+pub fn is_of_run(file: &Path) -> bool {
+    let name = file.file_name().and_then(|name| name.to_str());
+    name.is_some_and(|name| [result_parquet::FILE_NAME, crate::csv::FILE_NAME].contains(&name))
+}
+
 /// Returns the first folders with results in a folder, or in its folder `runs`.
 fn results_below(folder: &Path) -> Vec<String> {
     const MOST: usize = 3;
@@ -381,7 +454,7 @@ fn results_below(folder: &Path) -> Vec<String> {
     for inside in [folder.to_owned(), folder.join("runs")] {
         for name in names_in(&inside) {
             let result = inside.join(name);
-            if result.join(crate::csv::FILE_NAME).exists() && found.len() < MOST {
+            if in_folder(&result).is_some() && found.len() < MOST {
                 found.push(result.display().to_string());
             }
         }

@@ -8,7 +8,8 @@ use std::path::Path;
 
 use quantity::System as Units;
 use report::files::{FileError, Folder, check_all};
-use report::{csv, curves_files, lock_up_files, mat, run_files};
+use report::run_files::{self, RunFiles};
+use report::{csv, curves_files, lock_up_files, mat};
 use study::case::{Case, builtin};
 use study::lock_up::{LockUpMap, MapAxis, MapPoint, MapRange, RigOutcome};
 use study::result::RunResult;
@@ -130,7 +131,7 @@ fn a_run_is_written_once() {
     let path = temporary.path().join("new/deep/run");
     let folder = Folder::check(&path, &run_files::NAMES, false).unwrap();
     assert!(names(temporary.path()).is_empty(), "checking leaves nothing");
-    run_files::write(&folder, &case, &result).unwrap();
+    RunFiles::write(&case, &folder, &result).unwrap();
     assert_eq!(
         names(&path),
         ["case.toml", "result.csv", "result.mat", "summary.json"]
@@ -140,13 +141,13 @@ fn a_run_is_written_once() {
     let again = Folder::check(&path, &run_files::NAMES, false).unwrap_err();
     assert!(again.to_string().contains("result.csv"), "{again}");
     // One that was checked before the files appeared.
-    let late = run_files::write(&folder, &case, &result).unwrap_err();
+    let late = RunFiles::write(&case, &folder, &result).unwrap_err();
     assert!(matches!(late, FileError::Exists { .. }), "{late}");
 
     fs::write(path.join("notes.txt"), "mine").unwrap();
     fs::write(path.join("result.csv"), "old").unwrap();
     let folder = Folder::check(&path, &run_files::NAMES, true).unwrap();
-    run_files::write(&folder, &case, &result).unwrap();
+    RunFiles::write(&case, &folder, &result).unwrap();
     assert_eq!(
         names(&path),
         [

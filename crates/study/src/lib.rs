@@ -33,6 +33,7 @@ pub mod losses;
 pub mod measures;
 pub mod metrics;
 pub mod outcome;
+pub mod output_files;
 pub mod patches;
 pub mod plausibility;
 pub mod progress;

@@ -110,12 +110,12 @@ pub const WHAT_TO_TRY_WITH_FILES: &str = "look at this body or connection with `
                                           stiffness or a damping out of all proportion, or a mass that is \
                                           too small, makes steps so short";
 
-/// Returns the integrator's message about a step that it cannot make, with the state in words; `name` names a
+/// Returns the integrator's message about a step that it cannot make, after the state in words; `name` names a
 /// state.
 #[must_use]
 pub fn describe(error: &StepError, name: impl Fn(usize) -> String) -> String {
     match error.index {
-        Some(state) => format!("{error}; state {state} is {}", name(state)),
+        Some(state) => format!("{} (state {state}) cannot be computed: {error}", name(state)),
         None => error.to_string(),
     }
 }
@@ -197,4 +197,26 @@ fn motion(
         Some((coordinate, body))
     });
     found.map(|(coordinate, body)| (format!("the {what} in {}", COORDINATES[coordinate]), body))
+}
+
+#[cfg(test)]
+mod tests {
+    use integrate::{Reason, StepError};
+
+    use super::describe;
+
+    #[test]
+    fn issue_048_the_state_that_cannot_be_computed_comes_first() {
+        let error = StepError {
+            time: 0.1,
+            step: 2e-15,
+            reason: Reason::Error,
+            index: Some(117),
+            scaled_error: 1.129,
+        };
+        let words = describe(&error, |_| "the speed in z of the wedge".to_owned());
+        let start =
+            "the speed in z of the wedge (state 117) cannot be computed: at time 0.1 even a step of 2e-15";
+        assert!(words.starts_with(start), "{words}");
+    }
 }

@@ -9,8 +9,8 @@ use numpy::{PyArray1, PyArray2, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyList};
-use report::files::Folder;
-use report::run_files::{self, RunFiles};
+use report::files::{FileError, Folder};
+use report::run_files::RunFiles;
 use serde::{Deserialize, Serialize};
 use study::car::CarCase;
 use study::car::summary::CarSummary;
@@ -409,7 +409,7 @@ impl NativeResult {
     /// Writes the files that `wedgelab run` writes.
     fn write(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<Vec<&'static str>> {
         guarded(py, || {
-            let failed = |error: report::files::FileError| {
+            let failed = |error: FileError| {
                 let text = crate::errors::shown(&error);
                 crate::errors::raise(py, "FileError", (error.to_string(), text))
             };
@@ -417,23 +417,30 @@ impl NativeResult {
                 let message = "results of half-trucks cannot be written";
                 simple(py, "WedgelabError", message, "use to_pandas().to_csv(...)")
             };
-            let folder = || Folder::check(folder, &run_files::NAMES, force).map_err(failed);
             match (&self.origin, &self.table.summary) {
                 (Origin::Wedge(case), AnySummary::Wedge(summary)) => {
-                    let result = self.result(&**summary);
-                    RunFiles::write(&**case, &folder()?, &result).map_err(failed)?;
+                    write_run(&**case, folder, &self.result(&**summary), force).map_err(failed)
                 }
                 (Origin::Truck(case), AnySummary::Truck(summary)) => {
-                    let result = self.result(&**summary);
-                    RunFiles::write(&**case, &folder()?, &result).map_err(failed)?;
+                    write_run(&**case, folder, &self.result(&**summary), force).map_err(failed)
                 }
                 (Origin::Car(case), AnySummary::Car(summary)) => {
-                    let result = self.result(&**summary);
-                    RunFiles::write(&**case, &folder()?, &result).map_err(failed)?;
+                    write_run(&**case, folder, &self.result(&**summary), force).map_err(failed)
                 }
-                _ => return Err(refused()),
+                _ => Err(refused()),
             }
-            Ok(run_files::NAMES.to_vec())
         })
     }
+}
+
+/// Writes the files of a run; returns their names.
+fn write_run<C: RunFiles>(
+    case: &C,
+    folder: PathBuf,
+    result: &C::Output,
+    force: bool,
+) -> Result<Vec<&'static str>, FileError> {
+    let names = case.names(&case.output_files());
+    case.write(&Folder::check(folder, &names, force)?, result)?;
+    Ok(names)
 }

@@ -14,6 +14,7 @@ use study::car::motions::MotionTable;
 use study::car::run::CarResult;
 use study::contacts::{ContactTable, TakesCorners};
 use study::outcome::Outcome;
+use study::output_files::OutputFiles;
 use study::result::RunResult;
 use study::run::{Run, RunCase, RunError};
 use study::summary::{RunSummary, Summary, SummaryValue};
@@ -84,7 +85,12 @@ fn compute_by<C: RunCase, T>(
 
 /// Returns a run that has begun; where nothing can be computed at all, the input is at fault.
 pub fn started<C: RunCase>(case: &C, run: Result<Run<C>, RunError>) -> Result<Run<C>, Message> {
-    run.map_err(|error| {
+    started_with(case, run)
+}
+
+/// As [`started`], for anything that a case makes as it begins.
+pub fn started_with<C: RunCase, T>(case: &C, made: Result<T, RunError>) -> Result<T, Message> {
+    made.map_err(|error| {
         let message = format!("the run {} cannot begin: {error}", case.name());
         Message::new(message, C::WHERE_TO_LOOK)
     })
@@ -97,7 +103,19 @@ pub fn write<C: RunFiles>(
     folder: &Folder,
     progress: &Progress,
 ) -> Result<(), Failure> {
-    write_quietly(done, case, folder, progress)?;
+    write_as(done, case, folder, &case.output_files(), progress)
+}
+
+/// As [`write`], with the tables of `output`.
+pub fn write_as<C: RunFiles>(
+    done: &Done<C::Output>,
+    case: &C,
+    folder: &Folder,
+    output: &OutputFiles,
+    progress: &Progress,
+) -> Result<(), Failure> {
+    case.write_as(folder, &done.result, output)?;
+    tell(done, case, progress);
     for warning in done.result.summary.warnings() {
         say(&format!("warning: {}: {warning}", case.name()));
     }
@@ -112,13 +130,18 @@ pub fn write_quietly<C: RunFiles>(
     progress: &Progress,
 ) -> Result<(), Failure> {
     case.write(folder, &done.result)?;
+    tell(done, case, progress);
+    Ok(())
+}
+
+/// Tells that a run has ended, and how.
+fn tell<C: RunFiles>(done: &Done<C::Output>, case: &C, progress: &Progress) {
     let outcome = done.result.summary.outcome();
     let how = match outcome.end() {
         Some(end) => format!("{} at {} s", outcome.word(), SixDigits(end.time)),
         None => format!("{:.2} s", done.wall.as_secs_f64()),
     };
     progress.done(case.name(), &how);
-    Ok(())
 }
 
 /// Writes the page of a run beside its files.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use quantity::nearest;
+use quantity::{fits_pattern, is_pattern, nearest};
 use report::table::ResultTable;
 use study::case::builtin;
 use study::half_truck::catalog;
@@ -62,8 +62,8 @@ fn matching(text: &str, names: &[&str]) -> Result<Vec<usize>, Message> {
     let having = |fits: &dyn Fn(&str) -> bool| -> Vec<usize> {
         (0..names.len()).filter(|index| fits(names[*index])).collect()
     };
-    if text.contains(['*', '?']) {
-        let found = having(&|name| fits(text.as_bytes(), name.as_bytes()));
+    if is_pattern(text) {
+        let found = having(&|name| fits_pattern(text, name));
         return if found.is_empty() {
             Err(Message::new(
                 format!("no built-in case fits `{text}`"),
@@ -112,17 +112,6 @@ fn several(names: &[&str]) -> String {
     match names.len() {
         0..=MOST => format!("the built-in cases are {shown}"),
         _ => format!("the built-in cases are {shown} and more; `wedgelab case` lists all"),
-    }
-}
-
-/// Returns whether a name fits a pattern in which `*` is any text and `?` any sign.
-fn fits(pattern: &[u8], name: &[u8]) -> bool {
-    match (pattern, name) {
-        ([], []) => true,
-        ([b'*', rest @ ..], _) => (0..=name.len()).any(|skip| fits(rest, &name[skip..])),
-        ([b'?', pattern @ ..], [_, name @ ..]) => fits(pattern, name),
-        ([sign, pattern @ ..], [own, name @ ..]) => sign == own && fits(pattern, name),
-        _ => false,
     }
 }
 

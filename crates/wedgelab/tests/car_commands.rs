@@ -32,8 +32,8 @@ fn input_a_run_of_a_car_writes_its_files() {
             done.out
         );
         for file in [
+            "result.parquet",
             "result.csv",
-            "result.mat",
             "case.toml",
             "summary.json",
             "index.html",
@@ -52,16 +52,16 @@ fn input_a_run_of_a_car_writes_its_files() {
             .contains("flexible bodies, braking, coupler forces")
     );
     let csv = fs::read_to_string(at.join("a/result.csv")).unwrap();
-    assert!(csv.starts_with("time_s,distance_ft,speed_mph,axle_1_left_vertical_lbf,"));
+    assert!(csv.starts_with("time_s,distance_ft,speed_mph,body_roll_rad\n"));
     let page = fs::read_to_string(at.join("a/index.html")).unwrap();
     assert!(page.contains("check them against your edition") && page.contains("<svg"));
     // The written case runs again to the same table.
     let again = wedgelab(at, &["run", "a/case.toml", "-q", "--out", "c"]);
     assert_eq!(again.code, Some(0), "{}", again.err);
-    assert_eq!(
-        fs::read(at.join("c/result.csv")).unwrap(),
-        fs::read(at.join("a/result.csv")).unwrap()
-    );
+    for table in ["result.csv", "result.parquet"] {
+        let [again, first] = ["c", "a"].map(|folder| fs::read(at.join(folder).join(table)).unwrap());
+        assert_eq!(again, first, "{table}");
+    }
     let compared = wedgelab(at, &["compare", "a", "b"]);
     assert_eq!(compared.code, Some(0), "{}", compared.err);
 }

@@ -159,6 +159,6 @@ fn issue_048_the_first_commands_page_is_interactive() {
         .unwrap();
     let stdout = String::from_utf8(output.stdout).unwrap();
     let page = fs::read_to_string(folder.path().join("index.html")).unwrap();
-    assert!(page.contains("id=\"wedgelab-view\"") && page.contains("three.js"));
+    assert!(page.contains("id=\"wedgelab-view\"") && page.contains("id=\"wedgelab-viewer\""));
     assert!(!stdout.contains("Node.js"), "{stdout}");
 }

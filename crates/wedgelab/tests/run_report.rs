@@ -35,8 +35,7 @@ fn json(file: &Path) -> Value {
 
 /// Returns the data of a page's interactive part.
 fn view(page: &str) -> Value {
-    let (_, rest) = page.split_once("id=\"wedgelab-view\">").unwrap();
-    serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
+    serde_json::from_str(&report::view::kept::data_in(page).unwrap()).unwrap()
 }
 
 /// Returns the numbers in the row of a page's table that begins with these words, without what stands in
@@ -291,7 +290,10 @@ fn input_what_is_no_run_is_reported_with_the_command_that_takes_it() {
             vec!["table.csv"],
             ["is a table", "`wedgelab compare` and `wedgelab plot`"],
         ),
-        (vec!["empty"], ["holds no result.csv", "name the folder"]),
+        (
+            vec!["empty"],
+            ["holds no result.parquet or result.csv", "name the folder"],
+        ),
         (vec!["studied"], ["is the folder of a study", "index.html"]),
         (
             vec![TRUCK],

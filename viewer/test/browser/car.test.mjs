@@ -44,7 +44,7 @@ before(async () => {
   }
   folder = mkdtempSync(join(tmpdir(), "wedgelab-car-"));
   writeFileSync(join(folder, `${CASE}.toml`), TEXT);
-  const done = spawnSync(program, ["run", `${CASE}.toml`, "--quiet", "--out", "run"], { cwd: folder, encoding: "utf8" });
+  const done = spawnSync(program, ["run", `${CASE}.toml`, "--quiet", "--out", "run", "--tables", "csv"], { cwd: folder, encoding: "utf8" });
   assert.equal(done.status, 0, done.stderr);
   const [head, ...lines] = readFileSync(join(folder, "run", "result.csv"), "utf8").trim().split("\n");
   const rows = lines.map((line) => line.split(",").map(Number));

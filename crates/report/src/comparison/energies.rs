@@ -10,7 +10,7 @@ use serde::Deserialize;
 use study::summary::SummaryValue;
 
 use super::{ComparedResult, Energy};
-use crate::{csv, summary};
+use crate::summary;
 
 /// The expected file of a summary.
 const SUMMARY_FILE: Expected = Expected {
@@ -123,9 +123,9 @@ fn unsound(label: &str, part: &SummaryPart) -> Option<String> {
     }
 }
 
-/// Returns the summary beside a `result.csv`, if there is one.
+/// Returns the summary beside the table of a run, if there is one.
 fn summary_beside(file: &Path) -> Result<Option<SummaryPart>, String> {
-    if file.file_name().is_none_or(|name| name != csv::FILE_NAME) {
+    if !crate::table::is_of_run(file) {
         return Ok(None);
     }
     match read(&file.with_file_name(summary::FILE_NAME), &SUMMARY_FILE) {

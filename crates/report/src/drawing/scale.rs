@@ -57,7 +57,7 @@ impl Scale {
     pub fn format(&self) -> TickFormat {
         let most = self.low.abs().max(self.high.abs());
         if !(1e-3..1e6).contains(&most) {
-            return TickFormat::Sci;
+            return TickFormat::Custom(Arc::new(scientific));
         }
         let mut decimals = 0;
         let mut step = self.step;
@@ -68,6 +68,18 @@ impl Scale {
         TickFormat::Custom(Arc::new(move |value| {
             format!("{value:.decimals$}").replace('-', "\u{2212}")
         }))
+    }
+}
+
+/// Returns a number with an exponent and at most six digits: a tick is a multiple of its step, and has the errors
+/// of this product.
+fn scientific(value: f64) -> String {
+    let text = format!("{value:.5e}");
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let digits = digits.trim_end_matches('0').trim_end_matches('.');
+    match digits {
+        "0" | "-0" => "0".to_owned(),
+        digits => format!("{digits}e{exponent}").replace('-', "\u{2212}"),
     }
 }
 
@@ -86,7 +98,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ticks_are_round() {
+    fn issue_048_ticks_are_round() {
         let scale = Scale::around([-1.0, 1.0].into_iter());
         assert_eq!((scale.low, scale.high, scale.step), (-1.1, 1.1, 0.5));
         assert_eq!(scale.format().format(-0.5), "\u{2212}0.5");
@@ -97,6 +109,9 @@ mod tests {
             let scale = Scale::around(odd.into_iter());
             assert!(scale.low < scale.high && scale.step > 0.0);
         }
+        let scale = Scale::around([0.0, 8e-4].into_iter());
+        let ticks = [0.0, 3.0, -3.0].map(|k| scale.format().format(k * 2e-4));
+        assert_eq!(ticks, ["0", "6e\u{2212}4", "\u{2212}6e\u{2212}4"]);
         assert_eq!(round_step(0.3), 0.5);
         assert_eq!(round_step(2.1), 2.5);
         assert_eq!(round_step(100.0), 100.0);

@@ -52,7 +52,8 @@ fn limits(summary: &CarSummary) -> Markup {
         p {
             "The worst value of each kind beside limits that are remembered of AAR M-1001, chapter XI: \
              check them against your edition of the standard. A limit counts for the regimes named. Margin: \
-             what is left, in parts of the limit."
+             what is left, in parts of the limit. Raw values, where rows are too far apart for the filter, have \
+             none."
         }
         div.wide {
             table {
@@ -70,7 +71,10 @@ fn limits(summary: &CarSummary) -> Markup {
                             td { (own.statistic.replace('_', " ")) }
                             td.number { (digits(own.value)) @if !own.unit.is_empty() { " " (own.unit) } }
                             td.number { (digits(own.limit)) @if !own.unit.is_empty() { " " (own.unit) } }
-                            td.number { (format!("{:.0} %", 100.0 * own.margin)) }
+                            td.number {
+                                @if own.unfiltered { "none: raw" }
+                                @else { (format!("{:.0} %", 100.0 * own.margin)) }
+                            }
                             td { (own.regimes) }
                         }
                     }

@@ -7,6 +7,8 @@ mod claims;
 mod contents;
 pub mod explorer;
 pub mod half_truck_run;
+pub mod packed;
+mod paths;
 mod runs;
 mod sensitivity;
 mod short;
@@ -31,6 +33,8 @@ use crate::drawing::Figure;
 use crate::figures::{CaseOutcome, Exhibit, capital};
 use crate::sensitivity::Sensitivity;
 use crate::view::View;
+use crate::view::data::Precision;
+use crate::view::kept::DATA;
 use crate::view::run::Recording;
 
 /// The page's file name.
@@ -41,6 +45,8 @@ pub const FIGURES: &str = "figures";
 const STYLE: &str = concat!(include_str!("colours.css"), include_str!("style.css"));
 /// The script of pages without the viewer.
 const SCRIPT: &str = include_str!("page.js");
+/// The script that unpacks data and viewer, and starts the viewer.
+const UNPACK: &str = include_str!("unpack.js");
 
 /// A figure with its drawing.
 #[derive(Clone, Debug, PartialEq)]
@@ -224,7 +230,7 @@ fn doubts_about(name: &str, summary: &dyn RunSummary) -> Markup {
 
 /// Returns the data of a page with one run, JSON of [`View`].
 fn data_of(units: Units, recording: Recording, exhibits: &[Exhibit]) -> Result<String, serde_json::Error> {
-    View::new(units, [recording], exhibits).to_json()
+    View::with(units, [recording], exhibits, Precision::Rounded).to_json()
 }
 
 /// Returns the page of one run of a case with title and program, headed by the title or its name; `what` is
@@ -292,8 +298,9 @@ fn document(
                 main id="main" { (PreEscaped(main)) }
                 script { (PreEscaped(SCRIPT)) }
                 @if let Some(data) = view {
-                    script type="application/json" id="wedgelab-view" { (PreEscaped(data)) }
-                    script { (PreEscaped(viewer::SCRIPT)) }
+                    script type="text/plain" id=(DATA) { (PreEscaped(packed::pack(data))) }
+                    script type="text/plain" id="wedgelab-viewer" { (PreEscaped(viewer::packed())) }
+                    script { (PreEscaped(UNPACK)) }
                 }
             }
         }
@@ -328,7 +335,7 @@ fn inline(svg: &str, title: &str) -> String {
     let svg = svg.replacen("<svg xmlns=\"http://www.w3.org/2000/svg\"", &own, 1);
     let svg = without(&svg, "<title>", "</title>\n");
     let svg = without(&svg, "<desc>", "</desc>\n");
-    without(&svg, "<!--", "-->\n")
+    paths::shortened(&without(&svg, "<!--", "-->\n"))
 }
 
 /// Returns the text without the first piece from `start` to `end`.

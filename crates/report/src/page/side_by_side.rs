@@ -282,12 +282,16 @@ fn limits(runs: &[RunFolder]) -> Markup {
                                         @match limits.iter().find(|own| own.quantity == row.quantity) {
                                             Some(own) => td.number {
                                                 (four(own.value)) " "
-                                                span.verdict
-                                                    .fails[own.margin < 0.0]
-                                                    .holds[own.margin >= 0.0]
-                                                {
-                                                    (format!("({:.0} %)", 100.0 * own.margin)
-                                                        .replace('-', "\u{2212}"))
+                                                @if own.unfiltered {
+                                                    "(raw)"
+                                                } @else {
+                                                    span.verdict
+                                                        .fails[own.margin < 0.0]
+                                                        .holds[own.margin >= 0.0]
+                                                    {
+                                                        (format!("({:.0} %)", 100.0 * own.margin)
+                                                            .replace('-', "\u{2212}"))
+                                                    }
                                                 }
                                             },
                                             None => td.number { "–" },

@@ -9,8 +9,8 @@ use study::any_case::AnyCase;
 use thiserror::Error;
 
 use super::any_summary::SCHEMAS;
-use crate::table::TableError;
-use crate::{claims, csv, study_folder, summary};
+use crate::table::{TableError, in_folder, is_of_run};
+use crate::{claims, study_folder, summary};
 
 /// Reasons why there is no run to read. Lines and columns count from one.
 #[derive(Debug, Error, Diagnostic)]
@@ -117,7 +117,7 @@ impl RunFolderError {
     }
 }
 
-/// Returns the folder of a run that is meant: itself, or that of its `result.csv` or `summary.json`.
+/// Returns the folder of a run that is meant: itself, or that of its table or `summary.json`.
 pub(super) fn folder_of(path: &Path) -> Result<PathBuf, RunFolderError> {
     let no_run = |what: &'static str, advice: String| RunFolderError::NoRun {
         path: path.to_owned(),
@@ -126,14 +126,15 @@ pub(super) fn folder_of(path: &Path) -> Result<PathBuf, RunFolderError> {
     };
     if path.is_dir() {
         let holds = |name: &str| path.join(name).exists();
-        if !holds(csv::FILE_NAME) && holds(study_folder::STUDY_FILE) {
+        let result = in_folder(path).is_some();
+        if !result && holds(study_folder::STUDY_FILE) {
             let advice = format!(
                 "its own page is {}; `wedgelab report` takes single runs",
                 path.join(crate::page::FILE_NAME).display()
             );
             return Err(no_run("the folder of a study", advice));
         }
-        if !holds(csv::FILE_NAME) && holds(claims::FILE_NAME) {
+        if !result && holds(claims::FILE_NAME) {
             let advice = format!(
                 "its own page is {}; its runs are the folders in {}",
                 path.join(crate::page::FILE_NAME).display(),
@@ -147,14 +148,14 @@ pub(super) fn folder_of(path: &Path) -> Result<PathBuf, RunFolderError> {
         .file_name()
         .and_then(|name| name.to_str())
         .unwrap_or_default();
-    if [csv::FILE_NAME, summary::FILE_NAME].contains(&named) && path.is_file() {
+    if (is_of_run(path) || named == summary::FILE_NAME) && path.is_file() {
         let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
         return Ok(parent.unwrap_or(Path::new(".")).to_owned());
     }
     if path.is_file() {
         // Says what the file is, and which command takes it; a table is no run.
         crate::table::ResultTable::read(path)?;
-        let advice = "a report needs the folder with result.csv and summary.json; `wedgelab compare` and \
+        let advice = "a report needs the folder with the table and summary.json; `wedgelab compare` and \
                       `wedgelab plot` take tables alone";
         return Err(no_run("a table", advice.to_owned()));
     }

@@ -22,7 +22,7 @@ use crate::run_files::CASE_FILE_NAME;
 use crate::table::ResultTable;
 use crate::view::kept::KeptView;
 use crate::view::run::{Detail, Recording};
-use crate::{csv, mat, page, summary};
+use crate::{csv, mat, page, result_parquet, summary};
 
 mod any_summary;
 mod error;
@@ -36,8 +36,9 @@ const SUMMARY_FILE: Expected = Expected {
 };
 
 /// The files of a run that its page links to, if they are there.
-const FILES: [&str; 5] = [
+const FILES: [&str; 6] = [
     page::FILE_NAME,
+    result_parquet::FILE_NAME,
     csv::FILE_NAME,
     summary::FILE_NAME,
     CASE_FILE_NAME,
@@ -73,7 +74,7 @@ pub enum Seen {
 }
 
 impl RunFolder {
-    /// Reads the run in a folder, or the one whose `result.csv` or `summary.json` is named.
+    /// Reads the run in a folder, or the one whose table or `summary.json` is named.
     ///
     /// # Errors
     /// There is no run, or its files are damaged or of another version: see [`RunFolderError`].
@@ -92,7 +93,8 @@ impl RunFolder {
         let rows = table.times().len();
         if rows != summary.rows() {
             notes.push(format!(
-                "result.csv has {rows} rows, and summary.json is about {}: they are not of one run",
+                "{} has {rows} rows, and summary.json is about {}: they are not of one run",
+                table.file.file_name().unwrap_or_default().display(),
                 summary.rows()
             ));
         }

@@ -23,7 +23,7 @@ pub enum TableError {
         advice: String,
     },
     /// A folder without a result.
-    #[error("the folder `{}` holds no result.csv", .folder.display())]
+    #[error("the folder `{}` holds no result.parquet or result.csv", .folder.display())]
     #[diagnostic(help("{advice}"))]
     NoResult {
         /// The folder.
@@ -51,6 +51,15 @@ pub enum TableError {
         what: &'static str,
         /// The command that takes such a file, or the file to name instead.
         advice: String,
+    },
+    /// A Parquet file that cannot be understood.
+    #[error("the Parquet table `{}` is damaged: {reason}", .file.display())]
+    #[diagnostic(help("write or copy it again; `wedgelab run` on the case.toml beside it makes it"))]
+    Damaged {
+        /// The file.
+        file: PathBuf,
+        /// The finding.
+        reason: String,
     },
     /// It is larger than what is read, or has more numbers.
     #[error("`{}`, line {line}: the table has more than {} numbers", .file.display(), limits::RESULT_CELLS)]
@@ -196,18 +205,19 @@ pub enum TableError {
 
 impl TableError {
     /// Returns a file that holds something else.
-    pub(super) fn foreign(file: &Path, what: &'static str) -> Self {
+    pub(crate) fn foreign(file: &Path, what: &'static str) -> Self {
         Self::Foreign {
             file: file.to_owned(),
             what,
-            advice: "name a result.csv, the folder it is in, or another CSV file with columns such as \
-                     time_s, wedge_x_in"
-                .to_owned(),
+            advice:
+                "name a result.parquet or result.csv, the folder it is in, or another table with columns \
+                     such as time_s, wedge_x_in"
+                    .to_owned(),
         }
     }
 
     /// Returns the table of a study, which has no times.
-    pub(super) fn of_study(file: &Path) -> Self {
+    pub(crate) fn of_study(file: &Path) -> Self {
         Self::Foreign {
             file: file.to_owned(),
             what: "the table of a study, which has no times",

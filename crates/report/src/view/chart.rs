@@ -74,8 +74,9 @@ pub struct ChartCurve {
 impl Chart {
     /// Returns the figure, whose numbers are in `units`.
     #[must_use]
-    pub fn new(figure: &Figure, units: Units, data: &mut Data) -> Self {
-        let panels = figure.panels.iter().map(|panel| self::panel(panel, units, data));
+    pub fn new(figure: &Figure, units: Units, precision: Precision, data: &mut Data) -> Self {
+        let panels = figure.panels.iter();
+        let panels = panels.map(|panel| self::panel(panel, units, precision, data));
         Self {
             title: figure.title.clone(),
             columns: figure.columns,
@@ -85,14 +86,14 @@ impl Chart {
     }
 }
 
-fn panel(panel: &Panel, units: Units, data: &mut Data) -> ChartPanel {
+fn panel(panel: &Panel, units: Units, precision: Precision, data: &mut Data) -> ChartPanel {
     let (x, to_x) = axis(&panel.x_label, units);
     let (y, to_y) = axis(&panel.y_label, units);
     let curves = panel
         .curves
         .iter()
         .filter(|curve| !curve.points.is_empty())
-        .map(|curve| self::curve(curve, (to_x, to_y), data))
+        .map(|curve| self::curve(curve, (to_x, to_y), precision, data))
         .collect();
     ChartPanel {
         title: panel.title.clone(),
@@ -110,7 +111,7 @@ fn panel(panel: &Panel, units: Units, data: &mut Data) -> ChartPanel {
     }
 }
 
-fn curve(curve: &PlotCurve, (to_x, to_y): (f64, f64), data: &mut Data) -> ChartCurve {
+fn curve(curve: &PlotCurve, (to_x, to_y): (f64, f64), precision: Precision, data: &mut Data) -> ChartCurve {
     let points = thin(&curve.points, COLUMNS);
     let list = |axis: usize| -> Vec<f64> {
         let value = |point: &(f64, f64)| [point.0 * to_x, point.1 * to_y][axis];
@@ -125,8 +126,8 @@ fn curve(curve: &PlotCurve, (to_x, to_y): (f64, f64), data: &mut Data) -> ChartC
             .split([' ', ','])
             .filter_map(|length| length.parse().ok())
             .collect(),
-        x: data.keep(&list(0), Precision::Exact),
-        y: data.keep(&list(1), Precision::Exact),
+        x: data.keep(&list(0), precision),
+        y: data.keep(&list(1), precision),
     }
 }
 

@@ -11,6 +11,7 @@ use input::{FileType, limits};
 use serde_json::Value;
 
 use super::SCHEMA;
+use crate::page::packed::unpack;
 
 /// The expected file of a page.
 const PAGE: Expected = Expected {
@@ -19,9 +20,20 @@ const PAGE: Expected = Expected {
     most: limits::RECORD_FILE,
 };
 
-/// The markup before and after the data in a page.
-const BEFORE: &str = "<script type=\"application/json\" id=\"wedgelab-view\">";
+/// The element of a page with the data.
+pub(crate) const DATA: &str = "wedgelab-view";
 const AFTER: &str = "</script>";
+
+/// Returns the data in a page: JSON, unpacked where it is packed.
+#[must_use]
+pub fn data_in(page: &str) -> Option<String> {
+    let (_, rest) = page.split_once(&format!(" id=\"{DATA}\">"))?;
+    let (data, _) = rest.split_once(AFTER)?;
+    match data.starts_with('{') {
+        true => Some(data.to_owned()),
+        false => unpack(data).ok(),
+    }
+}
 
 /// A run of another page's document, with the lists that it names.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,9 +51,7 @@ impl KeptView {
     }
 
     fn of_page(text: &str, name: &str) -> Option<Self> {
-        let (_, rest) = text.split_once(BEFORE)?;
-        let (json, _) = rest.split_once(AFTER)?;
-        let mut document: Value = serde_json::from_str(json).ok()?;
+        let mut document: Value = serde_json::from_str(&data_in(text)?).ok()?;
         if document["schema"] != SCHEMA {
             return None;
         }

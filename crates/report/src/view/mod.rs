@@ -29,7 +29,7 @@ use quantity::{Kind, System as Units};
 use serde::Serialize;
 
 use crate::figures::Exhibit;
-use data::{Data, List};
+use data::{Data, List, Precision};
 use kept::KeptView;
 use run::Recording;
 
@@ -72,6 +72,16 @@ impl View {
         recordings: impl IntoIterator<Item = Recording>,
         exhibits: impl IntoIterator<Item = &'e Exhibit>,
     ) -> Self {
+        Self::with(units, recordings, exhibits, Precision::Exact)
+    }
+
+    /// Returns the same, with the figures' curves to a precision.
+    pub(crate) fn with<'e>(
+        units: Units,
+        recordings: impl IntoIterator<Item = Recording>,
+        exhibits: impl IntoIterator<Item = &'e Exhibit>,
+        precision: Precision,
+    ) -> Self {
         let mut data = Data::default();
         let runs = recordings
             .into_iter()
@@ -83,7 +93,7 @@ impl View {
             .filter(|exhibit| exhibit.figure.flow.is_none());
         let figures = curves
             .map(|exhibit| {
-                let chart = chart::Chart::new(&exhibit.figure, units, &mut data);
+                let chart = chart::Chart::new(&exhibit.figure, units, precision, &mut data);
                 (exhibit.name.clone(), chart)
             })
             .collect();

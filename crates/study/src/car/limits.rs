@@ -130,6 +130,9 @@ pub struct LimitCheck {
     pub unit: String,
     /// By how much the limit is kept, in parts of it: negative where it is not.
     pub margin: f64,
+    /// True if the value is raw, although the limit is for filtered values: then the margin is none.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub unfiltered: bool,
 }
 
 impl Limit {
@@ -177,6 +180,7 @@ impl Limit {
             limit: self.value,
             unit: self.unit.clone(),
             margin: self.margin(value),
+            unfiltered: !worst.filtered && self.measure.is_filtered(),
         };
         Some((check, worst.time))
     }

@@ -40,6 +40,7 @@ use crate::case::model::{Model, model};
 use crate::case::problem::{Problem, Problems};
 use crate::case::tree::TableNode;
 use crate::case::{self, CaseError, Simulation, Tables, name};
+use crate::output_files::OutputFiles;
 use crate::reader::{CaseReader, CaseText};
 pub(crate) use packed::NamedFile;
 use statistics::Rules;
@@ -55,6 +56,8 @@ pub struct CarCase {
     pub parameters: Parameters,
     /// The rules of statistics.
     pub rules: Rules,
+    /// The files of its time histories.
+    pub output_files: OutputFiles,
     /// The settings of the run.
     pub simulation: Simulation,
     /// Warnings of reading.
@@ -193,6 +196,7 @@ fn read(
     let sections::CarSections {
         parameters,
         rules,
+        output_files,
         simulation,
         doubts,
     } = drawn?;
@@ -201,6 +205,7 @@ fn read(
         title,
         parameters,
         rules,
+        output_files,
         simulation,
         doubts,
         files,

@@ -390,6 +390,31 @@ fn statistics_of(run: &Run<CarCase>, table: &RowTable) -> Statistics {
     Statistics::of(&histories, &run.case.rules, run.case.simulation.output_units)
 }
 
+/// Returns the columns of a car's run, filtered ones included.
+///
+/// # Errors
+/// The parameters make no car.
+pub fn columns(case: &CarCase) -> Result<Vec<Column>, RunError> {
+    let raw = CarTable::new(&case.parameters)?.columns().to_vec();
+    let is_filtered = |column: &&Column| {
+        let of_wheels = column.name.starts_with("axle_")
+            && ["_vertical", "_l_over_v", "left_lateral", "right_lateral"]
+                .iter()
+                .any(|what| column.name.ends_with(what));
+        of_wheels || column.name.ends_with("_acceleration")
+    };
+    let filtered = raw
+        .iter()
+        .filter(|_| case.rules.filtered_columns)
+        .filter(is_filtered);
+    let filtered = filtered.map(|column| Column {
+        name: format!("{}_filtered", column.name),
+        ..column.clone()
+    });
+    let filtered: Vec<Column> = filtered.collect();
+    Ok([raw, filtered].concat())
+}
+
 /// Returns the filtered columns with their values at all rows.
 fn filtered(
     run: &Run<CarCase>,

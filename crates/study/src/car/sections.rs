@@ -14,6 +14,7 @@ use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Names, Range, quantity};
 use crate::case::tree::NodeValue;
 use crate::case::{Simulation, write};
+use crate::output_files::OutputFiles;
 use crate::reader::{CaseReader, DAMPING, QuantityForm};
 use crate::track::{Notes, Support};
 
@@ -21,6 +22,7 @@ use crate::track::{Notes, Support};
 pub(super) struct CarSections {
     pub parameters: Parameters,
     pub rules: Rules,
+    pub output_files: OutputFiles,
     pub simulation: Simulation,
     pub doubts: Vec<String>,
 }
@@ -74,6 +76,8 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     start(r, &mut parameters);
     let mut rules = Rules::default();
     output(r, &mut rules);
+    let mut output_files = OutputFiles::of_car();
+    output_files.read(r);
     let simulation = simulation(r);
     // Without a track there is no place to look at.
     let Notes { mut doubts, files } = line?.notes;
@@ -82,6 +86,7 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     Some(CarSections {
         parameters,
         rules,
+        output_files,
         simulation,
         doubts,
     })
@@ -302,8 +307,8 @@ fn start(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
 fn output(r: &mut CaseReader<'_>, rules: &mut Rules) {
     r.section(
         "output",
-        "What statistics are taken, and how. All values are remembered: check them against your edition of \
-         the rules.",
+        "What statistics are taken, and how, and what is written. All values of statistics are remembered: \
+         check them against your edition of the rules.",
     );
     let time: QuantityForm = (Kind::Time, Range::Positive, Reach::Positive);
     let distance: QuantityForm = (Kind::Distance, Range::Positive, Reach::Positive);
@@ -354,7 +359,7 @@ fn output(r: &mut CaseReader<'_>, rules: &mut Rules) {
     r.truth(
         "filtered_columns",
         &mut rules.filtered_columns,
-        "whether result.csv has filtered columns beside the raw ones",
+        "whether results have filtered columns beside the raw ones",
     );
 }
 

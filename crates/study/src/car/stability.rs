@@ -30,6 +30,23 @@ pub struct Branch {
     pub critical: Option<CriticalSpeed>,
 }
 
+/// Returns what of a case's track does not count for its stability; none of straight track without
+/// irregularities.
+#[must_use]
+pub fn left_out(case: &CarCase) -> Option<&'static str> {
+    let track = &case.parameters.track;
+    // Shorter than any curve or spiral.
+    const STEP: f64 = 1.0;
+    let steps = (track.center_line.length() / STEP) as usize;
+    let curved = (0..=steps).any(|step| track.center_line.at(step as f64 * STEP).curvature[0] != 0.0);
+    match (curved, track.irregularities.is_empty()) {
+        (true, false) => Some("the curves and irregularities of its track do not count"),
+        (true, true) => Some("the curves of its track do not count"),
+        (false, false) => Some("the irregularities of its track do not count"),
+        (false, true) => None,
+    }
+}
+
 /// The findings.
 #[derive(Clone, Debug)]
 pub struct Stability {

@@ -21,7 +21,7 @@
 
 use std::collections::BTreeMap;
 
-use quantity::{Kind, System as Units};
+use quantity::{Kind, SixDigits, System as Units};
 use serde::{Deserialize, Serialize};
 
 use crate::signal::{LowPass, WindowValue, largest_deviation, largest_rms, percentile, sustained};
@@ -71,6 +71,9 @@ impl Default for Rules {
         }
     }
 }
+
+/// The beginning of the warning of a run without statistics.
+pub const NO_STATISTICS: &str = "there are no statistics";
 
 /// A column of a run by name (without unit), SI.
 pub type StatisticColumn<'c> = &'c dyn Fn(&str) -> &'c [f64];
@@ -201,12 +204,22 @@ impl Statistics {
         let from = all[..rows]
             .iter()
             .position(|time| *time >= histories.begin * (1.0 - 1e-12));
-        let Some(from) = from.filter(|from| from + 1 < rows) else {
-            own.remarks.push(format!(
-                "the run does not reach beyond the settling time of {} s: there are no statistics",
-                histories.begin
-            ));
-            return own;
+        let begin = SixDigits(histories.begin);
+        let from = match from {
+            Some(from) if from + 1 < rows => from,
+            Some(_) => {
+                own.remarks.push(format!(
+                    "{NO_STATISTICS}: from the settling time of {begin} s on the run has one row, and two are \
+                     needed; shorten simulation.output_interval, or let the run last longer"
+                ));
+                return own;
+            }
+            None => {
+                own.remarks.push(format!(
+                    "{NO_STATISTICS}: the run does not reach beyond the settling time of {begin} s"
+                ));
+                return own;
+            }
         };
         let mut taker = Taker {
             histories,

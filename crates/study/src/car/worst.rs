@@ -122,6 +122,8 @@ pub struct WorstStatistic<'s> {
     pub value: &'s SummaryValue,
     /// The start of that value, s.
     pub time: Option<f64>,
+    /// True if the value is filtered.
+    pub filtered: bool,
 }
 
 impl Worst {
@@ -129,6 +131,12 @@ impl Worst {
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Self> {
         WORST.iter().find(|own| own.name == name)
+    }
+
+    /// Returns whether rules want it of filtered values: all but angles.
+    #[must_use]
+    pub fn is_filtered(&self) -> bool {
+        self.kind != Kind::Angle
     }
 
     /// Finds it among the statistics of a run, if there is one of its kind.
@@ -144,6 +152,7 @@ impl Worst {
                 statistic,
                 value,
                 time: own.time,
+                filtered: own.filtered.is_some(),
             })
         });
         let worse = |a: f64, b: f64| if self.least { a < b } else { a > b };

@@ -43,8 +43,10 @@ impl Value {
     #[must_use]
     pub fn shown(&self) -> Cow<'_, str> {
         match self {
-            Self::Number { value, unit } if unit.is_empty() => Cow::Owned(Number(*value).to_string()),
-            Self::Number { value, unit } => Cow::Owned(format!("{} {unit}", Number(*value))),
+            Self::Number { value, unit } if unit.is_empty() => {
+                Cow::Owned(Number(rounded(*value)).to_string())
+            }
+            Self::Number { value, unit } => Cow::Owned(format!("{} {unit}", Number(rounded(*value)))),
             Self::Toml(text) => Cow::Borrowed(text.trim_matches('"')),
         }
     }
@@ -94,6 +96,11 @@ impl Value {
         let (from, to) = (Quantity::new(1.0, own).ok()?, Quantity::new(1.0, unit).ok()?);
         (from.dimension() == to.dimension()).then(|| value * from.to_si() / to.to_si())
     }
+}
+
+/// Returns a number without the errors of a division or conversion: to twelve digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
 }
 
 /// Returns whether a path is that of a toe, of all columns or of one wedge's, whose direction is said in

@@ -10,6 +10,7 @@ use mechanics::system::{
     ContactState, Contacts, ElementEvaluation, Energies, InputError, JacobianVectorProduct, MotionChange,
     Observation, StateDirection, System,
 };
+use quantity::Number;
 use thiserror::Error;
 use wedge::inputs::{COIL, CoilInput, Neighbours, Reading};
 use wedge::outputs::{Ledger, Outputs};
@@ -71,6 +72,19 @@ pub enum SteppingError {
         time: f64,
         /// The progress and its place.
         why: String,
+    },
+    /// Neighbours move far in one step.
+    #[error(
+        "in one step the bolster moves by {} m in {coordinate} against the side frame; at most {} m are taken \
+         for a motion of a truck: give places in m or with their unit, or go there in several steps",
+        Number(*path),
+        super::LARGEST_PATH
+    )]
+    TooFar {
+        /// The coordinate.
+        coordinate: &'static str,
+        /// The path, m.
+        path: f64,
     },
     /// An earlier step failed.
     #[error("an earlier step failed; go back to a saved state, or begin anew")]

@@ -42,6 +42,9 @@ use wedge::outputs::Ledger;
 
 /// A step must be longer, s: below, times are rounding.
 const SHORTEST_STEP: f64 = 1e-15;
+/// The largest path of the neighbours against each other in one step, m: several times what a truck's springs
+/// travel.
+pub const LARGEST_PATH: f64 = 1.0;
 
 /// A wedge whose neighbours are moved by the caller, and which integrates itself.
 ///
@@ -198,16 +201,38 @@ impl SteppedWedge {
     /// Makes one step: within `duration` (s) the neighbours go from where they are to `end`.
     ///
     /// # Errors
-    /// A duration that is not positive, values that are not finite; or the integrator cannot go on: the wedge
-    /// then takes no further step until a state is restored.
+    /// A duration that is not positive, values that are not finite, or neighbours that part by more than
+    /// [`LARGEST_PATH`]; or the integrator cannot go on: the wedge then takes no further step until a state is
+    /// restored.
     pub fn step(&mut self, end: &Neighbours, duration: f64) -> Result<(), SteppingError> {
+        if !self.failed {
+            equations::check_neighbours(end)?;
+            self.check_path(end)?;
+        }
         self.step_to(end, self.time() + duration)
     }
 
-    /// Makes the same step with the time (s) at its end.
+    /// Refuses a step in which the neighbours move against each other by more than a wedge can follow.
+    fn check_path(&self, end: &Neighbours) -> Result<(), SteppingError> {
+        let start = self.neighbours();
+        for (coordinate, name) in mechanics::body::COORDINATES.into_iter().enumerate().take(3) {
+            let apart =
+                |at: &Neighbours| at.bolster.position[coordinate] - at.side_frame.position[coordinate];
+            let path = apart(end) - apart(start);
+            if path.abs() > LARGEST_PATH {
+                return Err(SteppingError::TooFar {
+                    coordinate: name,
+                    path,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes the same step with the time (s) at its end, however far the neighbours move.
     ///
     /// # Errors
-    /// As [`SteppedWedge::step`].
+    /// As [`SteppedWedge::step`], but for the last.
     pub fn step_to(&mut self, end: &Neighbours, time: f64) -> Result<(), SteppingError> {
         if self.failed {
             return Err(SteppingError::Failed);

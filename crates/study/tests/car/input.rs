@@ -400,6 +400,7 @@ fn issue_048_profiles_and_tracks_are_not_quoted_to_others() {
         );
     }
 }
+
 /// Numbers of metres that were meant in inches, and heights out of reach.
 #[test]
 fn issue_048_lengths_in_another_unit_are_hinted_at() {

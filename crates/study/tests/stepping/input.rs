@@ -61,7 +61,7 @@ fn a_wedge_that_cannot_go_on_says_so_until_it_is_restored() {
     let state = wedge.state();
     let mut far = *wedge.neighbours();
     far.bolster.position[0] = -1e300;
-    let error = wedge.step(&far, 1e-3).unwrap_err().to_string();
+    let error = wedge.step_to(&far, 1e-3).unwrap_err().to_string();
     assert!(error.contains("go back to a saved state"), "{error}");
     let at = *wedge.neighbours();
     assert!(matches!(
@@ -97,4 +97,23 @@ fn saved_states_of_others_are_refused() {
         SteppingError::OtherCase
     ));
     wedge.restore(&state).unwrap();
+}
+
+/// Kilometres for millimetres: no truck moves so far in one step.
+#[test]
+fn issue_048_neighbours_that_part_by_a_kilometre_are_refused() {
+    let mut wedge = wedge();
+    let start = *wedge.neighbours();
+    let mut at = start;
+    at.bolster.position[2] += 1000.0;
+    let error = wedge.step(&at, 1.0).unwrap_err();
+    assert!(matches!(error, SteppingError::TooFar { .. }), "{error}");
+    for part in ["moves by 1000 m in z", "at most 1 m", "in several steps"] {
+        assert!(error.to_string().contains(part), "{error}");
+    }
+    // Nothing has happened to the wedge; both together may go as far as they like.
+    let mut both = start;
+    both.bolster.position[0] += 30.0;
+    both.side_frame.position[0] += 30.0;
+    wedge.step(&both, 1.0).unwrap();
 }

@@ -27,7 +27,7 @@ def files(tmp_path_factory):
 def table(tmp_path_factory):
     """result.csv of `wedgelab run`."""
     folder = tmp_path_factory.mktemp("run") / "result"
-    wedgelab("run", CASE, "--out", folder, "--quiet", *SET)
+    wedgelab("run", CASE, "--tables", "csv", "--out", folder, "--quiet", *SET)
     with open(folder / "result.csv", newline="") as file:
         rows = list(csv.reader(line for line in file if not line.startswith("#")))
     values = np.array(rows[1:], dtype=float)

@@ -414,7 +414,8 @@ class _OfCase(_Base):
     def write(self, folder: str | os.PathLike[str], *, force: bool = False) -> list[str]:
         """Writes what ``wedgelab run`` writes into a folder: result.csv, result.mat, case.toml, summary.json.
 
-        Existing results are overwritten only with ``force``.
+        Of a car the tables are those of ``output.tables`` in its case: result.parquet and a short result.csv. Existing results are
+        overwritten only with ``force``.
         """
         return self._native.write(folder, force)
 

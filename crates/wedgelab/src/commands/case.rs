@@ -11,7 +11,7 @@ use study::case::builtin;
 use study::truck;
 
 use super::run::built_in_names;
-use crate::failure::Failure;
+use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::select::select;
 use crate::table::TerminalTable;
@@ -20,7 +20,7 @@ use crate::table::TerminalTable;
 ///
 /// Without a name, lists the built-in cases in groups, with their titles and the features to look at in their
 /// results. With one, prints that case as a complete, commented case file: change it, and run it with
-/// `wedgelab run`.
+/// `wedgelab run`. With --out and a pattern such as 'truck_*', writes each case that fits into a file of its own.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -28,7 +28,7 @@ Examples:
   wedgelab case vdrun_toe_0_psi_0 > a.toml && wedgelab run a.toml
   wedgelab case truck_vertical_variable --out cases")]
 pub struct Arguments {
-    /// Name of a built-in case, or a beginning that only one has
+    /// Name of a built-in case, or a beginning that only one has; with --out also a pattern
     name: Option<String>,
     /// Write it into this folder, as NAME.toml, instead of printing it
     #[arg(long, value_name = "DIR", requires = "name")]
@@ -58,7 +58,17 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         }
         return Ok(ExitCode::SUCCESS);
     };
-    for name in select(std::slice::from_ref(name), built_in_names())? {
+    let names = select(std::slice::from_ref(name), built_in_names())?;
+    if let ([first, .., last], None) = (names.as_slice(), &arguments.out) {
+        let message = format!(
+            "{} cases fit `{name}`, from {first} to {last}; one is printed",
+            names.len()
+        );
+        let advice =
+            format!("name one of them, or write each into a file: `wedgelab case '{name}' --out cases`");
+        return Err(Message::new(message, advice).into());
+    }
+    for name in names {
         let case = AnyCase::built_in(name, &[])?;
         let text = case.and_then(|case| case.to_toml()).unwrap_or_default();
         let Some(folder) = &arguments.out else {

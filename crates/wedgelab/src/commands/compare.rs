@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use report::comparison::{ComparedResult, Comparison, FILE_NAME};
+use report::table::is_of_run;
 use serde_json::{Value, json};
 
 use crate::adjust::{Names, TimeSpan};
@@ -18,7 +19,7 @@ use crate::table::TerminalTable;
 
 /// Compare results: overlay figures and a table of differences
 ///
-/// Compares results with the first of them: those of runs (the folder or its result.csv) and other CSV files
+/// Compares results with the first of them: those of runs (the folder or a table in it) and other CSV files
 /// with columns of the same names, such as time_s, wedge_x_in. Different units are converted and different
 /// times interpolated, with a message. Of runs of different models (a wedge, a truck) only columns chosen by
 /// --columns are compared. Prints the differences, and writes them as differences.csv with a figure for each
@@ -182,13 +183,9 @@ fn read(paths: &[PathBuf]) -> Result<Vec<ComparedResult>, Failure> {
 pub fn label(file: &Path) -> String {
     let own = file.file_stem();
     let folder = file.parent().and_then(Path::file_name);
-    let name = if file
-        .file_name()
-        .is_some_and(|name| name == report::csv::FILE_NAME)
-    {
-        folder.or(own)
-    } else {
-        own
+    let name = match is_of_run(file) {
+        true => folder.or(own),
+        false => own,
     };
     name.map_or_else(
         || file.display().to_string(),

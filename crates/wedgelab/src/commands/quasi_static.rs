@@ -1,15 +1,18 @@
 //! `wedgelab quasi-static`: the massless wedge in steady sliding.
 
 use std::io::{self, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection, SlopeFriction};
 use quantity::{Kind, Quantity, System as Units};
+use report::summary::write_json;
 use serde_json::{Value, json};
 use study::case::bounds;
 
 use crate::failure::Failure;
+use crate::folders;
 use crate::json;
 use crate::table::TerminalTable;
 use crate::units::OutputUnits;
@@ -19,13 +22,14 @@ use crate::units::OutputUnits;
 /// Solves the balance of forces of a wedge without mass (Steets 2007, eq. 5-1, derived anew) for both
 /// directions of the bolster and both directions of the slope's friction. Where the jam margin is not
 /// positive there is no steady sliding: the wedge jams. The defaults are the thesis's with variable damping,
-/// its coil compressed by 1 in.
+/// its coil compressed by 1 in. With --out it writes quasi_static.json, which is what --json prints.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
   wedgelab quasi-static
   wedgelab quasi-static --toe \"0.2 deg out\" --coil-force \"3702.2 lbf\" --angle \"37.5 deg\"
-  wedgelab quasi-static --mu-column 0.6 --mu-slope 0.6 --units si")]
+  wedgelab quasi-static --mu-column 0.6 --mu-slope 0.6 --units si
+  wedgelab quasi-static --toe \"0.2 deg in\" --out toe_in")]
 pub struct Arguments {
     /// Wedge angle from the vertical
     #[arg(long, default_value = "32 deg", value_parser = angle, allow_hyphen_values = true)]
@@ -63,9 +67,18 @@ pub struct Arguments {
     /// Units of the output
     #[arg(long, default_value = "us")]
     units: OutputUnits,
+    /// Folder to write quasi_static.json into
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Overwrite existing results
+    #[arg(long, requires = "out")]
+    force: bool,
     #[arg(long, help = json::HELP)]
     json: bool,
 }
+
+/// The file that `--out` writes.
+const FILE_NAME: &str = "quasi_static.json";
 
 /// A toe angle as typed and in rad, positive out.
 #[derive(Clone, Debug)]
@@ -83,8 +96,15 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         column_friction: arguments.mu_column,
         slope_friction: arguments.mu_slope,
     };
+    let document = document(&wedge, arguments.coil_force.to_si(), units);
+    let folder = arguments.out.as_ref();
+    let folder = folder.map(|path| folders::check(path, &[FILE_NAME], arguments.force));
+    let folder = folder.transpose()?;
+    if let Some(folder) = &folder {
+        folder.write(|files| files.add(FILE_NAME, |out| write_json(&document, out)))?;
+    }
     if arguments.json {
-        json::print(&document(&wedge, arguments.coil_force.to_si(), units))?;
+        json::print(&document)?;
         return Ok(ExitCode::SUCCESS);
     }
     let mut out = io::stdout().lock();
@@ -109,6 +129,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             "The others are for comparison."
         }
     )?;
+    if let Some(folder) = &folder {
+        writeln!(out, "\nWritten into {}: {FILE_NAME}.", folder.path().display())?;
+    }
     Ok(ExitCode::SUCCESS)
 }
 

@@ -1,5 +1,6 @@
 //! `wedgelab run`: one case.
 
+use std::collections::BTreeMap;
 use std::io;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -11,22 +12,24 @@ use report::figures::car::CarRun;
 use report::figures::truck::TruckRun;
 use report::files::Folder;
 use report::page;
-use report::run_files::{CASE_FILE_NAME, RunFiles};
+use report::run_files::{CASE_FILE_NAME, RunFiles, TABLES};
 use serde::Serialize;
 use serde_json::json;
 use study::any_case::AnyCase;
+use study::car::statistics::NO_STATISTICS;
 use study::car::summary::CarSummary;
 use study::car::{self, CarCase};
 use study::case::{Case, builtin};
 use study::outcome::Outcome;
+use study::output_files::{OutputFiles, TableFormat};
 use study::summary::RunSummary;
 use study::truck::run::TruckResult;
 use study::truck::{self, TruckCase, WEDGE_NAMES};
 
 use super::energy;
 use crate::execute::{
-    Done, TABLE_NOTE, compute, compute_with_contacts, compute_with_motions, table, unsound, write,
-    write_outcome, write_page,
+    Done, TABLE_NOTE, compute, compute_with_contacts, compute_with_motions, started_with, table, unsound,
+    write_as, write_outcome, write_page,
 };
 use crate::failure::{Failure, Message, say};
 use crate::folders;
@@ -39,11 +42,14 @@ use crate::table::TerminalTable;
 
 /// Run one case: a wedge, a truck or a car
 ///
-/// Runs a case file, of a wedge, of a truck or of a car on track, and writes result.csv (the time histories),
-/// result.mat (the same, of a wedge under the thesis's names), case.toml (the case, completed) and
-/// summary.json (averages, extremes, events, energy ledger, solver statistics, assumptions) into a folder
-/// named as the case; and index.html: a wedge moving in 3D with its loops and key numbers; a truck, its loops
-/// and wedges; a car on its track, limits, statistics and figures over the distance.
+/// Runs a case file, of a wedge, of a truck or of a car on track, and writes its time histories, case.toml (the
+/// case, completed) and summary.json (averages, extremes, events, energy ledger, solver statistics, assumptions)
+/// into a folder named as the case; and index.html: a wedge moving in 3D with its loops and key numbers; a
+/// truck, its loops and wedges; a car on its track, limits, statistics and figures over the distance.
+///
+/// Time histories are result.csv and result.mat (of a wedge under the thesis's names). Those of a car, which has
+/// most columns, are result.parquet, and a result.csv with its time, distance, speed and roll; --tables and
+/// --columns choose others, as output.tables and output.columns in the case of a car do.
 ///
 /// A run with --save or --continue writes the same files except index.html. Its rows have the same bits as
 /// those of the whole run, filtered columns included, and the summary of the last part is that of the whole
@@ -57,6 +63,8 @@ Examples:
   wedgelab run truck_vertical_variable --set wedge.leading_left.friction.column=0.2
   wedgelab run car_twist_and_roll_loaded --set 'speed.value=\"18 mph\"' --set truck.friction.column=0.1
   wedgelab run my.toml --json --quiet | jq .summary.ledger
+  wedgelab run car_hunting_empty --tables csv,mat
+  wedgelab run car_hunting_empty --columns 'axle_1_*' '*_acceleration'
   wedgelab run car_hunting_empty --save state.json --until '20 s' --out first
   wedgelab run car_hunting_empty --continue state.json --out second
   wedgelab run vdrun_toe_0_psi_0 --set 'wedge.angle=\"35 deg\"' --set 'simulation.duration=\"20 s\"'")]
@@ -69,6 +77,15 @@ pub struct Arguments {
     /// Folder to write into [default: the case's name]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Files of the time histories: parquet, csv, mat [default: those of the case]
+    #[arg(long, value_name = "FORMAT", value_delimiter = ',', num_args = 1.., value_parser = format)]
+    tables: Vec<TableFormat>,
+    /// Columns that they have, as names or patterns with * and ?; the time always [default: all]
+    #[arg(long, value_name = "PATTERN", num_args = 1..)]
+    columns: Vec<String>,
+    /// Of these, the columns of a result.csv that is beside a result.parquet [default: those of the case]
+    #[arg(long, value_name = "PATTERN", num_args = 1..)]
+    csv_columns: Vec<String>,
     /// Overwrite existing results
     #[arg(long)]
     force: bool,
@@ -96,6 +113,40 @@ fn time(text: &str) -> Result<Quantity, String> {
     }
 }
 
+fn format(name: &str) -> Result<TableFormat, String> {
+    let found = TableFormat::NAMES.iter().find(|(own, _)| *own == name);
+    found.map(|(_, format)| *format).ok_or_else(|| {
+        let names = TableFormat::NAMES.iter().map(|(own, _)| *own);
+        let near =
+            nearest(name, names.clone()).map_or(String::new(), |near| format!("; did you mean {near}?"));
+        let names = names.collect::<Vec<_>>().join(", ");
+        format!("the formats are {names}{near}")
+    })
+}
+
+/// Returns the files of time histories that are asked for.
+fn output_of<C: RunFiles>(case: &C, arguments: &Arguments) -> Result<OutputFiles, Failure> {
+    let mut output = case.output_files();
+    for (given, own) in [
+        (&arguments.columns, &mut output.columns),
+        (&arguments.csv_columns, &mut output.csv_columns),
+    ] {
+        if !given.is_empty() {
+            own.clone_from(given);
+        }
+    }
+    if !arguments.tables.is_empty() {
+        output.tables.clone_from(&arguments.tables);
+    }
+    if output.is_to_be_checked() {
+        let columns = started_with(case, case.columns())?;
+        output
+            .check(&columns, case.units())
+            .map_err(|error| Message::new(error.to_string(), error.advice))?;
+    }
+    Ok(output)
+}
+
 /// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
@@ -111,26 +162,48 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
 }
 
-/// Returns the folder for the files of a run of this name, and its progress; a signal stops it from now on.
-fn begin(name: &str, files: &[&str], arguments: &Arguments) -> Result<(Folder, Progress), Failure> {
-    let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(name));
-    let folder = folders::check(path, files, arguments.force)?;
+/// The place of a run's files.
+struct Place {
+    folder: Folder,
+    output: OutputFiles,
+    names: Vec<&'static str>,
+    progress: Progress,
+}
+
+/// Returns the place for the files of a run, with these besides; a signal stops it from now on.
+fn begin<C: RunFiles>(case: &C, besides: &[&'static str], arguments: &Arguments) -> Result<Place, Failure> {
+    let path = arguments.out.clone();
+    let path = path.unwrap_or_else(|| PathBuf::from(case.name()));
+    let output = output_of(case, arguments)?;
+    let names = [&case.names(&output)[..], besides].concat();
+    // Tables of an earlier run are in the way, too.
+    let tables = TABLES.map(|(_, name)| name);
+    let others = tables.into_iter().filter(|name| !names.contains(name));
+    let all: Vec<&str> = names.iter().copied().chain(others).collect();
+    let folder = folders::check(path, &all, arguments.force)?;
     interrupt::stops_run();
-    Ok((folder, Progress::new(1, arguments.quiet)))
+    Ok(Place {
+        folder,
+        output,
+        names,
+        progress: Progress::new(1, arguments.quiet),
+    })
 }
 
 /// Runs a wedge, and writes its page besides.
 fn run_wedge(case: Case, arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let names = [case.names(), vec![page::FILE_NAME]].concat();
-    let (folder, progress) = begin(&case.name, &names, arguments)?;
-    let done =
-        compute(&case, &progress).and_then(|done| write(&done, &case, &folder, &progress).map(|()| done));
+    let place = begin(&case, &[page::FILE_NAME], arguments)?;
+    let (folder, progress) = (&place.folder, &place.progress);
+    let done = compute(&case, progress).and_then(|done| {
+        write_as(&done, &case, folder, &place.output, progress)?;
+        Ok(done)
+    });
     progress.finish();
     let done = done?;
     let (wall, run) = (done.wall, (case, done.result));
-    write_page(&folder, || page::wedge_run::render(&run))?;
+    write_page(folder, || page::wedge_run::render(&run))?;
     let summary = &run.1.summary;
-    print_run(arguments, &folder, &names, summary, || {
+    print_run(arguments, &place, summary, || {
         let energy = energy::in_short(&summary.energy);
         (table([(summary, wall)]), note(TABLE_NOTE, energy))
     })?;
@@ -165,7 +238,8 @@ fn run_in_parts<C: RunFiles>(
     arguments: &Arguments,
     shown: impl FnOnce(&Done<C::Output>) -> (TerminalTable, String),
 ) -> Result<ExitCode, Failure> {
-    let (folder, progress) = begin(case.name(), &case.names(), arguments)?;
+    let place = begin(case, &[], arguments)?;
+    let (folder, progress) = (&place.folder, &place.progress);
     let parts = Parts {
         case: text,
         from: arguments.from.as_deref(),
@@ -173,12 +247,14 @@ fn run_in_parts<C: RunFiles>(
         until: arguments.until.as_ref().map(Quantity::to_si),
         force: arguments.force,
     };
-    let computed = saved::compute(case, &parts, &progress)
-        .and_then(|(done, saved)| write(&done, case, &folder, &progress).map(|()| (done, saved)));
+    let computed = saved::compute(case, &parts, progress).and_then(|(done, saved)| {
+        write_as(&done, case, folder, &place.output, progress)?;
+        Ok((done, saved))
+    });
     progress.finish();
     let (done, saved) = computed?;
     let summary = &done.result.summary;
-    print_run(arguments, &folder, &case.names(), summary, || shown(&done))?;
+    print_run(arguments, &place, summary, || shown(&done))?;
     if let Some(Saved { time, path }) = &saved {
         let (time, path) = (Number(*time), path.display());
         say(&format!(
@@ -209,10 +285,12 @@ fn note(about: &str, energy: Option<String>) -> String {
 
 /// Runs a truck, and writes its page besides.
 fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let names = [<TruckCase as RunFiles>::FILES, &[page::FILE_NAME]].concat();
-    let (folder, progress) = begin(&case.name, &names, arguments)?;
-    let done = compute_with_contacts(case, &progress)
-        .and_then(|(done, contacts)| write(&done, case, &folder, &progress).map(|()| (done, contacts)));
+    let place = begin(case, &[page::FILE_NAME], arguments)?;
+    let (folder, progress) = (&place.folder, &place.progress);
+    let done = compute_with_contacts(case, progress).and_then(|(done, contacts)| {
+        write_as(&done, case, folder, &place.output, progress)?;
+        Ok((done, contacts))
+    });
     progress.finish();
     let (done, contacts) = done?;
     let run = TruckRun {
@@ -220,8 +298,8 @@ fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failur
         result: done.result,
         contacts,
     };
-    write_page(&folder, || page::truck_run::render(&run))?;
-    print_run(arguments, &folder, &names, &run.result.summary, || {
+    write_page(folder, || page::truck_run::render(&run))?;
+    print_run(arguments, &place, &run.result.summary, || {
         let energy = energy::in_short(&run.result.summary.energy);
         (truck_table(&run.result), note(TRUCK_NOTE, energy))
     })?;
@@ -233,10 +311,12 @@ fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failur
 
 /// Runs a car, and writes its page besides.
 fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let names = [<CarCase as RunFiles>::FILES, &[page::FILE_NAME]].concat();
-    let (folder, progress) = begin(&case.name, &names, arguments)?;
-    let done = compute_with_motions(case, &progress)
-        .and_then(|(done, motions)| write(&done, case, &folder, &progress).map(|()| (done, motions)));
+    let place = begin(case, &[page::FILE_NAME], arguments)?;
+    let (folder, progress) = (&place.folder, &place.progress);
+    let done = compute_with_motions(case, progress).and_then(|(done, motions)| {
+        write_as(&done, case, folder, &place.output, progress)?;
+        Ok((done, motions))
+    });
     progress.finish();
     let (done, motions) = done?;
     let run = CarRun {
@@ -244,9 +324,9 @@ fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
         result: done.result,
         motions,
     };
-    write_page(&folder, || page::car_run::render(&run))?;
+    write_page(folder, || page::car_run::render(&run))?;
     let summary = &run.result.summary;
-    print_run(arguments, &folder, &names, summary, || limits_of_car(summary))?;
+    print_run(arguments, &place, summary, || limits_of_car(summary))?;
     match unsound::<CarCase>(summary, folder.path()) {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),
@@ -256,40 +336,56 @@ fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
 /// Tells what came out and where it lies: in words, a table and what its columns are, or as JSON.
 fn print_run(
     arguments: &Arguments,
-    folder: &Folder,
-    names: &[&str],
+    place: &Place,
     summary: &(impl Serialize + RunSummary),
     words: impl FnOnce() -> (TerminalTable, String),
 ) -> Result<(), Failure> {
-    let path = folder.path();
+    let (path, names) = (place.folder.path(), &place.names);
     if arguments.json {
-        return json::print(&json!({ "folder": path, "files": names, "summary": summary }));
+        let sizes: BTreeMap<&str, u64> = names
+            .iter()
+            .map(|name| (*name, folders::bytes(&path.join(name))))
+            .collect();
+        let document = json!({ "folder": path, "files": names, "bytes": sizes, "summary": summary });
+        return json::print(&document);
     }
     let mut out = io::stdout().lock();
     let (table, note) = words();
     write_outcome(summary, &mut out)?;
     table.write(&mut out)?;
     let page = if names.contains(&page::FILE_NAME) {
-        " (open it in a browser)"
+        "; open index.html in a browser"
     } else {
         ""
     };
-    let names = names.join(", ");
-    writeln!(out, "\n{note}\n\nWritten into {}: {names}{page}.", path.display())?;
+    let files = folders::listed(path, names);
+    writeln!(out, "\n{note}\n\nWritten into {}: {files}{page}.", path.display())?;
     Ok(())
 }
 
 /// Returns the text about a car's run.
 fn limits_of_car(summary: &CarSummary) -> (TerminalTable, String) {
     if summary.limits.is_empty() {
-        (TerminalTable::new(1, &[]), NO_STATISTICS.to_owned())
+        let why = summary
+            .warnings()
+            .iter()
+            .find(|own| own.starts_with(NO_STATISTICS));
+        let why = why.and_then(|own| own.strip_prefix(NO_STATISTICS));
+        (
+            TerminalTable::new(1, &[]),
+            format!("No statistics{}.", why.unwrap_or_default()),
+        )
+    } else if summary.limits.iter().any(|own| own.unfiltered) {
+        (car_table(summary), format!("{CAR_NOTE}\n{UNFILTERED_NOTE}"))
     } else {
         (car_table(summary), CAR_NOTE.to_owned())
     }
 }
 
-/// Instead of a car's table where there is nothing in it.
-const NO_STATISTICS: &str = "No statistics: the run does not reach beyond start.settle.";
+/// The note on values that no filter has passed.
+const UNFILTERED_NOTE: &str = "\
+Values without margin are raw: the rows are too far apart for the filter that their limit is for. Shorten \
+simulation.output_interval.";
 
 /// The note that explains the columns of a car's table.
 const CAR_NOTE: &str = "\
@@ -320,7 +416,10 @@ fn car_table(summary: &CarSummary) -> TerminalTable {
             own.statistic.replace('_', " "),
             shown(own.value),
             shown(own.limit),
-            format!("{:.0}", 100.0 * own.margin),
+            match own.unfiltered {
+                true => "-".to_owned(),
+                false => format!("{:.0}", 100.0 * own.margin),
+            },
         ]);
     }
     table

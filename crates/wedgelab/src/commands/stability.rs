@@ -12,7 +12,7 @@ use report::{hunting_files, stability_files};
 use study::any_case::AnyCase;
 use study::car::CarCase;
 use study::car::hunting::{Boundary, Hunting, HuntingError, HuntingSettings, hunting};
-use study::car::stability::{FRICTION, Stability, stability};
+use study::car::stability::{FRICTION, Stability, left_out, stability};
 use study::outcome::Outcome;
 
 use super::run::read_any;
@@ -195,7 +195,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             stability_files::write_table(&found, units, out)
         })?;
         files.add(stability_files::NUMBERS, |out| {
-            stability_files::write_numbers(&case.name, &found, units, out)
+            stability_files::write_numbers(&case, &found, units, out)
         })?;
         figure.add(files, stability_files::FIGURE, stability_files::PICTURE)?;
         let Some((runs, figure)) = &hunting else {
@@ -212,6 +212,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut out = io::stdout().lock();
     table(&found, units).write(&mut out)?;
     writeln!(out)?;
+    if let Some(what) = left_out(&case) {
+        writeln!(out, "On straight track without irregularities: {what}.")?;
+    }
     for ((_, name), branch) in FRICTION.iter().zip(&found.branches) {
         let factor = Kind::TravelSpeed.from_si(units);
         let unit = Kind::TravelSpeed.label(units);

@@ -9,11 +9,11 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Args;
-use report::csv;
 use report::page::study as page;
 use report::run_files::CASE_FILE_NAME;
 use report::study_folder::{STUDY_FILE, StudyFolderError, TABLE_CSV_FILE, TABLE_FILE};
 use report::study_work;
+use report::table::in_folder;
 use serde_json::json;
 use study::design::{MANY, Study};
 
@@ -74,7 +74,7 @@ fn no_study(path: &Path) -> Option<Message> {
         let advice = "give the study file that it was made of: it goes on where it was";
         return Some(Message::new(format!("{shown} is the folder of a study"), advice));
     }
-    if path.join(csv::FILE_NAME).is_file() {
+    if in_folder(path).is_some() {
         let advice = format!(
             "`wedgelab plot` and `wedgelab compare` take it; a study of its case begins with case = \"{}\"",
             path.join(CASE_FILE_NAME).display()

@@ -214,10 +214,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let track = TrackFile::read(&arguments.track)?;
     let name = format!("wheelset_{}", track.name);
     let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(&name));
-    let names = [WheelsetCase::FILES, &[page::FILE_NAME]].concat();
-    let folder = folders::check(path, &names, arguments.force)?;
     let case = WheelsetCase::new(wheelset(arguments, track, name)?)
         .map_err(|error| Message::new(error.to_string(), error.remedy()))?;
+    let names = [case.names(&case.output_files()), vec![page::FILE_NAME]].concat();
+    let folder = folders::check(path, &names, arguments.force)?;
     let progress = Progress::new(1, arguments.quiet);
     interrupt::stops_run();
     let done =

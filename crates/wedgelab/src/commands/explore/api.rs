@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::Instant;
 
-use report::run_files;
 use report::view::View;
+use report::{run_files, summary};
 use serde::{Deserialize, Serialize};
 use study::any_case::AnyCase;
 use study::case::builtin::CaseGroup;
@@ -274,8 +274,10 @@ impl Explorer {
             bytes = case.to_toml().unwrap_or_default().into_bytes();
             (case.name().to_owned(), "application/toml")
         } else {
-            if !run_files::NAMES.contains(&file) {
-                let names = run_files::NAMES.join(", ");
+            let tables = run_files::TABLES.map(|(_, name)| name);
+            let names = [&tables[..], &[run_files::CASE_FILE_NAME, summary::FILE_NAME]].concat();
+            if !names.contains(&file) {
+                let names = names.join(", ");
                 return Err(Refused::Unknown(format!(
                     "There is no file {file}; there are {names}."
                 )));

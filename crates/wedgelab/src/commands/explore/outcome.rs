@@ -4,9 +4,10 @@ use std::io;
 use std::ops::ControlFlow;
 
 use quantity::Kind;
+use report::run_files::{RunFiles, TABLES};
+use report::summary;
 use report::view::View;
 use report::view::run::{Detail, Recording};
-use report::{csv, mat, summary};
 use serde::Serialize;
 use study::any_case::AnyCase;
 use study::car::CarCase;
@@ -15,6 +16,7 @@ use study::car::run::CarResult;
 use study::car::summary::CarSummary;
 use study::case::{Case, FieldSection};
 use study::contacts::ContactTable;
+use study::output_files::{OutputFiles, TableFormat};
 use study::result::RunResult;
 use study::run::{Run, RunCase};
 use study::summary::{RunSummary, Summary};
@@ -208,27 +210,27 @@ impl Outcome {
 
     /// Writes one of its files, but not the case. Returns the type of what was written.
     pub fn write(&self, file: &str, out: &mut Vec<u8>) -> io::Result<&'static str> {
-        match (self, file) {
-            (Self::Wedge(own), csv::FILE_NAME) => csv::write(&own.1, out)?,
-            (Self::Wedge(own), mat::FILE_NAME) => mat::write(&own.0, &own.1, out)?,
-            (Self::Wedge(own), _) => summary::write(&own.1.summary, out)?,
-            (Self::Truck(own), csv::FILE_NAME) => write_csv(&own.1, out)?,
-            (Self::Truck(own), mat::FILE_NAME) => mat::write_truck(&own.1, out)?,
-            (Self::Truck(own), _) => summary::write_json(&own.1.summary, out)?,
-            (Self::Car(own), csv::FILE_NAME) => write_csv(&own.1, out)?,
-            (Self::Car(own), mat::FILE_NAME) => mat::write_car(&own.1, out)?,
-            (Self::Car(own), _) => summary::write_json(&own.1.summary, out)?,
+        let Some((format, _)) = TABLES.into_iter().find(|(_, name)| *name == file) else {
+            match self {
+                Self::Wedge(own) => summary::write(&own.1.summary, out)?,
+                Self::Truck(own) => summary::write_json(&own.1.summary, out)?,
+                Self::Car(own) => summary::write_json(&own.1.summary, out)?,
+            }
+            return Ok("application/json");
+        };
+        // All columns, whatever the case keeps in folders.
+        let all = OutputFiles::default();
+        match self {
+            Self::Wedge(own) => own.0.write_table(&own.1, format, &all, out)?,
+            Self::Truck(own) => own.0.write_table(&own.1, format, &all, out)?,
+            Self::Car(own) => own.0.write_table(&own.1, format, &all, out)?,
         }
-        Ok(match file {
-            csv::FILE_NAME => "text/csv",
-            mat::FILE_NAME => "application/octet-stream",
-            _ => "application/json",
+        Ok(match format {
+            TableFormat::Csv => "text/csv",
+            TableFormat::Mat => "application/octet-stream",
+            TableFormat::Parquet => "application/vnd.apache.parquet",
         })
     }
-}
-
-fn write_csv<S: RunSummary>(result: &RunResult<S>, out: &mut Vec<u8>) -> io::Result<()> {
-    csv::write_columns(&result.columns, &result.values, result.summary.units(), out)
 }
 
 fn joules(value: f64, units: quantity::System) -> f64 {

@@ -9,11 +9,7 @@ use report::files::Folder;
 use report::run_files::RunFiles;
 use report::study_folder::SERIES;
 use study::any_case::AnyCase;
-use study::car::CarCase;
-use study::case::Case;
 use study::design::Study;
-use study::half_truck::HalfTruckCase;
-use study::truck::TruckCase;
 
 use crate::execute::{execute_whole, unsound};
 use crate::failure::{Failure, Message};
@@ -29,17 +25,17 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
         "the runs that were written before are whole; the same command computes all of them again",
     );
     let names = match study.base {
-        AnyCase::Wedge(_) => Case::FILES,
-        AnyCase::HalfTruck(_) => HalfTruckCase::FILES,
-        AnyCase::Truck(_) => TruckCase::FILES,
-        AnyCase::Car(_) => CarCase::FILES,
+        AnyCase::Wedge(ref own) => own.names(&own.output_files()),
+        AnyCase::HalfTruck(ref own) => own.names(&own.output_files()),
+        AnyCase::Truck(ref own) => own.names(&own.output_files()),
+        AnyCase::Car(ref own) => own.names(&own.output_files()),
     };
     let (mut written, mut failures) = (Vec::new(), Vec::new());
     for number in numbers {
         let path = out.join(SERIES).join(number.to_string());
         let name = format!("{}_{number}", study.name);
         // The same run gives the same files.
-        let folder = folders::check(&path, names, true)?;
+        let folder = folders::check(&path, &names, true)?;
         let whole = match study.case(*number)? {
             AnyCase::Wedge(mut case) => {
                 case.name = name;
