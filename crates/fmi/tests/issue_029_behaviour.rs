@@ -240,7 +240,7 @@ fn issue_029_steps_that_are_lost_against_the_time_are_refused() {
 /// Returns the folder `resources` of an FMU.
 fn resources_of(folder: &Path) -> PathBuf {
     let description = Description::new(&Source::Wedge(Box::new(case()))).unwrap();
-    fs::write(folder.join(resources::CASE), description.file.1).unwrap();
+    fs::write(folder.join(resources::CASE), &description.files[0].1).unwrap();
     fs::write(folder.join(resources::MODEL), "FrictionWedge\n").unwrap();
     folder.to_owned()
 }

@@ -85,7 +85,7 @@ fn put(text: &str, folder: &Path) -> std::io::Result<()> {
 /// Returns the folder of the first rows of a case's run as a text, with its page if one is rendered.
 fn folder_of<C: RunFiles>(case: &C, page: impl FnOnce(C::Output) -> Option<String>) -> Option<Vec<u8>> {
     let folder = tempfile::tempdir().ok()?;
-    let files = Folder::check(folder.path(), &case.names(), true).ok()?;
+    let files = Folder::check(folder.path(), &case.names(&case.output_files()), true).ok()?;
     case.write(&files, &Run::new(case).ok()?.finish(|_| ())).ok()?;
     if let Some(page) = page(Run::new(case).ok()?.finish(|_| ())) {
         std::fs::write(folder.path().join(page::FILE_NAME), page).ok()?;

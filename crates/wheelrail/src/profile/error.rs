@@ -234,6 +234,8 @@ impl ProfileError {
             | Self::UnknownFile { .. }
             | Self::Datum { .. }
             | Self::WiderThanGauge { .. }
+            | Self::ShortOfRails { .. }
+            | Self::Length { .. }
             | Self::Number { .. } => None,
         }
     }
