@@ -52,7 +52,7 @@ fn issue_029_files_of_another_kind_are_recognized() {
         ),
         ("case = \"x\"\n", "is a study file", "`wedgelab study "),
         ("\\BODY DATA\n", "is a file of NUCARS", "`wedgelab nucars check "),
-        ("PAR1", "is a Parquet table", "pandas"),
+        ("PAR1", "the Parquet table", "write or copy it again"),
     ] {
         fs::write(&file, content).unwrap();
         let error = ResultTable::read(&file).unwrap_err();

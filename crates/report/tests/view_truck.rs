@@ -191,6 +191,7 @@ fn a_half_trucks_wedge_bodies_have_the_gaps_and_forces_of_the_run() {
             }
         }
         let page = half_truck_run::render(&case, &result, Some(&contacts)).unwrap();
+        let page = format!("{page}{}", report::view::kept::data_in(&page).unwrap());
         for text in [
             "with wedges that are bodies",
             "Wedges as bodies",

@@ -336,7 +336,7 @@ fn input_irregularities_must_cover_the_track_and_be_space_curves() {
         (
             700,
             "form = \"space_curve\"\nsigns = \"usual\"",
-            &["car.csv:2", "no number of a track"],
+            &["car.csv:2", "a number is missing, under distance"],
         ),
     ] {
         let folder = in_folder(&[("car.csv", table.clone()), ("track.toml", track(length, more))]);

@@ -157,7 +157,7 @@ fn a_car_is_explored_and_kept() {
         losses.len() == 8 && (energy - sum).abs() <= 1e-12 * sum.abs(),
         "{energy} {sum}"
     );
-    for file in ["case.toml", "result.csv", "summary.json"] {
+    for file in ["case.toml", "result.parquet", "summary.json"] {
         let kept = server.post(&format!("/api/export/{file}"), &json!({ "set": wanted.clone() }));
         assert_eq!(kept.status, 200, "{file}");
         assert_eq!(kept.body, fs::read(run_folder.join(file)).unwrap(), "{file}");

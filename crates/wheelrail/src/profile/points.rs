@@ -20,7 +20,7 @@
 
 use std::path::Path;
 
-use input::file::Expected;
+use input::file::{Expected, Reason};
 use input::{FileType, Separated, limits, shortened};
 use quantity::{Kind as Dimension, Quantity};
 
@@ -57,22 +57,29 @@ impl Points {
     /// # Errors
     /// The file is not read, or a line of it is wrong.
     pub fn read(path: &Path) -> Result<Self, ProfileError> {
+        let expected = Expected {
+            what: "profile",
+            types: &[FileType::Profile],
+            most: limits::TEXT_FILE,
+        };
         let extension = path.extension().and_then(|extension| extension.to_str());
         let parse: fn(&str, &str) -> Result<Self, ProfileError> =
             match extension.map(str::to_ascii_lowercase).as_deref() {
                 Some("csv") => Self::from_csv,
                 Some("prr" | "prw") => Self::from_simpack,
                 _ => {
+                    // What it is tells more than that its name tells nothing.
+                    input::file::read(path, &expected).map_err(|error| match error.reason {
+                        Reason::WrongType(_) => ProfileError::Read(error),
+                        _ => ProfileError::UnknownFile {
+                            path: path.to_owned(),
+                        },
+                    })?;
                     return Err(ProfileError::UnknownFile {
                         path: path.to_owned(),
                     });
                 }
             };
-        let expected = Expected {
-            what: "profile",
-            types: &[FileType::Profile],
-            most: limits::TEXT_FILE,
-        };
         let text = input::file::read_text(path, &expected)?;
         parse(&path.display().to_string(), &text)
     }

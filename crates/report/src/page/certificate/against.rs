@@ -13,7 +13,7 @@ use crate::certificate_files::{NAMES, SCHEMA};
 /// The expected file.
 const FILE: Expected = Expected {
     what: "certificate",
-    types: &[FileType::Json],
+    types: &[FileType::Certificate, FileType::Json],
     most: limits::RECORD_FILE,
 };
 
