@@ -247,8 +247,8 @@ pub struct Files<'f> {
 }
 
 impl Files<'_> {
-    /// Has a file of an earlier result, which this one is not to lie beside, removed when the files come to their
-    /// place.
+    /// Has a file of an earlier result, which this one is not to lie beside, removed when the files come to
+    /// their place.
     pub fn supersede(&mut self, name: &str) {
         self.superseded.push(name.to_owned());
     }

@@ -1,10 +1,10 @@
 //! Tables as Parquet files, with the unit of each column in the file's metadata.
 //!
 //! Rows are gathered and written in groups, so that the memory needed does not grow with the table; the same
-//! rows give the same bytes. Tables of runs ([`Storage::Histories`]) are stored smaller than others: the bytes of
-//! numbers by place, so that signs and exponents, which hardly change, lie side by side, and deflated. No number
-//! loses a bit. The metadata has, under `wedgelab.columns`, JSON with name, unit and text of
-//! each column, and what else the writer is given.
+//! rows give the same bytes. Tables of runs ([`Storage::Histories`]) are stored smaller than others: the
+//! bytes of numbers by place, so that signs and exponents, which hardly change, lie side by side, and
+//! deflated. No number loses a bit. The metadata has, under `wedgelab.columns`, JSON with name, unit and text
+//! of each column, and what else the writer is given.
 
 use std::borrow::Cow;
 use std::io::Write;

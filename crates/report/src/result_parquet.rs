@@ -1,9 +1,9 @@
 //! `result.parquet`: the table of a run as a Parquet file, under the names and in the units of `result.csv`,
 //! each number with all of its bits.
 //!
-//! Rows lie in groups ([`parquet`](crate::parquet)); the metadata has name, unit and text of each column under
-//! `wedgelab.columns`, and [`TABLE_KEY`] with the schema. Parquet tables of other programs are read as well, if
-//! their columns are numbers and have names as a CSV table has.
+//! Rows lie in groups ([`parquet`](crate::parquet)); the metadata has name, unit and text of each column
+//! under `wedgelab.columns`, and [`TABLE_KEY`] with the schema. Parquet tables of other programs are read as
+//! well, if their columns are numbers and have names as a CSV table has.
 
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};

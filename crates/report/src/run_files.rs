@@ -1,8 +1,8 @@
 //! The files of a run: its table in the formats asked for, the completed case, the summary.
 //!
-//! [`RunFiles::output_files`] says which tables a case is written into; a caller may ask for others. Tables that
-//! an earlier run left in the folder and that are not written now are removed with the rest, so that all tables
-//! of a folder are of one run.
+//! [`RunFiles::output_files`] says which tables a case is written into; a caller may ask for others. Tables
+//! that an earlier run left in the folder and that are not written now are removed with the rest, so that all
+//! tables of a folder are of one run.
 
 use std::io::{self, Write};
 

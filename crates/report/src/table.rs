@@ -93,8 +93,8 @@ impl ResultTable {
         }
     }
 
-    /// Returns the table of columns with their names, of a Parquet file. Its rows count as lines of a CSV file
-    /// do: the names are the first.
+    /// Returns the table of columns with their names, of a Parquet file. Its rows count as lines of a CSV
+    /// file do: the names are the first.
     fn of_numbers(file: &Path, columns: result_parquet::Read) -> Result<Self, TableError> {
         let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
         let header = header::read(&HeaderLocation { file, line: 1 }, &names)?;
@@ -323,8 +323,8 @@ impl Rows<'_> {
     }
 }
 
-/// Checks that a value of a column (its place and name) is a number and, where it is the time, later than the one
-/// before.
+/// Checks that a value of a column (its place and name) is a number and, where it is the time, later than the
+/// one before.
 fn check(
     file: &Path,
     line: u64,

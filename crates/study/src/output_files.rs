@@ -34,8 +34,8 @@ pub struct OutputFiles {
     pub tables: Vec<TableFormat>,
     /// Patterns of the columns that are written at all; the time always is.
     pub columns: Vec<String>,
-    /// Patterns of the columns of the CSV file where a Parquet file is beside it. Without one the CSV file has
-    /// all that are written.
+    /// Patterns of the columns of the CSV file where a Parquet file is beside it. Without one the CSV file
+    /// has all that are written.
     pub csv_columns: Vec<String>,
 }
 

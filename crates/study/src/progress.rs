@@ -110,8 +110,8 @@ pub const WHAT_TO_TRY_WITH_FILES: &str = "look at this body or connection with `
                                           stiffness or a damping out of all proportion, or a mass that is \
                                           too small, makes steps so short";
 
-/// Returns the integrator's message about a step that it cannot make, after the state in words; `name` names a
-/// state.
+/// Returns the integrator's message about a step that it cannot make, after the state in words; `name` names
+/// a state.
 #[must_use]
 pub fn describe(error: &StepError, name: impl Fn(usize) -> String) -> String {
     match error.index {

@@ -112,7 +112,8 @@ fn issue_048_who_reads_a_folder_reads_its_parquet() {
     }
 }
 
-/// Columns are chosen by name or pattern, in the case and by option; what fits nothing is refused before the run.
+/// Columns are chosen by name or pattern, in the case and by option; what fits nothing is refused before the
+/// run.
 #[test]
 fn issue_048_columns_are_chosen_by_pattern() {
     let folder = tempfile::tempdir().unwrap();

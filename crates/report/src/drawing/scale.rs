@@ -71,8 +71,8 @@ impl Scale {
     }
 }
 
-/// Returns a number with an exponent and at most six digits: a tick is a multiple of its step, and has the errors
-/// of this product.
+/// Returns a number with an exponent and at most six digits: a tick is a multiple of its step, and has the
+/// errors of this product.
 fn scientific(value: f64) -> String {
     let text = format!("{value:.5e}");
     let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));

@@ -52,8 +52,8 @@ fn limits(summary: &CarSummary) -> Markup {
         p {
             "The worst value of each kind beside limits that are remembered of AAR M-1001, chapter XI: \
              check them against your edition of the standard. A limit counts for the regimes named. Margin: \
-             what is left, in parts of the limit. Raw values, where rows are too far apart for the filter, have \
-             none."
+             what is left, in parts of the limit. Raw values, where rows are too far apart for the filter, \
+             have none."
         }
         div.wide {
             table {

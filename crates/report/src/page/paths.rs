@@ -1,5 +1,5 @@
-//! Lines of drawings with fewer signs: each point counts from the one before, in tenths of a pixel, and points that
-//! nobody sees are left out.
+//! Lines of drawings with fewer signs: each point counts from the one before, in tenths of a pixel, and
+//! points that nobody sees are left out.
 
 /// Distance from a line at which a point is not seen, tenths of a pixel: a sixth of its width.
 const TOLERANCE: f64 = 2.5;
@@ -21,7 +21,8 @@ pub(super) fn shortened(svg: &str) -> String {
     out
 }
 
-/// Returns lines, such as `1 2 L 3 4 M 5 6 L 7 8` after their first `M`, anew; `None` if there is anything else.
+/// Returns lines, such as `1 2 L 3 4 M 5 6 L 7 8` after their first `M`, anew; `None` if there is anything
+/// else.
 fn line(path: &str) -> Option<String> {
     let mut out = String::new();
     for part in path.split('M') {

@@ -209,8 +209,8 @@ impl Statistics {
             Some(from) if from + 1 < rows => from,
             Some(_) => {
                 own.remarks.push(format!(
-                    "{NO_STATISTICS}: from the settling time of {begin} s on the run has one row, and two are \
-                     needed; shorten simulation.output_interval, or let the run last longer"
+                    "{NO_STATISTICS}: from the settling time of {begin} s on the run has one row, and two \
+                     are needed; shorten simulation.output_interval, or let the run last longer"
                 ));
                 return own;
             }

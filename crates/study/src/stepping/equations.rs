@@ -75,8 +75,8 @@ pub enum SteppingError {
     },
     /// Neighbours move far in one step.
     #[error(
-        "in one step the bolster moves by {} m in {coordinate} against the side frame; at most {} m are taken \
-         for a motion of a truck: give places in m or with their unit, or go there in several steps",
+        "in one step the bolster moves by {} m in {coordinate} against the side frame; at most {} m are \
+         taken for a motion of a truck: give places in m or with their unit, or go there in several steps",
         Number(*path),
         super::LARGEST_PATH
     )]

@@ -200,10 +200,9 @@ impl SteppedWedge {
 
     /// Makes one step: within `duration` (s) the neighbours go from where they are to `end`.
     ///
-    /// # Errors
-    /// A duration that is not positive, values that are not finite, or neighbours that part by more than
-    /// [`LARGEST_PATH`]; or the integrator cannot go on: the wedge then takes no further step until a state is
-    /// restored.
+    /// # Errors A duration that is not positive, values that are not finite, or neighbours that part by more
+    /// than [`LARGEST_PATH`]; or the integrator cannot go on: the wedge then takes no further step until a
+    /// state is restored.
     pub fn step(&mut self, end: &Neighbours, duration: f64) -> Result<(), SteppingError> {
         if !self.failed {
             equations::check_neighbours(end)?;

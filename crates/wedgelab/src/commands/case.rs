@@ -20,7 +20,8 @@ use crate::table::TerminalTable;
 ///
 /// Without a name, lists the built-in cases in groups, with their titles and the features to look at in their
 /// results. With one, prints that case as a complete, commented case file: change it, and run it with
-/// `wedgelab run`. With --out and a pattern such as 'truck_*', writes each case that fits into a file of its own.
+/// `wedgelab run`. With --out and a pattern such as 'truck_*', writes each case that fits into a file of its
+/// own.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:

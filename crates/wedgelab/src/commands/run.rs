@@ -42,14 +42,15 @@ use crate::table::TerminalTable;
 
 /// Run one case: a wedge, a truck or a car
 ///
-/// Runs a case file, of a wedge, of a truck or of a car on track, and writes its time histories, case.toml (the
-/// case, completed) and summary.json (averages, extremes, events, energy ledger, solver statistics, assumptions)
-/// into a folder named as the case; and index.html: a wedge moving in 3D with its loops and key numbers; a
-/// truck, its loops and wedges; a car on its track, limits, statistics and figures over the distance.
+/// Runs a case file, of a wedge, of a truck or of a car on track, and writes its time histories, case.toml
+/// (the case, completed) and summary.json (averages, extremes, events, energy ledger, solver statistics,
+/// assumptions) into a folder named as the case; and index.html: a wedge moving in 3D with its loops and key
+/// numbers; a truck, its loops and wedges; a car on its track, limits, statistics and figures over the
+/// distance.
 ///
-/// Time histories are result.csv and result.mat (of a wedge under the thesis's names). Those of a car, which has
-/// most columns, are result.parquet, and a result.csv with its time, distance, speed and roll; --tables and
-/// --columns choose others, as output.tables and output.columns in the case of a car do.
+/// Time histories are result.csv and result.mat (of a wedge under the thesis's names). Those of a car, which
+/// has most columns, are result.parquet, and a result.csv with its time, distance, speed and roll; --tables
+/// and --columns choose others, as output.tables and output.columns in the case of a car do.
 ///
 /// A run with --save or --continue writes the same files except index.html. Its rows have the same bits as
 /// those of the whole run, filtered columns included, and the summary of the last part is that of the whole
