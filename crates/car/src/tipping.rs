@@ -49,7 +49,8 @@ impl Parameters {
         distances.fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns how the car tips with its center of gravity outside of the trucks or of the side bearings; none
+    /// Returns how the car tips with its center of gravity outside of the trucks or of the side bearings;
+    /// none
     /// if it lies between them.
     #[must_use]
     pub fn tips_over(&self) -> Option<Tipping> {
@@ -158,7 +159,8 @@ impl fmt::Display for Tipping {
         write!(
             f,
             "the car tips to the {side}: the center of gravity of body and lading is {} to the {side} of the \
-             middle and {height} above the rails; leaning by {:.1} deg, where the coils of one side are solid, \
+             middle and {height} above the rails; leaning by {:.1} deg, where the coils of one side are \
+             solid, \
              it lies {outside} {} the side bearings, which are {distance} from the middle{}; lower the \
              lading, or move it towards the middle",
             Length(left.abs()),

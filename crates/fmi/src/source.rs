@@ -79,7 +79,8 @@ impl Source {
         }
     }
 
-    /// Returns name and bytes of the files that say what it is made of: the case or run first, then the profiles and
+    /// Returns name and bytes of the files that say what it is made of: the case or run first, then the
+    /// profiles and
     /// measured tables of a car.
     ///
     /// # Errors

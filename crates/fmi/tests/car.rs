@@ -232,7 +232,8 @@ fn input_what_an_fmu_cannot_take_is_refused() {
     assert!(error.to_string().contains("take wedge bodies"), "{error}");
 }
 
-/// Profiles and measured tables go into the resources, and what is made of these has the same token and start.
+/// Profiles and measured tables go into the resources, and what is made of these has the same token and
+/// start.
 #[test]
 fn issue_048_an_fmu_takes_profiles_and_measured_track_along() {
     let folder = tempfile::tempdir().unwrap();
@@ -247,7 +248,8 @@ fn issue_048_an_fmu_takes_profiles_and_measured_track_along() {
     let track = "segments = [{ tangent = \"500 ft\" }]\n[[irregularities]]\ntable = \"car.csv\"\nsigns = \
                  \"usual\"\nform = \"space_curve\"\n";
     std::fs::write(beside.join("line.toml"), track).unwrap();
-    let text = "model = \"car\"\nwheels.profile = \"My wheel.PRW\"\ntrack.file = \"tracks/line.toml\"\nsimulation.duration = \"5 s\"\n";
+    let text = "model = \"car\"\nwheels.profile = \"My wheel.PRW\"\ntrack.file = \
+    \"tracks/line.toml\"\nsimulation.duration = \"5 s\"\n";
     let own = CarCase::parse("case.toml", text, folder.path(), &[]).unwrap();
     let description = Description::new(&Source::Car(Box::new(own))).unwrap();
     let names: Vec<&str> = description.files.iter().map(|(name, _)| name.as_str()).collect();

@@ -175,11 +175,13 @@ impl FileType {
             }
             Self::Results => format!("`wedgelab compare` and `wedgelab plot {path}` take it"),
             Self::MeasuredTrack => format!(
-                "write a track file with [[irregularities]], table = \"{path}\" and form = \"space_curve\" or \
+                "write a track file with [[irregularities]], table = \"{path}\" and form = \"space_curve\" \
+                or \
                  \"mid_chord\"; `wedgelab track show` takes that file"
             ),
             Self::Profile => format!(
-                "`wedgelab wheelrail check` takes it; in a case, write wheels.profile = \"{path}\" or rails.profile"
+                "`wedgelab wheelrail check` takes it; in a case, write wheels.profile = \"{path}\" or \
+                rails.profile"
             ),
             Self::Certificate => {
                 "`wedgelab certify CAR --against DIR` takes the folder that it lies in".to_owned()
@@ -246,7 +248,8 @@ fn table_type(titles: &str) -> Option<FileType> {
     (any(&axis("y")) && any(&axis("z"))).then_some(FileType::Profile)
 }
 
-/// Returns a case, a study, a track, a regime, limits or conditions, by the sections and keys that only one of them has.
+/// Returns a case, a study, a track, a regime, limits or conditions, by the sections and keys that only one
+/// of them has.
 fn toml_type<'t>(lines: impl Iterator<Item = &'t str>) -> Option<FileType> {
     const CASE: [&str; 8] = [
         "[wedge]",

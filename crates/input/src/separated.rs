@@ -6,7 +6,8 @@ use crate::shortened;
 
 /// The way in which a table of numbers is written: the sign between its columns, and that of decimals.
 ///
-/// Semicolons and tabs leave the comma to decimals, as European spreadsheets write them: `0,25;-1,5` holds 0.25
+/// Semicolons and tabs leave the comma to decimals, as European spreadsheets write them: `0,25;-1,5` holds
+/// 0.25
 /// and -1.5. A table has either decimal points or decimal commas; one that has both is refused, since `1,234`
 /// beside `0.5` may as well be a thousand.
 ///
@@ -14,7 +15,8 @@ use crate::shortened;
 /// use input::{CellError, Separated};
 ///
 /// let mut table = Separated::of("distance [m]; profile [mm]");
-/// let numbers: Result<Vec<f64>, CellError> = table.cells("0,25; -1,5").map(|cell| table.number(cell)).collect();
+/// let numbers: Result<Vec<f64>, CellError> = table.cells("0,25; -1,5").map(|cell|
+/// table.number(cell)).collect();
 /// assert_eq!(numbers, Ok(vec![0.25, -1.5]));
 /// assert_eq!(table.number(""), Err(CellError::Gap));
 /// assert!(matches!(table.number("0.5"), Err(CellError::TwoDecimalSigns { .. })));

@@ -53,7 +53,8 @@ impl Unit {
         self.dimension
     }
 
-    /// Returns the system of units that it belongs to: none where both have it (`s`, `deg`), or where units of both
+    /// Returns the system of units that it belongs to: none where both have it (`s`, `deg`), or where units
+    /// of both
     /// are multiplied (`lbf/mm`).
     pub const fn system(self) -> Option<System> {
         self.system

@@ -8,7 +8,8 @@
 //! Parquet files ([`result_parquet`](crate::result_parquet)) are read with the same names.
 //!
 //! Numbers are kept as written, so that nothing is lost; [`TableColumn::si`] and [`TableColumn::in_units`]
-//! convert. Those in other units than results are written with (`force_kN`, `speed [km/h]`) are converted when they
+//! convert. Those in other units than results are written with (`force_kN`, `speed [km/h]`) are converted
+//! when they
 //! are read.
 
 use std::fs;

@@ -373,7 +373,8 @@ fn columns_that_are_not_there_are_guessed() {
 /// All units of the table of units, at the end of a name or in brackets, in one system of units.
 #[test]
 fn issue_048_tables_of_others_in_any_unit() {
-    let text = "time_ms,wedge_z_mm,vertical_wedge_force [kN],wedge_pitch_deg,speed [km/h],rate_kN_per_mm,least_min\n\
+    let text = "time_ms,wedge_z_mm,vertical_wedge_force [kN],wedge_pitch_deg,speed \
+    [km/h],rate_kN_per_mm,least_min\n\
                 0,1.5,2,180,36,0.5,7\n500,2.5,3,90,72,0.25,8\n";
     let table = parse(text).unwrap();
     assert_eq!((table.units, table.times()), (Units::Si, &[0.0, 0.5][..]));

@@ -20,7 +20,8 @@ const NONE: f64 = 1e-9;
 const STEPS: usize = 80;
 
 impl RigidWheelset {
-    /// Returns the pitch rate (rad/s, negative forward) at which the wheelset rolls freely: the forces of both
+    /// Returns the pitch rate (rad/s, negative forward) at which the wheelset rolls freely: the forces of
+    /// both
     /// rails, each wheel under its vertical load (N), make no torque about the axle. The pitch rate of the
     /// attitude does not count.
     ///

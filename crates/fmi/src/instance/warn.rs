@@ -11,7 +11,8 @@ use crate::extrapolate::{KEPT_POINTS, Point, Understanding};
 use crate::watch::{contradiction, too_fast};
 use crate::{Category, Severity};
 
-/// Attempted steps in one call, and in a second of its time, above which a call is said to take much work: fifty times
+/// Attempted steps in one call, and in a second of its time, above which a call is said to take much work:
+/// fifty times
 /// what wedges and cars of ordinary cases take, and seconds of computing for a car.
 const EFFORT: [f64; 2] = [5_000.0, 50_000.0];
 
@@ -96,15 +97,18 @@ impl Instance {
         });
     }
 
-    /// Looks at the number of steps that the integrator has attempted in a call, of a length (s) to a time (s).
+    /// Looks at the number of steps that the integrator has attempted in a call, of a length (s) to a time
+    /// (s).
     pub(super) fn watch_effort(&mut self, attempts: u64, length: f64, time: f64) {
         let [in_call, per_second] = EFFORT;
         let count = attempts as f64;
         if count > in_call && count > per_second * length {
             self.warn_once(Warned::Effort, || {
                 format!(
-                    "the step of {} s to {} s took {attempts} steps of the integrator, where ordinary motion takes some \
-                     {} a second: calls like this may compute for minutes; look for inputs that jump or chatter, and \
+                    "the step of {} s to {} s took {attempts} steps of the integrator, where ordinary \
+                    motion takes some \
+                     {} a second: calls like this may compute for minutes; look for inputs that jump or \
+                     chatter, and \
                      for a tolerance that is too small",
                     SixDigits(length),
                     SixDigits(time),

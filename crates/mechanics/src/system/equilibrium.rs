@@ -37,7 +37,8 @@ pub struct NoEquilibrium {
 pub const NEARLY_AT_REST: f64 = 1e-4;
 
 impl NoEquilibrium {
-    /// Returns the state that came nearest to rest, if it is nearly at rest: see [`NEARLY_AT_REST`]. `gravity`
+    /// Returns the state that came nearest to rest, if it is nearly at rest: see [`NEARLY_AT_REST`].
+    /// `gravity`
     /// in m/s².
     #[must_use]
     pub fn nearly_at_rest(&self, gravity: f64) -> Option<&[f64]> {

@@ -171,7 +171,8 @@ pub(super) fn body(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
         height,
         &mut parameters.accelerometer_height,
         "\"30 in\"",
-        "of the accelerometers over the truck centers, above the top of rail; left out: that of the center plate",
+        "of the accelerometers over the truck centers, above the top of rail; left out: that of the center \
+        plate",
     );
     let gravity: QuantityForm = (
         Kind::Acceleration,

@@ -20,7 +20,8 @@ pub(crate) struct NamedFile {
 }
 
 impl CarCase {
-    /// Returns the text of the case in which profiles and measured tables are named `files/...`, and these files: their
+    /// Returns the text of the case in which profiles and measured tables are named `files/...`, and these
+    /// files: their
     /// names from the folder of the case, and the places where they lie. A case that names no files is
     /// [`CarCase::to_toml_embedded`]. What is packed once more has the same names.
     #[must_use]

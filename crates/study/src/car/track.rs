@@ -80,7 +80,8 @@ fn meaning(key: &str) -> &'static str {
     match key {
         "segments" => "one after the other: tangent, spiral, curve",
         "irregularities" => {
-            "shapes, spectra, measured tables; `start` is the distance of the lowest point of the first joint, \
+            "shapes, spectra, measured tables; `start` is the distance of the lowest point of the first \
+            joint, \
              and of the beginning of a sine, dip or jog"
         }
         "support" => "what the rails lie on: rigid or sprung",
@@ -89,7 +90,8 @@ fn meaning(key: &str) -> &'static str {
     }
 }
 
-/// Reads a track file; measured tables that it names are looked for from its folder. Of one that must not be quoted,
+/// Reads a track file; measured tables that it names are looked for from its folder. Of one that must not be
+/// quoted,
 /// messages tell the place and the kind of a mistake.
 fn from_file(r: &mut CaseReader<'_>, file: &str) -> Option<(TableNode, ReadTrack)> {
     let tables = r.tables();

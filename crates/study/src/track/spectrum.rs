@@ -153,7 +153,8 @@ pub(super) fn realized(
         .help(match (end * step * terms as f64).ceil() {
             needed if needed <= MOST_TERMS as f64 => format!("write terms = {needed:.0} or more"),
             needed => format!(
-                "{needed:.0} terms would be needed, and {MOST_TERMS} are the most: shorten the track, or write a larger \
+                "{needed:.0} terms would be needed, and {MOST_TERMS} are the most: shorten the track, or \
+                write a larger \
                  shortest"
             ),
         });

@@ -29,7 +29,8 @@ enum Command {
     /// and alignment of both rails, cross level, gauge, mid-chord offsets of 31, 62 and 124 ft), track.svg
     /// and track.png.
     ///
-    /// The `start` of joints is the distance of the first joint's lowest point: the rail falls towards it from
+    /// The `start` of joints is the distance of the first joint's lowest point: the rail falls towards it
+    /// from
     /// half a spacing before. The `start` of a sine, dip or jog is that of its beginning.
     Show {
         /// Track file

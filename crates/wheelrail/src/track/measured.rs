@@ -15,8 +15,10 @@
 //! | `curvature`, `degree_of_curve` | of the center line | `left`, `right` |
 //! | `grade` | rise by the distance | `up`, `down` |
 //!
-//! Other columns are left aside. Numbers have decimal points, or decimal commas between semicolons and tabs. Cells
-//! without a number, and rows that a regular recording lacks, are gaps: see [`Gap`]. Irregularities are **space curves**: the rail's own offset from its nominal
+//! Other columns are left aside. Numbers have decimal points, or decimal commas between semicolons and tabs.
+//! Cells
+//! without a number, and rows that a regular recording lacks, are gaps: see [`Gap`]. Irregularities are
+//! **space curves**: the rail's own offset from its nominal
 //! place. Mid-chord offsets are none, and are taken only where the caller states chord and wavelengths; see
 //! [`chord::invert`].
 
@@ -79,7 +81,10 @@ pub enum MeasuredError {
         needed: &'static str,
     },
     /// A gap that is too long to be filled.
-    #[error("{name}: {gap}: a gap of {} m; up to {} m are filled", SixDigits(gap.length()), SixDigits(*.longest))]
+    #[error(
+        "{name}: {gap}: a gap of {} m; up to {} m are filled",
+        SixDigits(gap.length()), SixDigits(*longest)
+    )]
     Gap {
         /// The file.
         name: String,
@@ -133,10 +138,13 @@ impl MeasuredError {
                                       ft\" and the wavelengths over which to invert it, such as shortest \
                                       = \"35 ft\", longest = \"370 ft\""
                 .to_owned(),
-            Self::Gap { .. } => "measure the gap, or state the length up to which the spline is to fill gaps, \
-                                 such as gaps = \"20 ft\": waves shorter than twice that length are lost in it"
-                .to_owned(),
-            Self::End { .. } => "leave these rows out: a table may end before the track (beyond = \"level\") and \
+            Self::Gap { .. } => "measure the gap, or state the length up to which the spline is to fill \
+            gaps, \
+                                 such as gaps = \"20 ft\": waves shorter than twice that length are lost in \
+                                 it"
+            .to_owned(),
+            Self::End { .. } => "leave these rows out: a table may end before the track (beyond = \
+            \"level\") and \
                                  begin later (start)"
                 .to_owned(),
             Self::Missing { .. } => "docs/wheelrail.md lists the columns".to_owned(),
@@ -355,7 +363,8 @@ impl MeasuredTable {
         };
         let waves = SixDigits(2.0 * longest.length());
         Some(format!(
-            "{}: the spline fills {gaps}, the longest of them {longest}; waves shorter than {waves} m are not known \
+            "{}: the spline fills {gaps}, the longest of them {longest}; waves shorter than {waves} m are \
+            not known \
              there",
             self.name
         ))
@@ -370,7 +379,8 @@ impl MeasuredTable {
         }
     }
 
-    /// Returns the values of a column, if there is one: those of a chord (such as `62_ft`), or the quantity itself.
+    /// Returns the values of a column, if there is one: those of a chord (such as `62_ft`), or the quantity
+    /// itself.
     fn column(&self, wanted: TrackColumn, chord: Option<&str>) -> Result<Option<&[f64]>, MeasuredError> {
         let mut columns = self.columns.iter();
         let Some(found) = columns.find(|own| own.what == wanted && own.chord.as_deref() == chord) else {

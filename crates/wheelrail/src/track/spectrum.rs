@@ -35,7 +35,8 @@ const FRA_LATERAL: [f64; 6] = [3.3634, 1.2107, 0.4128, 0.3027, 0.0762, 0.0339];
 const FRA_CROSS_LEVEL: [f64; 6] = [0.6046, 0.9308, 0.8520, 1.1312, 0.8209, 0.4380];
 /// cm² rad/m in m² rad/m.
 const SQUARE_CENTIMETER: f64 = 1e-4;
-/// Most terms of a realization: each place of a wheel sums them all. They last for 15 km of waves down to 1.5 m.
+/// Most terms of a realization: each place of a wheel sums them all. They last for 15 km of waves down to
+/// 1.5 m.
 pub const MOST_TERMS: usize = 10_000;
 
 /// A spectral density.

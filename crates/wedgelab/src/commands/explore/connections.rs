@@ -1,7 +1,9 @@
 //! Connections: taken one by one, served within time limits, ended in peace.
 //!
-//! Everybody on the machine can connect, but only who has the token can hold a seat. A connection is a stranger
-//! until a request with the token has come over it; of more strangers than [`limits::STRANGERS`] the oldest is sent
+//! Everybody on the machine can connect, but only who has the token can hold a seat. A connection is a
+//! stranger
+//! until a request with the token has come over it; of more strangers than [`limits::STRANGERS`] the oldest
+//! is sent
 //! away.
 
 use std::collections::VecDeque;

@@ -164,7 +164,8 @@ impl AnswerUnits {
                 Seat::FlangeTip => writeln!(
                     out,
                     "The {side} wheel has climbed: it stands on the tip of its flange, above the flange's \
-                     face; its center, at y = {y:.place$} {unit},\nis {height:.size$} {unit} above the top of \
+                     face; its center, at y = {y:.place$} {unit},\nis {height:.size$} {unit} above the top \
+                     of \
                      its rail."
                 )?,
                 Seat::RimEdge => writeln!(
@@ -174,7 +175,8 @@ impl AnswerUnits {
                 )?,
                 Seat::OffRail => writeln!(
                     out,
-                    "The {side} wheel is off its rail: its tape circle is at y = {y:.place$} {unit}. It carries \
+                    "The {side} wheel is off its rail: its tape circle is at y = {y:.place$} {unit}. It \
+                    carries \
                      nothing."
                 )?,
             }
