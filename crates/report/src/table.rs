@@ -9,8 +9,7 @@
 //!
 //! Numbers are kept as written, so that nothing is lost; [`TableColumn::si`] and [`TableColumn::in_units`]
 //! convert. Those in other units than results are written with (`force_kN`, `speed [km/h]`) are converted
-//! when they
-//! are read.
+//! when they are read.
 
 use std::fs;
 use std::io;
@@ -96,9 +95,14 @@ impl ResultTable {
 
     /// Returns the table of columns with their names, of a Parquet file. Its rows count as lines of a CSV
     /// file do: the names are the first.
-    fn of_numbers(file: &Path, columns: result_parquet::Read) -> Result<Self, TableError> {
+    fn of_numbers(file: &Path, mut columns: result_parquet::Read) -> Result<Self, TableError> {
         let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
         let header = header::read(&HeaderLocation { file, line: 1 }, &names)?;
+        for (own, (_, values)) in header.names.iter().zip(&mut columns) {
+            values
+                .iter_mut()
+                .for_each(|value| *value = own.in_units(*value, header.units));
+        }
         for (index, (name, values)) in columns.iter().enumerate() {
             for (row, value) in values.iter().enumerate() {
                 let before = row.checked_sub(1).map(|row| values[row]);
@@ -358,6 +362,7 @@ fn not_a_number(file: &Path, line: u64, (index, name): (usize, &str), text: &str
         text: shortened(text),
     }
 }
+
 /// Returns the line of a record. The reader's own count stands before the remarks and empty lines in front of
 /// the record.
 fn line_of(text: &str, place: &::csv::Position) -> u64 {

@@ -8,6 +8,7 @@ use std::path::Path;
 use miette::Diagnostic;
 use quantity::{Kind, System as Units};
 use report::csv;
+use report::parquet::{Cell, Content, ParquetColumn, Storage, TableWriter};
 use report::table::{ResultTable, TableError};
 use study::case::builtin;
 use study::result::RunResult;
@@ -374,7 +375,7 @@ fn columns_that_are_not_there_are_guessed() {
 #[test]
 fn issue_048_tables_of_others_in_any_unit() {
     let text = "time_ms,wedge_z_mm,vertical_wedge_force [kN],wedge_pitch_deg,speed \
-    [km/h],rate_kN_per_mm,least_min\n\
+                [km/h],rate_kN_per_mm,least_min\n\
                 0,1.5,2,180,36,0.5,7\n500,2.5,3,90,72,0.25,8\n";
     let table = parse(text).unwrap();
     assert_eq!((table.units, table.times()), (Units::Si, &[0.0, 0.5][..]));
@@ -409,4 +410,28 @@ fn issue_048_tables_of_others_in_any_unit() {
         &["wedge_z_mm", "SI", "pull_kip"],
     );
     says("time_s,level [kN^5]\n0,1\n", &["a quantity that no column has"]);
+}
+
+/// Columns of a Parquet file in other units are converted as those of a CSV file are.
+#[test]
+fn issue_048_parquet_tables_of_others_in_any_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("other.parquet");
+    let column = |name: &str| ParquetColumn {
+        name: name.to_owned(),
+        unit: String::new(),
+        text: String::new(),
+        content: Content::Number,
+    };
+    let columns = ["time_ms", "wedge_z_mm", "pull [kN]"].map(column).to_vec();
+    let mut table =
+        TableWriter::new(fs::File::create(&file).unwrap(), columns, Storage::Values, &[]).unwrap();
+    for row in [[0.0, 1.5, 2.0], [500.0, 2.5, 3.0]] {
+        table.row(row.into_iter().map(Cell::Number)).unwrap();
+    }
+    table.finish().unwrap();
+    let table = ResultTable::read(&file).unwrap();
+    assert_eq!((table.units, table.times()), (Units::Si, &[0.0, 0.5][..]));
+    assert_eq!(table.column("wedge_z").unwrap().si(), [1.5e-3, 2.5e-3]);
+    assert_eq!(table.column("pull").unwrap().si(), [2000.0, 3000.0]);
 }
