@@ -50,8 +50,7 @@ impl Parameters {
     }
 
     /// Returns how the car tips with its center of gravity outside of the trucks or of the side bearings;
-    /// none
-    /// if it lies between them.
+    /// none if it lies between them.
     #[must_use]
     pub fn tips_over(&self) -> Option<Tipping> {
         let center = self.center_of_gravity();
@@ -160,9 +159,8 @@ impl fmt::Display for Tipping {
             f,
             "the car tips to the {side}: the center of gravity of body and lading is {} to the {side} of the \
              middle and {height} above the rails; leaning by {:.1} deg, where the coils of one side are \
-             solid, \
-             it lies {outside} {} the side bearings, which are {distance} from the middle{}; lower the \
-             lading, or move it towards the middle",
+             solid, it lies {outside} {} the side bearings, which are {distance} from the middle{}; lower \
+             the lading, or move it towards the middle",
             Length(left.abs()),
             lean.to_degrees(),
             if self.outside >= 0.0 { "outside" } else { "inside" },

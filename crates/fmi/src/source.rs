@@ -80,8 +80,7 @@ impl Source {
     }
 
     /// Returns name and bytes of the files that say what it is made of: the case or run first, then the
-    /// profiles and
-    /// measured tables of a car.
+    /// profiles and measured tables of a car.
     ///
     /// # Errors
     /// A profile or a table can no longer be read.

@@ -249,7 +249,7 @@ fn issue_048_an_fmu_takes_profiles_and_measured_track_along() {
                  \"usual\"\nform = \"space_curve\"\n";
     std::fs::write(beside.join("line.toml"), track).unwrap();
     let text = "model = \"car\"\nwheels.profile = \"My wheel.PRW\"\ntrack.file = \
-    \"tracks/line.toml\"\nsimulation.duration = \"5 s\"\n";
+                \"tracks/line.toml\"\nsimulation.duration = \"5 s\"\n";
     let own = CarCase::parse("case.toml", text, folder.path(), &[]).unwrap();
     let description = Description::new(&Source::Car(Box::new(own))).unwrap();
     let names: Vec<&str> = description.files.iter().map(|(name, _)| name.as_str()).collect();

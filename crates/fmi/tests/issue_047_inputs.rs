@@ -498,10 +498,9 @@ fn issue_048_steps_that_take_much_work_are_warned_of() {
 #[test]
 fn issue_047_a_car_that_derails_is_warned_of_once() {
     let text = "model = \"car\"\nstart.settle = \"0 s\"\ntrack.support.kind = \"rigid\"\n\
-                speed.value = \"100 mph\"\nsimulation.duration = \"3 s\"\n[[track.segments]]\ntangent = \
-                \"200 ft\"\n\
-                [[track.segments]]\nspiral = \"60 ft\"\n[[track.segments]]\ncurve = \"600 ft\"\ndegree = \
-                \"20 deg\"\n";
+                speed.value = \"100 mph\"\nsimulation.duration = \"3 s\"\n\
+                [[track.segments]]\ntangent = \"200 ft\"\n[[track.segments]]\nspiral = \"60 ft\"\n\
+                [[track.segments]]\ncurve = \"600 ft\"\ndegree = \"20 deg\"\n";
     let case = CarCase::parse("case.toml", text, Tables::nowhere(), &[]).unwrap();
     let mut part = Part::of(Source::Car(Box::new(case)), Interface::CoSimulation).begin();
     for _ in 0..150 {

@@ -176,12 +176,11 @@ impl FileType {
             Self::Results => format!("`wedgelab compare` and `wedgelab plot {path}` take it"),
             Self::MeasuredTrack => format!(
                 "write a track file with [[irregularities]], table = \"{path}\" and form = \"space_curve\" \
-                or \
-                 \"mid_chord\"; `wedgelab track show` takes that file"
+                 or \"mid_chord\"; `wedgelab track show` takes that file"
             ),
             Self::Profile => format!(
                 "`wedgelab wheelrail check` takes it; in a case, write wheels.profile = \"{path}\" or \
-                rails.profile"
+                 rails.profile"
             ),
             Self::Certificate => {
                 "`wedgelab certify CAR --against DIR` takes the folder that it lies in".to_owned()
@@ -262,12 +261,6 @@ fn toml_type<'t>(lines: impl Iterator<Item = &'t str>) -> Option<FileType> {
         "[simulation]",
     ];
     const STUDY: [&str; 3] = ["[vary]", "[[variants]]", "[set]"];
-    const TRACK: [&str; 4] = [
-        "[[segments]]",
-        "[[grades]]",
-        "[[irregularities]]",
-        "[center_line]",
-    ];
     let mut found = None;
     // Before the first section.
     let mut top = true;
@@ -277,10 +270,9 @@ fn toml_type<'t>(lines: impl Iterator<Item = &'t str>) -> Option<FileType> {
         let is_section = line.starts_with('[');
         top &= !is_section;
         let own = match key.trim_matches(['[', ']']) {
-            _ if TRACK.contains(&line) => Some(FileType::Track),
             "limits" => Some(FileType::Limits),
             "conditions" => Some(FileType::Conditions),
-            "segments" => Some(FileType::Track),
+            "segments" | "grades" | "irregularities" | "center_line" => Some(FileType::Track),
             "looks_at" | "speeds" | "distance" | "settle" => Some(FileType::Regime),
             _ => None,
         };

@@ -15,9 +15,9 @@ use crate::shortened;
 /// use input::{CellError, Separated};
 ///
 /// let mut table = Separated::of("distance [m]; profile [mm]");
-/// let numbers: Result<Vec<f64>, CellError> = table.cells("0,25; -1,5").map(|cell|
-/// table.number(cell)).collect();
-/// assert_eq!(numbers, Ok(vec![0.25, -1.5]));
+/// for (cell, number) in table.cells("0,25; -1,5").zip([0.25, -1.5]) {
+///     assert_eq!(table.number(cell), Ok(number));
+/// }
 /// assert_eq!(table.number(""), Err(CellError::Gap));
 /// assert!(matches!(table.number("0.5"), Err(CellError::TwoDecimalSigns { .. })));
 /// ```

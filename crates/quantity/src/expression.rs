@@ -54,8 +54,7 @@ impl Unit {
     }
 
     /// Returns the system of units that it belongs to: none where both have it (`s`, `deg`), or where units
-    /// of both
-    /// are multiplied (`lbf/mm`).
+    /// of both are multiplied (`lbf/mm`).
     pub const fn system(self) -> Option<System> {
         self.system
     }

@@ -1,10 +1,12 @@
 //! Runs in parts: all parts together are the whole run, in every column of every model, wherever it is cut.
 #![allow(missing_docs, clippy::unwrap_used)]
 
+#[path = "common/wheelsets.rs"]
+mod wheelsets;
+
 use std::fmt::Debug;
 
 use rolling::rig::RigStart;
-use rolling::wheelset::WheelsetBody;
 use serde::Serialize;
 use serde_json::{Value, json};
 use study::car::run::CarCounts;
@@ -14,14 +16,9 @@ use study::half_truck::catalog::entries;
 use study::half_truck::files::Settings;
 use study::result::RunResult;
 use study::run::{Recorder, Run, RunCase, RunState};
-use study::track::TrackFile;
 use study::truck;
-use study::wheelset::{SearchMode, Wheelset, WheelsetCase};
-use wheelrail::contact::CreepLaw;
-use wheelrail::creep::polach;
-use wheelrail::hertz::Material;
-use wheelrail::profile::nominal;
-use wheelrail::wheelset::Layout;
+use study::wheelset::{Wheelset, WheelsetCase};
+use wheelsets::wheelset;
 
 /// A fixed sequence of numbers between zero and one, another one for each name.
 struct Sequence(u64);
@@ -169,45 +166,14 @@ fn issue_047_parts_of_half_trucks_are_the_whole() {
 
 #[test]
 fn issue_047_parts_of_a_wheelset_are_the_whole() {
-    let track = "[[segments]]\ntangent = \"100 ft\"\n";
-    let track = TrackFile::parse("straight.toml", track).unwrap();
     let wheelset = Wheelset {
-        name: "wheelset".to_owned(),
-        wheel: nominal::aar_1b().unwrap(),
-        rail: nominal::rail_136re().unwrap().inclined(nominal::INCLINATION),
-        radius: 0.4572,
-        layout: Layout {
-            tape_distance: 1.504_16,
-            gauge: 1.4351,
-            gauge_depth: nominal::GAUGE_DEPTH,
-        },
-        material: Material {
-            youngs_modulus: 207e9,
-            poisson: 0.28,
-        },
-        track,
-        body: WheelsetBody {
-            mass: 1250.0,
-            about_axle: 150.0,
-            about_diameter: 700.0,
-        },
-        axle_load: 2e5,
-        speed: 15.0,
-        stiffness: [2e6, 2e6],
-        damping: [2e4, 2e3],
-        friction: 0.4,
-        creep: CreepLaw::Polach(polach::DRY),
-        search: SearchMode::Search,
         start: RigStart {
             distance: 2.0,
             lateral: 0.003,
             ..RigStart::default()
         },
         duration: Some(0.304),
-        interval: 0.005,
-        relative_tolerance: 1e-5,
-        units: quantity::System::Si,
-        given: Default::default(),
+        ..wheelset("[[segments]]\ntangent = \"100 ft\"\n", 15.0)
     };
     check("wheelset", &WheelsetCase::new(wheelset).unwrap(), &[0.31, 0.7]);
 }

@@ -1,64 +1,17 @@
 //! Runs of a wheelset: rows against the balance of forces, derailments, refusals.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
-use std::collections::BTreeMap;
+#[path = "common/wheelsets.rs"]
+mod wheelsets;
 
-use quantity::System as Units;
-use rolling::rig::RigStart;
-use rolling::wheelset::WheelsetBody;
 use study::run::Run;
 use study::summary::RunSummary;
-use study::track::TrackFile;
 use study::wheelset::run::WheelsetResult;
-use study::wheelset::{SearchMode, Wheelset, WheelsetCase};
-use wheelrail::contact::CreepLaw;
-use wheelrail::creep::polach;
-use wheelrail::hertz::Material;
-use wheelrail::profile::nominal;
-use wheelrail::wheelset::Layout;
+use study::wheelset::{Wheelset, WheelsetCase};
+use wheelsets::wheelset;
 
 const INCH: f64 = 0.0254;
 const GRAVITY: f64 = 9.806_65;
-
-fn wheelset(track: &str, speed: f64) -> Wheelset {
-    Wheelset {
-        name: "test".to_owned(),
-        wheel: nominal::aar_1b().unwrap(),
-        rail: nominal::rail_136re().unwrap().inclined(nominal::INCLINATION),
-        radius: 18.0 * INCH,
-        layout: Layout {
-            tape_distance: 59.21875 * INCH,
-            gauge: 56.5 * INCH,
-            gauge_depth: nominal::GAUGE_DEPTH,
-        },
-        material: Material {
-            youngs_modulus: 207e9,
-            poisson: 0.28,
-        },
-        track: TrackFile::parse("track.toml", track).unwrap(),
-        body: WheelsetBody {
-            mass: 1250.0,
-            about_axle: 150.0,
-            about_diameter: 700.0,
-        },
-        axle_load: 290e3,
-        speed,
-        stiffness: [2e6, 2e6],
-        damping: [2e4, 2e3],
-        friction: 0.4,
-        creep: CreepLaw::Polach(polach::DRY),
-        search: SearchMode::Search,
-        start: RigStart {
-            distance: 2.0,
-            ..RigStart::default()
-        },
-        duration: None,
-        interval: 0.005,
-        relative_tolerance: 1e-5,
-        units: Units::Si,
-        given: BTreeMap::new(),
-    }
-}
 
 fn run(wheelset: Wheelset) -> WheelsetResult {
     let case = WheelsetCase::new(wheelset).unwrap();

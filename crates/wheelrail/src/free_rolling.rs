@@ -21,9 +21,8 @@ const STEPS: usize = 80;
 
 impl RigidWheelset {
     /// Returns the pitch rate (rad/s, negative forward) at which the wheelset rolls freely: the forces of
-    /// both
-    /// rails, each wheel under its vertical load (N), make no torque about the axle. The pitch rate of the
-    /// attitude does not count.
+    /// both rails, each wheel under its vertical load (N), make no torque about the axle. The pitch rate of
+    /// the attitude does not count.
     ///
     /// Without friction, or off both rails, every spin is free: it is then the speed over the nominal radius.
     ///

@@ -150,8 +150,7 @@ fn wave(rows: impl Iterator<Item = u32>, cell: impl Fn(u32, f64) -> String) -> S
 }
 
 /// Four rows without a number, or not there at all, are those of the wave to a thousandth of its amplitude,
-/// and are
-/// told; the same table with decimal commas is the same to the last bit.
+/// and are told; the same table with decimal commas is the same to the last bit.
 #[test]
 fn issue_048_gaps_are_filled_by_the_spline_and_counted() {
     let whole = wave(0..1600, |_, value| value.to_string());
@@ -191,8 +190,7 @@ fn issue_048_gaps_are_filled_by_the_spline_and_counted() {
 }
 
 /// A gap that is longer than stated, and rows without a number at an end of the table, are refused where the
-/// column is
-/// used; a table of unequal distances has no missing rows.
+/// column is used; a table of unequal distances has no missing rows.
 #[test]
 fn issue_048_long_gaps_and_open_ends_are_refused() {
     let text = wave(0..400, |k, value| match k {

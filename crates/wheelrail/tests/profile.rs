@@ -302,15 +302,12 @@ fn input_simpack_profiles_of_the_manchester_benchmark() {
     assert!(exchanged.remedy().contains("exchange"));
 }
 
-/// The keys of Simpack that change points, in the order of their numbers.
-/// Comments of Simpack stand between points, too, behind `%` as behind `!`; decimal commas are read where
-/// commas
+/// Comments of Simpack stand between points, too, behind `%` as behind `!`; decimal commas are read where commas
 /// separate nothing, and noticed where they do.
 #[test]
 fn issue_048_comments_and_decimal_commas_of_points() {
     let bare = "header.begin\n type = 0\nheader.end\nspline.begin\n units.len.f = 1000.\n point.begin\n \
-    -1.5 0.1\n \
-                0. 0.0\n 1.5 0.1\n point.end\nspline.end\n";
+                -1.5 0.1\n 0. 0.0\n 1.5 0.1\n point.end\nspline.end\n";
     let commented = bare
         .replace(" 0. 0.0", "% top = 0\n 0. 0.0 % the top")
         .replace(" point.end", "! last\n point.end");
@@ -335,6 +332,7 @@ fn issue_048_comments_and_decimal_commas_of_points() {
     }
 }
 
+/// The keys of Simpack that change points, in the order of their numbers.
 #[test]
 fn input_simpack_keys_are_applied() {
     let text = "header.begin\n type = 0 ! rail\nheader.end\nspline.begin\n \

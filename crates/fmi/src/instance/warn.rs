@@ -12,8 +12,7 @@ use crate::watch::{contradiction, too_fast};
 use crate::{Category, Severity};
 
 /// Attempted steps in one call, and in a second of its time, above which a call is said to take much work:
-/// fifty times
-/// what wedges and cars of ordinary cases take, and seconds of computing for a car.
+/// fifty times what wedges and cars of ordinary cases take, and seconds of computing for a car.
 const EFFORT: [f64; 2] = [5_000.0, 50_000.0];
 
 /// The kinds of warnings.
@@ -106,10 +105,8 @@ impl Instance {
             self.warn_once(Warned::Effort, || {
                 format!(
                     "the step of {} s to {} s took {attempts} steps of the integrator, where ordinary \
-                    motion takes some \
-                     {} a second: calls like this may compute for minutes; look for inputs that jump or \
-                     chatter, and \
-                     for a tolerance that is too small",
+                     motion takes some {} a second: calls like this may compute for minutes; look for \
+                     inputs that jump or chatter, and for a tolerance that is too small",
                     SixDigits(length),
                     SixDigits(time),
                     per_second / 50.0

@@ -3,6 +3,7 @@
 use study::case::builtin;
 use study::run::Run;
 
+use super::run_states::advanced;
 use super::{ReadOutcome, Reader, cases};
 
 /// Beginnings of runs.
@@ -14,9 +15,6 @@ pub const BEGINNINGS: Reader = Reader {
     read: begin,
 };
 
-/// Steps of the integrator that are made.
-const STEPS: usize = 3;
-
 fn begin(input: &[u8]) -> ReadOutcome {
     let Ok(text) = std::str::from_utf8(input) else {
         return ReadOutcome::NO_TEXT;
@@ -26,22 +24,8 @@ fn begin(input: &[u8]) -> ReadOutcome {
     let Ok(case) = builtin::case_with("vdrun_toe_out_0.2_psi_0.012", &set) else {
         return ReadOutcome::NO_TEXT;
     };
-    let mut run = match Run::new(&case) {
-        Ok(run) => run,
-        Err(error) => return ReadOutcome::refused_with(&error.to_string()),
-    };
-    let mut all = ReadOutcome::ACCEPTED;
-    for _ in 0..STEPS {
-        if run.is_finished() {
-            break;
-        }
-        if let Err(error) = run.advance() {
-            all = all.or(ReadOutcome::refused_with(&error.to_string()));
-            break;
-        }
+    match Run::new(&case) {
+        Ok(run) => advanced(run, |_| ()),
+        Err(error) => ReadOutcome::refused_with(&error.to_string()),
     }
-    let result = run.result(None);
-    let mut values = result.values.iter().flatten();
-    assert!(values.all(|value| value.is_finite()), "not finite: in a row");
-    all
 }

@@ -9,7 +9,7 @@ use study::run::{Recorder, Run, RunCase, saved};
 use super::states::DICTIONARY;
 use super::{ReadOutcome, Reader, models, refused_as_written};
 
-/// Steps that are made from a state.
+/// Steps of the integrator that are made from a state, or from the start.
 const STEPS: usize = 3;
 
 /// The reader of the saved states of a model: its name, what it is about, and its case.
@@ -76,10 +76,17 @@ where
         Ok(state) => state,
         Err(error) => return ReadOutcome::refused(&error),
     };
-    let mut run = match Run::resume(case, state) {
-        Ok(run) => run,
-        Err(error) => return ReadOutcome::refused_with(&error.to_string()),
-    };
+    match Run::resume(case, state) {
+        Ok(run) => advanced(run, |run| saved_again(case, run)),
+        Err(error) => ReadOutcome::refused_with(&error.to_string()),
+    }
+}
+
+/// Makes a few steps; `unless_stopped` looks at the run that made them. Its rows are finite.
+pub(super) fn advanced<C, S>(mut run: Run<C>, unless_stopped: impl FnOnce(&Run<C>)) -> ReadOutcome
+where
+    C: RunCase<Output = RunResult<S>>,
+{
     let mut all = ReadOutcome::ACCEPTED;
     for _ in 0..STEPS {
         if run.is_finished() {
@@ -91,7 +98,7 @@ where
         }
     }
     if all.message == 0 {
-        saved_again(case, &run);
+        unless_stopped(&run);
     }
     let result = run.result(None);
     let mut values = result.values.iter().flatten();

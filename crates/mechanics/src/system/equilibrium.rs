@@ -38,8 +38,7 @@ pub const NEARLY_AT_REST: f64 = 1e-4;
 
 impl NoEquilibrium {
     /// Returns the state that came nearest to rest, if it is nearly at rest: see [`NEARLY_AT_REST`].
-    /// `gravity`
-    /// in m/s².
+    /// `gravity` in m/s².
     #[must_use]
     pub fn nearly_at_rest(&self, gravity: f64) -> Option<&[f64]> {
         let scale = if gravity.abs() > 0.0 { gravity.abs() } else { 1.0 };

@@ -1,10 +1,8 @@
 //! Names of columns: what, then unit.
 //!
 //! Units are those that results are written with (`force_lbf`, `force_N`), and every other one of the table
-//! of units,
-//! at the end of the name (`force_kN`, `stiffness_kN_per_mm`) or in brackets (`force [kN]`): such columns
-//! are converted
-//! to the system of units of the table.
+//! of units, at the end of the name (`force_kN`, `stiffness_kN_per_mm`) or in brackets (`force [kN]`): such
+//! columns are converted to the system of units of the table.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -238,8 +236,7 @@ fn understand(
 }
 
 /// Returns the name and the unit of a column whose unit, longer than `longest` bytes at the end of its name,
-/// is one of
-/// the table of units; none if there is no such unit.
+/// is one of the table of units; none if there is no such unit.
 fn other_unit(cell: &str, longest: usize) -> Option<(&str, Unit)> {
     if let Some((base, unit)) = cell.split_once(['[', '(']) {
         let unit = unit.trim_end_matches([']', ')']);

@@ -158,15 +158,11 @@ impl Columns {
                 let name = format!("body_at_truck_{}_{direction}_acceleration", end + 1);
                 let text = [
                     "of the car body over the truck's center, at car.accelerometer_height (that of the \
-                    center \
-                     plate, about 30 in above the rails, if left out), as an accelerometer shows it along \
-                     the \
-                     body's left: with gravity's part by roll and superelevation",
+                     center plate, about 30 in above the rails, if left out), as an accelerometer shows it \
+                     along the body's left: with gravity's part by roll and superelevation",
                     "of the car body over the truck's center, at car.accelerometer_height (that of the \
-                    center \
-                     plate, about 30 in above the rails, if left out), as an accelerometer shows it along \
-                     the \
-                     body's up, less gravity",
+                     center plate, about 30 in above the rails, if left out), as an accelerometer shows it \
+                     along the body's up, less gravity",
                 ][k];
                 own.add(name, Kind::RideAcceleration, BODY, text, move |seen| {
                     let own = &seen.loads.ends[end];

@@ -172,7 +172,7 @@ pub(super) fn body(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
         &mut parameters.accelerometer_height,
         "\"30 in\"",
         "of the accelerometers over the truck centers, above the top of rail; left out: that of the center \
-        plate",
+         plate",
     );
     let gravity: QuantityForm = (
         Kind::Acceleration,

@@ -38,11 +38,11 @@ use car::Parameters;
 use crate::case::field::FieldSection;
 use crate::case::model::{Model, model};
 use crate::case::problem::{Problem, Problems};
+use crate::case::tables::NamedFile;
 use crate::case::tree::TableNode;
 use crate::case::{self, CaseError, Simulation, Tables, name};
 use crate::output_files::OutputFiles;
 use crate::reader::{CaseReader, CaseText};
-pub(crate) use packed::NamedFile;
 use statistics::Rules;
 
 /// The case of a car, ready to run.

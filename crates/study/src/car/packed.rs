@@ -6,24 +6,13 @@ use std::path::{Path, PathBuf};
 use super::CarCase;
 use crate::case::field::quoted;
 use crate::case::problem::TomlSource;
+use crate::case::tables::NamedFile;
 use crate::case::tree::{self, NodeValue, TableEntry};
-
-/// A file that a case names.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct NamedFile {
-    /// The key that names it: `wheels.profile`, `rails.profile`, or `table` of a track.
-    pub key: &'static str,
-    /// Its name as typed.
-    pub typed: String,
-    /// The place where it was read.
-    pub path: PathBuf,
-}
 
 impl CarCase {
     /// Returns the text of the case in which profiles and measured tables are named `files/...`, and these
-    /// files: their
-    /// names from the folder of the case, and the places where they lie. A case that names no files is
-    /// [`CarCase::to_toml_embedded`]. What is packed once more has the same names.
+    /// files: their names from the folder of the case, and the places where they lie. A case that names no
+    /// files is [`CarCase::to_toml_embedded`]. What is packed once more has the same names.
     #[must_use]
     pub fn packed(&self) -> (String, Vec<(String, PathBuf)>) {
         let mut text = self.to_toml_embedded().to_owned();

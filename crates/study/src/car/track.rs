@@ -81,8 +81,7 @@ fn meaning(key: &str) -> &'static str {
         "segments" => "one after the other: tangent, spiral, curve",
         "irregularities" => {
             "shapes, spectra, measured tables; `start` is the distance of the lowest point of the first \
-            joint, \
-             and of the beginning of a sine, dip or jog"
+             joint, and of the beginning of a sine, dip or jog"
         }
         "support" => "what the rails lie on: rigid or sprung",
         "name" => "of the track",
@@ -91,8 +90,7 @@ fn meaning(key: &str) -> &'static str {
 }
 
 /// Reads a track file; measured tables that it names are looked for from its folder. Of one that must not be
-/// quoted,
-/// messages tell the place and the kind of a mistake.
+/// quoted, messages tell the place and the kind of a mistake.
 fn from_file(r: &mut CaseReader<'_>, file: &str) -> Option<(TableNode, ReadTrack)> {
     let tables = r.tables();
     let mut found = Problems::new();

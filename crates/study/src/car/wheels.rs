@@ -13,10 +13,10 @@ use wheelrail::hertz::Material;
 use wheelrail::profile::{Profile, ProfileError, ProfileKind, nominal};
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
-use super::NamedFile;
 use crate::case::field::{Reach, Written};
 use crate::case::problem::Problem;
 use crate::case::section::{Names, Range};
+use crate::case::tables::NamedFile;
 use crate::reader::{CaseReader, LENGTH, QuantityForm};
 
 const INCH: f64 = 0.0254;

@@ -31,6 +31,17 @@ pub(crate) struct Refused {
     pub help: &'static str,
 }
 
+/// A file that a case names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct NamedFile {
+    /// The key that names it: `wheels.profile`, `rails.profile`, or `table` of a track.
+    pub key: &'static str,
+    /// Its name as typed.
+    pub typed: String,
+    /// The place where it was read.
+    pub path: PathBuf,
+}
+
 impl<'a> Tables<'a> {
     /// Every file that the program's user may read; names are taken from `folder`.
     #[must_use]

@@ -14,11 +14,11 @@ pub(crate) use text::CaseText;
 
 use quantity::Kind;
 
-use crate::car::NamedFile;
 use crate::case::field::{Reach, Written};
 use crate::case::model::{MODELS, Model};
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Range};
+use crate::case::tables::NamedFile;
 use crate::case::tree::{NodeValue, TableNode, TreeNode};
 use crate::case::write::Page;
 use crate::case::{Tables, motion, name};

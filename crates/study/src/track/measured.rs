@@ -4,10 +4,10 @@ use wheelrail::track::{CenterLine, Form, LONGEST_GAP, MeasuredError, MeasuredTab
 
 use super::irregularity::named;
 use super::{Notes, length, optional_length};
-use crate::car::NamedFile;
 use crate::case::Tables;
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Names};
+use crate::case::tables::NamedFile;
 
 const FORMS: [&str; 2] = ["space_curve", "mid_chord"];
 const SIGNS: Names<bool> = &[("row", false), ("usual", true)];

@@ -40,7 +40,7 @@ use crate::case::section::{CaseSection, Names, Range};
 use crate::case::tree::{self, NodeValue, TableNode, TreeNode};
 use crate::case::{CaseDocument, CaseError, STUDY_KEYS, Tables, name, text_of_file};
 
-use crate::car::NamedFile;
+use crate::case::tables::NamedFile;
 
 use irregularity::irregularity;
 pub use support::Support;

@@ -154,8 +154,7 @@ pub(super) fn realized(
             needed if needed <= MOST_TERMS as f64 => format!("write terms = {needed:.0} or more"),
             needed => format!(
                 "{needed:.0} terms would be needed, and {MOST_TERMS} are the most: shorten the track, or \
-                write a larger \
-                 shortest"
+                 write a larger shortest"
             ),
         });
         problems.push(match &section.place {

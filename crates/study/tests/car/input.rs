@@ -330,9 +330,8 @@ fn input_length_of_a_track_counts_the_speeds_over_distance() {
     assert!(slowing(1080.0).is_ok());
 }
 
-/// Of files that a case names, a program that serves others tells the name as typed, the line and the kind
-/// of a
-/// mistake: no content, no folder.
+/// Of files that a case names, a program that serves others tells the name as typed, the line and the kind of
+/// a mistake: no content, no folder.
 #[test]
 fn issue_048_profiles_and_tracks_are_not_quoted_to_others() {
     let folder = tempfile::tempdir().unwrap();
@@ -363,8 +362,7 @@ fn issue_048_profiles_and_tracks_are_not_quoted_to_others() {
         std::fs::write(case.join(name), text).unwrap();
     }
     let track = "segments = [{ tangent = \"500 ft\" }]\nirregularities = [{ form = \"space_curve\", signs = \
-    \"usual\", \
-                 table = ";
+                 \"usual\", table = ";
     let texts = [
         ("wheels.profile = \"points.csv\"", "points.csv, line 3"),
         ("rails.profile = \"shape.csv\"", "shape.csv"),

@@ -30,8 +30,7 @@ enum Command {
     /// and track.png.
     ///
     /// The `start` of joints is the distance of the first joint's lowest point: the rail falls towards it
-    /// from
-    /// half a spacing before. The `start` of a sine, dip or jog is that of its beginning.
+    /// from half a spacing before. The `start` of a sine, dip or jog is that of its beginning.
     Show {
         /// Track file
         track: PathBuf,

@@ -12,13 +12,12 @@
 //! | `z_down` | down |
 //!
 //! Other columns are left aside. Commas, semicolons and tabs separate; numbers have decimal points, or
-//! decimal
-//! commas between semicolons and tabs.
+//! decimal commas between semicolons and tabs.
 //!
 //! **Simpack.** `!` and `%` begin comments, between points too. Of the keys, the unit factor, shifts,
-//! rotation, bounds and mirroring are applied in the order
-//! of their numbers in the file; approximations and weights are not. y is then positive to the field side (to
-//! the right, on the right side of the track) and z down.
+//! rotation, bounds and mirroring are applied in the order of their numbers in the file; approximations and
+//! weights are not. y is then positive to the field side (to the right, on the right side of the track) and z
+//! down.
 
 use std::path::Path;
 

@@ -1,12 +1,9 @@
 //! Gaps of a recording, filled by the natural cubic spline through what was measured.
 //!
 //! Optics of measuring cars drop out at low speed or in dirt: cells without a number, or rows that are not
-//! there.
-//! A spline across a gap of length g knows nothing of waves shorter than 2 g. Gaps are filled up to a length
-//! that
-//! the user may state; [`LONGEST_GAP`] otherwise, half of the shortest wavelength that EN 13848-1 asks for
-//! (3 m,
-//! remembered) to the next foot.
+//! there. A spline across a gap of length g knows nothing of waves shorter than 2 g. Gaps are filled up to a
+//! length that the user may state; [`LONGEST_GAP`] otherwise, half of the shortest wavelength that EN 13848-1
+//! asks for (3 m, remembered) to the next foot.
 
 use std::fmt;
 
@@ -80,8 +77,7 @@ pub(super) fn missing_rows(distances: &[f64]) -> Vec<Gap> {
 }
 
 /// Fills the rows of a column that are NaN and returns where they were. Rows before the first number and
-/// after the
-/// last one stay NaN.
+/// after the last one stay NaN.
 pub(super) fn fill(column: &'static str, distances: &[f64], values: &mut [f64]) -> Vec<Gap> {
     if values.iter().all(|value| value.is_finite()) {
         return Vec::new();

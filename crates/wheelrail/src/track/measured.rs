@@ -16,11 +16,9 @@
 //! | `grade` | rise by the distance | `up`, `down` |
 //!
 //! Other columns are left aside. Numbers have decimal points, or decimal commas between semicolons and tabs.
-//! Cells
-//! without a number, and rows that a regular recording lacks, are gaps: see [`Gap`]. Irregularities are
-//! **space curves**: the rail's own offset from its nominal
-//! place. Mid-chord offsets are none, and are taken only where the caller states chord and wavelengths; see
-//! [`chord::invert`].
+//! Cells without a number, and rows that a regular recording lacks, are gaps: see [`Gap`]. Irregularities are
+//! **space curves**: the rail's own offset from its nominal place. Mid-chord offsets are none, and are taken
+//! only where the caller states chord and wavelengths; see [`chord::invert`].
 
 use std::path::Path;
 
@@ -139,13 +137,11 @@ impl MeasuredError {
                                       = \"35 ft\", longest = \"370 ft\""
                 .to_owned(),
             Self::Gap { .. } => "measure the gap, or state the length up to which the spline is to fill \
-            gaps, \
-                                 such as gaps = \"20 ft\": waves shorter than twice that length are lost in \
-                                 it"
-            .to_owned(),
+                                 gaps, such as gaps = \"20 ft\": waves shorter than twice that length are \
+                                 lost in it"
+                .to_owned(),
             Self::End { .. } => "leave these rows out: a table may end before the track (beyond = \
-            \"level\") and \
-                                 begin later (start)"
+                                 \"level\") and begin later (start)"
                 .to_owned(),
             Self::Missing { .. } => "docs/wheelrail.md lists the columns".to_owned(),
             Self::Chord(_) => "state other wavelengths, or give space curves".to_owned(),

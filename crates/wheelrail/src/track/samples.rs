@@ -103,8 +103,7 @@ impl Samples {
 }
 
 /// Returns value, slope and second derivative at a place within one piece of a spline: places, values and
-/// second
-/// derivatives of its ends.
+/// second derivatives of its ends.
 pub(super) fn piece([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], [m0, m1]: [f64; 2], at: f64) -> [f64; 3] {
     let h = x1 - x0;
     let (a, b) = ((x1 - at) / h, (at - x0) / h);

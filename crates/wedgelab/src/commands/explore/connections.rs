@@ -1,10 +1,8 @@
 //! Connections: taken one by one, served within time limits, ended in peace.
 //!
 //! Everybody on the machine can connect, but only who has the token can hold a seat. A connection is a
-//! stranger
-//! until a request with the token has come over it; of more strangers than [`limits::STRANGERS`] the oldest
-//! is sent
-//! away.
+//! stranger until a request with the token has come over it; of more strangers than [`limits::STRANGERS`] the
+//! oldest is sent away.
 
 use std::collections::VecDeque;
 use std::pin::pin;

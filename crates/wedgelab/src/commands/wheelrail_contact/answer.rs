@@ -165,8 +165,7 @@ impl AnswerUnits {
                     out,
                     "The {side} wheel has climbed: it stands on the tip of its flange, above the flange's \
                      face; its center, at y = {y:.place$} {unit},\nis {height:.size$} {unit} above the top \
-                     of \
-                     its rail."
+                     of its rail."
                 )?,
                 Seat::RimEdge => writeln!(
                     out,
@@ -176,8 +175,7 @@ impl AnswerUnits {
                 Seat::OffRail => writeln!(
                     out,
                     "The {side} wheel is off its rail: its tape circle is at y = {y:.place$} {unit}. It \
-                    carries \
-                     nothing."
+                     carries nothing."
                 )?,
             }
         }
