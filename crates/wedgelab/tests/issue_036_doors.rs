@@ -449,7 +449,7 @@ fn issue_048_files_in_wrong_places_are_recognized() {
         ("limits.toml", &["certify", car, "--limits"], &[]),
         ("conditions.toml", &["certify", car, "--conditions"], &[]),
         ("wheel.csv", &["wheelrail", "check"], &["136re"]),
-        ("", &["plot"], &[]),
+        ("", &["plot"], &["--x", "time", "--y", "distance"]),
     ];
     for (own, before, after) in doors {
         for (file, what, advice) in files.iter().filter(|(file, ..)| *file != own) {
