@@ -32,22 +32,19 @@ function start(): void {
   });
   document.querySelector("header")?.after(button);
 
-  // Texts and drawings first: views are made when all else is there.
-  let there = document.readyState === "complete";
-  const later: (() => void)[] = [];
-  addEventListener("load", () => {
-    there = true;
-    for (const make of later) {
+  // Texts and drawings first: views are made when all else is there. A page that was packed may be loaded
+  // before it is unpacked and begins here.
+  const later = (make: () => void): void => {
+    if (document.readyState === "complete") {
       setTimeout(make);
+    } else {
+      addEventListener("load", () => setTimeout(make), { once: true });
     }
-  });
+  };
 
   for (const fold of document.querySelectorAll<HTMLDetailsElement>("details[data-run]")) {
     let view: RunView | undefined;
     const follow = (): void => {
-      if (!there) {
-        return;
-      }
       if (fold.open && !view) {
         const run = data.run(fold.dataset.run ?? "");
         if (run) {
@@ -60,16 +57,17 @@ function start(): void {
         view = undefined;
       }
     };
-    fold.addEventListener("toggle", follow);
-    follow();
-    later.push(follow);
+    later(() => {
+      fold.addEventListener("toggle", follow);
+      follow();
+    });
   }
 
   // What a page opens with.
   for (const place of document.querySelectorAll<HTMLElement>("[data-shown]")) {
     const run = data.run(place.dataset.shown ?? "");
     if (run) {
-      later.push(() => place.append(new RunView(run, units, switchUnits, undefined, data.others(run)).root));
+      later(() => place.append(new RunView(run, units, switchUnits, undefined, data.others(run)).root));
     }
   }
 

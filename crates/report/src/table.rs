@@ -5,7 +5,7 @@
 //! in any order; a name without a known unit is a pure number. Lines that begin with `#` and empty lines do
 //! not count.
 //!
-//! Parquet files ([`result_parquet`](crate::result_parquet)) are read with the same names.
+//! Parquet files ([`result_parquet`]) are read with the same names.
 //!
 //! Numbers are kept as written, so that nothing is lost; [`TableColumn::si`] and [`TableColumn::in_units`]
 //! convert. Those in other units than results are written with (`force_kN`, `speed [km/h]`) are converted

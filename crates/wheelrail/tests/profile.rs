@@ -302,8 +302,8 @@ fn input_simpack_profiles_of_the_manchester_benchmark() {
     assert!(exchanged.remedy().contains("exchange"));
 }
 
-/// Comments of Simpack stand between points, too, behind `%` as behind `!`; decimal commas are read where commas
-/// separate nothing, and noticed where they do.
+/// Comments of Simpack stand between points, too, behind `%` as behind `!`; decimal commas are read where
+/// commas separate nothing, and noticed where they do.
 #[test]
 fn issue_048_comments_and_decimal_commas_of_points() {
     let bare = "header.begin\n type = 0\nheader.end\nspline.begin\n units.len.f = 1000.\n point.begin\n \

@@ -33,8 +33,9 @@ pub enum SteppingError {
     Input(#[from] InputError),
     /// A step that is no step.
     #[error(
-        "a step of {step} s from time {time} s is none: it must be positive, finite, and not lost against \
-         the time"
+        "a step of {} s from time {} s is none: it must be positive, finite, and not lost against the time",
+        Number(*step),
+        Number(*time)
     )]
     NoStep {
         /// The step, s.

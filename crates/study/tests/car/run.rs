@@ -337,7 +337,8 @@ fn limits_massless_wedges_run_in_a_curve() {
 #[test]
 fn issue_048_a_start_that_is_nearly_at_rest_is_a_warning() {
     let lading = "lading.kind = \"masses\"\nlading.masses = [{ weight = \"200 kip\", place = [\"280 in\", \
-                  \"20 in\", \"150 in\"], inertia = [\"1e6 lbf in s^2\", \"1e6 lbf in s^2\", \"1e6 lbf in s^2\"] }]\n\
+                  \"20 in\", \"150 in\"], \
+                  inertia = [\"1e6 lbf in s^2\", \"1e6 lbf in s^2\", \"1e6 lbf in s^2\"] }]\n\
                   simulation.duration = \"0.02 s\"";
     let summary = run(&case(lading)).summary;
     let warnings = summary.warnings.join("\n");
