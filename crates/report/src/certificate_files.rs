@@ -139,7 +139,7 @@ fn rows<'c>(
             Cell::Integer(run.run as i64),
             text(&certificate.regimes[run.regime].name),
             text(&certificate.conditions[run.condition].name),
-            Cell::Number(run.speed_si * Kind::TravelSpeed.from_si(Units::Us)),
+            Cell::Number(csv::rounded(run.speed_si * Kind::TravelSpeed.from_si(Units::Us))),
             text(run.status),
         ];
         let checks: Vec<Vec<Cell<'c>>> = match run.checks.as_slice() {

@@ -183,6 +183,11 @@ impl<'w> RowWriter<'w> {
         self
     }
 
+    /// Adds a number without the errors of a conversion: to twelve digits.
+    pub fn plain(&mut self, number: f64) -> &mut Self {
+        self.shown(rounded(number))
+    }
+
     /// Adds a number as it is displayed, or an empty cell where it is not finite.
     pub fn finite(&mut self, number: f64) -> &mut Self {
         match number.is_finite() {

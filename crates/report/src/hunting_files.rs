@@ -56,7 +56,7 @@ pub fn write_table(found: &Hunting, units: Units, out: &mut dyn Write) -> io::Re
     for (name, ramp) in ramps(found) {
         for point in &ramp.points {
             table.text(name).shown(point.time);
-            table.shown(rounded(point.speed * Kind::TravelSpeed.from_si(units)));
+            table.plain(point.speed * Kind::TravelSpeed.from_si(units));
             for own in point.axles {
                 table.shown(own * Kind::Length.from_si(units));
             }
@@ -107,7 +107,7 @@ fn outcome(ramp: &Ramp, units: Units) -> Outcome {
     let largest = ramp.points.iter().map(Point::amplitude).fold(0.0, f64::max);
     Outcome {
         hunting,
-        speed: speed.map(|own| own * Kind::TravelSpeed.from_si(units)),
+        speed: speed.map(|own| rounded(own * Kind::TravelSpeed.from_si(units))),
         largest_amplitude: largest * Kind::Length.from_si(units),
     }
 }
@@ -130,7 +130,7 @@ pub fn write_numbers(
     units: Units,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let speed = |si: f64| si * Kind::TravelSpeed.from_si(units);
+    let speed = |si: f64| rounded(si * Kind::TravelSpeed.from_si(units));
     let [stuck, absent] = linear(stability);
     let warnings = ramps(found).into_iter().flat_map(|(name, ramp)| {
         let own = ramp.warnings.iter();
@@ -144,7 +144,7 @@ pub fn write_numbers(
         speeds: found.settings.speeds.map(speed),
         ramp_s: found.settings.ramp,
         length_unit: Kind::Length.label(units),
-        threshold: found.settings.threshold * Kind::Length.from_si(units),
+        threshold: rounded(found.settings.threshold * Kind::Length.from_si(units)),
         falling: outcome(&found.falling, units),
         rising: found.rising.as_ref().map(|ramp| outcome(ramp, units)),
         linear_stuck: stuck.map(speed),

@@ -60,10 +60,10 @@ pub fn write_table(map: &LockUpMap, units: Units, out: &mut dyn Write) -> io::Re
     table.end()?;
     let points = map.values[1].len();
     for (place, cell) in map.cells.iter().enumerate() {
-        table.shown(map.values[0][place / points] * first.unit(units).1);
-        table.shown(map.values[1][place % points] * second.unit(units).1);
-        table.shown(cell.closing_angle.to_degrees());
-        table.shown(cell.margin.to_degrees());
+        table.plain(map.values[0][place / points] * first.unit(units).1);
+        table.plain(map.values[1][place % points] * second.unit(units).1);
+        table.plain(cell.closing_angle.to_degrees());
+        table.plain(cell.margin.to_degrees());
         table.text(cell.found.name());
         table
             .finite(cell.holding[0])

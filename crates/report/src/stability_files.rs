@@ -47,7 +47,7 @@ pub fn write_table(found: &Stability, units: Units, out: &mut dyn Write) -> io::
                 let angular_frequency = 2.0 * std::f64::consts::PI * mode.frequency;
                 let ratio = -mode.growth / libm::hypot(mode.growth, angular_frequency);
                 table
-                    .shown(rounded(speed * Kind::TravelSpeed.from_si(units)))
+                    .plain(speed * Kind::TravelSpeed.from_si(units))
                     .text(name(branch));
                 table
                     .shown(mode.growth)

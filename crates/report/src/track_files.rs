@@ -180,24 +180,24 @@ impl<'t> Survey<'t> {
         table.end()?;
         for row in &self.rows {
             let station = self.track.center_line.at(row.distance);
-            table.shown(row.distance / FOOT);
+            table.plain(row.distance / FOOT);
             for own in station.position {
-                table.shown(own / FOOT);
+                table.plain(own / FOOT);
             }
-            table.shown(station.heading).shown(station.curvature[0] * FOOT);
+            table.shown(station.heading).plain(station.curvature[0] * FOOT);
             table
-                .shown(degree(station.curvature[0]))
-                .shown(station.superelevation[0] / INCH);
+                .plain(degree(station.curvature[0]))
+                .plain(station.superelevation[0] / INCH);
             table.shown(station.grade);
             for measured in MeasuredTrack::ALL {
-                table.shown(measured.of(&row.rails) / INCH);
+                table.plain(measured.of(&row.rails) / INCH);
             }
             let [left, right] = &row.rails;
             let cross_level = station.superelevation[0] + right.vertical[0] - left.vertical[0];
             let gauge = left.lateral[0] - right.lateral[0];
-            table.shown(cross_level / INCH).shown(gauge / INCH);
+            table.plain(cross_level / INCH).plain(gauge / INCH);
             for offset in row.offsets.iter().flatten() {
-                table.shown(offset / INCH);
+                table.plain(offset / INCH);
             }
             table.end()?;
         }

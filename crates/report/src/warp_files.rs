@@ -96,7 +96,7 @@ pub fn write_loops(tests: &[Tested], out: &mut dyn Write) -> io::Result<()> {
         columns.extend(PARTS.map(|(name, ..)| column(&format!("warp_moment_{name}"))));
         let (times, angles) = (column("time"), column("warp_angle"));
         for row in test.curve.rows.clone() {
-            table.text(&test.label).shown(times[row]).shown(angles[row]);
+            table.text(&test.label).plain(times[row]).plain(angles[row]);
             for column in &columns {
                 table.shown(converted(column[row], Kind::Moment, Units::Us));
             }

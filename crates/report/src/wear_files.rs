@@ -127,7 +127,7 @@ pub fn write_course(history: &WearHistory, out: &mut dyn Write) -> io::Result<()
     }
     table.end()?;
     for state in &history.states {
-        table.shown(state.cycles);
+        table.plain(state.cycles);
         for (_, kind, of) in &numbers {
             table.shown(match kind {
                 Some(kind) => converted(of(state), *kind, units),
@@ -165,9 +165,9 @@ pub fn write_points(history: &WearHistory, out: &mut dyn Write) -> io::Result<()
             points.sort_by_key(|(_, point)| (point.row, point.column));
             for (i, point) in points {
                 let (up, across) = rectangles[number].distances(&point);
-                table.shown(state.cycles).text(name).shown(point.number());
+                table.plain(state.cycles).text(name).shown(point.number());
                 for length in [up, across, own.depths[i]] {
-                    table.shown(converted(length, Kind::Length, units));
+                    table.plain(converted(length, Kind::Length, units));
                 }
                 table
                     .shown(converted(own.pressures[i], Kind::Pressure, units))
@@ -214,7 +214,7 @@ fn write_map<'m>(
     table.end()?;
     for point in map.flat_map(DepthMap::points) {
         for value in point {
-            table.shown(converted(value, Kind::Length, units));
+            table.plain(converted(value, Kind::Length, units));
         }
         table.end()?;
     }

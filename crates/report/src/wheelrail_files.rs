@@ -34,7 +34,7 @@ pub fn write(positions: &[RigidPosition], out: &mut dyn Write) -> io::Result<()>
     for position in positions {
         let [left, right] = position.contact_angles();
         let [a, b] = &position.touches;
-        table.shown(position.shift / INCH);
+        table.plain(position.shift / INCH);
         table.shown(position.rolling_radius_difference() / INCH);
         table.shown(left).shown(right).shown(position.roll);
         for place in [a.profile, b.profile, a.place[1], b.place[1]] {

@@ -7,6 +7,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
+import { parts } from "./seen.mjs";
 
 const program = process.env.WEDGELAB;
 const skip = program ? false : "WEDGELAB names the program";
@@ -92,12 +93,15 @@ async function at(time) {
   return { row, said, places: JSON.parse(said.places) };
 }
 
-test("the page opens in 2 s, without complaints and without network", { skip }, async (t) => {
+// How long it takes depends on the machine, and is only told; what makes it long is counted.
+test("the page opens with bounded size, without complaints and without network", { skip }, async (t) => {
   const megabytes = statSync(join(folder, "run", "index.html")).size / 1e6;
-  t.diagnostic(`opens in ${opened.toFixed(0)} ms; ${megabytes.toFixed(1)} MB`);
+  const { elements, canvases } = await parts(page);
+  t.diagnostic(`opens in ${opened.toFixed(0)} ms; ${megabytes.toFixed(1)} MB, ${elements} elements, ${canvases} canvases`);
   assert.deepEqual(faults, []);
-  assert.ok(opened <= 2000, `${opened} ms`);
-  assert.ok(megabytes <= 6, `${megabytes} MB`);
+  assert.ok(megabytes <= 3, `${megabytes} MB`);
+  assert.ok(elements <= 3_000, `${elements} elements`);
+  assert.ok(canvases <= 4, `${canvases} canvases`);
 });
 
 test("the car is followed, and its trucks and wheelsets are where the table says", { skip }, async () => {

@@ -24,6 +24,10 @@ export const tooWide = (page) =>
     return found.slice(0, 8);
   });
 
+/** What a page consists of, which is what a browser is busy with. */
+export const parts = (page) =>
+  page.evaluate(() => ({ elements: document.querySelectorAll("*").length, canvases: document.querySelectorAll("canvas").length }));
+
 /** Texts whose contrast with what is behind them is below WCAG AA. */
 export const faint = (page) =>
   page.evaluate(() => {

@@ -167,7 +167,7 @@ impl Certificate {
         let measures = self.study.measures();
         let measured = |name: &str| measures.get(&record.measures, name);
         let derailed = measured("derailed").is_some_and(|own| own > 0.5);
-        let note = match (derailed, measured("end_distance")) {
+        let mut note = match (derailed, measured("end_distance")) {
             (true, Some(at)) => {
                 let feet = at * Kind::Distance.from_si(quantity::System::Us);
                 let also = if record.reason.is_empty() { "" } else { "; " };
@@ -181,9 +181,9 @@ impl Certificate {
         };
         let place = |limit: &Limit| limit.is_for(&regime);
         let limits = self.limits.limits.iter().enumerate();
+        let closes = measured("ledger_residual").is_none_or(|own| Verdict::of(own) != Verdict::Failed);
+        let usable = record.status == Status::Complete || record.status == Status::Derailed && closes;
         let checks = limits.filter(|(_, limit)| place(limit)).map(|(number, limit)| {
-            let closes = measured("ledger_residual").is_none_or(|own| Verdict::of(own) != Verdict::Failed);
-            let usable = record.status == Status::Complete || record.status == Status::Derailed && closes;
             let found = measured(limit.measure.name).filter(|_| usable);
             let value = found.map(|own| limit.in_unit(own));
             KeptLimit {
@@ -192,6 +192,17 @@ impl Certificate {
                 margin: value.map(|own| limit.margin(own)),
             }
         });
+        let checks: Vec<KeptLimit> = checks.collect();
+        let without = checks.iter().filter(|own| usable && own.value.is_none());
+        let without: Vec<&str> = without.map(|own| &*self.limits.limits[own.limit].name).collect();
+        if !without.is_empty() {
+            let also = if note.is_empty() { "" } else { "; " };
+            note += &format!(
+                "{also}no filtered value of {}: rows are too far apart for the filter \
+                 (simulation.output_interval), or the run is too short",
+                without.join(", ")
+            );
+        }
         Assessed {
             run: record.number,
             regime: self
@@ -209,7 +220,7 @@ impl Certificate {
             status: if derailed { Status::Derailed } else { record.status }.name(),
             note,
             derailed,
-            checks: checks.collect(),
+            checks,
             measures: record.measures.0.clone(),
         }
     }

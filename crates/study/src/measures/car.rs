@@ -100,7 +100,11 @@ fn wedges() -> impl Iterator<Item = String> {
 
 fn measures(result: &CarResult) -> Measures {
     let summary = &result.summary;
-    let worst = WORST.iter().map(|own| own.of(&summary.statistics));
+    // What limits compare is filtered: where rows are too far apart for that, there is no number.
+    let worst = WORST.iter().map(|own| {
+        let found = own.of(&summary.statistics);
+        found.filter(|found| found.filtered || !own.is_filtered())
+    });
     let mut values: Vec<f64> = worst
         .map(|found| found.map_or(f64::NAN, |own| own.value.value))
         .collect();

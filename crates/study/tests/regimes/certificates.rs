@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use quantity::Quantity;
+use study::any_case::AnyCase;
 use study::car::certificate::{Certificate, Request, verdicts, worst_run};
 use study::car::conditions::{self, Condition};
 use study::car::limits::{Bound, LimitSet};
@@ -79,6 +80,37 @@ fn input_all_that_is_built_in_can_be_read() {
             panic!("{:?}: {:?}", certificate.study.values(number), error.problems());
         }
     }
+}
+
+/// Limits are for filtered values: where rows are too far apart for the filter there is no number, the limit is
+/// neither kept nor exceeded, and the run says what to do.
+#[test]
+fn issue_048_raw_values_keep_no_limit() {
+    let certificate = Certificate::new(&request(&["twist_and_roll"])).unwrap();
+    let measured = |interval: &str, name: &str| {
+        let settings = ["simulation.duration=\"2 s\"", "start.settle=\"0.5 s\"", interval];
+        let case = AnyCase::built_in("car_twist_and_roll_loaded", &settings.map(str::to_owned));
+        let measures = case.unwrap().unwrap().judge().unwrap().measures;
+        certificate.study.measures().get(&measures, name)
+    };
+    let close = "simulation.output_interval=\"0.01 s\"";
+    let far = "simulation.output_interval=\"0.5 s\"";
+    assert!(measured(close, "least_load_time").is_some());
+    assert_eq!(measured(far, "least_load_time"), None);
+    assert!(measured(far, "body_roll_peak_to_peak").is_some());
+
+    let record = record(&certificate, 0, &[("least_load_time", f64::NAN)]);
+    let run = certificate.assess(&certificate.study.values(0), &record);
+    let says = "no filtered value of least_wheel_load: rows are too far apart";
+    assert!(run.note.starts_with(says), "{}", run.note);
+    let found = verdicts(&[run]);
+    let word = |name: &str| {
+        let own = found
+            .iter()
+            .find(|own| certificate.limits.limits[own.limit].name == name);
+        own.unwrap().word()
+    };
+    assert_eq!([word("least_wheel_load"), word("body_roll")], ["unknown", "kept"]);
 }
 
 /// A limit lowered by hand turns its row; margins are parts of the limit.
