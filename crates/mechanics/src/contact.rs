@@ -20,7 +20,7 @@ use numerics::scalar::{Number, Real};
 
 pub(crate) use blocks::Points;
 pub(crate) use curved::CurvedMotion;
-pub use interface::{Interface, Sliding};
+pub use interface::{FrictionDirections, Interface, Sliding};
 pub(crate) use motion::PlaneMotion;
 
 use crate::friction::{Friction, FrictionLaw, bristle, tanh};
@@ -284,6 +284,7 @@ impl ContactFace<Interface> {
         slip: [S; 2],
         deflection: [S; 2],
     ) -> Friction<S> {
+        let slip = self.surface.seen(slip);
         let plain = normal * self.coefficient;
         let limit = self.surface.limit(plain, properties, normal, slip);
         let share = properties.share;

@@ -1,6 +1,7 @@
 //! The assumptions of a run in words.
 
 use mechanics::coil::{CoilLaw, CoilLine};
+use mechanics::contact::FrictionDirections;
 use mechanics::friction::FrictionLaw;
 use mechanics::surface::SurfaceProfile;
 use wedge::Wedge;
@@ -55,7 +56,19 @@ pub fn of(wedge: &Wedge) -> Vec<String> {
     ];
     for (name, friction, face) in faces {
         list.push(friction_assumption(name, &face.friction(friction)));
+        if face.friction_directions == FrictionDirections::One {
+            list.push(format!(
+                "Friction at the {name} acts along the face's line of travel alone, one tangent as in the \
+                 thesis's equations: nothing holds a corner across."
+            ));
+        }
         list.extend(of_face(name, face));
+    }
+    if p.toe_pivot != 0.0 {
+        list.push(format!(
+            "Toe turns the column about a point {:.4} in above the middle of the wedge's face.",
+            p.toe_pivot / INCH
+        ));
     }
     list.push(match p.start {
         Start::Rest => "The run starts at rest in the nominal position, whatever penetrates: with toe or \

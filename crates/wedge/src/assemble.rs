@@ -3,6 +3,7 @@
 //! Nominal position: the wedge frame's origin B at (0, 0, L) with L the nominal coil length; with no toe and
 //! no yaw both faces just touch.
 //! - Column: plane through (x_A, 0, L + h2/2), normal (cos φ, 0, -sin φ) for toe-out φ.
+//!   With the toe's pivot p above that point it passes through (x_A - p sin φ, 0, L + h2/2 + p (1 - cos φ)).
 //! - Slope: plane through the pocket's center (x_A + h1/2, 0, L + h2/2), normal (-cos θ, 0, -sin θ) in the
 //!   bolster's axes. The bolster turns about that center unless another is named.
 //! - Worn faces: column and slope lie deeper by the depth of wear, along their normals.
@@ -204,7 +205,10 @@ fn model(parameters: &Parameters, shifts: [f64; 2]) -> Model {
     let worn_slope = along(parameters.wear.slope, PI - wedge.angle);
     let column_marker = Marker::new(
         sub(
-            sub([face_x - shifts[0], 0.0, middle], worn_column),
+            sub(
+                sub([face_x - shifts[0], 0.0, middle], turned(parameters)),
+                worn_column,
+            ),
             side_frame_origin,
         ),
         [0.0, parameters.toe, 0.0],
@@ -261,6 +265,17 @@ fn neighbour(name: &str, motion: &NeighbourMotion, center: [f64; 3]) -> (Body, [
         motions: motion.coordinates.clone(),
     };
     (Body::prescribed(name, frame), origin)
+}
+
+/// Returns by how much toe moves the middle of the column where it turns about another point: from there to
+/// where it was; nothing for nothing, to the last bit.
+fn turned(parameters: &Parameters) -> [f64; 3] {
+    let pivot = parameters.toe_pivot;
+    if pivot == 0.0 {
+        return [0.0; 3];
+    }
+    let (sin, cos) = libm::sincos(parameters.toe);
+    [pivot * sin, 0.0, -pivot * (1.0 - cos)]
 }
 
 /// Returns a length along the normal of a surface that is pitched by this angle; nothing for nothing, to the

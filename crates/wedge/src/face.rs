@@ -6,7 +6,7 @@
 mod depth_map;
 mod grid;
 
-use mechanics::contact::{ContactPoint, Interface, Sliding};
+use mechanics::contact::{ContactPoint, FrictionDirections, Interface, Sliding};
 use mechanics::friction::FrictionLaw;
 use mechanics::surface::{ProfileDirection, SurfaceProfile, SurfaceShape};
 use mechanics::vector::Vector;
@@ -37,6 +37,9 @@ pub struct FaceProperties {
     /// Load of the face at which its coefficients are half of those without load, N; without one they do not
     /// depend on the load.
     pub friction_half_load: Option<f64>,
+    /// The directions in which friction acts: on both tangents of the face, or along its line of travel
+    /// alone.
+    pub friction_directions: FrictionDirections,
     /// Factors of the coefficients over the face; empty: 1 everywhere.
     pub friction_map: FrictionMap,
     /// A resilient pad.
@@ -58,6 +61,7 @@ impl Default for FaceProperties {
             sliding_friction: None,
             stribeck_speed: STRIBECK_SPEED,
             friction_half_load: None,
+            friction_directions: FrictionDirections::Two,
             friction_map: FrictionMap::new(),
             pad: None,
         }
@@ -262,6 +266,7 @@ impl FaceProperties {
                 },
                 half_load: self.friction_half_load.unwrap_or(f64::INFINITY),
             },
+            directions: self.friction_directions,
             friction_factors: factors,
             hardening: self.pad.and_then(|pad| pad.hardening),
         }

@@ -160,6 +160,10 @@ pub struct Parameters {
     pub slope_face: FaceProperties,
     /// Toe angle of the column, rad; positive is toe out.
     pub toe: f64,
+    /// Height of the point about which toe turns the column, above the middle of the wedge's vertical face in
+    /// its nominal position, m.
+    #[serde(default)]
+    pub toe_pivot: f64,
     /// Motion of the side frame.
     pub side_frame: NeighbourMotion,
     /// Motion of the bolster.
@@ -236,6 +240,12 @@ impl Parameters {
             self.toe,
             self.toe.abs() < 0.25 * angle.1,
             "below 22.5°",
+        )?;
+        check(
+            "side_frame.toe_pivot",
+            self.toe_pivot,
+            self.toe_pivot.abs() < 1.0,
+            "less than 1 m (39.4 in) above or below the middle of the face",
         )?;
         not_negative("environment.gravity", self.gravity)
     }

@@ -68,6 +68,7 @@ pub fn parameters(damping: Damping, toe: f64, yaw: f64) -> Parameters {
         column_face: FaceProperties::default(),
         slope_face: FaceProperties::default(),
         toe,
+        toe_pivot: 0.0,
         side_frame: NeighbourMotion::fixed(),
         bolster,
         gravity: STANDARD_GRAVITY,

@@ -15,6 +15,10 @@
 //! Units: N, m, s. Defects: the limit follows the speed at once (no memory, no lag); with bristles |v| is the
 //! speed of the point, of which a part deflects the bristle. With tanh a peak at rest is seen only if v_s is
 //! well above the law's reference speed.
+//!
+//! Friction acts against the whole slip ([`FrictionDirections::Two`]), or along the surface's second tangent
+//! alone ([`FrictionDirections::One`]): the law then sees no slip across. Defect of the latter: nothing holds
+//! a point across; a bristle does not deflect there.
 
 use numerics::scalar::Number;
 use serde::{Deserialize, Serialize};
@@ -35,6 +39,18 @@ pub struct Sliding {
     pub half_load: f64,
 }
 
+/// The directions in which friction acts on a face.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FrictionDirections {
+    /// Against the slip, in the plane of the face.
+    #[default]
+    Two,
+    /// Along the second tangent of the surface, on a wedge's faces its line of travel: one tangent a face, as
+    /// in Steets 2007, eqs. 3-8, 3-10 and 3-15.
+    One,
+}
+
 impl Default for Sliding {
     fn default() -> Self {
         Self {
@@ -52,6 +68,8 @@ pub struct Interface {
     pub shape: SurfaceShape,
     /// The dependence of friction on slip speed and load; the coefficient of the face is that of rest.
     pub sliding: Sliding,
+    /// The directions in which friction acts.
+    pub directions: FrictionDirections,
     /// A factor of the coefficient for each point; empty: 1 for all.
     pub friction_factors: Vec<f64>,
     /// Compression at which a pad's normal force is twice that of a linear spring, m.
@@ -62,7 +80,10 @@ impl Interface {
     /// Returns whether the laws of force differ from those of a plain face.
     #[must_use]
     pub fn is_refined(&self) -> bool {
-        self.sliding != Sliding::default() || !self.friction_factors.is_empty() || self.hardening.is_some()
+        self.sliding != Sliding::default()
+            || self.directions != FrictionDirections::default()
+            || !self.friction_factors.is_empty()
+            || self.hardening.is_some()
     }
 
     /// Returns the elastic normal force at a gap below zero, N.
@@ -80,6 +101,15 @@ impl Interface {
         match self.hardening {
             Some(at) => linear * (1.0 + 0.5 * gap * gap / (at * at)),
             None => linear,
+        }
+    }
+
+    /// Returns the slip that the law of friction sees.
+    #[inline(always)]
+    pub(crate) fn seen<S: Number>(&self, slip: [S; 2]) -> [S; 2] {
+        match self.directions {
+            FrictionDirections::Two => slip,
+            FrictionDirections::One => [S::zero(), slip[1]],
         }
     }
 

@@ -224,6 +224,7 @@ impl System {
             face.points.motions(|i, gap, slip| {
                 functions.values[own.start + i] = gap;
                 let closed = if gap < 0.0 { scale } else { f64::NAN };
+                let slip = face.element.surface.seen(slip);
                 functions.slips[own.start + i] = slip.map(|part| part * closed);
             });
         }
@@ -335,7 +336,8 @@ impl System {
     /// Writes the creep speed of each contact point at a state, m/s: the speed of irrecoverable sliding, in
     /// any contact state.
     ///
-    /// With tanh this is the slip speed, with the bristle the slip speed less the rate of the bristle.
+    /// With tanh this is the slip speed, with the bristle the slip speed less the rate of the bristle; where
+    /// friction acts along one tangent alone, along that.
     pub fn creep_speeds(&mut self, time: f64, x: &[f64], speeds: &mut [f64]) {
         self.update_kinematics(time, x);
         let [_, _, internal, _] = self.layout.split(x);
@@ -344,7 +346,8 @@ impl System {
             let relative: RelativeMotion<f64> = face.relative_frame.relative(&self.kinematics[face.body]);
             let deflections = &internal[face.first_internal..][..face.internal_count];
             face.element.evaluate(&relative, deflections, |point, contact| {
-                let [a, b] = [0, 1].map(|k| contact.slip[k] - contact.friction.rate[k]);
+                let slip = face.element.surface.seen(contact.slip);
+                let [a, b] = [0, 1].map(|k| slip[k] - contact.friction.rate[k]);
                 target[point] = if contact.normal > 0.0 {
                     (a * a + b * b).sqrt()
                 } else {

@@ -11,7 +11,7 @@ use compare::{Counts, by_differences, check_matrix, compare};
 use mechanics::body::Body;
 use mechanics::characteristic::Characteristic;
 use mechanics::coil::CoilLaw;
-use mechanics::contact::{Interface, Sliding};
+use mechanics::contact::{FrictionDirections, Interface, Sliding};
 use mechanics::depth_surface::DepthSurface;
 use mechanics::frame::Frame;
 use mechanics::friction::FrictionLaw;
@@ -379,8 +379,9 @@ fn on_curved_surfaces() {
 
 #[test]
 fn with_refined_laws() {
-    let refined = |factors: Vec<f64>, shape: SurfaceShape| Interface {
+    let refined = |factors: Vec<f64>, shape: SurfaceShape, directions| Interface {
         shape,
+        directions,
         sliding: Sliding {
             ratio: 0.6,
             stribeck_speed: 0.9,
@@ -389,16 +390,19 @@ fn with_refined_laws() {
         friction_factors: factors,
         hardening: Some(0.4),
     };
-    for (law, shape) in [
-        (TANH, SurfaceShape::default()),
-        (BRISTLE, SurfaceShape::default()),
-        (BRISTLE, curved()[0].clone()),
+    let (one, two) = (FrictionDirections::One, FrictionDirections::Two);
+    for (law, shape, directions) in [
+        (TANH, SurfaceShape::default(), two),
+        (BRISTLE, SurfaceShape::default(), two),
+        (BRISTLE, curved()[0].clone(), two),
+        (TANH, SurfaceShape::default(), one),
+        (BRISTLE, curved()[0].clone(), one),
     ] {
         let mut model = one_on_prescribed(ALL, law, 10.0, moving(true), [0.0; 6]);
         model
             .interfaces
-            .push((0, refined(vec![1.0, 0.7, 1.3, 0.4], shape.clone())));
-        model.interfaces.push((1, refined(Vec::new(), shape)));
+            .push((0, refined(vec![1.0, 0.7, 1.3, 0.4], shape.clone(), directions)));
+        model.interfaces.push((1, refined(Vec::new(), shape, directions)));
         let counts = compare(&model, 800, 8, [0.25, 0.6, 0.05]);
         assert!(counts.open > 5 && counts.closed > 5);
         assert!(law == TANH || counts.slip > 1);

@@ -2,7 +2,7 @@
 
 use crate::common::{Ledger, Random, coil, ground, integrate, norm, options, over, rates};
 use integrate::Method;
-use mechanics::contact::{Interface, Sliding};
+use mechanics::contact::{FrictionDirections, Interface, Sliding};
 use mechanics::depth_surface::DepthSurface;
 use mechanics::friction::FrictionLaw;
 use mechanics::link::Marker;
@@ -330,6 +330,7 @@ fn energy_closes_on_crowns_with_refined_friction() {
             stribeck_speed: 0.1,
             half_load: 3000.0,
         },
+        directions: FrictionDirections::One,
         friction_factors: (0..15).map(|i| 0.7 + 0.05 * f64::from(i)).collect(),
         hardening: Some(2e-4),
     };

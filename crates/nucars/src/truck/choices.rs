@@ -1,6 +1,7 @@
 //! Choices that the files leave open.
 
 use mechanics::connection::Options;
+use mechanics::contact::FrictionDirections;
 use serde::{Deserialize, Serialize};
 
 /// The shape BEND: from zero to the amplitude within its first coefficient, then held.
@@ -67,6 +68,8 @@ pub struct WedgeBody {
     pub contact_stiffness: Option<f64>,
     /// Damping of each corner's contact, N·s/m.
     pub contact_damping: Option<f64>,
+    /// The directions in which friction acts on a face.
+    pub friction_directions: Option<FrictionDirections>,
 }
 
 /// The choices.

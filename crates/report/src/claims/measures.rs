@@ -68,6 +68,13 @@ pub(super) fn least(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> 
     noted(run, "least ", quantity, when, least)
 }
 
+/// Greatest value below zero, as a size: negative where there is none.
+pub(super) fn deepest(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> f64 {
+    let (least, _) = least_and_greatest(&chosen(run, quantity, when));
+    noted(run, "least ", quantity, when, least);
+    -least
+}
+
 /// Greatest value.
 pub(super) fn greatest(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> f64 {
     let (_, most) = least_and_greatest(&chosen(run, quantity, when));
@@ -281,25 +288,20 @@ pub(super) fn first_time(run: ClaimView<'_>, so: When, when: When) -> f64 {
     )
 }
 
-/// Returns the largest pitch moment that the face's normal forces could give with all of them at one edge:
-/// peak longitudinal force times half the face's height.
-pub(super) fn pitch_limit(run: ClaimView<'_>) -> f64 {
-    edge_moment(run, "height", run.case().parameters.wedge.height)
-}
-
-/// Returns the largest yaw moment: peak longitudinal force times half the face's width.
+/// Returns the largest yaw moment that the face's normal forces could give with all of them at one edge: peak
+/// longitudinal force times half the face's width.
 pub(super) fn yaw_limit(run: ClaimView<'_>) -> f64 {
-    edge_moment(run, "width", run.case().parameters.wedge.width)
-}
-
-fn edge_moment(run: ClaimView<'_>, what: &str, extent: f64) -> f64 {
     let values = chosen(run, super::words::longitudinal_force, super::words::settled);
     let most = values.iter().fold(f64::NAN, |most, value| value.abs().max(most));
     let label = format!(
-        "peak longitudinal force times half the face's {what}, {}",
+        "peak longitudinal force times half the face's width, {}",
         run.name()
     );
-    run.note(label, 0.5 * extent * most, Kind::Moment)
+    run.note(
+        label,
+        0.5 * run.case().parameters.wedge.width * most,
+        Kind::Moment,
+    )
 }
 
 /// Amplitude of the bolster's vertical motion.

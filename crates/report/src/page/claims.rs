@@ -3,10 +3,73 @@
 use maud::{Markup, html};
 
 use super::sensitivity::extent;
-use crate::claims::{ClaimGroup, ClaimRow, ClaimVerdict, Claims, ShownValue};
-use crate::sensitivity::Sensitivity;
+use crate::claims::{CONTRADICTIONS, ClaimGroup, ClaimRow, ClaimVerdict, Claims, REQUIRED, ShownValue};
+use crate::sensitivity::{Extent, Sensitivity};
 
-/// Returns the tables, one a group; nothing without claims.
+/// Returns what she found and what holds: of the conclusions, and of what her wedge must show, the statements
+/// that hold over all that is open, or, without points of that, in these runs.
+pub(super) fn held(claims: &Claims, sensitivity: Option<&Sensitivity>) -> Markup {
+    if claims.claims.is_empty() {
+        return html! {};
+    }
+    let counts = |row: &&ClaimRow| {
+        let told = row.group == ClaimGroup::Conclusions || REQUIRED.contains(&row.id);
+        told && match sensitivity.and_then(|found| found.statement(row.id)) {
+            Some(statement) => matches!(statement.extent, Extent::Always | Extent::Mostly),
+            None => row.verdict == ClaimVerdict::Holds,
+        }
+    };
+    let how = match sensitivity {
+        Some(_) => "always or mostly, over all that the thesis leaves open",
+        None => "in these runs, with one choice of all that the thesis leaves open",
+    };
+    html! {
+        section {
+            h2 id="found" { "What she found, and what holds" }
+            p {
+                "Of her conclusions, and of what a wedge like hers must show, these hold " (how) ":"
+            }
+            ul {
+                @for row in claims.claims.iter().filter(counts) {
+                    li {
+                        a href={ "#claim-" (super::anchor(row.id)) } { (row.statement) }
+                        " (" (row.place) ")"
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Returns what contradicts itself.
+pub(super) fn contradictions(claims: &Claims) -> Markup {
+    if claims.claims.is_empty() {
+        return html! {};
+    }
+    html! {
+        section {
+            h2 id="contradicts" { "Where the thesis contradicts itself" }
+            div.wide {
+                table {
+                    thead {
+                        tr {
+                            th scope="col" { "where" }
+                            th scope="col" { "what it says" }
+                            th scope="col" { "here" }
+                        }
+                    }
+                    tbody {
+                        @for own in CONTRADICTIONS {
+                            tr { td { (own.places) } td { (own.says) } td { (own.here) } }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Returns the tables, one a group, folded; nothing without claims.
 pub(super) fn tables(claims: &Claims, sensitivity: Option<&Sensitivity>) -> Markup {
     if claims.claims.is_empty() {
         return html! {};
@@ -58,42 +121,44 @@ pub(super) fn tables(claims: &Claims, sensitivity: Option<&Sensitivity>) -> Mark
 
 fn table(group: ClaimGroup, rows: &[&ClaimRow], sensitivity: Option<&Sensitivity>) -> Markup {
     html! {
-        h3 { (group.title()) }
-        div.wide {
-            table {
-                thead {
-                    tr {
-                        th scope="col" { "where" }
-                        th scope="col" { "statement" }
-                        th scope="col" { "predicate" }
-                        @if sensitivity.is_some() { th scope="col" { "over what is open" } }
-                        th scope="col" { "found, as decided" }
-                        th scope="col" { "verdict, as decided" }
+        details {
+            summary { (group.title()) ": " (counted(rows)) }
+            div.wide {
+                table {
+                    thead {
+                        tr {
+                            th scope="col" { "where" }
+                            th scope="col" { "statement" }
+                            th scope="col" { "predicate" }
+                            @if sensitivity.is_some() { th scope="col" { "over what is open" } }
+                            th scope="col" { "found, as decided" }
+                            th scope="col" { "verdict, as decided" }
+                        }
                     }
-                }
-                tbody {
-                    @for row in rows {
-                        tr id={ "claim-" (super::anchor(row.id)) } {
-                            td { (row.place) }
-                            td { (row.statement) }
-                            td {
-                                (row.predicate)
-                                @if !row.code.is_empty() { br; code { (row.code) } }
-                            }
-                            @if let Some(found) = sensitivity {
+                    tbody {
+                        @for row in rows {
+                            tr id={ "claim-" (super::anchor(row.id)) } {
+                                td { (row.place) }
+                                td { (row.statement) }
                                 td {
-                                    @if let Some(statement) = found.statement(row.id) { (extent(statement)) }
+                                    (row.predicate)
+                                    @if !row.code.is_empty() { br; code { (row.code) } }
                                 }
-                            }
-                            td {
-                                @for (number, value) in row.values.iter().enumerate() {
-                                    @if number > 0 { br; }
-                                    (value.label) ":\u{a0}" (shown(value))
+                                @if let Some(found) = sensitivity {
+                                    td {
+                                        @if let Some(own) = found.statement(row.id) { (extent(own)) }
+                                    }
                                 }
-                            }
-                            td {
-                                span class={ "verdict " (class(row.verdict)) } { (row.verdict.words()) }
-                                @if !row.note.is_empty() { br; (row.note) }
+                                td {
+                                    @for (number, value) in row.values.iter().enumerate() {
+                                        @if number > 0 { br; }
+                                        (value.label) ":\u{a0}" (shown(value))
+                                    }
+                                }
+                                td {
+                                    span class={ "verdict " (class(row.verdict)) } { (row.verdict.words()) }
+                                    @if !row.note.is_empty() { br; (row.note) }
+                                }
                             }
                         }
                     }
@@ -101,6 +166,17 @@ fn table(group: ClaimGroup, rows: &[&ClaimRow], sensitivity: Option<&Sensitivity
             }
         }
     }
+}
+
+/// Returns how many hold, do not, and are undecided.
+fn counted(rows: &[&ClaimRow]) -> String {
+    let count = |verdict| rows.iter().filter(|row| row.verdict == verdict).count();
+    format!(
+        "{} hold, {} do not, {} cannot be decided",
+        count(ClaimVerdict::Holds),
+        count(ClaimVerdict::DoesNot),
+        count(ClaimVerdict::CannotBeDecided)
+    )
 }
 
 fn class(verdict: ClaimVerdict) -> &'static str {

@@ -120,10 +120,13 @@ pub fn render(contents: &Contents<'_>) -> String {
                     li { a href="#short" { "In short" } }
                 }
                 @if !contents.outcomes.is_empty() { li { a href="#runs" { "Runs" } } }
+                @if !contents.claims.claims.is_empty() { li { a href="#found" { "What she found, and what \
+                holds" } } }
+                @if contents.sensitivity.is_some() { li { a href="#open" { "What the thesis leaves open" } } }
                 @if !contents.claims.claims.is_empty() {
+                    li { a href="#contradicts" { "Where the thesis contradicts itself" } }
                     li { a href="#claims" { "The thesis's statements, one by one" } }
                 }
-                @if contents.sensitivity.is_some() { li { a href="#open" { "What the thesis leaves open" } } }
                 @if contents.comparison.is_some() { li { a href="#agreement" { "How far the models \
                                                                                 agree" } } }
                 @for section in &open { li { a href={ "#" (anchor(&section.id)) } { (section.title) } } }
@@ -137,8 +140,10 @@ pub fn render(contents: &Contents<'_>) -> String {
     let main = html! {
         (short::section(contents))
         (runs::table(contents.outcomes))
-        (claims::tables(contents.claims, contents.sensitivity))
+        (claims::held(contents.claims, contents.sensitivity))
         @if let Some(found) = contents.sensitivity { (sensitivity::section(found)) }
+        (claims::contradictions(contents.claims))
+        (claims::tables(contents.claims, contents.sensitivity))
         @if let Some(comparison) = &contents.comparison { (agreement::section(comparison)) }
         @for section in &open {
             section {

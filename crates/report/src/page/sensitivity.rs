@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::claims::{ClaimGroup, REQUIRED};
 use crate::figures::capital;
-use crate::sensitivity::{AXES, Extent, Mean, Sensitivity, Side, Split, Statement, Tally};
+use crate::sensitivity::{AXES, Extent, Mean, PairShown, Sensitivity, Side, Split, Statement, Tally};
 
 /// Returns a share in per cent; what is not all is never shown as all.
 fn percent(share: f64) -> String {
@@ -60,13 +60,15 @@ const DECIDES: &str = "A parameter decides if one cut of it (a range at a quarte
                        of two yes-or-no quantities, if the number of points times \u{3c6}\u{b2} is above 12.";
 
 /// The text about the axes.
-const AXES_OF_FIGURES: &str = "The thesis's curves stay within the axes of its figures, which begin at 0.1 \
-                               to 0.5 s. Where these runs do, after 0.5 s:";
+const AXES_OF_FIGURES: &str = "The scripts of appendix D limit the axes of some figures, for toe out only, \
+                               and the curves stay within them; figures begin at 0.1 to 0.5 s. Where these \
+                               runs do, after 0.5 s:";
 
 /// The text about runs with the other frictions.
-const FRICTION: &str = "The same points once more with another reference speed, and with bristles in place \
-                        of tanh: how many statements hold at a point, on average, and how many hold at half \
-                        of the points with one friction and not with the other.";
+const FRICTION: &str = "The same points once more with bristles in place of tanh, and with friction along \
+                        one tangent a face, as in eqs. 3-8, 3-10 and 3-15: how many statements hold at a \
+                        point, on average, and how many hold at half of the points with one friction and \
+                        not with the other.";
 
 /// Returns the rule for the stiffness.
 fn rule(found: &Sensitivity) -> String {
@@ -92,6 +94,7 @@ pub(super) fn section(found: &Sensitivity) -> Markup {
             p { (DECIDES) }
             (parameters(found))
             (groups(found))
+            (pairs(found))
             (axes(found))
             (frictions(found))
             (stiffness(found))
@@ -168,6 +171,61 @@ fn groups(found: &Sensitivity) -> Markup {
     }
 }
 
+/// The definition of a pair that decides.
+const PAIRS: &str = "Two parameters decide together where a cut of each tells better than any single cut, \
+                     and than chance would: where the number of points times \u{3b7}\u{b2} - \u{3c6}\u{b2} \
+                     is above 24, with \u{3b7}\u{b2} the share of the variance between the four quarters. \
+                     Shown is the statement that each pair tells best.";
+
+/// Returns the pairs of parameters.
+fn pairs(found: &Sensitivity) -> Markup {
+    let quarters = |own: &PairShown| {
+        let [one, other] = &own.best.sides;
+        let of = |first: usize, second: usize| {
+            let share = own.best.shares[first][second];
+            let share = if share.is_nan() {
+                "no point".to_owned()
+            } else {
+                percent(share)
+            };
+            format!("{}, {}: {share}", one[first], other[second])
+        };
+        [of(0, 0), of(0, 1), of(1, 0), of(1, 1)]
+    };
+    html! {
+        @if !found.pairs.is_empty() {
+            h3 { "Parameters that decide together" }
+            p { (PAIRS) }
+            div.wide {
+                table {
+                    thead {
+                        tr {
+                            th scope="col" { "pair" }
+                            th.number scope="col" { "decides, statements" }
+                            th scope="col" { "told best" }
+                            th scope="col" { "where it holds" }
+                            th.number scope="col" { "\u{3c6}\u{b2} alone" }
+                            th.number scope="col" { "\u{3b7}\u{b2}" }
+                        }
+                    }
+                    tbody {
+                        @for own in &found.pairs {
+                            tr {
+                                th scope="row" { (own.parameters.join(" and ")) }
+                                td.number { (own.statements.len()) }
+                                td { code { (own.statements[0]) } }
+                                td { @for quarter in quarters(own) { (quarter) br; } }
+                                td.number { (format!("{:.2}", own.best.alone)) }
+                                td.number { (format!("{:.2}", own.best.explains)) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// Returns the axes of the thesis's figures.
 fn axes(found: &Sensitivity) -> Markup {
     html! {
@@ -188,7 +246,7 @@ fn axes(found: &Sensitivity) -> Markup {
     }
 }
 
-/// Other laws and speeds of friction, apart from the space.
+/// Another law and other directions of friction, apart from the space.
 fn frictions(found: &Sensitivity) -> Markup {
     let rows = found.frictions();
     html! {

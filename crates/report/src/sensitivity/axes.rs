@@ -1,7 +1,9 @@
 //! The axes of the thesis's figures: its curves stay within them.
 //!
-//! The figures begin at 0.1 to 0.5 s; looked at is what comes after 0.5 s. The runs of a figure are those
-//! that it draws.
+//! Limits of axes stand in the scripts of appendix D, for toe out only; those of the friction power are
+//! commented out there, and appendix E has none. For constant damping the text of figure 6-6 gives toe in and
+//! no toe the same limit: toe out has the largest longitudinal force. The figures begin at 0.1 to 0.5 s;
+//! looked at is what comes after 0.5 s.
 
 use quantity::{Kind, System as Units};
 use study::case::Case;
@@ -20,14 +22,14 @@ pub struct FigureAxis {
     /// The column that is drawn.
     column: &'static str,
     kind: Kind,
-    /// Its ends, lbf or lbf·in/s.
+    /// Its ends, lbf.
     ends: [f64; 2],
     /// The condition for drawing a run.
     draws: fn(RunId) -> bool,
 }
 
 /// The axes that could be passed.
-pub const AXES: [FigureAxis; 4] = [
+pub const AXES: [FigureAxis; 3] = [
     FigureAxis {
         name: "vertical wedge force within -2100 to 2600 lbf (constant damping, toe out)",
         column: "vertical_wedge_force",
@@ -36,25 +38,19 @@ pub const AXES: [FigureAxis; 4] = [
         draws: |run| run.constant && run.toe == Toe::Out,
     },
     FigureAxis {
-        name: "longitudinal wedge force within 0 to 8000 lbf (constant damping)",
+        name: "longitudinal wedge force within 0 to 8000 lbf (constant damping; with toe in and without by \
+               the text of figure 6-6: toe out has the largest)",
         column: "longitudinal_wedge_force",
         kind: Kind::Force,
         ends: [0.0, 8000.0],
         draws: |run| run.constant,
     },
     FigureAxis {
-        name: "longitudinal wedge force within 0 to 6000 lbf (variable damping, yawed)",
+        name: "longitudinal wedge force within 0 to 6000 lbf (variable damping, toe out, yawed)",
         column: "longitudinal_wedge_force",
         kind: Kind::Force,
         ends: [0.0, 6000.0],
-        draws: |run| !run.constant && run.yawed,
-    },
-    FigureAxis {
-        name: "friction power at the side frame above -6000 lbf in/s (all runs)",
-        column: "side_frame_friction_power",
-        kind: Kind::Power,
-        ends: [-6000.0, f64::INFINITY],
-        draws: |_| true,
+        draws: |run| !run.constant && run.yawed && run.toe == Toe::Out,
     },
 ];
 

@@ -3,8 +3,9 @@
 //! The twelve runs are made at many points of a space of open parameters ([`open_parameters`]), and each
 //! statement is decided at each of them: of the points that decide it, it holds at all of them (*always*), at
 //! half or more (*mostly*), at fewer (*seldom*), or at none (*never*). The parameter that decides is the one
-//! whose single cut tells best where it holds ([`deciding`]). Other laws and speeds of friction stand apart
-//! from the space.
+//! whose single cut tells best where it holds ([`deciding`]), and pairs of parameters are named where they
+//! tell more than any of them alone ([`Pair`]). Another law and other directions of friction stand apart from
+//! the space.
 //!
 //! "Always" is said of the points that were run: of n points without an exception, a share of 3/n or more
 //! without it would have been met in 95 of 100 such samples.
@@ -12,6 +13,7 @@
 mod axes;
 mod kept;
 mod outcome;
+mod pairs;
 mod point;
 mod space;
 mod split;
@@ -22,6 +24,7 @@ pub use kept::{FOLDER, Kept, KeptError, POINTS_FILE};
 pub use outcome::{
     Extent, FILE_NAME, OfFriction, ParameterShown, SCHEMA, Sensitivity, Statement, Tally, UnderFriction,
 };
+pub use pairs::{Pair, PairShown};
 pub use point::{PointOutcome, compute};
 pub use space::{FRICTIONS, OpenParameter, OtherFriction, PointPlace, Space, open_parameters};
 pub use split::{Side, Split, deciding};

@@ -6,6 +6,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::axes::AXES;
+use super::pairs::{self, Pair, PairShown};
 use super::point::PointOutcome;
 use super::space::{FRICTIONS, OpenParameter, OtherFriction, PointPlace, Space};
 use super::split::{Split, deciding};
@@ -185,6 +186,8 @@ pub struct Sensitivity {
     pub statements: Vec<Statement>,
     /// The axes of the thesis's figures.
     pub axes: Vec<WithinAxis>,
+    /// The pairs of parameters that decide statements together.
+    pub pairs: Vec<PairShown>,
     /// Number of statements that hold over the contact stiffness, and the stiffness that the rule chooses.
     pub stiffness: OfStiffness,
     /// Runs that failed or stopped, with the names of their points.
@@ -200,6 +203,7 @@ impl Sensitivity {
             found.verdicts.get(statement).copied()
         };
         let points = 0..points;
+        let mut together: Vec<(&'static str, Pair)> = Vec::new();
         let statements: Vec<Statement> = claims()
             .enumerate()
             .map(|(number, claim)| {
@@ -211,6 +215,9 @@ impl Sensitivity {
                     .filter(|(_, verdict)| *verdict != ClaimVerdict::CannotBeDecided)
                     .map(|(point, verdict)| (point, verdict == ClaimVerdict::Holds))
                     .collect();
+                let decides = deciding(space, &decided);
+                let alone = decides.as_ref().map_or(0.0, |split| split.explains);
+                together.extend(pairs::deciding(space, &decided, alone).map(|pair| (claim.id, pair)));
                 let frictions = FRICTIONS.iter().enumerate().map(|(index, friction)| {
                     let both = points.clone().filter_map(|point| {
                         let with = at(PointPlace::OtherFriction(index, point))?;
@@ -229,7 +236,7 @@ impl Sensitivity {
                     extent: Extent::of(tally.holds, tally.decided),
                     tally,
                     as_decided: at(PointPlace::Decided).unwrap_or(ClaimVerdict::CannotBeDecided),
-                    decides: deciding(space, &decided),
+                    decides,
                     frictions: frictions.collect(),
                 }
             })
@@ -270,6 +277,7 @@ impl Sensitivity {
                 own.count()
             }),
             axes: axes.collect(),
+            pairs: pairs::gathered(together),
             stiffness: of_stiffness(space, points, found),
             statements,
             unsound: unsound

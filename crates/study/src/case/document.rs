@@ -30,6 +30,8 @@ pub struct CaseDocument {
     pub faces: [FaceSection; 2],
     /// `toe` of `[side_frame]`
     pub toe: Toe,
+    /// `toe_pivot` of `[side_frame]`
+    pub toe_pivot: Quantity,
     /// The motions of `[side_frame]`
     pub side_frame: NeighbourSection,
     /// `[bolster]`
@@ -152,6 +154,8 @@ pub struct FrictionSection {
     pub column: f64,
     /// Coefficient of friction at the slope.
     pub slope: f64,
+    /// The directions in which it acts on a face.
+    pub directions: FrictionDirections,
     /// Speed v0 of the tanh law.
     pub reference_speed: Quantity,
     /// Tangential stiffness of the bristle law, per face.
@@ -310,6 +314,16 @@ named! {
         Tanh = "tanh",
         /// An elastic element in series with the slider; holds.
         Bristle = "bristle",
+    }
+}
+
+named! {
+    /// The directions in which friction acts on a face.
+    FrictionDirections {
+        /// Against the slip.
+        Two = "two",
+        /// Along the face's line of travel alone.
+        One = "one",
     }
 }
 

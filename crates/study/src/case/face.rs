@@ -216,6 +216,7 @@ impl FaceSection {
             friction_half_load: si(&self.friction_half_load),
             friction_map: self.friction_map.clone(),
             pad: self.pad.as_ref().map(PadSection::resolve),
+            ..FaceProperties::default()
         })
     }
 

@@ -9,7 +9,7 @@ use super::problem::{Problem, Problems, TomlLocation};
 use super::section::{self, CaseSection, Range};
 use super::table::{self, TableForm};
 use super::tables::Tables;
-use super::toe::read_toe;
+use super::toe::{read_toe, read_toe_pivot};
 use super::tree::{NodeValue, TableNode, TreeNode};
 use super::{defaults, name};
 use input::limits;
@@ -52,6 +52,7 @@ const KEYS: &[(&str, &[&str])] = &[
             "law",
             "column",
             "slope",
+            "directions",
             "reference_speed",
             "bristle_stiffness",
             "bristle_damping",
@@ -63,6 +64,7 @@ const KEYS: &[(&str, &[&str])] = &[
         "side_frame",
         &[
             "toe",
+            "toe_pivot",
             "center",
             "longitudinal",
             "lateral",
@@ -185,6 +187,7 @@ pub(super) fn document(
     let friction = friction.and_then(|s| read_friction(&s, problems));
     let [column_face, slope_face] = faces.map(|s| FaceSection::default().read_over(&s?, tables, problems));
     let toe = side_frame.as_ref().and_then(|s| read_toe(s, problems));
+    let toe_pivot = side_frame.as_ref().and_then(|s| read_toe_pivot(s, problems));
     let side_frame = side_frame.and_then(|s| read_neighbour(&s, tables, problems));
     let bolster = bolster.and_then(|s| read_neighbour(&s, tables, problems));
     let environment = environment.and_then(|s| {
@@ -209,6 +212,7 @@ pub(super) fn document(
         friction: friction?,
         faces: [column_face?, slope_face?],
         toe: toe?,
+        toe_pivot: toe_pivot?,
         side_frame: side_frame?,
         bolster: bolster?,
         environment: environment?,
@@ -367,6 +371,10 @@ fn read_friction(s: &CaseSection<'_>, problems: &mut Problems) -> Option<Frictio
     let laws = read_laws(s, problems);
     let column = s.number("column", COEFFICIENT, "0.4", problems);
     let slope = s.number("slope", COEFFICIENT, "0.4", problems);
+    let directions = match s.table.get("directions") {
+        Some(_) => s.choice("directions", FrictionDirections::NAMES, problems),
+        None => Some(FrictionDirections::Two),
+    };
     let reference_speed = s.quantity("reference_speed", Kind::Speed, Range::Positive, problems);
     let bristle_stiffness = s.quantity("bristle_stiffness", Kind::Stiffness, Range::Positive, problems);
     let bristle_damping = s.quantity("bristle_damping", Kind::Damping, Range::Positive, problems);
@@ -376,6 +384,7 @@ fn read_friction(s: &CaseSection<'_>, problems: &mut Problems) -> Option<Frictio
         slope_law,
         column: column?,
         slope: slope?,
+        directions: directions?,
         reference_speed: reference_speed?,
         bristle_stiffness: bristle_stiffness?,
         bristle_damping: bristle_damping?,

@@ -7,6 +7,7 @@ use super::motion::{CaseMotion as TypedMotion, MotionProfile};
 use super::table::QuantityTable;
 use mechanics::characteristic::Characteristic;
 use mechanics::coil::{CoilLaw, CoilLine};
+use mechanics::contact::FrictionDirections;
 use mechanics::friction::FrictionLaw;
 use mechanics::motion::{Motion, Piece, RampProfile};
 use mechanics::spline::Spline;
@@ -52,6 +53,7 @@ pub(super) fn parameters(document: &typed::CaseDocument) -> Result<Parameters, U
         column_face: face_properties(document, 0)?,
         slope_face: face_properties(document, 1)?,
         toe: document.toe.to_si(),
+        toe_pivot: document.toe_pivot.to_si(),
         side_frame: neighbour("side_frame", &document.side_frame)?,
         bolster: neighbour("bolster", &document.bolster)?,
         gravity: document.environment.gravity.to_si(),
@@ -146,8 +148,16 @@ fn face(section: &typed::FrictionSection, law: typed::FrictionLaw, coefficient: 
 }
 
 fn face_properties(document: &typed::CaseDocument, number: usize) -> Result<FaceProperties, Unresolved> {
+    let directions = match document.friction.directions {
+        typed::FrictionDirections::Two => FrictionDirections::Two,
+        typed::FrictionDirections::One => FrictionDirections::One,
+    };
     document.faces[number]
         .resolve()
+        .map(|face| FaceProperties {
+            friction_directions: directions,
+            ..face
+        })
         .map_err(|(key, error)| Unresolved {
             path: format!("{}.{key}", SECTIONS[number]),
             reason: error.to_string(),

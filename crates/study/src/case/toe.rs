@@ -15,6 +15,14 @@ const TOE: Range = Range::Between(
 );
 
 /// Reads a toe: a text such as `0.2 deg out`, or a number in rad, positive out, from a program.
+/// Reads the height of the point about which toe turns the column; the middle of the face if it is left out.
+pub(crate) fn read_toe_pivot(s: &CaseSection<'_>, problems: &mut Problems) -> Option<Quantity> {
+    match s.table.get("toe_pivot") {
+        Some(_) => s.quantity("toe_pivot", Kind::Length, Range::Any, problems),
+        None => Quantity::new(0.0, "in").ok(),
+    }
+}
+
 pub(crate) fn read_toe(s: &CaseSection<'_>, problems: &mut Problems) -> Option<Toe> {
     const HELP: &str = "write for example \"0.2 deg out\" (the gap between column and bolster opens \
                         downwards), \"0.2 deg in\", or \"0 deg\"";

@@ -1,8 +1,8 @@
 //! A document as a complete, commented case file.
 
 use super::document::{
-    ActsAt, CaseDocument, CoilForce, Coordinate, Damping, FrictionLaw, METHODS, NeighbourSection, PROFILES,
-    SYSTEMS, Start, Toe, ToeDirection,
+    ActsAt, CaseDocument, CoilForce, Coordinate, Damping, FrictionDirections, FrictionLaw, METHODS,
+    NeighbourSection, PROFILES, SYSTEMS, Start, Toe, ToeDirection,
 };
 use super::face::{self, FaceSection};
 use super::field::{Field, FieldSection, Input, Reach, TypedNumber, Written, quoted};
@@ -240,6 +240,12 @@ impl CaseDocument {
             "coefficient of friction",
         );
         page.line(
+            "directions",
+            Written::choice(FrictionDirections::NAMES, &friction.directions),
+            "\"two\": against the slip; \"one\": along a face's line of travel alone, one tangent a face as \
+             in the thesis's equations",
+        );
+        page.line(
             "reference_speed",
             Written::quantity(&friction.reference_speed, Kind::Speed, Reach::Wide),
             "tanh: below it friction fades. It is part of the result: ten times it moves the \
@@ -266,6 +272,12 @@ impl CaseDocument {
             "toe",
             toe(&self.toe),
             "out: the gap between column and bolster opens downwards; in: it closes",
+        );
+        page.line(
+            "toe_pivot",
+            Written::quantity(&self.toe_pivot, Kind::Length, Reach::Signed(0.5)),
+            "the column turns about a point so far above the middle of the wedge's face. The thesis does \
+             not say",
         );
         write_neighbour(page, &self.side_frame, "the centre of the column");
         page.section(

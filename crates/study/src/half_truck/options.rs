@@ -2,12 +2,13 @@
 
 use input::shortened;
 use mechanics::connection::{Branch, GapTension, NegativeRise};
+use mechanics::contact::FrictionDirections;
 use nucars::truck::{Bend, Choices, Wedges};
 use quantity::{Kind, Quantity, nearest};
 use thiserror::Error;
 
 /// Names and what is expected of each.
-const OPTIONS: [(&str, &str); 14] = [
+const OPTIONS: [(&str, &str); 15] = [
     ("bend", "half_cosine or linear"),
     ("speed", "a speed along the track, such as \"60 mph\""),
     ("plain_toe_angle", "an angle, such as \"0.2 deg\""),
@@ -31,6 +32,7 @@ const OPTIONS: [(&str, &str); 14] = [
         "wedge_contact_damping",
         "a damping of each corner, such as \"25 lbf*s/in\"",
     ),
+    ("wedge_friction_directions", "two or one"),
 ];
 
 /// A choice that cannot be taken.
@@ -130,6 +132,8 @@ pub fn set(choices: &mut Choices, typed: &str) -> Result<(), OptionError> {
             let damping = Some(measure(Kind::Damping)?).filter(|damping| *damping >= 0.0);
             body.contact_damping = Some(damping.ok_or_else(wrong)?);
         }
+        ("wedge_friction_directions", "two") => body.friction_directions = Some(FrictionDirections::Two),
+        ("wedge_friction_directions", "one") => body.friction_directions = Some(FrictionDirections::One),
         _ => return Err(wrong()),
     }
     Ok(())
@@ -161,6 +165,7 @@ mod tests {
             "wedge_width=11 in",
             "wedge_contact_stiffness=1e6 lbf/in",
             "wedge_contact_damping=0 lbf*s/in",
+            "wedge_friction_directions=one",
         ] {
             let before = choices.clone();
             set(&mut choices, typed).unwrap();

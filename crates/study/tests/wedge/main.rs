@@ -5,6 +5,7 @@
 mod runs;
 
 mod analytic;
+mod analytic_directions;
 mod analytic_extreme_loads;
 mod analytic_lock_up_maps;
 mod convergence;

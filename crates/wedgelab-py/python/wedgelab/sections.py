@@ -269,6 +269,8 @@ class FrictionSection(Section):
     """Coefficient of friction at the column."""
     slope: float | None = None
     """Coefficient of friction at the slope."""
+    directions: str | None = None
+    """``"two"``: against the slip; ``"one"``: along a face's line of travel alone."""
     reference_speed: QuantityLike | None = None
     """Speed v0 of the tanh law."""
     bristle_stiffness: QuantityLike | None = None
@@ -276,7 +278,7 @@ class FrictionSection(Section):
     bristle_damping: QuantityLike | None = None
     """Tangential viscous damping of the bristle law, per face."""
 
-    _words = frozenset({"law", "column", "slope"})
+    _words = frozenset({"law", "column", "slope", "directions"})
 
 
 @dataclass(frozen=True)
@@ -325,6 +327,8 @@ class SideFrameSection(Section):
 
     toe: QuantityLike | None = None
     """Angle of the column: ``"0.2 deg out"``, ``"0.2 deg in"``; a number is in rad, positive out."""
+    toe_pivot: QuantityLike | None = None
+    """Height of the point about which toe turns the column, above the middle of the wedge's face."""
     center: Triple | None = None
     """Lengths: the point it turns about; left out, the center of its face."""
     longitudinal: MotionLike | None = None

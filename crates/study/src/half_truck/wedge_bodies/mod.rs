@@ -376,12 +376,16 @@ fn added(wedge: &mut Wedge, chosen: &WedgeBody) {
         width,
         contact_stiffness,
         contact_damping,
+        friction_directions,
         ..
     } = *chosen;
     wedge.height = height.unwrap_or(wedge.height);
     wedge.width = width.unwrap_or(wedge.width);
     wedge.contact.stiffness = contact_stiffness.unwrap_or(wedge.contact.stiffness);
     wedge.contact.damping = contact_damping.unwrap_or(wedge.contact.damping);
+    for face in [&mut wedge.column_face, &mut wedge.slope_face] {
+        face.friction_directions = friction_directions.unwrap_or(face.friction_directions);
+    }
 }
 
 /// Returns the coil of a wedge; what the files do not say is that of the nominal one.
