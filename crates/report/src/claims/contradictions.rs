@@ -52,8 +52,8 @@ pub const CONTRADICTIONS: [Contradiction; 12] = [
     contradiction(
         "figures 5-7, 5-15, 6-7; scripts D.1",
         "What the scripts draw as the comparison program's rate of dissipation is its whole vertical force, \
-         coil and friction, times the size of the speed: 9,060 lbf\u{b7}in in the 10 s of our run of type 6.9 \
-         (variable damping, toe out).",
+         coil and friction, times the size of the speed: 9,060 lbf\u{b7}in in the 10 s of our run of \
+         type 6.9 (variable damping, toe out).",
         "Its friction loses 5,740 lbf\u{b7}in in that time. The figures' quantity is no loss: the coil gives \
          back what it takes. Statements are decided from the friction.",
     ),

@@ -82,8 +82,8 @@ fn input_all_that_is_built_in_can_be_read() {
     }
 }
 
-/// Limits are for filtered values: where rows are too far apart for the filter there is no number, the limit is
-/// neither kept nor exceeded, and the run says what to do.
+/// Limits are for filtered values: where rows are too far apart for the filter there is no number, the limit
+/// is neither kept nor exceeded, and the run says what to do.
 #[test]
 fn issue_048_raw_values_keep_no_limit() {
     let certificate = Certificate::new(&request(&["twist_and_roll"])).unwrap();

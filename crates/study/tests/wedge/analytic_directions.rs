@@ -92,7 +92,8 @@ fn reproduction_a_curved_slope_changes_simple_motions_little() {
     for name in ["vdrun_toe_out_0.2_psi_0", "cdrun_toe_out_0.2_psi_0"] {
         let loss = |direction: &str, grid: &str| {
             let crown = format!(
-                "slope_face.wedge_surface={{ shape = \"crown\", radius = \"60 in\", direction = \"{direction}\" }}"
+                "slope_face.wedge_surface={{ shape = \"crown\", radius = \"60 in\", \
+                 direction = \"{direction}\" }}"
             );
             let result = run(name, &[&crown, &format!("slope_face.grid={grid}")]);
             result.summary.averages.energy_per_cycle["side_frame"].value
