@@ -11,6 +11,7 @@ use study::half_truck::HalfTruckResult;
 use study::half_truck::catalog::{CatalogEntry, ToeCase, WedgeType, YawCase};
 use study::metrics::Cycle;
 use study::result::RunResult;
+use wedge::face::FaceDirection;
 use wedge::parameters::Damping;
 
 use crate::agreement::{COMPONENT, truck_column};
@@ -26,7 +27,19 @@ pub enum Toe {
     In,
 }
 
-/// The key of one of the twelve runs: damping, toe, yaw.
+/// The shape of the wedge's slope face.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SlopeShape {
+    /// Flat, as in the thesis's runs.
+    #[default]
+    Flat,
+    /// Curved along the slope.
+    CurvedUp,
+    /// Curved across it.
+    CurvedAcross,
+}
+
+/// The key of one of the twelve runs: damping, toe, yaw; and of runs beside them with a curved slope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RunId {
     /// True if the damping is constant; variable otherwise.
@@ -35,6 +48,8 @@ pub struct RunId {
     pub toe: Toe,
     /// True if the bolster is yawed.
     pub yawed: bool,
+    /// The shape of the wedge's slope face.
+    pub slope: SlopeShape,
 }
 
 impl RunId {
@@ -50,6 +65,11 @@ impl RunId {
                 _ => Toe::None,
             },
             yawed: !matches!(&parameters.bolster.coordinates[5], Motion::Constant(yaw) if *yaw == 0.0),
+            slope: match &parameters.slope_face.wedge_surface {
+                own if own.profile.is_flat() => SlopeShape::Flat,
+                own if own.direction == FaceDirection::Up => SlopeShape::CurvedUp,
+                _ => SlopeShape::CurvedAcross,
+            },
         }
     }
 }
@@ -71,6 +91,7 @@ impl RunId {
                 YawCase::Intended => true,
                 YawCase::Printed => return None,
             },
+            slope: SlopeShape::Flat,
         })
     }
 }
@@ -99,21 +120,39 @@ impl fmt::Display for RunId {
             Toe::None => ", no toe",
             Toe::In => ", toe in",
         })?;
-        f.write_str(if self.yawed { ", yawed" } else { "" })
+        f.write_str(if self.yawed { ", yawed" } else { "" })?;
+        f.write_str(match self.slope {
+            SlopeShape::Flat => "",
+            SlopeShape::CurvedUp => ", slope curved along",
+            SlopeShape::CurvedAcross => ", slope curved across",
+        })
     }
 }
 
-/// The names that predicates have for the runs: `vd` and `cd` for variable and constant damping; `68` and
-/// `69` at the end for the half-truck with wedges of that type.
+/// The names that predicates have for the runs: `vd` and `cd` for variable and constant damping; `up` and
+/// `across` at the end for a slope that is curved along it and across it; `68` and `69` for the half-truck
+/// with wedges of that type.
 #[allow(non_upper_case_globals)] // They stand for the names of arguments.
 pub(super) mod runs {
     use study::half_truck::catalog::WedgeType;
 
-    use super::{EvidenceSource, RunId, Toe};
+    use super::{EvidenceSource, RunId, SlopeShape, Toe};
 
     const fn id(constant: bool, toe: Toe, yawed: bool) -> EvidenceSource {
         EvidenceSource {
-            run: RunId { constant, toe, yawed },
+            run: RunId {
+                constant,
+                toe,
+                yawed,
+                slope: SlopeShape::Flat,
+            },
+            wedges: None,
+        }
+    }
+
+    const fn curved(slope: SlopeShape, flat: EvidenceSource) -> EvidenceSource {
+        EvidenceSource {
+            run: RunId { slope, ..flat.run },
             wedges: None,
         }
     }
@@ -137,6 +176,11 @@ pub(super) mod runs {
     pub(in crate::claims) const cd_out_yaw: EvidenceSource = id(true, Toe::Out, true);
     pub(in crate::claims) const cd_none_yaw: EvidenceSource = id(true, Toe::None, true);
     pub(in crate::claims) const cd_in_yaw: EvidenceSource = id(true, Toe::In, true);
+
+    pub(in crate::claims) const vd_out_up: EvidenceSource = curved(SlopeShape::CurvedUp, vd_out);
+    pub(in crate::claims) const vd_out_across: EvidenceSource = curved(SlopeShape::CurvedAcross, vd_out);
+    pub(in crate::claims) const cd_out_up: EvidenceSource = curved(SlopeShape::CurvedUp, cd_out);
+    pub(in crate::claims) const cd_out_across: EvidenceSource = curved(SlopeShape::CurvedAcross, cd_out);
 
     pub(in crate::claims) const vd_out_68: EvidenceSource = truck(WedgeType::Plain, vd_out);
     pub(in crate::claims) const vd_out_69: EvidenceSource = truck(WedgeType::Spatial, vd_out);

@@ -35,6 +35,7 @@ mod conclusions;
 mod constant;
 mod constant_yawed;
 mod contradictions;
+mod curved_slope;
 mod evidence;
 mod measures;
 mod variable;
@@ -42,7 +43,8 @@ mod variable_yawed;
 mod words;
 
 pub use contradictions::{CONTRADICTIONS, Contradiction};
-pub use evidence::{ClaimFinding, ClaimVerdict, Evidence, NotedValue, RunId, Toe};
+pub use curved_slope::curved_slope_runs;
+pub use evidence::{ClaimFinding, ClaimVerdict, Evidence, NotedValue, RunId, SlopeShape, Toe};
 
 use std::io::{self, Write};
 

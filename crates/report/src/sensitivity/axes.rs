@@ -9,7 +9,7 @@ use quantity::{Kind, System as Units};
 use study::case::Case;
 use study::result::RunResult;
 
-use crate::claims::{RunId, Toe};
+use crate::claims::{RunId, SlopeShape, Toe};
 
 /// The time before which nothing is shown, s.
 const FROM: f64 = 0.5;
@@ -61,7 +61,12 @@ impl FigureAxis {
         let toes = [Toe::Out, Toe::None, Toe::In].into_iter();
         let all = toes.flat_map(|toe| {
             let kinds = [(false, false), (false, true), (true, false), (true, true)];
-            kinds.map(|(constant, yawed)| RunId { constant, toe, yawed })
+            kinds.map(|(constant, yawed)| RunId {
+                constant,
+                toe,
+                yawed,
+                slope: SlopeShape::Flat,
+            })
         });
         all.filter(|id| (self.draws)(*id)).all(|id| {
             let run = runs.iter().find(|(case, _)| RunId::of(case) == id);

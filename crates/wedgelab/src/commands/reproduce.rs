@@ -322,8 +322,17 @@ fn write_report(
         .iter()
         .map(|plan| sections::drawn(plan, svgs.by_ref().take(plan.exhibits.len())))
         .collect();
-    let evidence = Evidence::new(outcomes.iter().map(|(case, result)| (case, result)))
-        .with_trucks(half_trucks.iter().map(|(entry, result)| (entry, result)));
+    let curved = match outcomes.is_empty() {
+        true => Vec::new(),
+        false => claims::curved_slope_runs(),
+    };
+    let evidence = Evidence::new(
+        outcomes
+            .iter()
+            .chain(&curved)
+            .map(|(case, result)| (case, result)),
+    )
+    .with_trucks(half_trucks.iter().map(|(entry, result)| (entry, result)));
     let verdicts = Claims::of(claims::evaluate(&evidence));
     let groups = agreement::groups(outcomes, half_trucks);
     let comparison = units.filter(|_| !half_trucks.is_empty());
