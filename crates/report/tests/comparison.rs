@@ -467,3 +467,33 @@ fn the_page_tells_how_far_they_agree() {
     contents.comparison = None;
     assert!(!page::render(&contents).contains("agreement"));
 }
+
+/// What scripts D.1 draw as dissipation is the whole vertical force times the size of the speed, of which
+/// friction is a part: the numbers that the pages give, of the leading left wedge of type 6.9 (variable
+/// damping, toe out) in 10 s and in its second cycle.
+#[test]
+fn reproduction_the_dissipation_of_her_figures_is_no_loss() {
+    let result = truck(WedgeType::Spatial, Damping::Variable, YawCase::Straight);
+    let column = |name: &str| result.column(&format!("wedge_127_{name}")).unwrap();
+    let time = result.column("time").unwrap();
+    let integral = |force: &str, from: f64, to: f64| {
+        let power: Vec<f64> = column(force)
+            .iter()
+            .zip(column("stroke_rate"))
+            .map(|(force, speed)| (force * speed).abs() / (POUND * INCH))
+            .collect();
+        let steps = time.windows(2).zip(power.windows(2));
+        let steps = steps.filter(|(time, _)| time[0] >= from && time[1] <= to);
+        steps
+            .map(|(time, power)| 0.5 * (time[1] - time[0]) * (power[0] + power[1]))
+            .sum::<f64>()
+    };
+    let [whole, friction, cycle] = [
+        integral("vertical_force", 0.0, 10.0),
+        integral("column_friction", 0.0, 10.0),
+        integral("column_friction", PI, 2.0 * PI),
+    ];
+    for (found, said) in [(whole, 9060.0), (friction, 5740.0), (cycle, 1800.0)] {
+        assert!((found / said - 1.0).abs() < 0.01, "{found} {said}");
+    }
+}
