@@ -106,7 +106,7 @@ pub fn write<C: RunFiles>(
     write_as(done, case, folder, &case.output_files(), progress)
 }
 
-/// As [`write`], with the tables of `output`.
+/// As [`write()`], with the tables of `output`.
 pub fn write_as<C: RunFiles>(
     done: &Done<C::Output>,
     case: &C,

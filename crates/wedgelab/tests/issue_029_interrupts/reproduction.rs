@@ -103,11 +103,11 @@ fn limits_an_interrupted_sensitivity_goes_on_with_the_same_bytes() {
     assert_eq!(ended.code, Some(130), "{}", ended.err);
     let before = points("one");
     let kept = before.lines().count();
-    let message = format!("interrupted: {kept} of 18 points are kept in one/sensitivity");
+    let message = format!("interrupted: {kept} of 17 points are kept in one/sensitivity");
     contains(&ended.err, &[&message, "the same command goes on from there"]);
     assert_eq!(names(&path.join("one")), ["sensitivity"]);
     let ended = done(path, &of("1", "one"));
-    contains(&ended.err, &[&format!("going on: {kept} of 18 points are there")]);
+    contains(&ended.err, &[&format!("going on: {kept} of 17 points are there")]);
     contains(
         &ended.out,
         &["Over 1 points of what the thesis leaves open", "sensitivity.json"],
