@@ -350,10 +350,8 @@ fn analytic_travel_orders_are_orders_of_places() {
 fn reproduction_a_curved_slope_changes_simple_motions_little() {
     const ID: &str = "7.2-curved-slope";
     let undecided = &row(rows(), ID).note;
-    assert_eq!(
-        undecided,
-        "the run \"variable, toe out, slope curved along\" was not made"
-    );
+    let missing = "the run \"variable, toe out, slope curved along\" was not made";
+    assert!(undecided.starts_with(missing), "{undecided}");
     let curved = curved_slope_runs();
     let decided = |curved: &[(Case, RunResult)]| {
         let runs = twelve().iter().chain(curved);
