@@ -352,7 +352,7 @@ fn reproduction_a_curved_slope_changes_simple_motions_little() {
     let undecided = &row(rows(), ID).note;
     let missing = "the run \"variable, toe out, slope curved along\" was not made";
     assert!(undecided.starts_with(missing), "{undecided}");
-    let curved = curved_slope_runs();
+    let curved = curved_slope_runs(twelve());
     let decided = |curved: &[(Case, RunResult)]| {
         let runs = twelve().iter().chain(curved);
         let found = evaluate(&Evidence::new(runs.map(|(case, result)| (case, result))));

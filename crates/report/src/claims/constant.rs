@@ -183,7 +183,7 @@ pub(super) static CLAIMS: &[Claim] = &[
         test: "greatest displacement of the wedge downwards, from its nominal position, as script E.2 draws \
                it: toe out > no toe > toe in, each by more than 1 %",
         runs: [cd_out, cd_none, cd_in],
-        holds: descending_by(0.01, [cd_out, cd_none, cd_in].map(|run| deepest(run, wedge_z, settled))),
+        holds: descending_by(0.01, [cd_out, cd_none, cd_in].map(|run| -least(run, wedge_z, settled))),
         but: "The wedge follows the bolster to within the contacts' give, whatever the toe, and what goes up \
               in a cycle comes down: only the place of the loop can differ. It does where toe turns the \
               column about the coil's seat (side_frame.toe_pivot), which the thesis does not say: then toe \

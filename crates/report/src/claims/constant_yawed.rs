@@ -214,7 +214,7 @@ pub(super) static CLAIMS: &[Claim] = &[
         runs: [cd_out_yaw, cd_none_yaw, cd_in_yaw],
         holds: descending_by(
             0.01,
-            [cd_out_yaw, cd_none_yaw, cd_in_yaw].map(|run| deepest(run, wedge_z, settled)),
+            [cd_out_yaw, cd_none_yaw, cd_in_yaw].map(|run| -least(run, wedge_z, settled)),
         ),
         but: "The wedge follows the bolster to within the contacts' give, whatever the toe, and what goes up \
               in a cycle comes down: only the place of the loop can differ. It does where toe turns the \

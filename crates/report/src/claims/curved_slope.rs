@@ -10,10 +10,14 @@ const FLAT: [&str; 2] = ["vdrun_toe_out_0.2_psi_0", "cdrun_toe_out_0.2_psi_0"];
 /// Directions of the crown and grids: with 81 points the loss of a cycle is the same to 0.2 %.
 const CROWNS: [[&str; 2]; 2] = [["up", "[41, 2]"], ["across", "[2, 41]"]];
 
-/// Makes the runs with a curved slope, one for each crown and damping; those that cannot begin are left out.
+/// Makes the runs with a curved slope, one for each crown and each run with a flat slope that was made; those
+/// that cannot begin are left out.
 #[must_use]
-pub fn curved_slope_runs() -> Vec<(Case, RunResult)> {
-    let runs = FLAT.iter().flat_map(|name| {
+pub fn curved_slope_runs(made: &[(Case, RunResult)]) -> Vec<(Case, RunResult)> {
+    let flat = FLAT
+        .iter()
+        .filter(|name| made.iter().any(|(case, _)| case.name == **name));
+    let runs = flat.flat_map(|name| {
         CROWNS.iter().filter_map(move |[direction, grid]| {
             let set = [
                 format!(

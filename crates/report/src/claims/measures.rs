@@ -68,13 +68,6 @@ pub(super) fn least(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> 
     noted(run, "least ", quantity, when, least)
 }
 
-/// Greatest value below zero, as a size: negative where there is none.
-pub(super) fn deepest(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> f64 {
-    let (least, _) = least_and_greatest(&chosen(run, quantity, when));
-    noted(run, "least ", quantity, when, least);
-    -least
-}
-
 /// Greatest value.
 pub(super) fn greatest(run: ClaimView<'_>, quantity: ClaimQuantity, when: When) -> f64 {
     let (_, most) = least_and_greatest(&chosen(run, quantity, when));

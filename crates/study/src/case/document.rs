@@ -9,6 +9,7 @@ use super::motion::{CaseMotion, MotionProfile};
 use super::section::{Names, name_of};
 use super::table::QuantityTable;
 use integrate::Method;
+use mechanics::contact::FrictionDirections;
 use quantity::{Quantity, System};
 
 /// A complete case as typed.
@@ -318,16 +319,6 @@ named! {
 }
 
 named! {
-    /// The directions in which friction acts on a face.
-    FrictionDirections {
-        /// Against the slip.
-        Two = "two",
-        /// Along the face's line of travel alone.
-        One = "one",
-    }
-}
-
-named! {
     /// The start of a run.
     Start {
         /// The nominal position, at rest.
@@ -341,6 +332,10 @@ named! {
 
 /// Names of the unit systems.
 pub(crate) const SYSTEMS: Names<System> = &[("us", System::Us), ("si", System::Si)];
+
+/// Names of the directions in which friction acts on a face.
+pub(crate) const DIRECTIONS: Names<FrictionDirections> =
+    &[("two", FrictionDirections::Two), ("one", FrictionDirections::One)];
 
 /// Names of the integration methods.
 pub(crate) const METHODS: Names<Method> = &[

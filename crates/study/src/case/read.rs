@@ -13,6 +13,7 @@ use super::toe::{read_toe, read_toe_pivot};
 use super::tree::{NodeValue, TableNode, TreeNode};
 use super::{defaults, name};
 use input::limits;
+use mechanics::contact::FrictionDirections;
 use quantity::{Kind, Quantity, System};
 
 /// The keys of every table.
@@ -372,7 +373,7 @@ fn read_friction(s: &CaseSection<'_>, problems: &mut Problems) -> Option<Frictio
     let column = s.number("column", COEFFICIENT, "0.4", problems);
     let slope = s.number("slope", COEFFICIENT, "0.4", problems);
     let directions = match s.table.get("directions") {
-        Some(_) => s.choice("directions", FrictionDirections::NAMES, problems),
+        Some(_) => s.choice("directions", DIRECTIONS, problems),
         None => Some(FrictionDirections::Two),
     };
     let reference_speed = s.quantity("reference_speed", Kind::Speed, Range::Positive, problems);

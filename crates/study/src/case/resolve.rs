@@ -7,7 +7,6 @@ use super::motion::{CaseMotion as TypedMotion, MotionProfile};
 use super::table::QuantityTable;
 use mechanics::characteristic::Characteristic;
 use mechanics::coil::{CoilLaw, CoilLine};
-use mechanics::contact::FrictionDirections;
 use mechanics::friction::FrictionLaw;
 use mechanics::motion::{Motion, Piece, RampProfile};
 use mechanics::spline::Spline;
@@ -148,14 +147,10 @@ fn face(section: &typed::FrictionSection, law: typed::FrictionLaw, coefficient: 
 }
 
 fn face_properties(document: &typed::CaseDocument, number: usize) -> Result<FaceProperties, Unresolved> {
-    let directions = match document.friction.directions {
-        typed::FrictionDirections::Two => FrictionDirections::Two,
-        typed::FrictionDirections::One => FrictionDirections::One,
-    };
     document.faces[number]
         .resolve()
         .map(|face| FaceProperties {
-            friction_directions: directions,
+            friction_directions: document.friction.directions,
             ..face
         })
         .map_err(|(key, error)| Unresolved {

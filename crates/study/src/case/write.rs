@@ -1,8 +1,8 @@
 //! A document as a complete, commented case file.
 
 use super::document::{
-    ActsAt, CaseDocument, CoilForce, Coordinate, Damping, FrictionDirections, FrictionLaw, METHODS,
-    NeighbourSection, PROFILES, SYSTEMS, Start, Toe, ToeDirection,
+    ActsAt, CaseDocument, CoilForce, Coordinate, DIRECTIONS, Damping, FrictionLaw, METHODS, NeighbourSection,
+    PROFILES, SYSTEMS, Start, Toe, ToeDirection,
 };
 use super::face::{self, FaceSection};
 use super::field::{Field, FieldSection, Input, Reach, TypedNumber, Written, quoted};
@@ -241,7 +241,7 @@ impl CaseDocument {
         );
         page.line(
             "directions",
-            Written::choice(FrictionDirections::NAMES, &friction.directions),
+            Written::choice(DIRECTIONS, &friction.directions),
             "\"two\": against the slip; \"one\": along a face's line of travel alone, one tangent a face as \
              in the thesis's equations",
         );

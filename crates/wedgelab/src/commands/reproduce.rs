@@ -322,10 +322,7 @@ fn write_report(
         .iter()
         .map(|plan| sections::drawn(plan, svgs.by_ref().take(plan.exhibits.len())))
         .collect();
-    let curved = match outcomes.is_empty() {
-        true => Vec::new(),
-        false => claims::curved_slope_runs(),
-    };
+    let curved = claims::curved_slope_runs(outcomes);
     let evidence = Evidence::new(
         outcomes
             .iter()
