@@ -63,7 +63,7 @@ impl ProfiledWheels {
         let wheel = nominal::aar_1b()?;
         let rail = nominal::rail_136re()?.inclined(nominal::INCLINATION);
         let layout = Layout {
-            tape_distance: (53.0 + 3.0 / 32.0 + 2.0 * (3.0 + 1.0 / 16.0)) * INCH,
+            tape_distance: nominal::TAPE_DISTANCE,
             gauge: 56.5 * INCH,
             gauge_depth: nominal::GAUGE_DEPTH,
         };
@@ -105,7 +105,7 @@ impl Start {
 
 impl Parameters {
     /// Returns a car on this track, loaded with 200,400 lbf or empty, that holds the speed (m/s): trucks
-    /// with variable damping, rollers as side bearings of the loaded car and constant contact of the empty
+    /// with variable damping and crowned wedges, rollers as side bearings of the loaded car and constant contact of the empty
     /// one, sprung rails. It starts as near to the beginning of the track as its length allows, with 1 m to
     /// spare.
     ///
@@ -117,7 +117,7 @@ impl Parameters {
             Lading::Loaded => SideBearings::rollers(),
             Lading::Empty => SideBearings::constant_contact(),
         };
-        let mut own = truck::Parameters::new(Damping::Variable);
+        let mut own = truck::Parameters::new(Damping::Variable).with_crowned_faces();
         own.bolster.free = [true; 6];
         own.car_body = Some(CarBody::new(lading, bearings));
         let mut parameters = Self {

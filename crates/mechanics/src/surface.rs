@@ -136,6 +136,15 @@ impl SurfaceProfile {
         matches!(self, Self::Flat)
     }
 
+    /// Returns the radius of a crown, m; none of another profile.
+    #[must_use]
+    pub fn radius(&self) -> Option<f64> {
+        match self {
+            Self::Arc { curvature } if *curvature > 0.0 => Some(1.0 / curvature),
+            Self::Arc { .. } | Self::Flat | Self::Table(_) => None,
+        }
+    }
+
     /// Returns the depth (m) at a distance from the middle (m), and its first and second derivative. An arc
     /// ends at its radius, where the depth is not finite.
     #[must_use]

@@ -39,7 +39,7 @@ fn wheels() -> Result<RigidWheelset, Failure> {
     let wheel = nominal::aar_1b()?;
     let rail = nominal::rail_136re()?.inclined(nominal::INCLINATION);
     let layout = Layout {
-        tape_distance: tape_distance(),
+        tape_distance: nominal::TAPE_DISTANCE,
         gauge: 56.5 * INCH,
         gauge_depth: nominal::GAUGE_DEPTH,
     };
@@ -50,10 +50,6 @@ fn wheels() -> Result<RigidWheelset, Failure> {
         layout,
         STEEL,
     )?)
-}
-
-fn tape_distance() -> f64 {
-    (53.0 + 3.0 / 32.0 + 2.0 * (3.0 + 1.0 / 16.0)) * INCH
 }
 
 /// 350 m of straight track with irregularities of a class in alignment and gauge.
@@ -105,7 +101,7 @@ fn setup(track: Track, sprung: bool, table: bool) -> Result<Setup, Failure> {
         },
         wheels: Wheels::OnRails {
             search: [search(0)?, search(1)?],
-            tape_distance: tape_distance(),
+            tape_distance: nominal::TAPE_DISTANCE,
             law: ContactLaw {
                 friction: 0.4,
                 damping: if sprung { 0.3 } else { 2.0 },
@@ -339,7 +335,7 @@ fn continuity() -> Result<(), Failure> {
     };
     let at = |lateral: f64| {
         let motion = RelativeMotion {
-            position: Vector([5.0, 0.5 * tape_distance() + lateral, 18.0 * INCH + 2e-4]),
+            position: Vector([5.0, 0.5 * nominal::TAPE_DISTANCE + lateral, 18.0 * INCH + 2e-4]),
             rotation: Matrix::identity(),
             velocity: Vector([SPEED, 0.01, 0.0]),
             angular_velocity: Vector([0.0, SPEED / (18.0 * INCH), 0.0]),

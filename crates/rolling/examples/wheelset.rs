@@ -40,7 +40,7 @@ fn wheels(cones: bool) -> Result<(RigidWheelset, f64), Failure> {
             nominal::aar_1b()?,
             nominal::rail_136re()?.inclined(nominal::INCLINATION),
         );
-        tape_distance = (53.0 + 3.0 / 32.0 + 2.0 * (3.0 + 1.0 / 16.0)) * INCH;
+        tape_distance = nominal::TAPE_DISTANCE;
         (gauge, gauge_depth) = (56.5 * INCH, nominal::GAUGE_DEPTH);
     }
     let layout = Layout {

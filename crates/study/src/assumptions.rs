@@ -154,8 +154,11 @@ pub(crate) fn of_face(name: &str, face: &FaceProperties) -> Option<String> {
             SurfaceProfile::Flat => {}
             SurfaceProfile::Arc { curvature } => {
                 let kind = if *curvature < 0.0 { "hollow" } else { "crowned" };
+                let flat = own.half_flat().map_or(String::new(), |half| {
+                    format!(", worn flat over {:.4} in in its middle", 2.0 * half / INCH)
+                });
                 parts.push(format!(
-                    "{whose} surface {kind} {way} the face by a radius of {:.4} in",
+                    "{whose} surface {kind} {way} the face by a radius of {:.4} in{flat}",
                     1.0 / (curvature.abs() * INCH)
                 ));
             }

@@ -48,4 +48,6 @@ pub mod summary;
 pub mod track;
 pub mod truck;
 pub mod wear;
+mod wedge_faces;
+pub mod wedge_rise;
 pub mod wheelset;

@@ -35,6 +35,7 @@ pub use assemble::{
     BOLSTER, BuildError, CAR_BODY, INBOARD_HALVES, SIDE_FRAMES, Truck, WEDGES, WHEELSETS, held,
 };
 pub use bodies::{bodies, numbers};
+pub use defaults::{CROWN_RADIUS, SERVICE_GRID};
 pub use elements::{Mount, add_elements, mounted};
 pub use loads::{CenterPlateLoads, HalfLoads, Loads, WarpMoment, WedgeLoads};
 pub use massless::empirical_warp;

@@ -12,6 +12,8 @@ use mechanics::link::{Marker, RelativeMotion};
 use mechanics::system::{BodyState, FaceState, Observation};
 use mechanics::vector::{Matrix, Vector};
 
+use wedge::parameters::Damping;
+
 use crate::PLACES;
 use crate::assemble::{BOLSTER, INBOARD_HALVES, SIDE_FRAMES, Truck, WEDGES};
 use crate::elements::{Law, Role, Suspended, WedgePlace};
@@ -74,6 +76,11 @@ pub struct WedgeLoads {
     pub displacement: [f64; 3],
     /// Roll, pitch, yaw, rad; zero for a wedge without mass.
     pub angles: [f64; 3],
+    /// Height in its pocket above that of an unworn wedge in the nominal layout, m: what an inspector's gauge
+    /// shows, positive up.
+    pub rise: f64,
+    /// Extension of the control coil from its length in the nominal layout, m.
+    pub coil_extension: f64,
     /// The halves of a split wedge, outboard and inboard; zero for others.
     pub halves: [HalfLoads; 2],
     /// Normal force between the halves, N.
@@ -167,9 +174,15 @@ impl MountedTruck {
                     continue;
                 }
             };
-            *wedge = match split {
+            let own = match split {
                 false => self.one_piece(WEDGES + number, first, self.wedge_places[number], view),
                 true => self.split(number, first, view),
+            };
+            let above = |body| own.displacement[2] - view.lifted(body, self.wedge_places[number]);
+            *wedge = WedgeLoads {
+                rise: above(BOLSTER),
+                coil_extension: above(self.seat_of_coil(number)),
+                ..own
             };
             let side = number % 2;
             for first in (first..).step_by(2).take(1 + usize::from(split)) {
@@ -267,6 +280,7 @@ impl MountedTruck {
                 angles: own.angles,
             }),
             split_normal: normal(&view.seen.faces[first + 4]),
+            ..WedgeLoads::default()
         }
     }
 
@@ -283,7 +297,17 @@ impl MountedTruck {
             column_friction_z: -inside.column_friction * libm::cos(self.toes[number]),
             slope_normal: inside.slope_normal,
             displacement: [side_frame.0[0], bolster.0[1], bolster.0[2] + inside.rise],
+            rise: inside.rise,
+            coil_extension: bolster.0[2] + inside.rise - moved(self.seat_of_coil(number)).0[2],
             ..WedgeLoads::default()
+        }
+    }
+
+    /// Returns the body on which the control coil of a wedge stands.
+    fn seat_of_coil(&self, number: usize) -> usize {
+        match self.damping {
+            Damping::Variable => SIDE_FRAMES + number % 2,
+            Damping::Constant => BOLSTER,
         }
     }
 

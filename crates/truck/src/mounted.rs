@@ -4,9 +4,10 @@ use mechanics::curve::Curve;
 use mechanics::orientation::fixed;
 use mechanics::system::{BodyState, Observation};
 use mechanics::vector::{Matrix, Vector};
+use wedge::parameters::Damping;
 
 use crate::PLACES;
-use crate::assemble::NUMBERS;
+use crate::assemble::{BOLSTER, NUMBERS};
 use crate::elements::{Added, HEIGHT, Mount};
 use crate::parameters::{Parameters, Wedge};
 
@@ -32,6 +33,8 @@ pub struct MountedTruck {
     pub(crate) toes: [f64; 4],
     /// Angles of the wedges, rad.
     pub(crate) angles: [f64; 4],
+    /// The place of the control coils.
+    pub(crate) damping: Damping,
 }
 
 /// The axes in which the loads of a truck are given: origin (m) at the truck's center at the top
@@ -62,6 +65,7 @@ impl MountedTruck {
             half_shifts: parameters.wedges.each_ref().map(Wedge::half_shift),
             toes: parameters.wedges.each_ref().map(|wedge| wedge.toe),
             angles: parameters.wedges.each_ref().map(|wedge| wedge.angle),
+            damping: parameters.damping,
             part_places: {
                 let [side, ..] = parameters.distances;
                 let [left, right] = parameters.side_frames.each_ref().map(|own| own.body.height);
@@ -142,6 +146,14 @@ impl<'o> TruckView<'o> {
                 self.place(body.origin + turned) - place
             }
         }
+    }
+
+    /// Returns the height by which the bolster or a side frame (by its number) has lifted a point that is
+    /// fixed to it, from its nominal place (from the truck's center, m), m.
+    pub fn lifted(&self, number: usize, place: Vector<f64>) -> f64 {
+        let nominal = self.truck.part_places[number - BOLSTER];
+        let turned: Vector<f64> = self.rotation(number).apply(place - nominal);
+        (self.place(self.body(number).center_of_gravity) + turned - place).0[2]
     }
 
     /// Returns the yaw of a body, rad.

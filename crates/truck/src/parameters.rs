@@ -214,6 +214,9 @@ pub struct Wedge {
     pub slope_face: FaceProperties,
     /// Wear of the column with the wedge's vertical face, and of the pocket's slope with the wedge's slope.
     pub wear: Wear,
+    /// The rise that its pocket holds, m: above it the wedge stands out of its pocket, or beyond the mark of
+    /// an inspector's gauge. It limits nothing in the model.
+    pub rise_limit: f64,
     /// Its control coil.
     pub control_coil: ControlCoil,
     /// The sides of its pocket.
@@ -447,6 +450,12 @@ impl Parameters {
 }
 
 impl Wedge {
+    /// Returns the angles by which wear lifts it, as [`Wear::rise`] takes them, rad.
+    #[must_use]
+    pub fn rise_angles(&self) -> [f64; 3] {
+        [self.angle, self.toe, self.slope_across]
+    }
+
     /// Returns the areas of the vertical face and of the slope face, m².
     #[must_use]
     pub fn face_areas(&self) -> [f64; 2] {

@@ -18,6 +18,7 @@ fn sloping(direction: FaceDirection) -> FaceProfile {
     FaceProfile {
         profile: SurfaceProfile::Table(Spline::new(places.to_vec(), depths.to_vec()).unwrap()),
         direction,
+        ..FaceProfile::default()
     }
 }
 
@@ -100,6 +101,7 @@ fn limits_a_truck_with_refined_wedges_starts_touching_and_leaves_out_what_joins_
                 curvature: 1.0 / (70.0 * INCH),
             },
             direction: FaceDirection::Across,
+            ..FaceProfile::default()
         },
         pad: Some(Pad {
             stiffness: 1e8,

@@ -79,6 +79,32 @@ pub struct FaceProfile {
     pub profile: SurfaceProfile,
     /// The direction of the profile.
     pub direction: FaceDirection,
+    /// The depth to which its highest part is worn flat, m: where the profile is deeper it is as it was. Depths
+    /// are counted from the flat. Of the wedge's surface alone.
+    #[serde(default)]
+    pub worn_flat: f64,
+}
+
+impl FaceProfile {
+    /// Returns the depth (m) at a distance from the middle (m).
+    fn depth(&self, distance: f64) -> f64 {
+        let [depth, ..] = self.profile.depth(distance);
+        match self.worn_flat {
+            0.0 => depth,
+            flat => (depth - flat).max(0.0),
+        }
+    }
+
+    /// Returns half of the width of its flat (m), if it is an arc that is worn flat.
+    #[must_use]
+    pub fn half_flat(&self) -> Option<f64> {
+        match &self.profile {
+            SurfaceProfile::Arc { curvature } if self.worn_flat > 0.0 => {
+                Some((self.worn_flat * (2.0 / curvature - self.worn_flat)).sqrt())
+            }
+            _ => None,
+        }
+    }
 }
 
 /// A direction along a face.
@@ -186,7 +212,7 @@ impl FaceProperties {
             FaceDirection::Up => up,
             FaceDirection::Across => across,
         };
-        let [mut depth, ..] = self.wedge_surface.profile.depth(distance);
+        let mut depth = self.wedge_surface.depth(distance);
         if let Some(map) = &self.wedge_wear {
             depth += map.depth(up, across);
         }
@@ -311,6 +337,8 @@ impl FaceProperties {
             (paths.wedge_surface, &self.wedge_surface),
             (paths.counterface, &self.counterface),
         ] {
+            let holds = own.worn_flat >= 0.0 && own.worn_flat.is_finite();
+            check(path, own.worn_flat, holds, "worn flat by zero or more")?;
             match &own.profile {
                 SurfaceProfile::Flat => {}
                 SurfaceProfile::Arc { curvature } => {
@@ -320,6 +348,13 @@ impl FaceProperties {
                         radius,
                         radius > extent(own),
                         "a radius of more than half of the face",
+                    )?;
+                    let [depth, ..] = own.profile.depth(extent(own));
+                    check(
+                        path,
+                        own.worn_flat,
+                        own.worn_flat < depth || own.worn_flat == 0.0,
+                        "worn flat by less than its depth at the edges: else it is flat",
                     )?;
                 }
                 SurfaceProfile::Table(table) => {

@@ -84,6 +84,35 @@ pub struct Wear {
     pub slope: f64,
 }
 
+impl Wear {
+    /// Returns the depths by which a wedge rises by `rise` (m); the column and the wedge's vertical face have
+    /// `column_share` of the sum of both depths, from 0 to 1. The reverse of [`Wear::rise`].
+    #[must_use]
+    pub fn of_rise(rise: f64, column_share: f64, [angle, toe, across]: [f64; 3]) -> Self {
+        let slope_share = 1.0 - column_share;
+        let by_slope = slope_share * libm::cos(toe) / libm::cos(across);
+        let sum = rise * libm::sin(angle + toe) / (column_share * libm::cos(angle) + by_slope);
+        Self {
+            column: column_share * sum,
+            slope: slope_share * sum,
+        }
+    }
+
+    /// Returns the height of a wedge with worn faces above an unworn one when both touch column and slope,
+    /// bolster and side frame being where they were, m: `(w_c cos θ + w_s cos φ / cos β) / sin(θ + φ)` with
+    /// the depths of wear w_c and w_s, the wedge angle θ, the toe φ and the slope's angle across β (rad).
+    ///
+    /// It follows from the two faces that both touch. The wedge's displacement (x, z) takes up the wear along
+    /// both normals: `x cos φ - z sin φ = -w_c` and `(x cos θ + z sin θ) cos β = w_s`. Rigid faces; with
+    /// elastic contacts the rise is less by what the unworn wedge, under its greater coil force, is pressed
+    /// in more.
+    #[must_use]
+    pub fn rise(&self, [angle, toe, across]: [f64; 3]) -> f64 {
+        let by_slope = self.slope * libm::cos(toe) / libm::cos(across);
+        (self.column * libm::cos(angle) + by_slope) / libm::sin(angle + toe)
+    }
+}
+
 /// The normal contact law, per corner.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
@@ -276,17 +305,10 @@ impl Parameters {
         })
     }
 
-    /// Returns the height of a wedge with worn faces above an unworn one when both touch column and slope,
-    /// bolster and side frame being where they were, m: `(w_c cos θ + w_s cos φ) / sin(θ + φ)` with the
-    /// depths of wear w_c and w_s.
-    ///
-    /// It follows from the two faces that both touch. The wedge's displacement (x, z) takes up the wear along
-    /// both normals: `x cos φ - z sin φ = -w_c` and `x cos θ + z sin θ = w_s`. Rigid faces; with elastic
-    /// contacts the rise is less by what the unworn wedge, under its greater coil force, is pressed in more.
+    /// Returns the height by which wear of the faces lifts the wedge, m: [`Wear::rise`].
     #[must_use]
     pub fn wedge_rise(&self) -> f64 {
-        let (angle, toe) = (self.wedge.angle, self.toe);
-        (self.wear.column * libm::cos(angle) + self.wear.slope * libm::cos(toe)) / libm::sin(angle + toe)
+        self.wear.rise([self.wedge.angle, self.toe, 0.0])
     }
 }
 

@@ -17,6 +17,7 @@ fn arc(radius: f64, direction: FaceDirection) -> FaceProfile {
             curvature: 1.0 / radius,
         },
         direction,
+        ..FaceProfile::default()
     }
 }
 
@@ -26,6 +27,7 @@ fn table(direction: FaceDirection) -> FaceProfile {
     FaceProfile {
         profile: SurfaceProfile::Table(Spline::new(places.to_vec(), depths.to_vec()).unwrap()),
         direction,
+        ..FaceProfile::default()
     }
 }
 
@@ -209,6 +211,7 @@ fn analytic_a_cubic_map_of_a_counterface_is_its_table() {
                     face.counterface = FaceProfile {
                         profile: SurfaceProfile::Table(Spline::new(places.to_vec(), depths).unwrap()),
                         direction,
+                        ..FaceProfile::default()
                     };
                 }
                 rates(parameters)

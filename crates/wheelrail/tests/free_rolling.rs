@@ -19,7 +19,7 @@ const STEEL: Material = Material {
 fn wheelset_of(wheel: &Profile, gauge: f64, radius: f64) -> Result<RigidWheelset, ProfileError> {
     let rail = nominal::rail_136re().unwrap().inclined(1.0 / 40.0);
     let layout = Layout {
-        tape_distance: 59.21875 * INCH,
+        tape_distance: nominal::TAPE_DISTANCE,
         gauge,
         gauge_depth: nominal::GAUGE_DEPTH,
     };

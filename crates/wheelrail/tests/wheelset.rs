@@ -30,7 +30,7 @@ fn cones(slope: f64) -> RigidWheelset {
 
 const INCH: f64 = 0.0254;
 const FREIGHT: Layout = Layout {
-    tape_distance: (53.0 + 3.0 / 32.0 + 2.0 * (3.0 + 1.0 / 16.0)) * INCH,
+    tape_distance: nominal::TAPE_DISTANCE,
     gauge: 56.5 * INCH,
     gauge_depth: nominal::GAUGE_DEPTH,
 };

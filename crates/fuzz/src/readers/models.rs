@@ -73,7 +73,7 @@ fn one_wheelset() -> Option<Wheelset> {
         rail: nominal::rail_136re().ok()?.inclined(nominal::INCLINATION),
         radius: 0.4572,
         layout: Layout {
-            tape_distance: 1.504_16,
+            tape_distance: nominal::TAPE_DISTANCE,
             gauge: 1.4351,
             gauge_depth: nominal::GAUGE_DEPTH,
         },

@@ -45,7 +45,7 @@ pub fn freight() -> (RigidWheelset, f64) {
     let wheel = nominal::aar_1b().unwrap();
     let rail = nominal::rail_136re().unwrap().inclined(nominal::INCLINATION);
     let layout = Layout {
-        tape_distance: (53.0 + 3.0 / 32.0 + 2.0 * (3.0 + 1.0 / 16.0)) * INCH,
+        tape_distance: nominal::TAPE_DISTANCE,
         gauge: 56.5 * INCH,
         gauge_depth: nominal::GAUGE_DEPTH,
     };

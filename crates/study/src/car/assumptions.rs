@@ -10,6 +10,7 @@ use wheelrail::profile::Profile;
 use super::CarCase;
 use super::statistics::Rules;
 use crate::truck::assumptions::of_kinds;
+use crate::wedge_faces;
 
 /// Returns the assumption about a profile of wheels or rails; `typed` is what the user calls it: a nominal
 /// profile or a file.
@@ -83,6 +84,12 @@ fn of_warp(parameters: &Parameters) -> Option<String> {
     }
 }
 
+/// Returns the wedges of both trucks with their names in words.
+pub(super) fn named(parameters: &Parameters) -> Vec<(String, &Wedge)> {
+    let [front, rear] = &parameters.trucks;
+    wedge_faces::named(&[("front ", &front.wedges), ("rear ", &rear.wedges)])
+}
+
 /// Returns the assumptions of a run.
 pub(super) fn of(case: &CarCase) -> Vec<String> {
     let p = &case.parameters;
@@ -108,6 +115,7 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
     let sprung = "Each wheel has a piece of rail of its own on springs";
     list.push(of_support(p.support.as_ref(), sprung, p.gravity));
     let wedges: Vec<Wedge> = p.trucks.iter().flat_map(|own| own.wedges.clone()).collect();
+    list.extend(wedge_faces::assumptions(&named(p)));
     list.extend(of_kinds(&wedges));
     list.extend(of_warp(p));
     list.push(match &p.drive {

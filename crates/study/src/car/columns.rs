@@ -4,12 +4,12 @@ use car::{BuildError, Car, Loads, Parameters};
 use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
 use quantity::Kind;
-use truck::{HALVES, WEDGE_NAMES, WedgeKind};
+use truck::{HALVES, WEDGE_NAMES, WedgeKind, WedgeLoads};
 use wheelrail::track::Track;
 
 use super::derailment;
 use super::statistics::{SIDES, ratio};
-use crate::truck::columns::of_halves;
+use crate::truck::columns::{RISE, of_halves};
 
 /// The table of a car's results, for any observation of its system.
 pub struct CarTable {
@@ -19,6 +19,7 @@ pub struct CarTable {
     track: Track,
     /// Heights of the axles at the start, m.
     heights: [f64; 4],
+    wedges_at_start: [[WedgeLoads; 4]; 2],
 }
 
 impl CarTable {
@@ -35,6 +36,7 @@ impl CarTable {
         let loads = car.loads(&seen, &vec![0.0; x.len()]);
         Ok(Self {
             heights: loads.axles.map(|axle| axle.height),
+            wedges_at_start: loads.trucks.map(|truck| truck.wedges),
             track: parameters.track.clone(),
             car,
             columns,
@@ -46,6 +48,12 @@ impl CarTable {
     #[must_use]
     pub fn car(&self) -> &Car {
         &self.car
+    }
+
+    /// Returns the wedges of both trucks at the start.
+    #[must_use]
+    pub fn wedges_at_start(&self) -> &[[WedgeLoads; 4]; 2] {
+        &self.wedges_at_start
     }
 
     /// Returns the columns.
@@ -186,6 +194,12 @@ impl Columns {
         own.fixed = own.columns.len();
         for (truck, parameters) in trucks.iter().enumerate() {
             own.more_of_truck(truck);
+            for (number, name) in WEDGE_NAMES.into_iter().enumerate() {
+                let name = format!("truck_{}_{name}_rise", truck + 1);
+                own.add(name, Kind::Length, TRUCK, RISE, move |seen| {
+                    seen.loads.trucks[truck].wedges[number].rise
+                });
+            }
             for (number, name) in WEDGE_NAMES.into_iter().enumerate() {
                 if parameters.wedges[number].kind == WedgeKind::Split {
                     own.halves(truck, number, name);

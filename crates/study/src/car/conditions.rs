@@ -1,10 +1,11 @@
 //! Conditions in which a car is assessed, as data: values laid over its case.
 //!
 //! ```toml
-//! [conditions.worn]
-//! title = "worn wedges and columns"
-//! [conditions.worn.set]
-//! truck.condition = "worn"
+//! [conditions.worn_out]
+//! title = "wedges that stand 1.2 in high in their pockets, and columns that shine"
+//! [conditions.worn_out.set]
+//! truck.wedge.rise = "1.2 in"
+//! truck.friction.column = 0.2
 //! ```
 
 use std::path::Path;
@@ -23,6 +24,8 @@ use crate::design::settings;
 
 const HELP: &str =
     "write [conditions.NAME] with a title, and below [conditions.NAME.set] keys of a car's case";
+/// An older name of a condition, which is read, and its name.
+const BEFORE: [&str; 2] = ["worn", "mu_0.25"];
 /// The built-in conditions as a file.
 pub const BUILT_IN: &str = include_str!("../../regimes/conditions.toml");
 
@@ -56,6 +59,7 @@ impl Condition {
     pub fn chosen(texts: &[String]) -> Result<Vec<Self>, CaseError> {
         let mut chosen: Vec<Self> = Vec::new();
         for text in texts {
+            let text = if text == BEFORE[0] { BEFORE[1] } else { text };
             let found = match find("there is no condition", text, Self::all(), |own| &own.name)? {
                 BuiltInOrFile::BuiltIn(own) => vec![own.clone()],
                 BuiltInOrFile::File(path) => read(path)?,

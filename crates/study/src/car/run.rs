@@ -32,6 +32,8 @@ use crate::run::{
 };
 use crate::signal::LowPass;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue};
+use crate::wedge_faces;
+use crate::wedge_rise::{self, AtStart};
 
 /// The result of a run.
 pub type CarResult = RunResult<CarSummary>;
@@ -282,6 +284,11 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     warnings.extend(run.start_warning.clone());
     warnings.extend(plausibility::warnings_of_rolling(&run));
     warnings.extend(run.case.doubts.iter().cloned());
+    let risen = wedges_at_start(&run);
+    warnings.extend(wedge_rise::warnings(&risen, units));
+    let wedge_rise = wedge_rise::summary(&risen, units);
+    let named = super::assumptions::named(&run.case.parameters);
+    warnings.extend(wedge_faces::warnings(&named));
     let method = run.case.simulation.method;
     if let Wheels::OnRails(_) = run.case.parameters.wheels {
         let loads = run.recorder.table.static_loads();
@@ -344,6 +351,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         statistics: statistics.values,
         wedge_losses,
         wedge_locked,
+        wedge_rise,
         energy,
         extremes,
         ledger,
@@ -369,6 +377,16 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         values,
         summary,
     }
+}
+
+/// Returns the wedges of both trucks at the start.
+fn wedges_at_start(run: &Run<CarCase>) -> [AtStart<'_>; 2] {
+    let [front, rear] = &run.case.parameters.trucks;
+    let [of_front, of_rear] = run.recorder.table.wedges_at_start();
+    [
+        ("truck_1_", &front.wedges, of_front),
+        ("truck_2_", &rear.wedges, of_rear),
+    ]
 }
 
 fn statistics_of(run: &Run<CarCase>, table: &RowTable) -> Statistics {

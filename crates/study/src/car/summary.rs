@@ -12,6 +12,7 @@ use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::outcome::RunEnd;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
+use crate::wedge_rise::RiseSummary;
 
 /// The schema's name and version.
 pub const SCHEMA: &str = "wedgelab.car/1";
@@ -57,6 +58,9 @@ pub struct CarSummary {
     /// massless wedges.
     #[serde(default)]
     pub wedge_locked: BTreeMap<String, f64>,
+    /// Rises of the wedges at the start, by their names: `truck_1_leading_left`.
+    #[serde(default)]
+    pub wedge_rise: BTreeMap<String, RiseSummary>,
     /// Sources and sinks of the energy of the run.
     pub energy: EnergySummary,
     /// Least and greatest values of all columns, by their names with units.

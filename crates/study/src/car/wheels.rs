@@ -129,7 +129,7 @@ pub(super) fn wheels(r: &mut CaseReader<'_>, parameters: &mut Parameters, rails:
     let comment = "\"aar_1b\" (nominal, from memory), \"aar_1b_1:10\" (its flange, another tread), \
                    \"cone_1:20\" of any slope, or a file: CSV with units, Simpack's .prw";
     let name = text(r, "profile", "aar_1b", comment);
-    let mut tape_distance = 59.21875 * INCH;
+    let mut tape_distance = nominal::TAPE_DISTANCE;
     r.quantity("tape_distance", LENGTH, &mut tape_distance, "of the tape circles");
     let mut deviation = DEVIATION;
     let form: QuantityForm = (Measure::Length, Range::NotNegative, Reach::FromZero(1e-4));

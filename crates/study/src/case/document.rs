@@ -6,6 +6,7 @@
 use super::face::FaceSection;
 use super::face_values::Surface;
 use super::motion::{CaseMotion, MotionProfile};
+use super::rise::RiseSection;
 use super::section::{Names, name_of};
 use super::table::QuantityTable;
 use integrate::Method;
@@ -103,6 +104,8 @@ pub struct WedgeSection {
     pub column_wear: Quantity,
     /// Depth of wear of the pocket's slope and the wedge's slope face together.
     pub slope_wear: Quantity,
+    /// Both by the wedge's rise.
+    pub rise: RiseSection,
     /// Coordinates that are free; the others are held.
     pub free_coordinates: Vec<Coordinate>,
 }

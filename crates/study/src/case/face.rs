@@ -19,6 +19,9 @@ pub(crate) const ABOUT: [&str; 2] = [
     "The wedge's vertical face at the column. A surface is \"flat\", or one of\n\
      # { shape = \"crown\", radius = \"60 in\", direction = \"up\" }       direction \"up\" the face \
      or \"across\" it; or shape \"hollow\"\n\
+     #   and worn_flat = \"0.02 in\" for a wedge's crown worn flat from its crest by this depth; the depth \
+     itself lifts the\n\
+     #                                                wedge as wear or rise of [wedge]\n\
      # { shape = \"table\", direction = \"up\", points = [[place, depth], ...] }   from edge to edge, \
      places from the middle, up or to\n\
      #                                                the left; or file = \"profile.csv\"",

@@ -9,6 +9,7 @@ use super::table::{self, TableForm};
 use super::tables::Tables;
 use super::tree::{NodeValue, TableNode, TreeNode};
 use super::units::in_system;
+use crate::reader::in_customary_units;
 use mechanics::spline::{Spline, SplineError};
 use mechanics::surface::SurfaceProfile;
 use quantity::{Kind, Quantity, System};
@@ -28,6 +29,8 @@ pub enum Surface {
         radius: Quantity,
         /// Its direction.
         direction: FaceDirection,
+        /// The depth to which a crown is worn flat.
+        worn_flat: Option<Quantity>,
     },
     /// Depths over places.
     Table {
@@ -61,6 +64,9 @@ const SHAPES: Names<Shape> = &[
     ("table", Shape::Table),
 ];
 
+/// The key of the depth to which a crown is worn flat.
+const WORN_FLAT: &str = "worn_flat";
+
 /// Shapes of a surface.
 #[derive(Clone, Copy, PartialEq)]
 enum Shape {
@@ -80,12 +86,27 @@ fn section_of<'n>(node: &'n TreeNode, path: &str, table: &'n TableNode) -> CaseS
 }
 
 impl Surface {
+    /// Returns a crown of a radius, m.
+    pub(crate) fn crown(radius: f64, direction: FaceDirection) -> Self {
+        match in_customary_units(radius, Kind::Length) {
+            Some(radius) => Self::Arc {
+                hollow: false,
+                radius,
+                direction,
+                worn_flat: None,
+            },
+            None => Self::Flat,
+        }
+    }
+
     pub(super) fn read(
         node: &TreeNode,
         path: &str,
         tables: Tables<'_>,
         problems: &mut Problems,
     ) -> Option<Self> {
+        // A counterface has a smooth surface; the wedge's is where its points are.
+        let of_wedge = path.ends_with("wedge_surface");
         let NodeValue::Table(own) = &node.value else {
             const FLAT: Names<()> = &[("flat", ())];
             if matches!(&node.value, NodeValue::Text(text) if text == "flat") {
@@ -98,6 +119,7 @@ impl Surface {
         let shape = s.choice("shape", SHAPES, problems)?;
         let keys: &[&str] = match shape {
             Shape::Flat => &["shape"],
+            Shape::Crown if of_wedge => &["shape", "radius", "direction", WORN_FLAT],
             Shape::Crown | Shape::Hollow => &["shape", "radius", "direction"],
             Shape::Table => &["shape", "direction", "file", "points"],
         };
@@ -114,10 +136,15 @@ impl Surface {
             });
         }
         let radius = s.quantity("radius", Kind::Length, Range::Positive, problems)?;
+        let worn_flat = match s.table.get(WORN_FLAT) {
+            Some(_) => Some(s.quantity(WORN_FLAT, Kind::Length, Range::NotNegative, problems)?),
+            None => None,
+        };
         Some(Self::Arc {
             hollow: shape == Shape::Hollow,
             radius,
             direction: direction?,
+            worn_flat,
         })
     }
 
@@ -129,11 +156,15 @@ impl Surface {
                 hollow,
                 radius,
                 direction,
+                worn_flat,
             } => {
                 let shape = name_of(SHAPES, if *hollow { &Shape::Hollow } else { &Shape::Crown });
                 let direction = name_of(DIRECTIONS, direction);
                 let radius = text(radius, Kind::Length, system);
-                format!("{{ shape = \"{shape}\", radius = {radius}, direction = \"{direction}\" }}")
+                let worn = worn_flat.as_ref().map_or(String::new(), |own| {
+                    format!(", {WORN_FLAT} = {}", text(own, Kind::Length, system))
+                });
+                format!("{{ shape = \"{shape}\", radius = {radius}, direction = \"{direction}\"{worn} }}")
             }
             Self::Table { table, direction } => {
                 let direction = name_of(DIRECTIONS, direction);
@@ -160,6 +191,7 @@ impl Surface {
                 hollow,
                 radius,
                 direction,
+                worn_flat,
             } => {
                 let sign = if *hollow { -1.0 } else { 1.0 };
                 FaceProfile {
@@ -167,6 +199,7 @@ impl Surface {
                         curvature: sign / radius.to_si(),
                     },
                     direction: *direction,
+                    worn_flat: worn_flat.as_ref().map_or(0.0, Quantity::to_si),
                 }
             }
             Self::Table { table, direction } => {
@@ -174,6 +207,7 @@ impl Surface {
                 FaceProfile {
                     profile: SurfaceProfile::Table(Spline::new(places, depths)?),
                     direction: *direction,
+                    worn_flat: 0.0,
                 }
             }
         })

@@ -6,6 +6,7 @@ use super::duration::{check_cover, check_rows};
 use super::face::{self, FaceSection};
 use super::motion;
 use super::problem::{Problem, Problems, TomlLocation};
+use super::rise::RiseSection;
 use super::section::{self, CaseSection, Range};
 use super::table::{self, TableForm};
 use super::tables::Tables;
@@ -30,6 +31,8 @@ const KEYS: &[(&str, &[&str])] = &[
             "center_of_gravity",
             "column_wear",
             "slope_wear",
+            RiseSection::KEYS[0],
+            RiseSection::KEYS[1],
             "free_coordinates",
         ],
     ),
@@ -252,6 +255,8 @@ fn read_wedge(s: &CaseSection<'_>, problems: &mut Problems) -> Option<WedgeSecti
     let center_of_gravity = s.triple("center_of_gravity", Kind::Length, Range::Any, problems);
     let column_wear = s.quantity("column_wear", Kind::Length, Range::NotNegative, problems);
     let slope_wear = s.quantity("slope_wear", Kind::Length, Range::NotNegative, problems);
+    let (column_wear, slope_wear) = (column_wear?, slope_wear?);
+    let rise = RiseSection::of_wedge(s, [&column_wear, &slope_wear], problems);
     let free_coordinates = read_free_coordinates(s, problems);
     Some(WedgeSection {
         damping: damping?,
@@ -261,8 +266,9 @@ fn read_wedge(s: &CaseSection<'_>, problems: &mut Problems) -> Option<WedgeSecti
         weight: weight?,
         inertia: inertia?,
         center_of_gravity: center_of_gravity?,
-        column_wear: column_wear?,
-        slope_wear: slope_wear?,
+        column_wear,
+        slope_wear,
+        rise: rise?,
         free_coordinates: free_coordinates?,
     })
 }

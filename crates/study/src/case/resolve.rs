@@ -30,9 +30,13 @@ pub(super) fn parameters(document: &typed::CaseDocument) -> Result<Parameters, U
             typed::Damping::Constant => Damping::Constant,
         },
         wedge: wedge(&document.wedge),
-        wear: Wear {
-            column: document.wedge.column_wear.to_si(),
-            slope: document.wedge.slope_wear.to_si(),
+        wear: {
+            let own = &document.wedge;
+            let angles = [own.angle.to_si(), document.toe.to_si(), 0.0];
+            own.rise.wear(angles).unwrap_or_else(|| Wear {
+                column: own.column_wear.to_si(),
+                slope: own.slope_wear.to_si(),
+            })
         },
         coil: coil(&document.control_coil)?,
         contact: Contact {

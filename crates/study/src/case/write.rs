@@ -112,16 +112,7 @@ impl CaseDocument {
             "from the point above the coil. It is taken as the prism's centroid, which places \
              the faces",
         );
-        page.line(
-            "column_wear",
-            Written::quantity(&wedge.column_wear, Kind::Length, Reach::FromZero(WEAR)),
-            "what column and wedge have lost there, together: the column lies deeper by it",
-        );
-        page.line(
-            "slope_wear",
-            Written::quantity(&wedge.slope_wear, Kind::Length, Reach::FromZero(WEAR)),
-            "the same at the slope; a worn wedge rises. Begin with start = \"equilibrium\"",
-        );
+        wedge.rise.write(page, [&wedge.column_wear, &wedge.slope_wear]);
         page.line(
             "free_coordinates",
             Written::several(Coordinate::NAMES, &wedge.free_coordinates),

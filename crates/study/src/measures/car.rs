@@ -11,9 +11,9 @@ use super::{Definitions, Judged, Measure, Measures, Unmeasured};
 use crate::car::CarCase;
 use crate::car::run::CarResult;
 use crate::car::worst::WORST;
-use crate::plausibility;
+use crate::{plausibility, wedge_rise};
 
-const OTHERS: [(&str, Kind, &str); 9] = [
+const OTHERS: [(&str, Kind, &str); 10] = [
     (
         "largest_warp_angle",
         Kind::Angle,
@@ -28,6 +28,11 @@ const OTHERS: [(&str, Kind, &str); 9] = [
         "largest_wear_number",
         Kind::Force,
         "largest energy that creep takes by the distance, of a wheel",
+    ),
+    (
+        "largest_rise_at_start",
+        Kind::Length,
+        "largest rise of a wedge in its pocket at the start",
     ),
     ("wedge_loss", Kind::Energy, "lost in the friction of all wedges"),
     ("end_speed", Kind::TravelSpeed, "speed at the end"),
@@ -121,6 +126,7 @@ fn measures(result: &CarResult) -> Measures {
         largest_of("_warp_angle"),
         largest_of("_nest_vertical_force"),
         largest_of("_wear_number"),
+        wedge_rise::largest(&summary.wedge_rise),
         summary.wedge_losses.values().map(|own| own.value).sum(),
         summary.speed[1].value,
         summary.distance[1].value,

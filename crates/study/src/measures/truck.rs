@@ -12,13 +12,13 @@ use truck::WEDGE_NAMES;
 
 use super::measuring::run_whole;
 use super::{Definitions, Judged, Measure, Measures, Unmeasured};
-use crate::plausibility;
+use crate::{plausibility, wedge_rise};
 use crate::truck::TruckCase;
 use crate::truck::run::{TruckResult, window};
 use crate::truck::summary::{WARP_ANGLES, warp_stiffness};
 
 /// Measures of all runs.
-const OF_ALL: [(&str, Kind, &str, bool); 12] = [
+const OF_ALL: [(&str, Kind, &str, bool); 13] = [
     (
         "work_per_cycle",
         Kind::Energy,
@@ -78,6 +78,12 @@ const OF_ALL: [(&str, Kind, &str, bool); 12] = [
         "lowest_bolster_z",
         Kind::Length,
         "lowest place of the bolster from nominal",
+        true,
+    ),
+    (
+        "largest_rise_at_start",
+        Kind::Length,
+        "largest rise of a wedge in its pocket at the start",
         true,
     ),
     (
@@ -175,6 +181,7 @@ fn measures(case: &TruckCase, result: &TruckResult) -> Measures {
         column("bolster_z")
             .iter()
             .fold(f64::INFINITY, |least, value| least.min(*value)),
+        wedge_rise::largest(&result.summary.wedge_rise),
         result.summary.ledger.largest_relative_residual,
         result.summary.statistics.steps as f64,
     ];

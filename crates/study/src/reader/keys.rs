@@ -42,7 +42,7 @@ impl CaseReader<'_> {
         value: &mut Option<f64>,
         example: &str,
         comment: &str,
-    ) {
+    ) -> Option<Quantity> {
         let given = self
             .table_at(&self.section)
             .is_some_and(|table| table.get(key).is_some());
@@ -53,11 +53,12 @@ impl CaseReader<'_> {
                     page.absent(key, example, comment);
                 }
             }
-            return;
+            return None;
         }
         let mut own = value.unwrap_or_default();
-        self.quantity(key, form, &mut own, comment);
+        let typed = self.quantity(key, form, &mut own, comment);
         *value = Some(own);
+        typed
     }
 
     /// A mass, typed as the force that it weighs under standard gravity.
@@ -231,7 +232,7 @@ impl CaseReader<'_> {
 
 /// Returns an SI value in the customary unit of its kind, with the fewest digits that differ from it by
 /// rounding only.
-pub(super) fn in_customary_units(value: f64, kind: Kind) -> Option<Quantity> {
+pub(crate) fn in_customary_units(value: f64, kind: Kind) -> Option<Quantity> {
     let unit = match kind {
         Kind::Inertia => "lbf in s^2",
         Kind::Acceleration => "m/s^2",

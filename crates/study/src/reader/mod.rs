@@ -9,6 +9,7 @@ mod motions;
 mod simulation;
 mod text;
 
+pub(crate) use keys::in_customary_units;
 pub(crate) use motions::check_motions;
 pub(crate) use text::CaseText;
 
@@ -146,7 +147,7 @@ impl<'r> CaseReader<'r> {
     }
 
     /// The same at a full path.
-    fn problem_at(&mut self, path: &str, problem: Problem) {
+    pub fn problem_at(&mut self, path: &str, problem: Problem) {
         self.problems.push(match self.tree.place_of(path) {
             Some(place) => problem.at(place),
             None => problem,
@@ -180,7 +181,8 @@ impl<'r> CaseReader<'r> {
         self.table_at(&self.section)?.get(key)
     }
 
-    fn path(&self, key: &str) -> String {
+    /// Returns the full path of a key of the current section.
+    pub fn path(&self, key: &str) -> String {
         format!("{}.{key}", self.section)
     }
 

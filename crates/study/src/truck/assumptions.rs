@@ -4,7 +4,7 @@ use truck::{Adapter, WEDGE_NAMES, Wedge, WedgeKind};
 use wedge::parameters::{Damping, Start};
 
 use super::TruckCase;
-use crate::assumptions::of_face;
+use crate::wedge_faces;
 
 const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
@@ -57,14 +57,7 @@ pub(super) fn of(case: &TruckCase) -> Vec<String> {
          contacts, and inertias of empty cars are decided, not measured."
             .to_owned(),
     ];
-    for (name, wedge) in WEDGE_NAMES.iter().zip(&p.wedges) {
-        for (face, own) in [("column", &wedge.column_face), ("slope", &wedge.slope_face)] {
-            list.extend(of_face(
-                &format!("{} wedge's {face}", name.replace('_', " ")),
-                own,
-            ));
-        }
-    }
+    list.extend(wedge_faces::assumptions(&wedge_faces::named(&[("", &p.wedges)])));
     list.extend(of_kinds(&p.wedges));
     let massless = WEDGE_NAMES.iter().zip(&p.wedges);
     let massless: Vec<String> = massless

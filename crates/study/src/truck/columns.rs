@@ -22,6 +22,7 @@ struct Seen<'s> {
 pub struct TruckTable {
     truck: Truck,
     columns: Columns,
+    wedges_at_start: [WedgeLoads; 4],
 }
 
 impl TruckTable {
@@ -32,13 +33,24 @@ impl TruckTable {
     pub fn new(case: &TruckCase) -> Result<Self, BuildError> {
         let truck = Truck::new(&case.parameters)?;
         let columns = Columns::new(&truck, &case.parameters);
-        Ok(Self { truck, columns })
+        let seen = truck.system.clone().observe(0.0, &truck.initial_state);
+        Ok(Self {
+            wedges_at_start: truck.loads(&seen).wedges,
+            truck,
+            columns,
+        })
     }
 
     /// Returns the truck.
     #[must_use]
     pub fn truck(&self) -> &Truck {
         &self.truck
+    }
+
+    /// Returns the wedges at the start.
+    #[must_use]
+    pub fn wedges_at_start(&self) -> &[WedgeLoads; 4] {
+        &self.wedges_at_start
     }
 
     /// Returns the equations of motion.
@@ -146,6 +158,11 @@ impl Columns {
             if parameters.wedges[number].kind == WedgeKind::Split {
                 own.halves(number, name);
             }
+        }
+        for (number, name) in WEDGE_NAMES.into_iter().enumerate() {
+            own.add(format!("{name}_rise"), Kind::Length, RISE, move |seen| {
+                seen.loads.wedges[number].rise
+            });
         }
         own.parts_of_warp_moment();
         own.body(truck, BOLSTER, "bolster", &[0, 1, 3, 4, 5]);
@@ -380,6 +397,10 @@ fn angles(rotation: &Matrix<f64>) -> [f64; 3] {
         libm::asin(r[1][0].clamp(-1.0, 1.0)),
     ]
 }
+
+/// The text of the columns of wedges' rises, of trucks and of trucks under cars.
+pub(crate) const RISE: &str =
+    "height in its pocket above that of an unworn wedge in the nominal layout, as a gauge shows it";
 
 /// A column of a split wedge's halves.
 pub(crate) struct HalfColumn {

@@ -30,6 +30,7 @@ use crate::run::{
     Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, check_finite, check_length,
 };
 use crate::summary::{LedgerSummary, Stopped, SummaryValue};
+use crate::{wedge_faces, wedge_rise};
 
 /// The result of a run.
 pub type TruckResult = RunResult<TruckSummary>;
@@ -313,6 +314,15 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
     warnings.extend(without_coil(&run.case));
     warnings.extend(closed(run.recorder.table.truck(), units));
     warnings.extend(expelled(&run.case.parameters));
+    let risen = [(
+        "",
+        &run.case.parameters.wedges,
+        run.recorder.table.wedges_at_start(),
+    )];
+    warnings.extend(wedge_rise::warnings(&risen, units));
+    let wedge_rise = wedge_rise::summary(&risen, units);
+    let named = wedge_faces::named(&[("", &run.case.parameters.wedges)]);
+    warnings.extend(wedge_faces::warnings(&named));
     let column = |name: &str| table.column(name);
     let mut summary = TruckSummary {
         schema: SCHEMA.to_owned(),
@@ -330,6 +340,7 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
         jam: quasi_static(&run.case.parameters)
             .map(|(name, own)| (name.to_owned(), JamMargins::new(&own, 0.0, units)))
             .collect(),
+        wedge_rise,
         extremes: table.summary_extremes(&columns, units),
         energy: super::energies::of(&run, &column),
         ledger: LedgerSummary::of_run(&mut run, units),

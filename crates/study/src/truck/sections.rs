@@ -26,10 +26,10 @@ use crate::reader::{CLEARANCE, CaseReader, DAMPING, QuantityForm, STIFFNESS};
 /// A named condition of a truck.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Condition {
-    /// As built.
+    /// A friction of the wedges of 0.4.
     New,
-    /// Worn: less friction on the wedges.
-    Worn,
+    /// A friction of 0.25; nothing is worn.
+    LessFriction,
 }
 
 impl Condition {
@@ -37,7 +37,7 @@ impl Condition {
     pub(crate) fn friction(self) -> f64 {
         match self {
             Self::New => 0.4,
-            Self::Worn => 0.25,
+            Self::LessFriction => 0.25,
         }
     }
 }
@@ -53,7 +53,12 @@ pub enum Load {
     CarBody,
 }
 
-pub(crate) const CONDITIONS: Names<Condition> = &[("new", Condition::New), ("worn", Condition::Worn)];
+/// The last one is an older name, and is read.
+pub(crate) const CONDITIONS: Names<Condition> = &[
+    ("new", Condition::New),
+    ("mu_0.25", Condition::LessFriction),
+    ("worn", Condition::LessFriction),
+];
 pub(crate) const DAMPINGS: Names<Damping> =
     &[("variable", Damping::Variable), ("constant", Damping::Constant)];
 pub(crate) const LOADS: Names<Load> = &[

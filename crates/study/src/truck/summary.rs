@@ -11,6 +11,7 @@ use crate::jam::JamMargins;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
+use crate::wedge_rise::RiseSummary;
 
 /// The schema's name and version.
 pub const SCHEMA: &str = "wedgelab.three_piece_truck/1";
@@ -45,6 +46,9 @@ pub struct TruckSummary {
     /// Margins of each wedge to lock-up, by its name.
     #[serde(default)]
     pub jam: BTreeMap<String, JamMargins>,
+    /// Rises of the wedges at the start, by their names.
+    #[serde(default)]
+    pub wedge_rise: BTreeMap<String, RiseSummary>,
     /// Least and greatest values of all columns, by their names with units.
     pub extremes: BTreeMap<String, Extremes>,
     /// The energy ledger at the end; losses by element.

@@ -3,20 +3,24 @@
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
 use quantity::Kind;
-use truck::{ControlCoil, Parameters, Spring, WEDGE_NAMES, Wedge, WedgeKind};
-use wedge::face::Rectangle;
+use truck::{
+    CROWN_RADIUS, ControlCoil, Parameters, SERVICE_GRID, Spring, WEDGE_NAMES, Wedge, WedgeKind,
+};
+use wedge::face::{FaceDirection, Rectangle};
 use wedge::parameters::{ControlCoil as ThesisCoil, Damping};
 
 use super::sections::{contact, spring_stiffnesses};
 use super::wedge_kinds::ACROSS;
 use crate::case::document::{FrictionLaw as Law, Toe, ToeDirection};
 use crate::case::face::{self, FaceSection};
+use crate::case::face_values::Surface;
 use crate::case::field::{Reach, Written};
 use crate::case::problem::Problem;
 use crate::case::read::{ANGLE, COEFFICIENT};
 use crate::case::section::{Names, Range};
 use crate::case::toe::read_toe;
-use crate::case::write::{ANGLES, FRICTION, WEAR, toe};
+use crate::case::rise::RiseSection;
+use crate::case::write::{ANGLES, FRICTION, toe};
 use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, PRELOAD, STIFFNESS};
 
 /// A wedge while its sections are read: laws of friction keep their numbers while another one is chosen.
@@ -31,6 +35,7 @@ pub(crate) struct Draft {
     thesis: ThesisCoil,
     to_center: [f64; 3],
     faces: [FaceSection; 2],
+    rise: RiseSection,
 }
 
 /// Kinds of control coils.
@@ -86,6 +91,19 @@ fn thesis_coil(damping: Damping) -> (ThesisCoil, [f64; 3]) {
     (coil, [-1.0734 * INCH, 0.0, 2.0417 * INCH])
 }
 
+/// Returns the faces of wedges in service, column and slope: see [`Parameters::with_crowned_faces`].
+fn in_service() -> [FaceSection; 2] {
+    let column = FaceSection {
+        grid: SERVICE_GRID,
+        ..FaceSection::default()
+    };
+    let slope = FaceSection {
+        wedge_surface: Surface::crown(CROWN_RADIUS, FaceDirection::Across),
+        ..column.clone()
+    };
+    [column, slope]
+}
+
 impl Draft {
     fn new(parameters: &Parameters, friction: f64) -> Self {
         let [wedge, ..] = &parameters.wedges;
@@ -111,7 +129,8 @@ impl Draft {
             spring,
             thesis,
             to_center,
-            faces: [FaceSection::default(), FaceSection::default()],
+            faces: in_service(),
+            rise: RiseSection::default(),
         }
     }
 
@@ -126,6 +145,9 @@ impl Draft {
             },
         };
         let mut wedge = self.wedge;
+        if let Some(wear) = self.rise.wear(wedge.rise_angles()) {
+            wedge.wear = wear;
+        }
         wedge.column_friction.law = law(self.laws[0]);
         wedge.slope_friction.law = law(self.laws[1]);
         wedge.split.friction.law = law(self.laws[1]);
@@ -171,7 +193,8 @@ impl Draft {
                     Problem::new(reason).label("out of range"),
                 );
             }
-            if wedge.kind == WedgeKind::Massless && *face != FaceSection::default() {
+            let usual = [&in_service()[number], &FaceSection::default()].contains(&face);
+            if wedge.kind == WedgeKind::Massless && !usual {
                 let message = format!("`{path}{name}` is of no effect: a massless wedge has no faces");
                 let help = "leave it out, or write wedge.kind = \"body\"";
                 r.problem(
@@ -227,11 +250,12 @@ impl Draft {
         let inertia = (Kind::Inertia, Range::Positive, Reach::Positive);
         let comment = "roll, pitch, yaw: a steel prism at 32 deg, whatever the angle";
         r.triple("inertia", inertia, &mut wedge.inertia, comment);
-        let wear = (Kind::Length, Range::NotNegative, Reach::FromZero(WEAR));
-        let comment = "what column and wedge have lost there, together: the column lies deeper by it";
-        r.quantity("column_wear", wear, &mut wedge.wear.column, comment);
-        let comment = "the same at the slope; a worn wedge rises. Begin with start.kind = \"equilibrium\"";
-        r.quantity("slope_wear", wear, &mut wedge.wear.slope, comment);
+        let angles = wedge.rise_angles();
+        self.rise.read(r, &mut wedge.wear, angles);
+        let comment = "that the pocket holds, or of the mark at which inspectors replace it: a guess. It \
+                       limits nothing, but what stands higher is told";
+        r.quantity("rise_limit", LENGTH, &mut wedge.rise_limit, comment);
+        self.rise.check_limit(r, wedge.rise_limit);
         let comment = "of x, y, z, roll, pitch, yaw; the others are held";
         r.free_coordinates(&mut wedge.free, Some("the wedge could not move"), comment);
         let comment = "of the pocket's sides to each side; the thesis's wedge has none";

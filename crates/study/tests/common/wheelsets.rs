@@ -24,7 +24,7 @@ pub fn wheelset(track: &str, speed: f64) -> Wheelset {
         rail: nominal::rail_136re().unwrap().inclined(nominal::INCLINATION),
         radius: 18.0 * INCH,
         layout: Layout {
-            tape_distance: 59.21875 * INCH,
+            tape_distance: nominal::TAPE_DISTANCE,
             gauge: 56.5 * INCH,
             gauge_depth: nominal::GAUGE_DEPTH,
         },

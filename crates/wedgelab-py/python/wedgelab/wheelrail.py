@@ -219,7 +219,7 @@ class Wheelset:
         *,
         gauge: QuantityLike = "56.5 in",
         gauge_depth: QuantityLike = "0.625 in",
-        tape_distance: QuantityLike = "59.21875 in",
+        tape_distance: QuantityLike = "59.5 in",
         radius: QuantityLike = "18 in",
         shear_modulus: float = _STEEL,
         poisson: float = _POISSON,

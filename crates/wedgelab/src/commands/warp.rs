@@ -26,19 +26,23 @@ use crate::table::TerminalTable;
 /// moves), and writes warp.csv (moment, stiffness and the moment's parts at 0.5 to 20 mrad), warp_loops.csv,
 /// warp.pwl (the same for one nest as piecewise linear functions of NUCARS), warp.svg and warp.png. Several
 /// values of --friction, --toe, --wear make one test for each combination. NUCARS's empirical lines for new
-/// and worn trucks are included for comparison.
+/// and worn trucks are beside them.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
-  wedgelab warp truck_warp_nest_constant_rising
-  wedgelab warp truck_warp_nest_variable_rising --friction 0.2 0.3 0.4 --out friction
-  wedgelab warp truck_warp_axles_constant_rising_empty --set truck.condition=worn")]
+  wedgelab warp
+  wedgelab warp my_truck.toml --worn
+  wedgelab warp truck_crowned_warp_nest_variable --friction 0.2 0.3 0.4 --out friction
+  wedgelab warp truck_crowned_warp_nest_constant --rise \"0 in\" \"0.5 in\" \"1 in\"
+  wedgelab warp truck_warp_axles_constant_rising_empty --set truck.condition=mu_0.25")]
 pub struct Arguments {
-    /// Case file, or the name of a built-in case
-    #[arg(default_value = "truck_warp_nest_constant_rising")]
-    case: PathBuf,
+    /// Case file, or the name of a built-in case [default: truck_crowned_warp_nest_constant, new and worn]
+    case: Option<PathBuf>,
     #[command(flatten)]
     varied: Varied,
+    /// Beside the case the same truck worn: friction of 0.25 and a wedge rise of 0.75 in
+    #[arg(long, conflicts_with_all = ["friction", "toe", "wear", "rise"])]
+    worn: bool,
     /// Folder to write into [default: NAME_warp]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -62,15 +66,48 @@ pub struct Varied {
     /// Depths of wear of all columns and slopes, such as "0.1 in"; the truck then starts in equilibrium
     #[arg(long, value_name = "DEPTH", num_args = 1..)]
     wear: Vec<String>,
+    /// Rises of all wedges in their pockets, such as "0.5 in", in place of depths of wear; in equilibrium too
+    #[arg(long, value_name = "RISE", num_args = 1.., conflicts_with = "wear")]
+    rise: Vec<String>,
     /// Set one value over those of the case
     #[arg(long, value_name = "PATH.KEY=VALUE")]
     set: Vec<String>,
 }
 
+/// A truck new and worn, where no case is named.
+const DEFAULT: &str = "truck_crowned_warp_nest_constant";
+/// Friction and rise of a worn truck: guesses, and so is that both come together.
+const WORN: [&str; 4] = [
+    "friction.column=0.25",
+    "friction.slope=0.25",
+    "wedge.rise=0.75 in",
+    "start.kind=equilibrium",
+];
+
+impl Arguments {
+    /// Returns the cases with their labels, each with the worn truck beside it if that is asked for.
+    fn cases(&self) -> Result<Vec<(String, TruckCase)>, Failure> {
+        let varied = &self.varied;
+        let path = self.case.as_deref().unwrap_or(Path::new(DEFAULT));
+        let one = [&varied.friction, &varied.toe, &varied.wear, &varied.rise]
+            .iter()
+            .all(|own| own.is_empty());
+        if !self.worn && (self.case.is_some() || !one) {
+            return varied.cases(path);
+        }
+        let worn = WORN.map(str::to_owned);
+        let worn: Vec<String> = varied.set.iter().cloned().chain(worn).collect();
+        Ok(vec![
+            ("new".to_owned(), truck(path, &varied.set)?),
+            ("worn: friction 0.25, rise 0.75 in".to_owned(), truck(path, &worn)?),
+        ])
+    }
+}
+
 /// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
-    let cases = arguments.varied.cases(&arguments.case)?;
+    let cases = arguments.cases()?;
     let Some((_, first)) = cases.first() else {
         return Ok(ExitCode::SUCCESS);
     };
@@ -89,7 +126,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         let Some(curve) = WarpCurve::of(case, &result) else {
             progress.finish();
             let message = format!("in {} the warp angle stays below 0.5 mrad", case.name);
-            let advice = "take truck_warp_nest_constant_rising, or move the side frames' yaw or the \
+            let advice = "take truck_crowned_warp_nest_constant, or move the side frames' yaw or the \
                           wheelsets against each other";
             return Err(Message::new(message, advice).into());
         };
@@ -130,52 +167,66 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
 impl Varied {
     /// Returns the case with all combinations of what is varied, with labels.
     pub fn cases(&self, case: &Path) -> Result<Vec<(String, TruckCase)>, Failure> {
-        let none = |list: &[String]| {
-            if list.is_empty() {
-                vec![None]
-            } else {
-                list.iter().cloned().map(Some).collect()
-            }
+        let none = |list: &[String], set: &dyn Fn(&str) -> Variant| match list {
+            [] => vec![Variant::default()],
+            several => several.iter().map(|own| set(own)).collect(),
+        };
+        let of_faces = |what: &str, value: &str| {
+            ["column", "slope"]
+                .map(|face| what.replace("FACE", face) + value)
+                .to_vec()
+        };
+        let in_equilibrium = |mut set: Vec<String>| {
+            set.push("start.kind=equilibrium".to_owned());
+            set
+        };
+        let frictions = none(&self.friction, &|own| {
+            (format!("friction {own}"), of_faces("friction.FACE=", own))
+        });
+        let toes = none(&self.toe, &|own| {
+            (format!("toe {own}"), vec![format!("side_frame.toe={own}")])
+        });
+        let worn = match self.rise.as_slice() {
+            [] => none(&self.wear, &|own| {
+                let set = of_faces("wedge.FACE_wear=", own);
+                (format!("wear {own}"), in_equilibrium(set))
+            }),
+            rises => none(rises, &|own| {
+                let set = vec![format!("wedge.rise={own}")];
+                (format!("rise {own}"), in_equilibrium(set))
+            }),
         };
         let mut cases = Vec::new();
-        for friction in none(&self.friction) {
-            for toe in none(&self.toe) {
-                for wear in none(&self.wear) {
-                    let (mut set, mut labels) = (self.set.clone(), Vec::new());
-                    if let Some(friction) = &friction {
-                        set.extend(["column", "slope"].map(|face| format!("friction.{face}={friction}")));
-                        labels.push(format!("friction {friction}"));
-                    }
-                    if let Some(toe) = &toe {
-                        set.push(format!("side_frame.toe={toe}"));
-                        labels.push(format!("toe {toe}"));
-                    }
-                    if let Some(wear) = &wear {
-                        set.extend(["column", "slope"].map(|face| format!("wedge.{face}_wear={wear}")));
-                        set.push("start.kind=equilibrium".to_owned());
-                        labels.push(format!("wear {wear}"));
-                    }
-                    let case = match read_any(case, &set)? {
-                        AnyCase::Truck(case) => *case,
-                        other => {
-                            let what = match &other {
-                                AnyCase::Car(_) => "a car",
-                                AnyCase::HalfTruck(_) => "a half-truck",
-                                _ => "a single wedge",
-                            };
-                            let message =
-                                format!("{} is the case of {what}; a truck's is expected", other.name());
-                            let advice = "take a built-in truck (`wedgelab case` lists them), or a case \
-                                          with model = \"truck\"";
-                            return Err(Message::new(message, advice).into());
-                        }
-                    };
-                    cases.push((labels.join(", "), case));
+        for friction in &frictions {
+            for toe in &toes {
+                for worn in &worn {
+                    let parts = [friction, toe, worn];
+                    let labels: Vec<&str> = parts.iter().map(|own| &*own.0).collect();
+                    let labels: Vec<&str> = labels.into_iter().filter(|own| !own.is_empty()).collect();
+                    let set = parts.iter().flat_map(|own| own.1.iter().cloned());
+                    let set: Vec<String> = self.set.iter().cloned().chain(set).collect();
+                    cases.push((labels.join(", "), truck(case, &set)?));
                 }
             }
         }
         Ok(cases)
     }
+}
+
+/// The label of a test among others, and what it sets.
+type Variant = (String, Vec<String>);
+
+/// Returns the case of a truck with values laid over it.
+fn truck(case: &Path, set: &[String]) -> Result<TruckCase, Failure> {
+    let what = match read_any(case, set)? {
+        AnyCase::Truck(case) => return Ok(*case),
+        AnyCase::Car(_) => "a car",
+        AnyCase::HalfTruck(_) => "a half-truck",
+        _ => "a single wedge",
+    };
+    let message = format!("{} is the case of {what}; a truck's is expected", case.display());
+    let advice = "take a built-in truck (`wedgelab case` lists them), or a case with model = \"truck\"";
+    Err(Message::new(message, advice).into())
 }
 
 /// The message of a command that runs several tests on a first signal.

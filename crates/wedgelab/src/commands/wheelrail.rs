@@ -74,7 +74,7 @@ pub(super) struct WheelRailPair {
     /// 14 mm for rails from .prr]
     #[arg(long, value_name = "DEPTH", value_parser = length)]
     gauge_depth: Option<Quantity>,
-    /// Distance of the tape circles of the wheels [default: 59.21875 in; 1500 mm for wheels from .prw]
+    /// Distance of the tape circles of the wheels [default: 59.5 in; 1500 mm for wheels from .prw]
     #[arg(long, value_name = "DISTANCE", value_parser = length)]
     tape_distance: Option<Quantity>,
     /// Nominal radius of the wheels [default: 18 in; 460 mm for wheels from .prw]
@@ -258,7 +258,7 @@ impl WheelRailPair {
     pub(super) fn layout(&self) -> Layout {
         let (depth, distance) = (Self::is_simpack(&self.rail), Self::is_simpack(&self.wheel));
         Layout {
-            tape_distance: or_usual(self.tape_distance.as_ref(), distance, [1.5, 59.21875 * INCH]),
+            tape_distance: or_usual(self.tape_distance.as_ref(), distance, [1.5, nominal::TAPE_DISTANCE]),
             gauge: self.gauge.to_si(),
             gauge_depth: or_usual(self.gauge_depth.as_ref(), depth, [14e-3, nominal::GAUGE_DEPTH]),
         }

@@ -11,6 +11,7 @@
 //! | throat | radius 9/16 in, then 1 1/2 in into the tread | remembered |
 //! | flange | height 1 in, thickness 1 5/32 in at 5/8 in below the tape circle | remembered |
 //! | rim | 5 23/32 in wide, tape circle 3 1/16 in from the back | remembered |
+//! | back to back of a wheelset | 53 3/8 in; 53 3/32 in with wide flanges | remembered |
 //! | where the two throat radii meet | at a slope of 20° | guess |
 //! | tip of the flange | radius 1/2 in, then an arc to the vertical back | guess |
 //!
@@ -36,6 +37,10 @@ use super::{Profile, ProfileError, ProfileKind};
 pub const GAUGE_DEPTH: f64 = 0.625 * INCH;
 /// Inclination of rails in North America.
 pub const INCLINATION: f64 = 1.0 / 40.0;
+/// Distance of the tape circles of a wheelset with narrow flanges, m: 53 3/8 in from back to back
+/// (remembered; wheelsets with wide flanges have 53 3/32 in) and twice the 3 1/16 in of [`aar_1b`]. In a gauge
+/// of 56 1/2 in its flanges have a clearance of 13/32 in to each side, at the depth where gauge is measured.
+pub const TAPE_DISTANCE: f64 = (53.0 + 3.0 / 8.0 + 2.0 * (3.0 + 1.0 / 16.0)) * INCH;
 
 const REMEMBERED: &str =
     "nominal, from memory, not from the drawing: check it, or give a profile from a file";

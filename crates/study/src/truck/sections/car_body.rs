@@ -66,12 +66,23 @@ pub(crate) fn center_plate(r: &mut CaseReader<'_>, plate: &mut CenterPlate) {
         "of its surface above the top of rail",
     );
     if let [outer, inner] = plate.rings.as_mut_slice() {
-        r.quantity(
-            "radius",
-            LENGTH,
-            outer,
-            "of the outer ring; the inner one has a third of it",
-        );
+        let [diameter, radius] = ["diameter", "radius"].map(|key| r.has(&format!("center_plate.{key}")));
+        if radius {
+            // What it was called before.
+            r.quantity("radius", LENGTH, outer, "half of the diameter");
+            if diameter {
+                let message = "`center_plate.radius` is given, and `center_plate.diameter` too";
+                let problem = Problem::new(message).label("one of two");
+                r.problem("center_plate.radius", problem.help("leave out the radius"));
+                r.expect("center_plate", &["diameter"]);
+            }
+        } else {
+            let mut diameter = 2.0 * *outer;
+            let comment = "of the plate, which is that of its outer ring of points; bowls of 12, 14 and 16 in are \
+                           in use, and no source at hand says which truck has which";
+            r.quantity("diameter", LENGTH, &mut diameter, comment);
+            *outer = 0.5 * diameter;
+        }
         *inner = *outer / 3.0;
     }
     contact(r, &mut plate.contact, "of each of the 16 points: a guess");
