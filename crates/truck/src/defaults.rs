@@ -87,15 +87,15 @@ impl Bolster {
 impl Adapter {
     /// Returns an adapter of steel.
     ///
-    /// The stiffness of a point, 2e6 lbf/in, is a guess from below: the roof of a pedestal on a crowned
-    /// adapter is a line contact of some 6 in, which gives by 1e-7 in a pound (Hertz), a hundredth of it; the
+    /// The stiffness of a point, 1e6 lbf/in, is a guess from below: the roof of a pedestal on a crowned
+    /// adapter is a line contact of some 6 in, which gives by 1e-7 in a pound (Hertz), a twentieth of it; the
     /// rest is the pedestal's. A softer point (5e5 lbf/in) lets a car that rocks sink by 0.06 in into its
     /// adapters.
     #[must_use]
     pub fn friction() -> Self {
         Self::Friction(FrictionAdapter {
             preload: 15_691.0 * POUND_FORCE,
-            contact: contact(2e6, 1000.0),
+            contact: contact(1e6, 1000.0),
             friction: bristle(0.5, 2e6, 2e3),
             longitudinal: clearance([0.0468, 5e5, 50.0]),
             lateral: clearance([0.25, 1e6, 100.0]),

@@ -47,7 +47,10 @@ impl Points {
         let spin = relative.angular_velocity;
         let mut sums = [Lanes::ZERO; 8];
         for (number, (block, derivatives)) in self.blocks.iter().zip(&self.derivatives).enumerate() {
-            if !derivatives.active {
+            if !derivatives.touches {
+                if let Some(rate) = rates.get_mut(number) {
+                    *rate = TangentColumns::NONE;
+                }
                 continue;
             }
             let arm: Vector<Lanes> = relative.rotation.apply(block.position);

@@ -306,6 +306,9 @@ fn keep_rates<E>(
     let n = free.free.len();
     let points = mounted.internal_count / 2;
     for (number, columns) in mounted.rate_tangents.iter().enumerate() {
+        if !mounted.points.touch(number) {
+            continue;
+        }
         for j in 0..n {
             let changes = chain
                 .others(side, free, j, columns)
@@ -335,6 +338,10 @@ pub(super) fn differentiate_internal(
         *jacobian.internal_mut(group) = slopes.rate;
         let row = face.first_internal_row + 2 * point;
         *jacobian.internal_row_mut(row) = slopes.loss;
+        // A point that does not touch pushes nowhere.
+        if slopes.force.iter().all(|force| force.0 == [0.0; 3]) {
+            return;
+        }
         let arm: Vector<f64> = relative.rotation.apply(slopes.position);
         for e in 0..2 {
             let (force, moment) = (slopes.force[e], arm.cross::<f64, f64>(slopes.force[e]));

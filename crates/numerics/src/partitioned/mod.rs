@@ -48,6 +48,8 @@ pub struct Partitioned {
     lu: BlockLu,
     /// Number of coordinates of every body; 0: they differ.
     uniform: usize,
+    /// Number of coordinates of every body that a pair of internal states is coupled to; 0: they differ.
+    internal_uniform: usize,
     shift: f64,
     work: Vec<f64>,
 }
@@ -71,6 +73,8 @@ struct InternalPair {
     /// First coupling and number of couplings.
     first: usize,
     count: usize,
+    /// False if all couplings are zero, as those of a contact point that does not touch.
+    coupled: bool,
 }
 
 /// The coupling of a pair of internal states to one body: `G_q` (2 × n), `G_u` (2 × n), `Fᵀ` (2 × n).
@@ -86,6 +90,11 @@ struct QuadratureOfPair {
     quadrature: usize,
     group: usize,
     values: [f64; 2],
+}
+
+/// Returns the number that all are, else 0.
+fn same(numbers: &mut dyn Iterator<Item = usize>) -> usize {
+    numbers.reduce(|a, b| if a == b { a } else { 0 }).unwrap_or(0)
 }
 
 impl Partitioned {
@@ -178,11 +187,8 @@ impl Partitioned {
             internals: 2 * groups.len(),
             quadratures: structure.quadratures,
             work: vec![0.0; speeds],
-            uniform: sizes
-                .iter()
-                .copied()
-                .reduce(|a, b| if a == b { a } else { 0 })
-                .unwrap_or(0),
+            uniform: same(&mut sizes.iter().copied()),
+            internal_uniform: same(&mut sides.iter().map(|side: &InternalCoupling| sizes[side.body])),
             sizes,
             offsets,
             mass_starts,
@@ -328,13 +334,24 @@ impl Partitioned {
             }
         }
         for index in 0..self.internal_pairs.len() {
-            self.eliminate(index, shift, inverse)?;
+            match self.internal_uniform {
+                6 => self.eliminate::<6>(index, shift, inverse),
+                _ => self.eliminate::<0>(index, shift, inverse),
+            }?;
         }
         self.lu.factor()
     }
 
-    /// Eliminates a pair of internal states from the speed rows.
-    fn eliminate(&mut self, index: usize, shift: f64, inverse: f64) -> Result<(), Singular> {
+    /// Eliminates a pair of internal states from the speed rows. Its bodies have `N` coordinates; `N = 0` stands
+    /// for any numbers.
+    #[inline(always)]
+    fn eliminate<const N: usize>(
+        &mut self,
+        index: usize,
+        shift: f64,
+        inverse: f64,
+    ) -> Result<(), Singular> {
+        let size = |n: usize| if N > 0 { N } else { n };
         let group = &mut self.internal_pairs[index];
         let [a, b, c, d] = [
             shift - group.own[0],
@@ -349,19 +366,29 @@ impl Partitioned {
         let z = [d, -b, -c, a].map(|entry| entry / determinant);
         group.inverse = z;
         let sides = &self.internal_couplings[group.first..group.first + group.count];
+        group.coupled = sides.iter().any(|side| {
+            let n = size(self.sizes[side.body]);
+            self.coupling_data[side.start..][..6 * n].iter().any(|own| *own != 0.0)
+        });
+        if !group.coupled {
+            return Ok(());
+        }
         for column in sides {
-            let n = self.sizes[column.body];
-            let data = &self.coupling_data[column.start..][..4 * n];
-            let g = |row: usize, j: usize| data[2 * n + row * n + j] + inverse * data[row * n + j];
+            let n = size(self.sizes[column.body]);
+            let (g_q, g_u) = self.coupling_data[column.start..][..4 * n].split_at(2 * n);
+            // Z (G_u + G_q/σ), row by row; bodies have six coordinates at most.
+            let mut zg = [[0.0; 6]; 2];
+            for k in 0..n {
+                let (g0, g1) = (g_u[k] + inverse * g_q[k], g_u[n + k] + inverse * g_q[n + k]);
+                (zg[0][k], zg[1][k]) = (z[0] * g0 + z[1] * g1, z[2] * g0 + z[3] * g1);
+            }
             for row in sides {
-                let m = self.sizes[row.body];
+                let m = size(self.sizes[row.body]);
                 let f_t = &self.coupling_data[row.start + 4 * m..][..2 * m];
-                let block = self.lu.at_mut(self.lu.slot(row.body, column.body));
-                for j in 0..n {
-                    let (g0, g1) = (g(0, j), g(1, j));
-                    let (z0, z1) = (z[0] * g0 + z[1] * g1, z[2] * g0 + z[3] * g1);
-                    for i in 0..m {
-                        block[i * n + j] -= f_t[i] * z0 + f_t[m + i] * z1;
+                let block = &mut self.lu.at_mut(self.lu.slot(row.body, column.body))[..m * n];
+                for (i, line) in block.chunks_exact_mut(n).enumerate() {
+                    for ((entry, first), second) in line.iter_mut().zip(&zg[0]).zip(&zg[1]) {
+                        *entry -= f_t[i] * first + f_t[m + i] * second;
                     }
                 }
             }

@@ -62,9 +62,44 @@ impl Partitioned {
                 );
             }
         }
-        for (index, group) in self.internal_pairs.iter().enumerate() {
+        match self.internal_uniform {
+            6 => self.eliminated::<6>(q, s),
+            _ => self.eliminated::<0>(q, s),
+        }
+        let work = &mut self.work[..];
+        self.lu.solve(work);
+        // Back: speeds, positions, internal states, quadratures. The internal right sides hold G_q r_q/σ
+        // already.
+        for ((q, u), k) in q.iter_mut().zip(u.iter_mut()).zip(work.iter()) {
+            *u = *k;
+            *q = (*q + *k) * inverse;
+        }
+        match self.internal_uniform {
+            6 => self.substituted::<6>(u, s),
+            _ => self.substituted::<0>(u, s),
+        }
+        for row in &self.quadratures_of_bodies {
+            let (at, n) = (self.offsets[row.body], size(self.sizes[row.body]));
+            let (p_q, p_u) = self.row_data[row.start..row.start + 2 * n].split_at(n);
+            w[row.quadrature] += dot_of(p_q, &q[at..at + n]) + dot_of(p_u, &u[at..at + n]);
+        }
+        for row in &self.quadratures_of_pairs {
+            w[row.quadrature] += dot_of(&row.values, &s[2 * row.group..2 * row.group + 2]);
+        }
+        for k in w.iter_mut() {
+            *k *= inverse;
+        }
+    }
+
+    /// Adds to the right side of the speed rows what the internal states bring there, and to theirs what the
+    /// positions bring.
+    #[inline(always)]
+    fn eliminated<const N: usize>(&mut self, q: &[f64], s: &mut [f64]) {
+        let size = |n: usize| if N > 0 { N } else { n };
+        let (inverse, work) = (1.0 / self.shift, &mut self.work[..]);
+        let groups = self.internal_pairs.iter().zip(s.chunks_exact_mut(2));
+        for (group, r) in groups.filter(|(group, _)| group.coupled) {
             let sides = &self.internal_couplings[group.first..group.first + group.count];
-            let r = &mut s[2 * index..2 * index + 2];
             for side in sides {
                 let (at, n) = (self.offsets[side.body], size(self.sizes[side.body]));
                 let g_q = &self.coupling_data[side.start..][..2 * n];
@@ -82,16 +117,16 @@ impl Partitioned {
                 }
             }
         }
-        self.lu.solve(work);
-        // Back: speeds, positions, internal states, quadratures. The internal right sides hold G_q r_q/σ
-        // already.
-        for ((q, u), k) in q.iter_mut().zip(u.iter_mut()).zip(work.iter()) {
-            *u = *k;
-            *q = (*q + *k) * inverse;
-        }
-        for (index, group) in self.internal_pairs.iter().enumerate() {
-            let r = &mut s[2 * index..2 * index + 2];
-            for side in &self.internal_couplings[group.first..group.first + group.count] {
+    }
+
+    /// Returns the internal states by the speeds `u`; their right sides hold what positions bring already.
+    #[inline(always)]
+    fn substituted<const N: usize>(&mut self, u: &[f64], s: &mut [f64]) {
+        let size = |n: usize| if N > 0 { N } else { n };
+        let inverse = 1.0 / self.shift;
+        for (group, r) in self.internal_pairs.iter().zip(s.chunks_exact_mut(2)) {
+            let sides = &self.internal_couplings[group.first..group.first + group.count];
+            for side in sides.iter().filter(|_| group.coupled) {
                 let (at, n) = (self.offsets[side.body], size(self.sizes[side.body]));
                 let (g_q, g_u) = self.coupling_data[side.start..side.start + 4 * n].split_at(2 * n);
                 for row in 0..2 {
@@ -103,17 +138,6 @@ impl Partitioned {
             let z = &group.inverse;
             let k = [z[0] * r[0] + z[1] * r[1], z[2] * r[0] + z[3] * r[1]];
             r.copy_from_slice(&k);
-        }
-        for row in &self.quadratures_of_bodies {
-            let (at, n) = (self.offsets[row.body], size(self.sizes[row.body]));
-            let (p_q, p_u) = self.row_data[row.start..row.start + 2 * n].split_at(n);
-            w[row.quadrature] += dot_of(p_q, &q[at..at + n]) + dot_of(p_u, &u[at..at + n]);
-        }
-        for row in &self.quadratures_of_pairs {
-            w[row.quadrature] += dot_of(&row.values, &s[2 * row.group..2 * row.group + 2]);
-        }
-        for k in w.iter_mut() {
-            *k *= inverse;
         }
     }
 }
