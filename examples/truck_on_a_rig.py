@@ -5,9 +5,9 @@
 
 import wedgelab as wl
 
-conditions = ("new", "worn")
-trucks = [wl.TruckCase("truck_vertical_constant", {"truck.condition": condition}) for condition in conditions]
-for condition, result in zip(conditions, wl.run_many(trucks, workers=2)):
+rises = {"new": "0 in", "worn": "0.75 in"}
+trucks = [wl.TruckCase("truck_crowned_vertical_constant", {"wedge.rise": rise}) for rise in rises.values()]
+for condition, result in zip(rises, wl.run_many(trucks, workers=2)):
     load = result["leading_left_column_normal_lbf"]
     friction = result["leading_left_column_friction_z_lbf"]
     print(f"{condition}: column load of a wedge {load.min():.0f} to {load.max():.0f} lbf,", end=" ")

@@ -117,7 +117,7 @@ impl Parameters {
             Lading::Loaded => SideBearings::rollers(),
             Lading::Empty => SideBearings::constant_contact(),
         };
-        let mut own = truck::Parameters::new(Damping::Variable).with_crowned_faces();
+        let mut own = truck::Parameters::new(Damping::Variable).in_service();
         own.bolster.free = [true; 6];
         own.car_body = Some(CarBody::new(lading, bearings));
         let mut parameters = Self {

@@ -238,6 +238,16 @@ fn on_linear_wheels(factor: f64) -> Parameters {
         },
         support: [1e9, 1e9 * HALF * HALF],
     };
+    // The separate model has wedges on their corners and softer adapters.
+    let flat = truck::Parameters::new(Damping::Variable).wedges;
+    for own in &mut parameters.trucks {
+        own.wedges = flat.clone();
+        let wheelsets = own.wheelsets.as_mut().unwrap();
+        let Adapter::Friction(adapter) = &mut wheelsets.adapter else {
+            unreachable!("built-in adapters have friction");
+        };
+        adapter.contact.stiffness = 5e5 * POUND_FORCE / INCH;
+    }
     parameters
 }
 

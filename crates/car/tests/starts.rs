@@ -57,7 +57,7 @@ fn issue_048_wheels_that_do_not_reach_both_rails_are_told() {
         for part in [
             "do not reach both rails",
             "66.00 in",
-            "64.53 in",
+            "64.81 in",
             "lower the gauge to",
         ] {
             assert!(text.contains(part), "{part}: {text}");

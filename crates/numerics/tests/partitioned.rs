@@ -161,6 +161,8 @@ fn other_structures_are_solved_as_the_whole_matrix() {
         bristles(vec![4], vec![vec![0], vec![0]]),
         bristles(vec![4, 4], vec![vec![0, 1]]),
         bristles(vec![2, 5, 3], vec![vec![1], vec![0, 2]]),
+        // Six coordinates wherever there are internal states, and one pair of these by itself.
+        bristles(vec![6, 6, 2, 6], vec![vec![0, 1], vec![], vec![3, 0], vec![1]]),
     ];
     for structure in &structures {
         for shift in [20.0, 100.0] {

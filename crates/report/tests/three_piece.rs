@@ -88,7 +88,7 @@ fn limits_stiffness_moves_what_locks() {
             .find(|own| own.rig == rig && own.answer == answer)
             .unwrap_or_else(|| panic!("{rig}, {answer}"))
     };
-    let [new, worn] = ["warp, new", "warp, worn"].map(|rig| moved(rig, "warp moment at 20 mrad"));
+    let [new, worn] = ["warp, new", "warp, mu 0.25"].map(|rig| moved(rig, "warp moment at 20 mrad"));
     assert!(new.contacts > 20.0 && new.contacts < 80.0, "{new:?}");
     assert!(worn.contacts.abs() < 0.5 * new.contacts, "{worn:?} {new:?}");
     assert_eq!(findings().sensitivities.len(), 10);

@@ -61,9 +61,9 @@ fn largest_ratio(law: ContactLaw, attack: f64, load: f64) -> [f64; 2] {
         motion(shift, height, zero([19.0, 24.0], torque))
     };
     let mut largest = [0.0_f64; 2];
-    // At 50 mrad the flange comes to the rail at 11.8 mm, and the tread is lifted from 11.87 mm on.
+    // At 50 mrad the flange comes to the rail at 8.2 mm, and the tread is lifted from 8.3 mm on.
     for step in 0..12 {
-        let shift = 11.84e-3 + 0.01e-3 * f64::from(step);
+        let shift = 8.268e-3 + 0.01e-3 * f64::from(step);
         let up = |height: f64| wheel.evaluate(&free(shift, height)).force.0[2] - load;
         let own = free(shift, zero([0.45, 0.465], up));
         let [_, lateral, vertical] = wheel.evaluate(&own).force.0;

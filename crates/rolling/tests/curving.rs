@@ -66,7 +66,7 @@ fn analytic_going_on_along_a_curve_is_neutral() {
 /// Pushed aside by 0.02 mm the wheelset swings back at the growth and the frequency that the eigenvalue says.
 #[test]
 fn analytic_vibrations_in_a_curve_are_those_of_runs() {
-    let setup = curve(500.0, false);
+    let setup = curve(750.0, false);
     let (mut rig, x) = after(
         &setup,
         RigStart {

@@ -14,12 +14,12 @@ fn cross_code_critical_speed_by_time_steps_on_profiles() {
 }
 
 /// Below it even a start near the flange dies away; above it a small one grows until the flanges stop it, at
-/// a clearance of 0.547 in less what the throats take.
+/// a clearance of 0.406 in less what the throats take.
 #[test]
 fn limits_hunting_ends_and_grows_up_to_the_flanges() {
     let [speed, _] = critical();
-    let quiet = amplitude(0.9 * speed, 12e-3, 8.0);
+    let quiet = amplitude(0.9 * speed, 9e-3, 8.0);
     assert!(quiet < 1e-3, "{quiet} m");
     let hunting = amplitude(1.1 * speed, 0.5e-3, 8.0);
-    assert!((12e-3..14e-3).contains(&hunting), "{hunting} m");
+    assert!((8.5e-3..10.5e-3).contains(&hunting), "{hunting} m");
 }

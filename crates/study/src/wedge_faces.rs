@@ -4,6 +4,7 @@
 //! pressed over the half width a: `N = (2/3) (K / w) a³ / R`. Hertz's contact of the castings is narrower by far
 //! (0.13 in against 3 in at 7 kip and 240 in): the radius of the model stands for crown and bed together.
 
+use quantity::Number;
 use truck::{CROWN_RADIUS, ControlCoil, WEDGE_NAMES, Wedge, WedgeKind};
 use wedge::face::{FaceDirection, FaceProfile, FaceProperties, LARGEST_GRID};
 
@@ -39,11 +40,10 @@ pub(crate) fn assumptions(wedges: &[(String, &Wedge)]) -> Vec<String> {
         let alike = with_faces().all(|(_, own)| Some(faces(own)[number]) == first);
         match first.filter(|_| alike) {
             Some(own) => list.extend(of_face(&format!("{face} face of every wedge"), own)),
-            None => list.extend(
-                with_faces().filter_map(|(name, own)| {
+            None => list
+                .extend(with_faces().filter_map(|(name, own)| {
                     of_face(&format!("{name} wedge's {face}"), faces(own)[number])
-                }),
-            ),
+                })),
         }
     }
     let chosen = |own: &FaceProfile| {
@@ -121,10 +121,10 @@ fn too_coarse(wedge: &Wedge, number: usize) -> Option<String> {
         FaceDirection::Across => ("across", [face.grid.up, needed]),
     };
     Some(format!(
-        "the FACE is crowned {way} by {:.4} in, so that {:.3} in of its {:.4} in bear on their springs under the \
-         {:.4} lbf of its coil, where {points} points {way} have {spacings:.1} spacings: the warp stiffness below \
-         1 mrad is wrong by more than 5 %. Take grid = [{}, {}] or more for it",
-        radius / INCH,
+        "the FACE is crowned {way} by {} in, so that {:.1} in of its {:.1} in bear on their springs under the \
+         {:.0} lbf that its coil makes there, and {points} points {way} have {spacings:.1} spacings on them: the warp \
+         stiffness below 1 mrad is off by more than 5 %. Take grid = [{}, {}] or more for it",
+        Number((radius / INCH * 1e3).round() * 1e-3),
         pressed / INCH,
         extent / INCH,
         force / POUND_FORCE,

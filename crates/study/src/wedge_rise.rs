@@ -95,8 +95,14 @@ pub(crate) fn warnings(trucks: &[AtStart<'_>], units: Units) -> Vec<String> {
         (!found.is_empty()).then(|| found[..found.len().min(4)].join(", ") + &rest)
     };
     let high = listed(&|own| {
-        (own.at_start > own.wedge.rise_limit)
-            .then(|| format!("{} ({} of {})", own.name, shown(own.at_start), shown(own.wedge.rise_limit)))
+        (own.at_start > own.wedge.rise_limit).then(|| {
+            format!(
+                "{} ({} of {})",
+                own.name,
+                shown(own.at_start),
+                shown(own.wedge.rise_limit)
+            )
+        })
     });
     let loose = listed(&|own| {
         let limit = own.coil_without_load.filter(|limit| own.at_start >= *limit)?;

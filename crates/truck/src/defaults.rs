@@ -84,22 +84,27 @@ impl Bolster {
     }
 }
 
+/// Returns the values of an adapter of steel.
+fn steel_adapter() -> FrictionAdapter {
+    FrictionAdapter {
+        preload: 15_691.0 * POUND_FORCE,
+        contact: contact(1e6, 1000.0),
+        friction: bristle(0.5, 2e6, 2e3),
+        longitudinal: clearance([0.0468, 5e5, 50.0]),
+        lateral: clearance([0.25, 1e6, 100.0]),
+    }
+}
+
 impl Adapter {
     /// Returns an adapter of steel.
     ///
     /// The stiffness of a point, 1e6 lbf/in, is a guess from below: the roof of a pedestal on a crowned
-    /// adapter is a line contact of some 6 in, which gives by 1e-7 in a pound (Hertz), a twentieth of it; the
-    /// rest is the pedestal's. A softer point (5e5 lbf/in) lets a car that rocks sink by 0.06 in into its
-    /// adapters.
+    /// adapter is a line contact of some 6 in, which gives by 3e-8 in a pound (Hertz; derived), a fifteenth of
+    /// what both points give; the rest is the pedestal's. Softer points (5e5 lbf/in) let a car that rocks sink
+    /// by 0.06 in into its adapters.
     #[must_use]
     pub fn friction() -> Self {
-        Self::Friction(FrictionAdapter {
-            preload: 15_691.0 * POUND_FORCE,
-            contact: contact(1e6, 1000.0),
-            friction: bristle(0.5, 2e6, 2e3),
-            longitudinal: clearance([0.0468, 5e5, 50.0]),
-            lateral: clearance([0.25, 1e6, 100.0]),
-        })
+        Self::Friction(steel_adapter())
     }
 
     /// Returns an elastomeric pad with the least stiffnesses that claim 32 of US patent 9,637,143 names, as
@@ -173,7 +178,8 @@ impl CarBody {
 
 impl Parameters {
     /// Returns a new truck of a loaded car of 263,000 lbf: bolster held, side frames free on wheelsets that
-    /// stand still.
+    /// stand still. Wedges bear on the corners of flat faces, adapters have 5e5 lbf/in a point, as in the rigs
+    /// that independent simulations have checked; [`Parameters::in_service`] has others.
     #[must_use]
     pub fn new(damping: Damping) -> Self {
         let (degrees, coil, control) = match damping {
@@ -247,7 +253,10 @@ impl Parameters {
             side_frames: [side_frame.clone(), side_frame],
             wheelsets: Some(Wheelsets {
                 motions: [NeighbourMotion::fixed(), NeighbourMotion::fixed()],
-                adapter: Adapter::friction(),
+                adapter: Adapter::Friction(FrictionAdapter {
+                    contact: contact(5e5, 1000.0),
+                    ..steel_adapter()
+                }),
             }),
             wedges: [wedge.clone(), wedge.clone(), wedge.clone(), wedge],
             load_coils: [nest.clone(), nest],
@@ -260,13 +269,17 @@ impl Parameters {
         }
     }
 
-    /// Crowns the slope faces of all wedges across, with a radius of 240 in, and gives both faces 2 × 9 points.
+    /// Returns the truck with wedges and adapters as they are in service: the slope faces of all wedges crowned
+    /// across, with a radius of 240 in, and 2 × 9 points on both faces; [`Adapter::friction`].
     ///
-    /// Wedges in service are crowned: the faces of [`Parameters::new`] are flat and bear on their corners, as
-    /// the thesis has them, and resist warp two to four times as much. The radius is in no source: it is a
-    /// choice, and neither warp nor hunting has found it.
+    /// The faces of [`Parameters::new`] are flat and bear on their corners, as the thesis has them, and resist
+    /// warp two to four times as much. The radius is in no source: it is a choice, and neither warp nor
+    /// hunting has found it.
     #[must_use]
-    pub fn with_crowned_faces(mut self) -> Self {
+    pub fn in_service(mut self) -> Self {
+        if let Some(wheelsets) = &mut self.wheelsets {
+            wheelsets.adapter = Adapter::friction();
+        }
         for wedge in &mut self.wedges {
             wedge.column_face = FaceProperties {
                 grid: SERVICE_GRID,

@@ -178,7 +178,7 @@ impl MountedTruck {
                 false => self.one_piece(WEDGES + number, first, self.wedge_places[number], view),
                 true => self.split(number, first, view),
             };
-            let above = |body| own.displacement[2] - view.lifted(body, self.wedge_places[number]);
+            let above = |body| own.displacement[2] - view.carried(body, self.wedge_places[number]).0[2];
             *wedge = WedgeLoads {
                 rise: above(BOLSTER),
                 coil_extension: above(self.seat_of_coil(number)),
@@ -290,7 +290,7 @@ impl MountedTruck {
             return WedgeLoads::default();
         };
         let place = self.wedge_places[number];
-        let moved = |body: usize| view.moved(view.body(body), place);
+        let moved = |body: usize| view.carried(body, place);
         let (bolster, side_frame) = (moved(BOLSTER), moved(SIDE_FRAMES + number % 2));
         WedgeLoads {
             column_normal: inside.column_normal,

@@ -130,30 +130,12 @@ impl<'o> TruckView<'o> {
         }
     }
 
-    /// Returns the displacement of a point of a body, whose axes were the fixed ones in the nominal layout,
-    /// from its place (from the truck's center, m) there.
-    pub fn moved(&self, body: &BodyState, place: Vector<f64>) -> Vector<f64> {
-        let nominal = body.origin - body.travel;
-        match &self.frame {
-            None => {
-                let arm = place - nominal;
-                let turned: Vector<f64> = body.rotation.apply(arm);
-                body.travel + turned - arm
-            }
-            Some(_) => {
-                let arm = place + Vector(self.truck.mount.center) - nominal;
-                let turned: Vector<f64> = body.rotation.apply(arm);
-                self.place(body.origin + turned) - place
-            }
-        }
-    }
-
-    /// Returns the height by which the bolster or a side frame (by its number) has lifted a point that is
-    /// fixed to it, from its nominal place (from the truck's center, m), m.
-    pub fn lifted(&self, number: usize, place: Vector<f64>) -> f64 {
+    /// Returns the displacement of a point that is fixed to the bolster or to a side frame (by its number) from
+    /// its nominal place (from the truck's center, m), in the truck's axes, m.
+    pub fn carried(&self, number: usize, place: Vector<f64>) -> Vector<f64> {
         let nominal = self.truck.part_places[number - BOLSTER];
         let turned: Vector<f64> = self.rotation(number).apply(place - nominal);
-        (self.place(self.body(number).center_of_gravity) + turned - place).0[2]
+        self.place(self.body(number).center_of_gravity) + turned - place
     }
 
     /// Returns the yaw of a body, rad.

@@ -21,7 +21,7 @@ ELSEWHERE = {"fmi.md"}
 # Cars run shorter and at fewer speeds here than a reader has them.
 SHORTER = {
     '"speed.value": "18 mph"': '"speed.value": "18 mph", "simulation.duration": "3 s"',
-    'conditions=["new", "worn"]': 'conditions=["new", "worn"], speeds=["60 mph"]',
+    'conditions=["new", "rise_0.75"]': 'conditions=["new", "rise_0.75"], speeds=["60 mph"]',
 }
 # Needs a cluster; tests of their own start one.
 CLUSTER = "\nfrom dask.distributed import Client"

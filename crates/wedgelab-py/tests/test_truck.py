@@ -48,7 +48,7 @@ def test_reproducible_for_any_number_of_workers_and_through_pickle() -> None:
 
 
 def test_worn_wedges_have_a_plateau_in_warp() -> None:
-    result = wl.TruckCase("truck_warp_nest_constant_rising", {"truck.condition": "worn"}).run()
+    result = wl.TruckCase("truck_warp_nest_constant_rising", {"truck.condition": "mu_0.25"}).run()
     stiffness = result.summary.warp_stiffness
     moments = [stiffness[f"{angle} mrad"].value * angle * 1e-3 for angle in (10, 20)]
     assert moments[1] / moments[0] < 1.15

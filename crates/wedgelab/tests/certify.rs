@@ -63,7 +63,7 @@ fn certify<'a>(out: &'a str, limits: &'a str, more: &[&'a str]) -> Vec<&'a str> 
         "short.toml",
         "--conditions",
         "new",
-        "worn",
+        "mu_0.25",
         "--limits",
         limits,
         "--out",
@@ -185,8 +185,8 @@ fn input_mistakes_are_explained() {
             "no limits \"aar\"",
         ),
         (
-            vec!["regime", "twist_and_roll", car, "--conditions", "wornn"],
-            "did you mean worn?",
+            vec!["regime", "twist_and_roll", car, "--conditions", "rise_0-5"],
+            "did you mean rise_0.5?",
         ),
         (
             vec!["regime", "--show", "aar_chapter"],

@@ -74,6 +74,25 @@ fn reproduction_conicity_of_coned_wheels() {
     }
 }
 
+/// Narrow flanges: backs 53 3/8 in apart, flanges of 1 5/32 in where gauge is measured. In a gauge of 56 1/2 in
+/// that leaves (56.5 - 53.375 - 2 · 1.15625)/2 = 0.406 in to each side; the throat of the flange meets the rail's
+/// corner a little before.
+#[test]
+fn analytic_narrow_flanges_touch_at_their_clearance() {
+    let wheelset = freight();
+    let clearance = 0.5 * (56.5 - 53.375 - 2.0 * (1.0 + 5.0 / 32.0));
+    let flanges = |shift: f64| {
+        let at = wheelset.level_position(shift * INCH).unwrap();
+        let [left, right] = at.contact_angles().map(f64::to_degrees);
+        left.abs().max(right.abs()) > 30.0
+    };
+    let touching = (0..600)
+        .map(|k| 1e-3 * f64::from(k))
+        .find(|shift| flanges(*shift))
+        .unwrap();
+    assert!((touching - clearance).abs() < 0.02, "{touching} {clearance}");
+}
+
 /// Rows of numbers of a file beside EN 15302's reference cases.
 fn reference(file: &str) -> Vec<Vec<f64>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))

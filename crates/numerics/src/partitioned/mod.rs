@@ -345,12 +345,7 @@ impl Partitioned {
     /// Eliminates a pair of internal states from the speed rows. Its bodies have `N` coordinates; `N = 0` stands
     /// for any numbers.
     #[inline(always)]
-    fn eliminate<const N: usize>(
-        &mut self,
-        index: usize,
-        shift: f64,
-        inverse: f64,
-    ) -> Result<(), Singular> {
+    fn eliminate<const N: usize>(&mut self, index: usize, shift: f64, inverse: f64) -> Result<(), Singular> {
         let size = |n: usize| if N > 0 { N } else { n };
         let group = &mut self.internal_pairs[index];
         let [a, b, c, d] = [
@@ -368,7 +363,9 @@ impl Partitioned {
         let sides = &self.internal_couplings[group.first..group.first + group.count];
         group.coupled = sides.iter().any(|side| {
             let n = size(self.sizes[side.body]);
-            self.coupling_data[side.start..][..6 * n].iter().any(|own| *own != 0.0)
+            self.coupling_data[side.start..][..6 * n]
+                .iter()
+                .any(|own| *own != 0.0)
         });
         if !group.coupled {
             return Ok(());

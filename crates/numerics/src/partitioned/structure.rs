@@ -7,7 +7,7 @@ pub struct Structure {
     pub bodies: Vec<usize>,
     /// Pairs of bodies that an element couples.
     pub couplings: Vec<(usize, usize)>,
-    /// For each pair of internal states the bodies that it is coupled to.
+    /// For each pair of internal states the bodies that it is coupled to, each of at most six coordinates.
     pub internal_pairs: Vec<Vec<usize>>,
     /// Number of quadratures.
     pub quadratures: usize,

@@ -235,7 +235,7 @@ fn ledger(run: &TruckRun) -> Figure {
 /// Returns the figures of all rigs together, for the report: vertical and roll loops, warp loops, states of
 /// the wedges.
 #[must_use]
-pub fn of_rigs(runs: &[TruckRun], worn: Option<&TruckRun>) -> Vec<Exhibit> {
+pub fn of_rigs(runs: &[TruckRun], smooth: Option<&TruckRun>) -> Vec<Exhibit> {
     let exhibit = |name: &str, title: &str, figure: Figure| Exhibit {
         name: format!("truck_{name}"),
         thesis: String::new(),
@@ -270,7 +270,7 @@ pub fn of_rigs(runs: &[TruckRun], worn: Option<&TruckRun>) -> Vec<Exhibit> {
     ] {
         warps.extend(named(name).and_then(|run| tested(run, label.to_owned())));
     }
-    warps.extend(worn.and_then(|run| tested(run, "constant, worn".to_owned())));
+    warps.extend(smooth.and_then(|run| tested(run, "constant, mu 0.25".to_owned())));
     let mut exhibits = Vec::new();
     for (stem, title) in [
         ("vertical", "Up and down: both nests"),

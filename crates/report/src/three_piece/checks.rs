@@ -279,8 +279,8 @@ fn independent(found: &mut Found, rigs: &Rigs) {
     };
     let growth = |key: &str| Some(moment(key, 4.5)? / moment(key, 3.25)?);
     found.add(
-        "warp moment of a worn truck at 20 mrad",
-        moment("warp, worn", 4.5),
+        "warp moment at 20 mrad with a friction of 0.25",
+        moment("warp, mu 0.25", 4.5),
         exactly(225.0),
         ("kip·in", 0.05),
         "With friction of 0.25 the moment has a plateau; lateral friction at the columns adds to what their \
@@ -288,7 +288,7 @@ fn independent(found: &mut Found, rigs: &Rigs) {
     );
     found.add(
         "its growth from 10 to 20 mrad",
-        growth("warp, worn"),
+        growth("warp, mu 0.25"),
         [1.0, 1.15],
         ("-", 0.0),
         "A plateau.",

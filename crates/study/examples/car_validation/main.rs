@@ -163,7 +163,7 @@ fn hunting_over_speed() -> Result<String, Failure> {
     let mut out = "## Hunting\n\n\
          The speed falls by a slow ramp (50 s) after a lateral start of all axles by 0.4 in at the highest \
          speed, and rises from the lowest over\nlateral dips of 0.02 in; an axle with an amplitude of 0.05 \
-         in hunts, one with 0.5 in\n\
+         in hunts, one with 0.38 in\n\
          runs from flange to flange. \
          Profiles: AAR-1B with its tread of 1:20, and the same flange with a\ntread of 1:10 (conicity \
          0.1; one of 0.2 leaves this flange no face). In the field empty cars hunt from 50 to\n\
@@ -198,7 +198,7 @@ fn hunting_over_speed() -> Result<String, Failure> {
             .falling
             .points
             .iter()
-            .rfind(|own| own.amplitude() >= 0.5 * INCH);
+            .rfind(|own| own.amplitude() >= 0.38 * INCH);
         let flanges = flanges.map_or("-".to_owned(), |own| format!("{:.0}", own.speed / MPH));
         let rising = found
             .rising
@@ -258,7 +258,7 @@ fn sides_in_curves() -> Result<String, Failure> {
     let mut out = "## Sides in curves\n\n\
          The regime `constant_curve`, the loaded car in 7.5° to the left with 4 in of superelevation, from 3 \
          in of cant excess to 3 in of deficiency:\nmeans of the last two seconds, and L/V of the front \
-         truck's sides. The leading outer wheel runs on its flange (0.55 in) at all speeds and has \
+         truck's sides. The leading outer wheel runs on its flange (0.41 in) at all speeds and has \
          the\nlargest L/V, less at deficiency, where it bears more. The truck's outer side has the larger \
          L/V from 18 mph on, far below balance at 28 mph.\n\n| speed, mph | cant deficiency, in | leading \
          axle to the outside, in | L/V leading outer | L/V leading inner | truck side outer | truck side \
@@ -352,7 +352,7 @@ fn late(values: &[f64]) -> f64 {
 fn flange_contact() -> Result<String, Failure> {
     let mut out = "## Flange contact in curves\n\n\
          The loaded car at 25 mph in curves without superelevation, after 20 s. Free rolling on cones of \
-         1:20 needs a shift of r a/(λR); the\nflange of the AAR-1B (narrow) touches at 0.55 in. The field \
+         1:20 needs a shift of r a/(λR); the\nflange of the AAR-1B (narrow) touches at 0.41 in. The field \
          tells flange contact above about 2°.\n\n\
          | curve, deg | leading axle to the outside, in | free rolling, in | its angle of attack, mrad | L/V \
          of its outer wheel |\n|---|---|---|---|---|\n"
@@ -385,8 +385,8 @@ fn turning_moment() -> Result<String, Failure> {
     let result = run("car_spiral_loaded", &set(&["truck.side_bearing.kind=roller"]))?;
     let mut out = "## Center plates in a spiral\n\n\
          The loaded car with roller side bearings runs into a curve of 7.5° by a spiral of 150 ft. A flat \
-         plate of radius R that slides all\nover turns with 2/3 μ W R: 114 kip·in at 14 in, μ = 0.2 and half \
-         of the body's weight. One that bears on its edge alone turns with μ W R,\nhalf as much again: \
+         plate of diameter D, of radius R = D/2, that slides all\nover turns with 2/3 μ W R: 114 kip·in at a \
+         diameter of 14 in, μ = 0.2 and half of the body's weight. One that bears on its edge alone turns with\nμ W R, half as much again: \
          numbers between both are those of a plate on which the load lies unevenly, as the twist of a spiral \
          puts it.\n\n| truck | turning moment, largest, kip·in | plate load there, kip | 2/3 μ W R, kip·in \
          |  |\n|---|---|---|---|---|\n"

@@ -414,7 +414,7 @@ fn text(
     );
     let mut rows = String::new();
     for regime in regimes {
-        let _ = writeln!(text, "[groups.regime.{}]", regime.name);
+        let _ = writeln!(text, "[groups.regime.\"{}\"]", regime.name);
         let lading = match regime.lading.as_deref() {
             Some("loaded") if is_empty => Some("loaded"),
             Some("empty") if !is_empty => Some("empty"),
@@ -440,7 +440,7 @@ fn text(
         }
     }
     for condition in conditions {
-        let _ = writeln!(text, "[groups.condition.{}]", condition.name);
+        let _ = writeln!(text, "[groups.condition.\"{}\"]", condition.name);
         lines(&mut text, &condition.set);
     }
     Ok(text + &rows)

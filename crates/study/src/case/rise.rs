@@ -2,7 +2,7 @@
 //! faces, which follow from it and from how they share the wear ([`Wear::of_rise`]). The same keys in cases of
 //! a wedge, of a truck and of a car.
 
-use quantity::{Kind, Quantity};
+use quantity::{Kind, Number, Quantity};
 use wedge::parameters::Wear;
 
 use super::field::{Reach, Written};
@@ -82,7 +82,13 @@ impl RiseSection {
         let mut own = self.rise.as_ref().map(Quantity::to_si);
         let typed = r.optional(RISE, FORM, &mut own, EXAMPLE, OF_RISE);
         self.rise = typed.or(self.rise.take());
-        r.number(SHARE, SHARES, Reach::Between(0.0, 1.0), &mut self.column_share, OF_SHARE);
+        r.number(
+            SHARE,
+            SHARES,
+            Reach::Between(0.0, 1.0),
+            &mut self.column_share,
+            OF_SHARE,
+        );
     }
 
     /// Notes a rise beyond what the pocket holds, m.
@@ -92,8 +98,8 @@ impl RiseSection {
         };
         let path = r.path(RISE);
         let problem = Problem::new(format!(
-            "`{path}` is {rise}, but the pocket holds a rise of {:.4} in (rise_limit)",
-            limit / INCH
+            "`{path}` is {rise}, but the pocket holds a rise of {} in (rise_limit)",
+            Number((limit / INCH * 1e6).round() * 1e-6)
         ));
         let help = "write a smaller rise, or the rise that your pocket holds as rise_limit";
         r.problem_at(&path, problem.label("out of its pocket").help(help));
@@ -112,7 +118,10 @@ impl RiseSection {
             false => usual.column_share,
         };
         if !given(RISE) {
-            return Some(Self { column_share, ..usual });
+            return Some(Self {
+                column_share,
+                ..usual
+            });
         }
         let (kind, range, _) = FORM;
         let rise = s.quantity(RISE, kind, range, problems)?;
@@ -139,7 +148,11 @@ impl RiseSection {
                 page.absent(RISE, EXAMPLE, OF_RISE);
             }
         }
-        page.line(SHARE, Written::number(self.column_share, Reach::Between(0.0, 1.0)), OF_SHARE);
+        page.line(
+            SHARE,
+            Written::number(self.column_share, Reach::Between(0.0, 1.0)),
+            OF_SHARE,
+        );
     }
 }
 

@@ -12,10 +12,10 @@ use truck::WEDGE_NAMES;
 
 use super::measuring::run_whole;
 use super::{Definitions, Judged, Measure, Measures, Unmeasured};
-use crate::{plausibility, wedge_rise};
 use crate::truck::TruckCase;
 use crate::truck::run::{TruckResult, window};
 use crate::truck::summary::{WARP_ANGLES, warp_stiffness};
+use crate::{plausibility, wedge_rise};
 
 /// Measures of all runs.
 const OF_ALL: [(&str, Kind, &str, bool); 13] = [

@@ -3,9 +3,7 @@
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
 use quantity::Kind;
-use truck::{
-    CROWN_RADIUS, ControlCoil, Parameters, SERVICE_GRID, Spring, WEDGE_NAMES, Wedge, WedgeKind,
-};
+use truck::{CROWN_RADIUS, ControlCoil, Parameters, SERVICE_GRID, Spring, WEDGE_NAMES, Wedge, WedgeKind};
 use wedge::face::{FaceDirection, Rectangle};
 use wedge::parameters::{ControlCoil as ThesisCoil, Damping};
 
@@ -17,9 +15,9 @@ use crate::case::face_values::Surface;
 use crate::case::field::{Reach, Written};
 use crate::case::problem::Problem;
 use crate::case::read::{ANGLE, COEFFICIENT};
+use crate::case::rise::RiseSection;
 use crate::case::section::{Names, Range};
 use crate::case::toe::read_toe;
-use crate::case::rise::RiseSection;
 use crate::case::write::{ANGLES, FRICTION, toe};
 use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, PRELOAD, STIFFNESS};
 
@@ -91,7 +89,7 @@ fn thesis_coil(damping: Damping) -> (ThesisCoil, [f64; 3]) {
     (coil, [-1.0734 * INCH, 0.0, 2.0417 * INCH])
 }
 
-/// Returns the faces of wedges in service, column and slope: see [`Parameters::with_crowned_faces`].
+/// Returns the faces of wedges in service, column and slope: see [`Parameters::in_service`].
 fn in_service() -> [FaceSection; 2] {
     let column = FaceSection {
         grid: SERVICE_GRID,

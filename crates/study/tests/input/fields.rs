@@ -61,6 +61,7 @@ fn every_key_of_the_case_file_is_a_field() {
         "wedge_wear",
         "counterface_wear",
         "pad",
+        "rise",
     ];
     let listed: Vec<String> = fields(&case)
         .into_iter()

@@ -55,7 +55,15 @@ fn input_all_that_is_built_in_can_be_read() {
     assert!(Condition::all()[0].set.is_empty());
     for name in [
         "new",
-        "worn",
+        "mu_0.25",
+        "mu_0.5",
+        "rise_0.25",
+        "rise_0.5",
+        "rise_0.75",
+        "rise_1.0",
+        "flat",
+        "crown_60",
+        "low_preload_side_bearing",
         "broken_control_coil",
         "missing_load_coil",
         "dry_center_plate",
@@ -67,6 +75,9 @@ fn input_all_that_is_built_in_can_be_read() {
     ] {
         assert!(Condition::all().iter().any(|own| own.name == name), "{name}");
     }
+    // The older name of a friction of 0.25.
+    let named = |name: &str| Condition::chosen(&[name.to_owned()]).unwrap();
+    assert_eq!(named("worn"), named("mu_0.25"));
     // All of them make cases of loaded and of empty cars.
     let request = Request {
         speeds: vec![Quantity::parse("30 mph").unwrap()],
@@ -293,11 +304,11 @@ fn input_what_a_certificate_cannot_be() {
     let twice = request(&["hunting", "hunting"]);
     assert!(message(&twice).contains("named twice"), "{}", message(&twice));
     let condition = Request {
-        conditions: vec!["wornn".to_owned()],
+        conditions: vec!["rise_0-5".to_owned()],
         ..request(&["hunting"])
     };
     assert!(
-        message(&condition).contains("did you mean worn?"),
+        message(&condition).contains("did you mean rise_0.5?"),
         "{}",
         message(&condition)
     );

@@ -80,7 +80,7 @@ fn input_built_in_regimes_are_whole() {
 fn input_settings_reach_the_case() {
     let regime = Regime::parse("mine.toml", WHOLE).unwrap();
     let text = "model = \"car\"\nwheels.friction = 0.5\nspeed.kind = \"over_distance\"\n\
-                speed.over_distance = [[\"0 ft\", \"60 mph\"]]\ntruck.condition = \"worn\"\n\
+                speed.over_distance = [[\"0 ft\", \"60 mph\"]]\ntruck.condition = \"mu_0.25\"\n\
                 track.segments = [{ tangent = \"1 mi\" }]\n";
     let settings = regime.settings(&Quantity::parse("30 mph").unwrap()).unwrap();
     let read = |settings: &[String]| {

@@ -140,7 +140,7 @@ fn limits_the_empty_car_on_rollers_hunts_at_speeds_of_the_field() {
     let fast = swing(80.0, "roller");
     let pressed = swing(80.0, "constant_contact");
     assert!(slow < 0.02 && pressed < 0.02, "{slow} {pressed}");
-    assert!(fast > 0.45 && fast < 0.7, "{fast}");
+    assert!(fast > 0.38 && fast < 0.55, "{fast}");
 }
 
 /// In 7.5 deg the leading outer wheel runs on its flange at 3 in of cant excess as at 3 in of deficiency, and
@@ -151,8 +151,8 @@ fn limits_the_leading_outer_wheel_runs_on_its_flange() {
     for (speed, inner_is_more) in [(14.0, true), (36.0, false)] {
         let result = run("constant_curve", "loaded", speed, &[]);
         let shift = -late(&result, "axle_1_lateral") / INCH;
-        // The flange of these wheels touches at 0.55 in.
-        assert!(shift > 0.55, "{speed} mph: {shift}");
+        // The flange of these wheels touches at 0.41 in.
+        assert!(shift > 0.41, "{speed} mph: {shift}");
         let lateral = |axle: usize, side: &str| late(&result, &format!("axle_{axle}_{side}_lateral"));
         let leading = lateral(1, "right");
         for axle in 1..=4 {

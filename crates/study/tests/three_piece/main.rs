@@ -1,6 +1,7 @@
 //! Three-piece trucks with wedge bodies, sorted by what is proved.
 
 mod common;
+mod faces_in_service;
 mod input;
 mod kinds;
 mod massless;
@@ -8,4 +9,5 @@ mod massless;
 mod problems;
 mod reproducible;
 mod rigs;
+mod rise;
 mod thesis_wedge;

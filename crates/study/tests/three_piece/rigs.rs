@@ -12,7 +12,7 @@ use super::common::{INCH, KIP_INCH, POUND_FORCE, at, case, column, run};
 /// at extreme loads has anything to warn of but contacts that are pressed in where a nest locks.
 #[test]
 fn energy_of_every_rig_is_accounted_for() {
-    assert_eq!(builtin::names().count(), 54);
+    assert_eq!(builtin::names().count(), 62);
     let extreme = |name: &str| {
         let mut groups = builtin::groups()
             .iter()

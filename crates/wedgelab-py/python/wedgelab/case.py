@@ -168,7 +168,7 @@ class ModelCase(CompleteCase):
         return cls._of(cls._NATIVE.parse(text, source, folder, {}))
 
     def replace(self: _Own, values: Mapping[str, Any], /) -> _Own:
-        """This case with other values by their paths, as in ``{"truck.condition": "worn"}``."""
+        """This case with other values by their paths, as in ``{"truck.condition": "mu_0.25"}``."""
         return type(self)(self, values)
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -219,6 +219,10 @@ class WedgeSection(Section):
     """Length: depth of wear of the column and the wedge's vertical face together."""
     slope_wear: QuantityLike | None = None
     """Length: depth of wear of the pocket's slope and the wedge's slope face together."""
+    rise: QuantityLike | None = None
+    """Length: rise of the wedge by wear, as a gauge shows it, in place of both depths."""
+    rise_column_share: float | None = None
+    """Share of the column in the sum of both depths that ``rise`` makes, from 0 to 1."""
     free_coordinates: Sequence[str] | None = None
     """Those that are free of ``"x"``, ``"y"``, ``"z"``, ``"roll"``, ``"pitch"``, ``"yaw"``."""
 

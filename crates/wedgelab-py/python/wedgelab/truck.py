@@ -18,7 +18,7 @@ class TruckCase(ModelCase):
     ``base`` is the name of a built-in truck (``wedgelab case`` lists them), the path of a case file with ``model = "truck"``, or another
     case. ``values`` are laid over it by their paths. A text carries its unit; a bare number is in SI units.
 
-    >>> TruckCase("truck_warp_nest_constant_rising", {"truck.condition": "worn"}).run()            # doctest: +SKIP
+    >>> TruckCase("truck_warp_nest_constant_rising", {"truck.condition": "mu_0.25"}).run()            # doctest: +SKIP
     >>> TruckCase("my_truck.toml", {"wedge.leading_left.friction.column": 0.2})                    # doctest: +SKIP
 
     Raises `CaseError`, with all mistakes at once.

@@ -25,7 +25,7 @@ use crate::table::TerminalTable;
 /// Run a car in all regimes of the assessment of freight cars, and compare with the limits of rules
 ///
 /// Each regime is a track (`wedgelab regime` lists them) that the car passes at several speeds, in one or
-/// more conditions: worn wedges, a broken coil, empty. Writes one page (limits, the worst runs in 3D, figures
+/// more conditions: wedge rise, a broken coil, empty. Writes one page (limits, the worst runs in 3D, figures
 /// over speed and distance, wedges), certificate.csv and certificate.parquet (one row per run and limit),
 /// table.parquet (all measures of each run) and certificate.json. The same command continues a certificate
 /// that was stopped or killed. Tracks and limits are quoted from memory of AAR M-1001, chapter XI: check them
@@ -35,7 +35,7 @@ use crate::table::TerminalTable;
 Examples:
   wedgelab certify my_car.toml
   wedgelab certify car_tangent_loaded --regimes twist_and_roll pitch_and_bounce
-  wedgelab certify my_car.toml --conditions new worn broken_control_coil massless_wedges
+  wedgelab certify my_car.toml --conditions new rise_0.75 mu_0.25 massless_wedges
   wedgelab certify my_car.toml --limits my_limits.toml --against other_car_certificate")]
 pub struct Arguments {
     /// Case file of a car, or the name of a built-in case
@@ -61,7 +61,7 @@ pub struct Common {
         value_parser = clap::value_parser!(u32).range(2..=100),
     )]
     steps: u32,
-    /// Conditions by name (as_given, new, worn, ...), or your own file [default: those of the case]
+    /// Conditions by name (as_given, new, rise_0.75, ...), or your own file [default: those of the case]
     #[arg(long, value_name = "CONDITION", num_args = 0..)]
     conditions: Option<Vec<String>>,
     /// Limits by name (aar_chapter_xi, fra_213_333), or your own file

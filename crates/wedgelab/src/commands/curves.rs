@@ -28,7 +28,7 @@ use crate::table::TerminalTable;
 #[command(after_long_help = "\
 Examples:
   wedgelab curves truck_vertical_variable --friction 0.2 0.4
-  wedgelab curves truck_roll_constant --set truck.condition=worn")]
+  wedgelab curves truck_roll_constant --set truck.condition=mu_0.25")]
 pub struct Arguments {
     /// Case file, or the name of a built-in case
     #[arg(default_value = "truck_vertical_variable")]

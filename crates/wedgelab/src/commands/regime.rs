@@ -24,7 +24,7 @@ use crate::failure::{Failure, Message};
 Examples:
   wedgelab regime
   wedgelab regime twist_and_roll my_car.toml --speeds \"10 mph..70 mph\" --steps 13
-  wedgelab regime hunting car_hunting_roller_empty --conditions new worn
+  wedgelab regime hunting car_hunting_roller_empty --conditions new rise_0.75
   wedgelab regime --show twist_and_roll > my_regime.toml     a regime to change, and to run by its file's name
   wedgelab regime --show aar_chapter_xi > my_limits.toml     limits to change, for --limits
   wedgelab regime --show conditions > my_conditions.toml     conditions to change, for --conditions")]

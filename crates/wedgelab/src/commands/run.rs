@@ -60,7 +60,7 @@ use crate::table::TerminalTable;
 Examples:
   wedgelab run my.toml
   wedgelab run my.toml --set friction.column=0.3 --out softer
-  wedgelab run truck_warp_nest_constant_rising --set truck.condition=worn
+  wedgelab run truck_warp_nest_constant_rising --set truck.condition=mu_0.25
   wedgelab run truck_vertical_variable --set wedge.leading_left.friction.column=0.2
   wedgelab run car_twist_and_roll_loaded --set 'speed.value=\"18 mph\"' --set truck.friction.column=0.1
   wedgelab run my.toml --json --quiet | jq .summary.ledger

@@ -99,7 +99,10 @@ impl Arguments {
         let worn: Vec<String> = varied.set.iter().cloned().chain(worn).collect();
         Ok(vec![
             ("new".to_owned(), truck(path, &varied.set)?),
-            ("worn: friction 0.25, rise 0.75 in".to_owned(), truck(path, &worn)?),
+            (
+                "worn: friction 0.25, rise 0.75 in".to_owned(),
+                truck(path, &worn)?,
+            ),
         ])
     }
 }
@@ -156,8 +159,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         out,
         "\nWarp moment on the bolster over the warp angle where an angle is reached first, of the whole \
          truck, kip·in/mrad. Loop:\n\
-         energy that the last whole cycle takes. Where a nest locks, contact.stiffness and the bristles \
-         set the moment.\n\nWritten into {}: {}.",
+         energy that the last whole cycle takes. Below some 10 mrad the faces decide, their crown first, then \
+         their points and\n\
+         contact.stiffness; above it friction, wear, and whether the nest locks. NUCARS's lines are chords \
+         over 30 mrad.\n\nWritten into {}: {}.",
         folder.path().display(),
         NAMES.join(", ")
     )?;

@@ -258,7 +258,11 @@ impl WheelRailPair {
     pub(super) fn layout(&self) -> Layout {
         let (depth, distance) = (Self::is_simpack(&self.rail), Self::is_simpack(&self.wheel));
         Layout {
-            tape_distance: or_usual(self.tape_distance.as_ref(), distance, [1.5, nominal::TAPE_DISTANCE]),
+            tape_distance: or_usual(
+                self.tape_distance.as_ref(),
+                distance,
+                [1.5, nominal::TAPE_DISTANCE],
+            ),
             gauge: self.gauge.to_si(),
             gauge_depth: or_usual(self.gauge_depth.as_ref(), depth, [14e-3, nominal::GAUGE_DEPTH]),
         }

@@ -187,7 +187,7 @@ fn a_truck_is_explored_and_kept() {
     let opening = server.get("/api/case").json();
     assert_eq!(opening["preset"], name);
     let set = [
-        ("truck.condition", "worn"),
+        ("truck.condition", "mu_0.25"),
         ("wedge.leading_left.toe", "0.1 deg out"),
     ];
     let wanted: serde_json::Map<String, Value> = set

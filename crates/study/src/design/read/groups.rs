@@ -8,7 +8,7 @@ use crate::case::tree::NodeValue as Toml;
 use crate::design::Group;
 use crate::design::factor::Levels;
 
-const HELP: &str = "write [groups.condition.worn] and below it for example truck.condition = \"worn\", then \
+const HELP: &str = "write [groups.condition.worn] and below it for example wedge.rise = \"0.75 in\", then \
                     condition = [\"new\", \"worn\"] below [vary]; [groups.condition.new] may be empty";
 
 /// Finds the groups that the values of factors name.

@@ -23,7 +23,7 @@ use crate::interrupt;
 use crate::progress::Progress;
 
 /// The variant that figures show beside the rigs.
-const WORN: &str = "warp, worn";
+const SMOOTH: &str = "warp, mu 0.25";
 /// The rigs whose contact states are drawn.
 const DRAWN: [&str; 2] = ["truck_vertical_variable", "truck_warp_nest_constant_rising"];
 
@@ -131,19 +131,19 @@ pub struct TruckReport {
 
 /// Draws the figures and makes the page.
 pub fn report_on(made: Vec<Made>, figures: &Folder) -> Result<TruckReport, Failure> {
-    let (mut runs, mut recordings, mut rigs, mut worn) = (Vec::new(), Vec::new(), Rigs::default(), None);
+    let (mut runs, mut recordings, mut rigs, mut smooth) = (Vec::new(), Vec::new(), Rigs::default(), None);
     for made in made {
         rigs.add(&made.key, made.run.case.clone(), made.run.result.clone());
         recordings.extend(made.recording);
         if made.written {
             runs.push(made.run);
-        } else if made.key == WORN {
-            worn = Some(made.run);
+        } else if made.key == SMOOTH {
+            smooth = Some(made.run);
         }
     }
     let findings = TruckFindings::of(&rigs);
     drop(rigs);
-    let exhibits = of_rigs(&runs, worn.as_ref());
+    let exhibits = of_rigs(&runs, smooth.as_ref());
     let svgs = draw(&exhibits.iter().collect::<Vec<&Exhibit>>(), figures)?;
     let units = runs
         .first()

@@ -1,0 +1,111 @@
+//! Hunting of the empty car on roller side bearings over ramps of the speed.
+
+use std::ops::ControlFlow;
+
+use report::drawing::{Figure, Panel, PlotCurve, distinct};
+use study::car::builtin;
+use study::car::hunting::{Boundary, HuntingSettings, Point, hunting};
+
+use crate::{CORNERS, CROWN_60, CROWN_120, CROWN_240, FLAT, Failure, INCH, MPH, Section, each, head, row};
+
+/// Durations of a ramp, s.
+const RAMPS: [f64; 2] = [50.0, 100.0];
+/// Amplitude of a wheelset from which on a motion is hunting, and from which on it runs from flange to flange,
+/// m.
+const HUNTS: f64 = 0.05 * INCH;
+const FLANGES: f64 = 0.38 * INCH;
+const SPEEDS: [f64; 2] = [30.0, 80.0];
+
+pub(crate) fn section() -> Result<Section, Failure> {
+    let mut text = "## Hunting\n\nThe empty car on roller side bearings (AAR-1B, tread of 1:20) on straight track: falling \
+                    from 80 to 30 mph after all axles began 0.4 in to the left, and rising over dips of 0.02 in. A wheelset \
+                    hunts from an amplitude of 0.05 in on; its flanges have a clearance of 0.41 in. The field tells 50 \
+                    to 55 mph.\n\n"
+        .to_owned();
+    text += &head(&[
+        "slope face",
+        "ramp, s",
+        "falling: flange to flange down to, mph",
+        "falling: dies at, mph",
+        "rising: begins at, mph",
+        "largest amplitude, in",
+    ]);
+    let faces = [CORNERS, FLAT, CROWN_240, CROWN_120, CROWN_60];
+    let items: Vec<_> = RAMPS
+        .into_iter()
+        .flat_map(|ramp| faces.map(|own| (ramp, own)))
+        .collect();
+    let found = each(&items, |(ramp, (_, set))| {
+        let mut overrides = vec![
+            "truck.side_bearing.kind=roller".to_owned(),
+            "start.axle_shift=0.4 in".to_owned(),
+        ];
+        overrides.extend(set.iter().map(|own| format!("truck.{own}")));
+        let case = builtin::case_with("car_hunting_empty", &overrides)?;
+        let settings = HuntingSettings {
+            speeds: SPEEDS.map(|own| own * MPH),
+            ramp: *ramp,
+            threshold: HUNTS,
+        };
+        Ok(hunting(&case, settings, |_| ControlFlow::Continue(()))?)
+    })?;
+    let mut panels: Vec<Panel> = RAMPS
+        .map(|ramp| Panel {
+            title: format!("falling within {ramp} s"),
+            x_label: "speed (mph)".to_owned(),
+            y_label: "largest lateral amplitude of a wheelset (in)".to_owned(),
+            ..Panel::default()
+        })
+        .into();
+    for (number, ((ramp, (name, _)), own)) in items.iter().zip(&found).enumerate() {
+        let points = &own.falling.points;
+        let largest = points.iter().map(Point::amplitude).fold(0.0, f64::max);
+        let flanges = points.iter().rfind(|own| own.amplitude() >= FLANGES);
+        text += &row([
+            (*name).to_owned(),
+            format!("{ramp}"),
+            flanges.map_or("-".to_owned(), |own| format!("{:.0}", own.speed / MPH)),
+            words(own.falling.boundary),
+            own.rising
+                .as_ref()
+                .map_or("-".to_owned(), |own| words(own.boundary)),
+            format!("{:.2}", largest / INCH),
+        ]);
+        let (colour, line) = distinct(number % faces.len());
+        panels[number / faces.len()].curves.push(PlotCurve {
+            label: (*name).to_owned(),
+            colour,
+            line,
+            points: points
+                .iter()
+                .map(|own| (own.speed / MPH, own.amplitude() / INCH))
+                .collect(),
+        });
+    }
+    text += "\n![Amplitudes of the wheelsets over the falling speed](figures/wedge_faces_hunting.svg)\n\n\
+             The speed at which the limit cycle dies does not follow the radius one way, and a ramp of twice the time \
+             moves it by some mph: no radius is found or confirmed by it.\n";
+    let figure = Figure {
+        title: "Hunting of the empty car with flat and crowned wedge faces".to_owned(),
+        caption: "Largest lateral amplitude of a wheelset over the falling speed, by the radius of the slope face's \
+                  crown, for two durations of the ramp."
+            .to_owned(),
+        panels,
+        columns: 2,
+        common_axes: true,
+        ..Figure::default()
+    };
+    Ok(Section {
+        text,
+        figures: vec![("wedge_faces_hunting", figure)],
+    })
+}
+
+fn words(boundary: Boundary) -> String {
+    match boundary {
+        Boundary::At(speed) => format!("{:.0}", speed / MPH),
+        Boundary::Everywhere => "all speeds".to_owned(),
+        Boundary::Nowhere => "no speed".to_owned(),
+        Boundary::Derails(speed) => format!("derails at {:.0}", speed / MPH),
+    }
+}
