@@ -105,9 +105,9 @@ impl Start {
 
 impl Parameters {
     /// Returns a car on this track, loaded with 200,400 lbf or empty, that holds the speed (m/s): trucks
-    /// with variable damping and crowned wedges, rollers as side bearings of the loaded car and constant contact of the empty
-    /// one, sprung rails. It starts as near to the beginning of the track as its length allows, with 1 m to
-    /// spare.
+    /// with variable damping and crowned wedges, rollers as side bearings of the loaded car and constant
+    /// contact of the empty one, sprung rails. It starts as near to the beginning of the track as its length
+    /// allows, with 1 m to spare.
     ///
     /// # Errors
     /// See [`ProfiledWheels::usual`].

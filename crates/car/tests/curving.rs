@@ -138,10 +138,10 @@ fn industry(degree: f64, cant: f64, speed: f64) -> Parameters {
     parameters
 }
 
-/// Steady curving of 7.5 deg with the industry's wedges beside wedges that are bodies: the rails' sum is that
-/// of the balance with either, forces of the leading outer wheel agree within a tenth. Massless wedges do not
-/// lock in warp: their trucks warp more and steer less, and the warp springs of a new truck make about as much
-/// as crowned wedges do.
+/// Steady curving of 7.5 deg with the industry's wedges beside wedges that are bodies: the rails' sum is
+/// that of the balance with either, forces of the leading outer wheel agree within a tenth. Massless wedges
+/// do not lock in warp: their trucks warp more and steer less, and the warp springs of a new truck make
+/// about as much as crowned wedges do.
 #[test]
 fn limits_massless_wedges_curve_as_wedge_bodies_do() {
     let with_springs = industry(7.5, 4.0 * INCH, 11.0);

@@ -1,8 +1,9 @@
 //! The faces of a truck's wedges in words, and whether their points are enough for a crown.
 //!
 //! The springs of a face of stiffness K and width w across a crown of radius R under a normal force N are
-//! pressed over the half width a: `N = (2/3) (K / w) a³ / R`. Hertz's contact of the castings is narrower by far
-//! (0.13 in against 3 in at 7 kip and 240 in): the radius of the model stands for crown and bed together.
+//! pressed over the half width a: `N = (2/3) (K / w) a³ / R`. Hertz's contact of the castings is narrower by
+//! far (0.13 in against 3 in at 7 kip and 240 in): the radius of the model stands for crown and bed
+//! together.
 
 use quantity::Number;
 use truck::{CROWN_RADIUS, ControlCoil, WEDGE_NAMES, Wedge, WedgeKind};
@@ -13,8 +14,8 @@ use crate::assumptions::of_face;
 const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
 const FACES: [&str; 2] = ["column", "slope"];
-/// Spacings of the grid on the pressed part of a crown, from which on warp from 0.5 mrad is within 5 % of that
-/// of finer grids.
+/// Spacings of the grid on the pressed part of a crown, from which on warp from 0.5 mrad is within 5 % of
+/// that of finer grids.
 const SPACINGS: f64 = 3.0;
 
 fn faces(wedge: &Wedge) -> [&FaceProperties; 2] {
@@ -30,8 +31,8 @@ pub(crate) fn named<'w>(trucks: &[(&str, &'w [Wedge; 4])]) -> Vec<(String, &'w W
     all.collect()
 }
 
-/// Returns what the faces of wedges with faces are beyond four corners and flat surfaces; faces that all wedges
-/// have alike once.
+/// Returns what the faces of wedges with faces are beyond four corners and flat surfaces; faces that all
+/// wedges have alike once.
 pub(crate) fn assumptions(wedges: &[(String, &Wedge)]) -> Vec<String> {
     let mut list = Vec::new();
     let with_faces = || wedges.iter().filter(|(_, own)| own.kind != WedgeKind::Massless);
@@ -121,9 +122,9 @@ fn too_coarse(wedge: &Wedge, number: usize) -> Option<String> {
         FaceDirection::Across => ("across", [face.grid.up, needed]),
     };
     Some(format!(
-        "the FACE is crowned {way} by {} in, so that {:.1} in of its {:.1} in bear on their springs under the \
-         {:.0} lbf that its coil makes there, and {points} points {way} have {spacings:.1} spacings on them: the warp \
-         stiffness below 1 mrad is off by more than 5 %. Take grid = [{}, {}] or more for it",
+        "the FACE is crowned {way} by {} in, so that {:.1} in of its {:.1} in bear on their springs under \
+         the {:.0} lbf that its coil makes there, and {points} points {way} have {spacings:.1} spacings on \
+         them: the warp stiffness below 1 mrad is off by more than 5 %. Take grid = [{}, {}] or more for it",
         Number((radius / INCH * 1e3).round() * 1e-3),
         pressed / INCH,
         extent / INCH,

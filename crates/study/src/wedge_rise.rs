@@ -1,15 +1,17 @@
-//! Rises of wedges in their pockets at the start of a run, as a gauge shows them, beside what limits them: the
-//! pocket, and the coil that loses its load as the wedge rises.
+//! Rises of wedges in their pockets at the start of a run, as a gauge shows them, beside what limits them:
+//! the pocket, and the coil that loses its load as the wedge rises.
 //!
 //! A control coil pushes with `F = P - k e` where it is longer by e than in the nominal layout; e is the rise,
-//! and with variable damping the height of the bolster on top. So its load is gone at the rise
-//! `P / k - (e - rise)`, bolster and side frame being where they are.
+//! and with variable damping the height of the bolster on top. What presses the wedge is that less its weight
+//! W, and gone at the rise `(P - W) / k - (e - rise)`, bolster and side frame being where they are: higher the
+//! wedge does not come, whatever is worn.
 
 use std::collections::BTreeMap;
 
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 use truck::{ControlCoil, WEDGE_NAMES, Wedge, WedgeLoads};
+use wedge::parameters::STANDARD_GRAVITY;
 
 use crate::summary::SummaryValue;
 
@@ -18,7 +20,8 @@ use crate::summary::SummaryValue;
 pub struct RiseSummary {
     /// The rise at the start.
     pub at_start: SummaryValue,
-    /// The rise at which the control coil loses its load there; none of a coil without a linear law.
+    /// The rise at which the control coil carries the wedge alone there, and presses no more; none of a coil
+    /// without a linear law.
     pub coil_without_load: Option<SummaryValue>,
     /// The rise that the pocket holds.
     pub pocket: SummaryValue,
@@ -35,6 +38,13 @@ struct Rise<'w> {
 /// A truck's wedges with their loads at the start, and what precedes their names.
 pub(crate) type AtStart<'w> = (&'static str, &'w [Wedge; 4], &'w [WedgeLoads; 4]);
 
+impl Rise<'_> {
+    /// Returns the rise that wear makes.
+    fn by_wear(&self) -> f64 {
+        self.wedge.wear.rise(self.wedge.rise_angles())
+    }
+}
+
 fn rises<'w>(trucks: &[AtStart<'w>]) -> Vec<Rise<'w>> {
     let of = |(prefix, wedges, loads): &AtStart<'w>| {
         let own = WEDGE_NAMES.into_iter().zip(wedges.iter()).zip(loads.iter());
@@ -43,7 +53,8 @@ fn rises<'w>(trucks: &[AtStart<'w>]) -> Vec<Rise<'w>> {
             at_start: loads.rise,
             coil_without_load: match &wedge.control_coil {
                 ControlCoil::Shear(coil) if coil.preload > 0.0 => {
-                    Some(coil.preload / coil.stiffness - (loads.coil_extension - loads.rise))
+                    let weight = wedge.mass * STANDARD_GRAVITY;
+                    Some((coil.preload - weight) / coil.stiffness - (loads.coil_extension - loads.rise))
                 }
                 ControlCoil::Shear(_)
                 | ControlCoil::Table(_)
@@ -105,27 +116,28 @@ pub(crate) fn warnings(trucks: &[AtStart<'_>], units: Units) -> Vec<String> {
         })
     });
     let loose = listed(&|own| {
-        let limit = own.coil_without_load.filter(|limit| own.at_start >= *limit)?;
+        let reached = own.by_wear().max(own.at_start);
+        let limit = own.coil_without_load.filter(|limit| reached >= *limit)?;
         Some(format!("{} (from a rise of {} on)", own.name, shown(limit)))
     });
     // Elastic contacts take a few hundredths of it.
     let unmoved = listed(&|own| {
-        let rise = own.wedge.wear.rise(own.wedge.rise_angles());
-        let column = own.wedge.free[0] && own.wedge.free[2];
-        (column && rise > 0.0 && own.at_start < 0.5 * rise)
+        let rise = own.by_wear();
+        let moves = own.wedge.free[0] && own.wedge.free[2];
+        (moves && rise > 0.0 && own.at_start < 0.5 * rise)
             .then(|| format!("{} ({} of {})", own.name, shown(own.at_start), shown(rise)))
     });
     let words = [
         high.map(|list| {
             format!(
-                "wedges stand higher at the start than their pockets hold: {list}; lower the rise or the depths \
-                 of wear, or write the rise that the pocket holds as wedge.rise_limit"
+                "wedges stand higher at the start than their pockets hold: {list}; lower the rise or the \
+                 depths of wear, or write the rise that the pocket holds as wedge.rise_limit"
             )
         }),
         loose.map(|list| {
             format!(
-                "control coils carry nothing at the start, since the wedges have risen off them: {list}; \
-                 columns get no force from them. Lower the rise, or give the coil's preload and stiffness"
+                "control coils carry no more than their wedges at the start, since these are worn: {list}; they \
+                 press no column. Lower the rise, or give the coil's preload and stiffness"
             )
         }),
         unmoved.map(|list| {

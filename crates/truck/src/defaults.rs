@@ -99,9 +99,9 @@ impl Adapter {
     /// Returns an adapter of steel.
     ///
     /// The stiffness of a point, 1e6 lbf/in, is a guess from below: the roof of a pedestal on a crowned
-    /// adapter is a line contact of some 6 in, which gives by 3e-8 in a pound (Hertz; derived), a fifteenth of
-    /// what both points give; the rest is the pedestal's. Softer points (5e5 lbf/in) let a car that rocks sink
-    /// by 0.06 in into its adapters.
+    /// adapter is a line contact of some 6 in, which gives by 3e-8 in a pound (Hertz; derived), a fifteenth
+    /// of what both points give; the rest is the pedestal's. Softer points (5e5 lbf/in) let a car that rocks
+    /// sink by 0.06 in into its adapters.
     #[must_use]
     pub fn friction() -> Self {
         Self::Friction(steel_adapter())
@@ -149,8 +149,7 @@ impl SideBearings {
 
 impl CarBody {
     /// Returns half of a car's body, free to bounce and to roll, on a center plate of 14 in with a friction
-    /// of
-    /// 0.2.
+    /// of 0.2.
     ///
     /// The plate's stiffness (3e6 lbf/in a point), the rim's clearance (0.1875 in), and inertia and center of
     /// gravity of the empty body are guesses.
@@ -178,8 +177,8 @@ impl CarBody {
 
 impl Parameters {
     /// Returns a new truck of a loaded car of 263,000 lbf: bolster held, side frames free on wheelsets that
-    /// stand still. Wedges bear on the corners of flat faces, adapters have 5e5 lbf/in a point, as in the rigs
-    /// that independent simulations have checked; [`Parameters::in_service`] has others.
+    /// stand still. Wedges bear on the corners of flat faces, adapters have 5e5 lbf/in a point, as in the
+    /// rigs that independent simulations have checked; [`Parameters::in_service`] has others.
     #[must_use]
     pub fn new(damping: Damping) -> Self {
         let (degrees, coil, control) = match damping {
@@ -269,12 +268,12 @@ impl Parameters {
         }
     }
 
-    /// Returns the truck with wedges and adapters as they are in service: the slope faces of all wedges crowned
-    /// across, with a radius of 240 in, and 2 × 9 points on both faces; [`Adapter::friction`].
+    /// Returns the truck with wedges and adapters as they are in service: the slope faces of all wedges
+    /// crowned across, with a radius of 240 in, and 2 × 9 points on both faces; [`Adapter::friction`].
     ///
-    /// The faces of [`Parameters::new`] are flat and bear on their corners, as the thesis has them, and resist
-    /// warp two to four times as much. The radius is in no source: it is a choice, and neither warp nor
-    /// hunting has found it.
+    /// The faces of [`Parameters::new`] are flat and bear on their corners, as the thesis has them, and
+    /// resist warp two to four times as much. The radius is in no source: it is a choice, and neither warp
+    /// nor hunting has found it.
     #[must_use]
     pub fn in_service(mut self) -> Self {
         if let Some(wheelsets) = &mut self.wheelsets {

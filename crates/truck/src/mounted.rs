@@ -130,8 +130,8 @@ impl<'o> TruckView<'o> {
         }
     }
 
-    /// Returns the displacement of a point that is fixed to the bolster or to a side frame (by its number) from
-    /// its nominal place (from the truck's center, m), in the truck's axes, m.
+    /// Returns the displacement of a point that is fixed to the bolster or to a side frame (by its number)
+    /// from its nominal place (from the truck's center, m), in the truck's axes, m.
     pub fn carried(&self, number: usize, place: Vector<f64>) -> Vector<f64> {
         let nominal = self.truck.part_places[number - BOLSTER];
         let turned: Vector<f64> = self.rotation(number).apply(place - nominal);

@@ -79,8 +79,8 @@ pub struct FaceProfile {
     pub profile: SurfaceProfile,
     /// The direction of the profile.
     pub direction: FaceDirection,
-    /// The depth to which its highest part is worn flat, m: where the profile is deeper it is as it was. Depths
-    /// are counted from the flat. Of the wedge's surface alone.
+    /// The depth to which its highest part is worn flat, m: where the profile is deeper it is as it was.
+    /// Depths are counted from the flat. Of the wedge's surface alone.
     #[serde(default)]
     pub worn_flat: f64,
 }

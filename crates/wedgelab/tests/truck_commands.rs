@@ -93,6 +93,45 @@ fn a_printed_truck_runs_and_is_refused_where_it_exists() {
     assert!(plot.contains(".svg"), "{plot}");
 }
 
+/// Without a case a truck with crowned wedges, new and worn, with nothing to warn of.
+#[test]
+fn warp_compares_a_new_and_a_worn_truck() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let made = wedgelab(at, &["warp", "--out", "w", "-q"]);
+    assert_eq!(made.code, Some(0), "{}", made.err);
+    assert!(made.err.is_empty(), "{}", made.err);
+    let out = made.out;
+    for part in [
+        "new ",
+        "worn: friction 0.25, rise 0.75 in",
+        "NUCARS, worn",
+        "the faces decide",
+    ] {
+        assert!(out.contains(part), "{part}: {out}");
+    }
+    let pwl = fs::read_to_string(at.join("w/warp.pwl")).unwrap();
+    assert!(
+        pwl.contains("! new") && pwl.contains("! worn: friction 0.25"),
+        "{pwl}"
+    );
+    for refused in [
+        &["warp", "--worn", "--friction", "0.3"][..],
+        &[
+            "warp",
+            "truck_crowned_warp_nest_constant",
+            "--rise",
+            "0.5 in",
+            "--wear",
+            "0.1 in",
+        ],
+    ] {
+        let refused = wedgelab(at, refused);
+        assert_eq!(refused.code, Some(2), "{}", refused.err);
+        assert!(refused.err.contains("cannot be used with"), "{}", refused.err);
+    }
+}
+
 #[test]
 fn warp_writes_what_industry_programs_take() {
     let folder = tempfile::tempdir().unwrap();

@@ -74,9 +74,9 @@ fn reproduction_conicity_of_coned_wheels() {
     }
 }
 
-/// Narrow flanges: backs 53 3/8 in apart, flanges of 1 5/32 in where gauge is measured. In a gauge of 56 1/2 in
-/// that leaves (56.5 - 53.375 - 2 · 1.15625)/2 = 0.406 in to each side; the throat of the flange meets the rail's
-/// corner a little before.
+/// Narrow flanges: backs 53 3/8 in apart, flanges of 1 5/32 in where gauge is measured. In a gauge of 56 1/2
+/// in that leaves (56.5 - 53.375 - 2 · 1.15625)/2 = 0.406 in to each side; the throat of the flange meets
+/// the rail's corner a little before.
 #[test]
 fn analytic_narrow_flanges_touch_at_their_clearance() {
     let wheelset = freight();

@@ -47,7 +47,8 @@ pub(super) struct PointDerivatives {
     /// 0 to 4 % more instructions.
     pub active: bool,
     /// True if any point touches: else the motion of the body changes nothing, and bristles relax by
-    /// themselves. If it did not matter, a car whose wedges have crowned faces would take 2 % more instructions.
+    /// themselves. If it did not matter, a car whose wedges have crowned faces would take 2 % more
+    /// instructions.
     pub touches: bool,
     /// Forces along the normal and two tangents.
     pub force: [Lanes; 3],

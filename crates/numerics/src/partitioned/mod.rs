@@ -342,8 +342,8 @@ impl Partitioned {
         self.lu.factor()
     }
 
-    /// Eliminates a pair of internal states from the speed rows. Its bodies have `N` coordinates; `N = 0` stands
-    /// for any numbers.
+    /// Eliminates a pair of internal states from the speed rows. Its bodies have `N` coordinates; `N = 0`
+    /// stands for any numbers.
     #[inline(always)]
     fn eliminate<const N: usize>(&mut self, index: usize, shift: f64, inverse: f64) -> Result<(), Singular> {
         let size = |n: usize| if N > 0 { N } else { n };

@@ -70,8 +70,8 @@ pub(crate) fn section() -> Result<Section, Failure> {
 }
 
 fn curving() -> Result<String, Failure> {
-    let mut text = "## Curving and rocking\n\nThe loaded car: the curve of 7.5° at 28 mph (means of the last two seconds), \
-                    dynamic curving at 20 mph, twist and roll at 16 mph.\n\n"
+    let mut text = "## Curving and rocking\n\nThe loaded car: the curve of 7.5° at 28 mph (means of the \
+                    last two seconds), dynamic curving at 20 mph, twist and roll at 16 mph.\n\n"
         .to_owned();
     text += &head(&[
         "slope face",
@@ -123,9 +123,10 @@ fn curving() -> Result<String, Failure> {
 
 /// Rocking over the rise.
 fn rising() -> Result<(String, Figure), Failure> {
-    let mut text = "\n## Rocking over wedge rise\n\nTwist and roll, the loaded car at 16 mph, variable damping, all wedges \
-                    worn alike: depths c at column and slope lift a wedge by (c cos θ + c)/sin θ, θ = 32°. \
-                    A worn wedge's coil is longer and presses less; damping goes with it.\n\n"
+    let mut text = "\n## Rocking over wedge rise\n\nTwist and roll, the loaded car at 16 mph, variable \
+                    damping, all wedges worn alike: depths c at column and slope lift a wedge by (c cos θ + \
+                    c)/sin θ, θ = 32°. A worn wedge's coil is longer and presses less; damping goes with \
+                    it.\n\n"
         .to_owned();
     text += &head(&[
         "rise, in",
@@ -166,8 +167,9 @@ fn rising() -> Result<(String, Figure), Failure> {
             format!("{:.0}", own[1][1]),
         ]);
     }
-    text += "\n![Roll and least wheel load over wedge rise](figures/wedge_faces_rise.svg)\n\nBetween two marks of a gauge, \
-             0.75 and 1 in, the car begins to rock: a cliff that stands with flat faces as with crowned ones.\n";
+    text += "\n![Roll and least wheel load over wedge rise](figures/wedge_faces_rise.svg)\n\nBetween two \
+             marks of a gauge, 0.75 and 1 in, the car begins to rock: a cliff that stands with flat faces \
+             as with crowned ones.\n";
     let curve = |which: usize, value: usize, label: &str| {
         let (colour, line) = distinct(which);
         PlotCurve {
@@ -189,8 +191,8 @@ fn rising() -> Result<(String, Figure), Failure> {
     };
     let figure = Figure {
         title: "Rocking of the loaded car over wedge rise".to_owned(),
-        caption: "Roll (greatest less least) and least wheel load of the loaded car in twist and roll at 16 mph over the \
-                  rise of all wedges, with crowned and with flat slope faces."
+        caption: "Roll (greatest less least) and least wheel load of the loaded car in twist and roll at 16 \
+                  mph over the rise of all wedges, with crowned and with flat slope faces."
             .to_owned(),
         panels: vec![
             panel("roll of the car body (deg)", 0),
@@ -202,10 +204,11 @@ fn rising() -> Result<(String, Figure), Failure> {
 }
 
 fn plates() -> Result<String, Failure> {
-    let mut text = "\n## Center plate\n\nBowls of 12, 14 and 16 in are in use (their wear limits stand beside each other in \
-                    inspection rules); no source at hand says which truck has which, and 14 in is a choice \
-                    (`truck.center_plate.diameter`). A plate of diameter D under the load W resists turning with \
-                    (1/3) μ W D. The loaded car: through a spiral at 20 mph, and twist and roll at 16 mph.\n\n"
+    let mut text = "\n## Center plate\n\nBowls of 12, 14 and 16 in are in use (their wear limits stand \
+                    beside each other in inspection rules); no source at hand says which truck has which, \
+                    and 14 in is a choice (`truck.center_plate.diameter`). A plate of diameter D under the \
+                    load W resists turning with (1/3) μ W D. The loaded car: through a spiral at 20 mph, \
+                    and twist and roll at 16 mph.\n\n"
         .to_owned();
     text += &head(&[
         "diameter, in",
@@ -251,10 +254,11 @@ fn plates() -> Result<String, Failure> {
 }
 
 fn adapters() -> Result<String, Failure> {
-    let mut text = "\n## Adapters\n\nThe stiffness of an adapter's two points is a guess. 1e6 lbf/in each is a fifteenth of \
-                    Hertz's line contact of a steel roof on a crowned adapter (3e7 lbf/in for both), and enough for a car \
-                    that rocks not to sink into its adapters further than their faces allow. The loaded car, twist and \
-                    roll at 16 mph and dynamic curving at 20 mph:\n\n"
+    let mut text = "\n## Adapters\n\nThe stiffness of an adapter's two points is a guess. 1e6 lbf/in each \
+                    is a fifteenth of Hertz's line contact of a steel roof on a crowned adapter (3e7 lbf/in \
+                    for both), and enough for a car that rocks not to sink into its adapters further than \
+                    their faces allow. The loaded car, twist and roll at 16 mph and dynamic curving at 20 \
+                    mph:\n\n"
         .to_owned();
     text += &head(&[
         "stiffness of a point, lbf/in",

@@ -14,11 +14,11 @@ pub(crate) fn section() -> Result<Section, Failure> {
     let stiffness = 4.0 * wedge.contact.stiffness;
     let load = 7e3 * POUND_FORCE;
     let modulus = STEEL[0] / (2.0 * (1.0 - STEEL[1] * STEEL[1]));
-    let mut text = "## How wide a crown bears\n\nA crown of radius R across a slope face of width w under the \
-                    normal force N is pressed over the half width a. The model's springs of stiffness K a face \
-                    give `N = (2/3) (K/w) a³/R`; Hertz's line contact of two castings of the face's length L gives \
-                    `b² = 4 N R/(π L E*)`, `E* = E/(2 (1 - ν²))`. At 7 kip, with the faces of constant damping \
-                    and the default stiffness of 2.5e5 lbf/in a corner:\n\n"
+    let mut text = "## How wide a crown bears\n\nA crown of radius R across a slope face of width w under \
+                    the normal force N is pressed over the half width a. The model's springs of stiffness K \
+                    a face give `N = (2/3) (K/w) a³/R`; Hertz's line contact of two castings of the face's \
+                    length L gives `b² = 4 N R/(π L E*)`, `E* = E/(2 (1 - ν²))`. At 7 kip, with the faces \
+                    of constant damping and the default stiffness of 2.5e5 lbf/in a corner:\n\n"
         .to_owned();
     text += &head(&[
         "radius, in",
@@ -45,9 +45,9 @@ pub(crate) fn section() -> Result<Section, Failure> {
     }
     writeln!(
         text,
-        "\nThe springs stand for all that gives behind a face: a bed of rust and wear, the castings' own bending. So the \
-         radius of the\nmodel is not that of a casting: **it makes, together with the stiffness of the contacts, how wide \
-         a face bears**, and both are open."
+        "\nThe springs stand for all that gives behind a face: a bed of rust and wear, the castings' own \
+         bending. So the radius of the\nmodel is not that of a casting: **it makes, together with the \
+         stiffness of the contacts, how wide a face bears**, and both are open."
     )?;
     Ok(Section {
         text,

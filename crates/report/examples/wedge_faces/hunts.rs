@@ -10,17 +10,17 @@ use crate::{CORNERS, CROWN_60, CROWN_120, CROWN_240, FLAT, Failure, INCH, MPH, S
 
 /// Durations of a ramp, s.
 const RAMPS: [f64; 2] = [50.0, 100.0];
-/// Amplitude of a wheelset from which on a motion is hunting, and from which on it runs from flange to flange,
-/// m.
+/// Amplitude of a wheelset from which on a motion is hunting, and from which on it runs from flange to
+/// flange, m.
 const HUNTS: f64 = 0.05 * INCH;
 const FLANGES: f64 = 0.38 * INCH;
 const SPEEDS: [f64; 2] = [30.0, 80.0];
 
 pub(crate) fn section() -> Result<Section, Failure> {
-    let mut text = "## Hunting\n\nThe empty car on roller side bearings (AAR-1B, tread of 1:20) on straight track: falling \
-                    from 80 to 30 mph after all axles began 0.4 in to the left, and rising over dips of 0.02 in. A wheelset \
-                    hunts from an amplitude of 0.05 in on; its flanges have a clearance of 0.41 in. The field tells 50 \
-                    to 55 mph.\n\n"
+    let mut text = "## Hunting\n\nThe empty car on roller side bearings (AAR-1B, tread of 1:20) on straight \
+                    track: falling from 80 to 30 mph after all axles began 0.4 in to the left, and rising \
+                    over dips of 0.02 in. A wheelset hunts from an amplitude of 0.05 in on; its flanges \
+                    have a clearance of 0.41 in. The field tells 50 to 55 mph.\n\n"
         .to_owned();
     text += &head(&[
         "slope face",
@@ -83,12 +83,12 @@ pub(crate) fn section() -> Result<Section, Failure> {
         });
     }
     text += "\n![Amplitudes of the wheelsets over the falling speed](figures/wedge_faces_hunting.svg)\n\n\
-             The speed at which the limit cycle dies does not follow the radius one way, and a ramp of twice the time \
-             moves it by some mph: no radius is found or confirmed by it.\n";
+             The speed at which the limit cycle dies does not follow the radius one way, and a ramp of \
+             twice the time moves it by some mph: no radius is found or confirmed by it.\n";
     let figure = Figure {
         title: "Hunting of the empty car with flat and crowned wedge faces".to_owned(),
-        caption: "Largest lateral amplitude of a wheelset over the falling speed, by the radius of the slope face's \
-                  crown, for two durations of the ramp."
+        caption: "Largest lateral amplitude of a wheelset over the falling speed, by the radius of the \
+                  slope face's crown, for two durations of the ramp."
             .to_owned(),
         panels,
         columns: 2,

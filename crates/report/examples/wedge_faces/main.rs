@@ -55,20 +55,20 @@ pub(crate) const CROWN_60: Faces = (
 const HEAD: &str = "\
 # What the wedge's faces decide
 
-Wedges of cars, and of trucks without other faces, have slope faces that are **crowned across by 240 in** and \
-2 × 9 points on both
+Wedges of cars, and of trucks without other faces, have slope faces that are **crowned across by 240 in** \
+and 2 × 9 points on both
 faces. Flat faces, with which the thesis and NUCARS's element are compared, bear on their whole width or on \
 their corners alone.
-This page lays both beside other radii. It is written by `cargo run --release -p report --example wedge_faces` \
-in a quarter of an
+This page lays both beside other radii. It is written by `cargo run --release -p report --example \
+wedge_faces` in a quarter of an
 hour, with its figures.
 
-**The radius is in no source.** 240 in is a choice; 60 in and flat are conditions (`crown_60`, `flat`) beside it. \
-Real wedge faces are
+**The radius is in no source.** 240 in is a choice; 60 in and flat are conditions (`crown_60`, `flat`) \
+beside it. Real wedge faces are
 crowned or arcuate (patents speak of arcuate friction shoes on flat pocket plates), and the thesis names the \
 curved slope as its
-first future work. No figure here has found or confirmed a radius: warp goes down with it throughout, hunting \
-does not follow it
+first future work. No figure here has found or confirmed a radius: warp goes down with it throughout, \
+hunting does not follow it
 one way, and a loaded car's verdicts hardly notice it.
 ";
 

@@ -136,14 +136,15 @@ pub(crate) fn section() -> Result<Section, Failure> {
         text += &table("slope face", &curves);
         panels.push(panel(title, &curves, &[0, 1, 2, 3, 4]));
     }
-    text += "\n![Warp stiffness over the warp angle with flat and crowned faces](figures/wedge_faces_warp.svg)\n\n\
-             With constant damping a crown of 240 in is below the empirical line of new trucks from 6 mrad on, with \
-             variable damping of the empty truck from 5 mrad on; loaded it stays above it. Below that warp is stiffer \
-             than any line: there bristles and springs of the faces stick, and the empirical lines are chords over \
-             30 mrad.\n";
-    text += "\n### Which face, which way, how many points\n\nConstant damping, loaded. A crown on either face does it, if \
-             it is across; up the face it does little. Points: 2 × 9 carry 240 in, smaller radii need more, which a run \
-             says by itself.\n\n";
+    text += "\n![Warp stiffness over the warp angle with flat and crowned \
+             faces](figures/wedge_faces_warp.svg)\n\n\
+             With constant damping a crown of 240 in is below the empirical line of new trucks from 6 mrad \
+             on, with variable damping of the empty truck from 5 mrad on; loaded it stays above it. Below \
+             that warp is stiffer than any line: there bristles and springs of the faces stick, and the \
+             empirical lines are chords over 30 mrad.\n";
+    text += "\n### Which face, which way, how many points\n\nConstant damping, loaded. A crown on either \
+             face does it, if it is across; up the face it does little. Points: 2 × 9 carry 240 in, smaller \
+             radii need more, which a run says by itself.\n\n";
     let others: [(&str, &[&str]); 8] = [
         ("240 in across the slope (default)", &[]),
         (
@@ -175,7 +176,8 @@ pub(crate) fn section() -> Result<Section, Failure> {
         (
             "240 in, worn flat by 0.02 in",
             &[
-                "slope_face.wedge_surface={shape='crown',radius='240 in',direction='across',worn_flat='0.02 in'}",
+                "slope_face.wedge_surface={shape='crown',radius='240 in',direction='across',worn_flat='0.02 \
+                 in'}",
             ],
         ),
         (
@@ -208,7 +210,8 @@ pub(crate) fn section() -> Result<Section, Failure> {
         }
         text += &table("slope face, friction", &tests(case, &rows)?);
     }
-    text += "\nBelow a friction of some 0.3 the nest does not lock: the moment reaches a plateau, and the face decides little.\n";
+    text += "\nBelow a friction of some 0.3 the nest does not lock: the moment reaches a plateau, and the \
+             face decides little.\n";
     text += "\n### Contact stiffness\n\nNo source gives it. Constant damping, loaded; lbf/in a corner.\n\n";
     let mut rows = Vec::new();
     for (name, set) in [CORNERS, FLAT, CROWN_240] {
@@ -229,16 +232,17 @@ pub(crate) fn section() -> Result<Section, Failure> {
     text += &table("slope face, stiffness", &curves);
     let at_20 = |number: usize| curves[number].stiffness.last().map_or(f64::NAN, |own| own.1);
     text += &format!(
-        "\nAt 20 mrad ten times the stiffness makes {:.1} times the warp stiffness of corners, {:.1} of an evenly bedded flat \
-         face, {:.1} of the crown (2 × 17 points on both faces).\n",
+        "\nAt 20 mrad ten times the stiffness makes {:.1} times the warp stiffness of corners, {:.1} of an \
+         evenly bedded flat face, {:.1} of the crown (2 × 17 points on both faces).\n",
         at_20(2) / at_20(0),
         at_20(5) / at_20(3),
         at_20(8) / at_20(6)
     );
     let figure = Figure {
         title: "Warp stiffness with flat and crowned wedge faces".to_owned(),
-        caption: "Secant warp stiffness of a truck over the warp angle where it is reached first, by the radius of the \
-                  slope face's crown, for both dampings, loaded and empty; grey: NUCARS's empirical stiffnesses."
+        caption: "Secant warp stiffness of a truck over the warp angle where it is reached first, by the \
+                  radius of the slope face's crown, for both dampings, loaded and empty; grey: NUCARS's \
+                  empirical stiffnesses."
             .to_owned(),
         panels,
         columns: 2,

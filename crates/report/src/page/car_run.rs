@@ -124,16 +124,38 @@ fn statistics(summary: &CarSummary) -> Markup {
     }
 }
 
+/// Returns a value with its unit, a dash if there is none.
+fn shown(value: Option<&SummaryValue>) -> String {
+    value.map_or("–".to_owned(), |own| {
+        format!("{} {}", digits(own.value), own.unit)
+    })
+}
+
 fn wedges(summary: &CarSummary) -> Markup {
     html! {
-        p { "Energy that the friction of each wedge took at column and slope." }
+        p {
+            "Energy that the friction of each wedge took at column and slope; its rise in its pocket at the \
+             start, as a gauge shows it, the rise at which its control coil has no load there, and the rise \
+             that its pocket holds."
+        }
         div.wide {
             table {
+                thead {
+                    tr {
+                        th scope="col" { "wedge" } th.number scope="col" { "friction energy" }
+                        th.number scope="col" { "rise" } th.number scope="col" { "coil without load" }
+                        th.number scope="col" { "pocket" }
+                    }
+                }
                 tbody {
                     @for (name, own) in &summary.wedge_losses {
+                        @let rise = summary.wedge_rise.get(name);
                         tr {
                             th scope="row" { (name.replace('_', " ")) }
-                            td.number { (digits(own.value)) " " (own.unit) }
+                            td.number { (shown(Some(own))) }
+                            td.number { (shown(rise.map(|own| &own.at_start))) }
+                            td.number { (shown(rise.and_then(|own| own.coil_without_load.as_ref()))) }
+                            td.number { (shown(rise.map(|own| &own.pocket))) }
                         }
                     }
                 }

@@ -1,5 +1,7 @@
 //! The numbers of a run that people compare first, each with its window: over what it is taken.
 
+use std::collections::BTreeMap;
+
 use quantity::{Kind, System as Units};
 use study::any_case::AnyCase;
 use study::car::summary::CarSummary;
@@ -8,6 +10,7 @@ use study::metrics::Extremes;
 use study::summary::{Summary, SummaryValue};
 use study::truck::WEDGE_NAMES;
 use study::truck::summary::TruckSummary;
+use study::wedge_rise::RiseSummary;
 use study::wheelset::summary::WheelsetSummary;
 use wedge::parameters::Damping;
 
@@ -323,7 +326,30 @@ fn of_truck(own: &TruckSummary) -> Vec<KeyNumber> {
             ),
         ]);
     }
+    numbers.extend(of_rise(&own.wedge_rise));
     numbers
+}
+
+/// Returns the largest rise of a wedge at the start beside what limits it.
+fn of_rise(rises: &BTreeMap<String, RiseSummary>) -> Option<KeyNumber> {
+    let (name, own) = rises
+        .iter()
+        .max_by(|(_, a), (_, b)| a.at_start.value.total_cmp(&b.at_start.value))?;
+    let coil = own.coil_without_load.as_ref().map_or(String::new(), |limit| {
+        format!(
+            "; its coil has no load from {} {} on",
+            digits(limit.value),
+            limit.unit
+        )
+    });
+    let window = format!(
+        "{} wedge; its pocket holds {} {}{coil}",
+        name.replace('_', " "),
+        digits(own.pocket.value),
+        own.pocket.unit
+    );
+    let what = "largest wedge rise at the start";
+    Some(KeyNumber::new(what, window, &own.at_start, Kind::Length))
 }
 
 fn of_car(own: &CarSummary) -> Vec<KeyNumber> {
@@ -358,6 +384,7 @@ fn of_car(own: &CarSummary) -> Vec<KeyNumber> {
             Kind::Energy,
         ));
     }
+    numbers.extend(of_rise(&own.wedge_rise));
     numbers
 }
 

@@ -53,9 +53,10 @@ fn near(modes: &[Mode], frequency: f64) -> Result<Mode, Failure> {
 pub fn stuck_vibrations() -> Result<String, Failure> {
     let mut out = "## Stuck vibrations\n\n\
          The loaded car at 40 mph with stuck friction (bristles are springs with dampers) on linear wheels: \
-         conicity 0.1, f11 = 2.0e6 and\nf22 = 1.8e6 lbf a wheel, no spin, a support of 1e9 N/m a wheelset; wedges on their corners, \
-         adapters of 5e5 lbf/in. Beside it a separate linear model: 19 bodies, springs and\ndampers in lbf, in, s, linearized by \
-         automatic differentiation. From its modes: the part of the growth that is creep's.\n\n\
+         conicity 0.1, f11 = 2.0e6 and\nf22 = 1.8e6 lbf a wheel, no spin, a support of 1e9 N/m a wheelset; \
+         wedges on their corners, adapters of 5e5 lbf/in. Beside it a separate linear model: 19 bodies, \
+         springs and\ndampers in lbf, in, s, linearized by automatic differentiation. From its modes: the \
+         part of the growth that is creep's.\n\n\
          | vibration | growth, 1/s, Hz | separate model | creep's part of it | growth, Hz, twice f11, f22 | \
          separate model |\n|---|---|---|---|---|---|\n"
         .to_owned();
@@ -124,15 +125,14 @@ pub fn ends_of_trucks() -> Result<String, Failure> {
     })?;
     out.extend(lines);
     out += "\nThe inputs are alike at all axles, but not at one time: the trailing axle meets each joint \
-         later. \
-         Side frames stand on axles at ±35 in and\nhave their columns at ±9.8 in. At an angular frequency ω \
-         both columns move by the same amplitude, with phases of ±φ,\ntan φ = (9.8/35) tan(ω 35 in/V). The \
-         bolster lags behind the side frame by δ, since friction and coils must move the body. With its\n\
-         amplitude H in parts of that of the columns, the strokes at both ends are √(1 + H² - 2 H cos(φ \
-         ± δ)), \
-         the larger one at the leading end.\nWhere wedges hardly slide (H near 1) they are as (φ + δ) to \
-         (φ - δ): at 16 mph φ is 8°, and a lag of 3° makes twice the stroke. Where\nthey slide far, the ends \
-         differ little.\n\n\
+         later. Side frames stand on axles at ±35 in and\nhave their columns at ±9.8 in. At an angular \
+         frequency ω both columns move by the same amplitude, with phases of ±φ,\ntan φ = (9.8/35) tan(ω 35 \
+         in/V). The bolster lags behind the side frame by δ, since friction and coils must move the body. \
+         With its\n\
+         amplitude H in parts of that of the columns, the strokes at both ends are √(1 + H² - 2 H cos(φ ± \
+         δ)), the larger one at the leading end.\nWhere wedges hardly slide (H near 1) they are as (φ + δ) \
+         to (φ - δ): at 16 mph φ is 8°, and a lag of 3° makes twice the stroke. Where\nthey slide far, the \
+         ends differ little.\n\n\
          Runs of a loaded car tell this from a fault (tests of the crate `car`). Rails dip by 1.5 in \
          over 30 ft, as at 50 mph:\n\n\
          | run | front: leading, J | trailing | ratio | rear: leading | trailing | ratio |\n\

@@ -386,7 +386,8 @@ fn turning_moment() -> Result<String, Failure> {
     let mut out = "## Center plates in a spiral\n\n\
          The loaded car with roller side bearings runs into a curve of 7.5° by a spiral of 150 ft. A flat \
          plate of diameter D, of radius R = D/2, that slides all\nover turns with 2/3 μ W R: 114 kip·in at a \
-         diameter of 14 in, μ = 0.2 and half of the body's weight. One that bears on its edge alone turns with\nμ W R, half as much again: \
+         diameter of 14 in, μ = 0.2 and half of the body's weight. One that bears on its edge alone turns \
+         with\nμ W R, half as much again: \
          numbers between both are those of a plate on which the load lies unevenly, as the twist of a spiral \
          puts it.\n\n| truck | turning moment, largest, kip·in | plate load there, kip | 2/3 μ W R, kip·in \
          |  |\n|---|---|---|---|---|\n"

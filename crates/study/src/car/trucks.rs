@@ -103,7 +103,8 @@ fn truck(r: &mut CaseReader<'_>, name: &'static str, about: &str, lading: Lading
     r.within(name);
     r.section("", about);
     let (mut condition, mut damping) = (Condition::New, Damping::Variable);
-    let comment = "\"new\": wedges have a friction of 0.4; \"mu_0.25\" (before: \"worn\"): 0.25, and nothing is \
+    let comment = "\"new\": wedges have a friction of 0.4; \"mu_0.25\" (before: \"worn\"): 0.25, and \
+                   nothing is \
                    worn: wear is wedge.rise. Its [friction] wins over it";
     r.choice("condition", sections::CONDITIONS, &mut condition, comment);
     let comment = "\"variable\": control coils stand on the side frames; \"constant\": on the bolster";

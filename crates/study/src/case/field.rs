@@ -216,10 +216,12 @@ impl Written {
     }
 
     pub fn choice<T: PartialEq>(names: Names<T>, chosen: &T) -> Self {
+        // Older names of a choice are read, not offered.
+        let is_own = |(name, choice): &&(&'static str, T)| name_of(names, choice) == *name;
         Self {
             toml: quoted(name_of(names, chosen)),
             input: Input::Choice {
-                choices: names.iter().map(|(name, _)| *name).collect(),
+                choices: names.iter().filter(is_own).map(|(name, _)| *name).collect(),
             },
         }
     }

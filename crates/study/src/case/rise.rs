@@ -1,6 +1,6 @@
-//! Wedge rise as an input, `wedge.rise`: what an inspector's gauge shows, in place of the depths of wear of both
-//! faces, which follow from it and from how they share the wear ([`Wear::of_rise`]). The same keys in cases of
-//! a wedge, of a truck and of a car.
+//! Wedge rise as an input, `wedge.rise`: what an inspector's gauge shows, in place of the depths of wear of
+//! both faces, which follow from it and from how they share the wear ([`Wear::of_rise`]). The same keys in
+//! cases of a wedge, of a truck and of a car.
 
 use quantity::{Kind, Number, Quantity};
 use wedge::parameters::Wear;
@@ -19,8 +19,8 @@ const SHARE: &str = "rise_column_share";
 const EXAMPLE: &str = "\"0.5 in\"";
 const FORM: QuantityForm = (Kind::Length, Range::NotNegative, Reach::FromZero(0.0254));
 const SHARES: Range = Range::UpTo(1.0, "from 0 to 1");
-const OF_RISE: &str = "of the wedge by wear, as a gauge shows it, in place of both depths: (column_wear cos(angle) \
-                       + slope_wear) / sin(angle) without toe";
+const OF_RISE: &str = "of the wedge by wear, as a gauge shows it, in place of both depths: (column_wear \
+                       cos(angle) + slope_wear) / sin(angle) without toe";
 const OF_SHARE: &str = "of the sum of both depths that rise makes, at the column: 0.5 is equal wear, a guess";
 pub(crate) const OF_DEPTHS: [&str; 2] = [
     "what column and wedge have lost there, together: the column lies deeper by it",

@@ -164,7 +164,8 @@ fn read(
         "The truck. Axes: x forward, y left, z up from the top of rail, origin at its center.",
     );
     let (mut condition, mut damping) = (Condition::New, Damping::Variable);
-    let comment = "\"new\": wedges have a friction of 0.4; \"mu_0.25\" (before: \"worn\"): 0.25, and nothing is \
+    let comment = "\"new\": wedges have a friction of 0.4; \"mu_0.25\" (before: \"worn\"): 0.25, and \
+                   nothing is \
                    worn: wear is wedge.rise. [friction] wins over it";
     r.choice("condition", sections::CONDITIONS, &mut condition, comment);
     let comment = "\"variable\": control coils stand on the side frames; \"constant\": on the bolster";

@@ -142,6 +142,45 @@ fn analytic_a_toe_of_one_wedge_is_varied_through_zero() {
     assert_eq!(wedges[0].toe, 0.0);
 }
 
+/// Wedge rise is an axis of studies of wedges, trucks and cars, and what a run measures at its start.
+#[test]
+fn analytic_wedge_rise_is_varied_and_measured() {
+    let of = |case: &str, key: &str| {
+        study(&format!(
+            "case = \"{case}\"\nsampling = \"full_factorial\"\n[vary]\n{key} = {{ from = \"0 in\", to = \
+             \"0.8 in\", \
+             count = 3 }}\n"
+        ))
+    };
+    let trucks = of("truck_crowned_vertical_constant", "wedge.rise");
+    let measured: Vec<f64> = (0..trucks.count())
+        .map(|number| {
+            let judged = trucks.case(number).unwrap().judge().unwrap();
+            let found = trucks.measures().get(&judged.measures, "largest_rise_at_start");
+            found.unwrap() / 0.0254
+        })
+        .collect();
+    for (rise, found) in [0.0, 0.4, 0.8].into_iter().zip(&measured) {
+        assert!(
+            (found - measured[0] - rise).abs() < 0.03 * rise + 1e-12,
+            "{measured:?}"
+        );
+    }
+    let AnyCase::Car(car) = of("car_twist_and_roll_loaded", "truck.wedge.rise")
+        .case(2)
+        .unwrap()
+    else {
+        unreachable!("a car's study")
+    };
+    for wedge in car.parameters.trucks.iter().flat_map(|own| &own.wedges) {
+        assert!((wedge.wear.rise(wedge.rise_angles()) / 0.0254 - 0.8).abs() < 1e-9);
+    }
+    let AnyCase::Wedge(wedge) = of("vdrun_toe_0_psi_0", "wedge.rise").case(1).unwrap() else {
+        unreachable!("a wedge's study")
+    };
+    assert!((wedge.parameters.wedge_rise() / 0.0254 - 0.4).abs() < 1e-9);
+}
+
 #[test]
 fn analytic_a_full_factorial_counts_like_a_clock() {
     let study = study(&format!(

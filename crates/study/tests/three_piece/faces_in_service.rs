@@ -34,8 +34,8 @@ fn warp(name: &str, set: &[String]) -> ([f64; 6], Vec<String>) {
     (ANGLES.map(at), result.summary.warnings)
 }
 
-/// Stiffness of the truck with flat and crowned faces, kip·in/mrad, as measured with this program before crowned
-/// faces became its default: no other program has such faces.
+/// Stiffness of the truck with flat and crowned faces, kip·in/mrad, as measured with this program before
+/// crowned faces became its default: no other program has such faces.
 #[test]
 fn reproduction_warp_with_crowned_faces() {
     let fine = [2, 41];
@@ -96,8 +96,8 @@ fn reproduction_warp_with_crowned_faces() {
     }
 }
 
-/// Twice the points move the default's warp by less than 3 %, and the crown takes the influence of the contacts'
-/// stiffness.
+/// Twice the points move the default's warp by less than 3 %, and the crown takes the influence of the
+/// contacts' stiffness.
 #[test]
 fn convergence_of_crowned_faces() {
     let name = "truck_crowned_warp_nest_constant";
@@ -166,8 +166,8 @@ fn limits_a_crown_that_too_few_points_carry_is_told_with_the_number_it_needs() {
     assert!(warned(&[]).is_empty());
 }
 
-/// A crown worn flat bears on its flat: with a flat that leaves nothing of the crown in the middle of its points
-/// the truck is as stiff in warp as with a flat face of the same points, to a few percent.
+/// A crown worn flat bears on its flat: with a flat that leaves nothing of the crown in the middle of its
+/// points the truck is as stiff in warp as with a flat face of the same points, to a few percent.
 #[test]
 fn limits_a_crown_worn_flat_lies_between_crowned_and_flat() {
     let name = "truck_crowned_warp_nest_constant";

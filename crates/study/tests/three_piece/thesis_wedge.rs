@@ -56,7 +56,8 @@ fn mounted(number: usize, damping: &str, toe: &str) -> Averages {
          center = [\"{} in\", \"{} in\", \"{} in\"]\n\
          vertical = {{ shape = \"sine\", amplitude = \"1 in\", frequency = \"2 rad/s\" }}\n\
          yaw = \"0.012 rad\"\n[side_frame]\nfree_coordinates = []\ntoe = \"{toe}\"\n[adapter]\n\
-         kind = \"nothing\"\n[column_face]\ngrid = [2, 2]\n[slope_face]\ngrid = [2, 2]\nwedge_surface = \"flat\"\n\
+         kind = \"nothing\"\n[column_face]\ngrid = [2, 2]\n[slope_face]\ngrid = [2, 2]\nwedge_surface = \
+         \"flat\"\n\
          [wedge]\ninertia = [\"100 lb in^2\", \"100 lb in^2\", \"100 lb in^2\"]\n\
          free_coordinates = [\"x\", \"z\", \"pitch\", \"yaw\"]\n[control_coil]\nkind = \"thesis\"\n\
          center_of_gravity = {CENTER}\n[contact]\ndamping = \"0 lbf s/in\"\n[friction]\nlaw = \"tanh\"\n\

@@ -159,8 +159,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         out,
         "\nWarp moment on the bolster over the warp angle where an angle is reached first, of the whole \
          truck, kip·in/mrad. Loop:\n\
-         energy that the last whole cycle takes. Below some 10 mrad the faces decide, their crown first, then \
-         their points and\n\
+         energy that the last whole cycle takes. Below some 10 mrad the faces decide, their crown first, \
+         then their points and\n\
          contact.stiffness; above it friction, wear, and whether the nest locks. NUCARS's lines are chords \
          over 30 mrad.\n\nWritten into {}: {}.",
         folder.path().display(),

@@ -38,8 +38,9 @@ pub const GAUGE_DEPTH: f64 = 0.625 * INCH;
 /// Inclination of rails in North America.
 pub const INCLINATION: f64 = 1.0 / 40.0;
 /// Distance of the tape circles of a wheelset with narrow flanges, m: 53 3/8 in from back to back
-/// (remembered; wheelsets with wide flanges have 53 3/32 in) and twice the 3 1/16 in of [`aar_1b`]. In a gauge
-/// of 56 1/2 in its flanges have a clearance of 13/32 in to each side, at the depth where gauge is measured.
+/// (remembered; wheelsets with wide flanges have 53 3/32 in) and twice the 3 1/16 in of [`aar_1b`]. In a
+/// gauge of 56 1/2 in its flanges have a clearance of 13/32 in to each side, at the depth where gauge is
+/// measured.
 pub const TAPE_DISTANCE: f64 = (53.0 + 3.0 / 8.0 + 2.0 * (3.0 + 1.0 / 16.0)) * INCH;
 
 const REMEMBERED: &str =

@@ -78,8 +78,8 @@ pub(crate) fn center_plate(r: &mut CaseReader<'_>, plate: &mut CenterPlate) {
             }
         } else {
             let mut diameter = 2.0 * *outer;
-            let comment = "of the plate, which is that of its outer ring of points; bowls of 12, 14 and 16 in are \
-                           in use, and no source at hand says which truck has which";
+            let comment = "of the plate, which is that of its outer ring of points; bowls of 12, 14 and 16 \
+                           in are in use, and no source at hand says which truck has which";
             r.quantity("diameter", LENGTH, &mut diameter, comment);
             *outer = 0.5 * diameter;
         }
