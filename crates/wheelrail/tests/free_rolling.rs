@@ -153,7 +153,7 @@ fn issue_048_wheels_that_do_not_reach_both_rails_are_told() {
         let text = error.to_string();
         assert!(text.contains("the wheels do not reach both rails"), "{text}");
         assert!(
-            text.contains(&format!("{gauge:.2} in")) && text.contains("64.53 in"),
+            text.contains(&format!("{gauge:.2} in")) && text.contains("64.81 in"),
             "{text}"
         );
         let ProfileError::ShortOfRails { largest, .. } = error else {

@@ -204,9 +204,9 @@ fn rising() -> Result<(String, Figure), Failure> {
 }
 
 fn plates() -> Result<String, Failure> {
-    let mut text = "\n## Center plate\n\nBowls of 12, 14 and 16 in are in use (their wear limits stand \
-                    beside each other in inspection rules); no source at hand says which truck has which, \
-                    and 14 in is a choice (`truck.center_plate.diameter`). A plate of diameter D under the \
+    let mut text = "\n## Center plate\n\nBowls of 12, 14 and 16 in are in use (the US Navy's handbook \
+                    P-301 has wear limits of each); no source at hand says which truck has which, and \
+                    14 in is a choice (`truck.center_plate.diameter`). A plate of diameter D under the \
                     load W resists turning with (1/3) μ W D. The loaded car: through a spiral at 20 mph, \
                     and twist and roll at 16 mph.\n\n"
         .to_owned();

@@ -144,7 +144,7 @@ fn limits_the_empty_car_on_rollers_hunts_at_speeds_of_the_field() {
 }
 
 /// In 7.5 deg the leading outer wheel runs on its flange at 3 in of cant excess as at 3 in of deficiency, and
-/// has the largest lateral force of all wheels; the more loaded rail, and the side to which the car presses
+/// has the largest L/V of all wheels; the more loaded rail, and the side to which the car presses
 /// the track, are the inner one at excess and the outer one at deficiency.
 #[test]
 fn limits_the_leading_outer_wheel_runs_on_its_flange() {
@@ -154,10 +154,13 @@ fn limits_the_leading_outer_wheel_runs_on_its_flange() {
         // The flange of these wheels touches at 0.41 in.
         assert!(shift > 0.41, "{speed} mph: {shift}");
         let lateral = |axle: usize, side: &str| late(&result, &format!("axle_{axle}_{side}_lateral"));
-        let leading = lateral(1, "right");
+        let ratio = |axle: usize, side: &str| late(&result, &format!("axle_{axle}_{side}_l_over_v"));
         for axle in 1..=4 {
             for side in ["left", "right"] {
-                assert!(leading >= lateral(axle, side), "{speed} mph: {axle} {side}");
+                assert!(
+                    ratio(1, "right") >= ratio(axle, side),
+                    "{speed} mph: {axle} {side}"
+                );
             }
         }
         let loads = ["left", "right"].map(|side| {
