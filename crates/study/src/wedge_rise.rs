@@ -1,10 +1,10 @@
 //! Rises of wedges in their pockets at the start of a run, as a gauge shows them, beside what limits them:
 //! the pocket, and the coil that loses its load as the wedge rises.
 //!
-//! A control coil pushes with `F = P - k e` where it is longer by e than in the nominal layout; e is the rise,
-//! and with variable damping the height of the bolster on top. What presses the wedge is that less its weight
-//! W, and gone at the rise `(P - W) / k - (e - rise)`, bolster and side frame being where they are: higher the
-//! wedge does not come, whatever is worn.
+//! A control coil pushes with `F = P - k e` where it is longer by e than in the nominal layout; e is the
+//! rise, and with variable damping the height of the bolster on top. What presses the wedge is that less its
+//! weight W, and gone at the rise `(P - W) / k - (e - rise)`, bolster and side frame being where they are:
+//! higher the wedge does not come, whatever is worn.
 
 use std::collections::BTreeMap;
 
@@ -136,8 +136,8 @@ pub(crate) fn warnings(trucks: &[AtStart<'_>], units: Units) -> Vec<String> {
         }),
         loose.map(|list| {
             format!(
-                "control coils carry no more than their wedges at the start, since these are worn: {list}; they \
-                 press no column. Lower the rise, or give the coil's preload and stiffness"
+                "control coils carry no more than their wedges at the start, since these are worn: {list}; \
+                 they press no column. Lower the rise, or give the coil's preload and stiffness"
             )
         }),
         unmoved.map(|list| {

@@ -59,8 +59,8 @@ fn reproduction_a_run_writes_table_summary_and_page() {
         .split(',')
         .map(|cell| cell.parse().unwrap())
         .collect();
-    // To a meter before the end of 220 ft, less some inches by which the flange in the curve holds it back; the
-    // outer (left) wheel leads in a curve to the right.
+    // To a meter before the end of 220 ft, less some inches by which the flange in the curve holds it back;
+    // the outer (left) wheel leads in a curve to the right.
     let distance = last[place("distance_in")] / 12.0;
     assert!((216.0..216.8).contains(&distance), "{distance}");
     assert!(last[place("lateral_in")] > 0.05);

@@ -1,6 +1,6 @@
 //! Writes docs/wedge-faces.md and its figures: what the faces of the wedges decide.
 //!
-//! `cargo run --release -p report --example wedge_faces`: a quarter of an hour on two cores.
+//! `cargo run --release -p report --example wedge_faces`: half an hour on two cores.
 
 mod cars;
 mod contacts;
@@ -23,6 +23,9 @@ pub(crate) struct Section {
     pub text: String,
     pub figures: Vec<(&'static str, Figure)>,
 }
+
+/// What computes a section.
+type Write = fn() -> Result<Section, Failure>;
 
 /// Faces by name, with what they set in a truck's case.
 pub(crate) type Faces = (&'static str, &'static [&'static str]);
@@ -60,23 +63,24 @@ and 2 × 9 points on both
 faces. Flat faces, with which the thesis and NUCARS's element are compared, bear on their whole width or on \
 their corners alone.
 This page lays both beside other radii. It is written by `cargo run --release -p report --example \
-wedge_faces` in a quarter of an
-hour, with its figures.
+wedge_faces` in half an
+hour on two cores, with its figures.
 
-**The radius is in no source.** 240 in is a choice; 60 in and flat are conditions (`crown_60`, `flat`) \
-beside it. Real wedge faces are
+**The radius is in no source.** 240 in is a choice; 60 in, 120 in and flat are conditions (`crown_60`, \
+`crown_120`, `flat`) beside it. Real wedge faces are
 crowned or arcuate (patents speak of arcuate friction shoes on flat pocket plates), and the thesis names the \
 curved slope as its
 first future work. No figure here has found or confirmed a radius: warp goes down with it throughout, \
-hunting does not follow it
-one way, and a loaded car's verdicts hardly notice it.
+the empty car's hunting follows
+the clearance of its flanges more than any radius, and a loaded car's verdicts hardly notice it.
 ";
 
 fn main() -> Result<(), Failure> {
-    let sections: [(&str, fn() -> Result<Section, Failure>); 4] = [
+    let sections: [(&str, Write); 5] = [
         ("contacts", contacts::section),
         ("warps", warps::section),
         ("hunts", hunts::section),
+        ("clearance", hunts::clearance),
         ("cars", cars::section),
     ];
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
@@ -89,7 +93,7 @@ fn main() -> Result<(), Failure> {
     if let Some(chosen) = std::env::args().nth(1) {
         // One section, to look at.
         let found = sections.iter().find(|(name, _)| *name == chosen);
-        let (_, section) = found.ok_or("there are contacts, warps, hunts, cars")?;
+        let (_, section) = found.ok_or("there are contacts, warps, hunts, clearance, cars")?;
         let section = section()?;
         println!("{}", section.text);
         return write(&section);

@@ -109,7 +109,7 @@ fn convergence_of_crowned_faces() {
     }
     let stiff = "contact.stiffness=2.5e6 lbf/in".to_owned();
     let ratio = |set: &[String]| {
-        let stiffer = [set, &[stiff.clone()]].concat();
+        let stiffer = [set, std::slice::from_ref(&stiff)].concat();
         warp(CONSTANT, &stiffer).0[5] / warp(CONSTANT, set).0[5]
     };
     let (flat, crowned) = (ratio(&[]), ratio(&crown("slope", 240.0, "across", [2, 9])));
