@@ -62,6 +62,7 @@ pub(crate) fn clearance() -> Result<Section, Failure> {
             format!("{:.2}", largest(&own) / INCH),
         ]);
     }
+    text += "\nWith that room the face decides where the limit cycle dies; with 0.41 in the flanges do.\n";
     Ok(Section {
         text,
         figures: Vec::new(),

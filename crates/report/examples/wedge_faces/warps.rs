@@ -201,7 +201,7 @@ pub(crate) fn section() -> Result<Section, Failure> {
             "friction",
             CASES[0].1,
         ),
-        ("\nVariable damping, loaded.\n\n", "friction", CASES[2].1),
+        ("Variable damping, loaded.\n\n", "friction", CASES[2].1),
     ] {
         text += "\n";
         text += title;

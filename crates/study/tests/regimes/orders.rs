@@ -121,6 +121,35 @@ fn analytic_bounce_is_largest_where_joints_meet_its_frequency() {
     assert!(usual < 0.5 * bounces[1], "{usual} {bounces:?}");
 }
 
+/// A cliff over wedge rise: the loaded car rocks little with wedges that stand 0.75 in high and much with 1
+/// in, new and flat faces alike. With the faces, adapters and flanges of an earlier version of this program,
+/// depths of 0.25 and 0.3 in (rises of 0.872 and 1.046 in) made 2.20 and 5.22 deg.
+#[test]
+fn reproduction_the_car_begins_to_rock_between_two_rises() {
+    let earlier = [
+        "truck.slope_face.wedge_surface=flat",
+        "truck.slope_face.grid=[2, 2]",
+        "truck.column_face.grid=[2, 2]",
+        "truck.adapter.stiffness=5e5 lbf/in",
+        "wheels.tape_distance=59.21875 in",
+    ];
+    let runs: [(f64, &[&str]); 4] = [(0.75, &[]), (1.0, &[]), (0.8716, &earlier), (1.0459, &earlier)];
+    let rolls = std::thread::scope(|scope| {
+        let threads = runs.map(|(rise, set)| {
+            scope.spawn(move || {
+                let rise = format!("truck.wedge.rise={rise} in");
+                let set: Vec<&str> = set.iter().copied().chain([rise.as_str()]).collect();
+                roll(16.0, &set)
+            })
+        });
+        threads.map(|own| own.join().unwrap())
+    });
+    assert!(rolls[0] < 1.7 && rolls[1] > 4.0, "{rolls:?}");
+    for (found, expected) in rolls[2..].iter().zip([2.20, 5.22]) {
+        assert!((found / expected - 1.0).abs() < 0.05, "{rolls:?}");
+    }
+}
+
 /// Held at a speed, the disturbed empty car on roller side bearings comes to rest at 40 mph and hunts from
 /// flange to flange at 80 mph (the field tells hunting from 50 to 55 mph on); on constant contact side
 /// bearings it comes to rest at 80 mph too.
