@@ -304,6 +304,12 @@ impl Partitioned {
         &mut self.quadratures_of_pairs[row].values
     }
 
+    /// Returns whether a pair of internal states was coupled to a body in the last factorization.
+    #[must_use]
+    pub fn is_coupled(&self, group: usize) -> bool {
+        self.internal_pairs[group].coupled
+    }
+
     /// Factors `shift · I - J`.
     ///
     /// # Errors

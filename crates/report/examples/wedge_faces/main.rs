@@ -1,6 +1,6 @@
 //! Writes docs/wedge-faces.md and its figures: what the faces of the wedges decide.
 //!
-//! `cargo run --release -p report --example wedge_faces`: half an hour on two cores.
+//! `cargo run --release -p report --example wedge_faces`: ten minutes on two cores.
 
 mod cars;
 mod contacts;
@@ -63,8 +63,8 @@ and 2 × 9 points on both
 faces. Flat faces, with which the thesis and NUCARS's element are compared, bear on their whole width or on \
 their corners alone.
 This page lays both beside other radii. It is written by `cargo run --release -p report --example \
-wedge_faces` in half an
-hour on two cores, with its figures.
+wedge_faces` in ten
+minutes on two cores, with its figures.
 
 **The radius is in no source.** 240 in is a choice; 60 in, 120 in and flat are conditions (`crown_60`, \
 `crown_120`, `flat`) beside it. Real wedge faces are
