@@ -46,10 +46,6 @@ pub(super) struct PointDerivatives {
     /// True if any derivative differs from zero. If those of open points were computed too, runs would take
     /// 0 to 4 % more instructions.
     pub active: bool,
-    /// True if any point touches: else the motion of the body changes nothing, and bristles relax by
-    /// themselves. If it did not matter, a car whose wedges have crowned faces would take 2 % more
-    /// instructions.
-    pub touches: bool,
     /// Forces along the normal and two tangents.
     pub force: [Lanes; 3],
     pub by_gap: [Lanes; OUTPUTS],
@@ -137,12 +133,6 @@ impl Points {
     #[inline(always)]
     pub fn are_active(&self) -> bool {
         self.derivatives.iter().any(|derivatives| derivatives.active)
-    }
-
-    /// Returns whether any of four points touches where the law was differentiated.
-    #[inline(always)]
-    pub fn touch(&self, block: usize) -> bool {
-        self.derivatives[block].touches
     }
 
     /// Gap and slip of every point.
@@ -278,8 +268,7 @@ impl ContactFace<Interface> {
         let blocks = points.blocks.iter().zip(&points.kinematics);
         for (number, ((block, at), derivatives)) in blocks.zip(&mut points.derivatives).enumerate() {
             let closed = closed(block, at);
-            derivatives.touches = !closed.none();
-            derivatives.active = derivatives.touches || !deflections.is_empty();
+            derivatives.active = !(closed.none() && deflections.is_empty());
             if !derivatives.active {
                 continue;
             }
@@ -352,7 +341,6 @@ impl PointDerivatives {
         let none = Lanes::ZERO;
         Self {
             active: false,
-            touches: false,
             force: [none; 3],
             by_gap: [none; OUTPUTS],
             by_slip: [[none; OUTPUTS]; 2],

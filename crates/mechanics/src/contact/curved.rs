@@ -129,10 +129,7 @@ impl Points {
             .zip(&self.kinematics)
             .zip(&self.bends);
         for (number, (((block, derivatives), at), bend)) in blocks.enumerate() {
-            if !derivatives.touches {
-                if let Some(rate) = rates.get_mut(number) {
-                    *rate = TangentColumns::NONE;
-                }
+            if !derivatives.active {
                 continue;
             }
             let arm: Vector<Lanes> = relative.rotation.apply(block.position);

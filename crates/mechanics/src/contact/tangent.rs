@@ -47,10 +47,7 @@ impl Points {
         let spin = relative.angular_velocity;
         let mut sums = [Lanes::ZERO; 8];
         for (number, (block, derivatives)) in self.blocks.iter().zip(&self.derivatives).enumerate() {
-            if !derivatives.touches {
-                if let Some(rate) = rates.get_mut(number) {
-                    *rate = TangentColumns::NONE;
-                }
+            if !derivatives.active {
                 continue;
             }
             let arm: Vector<Lanes> = relative.rotation.apply(block.position);

@@ -306,9 +306,6 @@ fn keep_rates<E>(
     let n = free.free.len();
     let points = mounted.internal_count / 2;
     for (number, columns) in mounted.rate_tangents.iter().enumerate() {
-        if !mounted.points.touch(number) {
-            continue;
-        }
         for j in 0..n {
             let changes = chain
                 .others(side, free, j, columns)
