@@ -5,8 +5,8 @@
 //! far (0.13 in against 3 in at 7 kip and 240 in): the radius of the model stands for crown and bed
 //! together.
 
-use quantity::Number;
-use truck::{CROWN_RADIUS, ControlCoil, WEDGE_NAMES, Wedge, WedgeKind};
+use quantity::SixDigits;
+use truck::{CROWN_RADIUS, WEDGE_NAMES, Wedge, WedgeKind};
 use wedge::face::{FaceDirection, FaceProfile, FaceProperties, LARGEST_GRID};
 
 use crate::assumptions::of_face;
@@ -63,22 +63,19 @@ pub(crate) fn assumptions(wedges: &[(String, &Wedge)]) -> Vec<String> {
 
 /// Returns the warnings about crowns that too few points carry.
 pub(crate) fn warnings(wedges: &[(String, &Wedge)]) -> Vec<String> {
-    let mut found: Vec<(String, usize)> = Vec::new();
+    // The words of each warning, the first wedge that it is about, and how many more there are.
+    let mut found: Vec<(String, &str, usize)> = Vec::new();
     for (name, wedge) in wedges {
-        for (number, face) in FACES.into_iter().enumerate() {
-            let Some(words) = too_coarse(wedge, number) else {
-                continue;
-            };
-            let words = words.replace("FACE", &format!("{face} face"));
-            match found.iter_mut().find(|(other, _)| other.ends_with(&words)) {
-                Some((_, more)) => *more += 1,
-                None => found.push((format!("wedge {name}: {words}"), 0)),
+        for words in (0..FACES.len()).filter_map(|number| too_coarse(wedge, number)) {
+            match found.iter_mut().find(|(other, ..)| *other == words) {
+                Some((.., more)) => *more += 1,
+                None => found.push((words, name, 0)),
             }
         }
     }
-    let words = found.into_iter().map(|(words, more)| match more {
-        0 => words,
-        more => format!("{words} (and the same at {more} more wedges)"),
+    let words = found.into_iter().map(|(words, name, more)| match more {
+        0 => format!("wedge {name}: {words}"),
+        more => format!("wedge {name}: {words} (and the same at {more} more wedges)"),
     });
     words.collect()
 }
@@ -86,16 +83,16 @@ pub(crate) fn warnings(wedges: &[(String, &Wedge)]) -> Vec<String> {
 /// Returns the warning of a face whose points are too few for its crown under the force that its control coil
 /// makes without friction.
 fn too_coarse(wedge: &Wedge, number: usize) -> Option<String> {
+    if wedge.kind == WedgeKind::Massless {
+        return None;
+    }
     let face = faces(wedge)[number];
     let surfaces = [&face.wedge_surface, &face.counterface];
-    let (own, radius) = surfaces
+    let mut crowns = surfaces
         .into_iter()
-        .find_map(|own| Some((own, own.profile.radius()?)))
-        .filter(|(_, radius)| wedge.kind != WedgeKind::Massless && *radius > 0.0)?;
-    let preload = match &wedge.control_coil {
-        ControlCoil::Nothing => return None,
-        coil => coil.preload(),
-    };
+        .filter_map(|own| Some((own, own.profile.radius()?)));
+    let (own, radius) = crowns.next()?;
+    let preload = wedge.control_coil.preload();
     let (sine, cosine) = libm::sincos(wedge.angle);
     let (force, length) = match number {
         0 => (preload * cosine / sine, wedge.height),
@@ -122,10 +119,11 @@ fn too_coarse(wedge: &Wedge, number: usize) -> Option<String> {
         FaceDirection::Across => ("across", [face.grid.up, needed]),
     };
     Some(format!(
-        "the FACE is crowned {way} by {} in, so that {:.1} in of its {:.1} in bear on their springs under \
+        "the {} face is crowned {way} by {} in, so that {:.1} in of its {:.1} in bear on their springs under \
          the {:.0} lbf that its coil makes there, and {points} points {way} have {spacings:.1} spacings on \
          them: the warp stiffness below 1 mrad is off by more than 5 %. Take grid = [{}, {}] or more for it",
-        Number((radius / INCH * 1e3).round() * 1e-3),
+        FACES[number],
+        SixDigits(radius / INCH),
         pressed / INCH,
         extent / INCH,
         force / POUND_FORCE,

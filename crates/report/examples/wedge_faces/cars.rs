@@ -1,54 +1,40 @@
 //! Cars: curving and rocking with other faces, rocking over wedge rise, center plates and adapters.
 
-use quantity::Quantity;
 use report::drawing::{Figure, Panel, PlotCurve, distinct};
-use study::car::CarCase;
-use study::car::regime::Regime;
 use study::car::run::CarResult;
-use study::case::Tables;
-use study::run::Run;
 
-use crate::{CROWN_60, CROWN_240, FLAT, Failure, INCH, POUND_FORCE, Section, each, head, row};
+use crate::shared::{Failure, each, run_in, statistic};
+use crate::{CROWN_60, CROWN_240, FLAT, INCH, POUND_FORCE, Section, head, row};
 
 /// Runs a loaded car in a regime at a speed (mph).
 fn run(regime: &str, speed: f64, set: &[String]) -> Result<CarResult, Failure> {
-    let own = Regime::named(regime).ok_or_else(|| format!("there is no regime {regime}"))?;
-    let mut settings = own.settings(&Quantity::parse(&format!("{speed} mph"))?)?;
-    settings.extend(set.iter().cloned());
-    let text = "model = \"car\"\nlading.kind = \"loaded\"\n";
-    let case = CarCase::parse("car.toml", text, Tables::nowhere(), &settings)?;
-    let result = Run::new(&case)?.finish(|_| ());
-    match &result.summary.stopped {
-        Some(stopped) => Err(format!("{regime} {set:?} stopped: {}", stopped.reason).into()),
-        None => Ok(result),
-    }
-}
-
-/// Returns a statistic, filtered if it is.
-fn statistic(result: &CarResult, name: &str) -> f64 {
-    let own = result.summary.statistics.get(name);
-    let own = own.and_then(|own| own.filtered.as_ref().or(own.raw.as_ref()));
-    own.map_or(f64::NAN, |own| own.value)
+    let set: Vec<&str> = set.iter().map(String::as_str).collect();
+    run_in(regime, "loaded", speed, &set)
 }
 
 /// Returns the roll of the car body, greatest less least, deg.
-fn roll(result: &CarResult) -> f64 {
-    statistic(result, "body_roll_peak_to_peak").to_degrees()
+fn roll(result: &CarResult) -> Result<f64, Failure> {
+    Ok(statistic(result, "body_roll_peak_to_peak")?.to_degrees())
+}
+
+/// Returns a statistic of all wheels.
+fn of_wheels(result: &CarResult, ending: &str) -> Result<Vec<f64>, Failure> {
+    let wheels =
+        (1..=4).flat_map(|axle| ["left", "right"].map(|side| format!("axle_{axle}_{side}_{ending}")));
+    wheels.map(|name| statistic(result, &name)).collect()
 }
 
 /// Returns the least wheel load, % of the static one.
-fn least_load(result: &CarResult) -> f64 {
-    let all =
-        (1..=4).flat_map(|axle| ["left", "right"].map(|side| format!("axle_{axle}_{side}_least_load_time")));
-    all.map(|name| statistic(result, &name))
-        .fold(f64::INFINITY, f64::min)
+fn least_load(result: &CarResult) -> Result<f64, Failure> {
+    let all = of_wheels(result, "least_load_time")?;
+    Ok(all.into_iter().fold(f64::INFINITY, f64::min))
 }
 
 /// Returns the largest L/V of a wheel.
-fn largest_ratio(result: &CarResult) -> f64 {
-    let all =
-        (1..=4).flat_map(|axle| ["left", "right"].map(|side| format!("axle_{axle}_{side}_l_over_v_time")));
-    all.map(|name| statistic(result, &name)).fold(0.0, f64::max)
+fn largest_ratio(result: &CarResult) -> Result<f64, Failure> {
+    Ok(of_wheels(result, "l_over_v_time")?
+        .into_iter()
+        .fold(0.0, f64::max))
 }
 
 /// Returns the mean of a column over its last two seconds.
@@ -103,11 +89,11 @@ fn curving() -> Result<String, Failure> {
             }
             1 => {
                 let result = run("dynamic_curving", 20.0, &set)?;
-                [largest_ratio(&result), least_load(&result)]
+                [largest_ratio(&result)?, least_load(&result)?]
             }
             _ => {
                 let result = run("twist_and_roll", 16.0, &set)?;
-                [roll(&result), least_load(&result)]
+                [roll(&result)?, least_load(&result)?]
             }
         })
     })?;
@@ -155,8 +141,8 @@ fn rising() -> Result<(String, Figure), Failure> {
             .column("truck_1_leading_left_column_normal")
             .unwrap_or_default();
         Ok([
-            roll(&result),
-            least_load(&result),
+            roll(&result)?,
+            least_load(&result)?,
             column.first().copied().unwrap_or(f64::NAN) / POUND_FORCE,
         ])
     })?;
@@ -241,7 +227,7 @@ fn plates() -> Result<String, Failure> {
             }
             false => {
                 let result = run("twist_and_roll", 16.0, &set)?;
-                [roll(&result), least_load(&result)]
+                [roll(&result)?, least_load(&result)?]
             }
         })
     })?;
@@ -289,10 +275,10 @@ fn adapters() -> Result<String, Failure> {
         };
         let result = run(regime, speed, &set)?;
         let first = match rocking {
-            true => roll(&result),
-            false => largest_ratio(&result),
+            true => roll(&result)?,
+            false => largest_ratio(&result)?,
         };
-        Ok([first, least_load(&result), result.summary.solver.steps as f64])
+        Ok([first, least_load(&result)?, result.summary.solver.steps as f64])
     })?;
     for (stiffness, own) in values.iter().zip(found.chunks(2)) {
         text += &row([

@@ -4,11 +4,10 @@ use std::ops::ControlFlow;
 
 use report::drawing::{Figure, Panel, PlotCurve, distinct};
 use study::car::builtin;
-use study::car::hunting::{Boundary, Hunting, HuntingSettings, Point, hunting};
+use study::car::hunting::{Hunting, HuntingSettings, Point, hunting};
 
-use crate::{
-    CORNERS, CROWN_60, CROWN_120, CROWN_240, FLAT, Faces, Failure, INCH, MPH, Section, each, head, row,
-};
+use crate::shared::{Failure, MPH, each, words};
+use crate::{CORNERS, CROWN_60, CROWN_120, CROWN_240, FLAT, Faces, INCH, Section, head, row};
 
 /// Durations of a ramp, s.
 const RAMPS: [f64; 2] = [50.0, 100.0];
@@ -148,13 +147,4 @@ pub(crate) fn section() -> Result<Section, Failure> {
         text,
         figures: vec![("wedge_faces_hunting", figure)],
     })
-}
-
-fn words(boundary: Boundary) -> String {
-    match boundary {
-        Boundary::At(speed) => format!("{:.0}", speed / MPH),
-        Boundary::Everywhere => "all speeds".to_owned(),
-        Boundary::Nowhere => "no speed".to_owned(),
-        Boundary::Derails(speed) => format!("derails at {:.0}", speed / MPH),
-    }
 }

@@ -5,16 +5,15 @@
 mod cars;
 mod contacts;
 mod hunts;
+#[path = "../../../study/examples/car_validation/shared.rs"]
+mod shared;
 mod warps;
 
-use std::sync::Mutex;
-use std::{fs, path::Path, thread};
+use std::{fs, path::Path};
 
 use report::drawing::Figure;
+use shared::Failure;
 
-pub(crate) type Failure = Box<dyn std::error::Error + Send + Sync>;
-
-pub(crate) const MPH: f64 = 0.447_04;
 pub(crate) const INCH: f64 = 0.0254;
 pub(crate) const POUND_FORCE: f64 = 4.448_221_615_260_5;
 
@@ -107,31 +106,6 @@ fn main() -> Result<(), Failure> {
     }
     fs::write(docs.join("wedge-faces.md"), page)?;
     Ok(())
-}
-
-/// Computes a value for each item by all processors, in the order of the items.
-pub(crate) fn each<T: Sync, O: Send>(
-    items: &[T],
-    of: impl Fn(&T) -> Result<O, Failure> + Sync,
-) -> Result<Vec<O>, Failure> {
-    let next = Mutex::new(0..items.len());
-    let done = Mutex::new(Vec::new());
-    let workers = thread::available_parallelism().map_or(1, |count| count.get());
-    thread::scope(|scope| {
-        for _ in 0..workers {
-            scope.spawn(|| {
-                while let Some(number) = next.lock().ok().and_then(|mut own| own.next()) {
-                    let found = of(&items[number]);
-                    if let Ok(mut done) = done.lock() {
-                        done.push((number, found));
-                    }
-                }
-            });
-        }
-    });
-    let mut done = done.into_inner().map_err(|_| "a thread panicked")?;
-    done.sort_by_key(|(number, _)| *number);
-    done.into_iter().map(|(_, found)| found).collect()
 }
 
 /// Returns a row of a table.

@@ -7,7 +7,8 @@ use study::truck::builtin;
 use study::truck::summary::WARP_ANGLES;
 use study::truck::warp::{NUCARS_STIFFNESS, WarpCurve};
 
-use crate::{CORNERS, CROWN_60, CROWN_120, CROWN_240, FLAT, Faces, Failure, Section, each, head, row};
+use crate::shared::{Failure, each};
+use crate::{CORNERS, CROWN_60, CROWN_120, CROWN_240, FLAT, Faces, Section, head, row};
 
 /// A test: its label, its case, what it sets.
 struct Test {

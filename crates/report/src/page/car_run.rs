@@ -85,14 +85,6 @@ fn limits(summary: &CarSummary) -> Markup {
 }
 
 fn statistics(summary: &CarSummary) -> Markup {
-    let cell = |value: &Option<SummaryValue>| {
-        value
-            .as_ref()
-            .map_or("–".to_owned(), |own| match own.unit.as_str() {
-                "" => digits(own.value),
-                unit => format!("{} {unit}", digits(own.value)),
-            })
-    };
     html! {
         (partial(summary))
         details {
@@ -112,8 +104,8 @@ fn statistics(summary: &CarSummary) -> Markup {
                                     (name.replace('_', " "))
                                     @if !own.remark.is_empty() { " (" (own.remark) ")" }
                                 }
-                                td.number { (cell(&own.raw)) }
-                                td.number { (cell(&own.filtered)) }
+                                td.number { (shown(own.raw.as_ref())) }
+                                td.number { (shown(own.filtered.as_ref())) }
                                 td.number { (own.time.map_or("–".to_owned(), digits)) }
                             }
                         }
@@ -126,8 +118,9 @@ fn statistics(summary: &CarSummary) -> Markup {
 
 /// Returns a value with its unit, a dash if there is none.
 fn shown(value: Option<&SummaryValue>) -> String {
-    value.map_or("–".to_owned(), |own| {
-        format!("{} {}", digits(own.value), own.unit)
+    value.map_or("–".to_owned(), |own| match own.unit.as_str() {
+        "" => digits(own.value),
+        unit => format!("{} {unit}", digits(own.value)),
     })
 }
 

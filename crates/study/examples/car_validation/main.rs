@@ -3,25 +3,21 @@
 //! `cargo run --release -p study --example car_validation`: some minutes on two cores.
 
 mod explained;
+mod shared;
 
 use std::fmt::Write;
 use std::ops::ControlFlow;
-use std::sync::Mutex;
 use std::thread;
 
 use car::FrictionState;
-use quantity::Quantity;
-use study::car::hunting::{Boundary, HuntingSettings, Point, hunting};
-use study::car::regime::Regime;
+use study::car::builtin;
+use study::car::hunting::{HuntingSettings, Point, hunting};
 use study::car::run::CarResult;
-use study::car::{CarCase, builtin};
-use study::case::Tables;
 use study::run::Run;
 use truck::ControlCoil;
 
-type Failure = Box<dyn std::error::Error + Send + Sync>;
+use shared::{Failure, MPH, each, in_regime, run_in, set, statistic, words};
 
-const MPH: f64 = 0.447_04;
 const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
 /// Duration for which the speed falls, and rises, s.
@@ -90,73 +86,10 @@ fn run(name: &str, overrides: &[String]) -> Result<CarResult, Failure> {
     }
 }
 
-/// Returns a car of this lading in a regime.
-fn in_regime(name: &str, lading: &str, speed: f64, overrides: &[&str]) -> Result<CarCase, Failure> {
-    let regime = Regime::named(name).ok_or_else(|| format!("there is no regime {name}"))?;
-    let mut settings = regime.settings(&Quantity::parse(&format!("{speed} mph"))?)?;
-    settings.extend(set(overrides));
-    let text = format!("model = \"car\"\nlading.kind = \"{lading}\"\n");
-    Ok(CarCase::parse("car.toml", &text, Tables::nowhere(), &settings)?)
-}
-
-/// Runs one.
-fn run_in(name: &str, lading: &str, speed: f64, overrides: &[&str]) -> Result<CarResult, Failure> {
-    let case = in_regime(name, lading, speed, overrides)?;
-    let result = Run::new(&case)?.finish(|_| ());
-    match &result.summary.stopped {
-        Some(stopped) => Err(format!("{name} at {speed} mph stopped: {}", stopped.reason).into()),
-        None => Ok(result),
-    }
-}
-
-/// Returns a statistic, filtered if it is: an acceleration in g, a load in percent.
-fn statistic(result: &CarResult, name: &str) -> Result<f64, Failure> {
-    let own = result.summary.statistics.get(name);
-    let own = own.and_then(|own| own.filtered.as_ref().or(own.raw.as_ref()));
-    Ok(own.ok_or_else(|| format!("there is no statistic {name}"))?.value)
-}
-
-fn set(values: &[&str]) -> Vec<String> {
-    values.iter().map(|own| (*own).to_owned()).collect()
-}
-
-/// Computes a value for each item, four at a time, in the order of the items.
-fn each<T: Sync, O: Send>(
-    items: &[T],
-    of: impl Fn(&T) -> Result<O, Failure> + Sync,
-) -> Result<Vec<O>, Failure> {
-    let next = Mutex::new(0..items.len());
-    let done = Mutex::new(Vec::new());
-    thread::scope(|scope| {
-        for _ in 0..4 {
-            scope.spawn(|| {
-                while let Some(number) = next.lock().ok().and_then(|mut own| own.next()) {
-                    let found = of(&items[number]);
-                    if let Ok(mut done) = done.lock() {
-                        done.push((number, found));
-                    }
-                }
-            });
-        }
-    });
-    let mut done = done.into_inner().map_err(|_| "a thread panicked")?;
-    done.sort_by_key(|(number, _)| *number);
-    done.into_iter().map(|(_, found)| found).collect()
-}
-
 fn column<'r>(result: &'r CarResult, name: &str) -> Result<&'r [f64], Failure> {
     result
         .column(name)
         .ok_or_else(|| format!("there is no column {name}").into())
-}
-
-fn words(boundary: Boundary) -> String {
-    match boundary {
-        Boundary::At(speed) => format!("{:.0}", speed / MPH),
-        Boundary::Everywhere => "all speeds".to_owned(),
-        Boundary::Nowhere => "no speed".to_owned(),
-        Boundary::Derails(speed) => format!("derails at {:.0}", speed / MPH),
-    }
 }
 
 fn hunting_over_speed() -> Result<String, Failure> {

@@ -4,12 +4,11 @@
 //! Where both trucks have the same values the complete case has `[truck]` alone, else both in full.
 
 use truck::{CarBody, Lading, Parameters, SideBearings};
-use wedge::parameters::Damping;
 
 use crate::case::problem::{Problem, Problems};
 use crate::case::tree::{NodeValue, TableEntry, TableNode, TreeNode};
 use crate::reader::CaseReader;
-use crate::truck::sections::{self, Condition};
+use crate::truck::sections;
 use crate::truck::wedges;
 
 const BOTH: &str = "truck";
@@ -102,13 +101,7 @@ pub(super) fn trucks(r: &mut CaseReader<'_>, lading: Lading) -> [Parameters; 2] 
 fn truck(r: &mut CaseReader<'_>, name: &'static str, about: &str, lading: Lading) -> Parameters {
     r.within(name);
     r.section("", about);
-    let (mut condition, mut damping) = (Condition::New, Damping::Variable);
-    let comment = "\"new\": wedges have a friction of 0.4; \"mu_0.25\" (before: \"worn\"): 0.25, and \
-                   nothing is \
-                   worn: wear is wedge.rise. Its [friction] wins over it";
-    r.choice("condition", sections::CONDITIONS, &mut condition, comment);
-    let comment = "\"variable\": control coils stand on the side frames; \"constant\": on the bolster";
-    r.choice("damping", sections::DAMPINGS, &mut damping, comment);
+    let (condition, damping) = sections::condition_and_damping(r, "Its [friction]");
     let mut own = Parameters::new(damping);
     own.bolster.free = [true; 6];
     let bearings = match lading {

@@ -2,7 +2,7 @@
 //! both faces, which follow from it and from how they share the wear ([`Wear::of_rise`]). The same keys in
 //! cases of a wedge, of a truck and of a car.
 
-use quantity::{Kind, Number, Quantity};
+use quantity::{Kind, Quantity, SixDigits};
 use wedge::parameters::Wear;
 
 use super::field::{Reach, Written};
@@ -13,7 +13,7 @@ use crate::reader::{CaseReader, QuantityForm};
 
 const INCH: f64 = 0.0254;
 /// The keys of the depths, column and slope.
-pub(crate) const DEPTHS: [&str; 2] = ["column_wear", "slope_wear"];
+const DEPTHS: [&str; 2] = ["column_wear", "slope_wear"];
 const RISE: &str = "rise";
 const SHARE: &str = "rise_column_share";
 const EXAMPLE: &str = "\"0.5 in\"";
@@ -22,7 +22,7 @@ const SHARES: Range = Range::UpTo(1.0, "from 0 to 1");
 const OF_RISE: &str = "of the wedge by wear, as a gauge shows it, in place of both depths: (column_wear \
                        cos(angle) + slope_wear) / sin(angle) without toe";
 const OF_SHARE: &str = "of the sum of both depths that rise makes, at the column: 0.5 is equal wear, a guess";
-pub(crate) const OF_DEPTHS: [&str; 2] = [
+const OF_DEPTHS: [&str; 2] = [
     "what column and wedge have lost there, together: the column lies deeper by it",
     "the same at the slope; a worn wedge rises. Begin in equilibrium",
 ];
@@ -99,7 +99,7 @@ impl RiseSection {
         let path = r.path(RISE);
         let problem = Problem::new(format!(
             "`{path}` is {rise}, but the pocket holds a rise of {} in (rise_limit)",
-            Number((limit / INCH * 1e6).round() * 1e-6)
+            SixDigits(limit / INCH)
         ));
         let help = "write a smaller rise, or the rise that your pocket holds as rise_limit";
         r.problem_at(&path, problem.label("out of its pocket").help(help));
@@ -163,7 +163,6 @@ fn both(path: &str, depth: &Quantity) -> Problem {
         "`{path}` is {depth}, but `{section}.{RISE}` is given too, which makes the depths"
     ));
     problem.label("one of two").help(format!(
-        "leave out {RISE}, or both depths: {} says how they share it",
-        SHARE
+        "leave out {RISE}, or both depths: {SHARE} says how they share it"
     ))
 }

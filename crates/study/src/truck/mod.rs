@@ -19,7 +19,6 @@ use std::path::Path;
 use integrate::Method;
 use quantity::{Kind, System};
 use truck::{Lading, Parameters};
-use wedge::parameters::Damping;
 
 use crate::case::field::{FieldSection, Reach};
 use crate::case::model::{Model, model};
@@ -163,13 +162,7 @@ fn read(
         "truck",
         "The truck. Axes: x forward, y left, z up from the top of rail, origin at its center.",
     );
-    let (mut condition, mut damping) = (Condition::New, Damping::Variable);
-    let comment = "\"new\": wedges have a friction of 0.4; \"mu_0.25\" (before: \"worn\"): 0.25, and \
-                   nothing is \
-                   worn: wear is wedge.rise. [friction] wins over it";
-    r.choice("condition", sections::CONDITIONS, &mut condition, comment);
-    let comment = "\"variable\": control coils stand on the side frames; \"constant\": on the bolster";
-    r.choice("damping", sections::DAMPINGS, &mut damping, comment);
+    let (condition, damping) = sections::condition_and_damping(&mut r, "[friction]");
     let mut parameters = Parameters::new(damping);
     r.section("load", "What stands on the truck.");
     let (mut load, mut lading) = (Load::Nothing, Lading::Loaded);

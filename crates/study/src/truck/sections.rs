@@ -54,13 +54,12 @@ pub enum Load {
 }
 
 /// The last one is an older name, and is read.
-pub(crate) const CONDITIONS: Names<Condition> = &[
+const CONDITIONS: Names<Condition> = &[
     ("new", Condition::New),
     ("mu_0.25", Condition::LessFriction),
     ("worn", Condition::LessFriction),
 ];
-pub(crate) const DAMPINGS: Names<Damping> =
-    &[("variable", Damping::Variable), ("constant", Damping::Constant)];
+const DAMPINGS: Names<Damping> = &[("variable", Damping::Variable), ("constant", Damping::Constant)];
 pub(crate) const LOADS: Names<Load> = &[
     ("nothing", Load::Nothing),
     ("half_car", Load::HalfCar),
@@ -80,6 +79,20 @@ const HEIGHT: QuantityForm = (Kind::Length, Range::Positive, Reach::Positive);
 const INERTIA: QuantityForm = (Kind::Inertia, Range::Positive, Reach::Positive);
 const LIFT: QuantityForm = (Kind::Length, Range::Any, Reach::Signed(0.0254));
 const TIME: QuantityForm = (Kind::Time, Range::NotNegative, Reach::FromZero(1.0));
+
+/// Reads the named condition of a truck, and where its control coils stand; `friction` says what wins over
+/// the condition.
+pub(crate) fn condition_and_damping(r: &mut CaseReader<'_>, friction: &str) -> (Condition, Damping) {
+    let (mut condition, mut damping) = (Condition::New, Damping::Variable);
+    let comment = format!(
+        "\"new\": wedges have a friction of 0.4; \"mu_0.25\" (before: \"worn\"): 0.25, and nothing is \
+         worn: wear is wedge.rise. {friction} wins over it"
+    );
+    r.choice("condition", CONDITIONS, &mut condition, &comment);
+    let comment = "\"variable\": control coils stand on the side frames; \"constant\": on the bolster";
+    r.choice("damping", DAMPINGS, &mut damping, comment);
+    (condition, damping)
+}
 
 pub(crate) fn rigid_body(r: &mut CaseReader<'_>, body: &mut RigidBody) {
     r.weight(

@@ -176,25 +176,22 @@ impl Varied {
             [] => vec![Variant::default()],
             several => several.iter().map(|own| set(own)).collect(),
         };
-        let of_faces = |what: &str, value: &str| {
-            ["column", "slope"]
-                .map(|face| what.replace("FACE", face) + value)
-                .to_vec()
-        };
+        const FACES: [&str; 2] = ["column", "slope"];
         let in_equilibrium = |mut set: Vec<String>| {
             set.push("start.kind=equilibrium".to_owned());
             set
         };
         let frictions = none(&self.friction, &|own| {
-            (format!("friction {own}"), of_faces("friction.FACE=", own))
+            let set = FACES.map(|face| format!("friction.{face}={own}"));
+            (format!("friction {own}"), set.to_vec())
         });
         let toes = none(&self.toe, &|own| {
             (format!("toe {own}"), vec![format!("side_frame.toe={own}")])
         });
         let worn = match self.rise.as_slice() {
             [] => none(&self.wear, &|own| {
-                let set = of_faces("wedge.FACE_wear=", own);
-                (format!("wear {own}"), in_equilibrium(set))
+                let set = FACES.map(|face| format!("wedge.{face}_wear={own}"));
+                (format!("wear {own}"), in_equilibrium(set.to_vec()))
             }),
             rises => none(rises, &|own| {
                 let set = vec![format!("wedge.rise={own}")];
@@ -206,8 +203,8 @@ impl Varied {
             for toe in &toes {
                 for worn in &worn {
                     let parts = [friction, toe, worn];
-                    let labels: Vec<&str> = parts.iter().map(|own| &*own.0).collect();
-                    let labels: Vec<&str> = labels.into_iter().filter(|own| !own.is_empty()).collect();
+                    let labels = parts.iter().map(|own| &*own.0).filter(|own| !own.is_empty());
+                    let labels: Vec<&str> = labels.collect();
                     let set = parts.iter().flat_map(|own| own.1.iter().cloned());
                     let set: Vec<String> = self.set.iter().cloned().chain(set).collect();
                     cases.push((labels.join(", "), truck(case, &set)?));
