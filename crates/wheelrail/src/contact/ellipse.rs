@@ -5,6 +5,8 @@
 //! apart (relative error below 1e-6 against [`Hertz`](crate::hertz::Hertz)). Beyond |x| = 9 the ratio B/A is
 //! held: such contacts conform, and Hertz's theory does not hold for them.
 
+use std::sync::LazyLock;
+
 use numerics::scalar::Real;
 
 use crate::hertz::{EllipseShape, Hertz, HertzError, Material};
@@ -16,6 +18,22 @@ const STEP: f64 = 1.0 / 12.0;
 /// Step of differences for the slopes of the table.
 const DIFFERENCE: f64 = 1e-4;
 
+/// Logarithm of the semi-axis along the rolling direction and of r_d, each with its slope: the table.
+static NODES: LazyLock<Vec<[[f64; 2]; 2]>> = LazyLock::new(|| {
+    let exact = |x: f64| {
+        let shape = EllipseShape::of(libm::exp(-x.abs()));
+        let along = if x > 0.0 { shape.major } else { shape.minor };
+        [libm::log(along), libm::log(shape.approach)]
+    };
+    let count = (LARGEST / STEP) as i32;
+    let nodes = (-count..=count).map(|i| {
+        let x = f64::from(i) * STEP;
+        let (here, [up, down]) = (exact(x), [exact(x + DIFFERENCE), exact(x - DIFFERENCE)]);
+        [0, 1].map(|k| [here[k], (up[k] - down[k]) / (2.0 * DIFFERENCE)])
+    });
+    nodes.collect()
+});
+
 /// Stiffness and axes of one contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse<S> {
@@ -25,36 +43,24 @@ pub struct Ellipse<S> {
     pub axes: [S; 2],
 }
 
-/// The table for a material.
+/// The table with a material.
 #[derive(Clone, Debug)]
 pub struct Ellipses {
     material: Material,
-    /// Logarithm of the semi-axis along the rolling direction and of r_d, each with its slope.
-    nodes: Vec<[[f64; 2]; 2]>,
+    nodes: &'static [[[f64; 2]; 2]],
 }
 
 impl Ellipses {
-    /// Returns the table for a material.
+    /// Returns the table with a material.
     ///
     /// # Errors
     /// A constant of the material is not admissible.
     pub fn new(material: Material) -> Result<Self, HertzError> {
         // The constants are checked there.
         Hertz::new(material, 1.0, 1.0)?;
-        let exact = |x: f64| {
-            let shape = EllipseShape::of(libm::exp(-x.abs()));
-            let along = if x > 0.0 { shape.major } else { shape.minor };
-            [libm::log(along), libm::log(shape.approach)]
-        };
-        let count = (LARGEST / STEP) as i32;
-        let nodes = (-count..=count).map(|i| {
-            let x = f64::from(i) * STEP;
-            let (here, [up, down]) = (exact(x), [exact(x + DIFFERENCE), exact(x - DIFFERENCE)]);
-            [0, 1].map(|k| [here[k], (up[k] - down[k]) / (2.0 * DIFFERENCE)])
-        });
         Ok(Self {
             material,
-            nodes: nodes.collect(),
+            nodes: NODES.as_slice(),
         })
     }
 
