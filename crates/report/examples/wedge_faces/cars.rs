@@ -3,8 +3,8 @@
 use report::drawing::{Figure, Panel, PlotCurve, distinct};
 use study::car::run::CarResult;
 
-use crate::shared::{Failure, each, run_in, statistic};
-use crate::{CROWN_60, CROWN_240, FLAT, INCH, POUND_FORCE, Section, head, row};
+use crate::shared::{Failure, INCH, column, each, late, run_in, statistic};
+use crate::{CROWN_60, CROWN_240, FLAT, POUND_FORCE, Section, head, row};
 
 /// Runs a loaded car in a regime at a speed (mph).
 fn run(regime: &str, speed: f64, set: &[String]) -> Result<CarResult, Failure> {
@@ -38,10 +38,8 @@ fn largest_ratio(result: &CarResult) -> Result<f64, Failure> {
 }
 
 /// Returns the mean of a column over its last two seconds.
-fn mean(result: &CarResult, name: &str) -> f64 {
-    let values = result.column(name).unwrap_or_default();
-    let last = &values[values.len().saturating_sub(400)..];
-    last.iter().sum::<f64>() / last.len() as f64
+fn mean(result: &CarResult, name: &str) -> Result<f64, Failure> {
+    late(result, name, 400)
 }
 
 fn of_truck(set: &[&str]) -> Vec<String> {
@@ -83,9 +81,10 @@ fn curving() -> Result<String, Failure> {
         Ok(match which {
             0 => {
                 let result = run("constant_curve", 28.0, &set)?;
-                let warp = 1e3 * mean(&result, "truck_1_warp_angle").abs();
-                let ratio = mean(&result, "axle_1_right_l_over_v").max(mean(&result, "axle_1_left_l_over_v"));
-                [warp, ratio]
+                let warp = 1e3 * mean(&result, "truck_1_warp_angle")?.abs();
+                let [right, left] =
+                    ["right", "left"].map(|own| mean(&result, &format!("axle_1_{own}_l_over_v")));
+                [warp, right?.max(left?)]
             }
             1 => {
                 let result = run("dynamic_curving", 20.0, &set)?;
@@ -137,14 +136,8 @@ fn rising() -> Result<(String, Figure), Failure> {
         let mut set = of_truck(set);
         set.push(format!("truck.wedge.rise={rise} in"));
         let result = run("twist_and_roll", 16.0, &set)?;
-        let column = result
-            .column("truck_1_leading_left_column_normal")
-            .unwrap_or_default();
-        Ok([
-            roll(&result)?,
-            least_load(&result)?,
-            column.first().copied().unwrap_or(f64::NAN) / POUND_FORCE,
-        ])
+        let normal = column(&result, "truck_1_leading_left_column_normal")?;
+        Ok([roll(&result)?, least_load(&result)?, normal[0] / POUND_FORCE])
     })?;
     let angle = 32f64.to_radians();
     for (rise, own) in rises.iter().zip(found.chunks(2)) {
@@ -218,10 +211,8 @@ fn plates() -> Result<String, Failure> {
         Ok(match spiral {
             true => {
                 let result = run("spiral", 20.0, &set)?;
-                let turning = result
-                    .column("truck_1_center_plate_turning_moment")
-                    .unwrap_or_default();
-                let load = mean(&result, "truck_1_center_plate_load");
+                let turning = column(&result, "truck_1_center_plate_turning_moment")?;
+                let load = mean(&result, "truck_1_center_plate_load")?;
                 let largest = turning.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
                 [largest, 0.2 * load * diameter * INCH / 3.0]
             }

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 
-use crate::shared::Failure;
-use crate::{INCH, POUND_FORCE, Section, head, row};
+use crate::shared::{Failure, INCH};
+use crate::{POUND_FORCE, Section, head, row};
 
 /// Young's modulus of steel, Pa, and Poisson's ratio.
 const STEEL: [f64; 2] = [207e9, 0.28];

@@ -1,37 +1,20 @@
 //! Hunting of the empty car on roller side bearings over ramps of the speed.
 
-use std::ops::ControlFlow;
-
 use report::drawing::{Figure, Panel, PlotCurve, distinct};
-use study::car::builtin;
-use study::car::hunting::{Hunting, HuntingSettings, Point, hunting};
+use study::car::hunting::Hunting;
 
-use crate::shared::{Failure, MPH, each, words};
-use crate::{CORNERS, CROWN_60, CROWN_120, CROWN_240, FLAT, Faces, INCH, Section, head, row};
+use crate::shared::{Failure, INCH, MPH, cells, each, hunt};
+use crate::{CORNERS, CROWN_60, CROWN_120, CROWN_240, FLAT, Faces, Section, head, row};
 
 /// Durations of a ramp, s.
 const RAMPS: [f64; 2] = [50.0, 100.0];
-/// Amplitude of a wheelset from which on a motion is hunting, and from which on it runs from flange to
-/// flange, m.
-const HUNTS: f64 = 0.05 * INCH;
-const FLANGES: f64 = 0.38 * INCH;
-const SPEEDS: [f64; 2] = [30.0, 80.0];
 
 /// Runs the ramps of a car with these faces and further settings.
 fn ramps(ramp: f64, (_, set): &Faces, more: &[&str]) -> Result<Hunting, Failure> {
-    let mut overrides = vec![
-        "truck.side_bearing.kind=roller".to_owned(),
-        "start.axle_shift=0.4 in".to_owned(),
-    ];
+    let mut overrides = vec!["truck.side_bearing.kind=roller".to_owned()];
     overrides.extend(set.iter().map(|own| format!("truck.{own}")));
     overrides.extend(more.iter().map(|own| (*own).to_owned()));
-    let case = builtin::case_with("car_hunting_empty", &overrides)?;
-    let settings = HuntingSettings {
-        speeds: SPEEDS.map(|own| own * MPH),
-        ramp,
-        threshold: HUNTS,
-    };
-    Ok(hunting(&case, settings, |_| ControlFlow::Continue(()))?)
+    hunt([30.0, 80.0], ramp, &overrides)
 }
 
 /// The same with more room between flanges and rails.
@@ -51,30 +34,14 @@ pub(crate) fn clearance() -> Result<Section, Failure> {
     let faces = [CORNERS, CROWN_240, CROWN_60];
     let wide = |own: &Faces| ramps(RAMPS[0], own, &["wheels.tape_distance=59.21875 in"]);
     for ((name, _), own) in faces.iter().zip(each(&faces, wide)?) {
-        text += &row([
-            (*name).to_owned(),
-            "0.55".to_owned(),
-            words(own.falling.boundary),
-            own.rising
-                .as_ref()
-                .map_or("-".to_owned(), |own| words(own.boundary)),
-            format!("{:.2}", largest(&own) / INCH),
-        ]);
+        let [_, others @ ..] = cells(&own);
+        text += &row([(*name).to_owned(), "0.55".to_owned()].into_iter().chain(others));
     }
     text += "\nWith that room the face decides where the limit cycle dies; with 0.41 in the flanges do.\n";
     Ok(Section {
         text,
         figures: Vec::new(),
     })
-}
-
-/// Returns the largest amplitude of a wheelset on the falling ramp, m.
-fn largest(own: &Hunting) -> f64 {
-    own.falling
-        .points
-        .iter()
-        .map(Point::amplitude)
-        .fold(0.0, f64::max)
 }
 
 pub(crate) fn section() -> Result<Section, Failure> {
@@ -106,24 +73,16 @@ pub(crate) fn section() -> Result<Section, Failure> {
         })
         .into();
     for (number, ((ramp, (name, _)), own)) in items.iter().zip(&found).enumerate() {
-        let points = &own.falling.points;
-        let flanges = points.iter().rfind(|own| own.amplitude() >= FLANGES);
-        text += &row([
-            (*name).to_owned(),
-            format!("{ramp}"),
-            flanges.map_or("-".to_owned(), |own| format!("{:.0}", own.speed / MPH)),
-            words(own.falling.boundary),
-            own.rising
-                .as_ref()
-                .map_or("-".to_owned(), |own| words(own.boundary)),
-            format!("{:.2}", largest(own) / INCH),
-        ]);
+        let first = [(*name).to_owned(), format!("{ramp}")];
+        text += &row(first.into_iter().chain(cells(own)));
         let (colour, line) = distinct(number % faces.len());
         panels[number / faces.len()].curves.push(PlotCurve {
             label: (*name).to_owned(),
             colour,
             line,
-            points: points
+            points: own
+                .falling
+                .points
                 .iter()
                 .map(|own| (own.speed / MPH, own.amplitude() / INCH))
                 .collect(),

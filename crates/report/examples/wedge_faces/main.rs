@@ -14,7 +14,6 @@ use std::{fs, path::Path};
 use report::drawing::Figure;
 use shared::Failure;
 
-pub(crate) const INCH: f64 = 0.0254;
 pub(crate) const POUND_FORCE: f64 = 4.448_221_615_260_5;
 
 /// A section of the page: its text, and its figures with the names of their files.

@@ -10,12 +10,8 @@ use study::truck::warp::{NUCARS_STIFFNESS, WarpCurve};
 use crate::shared::{Failure, each};
 use crate::{CORNERS, CROWN_60, CROWN_120, CROWN_240, FLAT, Faces, Section, head, row};
 
-/// A test: its label, its case, what it sets.
-struct Test {
-    label: String,
-    case: &'static str,
-    set: Vec<String>,
-}
+/// The label of a test, and what it sets.
+type Test = (String, Vec<String>);
 
 /// Its curve: stiffness at the angles, N·m/rad, and what the moment does.
 struct Curve {
@@ -24,31 +20,23 @@ struct Curve {
     growth: String,
 }
 
-fn tests(case: &'static str, all: &[(String, Vec<String>)]) -> Result<Vec<Curve>, Failure> {
-    let tests: Vec<Test> = all
-        .iter()
-        .map(|(label, set)| Test {
-            label: label.clone(),
-            case,
-            set: set.clone(),
-        })
-        .collect();
-    each(&tests, |test| {
-        let case = builtin::case_with(test.case, &test.set)?;
+fn curves(name: &str, tests: &[Test]) -> Result<Vec<Curve>, Failure> {
+    each(tests, |(label, set)| {
+        let case = builtin::case_with(name, set)?;
         let result = Run::new(&case)?.finish(|_| ());
         if let Some(stopped) = &result.summary.stopped {
-            return Err(format!("{} {:?} stopped: {}", test.case, test.set, stopped.reason).into());
+            return Err(format!("{name} {set:?} stopped: {}", stopped.reason).into());
         }
         let curve = WarpCurve::of(&case, &result).ok_or("the warp angle stays small")?;
         Ok(Curve {
-            label: test.label.clone(),
-            stiffness: curve.stiffness.clone(),
+            label: label.clone(),
+            stiffness: curve.stiffness,
             growth: growth_in_words(curve.growth),
         })
     })
 }
 
-fn of_faces(faces: &[Faces]) -> Vec<(String, Vec<String>)> {
+fn of_faces(faces: &[Faces]) -> Vec<Test> {
     let own = |(name, set): &Faces| {
         (
             (*name).to_owned(),
@@ -74,7 +62,7 @@ fn table(first: &str, curves: &[Curve]) -> String {
     text
 }
 
-fn panel(title: &str, curves: &[Curve], numbers: &[usize]) -> Panel {
+fn panel(title: &str, curves: &[Curve]) -> Panel {
     let lines = [Line::Dotted, Line::Dashed];
     let empirical = NUCARS_STIFFNESS
         .iter()
@@ -87,8 +75,8 @@ fn panel(title: &str, curves: &[Curve], numbers: &[usize]) -> Panel {
                 .map(|angle| (angle, 1e-3 * stiffness / KIP_INCH))
                 .to_vec(),
         });
-    let own = curves.iter().zip(numbers).map(|(curve, number)| {
-        let (colour, line) = distinct(*number);
+    let own = curves.iter().enumerate().map(|(number, curve)| {
+        let (colour, line) = distinct(number);
         PlotCurve {
             label: curve.label.clone(),
             colour,
@@ -134,13 +122,13 @@ pub(crate) fn section() -> Result<Section, Failure> {
     let faces = of_faces(&[CORNERS, FLAT, CROWN_240, CROWN_120, CROWN_60]);
     let mut panels = Vec::new();
     for (title, case) in CASES {
-        let curves = tests(case, &faces)?;
+        let own = curves(case, &faces)?;
         text += &format!("\n### {}\n\n", capital(title));
         text += &match title == SAME {
             true => "The same: control coils that stand on the bolster do not know the load.\n".to_owned(),
-            false => table("slope face", &curves),
+            false => table("slope face", &own),
         };
-        panels.push(panel(title, &curves, &[0, 1, 2, 3, 4]));
+        panels.push(panel(title, &own));
     }
     text += "\n![Warp stiffness over the warp angle with flat and crowned \
              faces](figures/wedge_faces_warp.svg)\n\n\
@@ -194,15 +182,10 @@ pub(crate) fn section() -> Result<Section, Failure> {
             ],
         ),
     ];
-    let curves = tests(CASES[0].1, &of_faces(&others))?;
-    text += &table("faces", &curves);
-    for (title, word, case) in [
-        (
-            "### Friction\n\nConstant damping, loaded.\n\n",
-            "friction",
-            CASES[0].1,
-        ),
-        ("Variable damping, loaded.\n\n", "friction", CASES[2].1),
+    text += &table("faces", &curves(CASES[0].1, &of_faces(&others))?);
+    for (title, case) in [
+        ("### Friction\n\nConstant damping, loaded.\n\n", CASES[0].1),
+        ("Variable damping, loaded.\n\n", CASES[2].1),
     ] {
         text += "\n";
         text += title;
@@ -211,10 +194,10 @@ pub(crate) fn section() -> Result<Section, Failure> {
             for friction in [0.1, 0.2, 0.3, 0.4, 0.5] {
                 let own = ["column", "slope"].map(|face| format!("friction.{face}={friction}"));
                 let set = set.iter().map(|own| (*own).to_owned()).chain(own);
-                rows.push((format!("{name}, {word} {friction}"), set.collect()));
+                rows.push((format!("{name}, friction {friction}"), set.collect()));
             }
         }
-        text += &table("slope face, friction", &tests(case, &rows)?);
+        text += &table("slope face, friction", &curves(case, &rows)?);
     }
     text += "\nWith a friction of 0.3 and less the nest does not lock: from 10 to 20 mrad the moment grows \
              by less than half. There flat and crowned faces are within a quarter of each other at 20 \
@@ -235,9 +218,9 @@ pub(crate) fn section() -> Result<Section, Failure> {
             ));
         }
     }
-    let curves = tests(CASES[0].1, &rows)?;
-    text += &table("slope face, stiffness", &curves);
-    let at_20 = |number: usize| curves[number].stiffness.last().map_or(f64::NAN, |own| own.1);
+    let own = curves(CASES[0].1, &rows)?;
+    text += &table("slope face, stiffness", &own);
+    let at_20 = |number: usize| own[number].stiffness.last().map_or(f64::NAN, |own| own.1);
     text += &format!(
         "\nAt 20 mrad ten times the stiffness makes {:.1} times the warp stiffness of corners, {:.1} of an \
          evenly bedded flat face, {:.1} of the crown (2 × 17 points on both faces).\n",

@@ -6,24 +6,20 @@ mod explained;
 mod shared;
 
 use std::fmt::Write;
-use std::ops::ControlFlow;
 use std::thread;
 
 use car::FrictionState;
 use study::car::builtin;
-use study::car::hunting::{HuntingSettings, Point, hunting};
 use study::car::run::CarResult;
-use study::run::Run;
 use truck::ControlCoil;
 
-use shared::{Failure, MPH, each, in_regime, run_in, set, statistic, words};
+use shared::{
+    Failure, INCH, MPH, cells, column, each, finished, hunt, in_regime, late, run_in, set, statistic,
+};
 
-const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
 /// Duration for which the speed falls, and rises, s.
 const RAMP: f64 = 50.0;
-/// Amplitude from which on a wheelset hunts, m.
-const THRESHOLD: f64 = 0.05 * INCH;
 
 const HEAD: &str = "\
 # Validation: cars on track
@@ -79,17 +75,7 @@ fn main() -> Result<(), Failure> {
 /// Runs a built-in case with overrides.
 fn run(name: &str, overrides: &[String]) -> Result<CarResult, Failure> {
     let case = builtin::case_with(name, overrides)?;
-    let result = Run::new(&case)?.finish(|_| ());
-    match &result.summary.stopped {
-        Some(stopped) => Err(format!("{name} {overrides:?} stopped: {}", stopped.reason).into()),
-        None => Ok(result),
-    }
-}
-
-fn column<'r>(result: &'r CarResult, name: &str) -> Result<&'r [f64], Failure> {
-    result
-        .column(name)
-        .ok_or_else(|| format!("there is no column {name}").into())
+    finished(&case, &format!("{name} {overrides:?}"))
 }
 
 fn hunting_over_speed() -> Result<String, Failure> {
@@ -116,37 +102,17 @@ fn hunting_over_speed() -> Result<String, Failure> {
             format!("truck.side_bearing.kind={bearing}"),
             format!("wheels.profile={tread}"),
             format!("lading.kind={lading}"),
-            "start.axle_shift=0.4 in".to_owned(),
         ];
-        let case = builtin::case_with("car_hunting_empty", &overrides)?;
-        let settings = HuntingSettings {
-            speeds: range.map(|own| own * MPH),
-            ramp: RAMP,
-            threshold: THRESHOLD,
-        };
-        let found = hunting(&case, settings, |_| ControlFlow::Continue(()))?;
-        let points = found.falling.points.iter();
-        let largest = points.map(Point::amplitude).fold(0.0, f64::max);
-        let flanges = found
-            .falling
-            .points
-            .iter()
-            .rfind(|own| own.amplitude() >= 0.38 * INCH);
-        let flanges = flanges.map_or("-".to_owned(), |own| format!("{:.0}", own.speed / MPH));
-        let rising = found
-            .rising
-            .as_ref()
-            .map_or("-".to_owned(), |own| words(own.boundary));
+        let found = hunt(*range, RAMP, &overrides)?;
         let [low, high] = range;
         let name = match *tread {
             "aar_1b" => "1:20",
             other => other.trim_start_matches("aar_1b_"),
         };
         Ok(format!(
-            "| {lading} | {} | {name} | {low:.0} to {high:.0} | {flanges} | {} | {rising} | {:.2} |\n",
+            "| {lading} | {} | {name} | {low:.0} to {high:.0} | {} |\n",
             bearing.replace('_', " "),
-            words(found.falling.boundary),
-            largest / INCH
+            cells(&found).join(" | ")
         ))
     })?;
     out.extend(lines);
@@ -200,10 +166,7 @@ fn sides_in_curves() -> Result<String, Failure> {
     let speeds: [f64; 6] = [14.0, 18.0, 23.0, 28.0, 32.0, 36.0];
     let lines = each(&speeds, |speed| {
         let result = run_in("constant_curve", "loaded", *speed, &[])?;
-        let mean = |name: &str| -> Result<f64, Failure> {
-            let values = column(&result, name)?;
-            Ok(values[values.len() - 400..].iter().sum::<f64>() / 400.0)
-        };
+        let mean = |name: &str| late(&result, name, 400);
         Ok(format!(
             "| {speed:.0} | {:+.1} | {:.3} | {:.3} | {:.3} | {:.3} | {:.3} |\n",
             0.0007 * 7.5 * speed * speed - 4.0,
@@ -276,12 +239,6 @@ fn bounce() -> Result<String, Failure> {
     Ok(out)
 }
 
-/// Returns the mean of the last second.
-fn late(values: &[f64]) -> f64 {
-    let own = &values[values.len().saturating_sub(200)..];
-    own.iter().sum::<f64>() / own.len() as f64
-}
-
 fn flange_contact() -> Result<String, Failure> {
     let mut out = "## Flange contact in curves\n\n\
          The loaded car at 25 mph in curves without superelevation, after 20 s. Free rolling on cones of \
@@ -301,9 +258,11 @@ fn flange_contact() -> Result<String, Failure> {
             "simulation.duration=28 s".to_owned(),
         ];
         let result = run("car_constant_curve_loaded", &overrides)?;
-        let shift = -late(column(&result, "axle_1_lateral")?) / INCH;
-        let attack = -late(column(&result, "axle_1_yaw")?) * 1e3;
-        let ratio = late(column(&result, "axle_1_right_l_over_v")?);
+        // The last second.
+        let mean = |name: &str| late(&result, name, 200);
+        let shift = -mean("axle_1_lateral")? / INCH;
+        let attack = -mean("axle_1_yaw")? * 1e3;
+        let ratio = mean("axle_1_right_l_over_v")?;
         let radius = 50.0 / (0.5 * degree.to_radians()).sin() * 12.0;
         let rolling = 18.0 * 29.75 / (0.05 * radius);
         Ok(format!(

@@ -1,19 +1,26 @@
-//! What pages about cars have in common, here and in other crates: runs in regimes, several at a time.
+//! What pages about cars have in common, here and in other crates: runs in regimes and on ramps of the speed,
+//! several at a time.
 
+use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::thread;
 
 use quantity::Quantity;
-use study::car::CarCase;
-use study::car::hunting::Boundary;
+use study::car::hunting::{Boundary, Hunting, HuntingSettings, Point, hunting};
 use study::car::regime::Regime;
 use study::car::run::CarResult;
+use study::car::{CarCase, builtin};
 use study::case::Tables;
 use study::run::Run;
 
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 pub const MPH: f64 = 0.447_04;
+pub const INCH: f64 = 0.0254;
+/// Amplitude of a wheelset from which on a motion is hunting, and from which on it runs from flange to flange,
+/// m.
+const HUNTS: f64 = 0.05 * INCH;
+const FLANGES: f64 = 0.38 * INCH;
 
 /// Returns a car of this lading in a regime.
 pub fn in_regime(name: &str, lading: &str, speed: f64, overrides: &[&str]) -> Result<CarCase, Failure> {
@@ -27,11 +34,29 @@ pub fn in_regime(name: &str, lading: &str, speed: f64, overrides: &[&str]) -> Re
 /// Runs one.
 pub fn run_in(name: &str, lading: &str, speed: f64, overrides: &[&str]) -> Result<CarResult, Failure> {
     let case = in_regime(name, lading, speed, overrides)?;
-    let result = Run::new(&case)?.finish(|_| ());
+    finished(&case, &format!("{name} at {speed} mph"))
+}
+
+/// Runs a case to its end; `what` names it in errors.
+pub fn finished(case: &CarCase, what: &str) -> Result<CarResult, Failure> {
+    let result = Run::new(case)?.finish(|_| ());
     match &result.summary.stopped {
-        Some(stopped) => Err(format!("{name} at {speed} mph stopped: {}", stopped.reason).into()),
+        Some(stopped) => Err(format!("{what} stopped: {}", stopped.reason).into()),
         None => Ok(result),
     }
+}
+
+pub fn column<'r>(result: &'r CarResult, name: &str) -> Result<&'r [f64], Failure> {
+    result
+        .column(name)
+        .ok_or_else(|| format!("there is no column {name}").into())
+}
+
+/// Returns the mean of a column over its last rows.
+pub fn late(result: &CarResult, name: &str, rows: usize) -> Result<f64, Failure> {
+    let values = column(result, name)?;
+    let own = &values[values.len().saturating_sub(rows)..];
+    Ok(own.iter().sum::<f64>() / own.len() as f64)
 }
 
 /// Returns a statistic, filtered if it is: an acceleration in g, a load in percent.
@@ -69,8 +94,39 @@ pub fn each<T: Sync, O: Send>(
     done.into_iter().map(|(_, found)| found).collect()
 }
 
+/// Runs the empty car of the built-in case, or another one by `overrides`, on a falling and a rising ramp of
+/// the speed (mph) within a time (s), after a start of all axles by 0.4 in to the left.
+pub fn hunt(speeds: [f64; 2], ramp: f64, overrides: &[String]) -> Result<Hunting, Failure> {
+    let overrides = [overrides, &set(&["start.axle_shift=0.4 in"])].concat();
+    let case = builtin::case_with("car_hunting_empty", &overrides)?;
+    let settings = HuntingSettings {
+        speeds: speeds.map(|own| own * MPH),
+        ramp,
+        threshold: HUNTS,
+    };
+    Ok(hunting(&case, settings, |_| ControlFlow::Continue(()))?)
+}
+
+/// Returns cells of a table: falling, the speed down to which wheelsets run from flange to flange, and where
+/// hunting dies, mph; rising, where it begins, mph; the largest amplitude of a wheelset on the falling ramp,
+/// in.
+pub fn cells(found: &Hunting) -> [String; 4] {
+    let points = &found.falling.points;
+    let flanges = points.iter().rfind(|own| own.amplitude() >= FLANGES);
+    let flanges = flanges.map_or("-".to_owned(), |own| format!("{:.0}", own.speed / MPH));
+    let rising = found.rising.as_ref();
+    let rising = rising.map_or("-".to_owned(), |own| words(own.boundary));
+    let largest = points.iter().map(Point::amplitude).fold(0.0, f64::max);
+    [
+        flanges,
+        words(found.falling.boundary),
+        rising,
+        format!("{:.2}", largest / INCH),
+    ]
+}
+
 /// Returns the speed at which hunting ends or begins, mph.
-pub fn words(boundary: Boundary) -> String {
+fn words(boundary: Boundary) -> String {
     match boundary {
         Boundary::At(speed) => format!("{:.0}", speed / MPH),
         Boundary::Everywhere => "all speeds".to_owned(),

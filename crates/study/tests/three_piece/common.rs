@@ -1,6 +1,7 @@
 //! Runs of built-in trucks.
 #![allow(dead_code, clippy::unwrap_used)]
 
+use study::case::Tables;
 use study::run::Run;
 use study::truck::run::TruckResult;
 use study::truck::{TruckCase, builtin};
@@ -14,6 +15,11 @@ pub const KIP_INCH: f64 = 1e3 * POUND_FORCE * INCH;
 pub fn case(name: &str, set: &[&str]) -> TruckCase {
     let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
     builtin::case_with(name, &set).unwrap()
+}
+
+/// Returns what is read from a complete case.
+pub fn read_back(case: &TruckCase) -> TruckCase {
+    TruckCase::parse("again.toml", case.to_toml(), Tables::nowhere(), &[]).unwrap()
 }
 
 /// Returns its run.

@@ -9,7 +9,7 @@ use study::truck::warp::WarpCurve;
 use truck::{CROWN_RADIUS, SERVICE_GRID};
 use wedge::face::FaceDirection;
 
-use crate::common::{KIP_INCH, case, run};
+use crate::common::{KIP_INCH, case, read_back, run};
 
 const CONSTANT: &str = "truck_warp_nest_constant_rising";
 const VARIABLE: &str = "truck_warp_nest_variable_rising";
@@ -136,12 +136,10 @@ fn trucks_have_crowned_faces_unless_they_say_otherwise() {
         "{}",
         case.to_toml()
     );
-    let again = TruckCase::parse("case.toml", case.to_toml(), Tables::nowhere(), &[]).unwrap();
-    assert_eq!(again.parameters, case.parameters);
+    assert_eq!(read_back(&case).parameters, case.parameters);
     let massless = ["wedge.kind=massless".to_owned()];
     let own = TruckCase::parse("case.toml", text, Tables::nowhere(), &massless).unwrap();
-    let again = TruckCase::parse("case.toml", own.to_toml(), Tables::nowhere(), &[]).unwrap();
-    assert_eq!(again.parameters, own.parameters);
+    assert_eq!(read_back(&own).parameters, own.parameters);
 }
 
 #[test]
@@ -195,7 +193,7 @@ fn limits_a_crown_worn_flat_lies_between_crowned_and_flat() {
 #[test]
 fn trucks_run_on_from_a_complete_case() {
     let own = case("truck_crowned_vertical_variable", &[]);
-    let again = TruckCase::parse("case.toml", own.to_toml(), Tables::nowhere(), &[]).unwrap();
+    let again = read_back(&own);
     assert_eq!(again.parameters, own.parameters);
     assert!(Run::new(&again).is_ok());
 }

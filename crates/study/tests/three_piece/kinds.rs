@@ -3,13 +3,11 @@
 
 use std::collections::HashSet;
 
-use study::case::Tables;
 use study::run::{Run, RunState};
-use study::truck::TruckCase;
 use study::truck::run::TruckCounts;
 use study::truck::warp::WarpCurve;
 
-use super::common::{KIP_INCH, POUND_FORCE, case, column, run};
+use super::common::{KIP_INCH, POUND_FORCE, case, column, read_back, run};
 
 const RIGS: [&str; 4] = [
     "truck_vertical_spatial",
@@ -29,9 +27,7 @@ fn input_kinds_are_printed_and_read_back() {
     let cases = RIGS.map(|name| case(name, &[]));
     let single = case("truck_vertical_variable", &alone);
     for case in cases.iter().chain([&single]) {
-        let text = case.to_toml();
-        let again = TruckCase::parse("again.toml", text, Tables::nowhere(), &[]).unwrap();
-        assert_eq!(again.parameters, case.parameters, "{text}");
+        assert_eq!(read_back(case).parameters, case.parameters, "{}", case.to_toml());
     }
     let [wedge, ..] = &single.parameters.wedges;
     assert!((wedge.split.angle.to_degrees() - 12.0).abs() < 1e-12);

@@ -1,12 +1,11 @@
 //! The same bits across save and continue and from the printed case.
 #![allow(clippy::unwrap_used)]
 
-use study::case::Tables;
 use study::run::{Run, RunState};
+use study::truck::builtin;
 use study::truck::run::TruckCounts;
-use study::truck::{TruckCase, builtin};
 
-use super::common::{case, run};
+use super::common::{case, read_back, run};
 
 fn bits(values: &[Vec<f64>]) -> Vec<u64> {
     values.iter().flatten().map(|value| value.to_bits()).collect()
@@ -56,7 +55,7 @@ fn reproducible_the_printed_case_is_the_same_case() {
                 "wedge.leading_left.toe=0.1 deg in",
             ],
         );
-        let printed = TruckCase::parse("again.toml", original.to_toml(), Tables::nowhere(), &[]).unwrap();
+        let printed = read_back(&original);
         assert_eq!(printed, original, "{name}");
         assert_eq!(printed.parameters.wedges[3].slope_friction.coefficient, 0.3);
     }

@@ -5,7 +5,7 @@ use study::case::{Case, Tables};
 use study::run::Run;
 use study::truck::TruckCase;
 
-use crate::common::{INCH, POUND_FORCE, case, column, run};
+use crate::common::{INCH, POUND_FORCE, case, column, read_back, run};
 use crate::problems::in_words;
 
 fn parsed(lines: &str) -> TruckCase {
@@ -238,8 +238,7 @@ fn input_rises_of_all_and_of_single_wedges() {
         wedge.wear.rise(wedge.rise_angles()) / INCH
     };
     assert!((rise(&own, 3) - 0.5).abs() < 1e-12);
-    let again = TruckCase::parse("case.toml", own.to_toml(), Tables::nowhere(), &[]).unwrap();
-    assert_eq!(again.parameters, own.parameters);
+    assert_eq!(read_back(&own).parameters, own.parameters);
     let own = parsed(
         "[wedge]\nrise = \"0.5 in\"\n[wedge.leading_left]\nrise = \"0.25 in\"\n\
          [wedge.leading_right]\ncolumn_wear = \"0 in\"\n[side_frame]\ntoe = \"1 deg out\"\n",
@@ -250,7 +249,7 @@ fn input_rises_of_all_and_of_single_wedges() {
     let [_, right, other, _] = &own.parameters.wedges;
     assert_eq!(right.wear.column, 0.0);
     assert!((right.wear.slope / other.wear.slope - 1.0).abs() < 1e-9);
-    let again = TruckCase::parse("case.toml", own.to_toml(), Tables::nowhere(), &[]).unwrap();
+    let again = read_back(&own);
     for (own, again) in own.parameters.wedges.iter().zip(&again.parameters.wedges) {
         assert!((own.wear.slope / again.wear.slope - 1.0).abs() < 1e-12);
     }

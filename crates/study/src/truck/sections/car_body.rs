@@ -68,7 +68,7 @@ pub(crate) fn center_plate(r: &mut CaseReader<'_>, plate: &mut CenterPlate) {
     if let [outer, inner] = plate.rings.as_mut_slice() {
         let [diameter, radius] = ["diameter", "radius"].map(|key| r.has(&format!("center_plate.{key}")));
         if radius {
-            // What it was called before.
+            // An older key, which is read.
             r.quantity("radius", LENGTH, outer, "half of the diameter");
             if diameter {
                 let message = "`center_plate.radius` is given, and `center_plate.diameter` too";
