@@ -9,7 +9,9 @@
 //! |---|---|
 //! | parameters, with the values of a car of 263,000 lbf | [`Parameters`] |
 //! | bodies, elements, state at the start | [`Car`] |
-//! | motions about steady running, critical speed | [`Parameters::modes`], [`Parameters::critical_speed`] |
+//! | motions about steady running, critical speed | [`SteadyCar`] |
+//! | critical speed over the amplitude by equivalent linearization | [`OverAmplitude`] |
+//! | the linear benchmark of textbooks | [`Parameters::tied`] |
 //! | what one sees: wheel forces, places on the track, accelerations, trucks | [`Loads`] |
 //!
 //! Not in the model: flexible bodies, braking, coupler forces.
@@ -36,7 +38,9 @@
 
 #![warn(missing_docs)]
 
+mod amplitude;
 mod assemble;
+mod benchmark;
 mod body;
 mod defaults;
 mod drive;
@@ -45,15 +49,22 @@ mod linearize;
 mod loads;
 mod motions;
 mod parameters;
+mod shapes;
 mod start;
 mod tipping;
+mod wheels_over_amplitude;
 
+pub use amplitude::{NeutralMotion, OverAmplitude};
 pub use assemble::{Car, Numbers};
+pub use benchmark::NoWarp;
 pub use error::{BuildError, InvalidParameter};
-pub use linearize::{CriticalSpeed, FrictionState, LinearizeError, Mode};
+pub use linearize::{
+    CriticalSpeed, FrictionState, LinearizeError, Mode, SteadyCar, VIBRATIONS, growing, vibrations,
+};
 pub use loads::{AxleLoads, EndMotion, Loads, WheelLoads};
 pub use motions::{BodyMotion, Motions, TruckMotion, WheelsetAxes};
 pub use parameters::{
     ACCELEROMETER_HEIGHTS, Drive, Mass, Parameters, ProfiledWheels, Start, StartKind, TRUCK_DISTANCES, Wheels,
 };
+pub use shapes::name_of;
 pub use tipping::{Support, Tipping};

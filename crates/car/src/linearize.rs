@@ -1,24 +1,26 @@
-//! Linearization about steady running on straight track: growth and frequency of all motions, and the speed
-//! from which one grows.
+//! Motions about steady running on straight track: growth, frequency and shape, with friction stuck, absent, or
+//! at an amplitude.
 //!
-//! A car whose friction sticks runs on its wheels for a second, so that creep forces and loads agree;
-//! others are taken as they start, since nothing would damp what remains of the start. There its whole
-//! Jacobian matrix is taken (`System::eigenvalues`). Distance and spin stand in no force and give
-//! eigenvalues of zero. The car coasts: a control of its speed would damp its pitch. What friction does in
-//! wedges, plates, adapters and side bearings is a choice, since it decides: bristles that stick are
-//! springs; without friction these parts are free where nothing else holds them, and a car may buckle
-//! slowly, which is no vibration.
+//! A car with profiled wheels runs for a second, so that creep forces and loads agree; then all its bodies move
+//! forward and its wheels roll, and nothing else moves. With steady running all forces depend on creepages
+//! alone: the state of another speed has the same displacements. Cars on linear wheels are taken as they start.
+//! Distance and spin stand in no force and give eigenvalues of zero. The car coasts: a control of its speed would
+//! damp its pitch.
+//!
+//! What friction does in wedges, plates, adapters and side bearings decides: bristles that stick are springs;
+//! without friction these parts are free where nothing else holds them; at an amplitude each slider has the
+//! stiffness and damping of its describing function ([`mechanics::linear::Slider`]). Wheels keep their creep.
 
 use integrate::{Integrator, Method, Options, SetupError, StepError};
-use mechanics::friction::FrictionLaw;
+use mechanics::linear::{Equivalent, LinearMode, LinearModel};
 use mechanics::system::NoVibration;
+use nalgebra::Complex;
+use rolling::wheelset::coordinate;
 use thiserror::Error;
-use truck::{Adapter, SideBearing};
-use wedge::parameters::FaceFriction;
 
 use crate::assemble::Car;
 use crate::error::BuildError;
-use crate::parameters::{Drive, Parameters, Wheels};
+use crate::parameters::{Drive, Parameters, Start, StartKind, Wheels};
 
 /// Friction in the linearization about steady running.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,24 +29,6 @@ pub enum FrictionState {
     Stuck,
     /// There is none.
     Absent,
-}
-
-/// A motion about steady running.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mode {
-    /// Growth, 1/s: negative where it dies away.
-    pub growth: f64,
-    /// Frequency, Hz; zero where it does not vibrate.
-    pub frequency: f64,
-}
-
-/// A speed from which on a vibration grows.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CriticalSpeed {
-    /// The speed, m/s.
-    pub speed: f64,
-    /// Frequency of the vibration there, Hz.
-    pub frequency: f64,
 }
 
 /// Reasons why there is no linearization.
@@ -65,161 +49,244 @@ pub enum LinearizeError {
     /// It stands still.
     #[error("the speed is {0} m/s; it must be positive: a car that stands has no steady running")]
     Speed(f64),
-    /// Speeds make no range.
-    #[error(
-        "speeds from {low} to {high} m/s in steps of {step} m/s make no search: all must be positive and rise"
-    )]
-    Range {
-        /// The lowest, m/s.
-        low: f64,
-        /// The highest, m/s.
-        high: f64,
-        /// Their distance, m/s.
-        step: f64,
-    },
 }
 
-/// Vibrations slower than this are drifts, Hz; those faster than this are of contacts, not of the car.
-const SLOWEST: f64 = 0.05;
-const FASTEST: f64 = 30.0;
-/// Growth below this is none, 1/s: that of undamped vibrations in rounding.
-const NONE: f64 = 1e-5;
-/// Time that a car runs before it is linearized, s.
+/// Vibrations slower than this are drifts, those faster than this are of contacts, not of the car; Hz.
+pub const VIBRATIONS: [f64; 2] = [0.05, 30.0];
+/// Time that a car runs before it is linearized, s, and its speed, m/s.
 const SETTLED: f64 = 1.0;
-/// About which eigenvalues are found best, 1/s.
+const SETTLING_SPEED: f64 = 20.0;
+/// About which eigenvalues are found best, 1/s, and the steps in which they are looked for.
 const SHIFT: f64 = 20.0;
+const STEPS: usize = 110;
 
-impl Parameters {
-    /// Returns the same car without friction in wedges, plates, adapters and side bearings; wheels keep
-    /// theirs.
-    #[must_use]
-    pub fn without_friction(&self) -> Self {
-        let none = FaceFriction {
-            coefficient: 0.0,
-            law: FrictionLaw::Tanh { reference_speed: 1.0 },
-        };
-        let mut free = self.clone();
-        for own in &mut free.trucks {
-            for wedge in &mut own.wedges {
-                (wedge.column_friction, wedge.slope_friction) = (none, none);
-                wedge.split.friction = none;
-            }
-            if let Some(wheelsets) = &mut own.wheelsets
-                && let Adapter::Friction(adapter) = &mut wheelsets.adapter
-            {
-                adapter.friction = none;
-            }
-            if let Some(body) = &mut own.car_body {
-                body.center_plate.friction = none;
-                if let SideBearing::ConstantContact { friction, .. } = &mut body.side_bearings.kind {
-                    *friction = none;
-                }
-            }
-        }
-        free
-    }
+/// A car in steady running on straight track.
+#[derive(Clone, Debug)]
+pub struct SteadyCar {
+    car: Car,
+    state: Vec<f64>,
+    /// The speed of the state, m/s.
+    speed: f64,
+    start: Start,
+}
 
-    /// Returns all motions about steady running at a speed (m/s), by falling growth; the car starts where
-    /// its start says, which must be on straight track without irregularities for a second of running.
+impl SteadyCar {
+    /// Returns the car in steady running; it starts where its start says, which must be on straight track
+    /// without irregularities for a second of running at 20 m/s.
     ///
     /// # Errors
     /// [`LinearizeError`].
-    pub fn modes(&self, speed: f64, friction: FrictionState) -> Result<Vec<Mode>, LinearizeError> {
-        if !(speed > 0.0 && speed.is_finite()) {
-            return Err(LinearizeError::Speed(speed));
-        }
-        let mut running = match friction {
-            FrictionState::Stuck => self.clone(),
-            FrictionState::Absent => self.without_friction(),
-        };
+    pub fn new(parameters: &Parameters) -> Result<Self, LinearizeError> {
+        let mut running = parameters.clone();
         running.drive = Drive::Coasting;
-        running.start.speed = speed;
+        running.start.speed = SETTLING_SPEED;
         running.start.wheelset_shifts = [0.0; 4];
         running.start.body_shift = 0.0;
         let car = Car::new(&running)?;
-        let mut system = car.system.clone();
         let mut state = car.initial_state.clone();
-        if friction == FrictionState::Stuck && matches!(running.wheels, Wheels::OnRails(_)) {
+        if matches!(running.wheels, Wheels::OnRails(_)) {
             let options = Options {
                 relative_tolerance: 1e-6,
                 ..Options::of(Method::Esdirk3)
             };
-            let mut integrator = Integrator::new(car.system, options, 0.0, &state)?;
+            let mut integrator = Integrator::new(car.system.clone(), options, 0.0, &state)?;
             while integrator.time() < SETTLED {
                 integrator.step_to(SETTLED)?;
             }
             state.copy_from_slice(integrator.x());
         }
-        let values = system.eigenvalues(0.0, &state, SHIFT)?;
-        let modes = values.into_iter().filter(|[_, imaginary]| *imaginary >= 0.0);
-        let modes = modes.map(|[growth, imaginary]| Mode {
-            growth,
-            frequency: imaginary / (2.0 * std::f64::consts::PI),
-        });
-        Ok(modes.collect())
+        Ok(Self {
+            car,
+            state,
+            speed: SETTLING_SPEED,
+            start: running.start,
+        })
     }
 
-    /// Returns the lowest speed (m/s) within a range from which on a vibration grows; speeds are tried in
-    /// steps (m/s), the one between two steps is found by linear search within a thousandth. None: none
-    /// grows at the speeds tried.
+    /// Returns a car of the same bodies and sliders with other forces in the same state.
+    ///
+    /// # Errors
+    /// The parameters make no car.
+    pub fn with(&self, parameters: &Parameters) -> Result<Self, LinearizeError> {
+        let mut other = parameters.clone();
+        other.drive = Drive::Coasting;
+        other.start = Start {
+            kind: StartKind::Nominal,
+            ..self.start.clone()
+        };
+        Ok(Self {
+            car: Car::new(&other)?,
+            state: self.state.clone(),
+            speed: self.speed,
+            start: self.start.clone(),
+        })
+    }
+
+    /// Returns the car.
+    #[must_use]
+    pub fn car(&self) -> &Car {
+        &self.car
+    }
+
+    /// Returns its state at a speed (m/s): that of the run, with nothing moving but forward, and wheels that
+    /// roll.
+    #[must_use]
+    pub fn state(&self, speed: f64) -> Vec<f64> {
+        let system = &self.car.system;
+        let layout = system.layout();
+        let mut state = self.state.clone();
+        state[layout.speeds..].fill(0.0);
+        let start = &self.car.initial_state;
+        let numbers = &self.car.numbers;
+        let moving = (0..system.bodies().len()).flat_map(|body| (0..6).map(move |k| (body, k)));
+        for (body, k) in moving {
+            let Some(place) = system.position_of(body, k) else {
+                continue;
+            };
+            let rate = layout.speeds + place;
+            let spins = k == coordinate::SPIN && numbers.wheelsets.contains(&body);
+            let settled = if spins { self.state[rate] } else { start[rate] };
+            state[rate] = settled * speed / self.speed;
+        }
+        state
+    }
+
+    /// Returns the linear model at a speed (m/s).
+    ///
+    /// # Errors
+    /// The speed is not positive.
+    pub fn model(&mut self, speed: f64) -> Result<LinearModel, LinearizeError> {
+        if !(speed > 0.0 && speed.is_finite()) {
+            return Err(LinearizeError::Speed(speed));
+        }
+        let state = self.state(speed);
+        Ok(self.car.system.linear_model(0.0, &state))
+    }
+}
+
+/// Returns the vibrations of a model ([`VIBRATIONS`]) with these sliders, by falling growth.
+///
+/// # Errors
+/// They are not found.
+pub fn vibrations(
+    model: &LinearModel,
+    sliders: impl IntoIterator<Item = Equivalent>,
+) -> Result<Vec<LinearMode>, NoVibration> {
+    let mut modes = model.with(sliders).modes(SHIFT, STEPS)?;
+    let [slowest, fastest] = VIBRATIONS;
+    modes.retain(|mode| (slowest..=fastest).contains(&mode.frequency()));
+    Ok(modes)
+}
+
+/// A motion about steady running.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mode {
+    /// Growth, 1/s: negative where it dies away.
+    pub growth: f64,
+    /// Frequency, Hz.
+    pub frequency: f64,
+}
+
+/// A speed from which on a vibration grows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CriticalSpeed {
+    /// The speed, m/s.
+    pub speed: f64,
+    /// Frequency of the vibration there, Hz.
+    pub frequency: f64,
+    /// Its shape, in the order of the positions.
+    pub shape: Vec<Complex<f64>>,
+}
+
+/// Growth below this is none, 1/s: that of undamped vibrations in rounding.
+const NONE: f64 = 1e-5;
+
+/// Returns the vibration that grows, if one does.
+#[must_use]
+pub fn growing(modes: &[LinearMode]) -> Option<&LinearMode> {
+    modes.first().filter(|mode| mode.growth() > NONE)
+}
+
+impl FrictionState {
+    /// Returns what stands for the sliders of a model.
+    #[must_use]
+    pub fn of(self, model: &LinearModel) -> Vec<Equivalent> {
+        let own = model.sliders.iter().map(|own| match self {
+            Self::Stuck => own.slider.stuck(),
+            Self::Absent => Equivalent::NONE,
+        });
+        own.collect()
+    }
+}
+
+impl SteadyCar {
+    /// Returns the vibrations at a speed (m/s), by falling growth.
+    ///
+    /// # Errors
+    /// [`LinearizeError`].
+    pub fn vibrations(
+        &mut self,
+        speed: f64,
+        friction: FrictionState,
+    ) -> Result<Vec<LinearMode>, LinearizeError> {
+        let model = self.model(speed)?;
+        Ok(vibrations(&model, friction.of(&model))?)
+    }
+
+    /// Returns the critical speed between a speed at which nothing grows and one at which a vibration does (m/s),
+    /// within a thousandth.
     ///
     /// # Errors
     /// [`LinearizeError`].
     pub fn critical_speed(
-        &self,
+        &mut self,
         [low, high]: [f64; 2],
-        step: f64,
         friction: FrictionState,
     ) -> Result<Option<CriticalSpeed>, LinearizeError> {
-        if !(low > 0.0 && high >= low && step > 0.0 && high.is_finite()) {
-            return Err(LinearizeError::Range { low, high, step });
-        }
-        let worst = |speed: f64| -> Result<Mode, LinearizeError> {
-            let modes = self.modes(speed, friction)?;
-            let none = Mode {
-                growth: f64::NEG_INFINITY,
-                frequency: 0.0,
-            };
-            let own = modes
-                .into_iter()
-                .find(|mode| (SLOWEST..FASTEST).contains(&mode.frequency));
-            Ok(own.map_or(none, |mode| Mode {
-                growth: mode.growth - NONE,
-                ..mode
-            }))
+        let mut worst = |speed: f64| -> Result<Option<LinearMode>, LinearizeError> {
+            Ok(self.vibrations(speed, friction)?.into_iter().next())
         };
-        let mut before = (low, worst(low)?);
-        if before.1.growth > 0.0 {
-            return Ok(Some(CriticalSpeed {
-                speed: low,
-                frequency: before.1.frequency,
-            }));
-        }
-        let count = ((high - low) / step).ceil() as usize;
-        for k in 1..=count {
-            let speed = (low + k as f64 * step).min(high);
-            let mut after = (speed, worst(speed)?);
-            if after.1.growth <= 0.0 {
-                before = after;
-                continue;
+        let growth =
+            |own: &Option<LinearMode>| own.as_ref().map_or(f64::NEG_INFINITY, |own| own.growth() - NONE);
+        let (mut before, mut after) = ((low, growth(&worst(low)?)), (high, worst(high)?));
+        while after.0 - before.0 > 1e-3 * after.0 {
+            // Between a tenth and nine tenths: a secant that cannot stall.
+            let share = -before.1 / (growth(&after.1) - before.1);
+            let share = if share.is_finite() {
+                share.clamp(0.1, 0.9)
+            } else {
+                0.5
+            };
+            let speed = before.0 + share * (after.0 - before.0);
+            let own = worst(speed)?;
+            if growth(&own) > 0.0 {
+                after = (speed, own);
+            } else {
+                before = (speed, growth(&own));
             }
-            while after.0 - before.0 > 1e-3 * after.0 {
-                // Between a tenth and nine tenths: a secant that cannot stall.
-                let share = -before.1.growth / (after.1.growth - before.1.growth);
-                let speed = before.0 + share.clamp(0.1, 0.9) * (after.0 - before.0);
-                let own = (speed, worst(speed)?);
-                *(if own.1.growth > 0.0 {
-                    &mut after
-                } else {
-                    &mut before
-                }) = own;
-            }
-            let share = -before.1.growth / (after.1.growth - before.1.growth);
-            return Ok(Some(CriticalSpeed {
-                speed: before.0 + share * (after.0 - before.0),
-                frequency: after.1.frequency,
-            }));
         }
-        Ok(None)
+        let share = -before.1 / (growth(&after.1) - before.1);
+        let share = if share.is_finite() { share } else { 1.0 };
+        Ok(after.1.map(|mode| CriticalSpeed {
+            speed: before.0 + share * (after.0 - before.0),
+            frequency: mode.frequency(),
+            shape: mode.shape,
+        }))
+    }
+}
+
+impl Parameters {
+    /// Returns growth and frequency of the vibrations about steady running at a speed (m/s), by falling growth;
+    /// see [`SteadyCar::new`].
+    ///
+    /// # Errors
+    /// [`LinearizeError`].
+    pub fn modes(&self, speed: f64, friction: FrictionState) -> Result<Vec<Mode>, LinearizeError> {
+        let modes = SteadyCar::new(self)?.vibrations(speed, friction)?;
+        let modes = modes.into_iter().map(|mode| Mode {
+            growth: mode.growth(),
+            frequency: mode.frequency(),
+        });
+        Ok(modes.collect())
     }
 }

@@ -5,10 +5,10 @@ mod common;
 
 use std::f64::consts::TAU;
 
-use car::{FrictionState, Mode, Parameters, Wheels};
+use car::{FrictionState, Mode, Parameters, SteadyCar, Wheels};
 use common::{INCH, MPH, POUND_FORCE, empty, loaded, tangent};
-use truck::{Adapter, AdapterPad, ControlCoil, SideBearing, Spring, WedgeKind, empirical_warp};
-use wedge::parameters::{Contact, Damping, FaceFriction};
+use truck::{Adapter, Spring};
+use wedge::parameters::Damping;
 use wheelrail::conicity::LinearGeometry;
 use wheelrail::contact::{CreepCoefficients, LinearWheelset};
 
@@ -18,13 +18,11 @@ const RADIUS: f64 = 18.0 * INCH;
 /// Stiffness of a nest across, N/m.
 const NEST: f64 = 17_800.0 * POUND_FORCE / INCH;
 
-/// Returns the empty car on linear wheels that do not roll about x, reduced: center plates turn freely,
-/// adapters are pins, nothing damps, wedges do nothing but for an empirical warp stiffness of the truck
-/// (N·m/rad).
-fn reduced(conicity: f64, warp: Option<f64>) -> Parameters {
+/// Returns the empty car of the benchmark on linear wheels that do not roll about x, with a warp stiffness
+/// (N·m/rad); `harder` multiplies the shear stiffness of its coils.
+fn reduced(conicity: f64, warp: f64, harder: f64) -> Parameters {
     let mut parameters = empty(tangent(300.0), 10.0);
     parameters.support = None;
-    parameters.drive = car::Drive::Coasting;
     let axle_load = parameters.weight() / 4.0;
     parameters.wheels = Wheels::Linear {
         wheelset: LinearWheelset {
@@ -43,69 +41,20 @@ fn reduced(conicity: f64, warp: Option<f64>) -> Parameters {
         },
         support: [1e9, 1e9],
     };
-    for own in &mut parameters.trucks {
-        own.damping = Damping::Constant;
-        for wedge in &mut own.wedges {
-            wedge.kind = WedgeKind::Massless;
-            wedge.column_friction.coefficient = 0.0;
-            wedge.slope_friction.coefficient = 0.0;
-            wedge.control_coil = ControlCoil::Shear(Spring {
-                preload: 10.0,
-                stiffness: 1.0,
-                ..Spring::default()
-            });
-        }
-        // All load coils in the middle of the nest: they do not turn the bolster against the side frames.
-        for coil in own.load_coils.iter_mut().flatten() {
-            coil.place = [0.0; 2];
-            coil.spring = Spring {
-                preload: 11_515.0 * POUND_FORCE / 4.0,
-                stiffness: 6468.7 * POUND_FORCE / INCH,
-                shear_stiffness: NEST / 4.0,
-                damping: 0.0,
-                solid: None,
-            };
-        }
-        if let Some(wheelsets) = &mut own.wheelsets {
-            // Pins: they give way to yaw by 9e3 N·m/rad.
-            wheelsets.adapter = Adapter::Pad(AdapterPad {
-                preload: parameters.body.mass * 9.806_65 / 8.0,
-                stiffness: 1e13,
-                shear_stiffness: 1e9,
-                half_distance: 0.003,
-                damping: 0.0,
-            });
-        }
-        if let Some(body) = &mut own.car_body {
-            // A pin that turns, and stiff side bearings without friction.
-            body.center_plate.rings = vec![1e-3];
-            body.center_plate.friction.coefficient = 10.0;
-            let stiff = Contact {
-                stiffness: 1e9,
-                damping: 0.0,
-            };
-            body.side_bearings.kind = SideBearing::ConstantContact {
-                preload: 2e4,
-                contact: stiff,
-                travel: 1.0,
-                solid: stiff,
-                friction: FaceFriction {
-                    coefficient: 0.0,
-                    ..body.center_plate.friction
-                },
-            };
-        }
-        own.gib.clearance = 1.0;
-        own.lands.clearance = 1.0;
-        // The coils' shear along the track, which holds the bolster square to the axles, is in series with
-        // the warp spring.
-        let square = 2.0 * NEST * own.distances[0] * own.distances[0];
-        own.warp_spring = warp.map(|warp| {
-            let nest = 0.5 / (1.0 / warp - 1.0 / square);
-            empirical_warp(0.030 * nest).unwrap()
-        });
+    for coil in parameters
+        .trucks
+        .iter_mut()
+        .flat_map(|own| own.load_coils.iter_mut().flatten())
+    {
+        coil.spring = Spring {
+            preload: 11_515.0 * POUND_FORCE / 4.0,
+            stiffness: 6468.7 * POUND_FORCE / INCH,
+            shear_stiffness: harder * NEST / 4.0,
+            damping: 0.0,
+            solid: None,
+        };
     }
-    parameters
+    parameters.tied(warp).unwrap()
 }
 
 /// 65, 45 and 32 mph at conicities of 0.05, 0.1 and 0.2 with 17 kip·in/mrad of warp stiffness: from a
@@ -114,12 +63,9 @@ fn reduced(conicity: f64, warp: Option<f64>) -> Parameters {
 fn reproduction_critical_speeds_of_the_empty_car() {
     let warp = 17e6 * POUND_FORCE * INCH;
     for (conicity, expected) in [(0.05, 65.0), (0.1, 45.0), (0.2, 32.0)] {
-        let parameters = reduced(conicity, Some(warp));
+        let mut car = SteadyCar::new(&reduced(conicity, warp, 1.0)).unwrap();
         let range = [0.8 * expected * MPH, 1.25 * expected * MPH];
-        let found = parameters
-            .critical_speed(range, 0.1 * expected * MPH, FrictionState::Stuck)
-            .unwrap()
-            .unwrap();
+        let found = car.critical_speed(range, FrictionState::Stuck).unwrap().unwrap();
         let speed = found.speed / MPH;
         println!("{conicity}: {speed} mph, {} Hz", found.frequency);
         assert!(
@@ -146,17 +92,13 @@ fn analytic_wavelengths_of_trucks_that_warp_and_of_rigid_ones() {
         (false, 1.0),
         (true, (1.0_f64 + 6.21 / 6.69 * (35.0_f64 / 29.75).powi(2)).sqrt()),
     ] {
-        let mut parameters = reduced(0.05, None);
+        let mut parameters = if rigid {
+            reduced(0.05, 5e8, 1e2)
+        } else {
+            reduced(0.05, 1.0, 1.0)
+        };
         if let Wheels::Linear { wheelset, .. } = &mut parameters.wheels {
             wheelset.axle_load = 0.0;
-        }
-        if rigid {
-            for own in &mut parameters.trucks {
-                for coil in own.load_coils.iter_mut().flatten() {
-                    coil.spring.shear_stiffness *= 1e2;
-                }
-                own.warp_spring = Some(empirical_warp(1e9 * 0.03).unwrap());
-            }
         }
         let modes = parameters.modes(speed, FrictionState::Stuck).unwrap();
         let wavelength = TAU * (RADIUS * HALF / 0.05).sqrt() * factor;
@@ -177,7 +119,7 @@ fn analytic_wavelengths_of_trucks_that_warp_and_of_rigid_ones() {
 /// (0.762 Hz).
 #[test]
 fn analytic_frequencies_of_the_loaded_car_on_its_wheels() {
-    let mut parameters = reduced(0.05, None);
+    let mut parameters = reduced(0.05, 1.0, 1.0);
     let whole = loaded(tangent(300.0), 2.0);
     (parameters.lading, parameters.body) = (whole.lading.clone(), whole.body);
     for (own, usual) in parameters.trucks.iter_mut().zip(&whole.trucks) {

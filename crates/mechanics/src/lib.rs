@@ -52,6 +52,7 @@ pub mod elements;
 pub mod energy_balance;
 pub mod frame;
 pub mod friction;
+pub mod linear;
 pub mod link;
 pub mod motion;
 pub mod orientation;

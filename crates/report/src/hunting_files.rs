@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use quantity::{Kind, System as Units};
 use serde::Serialize;
 use study::car::hunting::{Boundary, Hunting, Point, Ramp};
-use study::car::stability::{FRICTION, Stability};
+use study::car::stability::{BranchKind, Stability};
 
 use crate::csv::{RowWriter, rounded};
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
@@ -114,9 +114,9 @@ fn outcome(ramp: &Ramp, units: Units) -> Outcome {
 
 /// Returns the critical speeds (m/s) by linearization, friction stuck and absent.
 fn linear(stability: &Stability) -> [Option<f64>; 2] {
-    FRICTION.map(|(friction, _)| {
-        let own = stability.branches.iter().find(|own| own.friction == friction)?;
-        own.critical.map(|critical| critical.speed)
+    [BranchKind::Stuck, BranchKind::Absent].map(|kind| {
+        let own = stability.branches.iter().find(|own| own.kind == kind)?;
+        own.critical.as_ref().map(|critical| critical.speed)
     })
 }
 
@@ -195,6 +195,21 @@ pub fn figure(case: &str, found: &Hunting, stability: &Stability, units: Units) 
                 Line::Dotted,
             ),
         ]);
+        let over_amplitude = stability.curve.iter().filter_map(|own| {
+            let speed = own.critical.as_ref()?.speed;
+            (speed <= found.settings.speeds[1]).then_some((speed, own.amplitude))
+        });
+        let over_amplitude: Vec<(f64, f64)> = over_amplitude
+            .map(|(own, amplitude)| (speed(own), amplitude * Kind::Length.from_si(units)))
+            .collect();
+        if kind == Kind::Length && !over_amplitude.is_empty() {
+            curves.push(PlotCurve {
+                label: "equivalent linearization".to_owned(),
+                colour: Colour::Green,
+                line: Line::Dotted,
+                points: over_amplitude,
+            });
+        }
         // What grows at the lowest speed already has its critical speed below the figure.
         let lowest = stability.speeds.first().copied().unwrap_or_default();
         for (critical, (label, colour, line)) in marks {

@@ -1,19 +1,22 @@
-//! The files of `wedgelab stability`: vibrations of a car over speed, as CSV, JSON and figure.
+//! The files of `wedgelab stability`: vibrations of a car over speed, and critical speeds over amplitude, as CSV,
+//! JSON and figure.
 
 use std::io::{self, Write};
 
 use quantity::{Kind, System as Units};
 use serde::Serialize;
 use study::car::CarCase;
-use study::car::stability::{Branch, FRICTION, Mode, Stability, left_out};
+use study::car::stability::{Branch, BranchKind, Critical, NamedMode, Stability, left_out};
 
 use crate::csv::{RowWriter, rounded};
-use crate::drawing::{Figure, Panel, PlotCurve, distinct};
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 use crate::figures::axis;
 use crate::summary::write_json;
 
-/// The table.
+/// The table of vibrations: the root locus over speed.
 pub const TABLE: &str = "stability.csv";
+/// The table of critical speeds over amplitude.
+pub const CURVE: &str = "critical_speed.csv";
 /// Critical speeds.
 pub const NUMBERS: &str = "stability.json";
 /// The figure.
@@ -21,17 +24,16 @@ pub const FIGURE: &str = "stability.svg";
 /// The same as a picture.
 pub const PICTURE: &str = "stability.png";
 /// All of them.
-pub const NAMES: [&str; 4] = [TABLE, NUMBERS, FIGURE, PICTURE];
+pub const NAMES: [&str; 5] = [TABLE, CURVE, NUMBERS, FIGURE, PICTURE];
 /// The schema of [`NUMBERS`].
-pub const SCHEMA: &str = "wedgelab.car_stability/1";
+pub const SCHEMA: &str = "wedgelab.car_stability/2";
 
-/// Returns a branch's name.
-fn name(branch: &Branch) -> &'static str {
-    let found = FRICTION.iter().find(|(own, _)| *own == branch.friction);
-    found.map_or("", |(_, name)| name)
-}
+/// Growth below which a vibration is not drawn, 1/s: it is far from hunting.
+const DRAWN: f64 = -6.0;
+/// Largest frequency drawn, Hz.
+const FASTEST: f64 = 8.0;
 
-/// Writes all vibrations: speed, friction, growth, frequency, damping ratio.
+/// Writes all vibrations: speed, friction, growth, frequency, damping ratio, what moves.
 ///
 /// # Errors
 /// The writer's.
@@ -39,23 +41,56 @@ pub fn write_table(found: &Stability, units: Units, out: &mut dyn Write) -> io::
     let mut table = RowWriter::new(out);
     table.text(&format!("speed_{}", Kind::TravelSpeed.suffix(units)));
     table
-        .texts(["friction", "growth_per_s", "frequency_hz", "damping_ratio"])
+        .texts([
+            "friction",
+            "growth_per_s",
+            "frequency_hz",
+            "damping_ratio",
+            "motion",
+        ])
         .end()?;
     for branch in &found.branches {
         for (speed, modes) in found.speeds.iter().zip(&branch.modes) {
             for mode in modes {
-                let angular_frequency = 2.0 * std::f64::consts::PI * mode.frequency;
-                let ratio = -mode.growth / libm::hypot(mode.growth, angular_frequency);
                 table
                     .plain(speed * Kind::TravelSpeed.from_si(units))
-                    .text(name(branch));
-                table
-                    .shown(mode.growth)
-                    .shown(mode.frequency)
-                    .shown(ratio)
-                    .end()?;
+                    .text(branch.kind.name());
+                write_mode(&mut table, mode)?;
             }
         }
+    }
+    Ok(())
+}
+
+/// Writes the cells of a vibration, and ends the row.
+pub(crate) fn write_mode(table: &mut RowWriter<'_>, mode: &NamedMode) -> io::Result<()> {
+    let angular_frequency = 2.0 * std::f64::consts::PI * mode.frequency;
+    let ratio = -mode.growth / libm::hypot(mode.growth, angular_frequency);
+    table.shown(mode.growth).shown(mode.frequency).shown(ratio);
+    table.text(&mode.name).end()
+}
+
+/// Writes the critical speed over the lateral amplitude of the wheelset that moves most; empty cells: none.
+///
+/// # Errors
+/// The writer's.
+pub fn write_curve(found: &Stability, units: Units, out: &mut dyn Write) -> io::Result<()> {
+    let mut table = RowWriter::new(out);
+    table
+        .text(&format!("amplitude_{}", Kind::Length.suffix(units)))
+        .text(&format!("critical_speed_{}", Kind::TravelSpeed.suffix(units)))
+        .texts(["frequency_hz", "motion"])
+        .end()?;
+    for own in &found.curve {
+        table.shown(own.amplitude * Kind::Length.from_si(units));
+        match &own.critical {
+            Some(own) => table
+                .shown(own.speed * Kind::TravelSpeed.from_si(units))
+                .shown(own.frequency)
+                .text(&own.name),
+            None => table.texts(["", "", ""]),
+        };
+        table.end()?;
     }
     Ok(())
 }
@@ -65,9 +100,12 @@ struct Document<'d> {
     schema: &'static str,
     name: &'d str,
     complete: bool,
+    verdict: String,
     speed_unit: &'static str,
+    length_unit: &'static str,
     speeds: Vec<f64>,
-    branches: Vec<BranchDocument>,
+    branches: Vec<BranchDocument<'d>>,
+    over_amplitude: Vec<CriticalDocument<'d>>,
     about: &'static str,
     /// What of the case does not count.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -75,14 +113,34 @@ struct Document<'d> {
 }
 
 #[derive(Serialize)]
-struct BranchDocument {
+struct BranchDocument<'d> {
     friction: &'static str,
     /// Lowest of the speeds from which on a vibration grows; none if none does.
-    critical_speed: Option<f64>,
-    critical_frequency_hz: Option<f64>,
+    #[serde(flatten)]
+    critical: CriticalDocument<'d>,
+    /// True if it grows at the lowest speed already.
+    at_lowest: bool,
     /// Of the vibration that grows most, at each speed.
     largest_growth_per_s: Vec<Option<f64>>,
     its_frequency_hz: Vec<Option<f64>>,
+}
+
+#[derive(Serialize)]
+struct CriticalDocument<'d> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    amplitude: Option<f64>,
+    critical_speed: Option<f64>,
+    critical_frequency_hz: Option<f64>,
+    motion: Option<&'d str>,
+}
+
+fn critical(of: Option<&Critical>, amplitude: Option<f64>, units: Units) -> CriticalDocument<'_> {
+    CriticalDocument {
+        amplitude: amplitude.map(|own| rounded(own * Kind::Length.from_si(units))),
+        critical_speed: of.map(|own| rounded(own.speed * Kind::TravelSpeed.from_si(units))),
+        critical_frequency_hz: of.map(|own| own.frequency),
+        motion: of.map(|own| own.name.as_str()),
+    }
 }
 
 /// Writes critical speeds, and the vibration that grows most at each speed.
@@ -90,72 +148,125 @@ struct BranchDocument {
 /// # Errors
 /// The writer's.
 pub fn write_numbers(case: &CarCase, found: &Stability, units: Units, out: &mut dyn Write) -> io::Result<()> {
-    let speed = |si: f64| rounded(si * Kind::TravelSpeed.from_si(units));
+    let branches = found.branches.iter().map(|branch| BranchDocument {
+        friction: branch.kind.name(),
+        critical: critical(branch.critical.as_ref(), None, units),
+        at_lowest: branch.critical.as_ref().is_some_and(|own| own.at_lowest),
+        largest_growth_per_s: first(branch, |mode| mode.growth),
+        its_frequency_hz: first(branch, |mode| mode.frequency),
+    });
+    let over_amplitude = found.curve.iter();
+    let over_amplitude =
+        over_amplitude.map(|own| critical(own.critical.as_ref(), Some(own.amplitude), units));
     let document = Document {
         schema: SCHEMA,
         name: &case.name,
         complete: found.complete,
+        verdict: found.verdict(units),
         speed_unit: Kind::TravelSpeed.label(units),
-        speeds: found.speeds.iter().map(|own| speed(*own)).collect(),
-        branches: found
-            .branches
+        length_unit: Kind::Length.label(units),
+        speeds: found
+            .speeds
             .iter()
-            .map(|branch| BranchDocument {
-                friction: name(branch),
-                critical_speed: branch.critical.map(|own| speed(own.speed)),
-                critical_frequency_hz: branch.critical.map(|own| own.frequency),
-                largest_growth_per_s: first(branch, |mode| mode.growth),
-                its_frequency_hz: first(branch, |mode| mode.frequency),
-            })
+            .map(|own| rounded(own * Kind::TravelSpeed.from_si(units)))
             .collect(),
+        branches: branches.collect(),
+        over_amplitude: over_amplitude.collect(),
         about: "Vibrations of 0.05 to 30 Hz about steady running on straight track. Friction stuck: \
-                bristles are springs; absent: no friction in wedges, plates, adapters, side bearings.",
+                bristles are springs; absent: no friction in wedges, plates, adapters, side bearings; tied: \
+                the linear benchmark. Over the amplitude: friction, conicity, gravitational stiffness and \
+                creep by equivalent linearization at this lateral amplitude of the wheelset that moves most.",
         left_out: left_out(case),
     };
     write_json(&document, out)
 }
 
-fn first(branch: &Branch, of: impl Fn(&Mode) -> f64) -> Vec<Option<f64>> {
+fn first(branch: &Branch, of: impl Fn(&NamedMode) -> f64) -> Vec<Option<f64>> {
     branch.modes.iter().map(|modes| modes.first().map(&of)).collect()
 }
 
-/// Returns the figure: growth and frequency of the vibration that grows most, over speed.
+/// Returns the figure: critical speed over amplitude, and the root locus over speed of each branch.
 #[must_use]
 pub fn figure(case: &str, found: &Stability, units: Units) -> Figure {
-    let panel = |title: &str, y: &str, of: fn(&Mode) -> f64| Panel {
-        title: title.to_owned(),
-        x_label: axis("speed", Kind::TravelSpeed, units),
-        y_label: y.to_owned(),
-        curves: found
-            .branches
-            .iter()
-            .enumerate()
-            .map(|(number, branch)| {
-                let (colour, line) = distinct(number);
-                let values = first(branch, of);
-                let pairs = found.speeds.iter().zip(values);
-                PlotCurve {
-                    label: format!("friction {}", name(branch)),
-                    colour,
-                    line,
-                    points: pairs
-                        .filter_map(|(speed, value)| Some((speed * Kind::TravelSpeed.from_si(units), value?)))
-                        .collect(),
-                }
-            })
-            .collect(),
+    let speed = |si: f64| si * Kind::TravelSpeed.from_si(units);
+    let of_curve = found.curve.iter().filter_map(|own| {
+        let critical = own.critical.as_ref()?;
+        Some((own.amplitude * Kind::Length.from_si(units), speed(critical.speed)))
+    });
+    let mut curves = vec![PlotCurve {
+        label: "critical speed".to_owned(),
+        colour: Colour::Vermillion,
+        line: Line::Solid,
+        points: of_curve.collect(),
+    }];
+    let flanges = found.curve.first().map_or(0.0, |own| own.amplitude) * Kind::Length.from_si(units);
+    for (number, branch) in found.branches.iter().enumerate() {
+        if let Some(own) = branch.critical.as_ref().filter(|own| !own.at_lowest) {
+            let (_, line) = distinct(number + 1);
+            curves.push(PlotCurve {
+                label: branch.kind.words().to_owned(),
+                colour: Colour::Grey,
+                line,
+                points: vec![(0.0, speed(own.speed)), (flanges, speed(own.speed))],
+            });
+        }
+    }
+    let over_amplitude = Panel {
+        title: "(a) critical speed over amplitude, up to the flanges".to_owned(),
+        x_label: axis("lateral amplitude of a wheelset", Kind::Length, units),
+        y_label: axis("speed", Kind::TravelSpeed, units),
+        curves,
         ..Panel::default()
     };
+    let mut panels = vec![over_amplitude];
+    for (branch, letter) in found.branches.iter().zip(["b", "c", "d"]) {
+        panels.push(locus(branch, &found.speeds, letter, units));
+    }
     Figure {
         title: format!("{case}: linear stability"),
-        caption: "The vibration that grows most about steady running on straight track: positive growth is \
-                  hunting. Friction stuck: bristles are springs; absent: no friction in wedges, plates, \
-                  adapters, side bearings."
+        caption: "(a) Beyond the curve a motion of this amplitude grows, by equivalent linearization. Others: \
+                  growth and frequency of vibrations about steady running, one curve a speed: positive growth \
+                  is hunting."
             .to_owned(),
-        panels: vec![
-            panel("(a) growth", "growth (1/s)", |mode| mode.growth),
-            panel("(b) frequency", "frequency (Hz)", |mode| mode.frequency),
-        ],
+        panels,
         ..Figure::default()
+    }
+}
+
+/// Returns the root locus of a branch: growth and frequency of its slow vibrations, a curve a speed.
+fn locus(branch: &Branch, speeds: &[f64], letter: &str, units: Units) -> Panel {
+    let own = speeds.iter().zip(&branch.modes);
+    // First, middle and last speed are enough to see where roots go.
+    let shown = [0, branch.modes.len() / 2, branch.modes.len().saturating_sub(1)];
+    let curves = own.enumerate().filter(|(number, _)| shown.contains(number));
+    let curves = curves.enumerate().map(|(place, (_, (speed, modes)))| {
+        let (colour, line) = distinct(place);
+        let mut points: Vec<(f64, f64)> = modes
+            .iter()
+            .filter(|mode| mode.growth > DRAWN && mode.frequency < FASTEST)
+            .map(|mode| (mode.growth, mode.frequency))
+            .collect();
+        points.sort_by(|a, b| a.1.total_cmp(&b.1));
+        PlotCurve {
+            label: format!(
+                "{:.0} {}",
+                speed * Kind::TravelSpeed.from_si(units),
+                Kind::TravelSpeed.label(units)
+            ),
+            colour,
+            line,
+            points,
+        }
+    });
+    let words = match branch.kind {
+        BranchKind::Tied => "linear benchmark",
+        kind => kind.words(),
+    };
+    Panel {
+        title: format!("({letter}) root locus, {words}"),
+        x_label: "growth (1/s)".to_owned(),
+        y_label: "frequency (Hz)".to_owned(),
+        curves: curves.collect(),
+        ..Panel::default()
     }
 }

@@ -196,6 +196,23 @@ impl Connections {
         internal
     }
 
+    /// Returns stiffness (N/m) and damping (N·s/m) of a connection's bristle, if it has one.
+    pub fn bristle_of(&self, connection: usize) -> Option<[f64; 2]> {
+        let surfaces = self
+            .surfaces
+            .iter()
+            .map(|e| (e.site.connection, e.law.accumulator));
+        let wedges = self
+            .wedges
+            .iter()
+            .map(|e| (e.site.connection, e.law.accumulator()));
+        let (_, own) = surfaces.chain(wedges).find(|(own, _)| *own == connection)?;
+        match own {
+            Accumulator::Bristle { stiffness, damping } => Some([stiffness, damping]),
+            Accumulator::Viscous { .. } => None,
+        }
+    }
+
     /// Returns the sites and first internal states of all connections with friction.
     pub fn frictional(&self) -> impl Iterator<Item = (&Site<3, 3>, Option<usize>)> {
         let surfaces = self.surfaces.iter().map(|e| (&e.site, e.internal));

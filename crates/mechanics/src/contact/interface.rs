@@ -23,7 +23,7 @@
 use numerics::scalar::Number;
 use serde::{Deserialize, Serialize};
 
-use super::PointProperties;
+use super::{ContactFace, PointProperties};
 use crate::friction::dot;
 use crate::surface::SurfaceShape;
 
@@ -137,5 +137,22 @@ impl Interface {
             limit = limit / (normal.by(own) + 1.0);
         }
         limit
+    }
+}
+
+impl ContactFace<Interface> {
+    /// Returns the friction limit (N) at rest of a point with a normal force (N).
+    pub(crate) fn limit_at_rest(&self, point: usize, normal: f64) -> f64 {
+        let own = &self.points[point];
+        let factors = &self.surface.friction_factors;
+        let properties = PointProperties {
+            stiffness: own.stiffness,
+            damping: own.damping,
+            damped: own.damping > 0.0,
+            share: own.share,
+            factor: factors.get(point).copied().unwrap_or(1.0),
+        };
+        self.surface
+            .limit(normal * self.coefficient, &properties, normal, [0.0; 2])
     }
 }

@@ -22,6 +22,7 @@ mod inputs;
 mod jacobian;
 mod jacobian_vector_product;
 mod kinematics;
+mod linear_model;
 mod loads;
 mod model;
 mod mounted;

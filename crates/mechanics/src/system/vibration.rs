@@ -85,20 +85,11 @@ impl System {
         self.derivative(time, x, &mut dx);
         self.linearize(time, x, &dx, &mut df_dt);
         self.connections.friction_rules = friction_rules;
-        let mut stiffness = vec![0.0; n * n];
+        let mut matrices = [(); 3].map(|()| DMatrix::zeros(n, n));
+        let [mass, by_position, by_speed] = &mut matrices;
+        self.fill_matrices(mass, by_position, by_speed);
+        let mut stiffness: Vec<f64> = by_position.transpose().iter().map(|value| -value).collect();
         let mut add = |row: usize, column: usize, value: f64| stiffness[row * n + column] += value;
-        for (i, row) in self.free.iter().enumerate() {
-            for (j, column) in self.free.iter().enumerate() {
-                let Some(pair) = self.jacobian.find_pair(i, j) else {
-                    continue;
-                };
-                let width = column.free.len();
-                let (k, _) = self.jacobian.blocks_mut(pair);
-                for (at, value) in k.iter().enumerate() {
-                    add(row.offset + at / width, column.offset + at % width, -value);
-                }
-            }
-        }
         // A bristle that sticks follows the bodies: e = G_u q, so that F e is a stiffness.
         for (group, ends) in self.internal_ends.iter().enumerate() {
             for (row_side, &i) in ends.iter().enumerate() {

@@ -60,6 +60,8 @@ pub struct CarCase {
     pub output_files: OutputFiles,
     /// The settings of the run.
     pub simulation: Simulation,
+    /// Warp stiffness of a truck in the linear benchmark of [`stability`], N·m/rad, if it is asked for.
+    pub benchmark_warp: Option<f64>,
     /// Warnings of reading.
     pub doubts: Vec<String>,
     /// Profiles and measured tables that were read.
@@ -198,6 +200,7 @@ fn read(
         rules,
         output_files,
         simulation,
+        benchmark_warp,
         doubts,
     } = drawn?;
     Some(CarCase {
@@ -207,6 +210,7 @@ fn read(
         rules,
         output_files,
         simulation,
+        benchmark_warp,
         doubts,
         files,
         text,

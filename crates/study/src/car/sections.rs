@@ -24,6 +24,7 @@ pub(super) struct CarSections {
     pub rules: Rules,
     pub output_files: OutputFiles,
     pub simulation: Simulation,
+    pub benchmark_warp: Option<f64>,
     pub doubts: Vec<String>,
 }
 
@@ -79,6 +80,7 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     let mut output_files = OutputFiles::of_car();
     output_files.read(r);
     let simulation = simulation(r);
+    let benchmark_warp = stability(r);
     // Without a track there is no place to look at.
     let Notes { mut doubts, files } = line?.notes;
     r.files.extend(files);
@@ -88,8 +90,23 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
         rules,
         output_files,
         simulation,
+        benchmark_warp,
         doubts,
     })
+}
+
+/// Reads `[stability]`: the warp stiffness of a truck in the linear benchmark, N·m/rad.
+fn stability(r: &mut CaseReader<'_>) -> Option<f64> {
+    r.section(
+        "stability",
+        "What `wedgelab stability` looks at besides; runs take nothing of it.",
+    );
+    let mut moment = None;
+    let form: QuantityForm = (Kind::Moment, Range::Positive, Reach::Positive);
+    let comment = "of a nest at 30 mrad of warp in the linear benchmark (adapters and plates tied, plates free in \
+                   yaw, no friction): NUCARS has 255 kip in for a new truck; left out: no benchmark";
+    r.optional("warp_moment", form, &mut moment, "\"255000 lbf in\"", comment);
+    moment.map(|own: f64| 2.0 * own / 0.030)
 }
 
 /// Returns the springs under the rails.

@@ -1,34 +1,137 @@
-//! Linear stability of a car about steady running: the motions that grow, over speed, and the critical speed,
-//! with friction that sticks and without friction.
+//! Stability of a car by linearization about steady running: the motions that grow, over speed, with friction
+//! stuck and absent, and the critical speed over the amplitude between these ends by equivalent linearization.
 //!
 //! The car runs on straight track without irregularities, whatever its case's track is; the springs under its
-//! rails are the case's. What is linearized, and how, says [`car::Parameters::modes`].
+//! rails are the case's. What is linearized, and how, say [`car::SteadyCar`] and [`car::OverAmplitude`]. With
+//! `[stability] warp_stiffness` the car is taken as the linear benchmark of textbooks too
+//! ([`car::Parameters::tied`]).
 
 use std::ops::ControlFlow;
 
-pub use car::{CriticalSpeed, FrictionState, LinearizeError, Mode};
-use car::{Parameters, Start};
+use car::{
+    CriticalSpeed, FrictionState, NeutralMotion, NoWarp, OverAmplitude, Parameters, Start, SteadyCar,
+    growing, name_of, vibrations,
+};
+use quantity::{Kind, System as Units};
+use thiserror::Error;
 
 use super::CarCase;
 use super::track::tangent;
 
-/// Vibrations slower than this are drifts, Hz.
-const SLOWEST: f64 = 0.05;
-/// Vibrations faster than this are those of contacts, Hz.
-const FASTEST: f64 = 30.0;
-/// Growth below this is none, 1/s: that of undamped vibrations in rounding.
-const NONE: f64 = 1e-5;
+pub use car::LinearizeError;
 
-/// The motions about steady running with one state of friction.
+/// Amplitudes of the curve, each this part of the one before it, down from the flanges.
+const AMPLITUDES: usize = 12;
+const FALL: f64 = 0.8;
+
+/// Reasons why there is none.
+#[derive(Debug, Error)]
+pub enum StabilityError {
+    /// It cannot be linearized.
+    #[error(transparent)]
+    Linearize(#[from] LinearizeError),
+    /// The benchmark's warp stiffness cannot be had.
+    #[error(transparent)]
+    Warp(#[from] NoWarp),
+}
+
+/// What friction does in a branch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BranchKind {
+    /// It sticks: bristles are springs.
+    Stuck,
+    /// There is none.
+    Absent,
+    /// As in the linear benchmark: adapters and plates tied, plates free in yaw, wedges a warp spring.
+    Tied,
+}
+
+impl BranchKind {
+    /// Returns its name in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stuck => "stuck",
+            Self::Absent => "absent",
+            Self::Tied => "tied",
+        }
+    }
+
+    /// Returns it in a sentence.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Stuck => "friction stuck",
+            Self::Absent => "friction absent",
+            Self::Tied => "linear benchmark",
+        }
+    }
+}
+
+/// A vibration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedMode {
+    /// Growth, 1/s: negative where it dies away.
+    pub growth: f64,
+    /// Frequency, Hz.
+    pub frequency: f64,
+    /// The bodies that move, and how.
+    pub name: String,
+}
+
+/// The motions about steady running in a branch.
 #[derive(Clone, Debug)]
 pub struct Branch {
-    /// The state of friction.
-    pub friction: FrictionState,
+    /// What friction does.
+    pub kind: BranchKind,
     /// Vibrations at each speed, by falling growth.
-    pub modes: Vec<Vec<Mode>>,
+    pub modes: Vec<Vec<NamedMode>>,
     /// The lowest of the speeds from which on a vibration grows, refined; none if none grows.
-    pub critical: Option<CriticalSpeed>,
+    pub critical: Option<Critical>,
 }
+
+/// A motion that neither grows nor dies at a speed, beyond which it grows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Critical {
+    /// The speed, m/s.
+    pub speed: f64,
+    /// Frequency, Hz.
+    pub frequency: f64,
+    /// The bodies that move, and how.
+    pub name: String,
+    /// True if it grows at the lowest speed that was asked for already: the critical speed is not above.
+    pub at_lowest: bool,
+}
+
+/// The critical speed of an amplitude.
+#[derive(Clone, Debug)]
+pub struct AtAmplitude {
+    /// Lateral amplitude of the wheelset that moves most, m.
+    pub amplitude: f64,
+    /// The critical speed; none if motions of this amplitude die at all speeds that were looked at.
+    pub critical: Option<Critical>,
+    /// The motion, for pictures of it.
+    pub motion: Option<NeutralMotion>,
+}
+
+/// The findings.
+#[derive(Clone, Debug)]
+pub struct Stability {
+    /// The speeds, m/s.
+    pub speeds: Vec<f64>,
+    /// Friction that sticks, then none, then the linear benchmark if it is asked for; fewer where the user
+    /// stopped it.
+    pub branches: Vec<Branch>,
+    /// The critical speed over the amplitude, which falls from that at which the flanges bear.
+    pub curve: Vec<AtAmplitude>,
+    /// The car in steady running, for pictures of its motions.
+    pub steady: SteadyCar,
+    /// True if all was computed.
+    pub complete: bool,
+}
+
+/// The speed up to which the curve is looked for, over the fastest that is asked for.
+pub const BEYOND: f64 = 1.5;
 
 /// Returns what of a case's track does not count for its stability; none of straight track without
 /// irregularities.
@@ -47,108 +150,224 @@ pub fn left_out(case: &CarCase) -> Option<&'static str> {
     }
 }
 
-/// The findings.
-#[derive(Clone, Debug)]
-pub struct Stability {
-    /// The speeds, m/s.
-    pub speeds: Vec<f64>,
-    /// Friction that sticks, then none; fewer where the user stopped it.
-    pub branches: Vec<Branch>,
-    /// True if all was computed.
-    pub complete: bool,
-}
-
-/// The two states of friction, with their names.
-pub const FRICTION: [(FrictionState, &str); 2] =
-    [(FrictionState::Stuck, "stuck"), (FrictionState::Absent, "absent")];
-
-/// Returns the vibrations at these speeds (m/s, rising), and the critical speeds. `go_on` receives the share
-/// that is done.
+/// Returns the vibrations at these speeds (m/s, rising), the critical speeds of all branches, and the curve over
+/// the amplitude. `go_on` receives the share that is done.
 ///
 /// # Errors
-/// The car cannot be linearized at a speed.
+/// [`StabilityError`].
 pub fn stability(
     case: &CarCase,
     speeds: &[f64],
     mut go_on: impl FnMut(f64) -> ControlFlow<()>,
-) -> Result<Stability, LinearizeError> {
+) -> Result<Stability, StabilityError> {
+    let straight = straight(&case.parameters);
+    let tied = match case.benchmark_warp {
+        Some(warp) => Some(SteadyCar::new(&straight.tied(warp)?)?),
+        None => None,
+    };
+    let mut car = OverAmplitude::new(&straight)?;
     let mut found = Stability {
         speeds: speeds.to_vec(),
         branches: Vec::new(),
+        curve: Vec::new(),
+        steady: car.steady().clone(),
         complete: false,
     };
-    // A refinement takes some more.
-    let all = (2 * (speeds.len() + 4)) as f64;
+    let kinds = [
+        (BranchKind::Stuck, FrictionState::Stuck, found.steady.clone()),
+        (BranchKind::Absent, FrictionState::Absent, found.steady.clone()),
+    ];
+    let kinds = kinds
+        .into_iter()
+        .chain(tied.map(|own| (BranchKind::Tied, FrictionState::Stuck, own)));
     let mut done = 0.0;
-    let fastest = speeds.iter().fold(0.0_f64, |most, own| most.max(*own));
-    let Some(straight) = straight(&case.parameters, fastest) else {
-        return Ok(found);
-    };
-    for (friction, _) in FRICTION {
-        let mut branch = Branch {
-            friction,
-            modes: Vec::new(),
-            critical: None,
-        };
-        for speed in speeds {
-            let modes = straight.modes(*speed, friction)?;
-            branch.modes.push(vibrations(modes));
-            done += 1.0;
-            if go_on(done / all).is_break() {
-                found.branches.push(branch);
-                return Ok(found);
-            }
-        }
-        branch.critical = critical(&straight, speeds, &branch)?;
-        done += 4.0;
+    for (kind, friction, mut own) in kinds {
+        let (branch, whole) = branch(&mut own, kind, friction, speeds, |share| {
+            go_on(done + 0.1 * share)
+        })?;
+        done += 0.1;
         found.branches.push(branch);
-        if go_on(done / all).is_break() {
+        if !whole {
             return Ok(found);
         }
     }
-    found.complete = true;
+    let amplitudes: Vec<f64> = (0..AMPLITUDES)
+        .map(|k| car.clearance() * libm::pow(FALL, k as f64))
+        .collect();
+    let fastest = speeds.iter().fold(0.0_f64, |most, own| most.max(*own));
+    let motions = car.neutral_motions(&amplitudes, fastest, |share| go_on(done + (1.0 - done) * share))?;
+    for (amplitude, motion) in amplitudes.iter().zip(motions) {
+        let critical = match &motion {
+            None => None,
+            Some(own) => {
+                let model = found.steady.model(own.speed)?;
+                Some(Critical {
+                    speed: own.speed,
+                    frequency: own.frequency,
+                    name: name_of(found.steady.car(), &model, &own.shape),
+                    at_lowest: false,
+                })
+            }
+        };
+        found.curve.push(AtAmplitude {
+            amplitude: *amplitude,
+            critical,
+            motion,
+        });
+    }
+    found.complete = found.curve.len() == AMPLITUDES;
     Ok(found)
 }
 
-/// Returns the same car on straight track, long enough for a second at a speed (m/s).
-fn straight(parameters: &Parameters, fastest: f64) -> Option<Parameters> {
+/// Returns a branch, and whether it is whole.
+fn branch(
+    car: &mut SteadyCar,
+    kind: BranchKind,
+    friction: FrictionState,
+    speeds: &[f64],
+    mut go_on: impl FnMut(f64) -> ControlFlow<()>,
+) -> Result<(Branch, bool), LinearizeError> {
+    let mut branch = Branch {
+        kind,
+        modes: Vec::new(),
+        critical: None,
+    };
+    let mut first = None;
+    for (number, speed) in speeds.iter().enumerate() {
+        let model = car.model(*speed)?;
+        let modes = vibrations(&model, friction.of(&model))?;
+        if let (None, Some(mode)) = (&first, growing(&modes)) {
+            first = Some((number, mode.clone()));
+        }
+        let named = modes.into_iter().map(|mode| NamedMode {
+            growth: mode.growth(),
+            frequency: mode.frequency(),
+            name: name_of(car.car(), &model, &mode.shape),
+        });
+        branch.modes.push(named.collect());
+        if go_on((number + 1) as f64 / speeds.len() as f64).is_break() {
+            return Ok((branch, false));
+        }
+    }
+    let Some((number, mode)) = first else {
+        return Ok((branch, true));
+    };
+    let before = number.checked_sub(1).map(|before| speeds[before]);
+    let found = match before {
+        None => Some(CriticalSpeed {
+            speed: speeds[number],
+            frequency: mode.frequency(),
+            shape: mode.shape,
+        }),
+        Some(before) => car.critical_speed([before, speeds[number]], friction)?,
+    };
+    if let Some(own) = found {
+        let model = car.model(own.speed)?;
+        branch.critical = Some(Critical {
+            speed: own.speed,
+            frequency: own.frequency,
+            name: name_of(car.car(), &model, &own.shape),
+            at_lowest: before.is_none(),
+        });
+    }
+    Ok((branch, true))
+}
+
+/// Returns the same car on straight track, long enough to settle on.
+fn straight(parameters: &Parameters) -> Parameters {
+    /// Longer than a second at the speed of settling, m.
+    const WAY: f64 = 100.0;
     let mut own = parameters.clone();
     let reach = own.reach();
-    own.track = tangent(2.0 * reach + 3.0 * fastest + 10.0)?;
+    if let Some(track) = tangent(2.0 * reach + WAY) {
+        own.track = track;
+    }
     own.start = Start {
         heading: 0.0,
         kind: own.start.kind,
-        ..Start::at(reach + 1.0, fastest)
+        ..Start::at(reach + 1.0, 1.0)
     };
-    Some(own)
-}
-
-fn vibrations(modes: Vec<Mode>) -> Vec<Mode> {
-    let mut own: Vec<Mode> = modes
-        .into_iter()
-        .filter(|mode| (SLOWEST..=FASTEST).contains(&mode.frequency))
-        .collect();
-    own.sort_by(|a, b| b.growth.total_cmp(&a.growth));
     own
 }
 
-/// Returns the first speed from which on a vibration grows.
-fn critical(
-    car: &Parameters,
-    speeds: &[f64],
-    branch: &Branch,
-) -> Result<Option<CriticalSpeed>, LinearizeError> {
-    let grows = |modes: &Vec<Mode>| modes.first().is_some_and(|mode| mode.growth > NONE);
-    let Some(first) = branch.modes.iter().position(grows) else {
-        return Ok(None);
-    };
-    let Some(before) = first.checked_sub(1) else {
-        let mode = branch.modes[first].first();
-        return Ok(mode.map(|mode| CriticalSpeed {
-            speed: speeds[first],
-            frequency: mode.frequency,
-        }));
-    };
-    let [low, high] = [speeds[before], speeds[first]];
-    car.critical_speed([low, high], high - low, branch.friction)
+impl Stability {
+    /// Returns the slowest critical speed of the curve, with its amplitude (m).
+    #[must_use]
+    pub fn slowest(&self) -> Option<(f64, &Critical)> {
+        let own = self
+            .curve
+            .iter()
+            .filter_map(|own| Some((own.amplitude, own.critical.as_ref()?)));
+        own.min_by(|a, b| a.1.speed.total_cmp(&b.1.speed))
+    }
+
+    /// Returns the smallest amplitude (m) that grows at no more than the fastest speed that was asked for, with
+    /// its critical speed.
+    #[must_use]
+    pub fn smallest(&self) -> Option<(f64, &Critical)> {
+        let fastest = self.speeds.iter().fold(0.0_f64, |most, own| most.max(*own));
+        let own = self
+            .curve
+            .iter()
+            .filter_map(|own| Some((own.amplitude, own.critical.as_ref()?)));
+        own.filter(|(_, critical)| critical.speed <= fastest)
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// Returns what has been found in a sentence.
+    #[must_use]
+    pub fn verdict(&self, units: Units) -> String {
+        let speed = |si: f64| {
+            let unit = Kind::TravelSpeed.label(units);
+            format!("{:.0} {unit}", si * Kind::TravelSpeed.from_si(units))
+        };
+        let length = |si: f64| {
+            let own = si * Kind::Length.from_si(units);
+            let places = if own < 1.0 { 2 } else { 1 };
+            format!("{own:.places$} {}", Kind::Length.label(units))
+        };
+        let fastest = self.speeds.iter().fold(0.0_f64, |most, own| most.max(*own));
+        let flanges = self.curve.first().map_or(0.0, |own| own.amplitude);
+        let stuck = self.branches.iter().find(|own| own.kind == BranchKind::Stuck);
+        if let Some(own) = stuck.and_then(|own| own.critical.as_ref()) {
+            let from = if own.at_lowest { "already at" } else { "from" };
+            return format!(
+                "Even the smallest motions grow, {from} {} on: {} at {:.2} Hz.",
+                speed(own.speed),
+                own.name,
+                own.frequency
+            );
+        }
+        match (self.smallest(), self.slowest()) {
+            (Some((smallest, above)), Some((amplitude, slowest))) => {
+                let also = match smallest == amplitude {
+                    true => String::new(),
+                    false => format!(", from {} on above {}", length(amplitude), speed(slowest.speed)),
+                };
+                format!(
+                    "From {} on it hunts above {}{also}; nothing grows below {} ({} at {:.2} Hz).",
+                    length(smallest),
+                    speed(above.speed),
+                    speed(slowest.speed),
+                    slowest.name,
+                    slowest.frequency
+                )
+            }
+            (None, Some((amplitude, slowest))) => format!(
+                "Nothing of up to {}, where the flanges bear, grows up to {}; above {} a motion of {} does: {} \
+                 at {:.2} Hz.",
+                length(flanges),
+                speed(fastest),
+                speed(slowest.speed),
+                length(amplitude),
+                slowest.name,
+                slowest.frequency
+            ),
+            _ => format!(
+                "Nothing of up to {}, where the flanges bear, grows up to {}.",
+                length(flanges),
+                speed(BEYOND * fastest)
+            ),
+        }
+    }
 }

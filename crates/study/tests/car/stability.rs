@@ -32,7 +32,7 @@ fn limits_modes_of_the_empty_car() {
 fn limits_modes_of_the_empty_car_on_profiles() {
     let case = builtin::case_with("car_hunting_empty", &[]).unwrap();
     let found = stability(&case, &[30.0 * 0.447_04], |_| ControlFlow::Continue(())).unwrap();
-    let worst = found.branches[0].modes[0][0];
+    let worst = &found.branches[0].modes[0][0];
     assert!(worst.growth < 0.0 && worst.growth > -2.0, "{worst:?}");
 }
 

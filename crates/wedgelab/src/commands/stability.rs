@@ -12,7 +12,7 @@ use report::{hunting_files, stability_files};
 use study::any_case::AnyCase;
 use study::car::CarCase;
 use study::car::hunting::{Boundary, Hunting, HuntingError, HuntingSettings, hunting};
-use study::car::stability::{FRICTION, Stability, left_out, stability};
+use study::car::stability::{BEYOND, Branch, BranchKind, Stability, left_out, stability};
 use study::outcome::Outcome;
 
 use super::run::read_any;
@@ -25,10 +25,12 @@ use crate::table::TerminalTable;
 
 /// Stability of a car over speed: growth and frequency of its vibrations, critical speeds, hunting
 ///
-/// Linearizes the car about steady running on straight track without irregularities, at each speed, twice:
-/// with all friction of wedges, center plates, adapters and side bearings stuck (bristles are springs), and
-/// without it. Writes stability.csv (all vibrations of 0.05 to 30 Hz), stability.json (critical speeds),
-/// stability.svg and stability.png.
+/// Linearizes the car about steady running on straight track without irregularities, at each speed: with all
+/// friction of wedges, center plates, adapters and side bearings stuck (bristles are springs), without it, and,
+/// if [stability] warp_moment is set, as the linear benchmark of textbooks. Between stuck and absent lies the
+/// critical speed over the amplitude: friction, conicity and creep by equivalent linearization. Writes
+/// stability.csv (all vibrations of 0.05 to 30 Hz), critical_speed.csv, stability.json, stability.svg and
+/// stability.png.
 ///
 /// With --nonlinear it also runs the car at falling and at rising speed, and finds the speeds at which
 /// hunting ends after a lateral start at the highest speed, and at which hunting begins over small dips of
@@ -194,6 +196,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         files.add(stability_files::TABLE, |out| {
             stability_files::write_table(&found, units, out)
         })?;
+        files.add(stability_files::CURVE, |out| {
+            stability_files::write_curve(&found, units, out)
+        })?;
         files.add(stability_files::NUMBERS, |out| {
             stability_files::write_numbers(&case, &found, units, out)
         })?;
@@ -212,21 +217,18 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut out = io::stdout().lock();
     table(&found, units).write(&mut out)?;
     writeln!(out)?;
+    if !found.curve.is_empty() {
+        over_amplitude(&found, units).write(&mut out)?;
+        writeln!(out)?;
+    }
     if let Some(what) = left_out(&case) {
         writeln!(out, "On straight track without irregularities: {what}.")?;
     }
-    for ((_, name), branch) in FRICTION.iter().zip(&found.branches) {
-        let factor = Kind::TravelSpeed.from_si(units);
-        let unit = Kind::TravelSpeed.label(units);
-        match branch.critical {
-            Some(own) => writeln!(
-                out,
-                "Friction {name}: a vibration of {:.2} Hz grows from {:.1} {unit} on.",
-                own.frequency,
-                own.speed * factor
-            )?,
-            None => writeln!(out, "Friction {name}: no vibration grows at these speeds.")?,
-        }
+    for branch in &found.branches {
+        writeln!(out, "{}", line_of(branch, units))?;
+    }
+    if found.complete {
+        writeln!(out, "{}", found.verdict(units))?;
     }
     for line in runs.iter().flat_map(|runs| lines_of(runs, units)) {
         writeln!(out, "{line}")?;
@@ -238,9 +240,13 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     writeln!(
         out,
         "\nGrowth and frequency of the vibration that grows most, of 0.05 to 30 Hz; positive growth is \
-         hunting. Limits: small motions;\na car may hunt below these speeds once it has been disturbed{}\n\
-         \nWritten into {}: {}.",
-        if runs.is_some() { "." } else { ": see --nonlinear." },
+         hunting. Over the amplitude: the speed beyond\nwhich a motion of this lateral amplitude of a wheelset \
+         grows, by equivalent linearization{}\n\nWritten into {}: {}.",
+        if runs.is_some() {
+            "."
+        } else {
+            "; --nonlinear runs the car."
+        },
         folder.path().display(),
         written.join(", ")
     )?;
@@ -305,27 +311,71 @@ fn lines_of(runs: &Hunting, units: Units) -> Vec<String> {
     lines
 }
 
+/// Returns what a branch says in a line.
+fn line_of(branch: &Branch, units: Units) -> String {
+    let words = branch.kind.words();
+    let words = words[..1].to_uppercase() + &words[1..];
+    let Some(own) = &branch.critical else {
+        return format!("{words}: no vibration grows at these speeds.");
+    };
+    let speed = own.speed * Kind::TravelSpeed.from_si(units);
+    let unit = Kind::TravelSpeed.label(units);
+    let (frequency, name) = (own.frequency, &own.name);
+    match (own.at_lowest, branch.kind) {
+        (true, BranchKind::Absent) => format!(
+            "{words}: {name} at {frequency:.2} Hz grows at {speed:.1} {unit} already: wheelsets that nothing holds."
+        ),
+        (true, _) => format!("{words}: {name} at {frequency:.2} Hz grows at {speed:.1} {unit} already."),
+        (false, _) => format!("{words}: {name} at {frequency:.2} Hz grows from {speed:.1} {unit} on."),
+    }
+}
+
 /// Returns the vibration that grows most at each speed.
 fn table(found: &Stability, units: Units) -> TerminalTable {
     let unit = Kind::TravelSpeed.label(units);
-    let mut table = TerminalTable::new(
-        0,
-        &[
-            ("speed", unit),
-            ("friction stuck, growth", "1/s"),
-            ("frequency", "Hz"),
-            ("friction absent, growth", "1/s"),
-            ("frequency", "Hz"),
-        ],
-    );
+    let names: Vec<String> = found
+        .branches
+        .iter()
+        .map(|own| format!("{}, growth", own.kind.words()))
+        .collect();
+    let mut head = vec![("speed", unit)];
+    for name in &names {
+        head.extend([(name.as_str(), "1/s"), ("frequency", "Hz")]);
+    }
+    let mut table = TerminalTable::new(0, &head);
     for (row, speed) in found.speeds.iter().enumerate() {
         let mut cells = vec![format!("{:.1}", speed * Kind::TravelSpeed.from_si(units))];
-        for branch in 0..2 {
-            let modes = found.branches.get(branch).and_then(|own| own.modes.get(row));
-            let mode = modes.and_then(|modes| modes.first());
+        for branch in &found.branches {
+            let mode = branch.modes.get(row).and_then(|modes| modes.first());
             cells.push(mode.map_or("-".to_owned(), |own| format!("{:.3}", own.growth)));
             cells.push(mode.map_or("-".to_owned(), |own| format!("{:.3}", own.frequency)));
         }
+        table.row(cells);
+    }
+    table
+}
+
+/// Returns the critical speed of each amplitude, from small to large.
+fn over_amplitude(found: &Stability, units: Units) -> TerminalTable {
+    let (length, speed) = (Kind::Length, Kind::TravelSpeed);
+    let head = [
+        ("amplitude", length.label(units)),
+        ("critical speed", speed.label(units)),
+        ("frequency", "Hz"),
+        ("motion", ""),
+    ];
+    let mut table = TerminalTable::new(0, &head);
+    let beyond = found.speeds.last().copied().unwrap_or_default() * BEYOND * speed.from_si(units);
+    for own in found.curve.iter().rev() {
+        let mut cells = vec![format!("{:.3}", own.amplitude * length.from_si(units))];
+        cells.extend(match &own.critical {
+            Some(own) => [
+                format!("{:.1}", own.speed * speed.from_si(units)),
+                format!("{:.2}", own.frequency),
+                own.name.clone(),
+            ],
+            None => [format!("above {beyond:.0}"), "-".to_owned(), "-".to_owned()],
+        });
         table.row(cells);
     }
     table

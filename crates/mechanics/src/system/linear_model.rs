@@ -1,0 +1,154 @@
+//! The linear model of a system about a state: its matrices, and its sliders apart from them.
+
+use integrate::Problem;
+use nalgebra::DMatrix;
+
+use super::System;
+use crate::connection::{FrictionRule, FrictionRules, Law};
+use crate::friction::FrictionLaw;
+use crate::linear::{Entry, LinearModel, Slider, SliderPlace, SlidingPair};
+
+impl System {
+    /// Returns the linear model about a state at rest or in steady motion, in which nothing slips. Bristles are
+    /// taken relaxed, whatever their deflections in the state: so every closed point sticks; the turning of
+    /// their forces with the bodies is left out.
+    ///
+    /// Coordinates are the positions in the order of the state vector.
+    #[must_use]
+    pub fn linear_model(&mut self, time: f64, x: &[f64]) -> LinearModel {
+        let layout = self.layout;
+        let n = layout.speeds;
+        let mut state = x.to_vec();
+        state[2 * n..2 * n + layout.internals].fill(0.0);
+        let rules = FrictionRules {
+            surfaces: FrictionRule::Stuck,
+            wedges: FrictionRule::Stuck,
+        };
+        let before = std::mem::replace(&mut self.connections.friction_rules, rules);
+        let mut dx = vec![0.0; state.len()];
+        let mut df_dt = vec![0.0; state.len()];
+        self.derivative(time, &state, &mut dx);
+        self.linearize(time, &state, &dx, &mut df_dt);
+        let mut model = LinearModel::empty(n);
+        let own = &mut model.without_friction;
+        self.fill_matrices(&mut own.mass, &mut own.stiffness, &mut own.damping);
+        self.connections.friction_rules = before;
+        self.sliders(time, &state, &mut model);
+        // The bristles' own damping stands in D so far.
+        for pair in &model.sliders {
+            for (force, slip) in pair.force.iter().zip(&pair.slip) {
+                for (row, f) in force {
+                    for (column, g) in slip {
+                        model.without_friction.damping[(*row, *column)] -= f * g * pair.slider.damping;
+                    }
+                }
+            }
+        }
+        model
+    }
+
+    /// Adds mass matrix, `∂Q/∂q` and `∂Q/∂q˙` of the last linearization.
+    pub(super) fn fill_matrices(
+        &mut self,
+        mass: &mut DMatrix<f64>,
+        stiffness: &mut DMatrix<f64>,
+        damping: &mut DMatrix<f64>,
+    ) {
+        for (i, row) in self.free.iter().enumerate() {
+            let height = row.free.len();
+            let own = DMatrix::from_row_slice(height, height, self.jacobian.mass_mut(i));
+            mass.view_mut((row.offset, row.offset), (height, height))
+                .copy_from(&own);
+            for (j, column) in self.free.iter().enumerate() {
+                let Some(pair) = self.jacobian.find_pair(i, j) else {
+                    continue;
+                };
+                let width = column.free.len();
+                let (k, d) = self.jacobian.blocks_mut(pair);
+                for (at, (k, d)) in k.iter().zip(d).enumerate() {
+                    let place = (row.offset + at / width, column.offset + at % width);
+                    stiffness[place] += *k;
+                    damping[place] += *d;
+                }
+            }
+        }
+    }
+
+    /// Adds the sliders of closed contacts, from the last linearization; bristles are relaxed in the state.
+    fn sliders(&mut self, time: f64, state: &[f64], model: &mut LinearModel) {
+        let seen = self.observe(time, state);
+        let mut places = vec![None; self.internal_ends.len()];
+        for (number, (mounted, found)) in self.faces.iter().zip(&seen.faces).enumerate() {
+            let face = &mounted.element;
+            let FrictionLaw::Bristle { stiffness, damping } = face.law else {
+                if face.coefficient > 0.0 && found.points.iter().any(|point| point.normal > 0.0) {
+                    model.creeping.push(number);
+                }
+                continue;
+            };
+            for (point, (own, at)) in face.points.iter().zip(&found.points).enumerate() {
+                places[mounted.first_internal / 2 + point] = Some((
+                    SliderPlace::Point { face: number, point },
+                    Slider {
+                        stiffness: own.share * stiffness,
+                        damping: own.share * damping,
+                        limit: face.limit_at_rest(point, at.normal),
+                    },
+                ));
+            }
+        }
+        for (number, (connection, found)) in self.connections.all().iter().zip(&seen.connections).enumerate()
+        {
+            let (Some(first), Some([stiffness, damping])) = (
+                self.connections.deflection_of(number),
+                self.connections.bristle_of(number),
+            ) else {
+                continue;
+            };
+            let limit = match (&connection.law, &found.wedge) {
+                (_, Some(inside)) => inside.friction_limit,
+                (Law::Surface(own), _) => own.coefficient * found.forces[0].abs(),
+                _ => continue,
+            };
+            places[first / 2] = Some((
+                SliderPlace::Connection(number),
+                Slider {
+                    stiffness,
+                    damping,
+                    limit,
+                },
+            ));
+        }
+        for (group, ends) in self.internal_ends.iter().enumerate() {
+            let Some((place, slider)) = places[group] else {
+                continue;
+            };
+            let mut slip: [Vec<Entry>; 2] = [Vec::new(), Vec::new()];
+            let mut force: [Vec<Entry>; 2] = [Vec::new(), Vec::new()];
+            for (side, &end) in ends.iter().enumerate() {
+                let free = &self.free[end];
+                let width = free.free.len();
+                let [_, by_speed, force_t] = self.jacobian.side_mut(group, side);
+                for direction in 0..2 {
+                    let entries = |row: &[f64], by: f64| -> Vec<Entry> {
+                        let own = row[direction * width..][..width].iter().enumerate();
+                        own.filter(|(_, value)| **value != 0.0)
+                            .map(|(k, value)| (free.offset + k, by * value))
+                            .collect()
+                    };
+                    slip[direction].extend(entries(by_speed, 1.0));
+                    force[direction].extend(entries(force_t, 1.0 / slider.stiffness));
+                }
+            }
+            if slip.iter().all(Vec::is_empty) || slider.limit <= 0.0 {
+                continue;
+            }
+            model.sliders.push(SlidingPair {
+                place,
+                slider,
+                slip,
+                force,
+            });
+        }
+    }
+}
