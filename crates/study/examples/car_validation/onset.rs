@@ -136,5 +136,8 @@ pub fn of_treads() -> Result<String, Failure> {
             the ramps of the same cars are in the first\ntable of this page.\n\n| tread | track | by the \
             body's deviation | by the truck's rms | by the amplitude |\n|---|---|---|---|---|\n";
     out += &onsets;
+    out += "\nOn track of class 4 the body's deviation passes its limit at lower speeds than on perfect \
+            track, and axles run from flange to flange at all speeds\nof the table, also where a start dies \
+            away on perfect track: there the amplitude tells no hunting.\n";
     Ok(out)
 }
