@@ -15,8 +15,9 @@
 //! - [`run_files`]: the files of a run.
 //! - [`half_truck_files`]: the files of a half-truck's run.
 //! - [`warp_files`], [`curves_files`], [`wear_files`]: the files of `wedgelab warp`, `curves` and `wear`;
-//!   [`stability_files`], [`hunting_files`]: those of `wedgelab stability`; [`wheelrail_files`]: those of
-//!   `wedgelab wheelrail plot`; [`track_files`]: those of `wedgelab track show`.
+//!   [`stability_files`], [`hunting_files`], [`onset_files`]: those of `wedgelab stability`;
+//!   [`wheelrail_files`]: those of `wedgelab wheelrail plot`; [`track_files`]: those of
+//!   `wedgelab track show`.
 //! - [`table`]: tables of results, read back; [`run_folder`]: whole runs.
 //! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table,
 //!   [`study_digest`] what their page shows.
@@ -55,6 +56,7 @@ pub mod hunting_files;
 pub mod lock_up_files;
 pub mod mat;
 pub mod mat5;
+pub mod onset_files;
 mod overlay;
 pub mod page;
 pub mod parquet;

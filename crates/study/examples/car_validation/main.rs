@@ -3,6 +3,7 @@
 //! `cargo run --release -p study --example car_validation`: some minutes on two cores.
 
 mod explained;
+mod onset;
 mod shared;
 
 use std::fmt::Write;
@@ -37,9 +38,10 @@ linear vehicles: [validation of wheelsets](validation-rolling.md).
 type Section = fn() -> Result<String, Failure>;
 
 fn main() -> Result<(), Failure> {
-    let sections: [Section; 11] = [
+    let sections: [Section; 12] = [
         hunting_over_speed,
         hunting_held,
+        onset::of_treads,
         flange_contact,
         sides_in_curves,
         turning_moment,
@@ -55,7 +57,7 @@ fn main() -> Result<(), Failure> {
         .and_then(|word| word.parse::<usize>().ok());
     if let Some(number) = chosen {
         // One section, to look at.
-        let section = sections.get(number).ok_or("there are sections 0 to 10")?;
+        let section = sections.get(number).ok_or("there are sections 0 to 11")?;
         println!("{}", section()?);
         return Ok(());
     }

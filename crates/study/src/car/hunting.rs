@@ -29,7 +29,7 @@ use crate::run::{Run, RunError};
 use crate::summary::RunSummary;
 
 /// Time of a window in which an amplitude is taken, s: at least a period of hunting and of the body's sway.
-const WINDOW: f64 = 1.5;
+pub(super) const WINDOW: f64 = 1.5;
 /// Time at the first speed before the ramp, s: a limit cycle has settled, the start has died away.
 const HOLD: f64 = 10.0;
 /// Time between two rows, s.
