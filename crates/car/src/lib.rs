@@ -39,16 +39,19 @@
 mod assemble;
 mod body;
 mod defaults;
+mod derailment;
 mod drive;
 mod error;
 mod linearize;
 mod loads;
 mod motions;
 mod parameters;
+mod shaken;
 mod start;
 mod tipping;
 
 pub use assemble::{Car, Numbers};
+pub use derailment::Derailment;
 pub use error::{BuildError, InvalidParameter};
 pub use linearize::{CriticalSpeed, FrictionState, LinearizeError, Mode};
 pub use loads::{AxleLoads, EndMotion, Loads, WheelLoads};

@@ -18,7 +18,7 @@ use wedge::parameters::FaceFriction;
 
 use crate::assemble::Car;
 use crate::error::BuildError;
-use crate::parameters::{Drive, Parameters, Wheels};
+use crate::parameters::{Drive, Parameters, StartKind, Wheels};
 
 /// Friction in the linearization about steady running.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,6 +132,10 @@ impl Parameters {
             FrictionState::Stuck => self.clone(),
             FrictionState::Absent => self.without_friction(),
         };
+        if friction == FrictionState::Absent && running.start.kind == StartKind::Shaken {
+            // Without friction nothing is locked in.
+            running.start.kind = StartKind::Equilibrium;
+        }
         running.drive = Drive::Coasting;
         running.start.speed = speed;
         running.start.wheelset_shifts = [0.0; 4];
