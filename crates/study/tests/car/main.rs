@@ -8,4 +8,5 @@ mod input;
 mod problems;
 mod run;
 mod stability;
+mod start;
 mod statistics;
