@@ -21,7 +21,7 @@ use rolling::linear::LinearOnTrack;
 use rolling::track::{RailSupport, rail_body};
 use rolling::wheel::{Search, WheelOnRail};
 use rolling::wheelset::{WheelsetPlace, leave_spin_uncontrolled, marker};
-use truck::{Bolster, Mount, MountedTruck, WedgeKind};
+use truck::{Bolster, Mount, MountedTruck, WedgeKind, WedgeLoads};
 use wheelrail::contact::{ContactTable, Side};
 use wheelrail::track::RailLines;
 
@@ -29,7 +29,8 @@ use crate::body::{Carried, Pose, angles};
 use crate::drive::{Between, SpeedControl, over_distance};
 use crate::error::BuildError;
 use crate::parameters::{Drive, Parameters, StartKind, Wheels};
-use crate::start::{Placement, at_rest};
+use crate::shaken::shaken;
+use crate::start::{Placement, at_rest, internal_states};
 
 /// Height of the couplers above the top of rail, at which the drive acts: 34.5 in, m.
 const COUPLERS: f64 = 34.5 * 0.0254;
@@ -83,8 +84,11 @@ pub struct Car {
     pub system: System,
     /// The state at time zero.
     pub initial_state: Vec<f64>,
-    /// The warning of a start in equilibrium that is nearly at rest.
+    /// The warning of a start at rest that is nearly at rest.
     pub start_warning: Option<String>,
+    /// The wedges of both trucks before the shaking, in the equilibrium without friction; none of other
+    /// starts.
+    pub before_shaking: Option<[[WedgeLoads; 4]; 2]>,
     /// The lines of the rails.
     pub lines: Arc<RailLines>,
     /// The numbers of its bodies.
@@ -102,6 +106,8 @@ pub struct Car {
     /// Heights of the accelerometers above the truck centers, m.
     pub(crate) accelerometers: [f64; 2],
     pub(crate) gravity: f64,
+    /// The bodies of the front truck, the rear truck (0, 1) and the car body (2).
+    pub(crate) groups: Vec<(usize, usize)>,
 }
 
 /// The elements that carry the wheelsets.
@@ -116,7 +122,7 @@ pub(crate) enum WheelElements {
 pub(crate) struct Nominal {
     pub model: Model,
     pub numbers: Numbers,
-    trucks: [MountedTruck; 2],
+    pub trucks: [MountedTruck; 2],
     wheels: WheelElements,
     /// The bodies of the front truck, the rear truck (0, 1) and the car body (2).
     pub groups: Vec<(usize, usize)>,
@@ -139,9 +145,17 @@ impl Car {
         let lines = Arc::new(RailLines::new(parameters.track.clone(), offsets));
         let heading = parameters.start.heading;
         let mut nominal = Nominal::new(parameters, &carried, &searches, &lines, heading);
-        let (poses, start_warning) = match parameters.start.kind {
-            StartKind::Nominal => (nominal.poses(), None),
-            StartKind::Equilibrium => at_rest(parameters, &carried, &searches, offsets)?,
+        let (poses, internal, start_warning, before_shaking) = match parameters.start.kind {
+            StartKind::Nominal => (nominal.poses(), Vec::new(), None, None),
+            StartKind::Equilibrium => {
+                let found = at_rest(parameters, &carried, &searches, offsets)?;
+                (found.poses, Vec::new(), found.warning, None)
+            }
+            StartKind::Shaken => {
+                let found = shaken(parameters)?;
+                let rest = found.rest.clone();
+                (rest.poses, rest.internal, rest.warning, Some(found.before))
+            }
         };
         let axes: Matrix<f64> = rotation_z(libm::sincos(heading));
         let start = Placement::new(parameters, &lines, axes);
@@ -151,6 +165,10 @@ impl Car {
             leave_spin_uncontrolled(&mut system, wheelset);
         }
         let mut initial_state = system.initial_state();
+        let own = internal_states(&system);
+        if internal.len() == own.len() {
+            initial_state[own].copy_from_slice(&internal);
+        }
         let first = system.layout().speeds;
         for (body, rates) in speeds {
             for (k, rate) in rates.into_iter().enumerate() {
@@ -163,8 +181,10 @@ impl Car {
             system,
             initial_state,
             start_warning,
+            before_shaking,
             lines,
             numbers: nominal.numbers,
+            groups: nominal.groups,
             trucks: nominal.trucks,
             axes,
             wheels: nominal.wheels,
@@ -180,7 +200,7 @@ impl Car {
 }
 
 /// Returns the searches for patches at the left and the right wheel; none of linear wheels.
-fn searches(wheels: &Wheels) -> Result<Vec<Search>, BuildError> {
+pub(crate) fn searches(wheels: &Wheels) -> Result<Vec<Search>, BuildError> {
     let Wheels::OnRails(wheels) = wheels else {
         return Ok(Vec::new());
     };
@@ -324,6 +344,17 @@ impl Nominal {
             trucks,
             wheels,
             groups,
+        }
+    }
+
+    /// Lets carriers start where the wheelsets do.
+    pub fn carry(&mut self) {
+        for [carrier, of] in self.model.carriers.clone() {
+            let body = self.model.bodies[of].clone();
+            let carrier = &mut self.model.bodies[carrier];
+            carrier.frame = body.frame;
+            let [x, y, z, _, pitch, yaw] = body.initial;
+            carrier.initial = [x, y, z, 0.0, pitch, yaw];
         }
     }
 

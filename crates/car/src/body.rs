@@ -97,4 +97,12 @@ impl Pose {
             rotation: base.rotation.times(self.rotation),
         }
     }
+
+    /// Returns the pose that leads from `base` to this one.
+    pub fn before(&self, base: &Self) -> Self {
+        Self {
+            place: base.rotation.apply_transposed(self.place - base.place),
+            rotation: base.rotation.transpose().times(self.rotation),
+        }
+    }
 }

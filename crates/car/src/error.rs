@@ -3,6 +3,7 @@
 use mechanics::system::{ModelError, NoEquilibrium};
 use thiserror::Error;
 
+use crate::shaken::{CLASS, MILES_PER_HOUR, SECONDS};
 use crate::tipping::Tipping;
 
 /// A value that makes no car.
@@ -64,6 +65,27 @@ pub enum BuildError {
     /// The car tips.
     #[error("cannot start from equilibrium: {0}")]
     Tips(Tipping),
+    /// The car does not come through the shaking before its start.
+    #[error(
+        "cannot start shaken: in the run of {SECONDS} s at {MILES_PER_HOUR} mph on tangent track of FRA \
+         class {CLASS}, at {time:.3} s, {reason}; start in equilibrium or in the nominal layout, which need \
+         no such run, or look for what is out of proportion"
+    )]
+    Shaking {
+        /// Time of its end, s.
+        time: f64,
+        /// What ends it.
+        reason: String,
+    },
+    /// The track on which the car is shaken cannot be made.
+    #[error("cannot start shaken: {0}")]
+    ShakingTrack(String),
+    /// The shaken car does not come to rest.
+    #[error(
+        "cannot start shaken: after its run the car does not come to rest: {0}; start in equilibrium or in \
+         the nominal layout"
+    )]
+    ShakenRest(NoEquilibrium),
     /// There is no equilibrium to start from.
     #[error(
         "cannot start from equilibrium: {0}; look at lading off the center, coils that do not carry it, a \

@@ -43,6 +43,7 @@ mod assemble;
 mod benchmark;
 mod body;
 mod defaults;
+mod derailment;
 mod drive;
 mod error;
 mod linearize;
@@ -50,6 +51,7 @@ mod loads;
 mod motions;
 mod parameters;
 mod shapes;
+mod shaken;
 mod start;
 mod tipping;
 mod wheels_over_amplitude;
@@ -57,6 +59,7 @@ mod wheels_over_amplitude;
 pub use amplitude::{NeutralMotion, OverAmplitude};
 pub use assemble::{Car, Numbers};
 pub use benchmark::NoWarp;
+pub use derailment::Derailment;
 pub use error::{BuildError, InvalidParameter};
 pub use linearize::{
     CriticalSpeed, FrictionState, LinearizeError, Mode, SteadyCar, VIBRATIONS, growing, vibrations,

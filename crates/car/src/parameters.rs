@@ -103,8 +103,7 @@ pub struct Start {
     pub wheelset_shifts: [f64; 4],
     /// Shift of the body to the left from the middle of the track, m: a disturbance.
     pub body_shift: f64,
-    /// The start of coils, plates and wheels: in the equilibrium of the car at rest without friction, or in
-    /// the nominal layout.
+    /// The start of coils, plates, wedges and wheels.
     pub kind: StartKind,
     /// Time that the car settles after the start, s: statistics leave this out.
     pub settle: f64,
@@ -118,6 +117,10 @@ pub enum StartKind {
     Equilibrium,
     /// In the nominal layout, each body at its place along the track.
     Nominal,
+    /// At rest on straight track as the car is that has run 3 s at 60 mph on tangent track of FRA class 3
+    /// from its equilibrium, with what friction holds then, moved along the track. Time, speed and class are
+    /// choices.
+    Shaken,
 }
 
 /// Checks pairs of a distance or time and a speed (m/s).
@@ -342,6 +345,14 @@ impl Parameters {
                     }
                 }
             }
+        }
+        if matches!(self.wheels, Wheels::Linear { .. }) && self.start.kind == StartKind::Shaken {
+            return Err(InvalidParameter::missing(
+                "a car on linear wheels cannot be shaken: these have no flanges and are for small motions",
+            )
+            .with(Some(
+                "start in the equilibrium or in the nominal layout, or take wheels with profiles".to_owned(),
+            )));
         }
         if matches!(self.wheels, Wheels::Linear { .. }) && self.support.is_some() {
             return Err(InvalidParameter::missing(

@@ -1,13 +1,16 @@
-//! The start of a car: the equilibrium at rest on straight track, moved along the track.
+//! The start of a car: at rest on straight track, moved along the track.
 
+use std::ops::Range;
 use std::sync::Arc;
 
+use mechanics::body::Body;
 use mechanics::connection::Law;
 use mechanics::friction::FrictionLaw;
 use mechanics::orientation::fixed;
-use mechanics::system::{AtRest, Observation, StaticFriction, System};
+use mechanics::system::{AtRest, NoEquilibrium, Observation, StaticFriction, System};
 use mechanics::vector::{Matrix, Vector};
 use rolling::wheel::Search;
+use truck::{TruckFrame, WedgeLoads};
 use wheelrail::track::{CenterLine, Line, RailLines, Segment, Track};
 
 use crate::assemble::Nominal;
@@ -16,42 +19,131 @@ use crate::error::BuildError;
 use crate::parameters::{Drive, Parameters};
 use crate::tipping::has_tipped;
 
-/// Returns the poses of all bodies in the equilibrium at rest on straight track, without friction, from the
-/// middle between the trucks; and the warning of a state that is nearly at rest.
+/// The coordinates of a wheelset along its axle and about the vertical.
+const ASIDE: [usize; 2] = [0, 4];
+
+/// A car at rest on straight perfect track, from the middle between the trucks.
+#[derive(Clone, Debug)]
+pub(crate) struct Resting {
+    /// The poses of all bodies.
+    pub poses: Vec<Pose>,
+    /// The internal states: deflections of bristles and accumulators, m.
+    pub internal: Vec<f64>,
+    /// The wedges of both trucks.
+    pub wedges: [[WedgeLoads; 4]; 2],
+    /// The warning of a state that is nearly at rest.
+    pub warning: Option<String>,
+    /// True if the body has turned over.
+    has_tipped: bool,
+}
+
+/// A car that stands on straight perfect track and coasts.
+struct Standing {
+    nominal: Nominal,
+    /// Distance of the middle between the trucks along the track, m.
+    middle: f64,
+}
+
+impl Standing {
+    fn new(
+        parameters: &Parameters,
+        carried: &Carried,
+        searches: &[Search],
+        offsets: [f64; 2],
+    ) -> Result<Self, BuildError> {
+        let middle = parameters.reach() + 10.0;
+        let straight = CenterLine::new(
+            &[Segment::Tangent(2.0 * middle)],
+            parameters.track.center_line.rail_distance(),
+            &[],
+        );
+        let track = Track {
+            center_line: straight?,
+            irregularities: Vec::new(),
+        };
+        let lines = Arc::new(RailLines::new(track, offsets));
+        let still = Parameters {
+            drive: Drive::Coasting,
+            ..parameters.clone()
+        };
+        let mut nominal = Nominal::new(&still, carried, searches, &lines, 0.0);
+        for body in &mut nominal.model.bodies {
+            if !body.is_prescribed() && body.free[3] {
+                body.frame.origin[0] += middle;
+            }
+        }
+        nominal.carry();
+        Ok(Self { nominal, middle })
+    }
+
+    /// Lets it come to rest from its bodies' initial coordinates, with these internal states, if there are
+    /// any. `fails` makes the error of a car that does not.
+    fn rest(
+        self,
+        internal: &[f64],
+        fails: impl FnOnce(&mut System, usize, NoEquilibrium) -> BuildError,
+    ) -> Result<Resting, BuildError> {
+        let body = self.nominal.numbers.body;
+        let wheelsets = self.nominal.numbers.wheelsets;
+        let bolsters = self.nominal.numbers.bolsters;
+        let trucks = self.nominal.trucks;
+        let mut system = System::new(self.nominal.model)?;
+        let own = internal_states(&system);
+        let mut state = system.initial_state();
+        if internal.len() == own.len() {
+            state[own.clone()].copy_from_slice(internal);
+        }
+        let found = system.start_at_rest(0.0, &state, StaticFriction::Following);
+        let AtRest { state, warning } = found.map_err(|error| fails(&mut system, body, error))?;
+        let seen: Observation = system.observe(0.0, &state);
+        // Nothing holds the car along the track.
+        let rolled = wheelsets.map(|number| seen.bodies[number].travel.0[0]);
+        let middle = self.middle + 0.25 * rolled.iter().sum::<f64>();
+        let wedges = [0, 1].map(|t| {
+            let [x, ..] = seen.bodies[bolsters[t]].center_of_gravity.0;
+            let frame = TruckFrame {
+                origin: Vector([x, 0.0, 0.0]),
+                axes: Matrix::identity(),
+            };
+            trucks[t].loads(&seen, &frame).wedges
+        });
+        let poses = seen.bodies.iter().zip(system.bodies()).map(|(state, body)| {
+            let moved = if body.free[3] { middle } else { 0.0 };
+            Pose {
+                place: state.origin - Vector([moved, 0.0, 0.0]),
+                rotation: state.rotation,
+            }
+        });
+        let poses = poses.collect();
+        Ok(Resting {
+            has_tipped: has_tipped(&mut system, body, &state),
+            poses,
+            internal: state[own].to_vec(),
+            wedges,
+            warning,
+        })
+    }
+}
+
+/// Returns the places of the internal states in the state of a system.
+pub(crate) fn internal_states(system: &System) -> Range<usize> {
+    let layout = system.layout();
+    2 * layout.speeds..2 * layout.speeds + layout.internals
+}
+
+/// Returns the equilibrium at rest on straight track, without friction of the wedges.
 pub(crate) fn at_rest(
     parameters: &Parameters,
     carried: &Carried,
     searches: &[Search],
     offsets: [f64; 2],
-) -> Result<(Vec<Pose>, Option<String>), BuildError> {
+) -> Result<Resting, BuildError> {
     // Tipped over, bodies may come to rest too.
     if let Some(tipping) = parameters.tips_over() {
         return Err(BuildError::Tips(tipping));
     }
-    let middle = parameters.reach() + 10.0;
-    let straight = CenterLine::new(
-        &[Segment::Tangent(2.0 * middle)],
-        parameters.track.center_line.rail_distance(),
-        &[],
-    );
-    let track = Track {
-        center_line: straight?,
-        irregularities: Vec::new(),
-    };
-    let lines = Arc::new(RailLines::new(track, offsets));
-    let still = Parameters {
-        drive: Drive::Coasting,
-        ..parameters.clone()
-    };
-    let mut nominal = Nominal::new(&still, carried, searches, &lines, 0.0);
-    for body in &mut nominal.model.bodies {
-        if !body.is_prescribed() && body.free[3] {
-            body.frame.origin[0] += middle;
-        }
-    }
-    for [carrier, of] in &nominal.model.carriers {
-        nominal.model.bodies[*carrier].frame = nominal.model.bodies[*of].frame.clone();
-    }
+    let mut standing = Standing::new(parameters, carried, searches, offsets)?;
+    let nominal = &mut standing.nominal;
     // Wedges are without friction; plates and adapters hold, since nothing else does.
     for (carried, .., face) in &mut nominal.model.faces {
         if nominal.numbers.wedges.iter().flatten().any(|own| own == carried) {
@@ -64,28 +156,57 @@ pub(crate) fn at_rest(
             (wedge.column_friction, wedge.slope_friction) = (0.0, 0.0);
         }
     }
-    let mut system = System::new(nominal.model)?;
-    let found = system.start_at_rest(0.0, &system.initial_state(), StaticFriction::Following);
-    let AtRest { state, warning } =
-        found.map_err(|error| parameters.no_equilibrium(&mut system, nominal.numbers.body, error))?;
-    if has_tipped(&mut system, nominal.numbers.body, &state) {
-        return Err(BuildError::Tips(parameters.leans_over()));
+    let found = standing.rest(&[], |system, body, error| {
+        parameters.no_equilibrium(system, body, error)
+    })?;
+    match found.has_tipped {
+        true => Err(BuildError::Tips(parameters.leans_over())),
+        false => Ok(found),
     }
-    let seen: Observation = system.observe(0.0, &state);
-    // Nothing holds the car along the track.
-    let rolled = nominal
-        .numbers
-        .wheelsets
-        .map(|number| seen.bodies[number].travel.0[0]);
-    let middle = middle + 0.25 * rolled.iter().sum::<f64>();
-    let poses = seen.bodies.iter().zip(system.bodies()).map(|(state, body)| {
-        let moved = if body.free[3] { middle } else { 0.0 };
-        Pose {
-            place: state.origin - Vector([moved, 0.0, 0.0]),
-            rotation: state.rotation,
+}
+
+/// Returns what the car rests in from these poses and internal states, with all friction. Wheelsets that
+/// are held neither move aside nor turn.
+pub(crate) fn at_rest_from(
+    (parameters, carried, searches, offsets): (&Parameters, &Carried, &[Search], [f64; 2]),
+    poses: &[Pose],
+    internal: &[f64],
+    holds: bool,
+) -> Result<Resting, BuildError> {
+    let mut standing = Standing::new(parameters, carried, searches, offsets)?;
+    let middle = Vector([standing.middle, 0.0, 0.0]);
+    let nominal = &mut standing.nominal;
+    for (number, _) in nominal.groups.clone() {
+        let pose = Pose {
+            place: poses[number].place + middle,
+            ..poses[number]
+        };
+        put_body(&mut nominal.model.bodies[number], &pose);
+    }
+    for number in nominal.numbers.wheelsets.into_iter().filter(|_| holds) {
+        for coordinate in ASIDE {
+            nominal.model.bodies[number].free[coordinate] = false;
         }
-    });
-    Ok((poses.collect(), warning))
+    }
+    for number in nominal.numbers.rails.into_iter().flatten().flatten() {
+        let [x, y, z] = poses[number].place.0;
+        nominal.model.bodies[number].initial = [x, y, z, 0.0, 0.0, 0.0];
+    }
+    nominal.carry();
+    let found = standing.rest(internal, |_, _, error| BuildError::ShakenRest(error))?;
+    match found.has_tipped {
+        true => Err(BuildError::Tips(parameters.leans_over())),
+        false => Ok(found),
+    }
+}
+
+/// Lets a body start in a pose in fixed axes.
+fn put_body(body: &mut Body, pose: &Pose) {
+    let frame = fixed(body.frame.orientation);
+    let own: Matrix<f64> = frame.transpose().times(pose.rotation);
+    let turn = angles(&own);
+    let place: Vector<f64> = frame.apply_transposed(pose.place - Vector(body.frame.origin));
+    body.initial = [place.0[0], place.0[1], place.0[2], turn[0], turn[1], turn[2]];
 }
 
 /// The poses of trucks and body on the track at the start, in fixed axes.
@@ -174,10 +295,7 @@ impl Placement {
             }
             let body = &mut nominal.model.bodies[number];
             let frame = fixed(body.frame.orientation);
-            let own: Matrix<f64> = frame.transpose().times(pose.rotation);
-            let turn = angles(&own);
-            let place: Vector<f64> = frame.apply_transposed(pose.place - Vector(body.frame.origin));
-            body.initial = [place.0[0], place.0[1], place.0[2], turn[0], turn[1], turn[2]];
+            put_body(body, &pose);
             let center = match group {
                 2 => base.place,
                 _ => {
@@ -205,13 +323,7 @@ impl Placement {
                 nominal.model.bodies[number].initial = [moved.0[0], moved.0[1], moved.0[2], 0.0, 0.0, 0.0];
             }
         }
-        for [carrier, of] in nominal.model.carriers.clone() {
-            let body = nominal.model.bodies[of].clone();
-            let carrier = &mut nominal.model.bodies[carrier];
-            carrier.frame = body.frame;
-            let [x, y, z, _, pitch, yaw] = body.initial;
-            carrier.initial = [x, y, z, 0.0, pitch, yaw];
-        }
+        nominal.carry();
         speeds
     }
 }

@@ -219,6 +219,7 @@ fn document(certificate: &Certificate, findings: &CertificateFindings) -> serde_
             "worst": own.worst,
             "derailed": own.derailed,
             "missing": own.missing,
+            "other_start": own.other_start,
         })
     });
     let regimes = certificate.regimes.iter();

@@ -1,4 +1,5 @@
-//! The evaluation of a certificate's runs when all are kept: tables, the worst run of each regime, the page.
+//! The evaluation of a certificate's runs when all are kept: tables, runs near limits from another start, the
+//! worst run of each regime, the page.
 
 use std::collections::VecDeque;
 use std::io;
@@ -9,6 +10,7 @@ use std::sync::{Mutex, PoisonError};
 
 use study::any_case::AnyCase;
 use study::car::certificate::{Assessed, Certificate, worst_run};
+use study::car::other_start::{Repeated, near};
 use study::run::Run;
 
 use crate::certificate_files::{self, CertificateFindings, NAMES};
@@ -22,8 +24,9 @@ use crate::study_folder::{StudyFolder, StudyFolderError};
 /// The folder of the worst runs, in that of the certificate.
 pub const WORST: &str = "worst";
 
-/// Assesses all runs, computes the worst one of each regime again with the motions of its bodies, and writes
-/// tables and page; `None` if `stop` became true meanwhile. Tells each worst run that is done.
+/// Assesses all runs, computes those near a limit from another start and the worst one of each regime again
+/// with the motions of its bodies, and writes tables and page; `None` if `stop` became true meanwhile. Tells
+/// each worst run that is done.
 ///
 /// # Errors
 /// A run is missing, or something cannot be read or written.
@@ -35,7 +38,14 @@ pub fn finish(
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Result<Option<CertificateFindings>, StudyFolderError> {
-    let findings = CertificateFindings::gather(certificate, folder)?;
+    let mut findings = CertificateFindings::gather(certificate, folder)?;
+    let near = near(&findings.verdicts).into();
+    let repeated = in_parallel(near, jobs, |number| {
+        let goes_on = !stop.load(Ordering::Relaxed);
+        goes_on.then(|| certificate.repeat(number)).flatten()
+    });
+    let repeated: Vec<Repeated> = repeated.into_iter().flatten().collect();
+    certificate.note(&mut findings.verdicts, &repeated);
     let worst = worst_runs(certificate, &findings, folder.path(), jobs, stop, done)?;
     if stop.load(Ordering::Relaxed) {
         return Ok(None);
@@ -67,13 +77,25 @@ fn worst_runs(
     let wanted: VecDeque<(usize, &Assessed)> = regimes
         .filter_map(|regime| Some((regime, worst_run(&findings.runs, regime)?)))
         .collect();
-    let (queue, found) = (Mutex::new(wanted), Mutex::new(Vec::new()));
+    let found = in_parallel(wanted, jobs, |(regime, run)| {
+        let own = one(certificate, regime, run, path, stop);
+        done();
+        own
+    });
+    let found: Result<Vec<Option<WorstRun>>, StudyFolderError> = found.into_iter().collect();
+    let mut found: Vec<WorstRun> = found?.into_iter().flatten().collect();
+    found.sort_by_key(|own| own.regime);
+    Ok(found)
+}
+
+/// Computes something of all items, several at a time; results come in any order.
+fn in_parallel<T: Send, R: Send>(items: VecDeque<T>, jobs: usize, compute: impl Fn(T) -> R + Sync) -> Vec<R> {
+    let (queue, found) = (Mutex::new(items), Mutex::new(Vec::new()));
     let worker = || {
         let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).pop_front();
-        while let Some((regime, run)) = next() {
-            let own = one(certificate, regime, run, path, stop);
+        while let Some(item) = next() {
+            let own = compute(item);
             found.lock().unwrap_or_else(PoisonError::into_inner).push(own);
-            done();
         }
     };
     std::thread::scope(|scope| {
@@ -81,11 +103,7 @@ fn worst_runs(
             scope.spawn(worker);
         }
     });
-    let found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let found: Result<Vec<Option<WorstRun>>, StudyFolderError> = found.into_iter().collect();
-    let mut found: Vec<WorstRun> = found?.into_iter().flatten().collect();
-    found.sort_by_key(|own| own.regime);
-    Ok(found)
+    found.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Makes one of the runs; `None` if it was stopped, or is no run any more.

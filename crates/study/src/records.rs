@@ -20,6 +20,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use mechanics::energy_balance::{FAILED, Verdict};
 use quantity::SixDigits;
 
+use crate::any_case::AnyCase;
 use crate::design::Study;
 use crate::measures::{Definitions, Judged, Measures, Unmeasured};
 use crate::outcome::Outcome;
@@ -95,6 +96,12 @@ pub struct Record {
 #[must_use]
 pub fn run(study: &Study, number: u64) -> Record {
     caught(number, || compute(study, number))
+}
+
+/// Computes a case as if it were this variant of the study.
+#[must_use]
+pub fn run_case(study: &Study, number: u64, case: &AnyCase) -> Record {
+    caught(number, || record(study.measures(), number, case.judge()))
 }
 
 /// Returns a panic, which is a mistake of ours, as a record.

@@ -129,8 +129,9 @@ fn wedges(summary: &CarSummary) -> Markup {
         p {
             "Energy that the friction of each wedge took at column and slope; its rise in its pocket at the \
              start, as a gauge shows it, the rise at which its control coil has no load there, and the rise \
-             that its pocket holds."
+             that its pocket holds; the normal forces of its column and its slope at the start."
         }
+        @if let Some(start) = summary.start_in_words() { p { (start) } }
         div.wide {
             table {
                 thead {
@@ -138,17 +139,21 @@ fn wedges(summary: &CarSummary) -> Markup {
                         th scope="col" { "wedge" } th.number scope="col" { "friction energy" }
                         th.number scope="col" { "rise" } th.number scope="col" { "coil without load" }
                         th.number scope="col" { "pocket" }
+                        th.number scope="col" { "column" } th.number scope="col" { "slope" }
                     }
                 }
                 tbody {
                     @for (name, own) in &summary.wedge_losses {
                         @let rise = summary.wedge_rise.get(name);
+                        @let start = summary.locked_in.get(name).map(|own| &own.at_start);
                         tr {
                             th scope="row" { (name.replace('_', " ")) }
                             td.number { (shown(Some(own))) }
                             td.number { (shown(rise.map(|own| &own.at_start))) }
                             td.number { (shown(rise.and_then(|own| own.coil_without_load.as_ref()))) }
                             td.number { (shown(rise.map(|own| &own.pocket))) }
+                            td.number { (shown(start.map(|own| &own.column))) }
+                            td.number { (shown(start.map(|own| &own.slope))) }
                         }
                     }
                 }

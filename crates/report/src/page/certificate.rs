@@ -228,7 +228,7 @@ fn limits(
                             td.number {
                                 (own.worst.as_ref().map_or("–".to_owned(), |worst| percent(worst.margin)))
                             }
-                            td { (said(own)) }
+                            td { (said(own, &limit.unit)) }
                             @if against.is_some() {
                                 @match other(own) {
                                     Some(other) => {
@@ -247,7 +247,7 @@ fn limits(
 }
 
 /// Returns a verdict in words.
-fn said(own: &LimitVerdict) -> Markup {
+fn said(own: &LimitVerdict, unit: &str) -> Markup {
     html! {
         @match own.word() {
             "exceeded" => strong { "exceeded" },
@@ -255,6 +255,9 @@ fn said(own: &LimitVerdict) -> Markup {
         }
         @if !own.derailed.is_empty() { ": derailed at " (own.derailed.join(", ")) }
         @if !own.missing.is_empty() { "; no numbers at " (own.missing.join(", ")) }
+        @if let (Some(other), Some(worst)) = (&own.other_start, &own.worst) {
+            "; from two starts: " (other.words(worst.value, unit))
+        }
     }
 }
 

@@ -136,6 +136,10 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
             "The car starts in equilibrium without friction, bristles undeflected, wheels rolling"
         }
         StartKind::Nominal => "The car starts in the nominal layout, which is that of the loaded car",
+        StartKind::Shaken => {
+            "The car starts at rest with what friction holds after 3 s at 60 mph on tangent track of FRA \
+             class 3 by spectra, seeds 1 to 3 (choices), from its equilibrium, wheels rolling"
+        }
     };
     let shifts = p.start.wheelset_shifts.iter().chain([&p.start.body_shift]);
     let moved = match shifts.into_iter().any(|own| *own != 0.0) {

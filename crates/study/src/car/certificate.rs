@@ -13,6 +13,7 @@ use serde::Serialize;
 
 use super::conditions::Condition;
 use super::limits::{Limit, LimitSet};
+use super::other_start::OtherStart;
 use super::regime::Regime;
 use crate::any_case::{AnyCase, CaseSource};
 use crate::case::problem::Problem;
@@ -241,6 +242,8 @@ pub struct LimitVerdict {
     pub derailed: Vec<String>,
     /// Speeds of runs without a value.
     pub missing: Vec<String>,
+    /// The worst run from another start, where it is near the limit.
+    pub other_start: Option<OtherStart>,
 }
 
 /// The run that keeps a limit least.
@@ -291,6 +294,7 @@ pub fn verdicts(runs: &[Assessed]) -> Vec<LimitVerdict> {
                     worst: None,
                     derailed: Vec::new(),
                     missing: Vec::new(),
+                    other_start: None,
                 });
                 found.len() - 1
             });

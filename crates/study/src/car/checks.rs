@@ -1,7 +1,7 @@
 //! Checks of several keys together: a lading that tips the car, a track that is too short, a curve that is
 //! too tight.
 
-use car::{Drive, Parameters, Wheels};
+use car::{Drive, Parameters, StartKind, Wheels};
 use quantity::Number;
 use truck::SideBearing;
 use wheelrail::track::CenterLine;
@@ -30,7 +30,8 @@ pub(super) fn all(
     balance(r, parameters, lading);
     way(r, parameters, simulation);
     let reaches = reach(r, parameters);
-    if let (true, Err(error)) = (reaches, parameters.check()) {
+    let shakes = shaking(r, parameters);
+    if let (true, true, Err(error)) = (reaches, shakes, parameters.check()) {
         let problem = Problem::new(error.to_string());
         r.problems.push(match error.remedy() {
             Some(remedy) => problem.help(remedy),
@@ -38,6 +39,21 @@ pub(super) fn all(
         });
     }
     [height(parameters)].into_iter().flatten().collect()
+}
+
+/// Notes linear wheels of a car that shall be shaken; returns whether it can be.
+fn shaking(r: &mut CaseReader<'_>, parameters: &Parameters) -> bool {
+    let can = parameters.start.kind != StartKind::Shaken || matches!(parameters.wheels, Wheels::OnRails(_));
+    if !can {
+        let message = "`start.kind` is \"shaken\", but wheels.geometry is \"linear\": linear wheels are for \
+                       small motions, and have no flanges on rough track";
+        let help = "write start.kind = \"equilibrium\", or wheels.geometry = \"profiles\"";
+        r.problem(
+            "start.kind",
+            Problem::new(message).label("cannot be shaken").help(help),
+        );
+    }
+    can
 }
 
 /// Notes wheels that do not reach both rails; returns whether they do.

@@ -1,6 +1,6 @@
 //! The columns of a car's results.
 
-use car::{BuildError, Car, Loads, Parameters};
+use car::{BuildError, Car, Derailment, Loads, Parameters};
 use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
 use quantity::Kind;
@@ -96,8 +96,8 @@ impl CarTable {
 
 impl CarTable {
     /// Returns the first wheel from the front that has left its rail.
-    pub(super) fn left(&self, loads: &Loads) -> Option<derailment::Left> {
-        derailment::of(loads, &self.track, self.heights)
+    pub(super) fn left(&self, loads: &Loads) -> Option<Derailment> {
+        Derailment::of(loads, &self.track, self.heights)
     }
 
     /// Returns in words which wheel has left its rail at an observation, if one has.

@@ -19,7 +19,7 @@ use super::columns::{CarTable, losses_of_wedge, points_of_wedges};
 use super::motions::MotionTable;
 use super::statistics::{self, Histories, SIDES, Statistics};
 use super::summary::{CarSummary, Derailed, SCHEMA};
-use super::{limits, peaks};
+use super::{limits, locked_in, peaks};
 use crate::energy;
 use crate::finite::{find, is_finite};
 use crate::losses::EnergySummary;
@@ -352,6 +352,8 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         wedge_losses,
         wedge_locked,
         wedge_rise,
+        start: locked_in::name(run.case.parameters.start.kind).to_owned(),
+        locked_in: locked_in::summary(&run.recorder.table, units),
         energy,
         extremes,
         ledger,

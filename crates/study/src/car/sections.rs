@@ -46,6 +46,7 @@ const DRIVES: Names<DriveKind> = &[
 const STARTS: Names<StartKind> = &[
     ("equilibrium", StartKind::Equilibrium),
     ("nominal", StartKind::Nominal),
+    ("shaken", StartKind::Shaken),
 ];
 
 /// Speed of a car that none is given for, mph.
@@ -272,8 +273,8 @@ fn start(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
     let speed = parameters.start.speed;
     parameters.start = Start::at(parameters.reach() + 1.0, speed);
     let own = &mut parameters.start;
-    let comment =
-        "\"equilibrium\": at rest on straight track, without friction; \"nominal\": the loaded layout";
+    let comment = "\"equilibrium\": at rest on straight track, without friction; \"nominal\": the loaded \
+                   layout; \"shaken\": what friction holds after 3 s at 60 mph on track of FRA class 3";
     r.choice("kind", STARTS, &mut own.kind, comment);
     let distance: QuantityForm = (Kind::Distance, Range::NotNegative, Reach::Positive);
     r.quantity(

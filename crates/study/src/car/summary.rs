@@ -7,6 +7,7 @@ use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 
 use super::limits::LimitCheck;
+use super::locked_in::{self, LockedIn};
 use super::statistics::Statistic;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
@@ -61,6 +62,12 @@ pub struct CarSummary {
     /// Rises of the wedges at the start, by their names: `truck_1_leading_left`.
     #[serde(default)]
     pub wedge_rise: BTreeMap<String, RiseSummary>,
+    /// The kind of the start: `equilibrium`, `nominal` or `shaken`.
+    #[serde(default)]
+    pub start: String,
+    /// Normal forces of the wedges at the start, by their names: `truck_1_leading_left`.
+    #[serde(default)]
+    pub locked_in: BTreeMap<String, LockedIn>,
     /// Sources and sinks of the energy of the run.
     pub energy: EnergySummary,
     /// Least and greatest values of all columns, by their names with units.
@@ -85,6 +92,12 @@ run_summary!(
 );
 
 impl CarSummary {
+    /// Returns the line about what the start locks in; none of a summary without it.
+    #[must_use]
+    pub fn start_in_words(&self) -> Option<String> {
+        locked_in::words(&self.start, &self.locked_in)
+    }
+
     fn end_of_derailed(&self) -> Option<RunEnd> {
         self.derailed.as_ref().map(|own| RunEnd {
             time: own.time,

@@ -9,4 +9,5 @@ mod onset;
 mod problems;
 mod run;
 mod stability;
+mod start;
 mod statistics;

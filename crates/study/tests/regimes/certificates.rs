@@ -7,6 +7,7 @@ use study::any_case::AnyCase;
 use study::car::certificate::{Certificate, Request, verdicts, worst_run};
 use study::car::conditions::{self, Condition};
 use study::car::limits::{Bound, LimitSet};
+use study::car::other_start::near;
 use study::measures::Measures;
 use study::records::{Record, Status};
 
@@ -72,6 +73,7 @@ fn input_all_that_is_built_in_can_be_read() {
         "loaded",
         "lading_off_center",
         "massless_wedges",
+        "shaken",
     ] {
         assert!(Condition::all().iter().any(|own| own.name == name), "{name}");
     }
@@ -166,6 +168,60 @@ fn analytic_margins_and_verdicts() {
     assert!((found[0].worst.as_ref().unwrap().margin + 0.125).abs() < 1e-12);
     certificate.limits = lowered("5 deg");
     assert_eq!(verdicts(&assessed(&certificate))[0].word(), "kept");
+}
+
+/// A run within 15 % of a limit, kept or not, is computed from the other start, each once; both values stand
+/// beside each other, and the verdict of the run stays its own.
+#[test]
+fn analytic_runs_near_a_limit_have_a_second_start() {
+    let mut certificate = Certificate::new(&request(&["twist_and_roll"])).unwrap();
+    let assessed = |certificate: &Certificate| {
+        let roll = ("body_roll_peak_to_peak", 5.2_f64.to_radians());
+        let runs = [0, 1].map(|number| {
+            let own = if number == 0 { ("steps", 1.0) } else { roll };
+            let record = record(certificate, number, &[own, ("least_load_time", 40.0)]);
+            certificate.assess(&certificate.study.values(number), &record)
+        });
+        verdicts(&runs)
+    };
+    for (limit, wanted) in [
+        ("6.2 deg", vec![]),
+        ("6 deg", vec![1]),
+        ("5 deg", vec![1]),
+        ("4.5 deg", vec![]),
+    ] {
+        certificate.limits = lowered(limit);
+        assert_eq!(near(&assessed(&certificate)), wanted, "{limit}");
+    }
+    certificate.limits = lowered("5.5 deg");
+    let mut found = assessed(&certificate);
+    let from_there = |roll: f64, status: Status| {
+        let mut own = record(&certificate, 1, &[("body_roll_peak_to_peak", roll.to_radians())]);
+        own.status = status;
+        (1, ["equilibrium", "shaken"], own)
+    };
+    certificate.note(&mut found, &[]);
+    assert_eq!(found[0].other_start, None);
+    for (roll, status, verdict) in [
+        (5.4, Status::Complete, "kept"),
+        (5.6, Status::Complete, "exceeded"),
+        (5.4, Status::Derailed, "exceeded"),
+        (5.4, Status::Stopped, "unknown"),
+    ] {
+        certificate.note(&mut found, &[from_there(roll, status)]);
+        let other = found[0].other_start.as_ref().unwrap();
+        assert_eq!((other.verdict, found[0].word()), (verdict, "kept"));
+        assert_eq!(other.value.is_some(), status != Status::Stopped);
+        let words = other.words(5.2, "deg");
+        assert!(
+            words.contains("5.200 deg with start.kind = \"equilibrium\""),
+            "{words}"
+        );
+        assert!(
+            words.contains("with \"shaken\"") && words.contains(verdict),
+            "{words}"
+        );
+    }
 }
 
 /// A car that derails keeps no limit; a run without numbers leaves them unknown.

@@ -11,6 +11,7 @@ use report::page::certificate::Against;
 use report::study_folder::TABLE_FILE;
 use serde_json::json;
 use study::car::certificate::{Certificate, Request};
+use study::car::other_start::NEAR;
 use study::car::speeds;
 use study::records::Status;
 
@@ -216,6 +217,23 @@ fn print(certificate: &Certificate, findings: &CertificateFindings, path: &Path)
     }
     let mut out = io::stdout().lock();
     table.write(&mut out)?;
+    let near = findings.verdicts.iter();
+    let near = near.filter_map(|own| Some((own, own.other_start.as_ref()?, own.worst.as_ref()?)));
+    for (place, (own, other, worst)) in near.enumerate() {
+        if place == 0 {
+            writeln!(out, "\nWithin {:.0} % of a limit, from two starts:", 100.0 * NEAR)?;
+        }
+        let limit = &certificate.limits.limits[own.limit];
+        writeln!(
+            out,
+            "  {} {} ({}, {}): {}",
+            certificate.regimes[own.regime].name,
+            limit.name,
+            certificate.conditions[own.condition].name,
+            worst.speed,
+            other.words(worst.value, &limit.unit)
+        )?;
+    }
     let [kept, exceeded, unknown] = findings.counts();
     writeln!(
         out,

@@ -279,9 +279,9 @@ fn not_here(name: &str) -> Failure {
     Message::new(format!("{name} is a half-truck"), "`wedgelab nucars run` runs it").into()
 }
 
-/// Returns a note about the energy of a cycle.
-fn note(about: &str, energy: Option<String>) -> String {
-    energy.map_or(about.to_owned(), |energy| format!("{about}\n\n{energy}"))
+/// Returns a note with another one below it, if there is one.
+fn note(about: &str, more: Option<String>) -> String {
+    more.map_or(about.to_owned(), |more| format!("{about}\n\n{more}"))
 }
 
 /// Runs a truck, and writes its page besides.
@@ -364,8 +364,13 @@ fn print_run(
     Ok(())
 }
 
-/// Returns the text about a car's run.
+/// Returns the text about a car's run: its limits, and what its start locks in.
 fn limits_of_car(summary: &CarSummary) -> (TerminalTable, String) {
+    let (table, about) = limits_beside(summary);
+    (table, note(&about, summary.start_in_words()))
+}
+
+fn limits_beside(summary: &CarSummary) -> (TerminalTable, String) {
     if summary.limits.is_empty() {
         let why = summary
             .warnings()
