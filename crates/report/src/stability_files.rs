@@ -199,7 +199,7 @@ pub fn figure(case: &str, found: &Stability, units: Units) -> Figure {
         line: Line::Solid,
         points: of_curve.collect(),
     }];
-    let flanges = found.curve.first().map_or(0.0, |own| own.amplitude) * Kind::Length.from_si(units);
+    let largest = found.curve.first().map_or(0.0, |own| own.amplitude) * Kind::Length.from_si(units);
     for (number, branch) in found.branches.iter().enumerate() {
         if let Some(own) = branch.critical.as_ref().filter(|own| !own.at_lowest) {
             let (_, line) = distinct(number + 1);
@@ -207,7 +207,7 @@ pub fn figure(case: &str, found: &Stability, units: Units) -> Figure {
                 label: branch.kind.words().to_owned(),
                 colour: Colour::Grey,
                 line,
-                points: vec![(0.0, speed(own.speed)), (flanges, speed(own.speed))],
+                points: vec![(0.0, speed(own.speed)), (largest, speed(own.speed))],
             });
         }
     }

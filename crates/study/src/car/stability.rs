@@ -9,8 +9,8 @@
 use std::ops::ControlFlow;
 
 use car::{
-    CriticalSpeed, FrictionState, NeutralMotion, NoWarp, OverAmplitude, Parameters, Start, SteadyCar,
-    growing, name_of, vibrations,
+    CriticalSpeed, FrictionState, NeutralMotion, NoWarp, OverAmplitude, Parameters, Start, StartKind,
+    SteadyCar, Wheels, growing, name_of, vibrations,
 };
 use quantity::{Kind, System as Units};
 use thiserror::Error;
@@ -20,7 +20,7 @@ use super::track::tangent;
 
 pub use car::LinearizeError;
 
-/// Amplitudes of the curve, each this part of the one before it, down from the flanges.
+/// Amplitudes of the curve, each this part of the one before it, down from that at which the flanges bear.
 const AMPLITUDES: usize = 12;
 const FALL: f64 = 0.8;
 
@@ -122,8 +122,12 @@ pub struct Stability {
     /// Friction that sticks, then none, then the linear benchmark if it is asked for; fewer where the user
     /// stopped it.
     pub branches: Vec<Branch>,
-    /// The critical speed over the amplitude, which falls from that at which the flanges bear.
+    /// The critical speed over the amplitude, which falls.
     pub curve: Vec<AtAmplitude>,
+    /// The largest amplitude of the curve, m: beyond it flanges bear, if wheels have them.
+    pub clearance: f64,
+    /// Whether wheels have flanges: linear ones have none.
+    pub has_flanges: bool,
     /// The car in steady running, for pictures of its motions.
     pub steady: SteadyCar,
     /// True if all was computed.
@@ -170,6 +174,8 @@ pub fn stability(
         speeds: speeds.to_vec(),
         branches: Vec::new(),
         curve: Vec::new(),
+        clearance: 0.0,
+        has_flanges: matches!(case.parameters.wheels, Wheels::OnRails(_)),
         steady: car.steady().clone(),
         complete: false,
     };
@@ -191,8 +197,9 @@ pub fn stability(
             return Ok(found);
         }
     }
+    let clearance = car.clearance();
     let amplitudes: Vec<f64> = (0..AMPLITUDES)
-        .map(|k| car.clearance() * libm::pow(FALL, k as f64))
+        .map(|k| clearance * libm::pow(FALL, k as f64))
         .collect();
     let fastest = speeds.iter().fold(0.0_f64, |most, own| most.max(*own));
     let motions = car.neutral_motions(&amplitudes, fastest, |share| go_on(done + (1.0 - done) * share))?;
@@ -215,6 +222,7 @@ pub fn stability(
             motion,
         });
     }
+    found.clearance = clearance;
     found.complete = found.curve.len() == AMPLITUDES;
     Ok(found)
 }
@@ -284,7 +292,11 @@ fn straight(parameters: &Parameters) -> Parameters {
     }
     own.start = Start {
         heading: 0.0,
-        kind: own.start.kind,
+        // The nominal layout is no steady running.
+        kind: match own.start.kind {
+            StartKind::Nominal => StartKind::Equilibrium,
+            kind => kind,
+        },
         ..Start::at(reach + 1.0, 1.0)
     };
     own
@@ -327,7 +339,6 @@ impl Stability {
             format!("{own:.places$} {}", Kind::Length.label(units))
         };
         let fastest = self.speeds.iter().fold(0.0_f64, |most, own| most.max(*own));
-        let flanges = self.curve.first().map_or(0.0, |own| own.amplitude);
         let stuck = self.branches.iter().find(|own| own.kind == BranchKind::Stuck);
         if let Some(own) = stuck.and_then(|own| own.critical.as_ref()) {
             let from = if own.at_lowest { "already at" } else { "from" };
@@ -338,36 +349,39 @@ impl Stability {
                 own.frequency
             );
         }
-        match (self.smallest(), self.slowest()) {
-            (Some((smallest, above)), Some((amplitude, slowest))) => {
+        let (off, flanges) = match self.has_flanges {
+            true => (
+                "off the flanges nothing",
+                " On the flanges it may hunt at lower speeds: --nonlinear tells.",
+            ),
+            false => ("nothing", ""),
+        };
+        let (Some((amplitude, slowest)), smallest) = (self.slowest(), self.smallest()) else {
+            let up_to = length(self.clearance);
+            return format!(
+                "Nothing of up to {up_to} grows up to {}.{flanges}",
+                speed(BEYOND * fastest)
+            );
+        };
+        let what = format!("{} at {:.2} Hz", slowest.name, slowest.frequency);
+        let [largest, least] = [length(amplitude), speed(slowest.speed)];
+        match smallest {
+            None => format!(
+                "Up to {}, {off} of up to {} grows; above {least} a motion of {largest} does: {what}.{flanges}",
+                speed(fastest),
+                length(self.clearance)
+            ),
+            Some((smallest, above)) => {
                 let also = match smallest == amplitude {
                     true => String::new(),
-                    false => format!(", from {} on above {}", length(amplitude), speed(slowest.speed)),
+                    false => format!(", from {largest} on above {least}"),
                 };
                 format!(
-                    "From {} on it hunts above {}{also}; nothing grows below {} ({} at {:.2} Hz).",
+                    "From {} on it hunts above {}{also}: {what}; {off} grows below {least}.{flanges}",
                     length(smallest),
-                    speed(above.speed),
-                    speed(slowest.speed),
-                    slowest.name,
-                    slowest.frequency
+                    speed(above.speed)
                 )
             }
-            (None, Some((amplitude, slowest))) => format!(
-                "Nothing of up to {}, where the flanges bear, grows up to {}; above {} a motion of {} does: {} \
-                 at {:.2} Hz.",
-                length(flanges),
-                speed(fastest),
-                speed(slowest.speed),
-                length(amplitude),
-                slowest.name,
-                slowest.frequency
-            ),
-            _ => format!(
-                "Nothing of up to {}, where the flanges bear, grows up to {}.",
-                length(flanges),
-                speed(BEYOND * fastest)
-            ),
         }
     }
 }
