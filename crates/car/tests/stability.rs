@@ -5,8 +5,10 @@ mod common;
 
 use std::f64::consts::TAU;
 
-use car::{FrictionState, Mode, Parameters, SteadyCar, Wheels};
+use car::{FrictionState, Mode, OverAmplitude, Parameters, SteadyCar, Wheels};
 use common::{INCH, MPH, POUND_FORCE, empty, loaded, tangent};
+use mechanics::linear::SecondOrder;
+use nalgebra::DMatrix;
 use truck::{Adapter, Spring};
 use wedge::parameters::Damping;
 use wheelrail::conicity::LinearGeometry;
@@ -55,6 +57,105 @@ fn reduced(conicity: f64, warp: f64, harder: f64) -> Parameters {
         };
     }
     parameters.tied(warp).unwrap()
+}
+
+/// Returns the critical speed (m/s) of nine coordinates: lateral displacement, roll and yaw of the body with its
+/// bolsters, and of each truck lateral displacement, yaw of the side frames and yaw of the axles with the bolster.
+/// Side frames and axles are a parallelogram with a warp spring; the nests' shear is between truck and bolster.
+fn nine_coordinates(conicity: f64, warp: f64) -> f64 {
+    let car = empty(tangent(300.0), 10.0);
+    let truck = &car.trucks[0];
+    let [nest, _, base] = truck.distances;
+    let [f11, f22] = [6.69e6, 6.21e6];
+    let weight = car.weight() / 4.0;
+    let side_frame = &truck.side_frames[0].body;
+    let bolster = &truck.bolster.body;
+    let plate = truck.car_body.as_ref().unwrap().center_plate.height;
+    let half = 0.5 * car.truck_distance;
+    // From the center of gravity of the body down to the bolsters.
+    let [above, arm] = [bolster.height, plate].map(|height| car.body.height - height);
+    let n = 9;
+    let mut system = SecondOrder {
+        mass: DMatrix::zeros(n, n),
+        stiffness: DMatrix::zeros(n, n),
+        damping: DMatrix::zeros(n, n),
+    };
+    let quadratic = |matrix: &mut DMatrix<f64>, factor: f64, row: &[(usize, f64)]| {
+        for (i, a) in row {
+            for (j, b) in row {
+                matrix[(*i, *j)] += factor * a * b;
+            }
+        }
+    };
+    let (y, roll, yaw) = (0, 1, 2);
+    quadratic(&mut system.mass, car.body.mass, &[(y, 1.0)]);
+    quadratic(
+        &mut system.mass,
+        car.body.inertia[0] + 2.0 * bolster.inertia[0],
+        &[(roll, 1.0)],
+    );
+    quadratic(&mut system.mass, car.body.inertia[2], &[(yaw, 1.0)]);
+    // All nests carry the roll.
+    let vertical = 16.0 * 5369.5 * POUND_FORCE / INCH;
+    quadratic(&mut system.stiffness, -vertical * nest * nest, &[(roll, 1.0)]);
+    let carried = (car.body.mass + 2.0 * bolster.mass) * car.gravity;
+    quadratic(&mut system.stiffness, carried * arm, &[(roll, 1.0)]);
+    for (t, side) in [1.0, -1.0].into_iter().enumerate() {
+        let (own, frames, axles) = (3 + 3 * t, 4 + 3 * t, 5 + 3 * t);
+        quadratic(
+            &mut system.mass,
+            bolster.mass,
+            &[(y, 1.0), (yaw, side * half), (roll, above)],
+        );
+        quadratic(&mut system.mass, 2.0 * side_frame.mass, &[(own, 1.0)]);
+        quadratic(&mut system.mass, 2.0 * side_frame.inertia[2], &[(frames, 1.0)]);
+        let turning = bolster.inertia[2] + 2.0 * side_frame.mass * nest * nest;
+        quadratic(
+            &mut system.mass,
+            turning + 2.0 * car.wheelset.about_diameter,
+            &[(axles, 1.0)],
+        );
+        quadratic(&mut system.stiffness, -warp, &[(frames, 1.0), (axles, -1.0)]);
+        let shear = [(own, 1.0), (y, -1.0), (yaw, -side * half), (roll, -above)];
+        quadratic(&mut system.stiffness, -2.0 * NEST, &shear);
+        for end in [base, -base] {
+            let lateral = [(own, 1.0), (frames, end)];
+            quadratic(&mut system.mass, car.wheelset.mass, &lateral);
+            quadratic(&mut system.stiffness, -weight * conicity / HALF, &lateral);
+            quadratic(&mut system.damping, -2.0 * f22, &lateral);
+            quadratic(&mut system.damping, -2.0 * f11 * HALF * HALF, &[(axles, 1.0)]);
+            for (place, by) in lateral {
+                system.stiffness[(place, axles)] += 2.0 * f22 * by;
+                system.stiffness[(axles, place)] -= 2.0 * f11 * HALF * conicity / RADIUS * by;
+            }
+        }
+        system.stiffness[(axles, axles)] += 2.0 * weight * HALF * conicity;
+    }
+    let grows = |speed: f64| {
+        let mut own = system.clone();
+        own.damping /= speed;
+        let modes = own.modes(10.0, 18).unwrap();
+        modes
+            .iter()
+            .any(|mode| mode.frequency() > 0.3 && mode.growth() > 0.0)
+    };
+    let (mut low, mut high) = (5.0 * MPH, 120.0 * MPH);
+    for _ in 0..30 {
+        let middle = 0.5 * (low + high);
+        *(if grows(middle) { &mut high } else { &mut low }) = middle;
+    }
+    low
+}
+
+/// The same speeds by an eigenproblem of nine coordinates.
+#[test]
+fn analytic_critical_speeds_of_nine_coordinates() {
+    let warp = 17e6 * POUND_FORCE * INCH;
+    for (conicity, expected) in [(0.05, 65.0), (0.1, 45.0), (0.2, 32.0)] {
+        let speed = nine_coordinates(conicity, warp) / MPH;
+        println!("{conicity}: {speed} mph");
+        assert!((speed / expected - 1.0).abs() < 0.01, "{conicity}: {speed} mph");
+    }
 }
 
 /// 65, 45 and 32 mph at conicities of 0.05, 0.1 and 0.2 with 17 kip·in/mrad of warp stiffness: from a
@@ -233,4 +334,98 @@ fn issue_047_stuck_vibrations_are_those_of_a_separate_linear_model() {
             );
         }
     }
+}
+
+/// The linear model with stuck sliders has the eigenvalues of the whole Jacobian matrix with the bristles as
+/// states; without sliders those of the car whose parts have no friction.
+#[test]
+fn cross_code_linear_models_are_the_ends_of_the_whole_system() {
+    let parameters = on_linear_wheels(1.0);
+    let mut car = SteadyCar::new(&parameters).unwrap();
+    let speed = 40.0 * MPH;
+    let state = car.state(speed);
+    let mut system = car.car().system.clone();
+    // Growth and angular frequency of those that a car's motions have.
+    let slow = |values: Vec<[f64; 2]>| -> Vec<[f64; 2]> {
+        let own = values.into_iter().filter(|[growth, frequency]| {
+            let hertz = frequency / TAU;
+            *growth > -50.0 && (0.05..20.0).contains(&hertz)
+        });
+        own.collect()
+    };
+    let stuck = slow(system.eigenvalues(0.0, &state, 20.0).unwrap());
+    let mut free = parameters.clone();
+    for own in &mut free.trucks {
+        for wedge in &mut own.wedges {
+            (
+                wedge.column_friction.coefficient,
+                wedge.slope_friction.coefficient,
+            ) = (0.0, 0.0);
+        }
+        if let Some(wheelsets) = &mut own.wheelsets
+            && let Adapter::Friction(adapter) = &mut wheelsets.adapter
+        {
+            adapter.friction.coefficient = 0.0;
+        }
+        if let Some(body) = &mut own.car_body {
+            body.center_plate.friction.coefficient = 0.0;
+            if let truck::SideBearing::ConstantContact { friction, .. } = &mut body.side_bearings.kind {
+                friction.coefficient = 0.0;
+            }
+        }
+    }
+    let mut system = car.with(&free).unwrap().car().system.clone();
+    let absent = slow(system.eigenvalues(0.0, &state, 20.0).unwrap());
+    for (friction, expected) in [(FrictionState::Stuck, stuck), (FrictionState::Absent, absent)] {
+        let found = car.vibrations(speed, friction).unwrap();
+        assert!(expected.len() >= 4, "{friction:?}: {}", expected.len());
+        for [growth, frequency] in expected {
+            let near = found.iter().any(|own| {
+                let apart = (own.growth() - growth).hypot(TAU * own.frequency() - frequency);
+                apart < 1e-6 * frequency.hypot(growth)
+            });
+            assert!(near, "{friction:?}: {growth} {frequency}");
+        }
+    }
+}
+
+/// Neutral motions grow neither with a larger amplitude at their speed nor die: the curve is that of a car whose
+/// friction gives way; the same search gives the same bits again.
+#[test]
+fn limits_critical_speeds_over_the_amplitude() {
+    let mut parameters = empty(tangent(300.0), 10.0);
+    for own in &mut parameters.trucks {
+        own.car_body.as_mut().unwrap().side_bearings.kind = truck::SideBearing::Roller(truck::Clearance {
+            clearance: 0.25 * INCH,
+            stiffness: 1e6 * POUND_FORCE / INCH,
+            damping: 500.0 * POUND_FORCE / INCH,
+        });
+    }
+    let mut car = OverAmplitude::new(&parameters).unwrap();
+    let clearance = car.clearance();
+    // 0.406 in between flanges and rails.
+    assert!((clearance / INCH - 0.4).abs() < 0.015, "{}", clearance / INCH);
+    let amplitudes = [clearance, 0.8 * clearance, 0.6 * clearance];
+    let go_on = |_| std::ops::ControlFlow::Continue(());
+    let found = car.neutral_motions(&amplitudes, 35.0, go_on).unwrap();
+    let speeds: Vec<f64> = found
+        .iter()
+        .map(|own| own.as_ref().unwrap().speed / MPH)
+        .collect();
+    // Friction that slides more gives way more.
+    assert!(speeds.windows(2).all(|pair| pair[0] < pair[1]), "{speeds:?}");
+    assert!(speeds.iter().all(|own| (60.0..115.0).contains(own)), "{speeds:?}");
+    let again = OverAmplitude::new(&parameters)
+        .unwrap()
+        .neutral_motions(&amplitudes, 35.0, go_on);
+    let same: Vec<u64> = again
+        .unwrap()
+        .iter()
+        .map(|own| own.as_ref().unwrap().speed.to_bits())
+        .collect();
+    let first: Vec<u64> = found
+        .iter()
+        .map(|own| own.as_ref().unwrap().speed.to_bits())
+        .collect();
+    assert_eq!(same, first);
 }

@@ -44,6 +44,8 @@ impl System {
                 }
             }
         }
+        // Stuck by the rule, but without friction.
+        model.sliders.retain(|pair| pair.slider.limit > 0.0);
         model
     }
 
@@ -140,7 +142,7 @@ impl System {
                     force[direction].extend(entries(force_t, 1.0 / slider.stiffness));
                 }
             }
-            if slip.iter().all(Vec::is_empty) || slider.limit <= 0.0 {
+            if slip.iter().all(Vec::is_empty) {
                 continue;
             }
             model.sliders.push(SlidingPair {

@@ -7,6 +7,7 @@ mod common;
 
 mod coil;
 mod contact;
+mod equivalent_linearization;
 mod friction;
 mod massless_wedge;
 mod motions;

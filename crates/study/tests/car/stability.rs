@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use study::car::builtin;
 use study::car::hunting::{HuntingError, HuntingSettings, hunting};
-use study::car::stability::stability;
+use study::car::stability::{BranchKind, stability};
 
 /// The empty car on linear wheels: with stuck friction it does not hunt at 30 mph; vibrations are sorted and
 /// within the range told; a user who stops it gets what was computed.
@@ -34,6 +34,49 @@ fn limits_modes_of_the_empty_car_on_profiles() {
     let found = stability(&case, &[30.0 * 0.447_04], |_| ControlFlow::Continue(())).unwrap();
     let worst = &found.branches[0].modes[0][0];
     assert!(worst.growth < 0.0 && worst.growth > -2.0, "{worst:?}");
+}
+
+/// The linear benchmark posed by keys: 65, 45 and 32 mph at conicities of 0.05, 0.1 and 0.2 with 17 kip·in/mrad of
+/// warp stiffness, from a separate model of nine coordinates.
+#[test]
+fn reproduction_the_linear_benchmark_is_posed_by_keys() {
+    for (conicity, expected) in [(0.05, 65.0), (0.1, 45.0), (0.2, 32.0)] {
+        let keys = [
+            "wheels.geometry=linear",
+            "track.support.kind=rigid",
+            "wheels.spin=false",
+            "wheels.f11=1504000 lbf",
+            "wheels.f22=1396000 lbf",
+            "truck.load_springs.shear_stiffness=4450 lbf/in",
+            "stability.warp_moment=255000 lbf in",
+        ];
+        let mut keys: Vec<String> = keys.map(str::to_owned).into();
+        keys.push(format!("wheels.conicity={conicity}"));
+        let case = builtin::case_with("car_hunting_empty", &keys).unwrap();
+        let speeds = [0.9, 1.1].map(|own| own * expected * 0.447_04);
+        let mut parts = 0;
+        // The curve over the amplitude is not asked for.
+        let found = stability(&case, &speeds, |_| {
+            parts += 1;
+            match parts < 7 {
+                true => ControlFlow::Continue(()),
+                false => ControlFlow::Break(()),
+            }
+        });
+        let found = found.unwrap();
+        let tied = found
+            .branches
+            .iter()
+            .find(|own| own.kind == BranchKind::Tied)
+            .unwrap();
+        let critical = tied.critical.as_ref().unwrap();
+        let speed = critical.speed / 0.447_04;
+        assert!(
+            !critical.at_lowest && (speed / expected - 1.0).abs() < 0.05,
+            "{conicity}: {speed}"
+        );
+        assert!(critical.name.starts_with("hunting"), "{}", critical.name);
+    }
 }
 
 /// Ramps that are none, and linear wheels, are refused before anything runs.
