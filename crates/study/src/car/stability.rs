@@ -166,7 +166,12 @@ pub fn stability(
 ) -> Result<Stability, StabilityError> {
     let straight = straight(&case.parameters);
     let tied = match case.benchmark_warp {
-        Some(warp) => Some(SteadyCar::new(&straight.tied(warp)?)?),
+        Some(warp) => {
+            let mut own = straight.tied(warp)?;
+            // Without friction nothing is locked in.
+            own.start.kind = StartKind::Equilibrium;
+            Some(SteadyCar::new(&own)?)
+        }
         None => None,
     };
     let mut car = OverAmplitude::new(&straight)?;

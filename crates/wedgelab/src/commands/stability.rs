@@ -8,10 +8,11 @@ use std::process::ExitCode;
 use clap::Args;
 use quantity::{Kind, Quantity, System as Units};
 use report::stability_files::NAMES;
-use report::{hunting_files, stability_files};
+use report::{hunting_files, onset_files, stability_files};
 use study::any_case::AnyCase;
 use study::car::CarCase;
 use study::car::hunting::{Boundary, Hunting, HuntingError, HuntingSettings, hunting};
+use study::car::onset::onset;
 use study::car::stability::{BEYOND, Branch, BranchKind, Stability, left_out, stability};
 use study::outcome::Outcome;
 
@@ -32,6 +33,9 @@ use crate::table::TerminalTable;
 /// stability.csv (all vibrations of 0.05 to 30 Hz), critical_speed.csv, stability.json, stability.svg and
 /// stability.png.
 ///
+/// With --onset it also runs the car at held speeds on perfect track and on track of FRA class 4, and finds the
+/// speeds from which on measures of hunting pass their limits. Writes onset.csv, onset.json, onset.svg, onset.png.
+///
 /// With --nonlinear it also runs the car at falling and at rising speed, and finds the speeds at which
 /// hunting ends after a lateral start at the highest speed, and at which hunting begins over small dips of
 /// the rails. Writes hunting.csv (amplitudes over speed), hunting.json, hunting.svg and hunting.png.
@@ -41,6 +45,7 @@ Examples:
   wedgelab stability car_hunting_empty
   wedgelab stability my_car.toml --speeds \"30 mph\"..\"80 mph\" --steps 6
   wedgelab stability car_hunting_roller_empty --nonlinear --ramp-time \"180 s\"
+  wedgelab stability car_hunting_roller_empty --onset 4 --speeds \"45 mph\"..\"70 mph\"
   wedgelab stability my_car.toml --set wheels.geometry=linear --set track.support.kind=rigid")]
 pub struct Arguments {
     /// Case file, or the name of a built-in case
@@ -56,6 +61,10 @@ pub struct Arguments {
         value_parser = clap::value_parser!(u32).range(2..=1000),
     )]
     steps: u32,
+    /// Also run the car at this many held speeds, on perfect track and on track of FRA class 4: onset of hunting by
+    /// the standard deviation of the body's lateral acceleration over 2,000 ft and the truck's RMS over 2 s
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=50))]
+    onset: Option<u32>,
     /// Also run the car at falling and at rising speed, to find the speeds at which it hunts
     #[arg(long)]
     nonlinear: bool,
@@ -146,22 +155,31 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             .check(&case)
             .map_err(|error| cannot_hunt(&case, &error))?;
     }
-    let more = if arguments.nonlinear {
-        &hunting_files::NAMES[..]
-    } else {
-        &[]
-    };
-    let names: Vec<&str> = NAMES.iter().chain(more).copied().collect();
+    let mut names: Vec<&str> = NAMES.to_vec();
+    if arguments.nonlinear {
+        names.extend(hunting_files::NAMES);
+    }
+    if arguments.onset.is_some() {
+        names.extend(onset_files::NAMES);
+    }
     let folder = folders::check(path, &names, arguments.force)?;
     let [from, to] = arguments.speeds;
-    let last = arguments.steps - 1;
-    let speeds: Vec<f64> = (0..=last)
-        .map(|k| from + (to - from) * f64::from(k) / f64::from(last))
-        .collect();
+    let spaced = |count: u32| -> Vec<f64> {
+        let last = count - 1;
+        let speed = |k| from + (to - from) * f64::from(k) / f64::from(last);
+        (0..=last).map(speed).collect()
+    };
+    let speeds = spaced(arguments.steps);
     let progress = Progress::new(1, arguments.quiet);
     interrupt::stops_run();
     let mut reached = progress.of_run(1.0);
-    let part = if arguments.nonlinear { 0.3 } else { 1.0 };
+    let part = match (arguments.nonlinear, arguments.onset.is_some()) {
+        (false, false) => 1.0,
+        (true, true) => 0.1,
+        _ => 0.3,
+    };
+    // Ramps, then runs at held speeds.
+    let ramps = if arguments.onset.is_some() { 0.4 } else { 1.0 };
     let found = stability(&case, &speeds, |share| {
         reached(part * share);
         match interrupt::wanted() {
@@ -171,9 +189,28 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     });
     let runs = match &found {
         Ok(found) if found.complete && arguments.nonlinear => Some(hunting(&case, settings, |share| {
-            reached(part + (1.0 - part) * share);
+            reached(part + ramps * (1.0 - part) * share);
             interrupt::go_on()
         })),
+        _ => None,
+    };
+    let whole = match (&found, &runs) {
+        (Ok(found), None) => found.complete,
+        (Ok(found), Some(Ok(runs))) => found.complete && runs.complete,
+        _ => false,
+    };
+    let held = match arguments.onset {
+        Some(count) if whole => {
+            let before = if arguments.nonlinear {
+                part + ramps * (1.0 - part)
+            } else {
+                part
+            };
+            Some(onset(&case, &spaced(count), |share| {
+                reached(before + (1.0 - before) * share);
+                interrupt::go_on()
+            }))
+        }
         _ => None,
     };
     progress.finish();
@@ -183,6 +220,13 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Message::new(message, advice)
     })?;
     let runs = runs.transpose().map_err(|error| cannot_hunt(&case, &error))?;
+    let held = held.transpose().map_err(|error| {
+        let message = format!("{} cannot be run at held speeds: {error}", case.name);
+        Message::new(
+            message,
+            "look at its speeds and wheels; `wedgelab run` shows how it runs",
+        )
+    })?;
     let units = case.simulation.output_units;
     let figure = Drawn::of(&stability_files::figure(&case.name, &found, units))?;
     let hunting = match &runs {
@@ -190,6 +234,13 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Some(runs) => {
             let figure = Drawn::of(&hunting_files::figure(&case.name, runs, &found, units))?;
             Some((runs, figure))
+        }
+    };
+    let onset_drawn = match &held {
+        None => None,
+        Some(held) => {
+            let figure = Drawn::of(&onset_files::figure(&case.name, held, units))?;
+            Some((held, figure))
         }
     };
     folder.write(|files| {
@@ -203,6 +254,15 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             stability_files::write_numbers(&case, &found, units, out)
         })?;
         figure.add(files, stability_files::FIGURE, stability_files::PICTURE)?;
+        if let Some((held, figure)) = &onset_drawn {
+            files.add(onset_files::TABLE, |out| {
+                onset_files::write_table(held, units, out)
+            })?;
+            files.add(onset_files::NUMBERS, |out| {
+                onset_files::write_numbers(&case.name, held, units, out)
+            })?;
+            figure.add(files, onset_files::FIGURE, onset_files::PICTURE)?;
+        }
         let Some((runs, figure)) = &hunting else {
             return Ok(());
         };
@@ -233,10 +293,24 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     for line in runs.iter().flat_map(|runs| lines_of(runs, units)) {
         writeln!(out, "{line}")?;
     }
-    let written: Vec<&str> = match &runs {
-        Some(_) => names,
-        None => NAMES.to_vec(),
-    };
+    if let Some(runs) = runs.as_ref().filter(|runs| runs.complete) {
+        writeln!(out, "{}", verdict(runs, units))?;
+    }
+    if let Some(held) = &held {
+        for line in onset_files::sentences(held, units) {
+            writeln!(out, "{line}")?;
+        }
+        for warning in onset_files::warnings(held, units) {
+            writeln!(out, "warning: {warning}")?;
+        }
+    }
+    let mut written: Vec<&str> = NAMES.to_vec();
+    if runs.is_some() {
+        written.extend(hunting_files::NAMES);
+    }
+    if held.is_some() {
+        written.extend(onset_files::NAMES);
+    }
     writeln!(
         out,
         "\nGrowth and frequency of the vibration that grows most, of 0.05 to 30 Hz; positive growth is \
@@ -257,7 +331,16 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Outcome::Failed(reason) => Some(reason),
         _ => None,
     });
-    if found.complete && runs.as_ref().is_none_or(|runs| runs.complete) {
+    let failed = failed.cloned().or_else(|| {
+        let (track, at, reason) = held.as_ref()?.failed()?;
+        let unit = Kind::TravelSpeed.label(units);
+        let at = at * Kind::TravelSpeed.from_si(units);
+        Some(format!("{} at {at:.1} {unit}: {reason}", track.words()))
+    });
+    let whole = found.complete
+        && runs.as_ref().is_none_or(|runs| runs.complete)
+        && held.as_ref().is_none_or(|held| held.complete);
+    if whole {
         let Some(reason) = failed else {
             return Ok(ExitCode::SUCCESS);
         };
@@ -268,6 +351,32 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         let message = "interrupted: the speeds that were computed are written".to_owned();
         Err(Failure::Interrupted(Message::new(message, "").into()))
     }
+}
+
+/// Returns in a sentence over which speeds it hunts.
+fn verdict(runs: &Hunting, units: Units) -> String {
+    let speed = |si: f64| {
+        let unit = Kind::TravelSpeed.label(units);
+        format!("{:.0} {unit}", si * Kind::TravelSpeed.from_si(units))
+    };
+    let [low, high] = runs.settings.speeds;
+    let once = match runs.falling.boundary {
+        Boundary::At(own) => format!("Once disturbed it hunts above {}", speed(own)),
+        Boundary::Everywhere => format!("Once disturbed it hunts at all speeds from {} on", speed(low)),
+        Boundary::Nowhere => format!(
+            "Once disturbed it comes to rest at all speeds up to {}",
+            speed(high)
+        ),
+        Boundary::Derails(own) => format!("Once disturbed it derails at {}", speed(own)),
+    };
+    let itself = match runs.rising.as_ref().map(|own| own.boundary) {
+        Some(Boundary::At(own)) => format!("; by itself, over small dips, from {} on.", speed(own)),
+        Some(Boundary::Everywhere) => format!("; by itself, over small dips, from {} on.", speed(low)),
+        Some(Boundary::Nowhere) => format!("; by itself, over small dips, not up to {}.", speed(high)),
+        Some(Boundary::Derails(own)) => format!("; over small dips it derails at {}.", speed(own)),
+        None => ".".to_owned(),
+    };
+    format!("{once}{itself}")
 }
 
 fn cannot_hunt(case: &CarCase, error: &HuntingError) -> Message {
