@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use quantity::{Kind, System as Units};
 use serde::Serialize;
 use study::car::CarCase;
-use study::car::stability::{Branch, BranchKind, Critical, NamedMode, Stability, left_out};
+use study::car::stability::{Branch, Critical, NamedMode, Stability, left_out};
 
 use crate::csv::{RowWriter, rounded};
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
@@ -30,6 +30,8 @@ pub const SCHEMA: &str = "wedgelab.car_stability/2";
 
 /// Growth below which a vibration is not drawn, 1/s: it is far from hunting.
 const DRAWN: f64 = -6.0;
+/// Vibrations that are followed over the speed.
+const FOLLOWED: usize = 5;
 /// Largest frequency drawn, Hz.
 const FASTEST: f64 = 8.0;
 
@@ -212,58 +214,67 @@ pub fn figure(case: &str, found: &Stability, units: Units) -> Figure {
         }
     }
     let over_amplitude = Panel {
-        title: "(a) critical speed over amplitude, up to the flanges".to_owned(),
+        title: "critical speed over amplitude, up to the flanges".to_owned(),
         x_label: axis("lateral amplitude of a wheelset", Kind::Length, units),
         y_label: axis("speed", Kind::TravelSpeed, units),
         curves,
         ..Panel::default()
     };
-    let mut panels = vec![over_amplitude];
-    for (branch, letter) in found.branches.iter().zip(["b", "c", "d"]) {
-        panels.push(locus(branch, &found.speeds, letter, units));
-    }
+    // Nothing grows at any amplitude: there is no curve to draw.
+    let drawn = over_amplitude.curves.iter().any(|own| !own.points.is_empty());
+    let mut panels: Vec<Panel> = drawn.then_some(over_amplitude).into_iter().collect();
+    panels.extend(found.branches.iter().map(|own| locus(own, &found.speeds, units)));
     Figure {
         title: format!("{case}: linear stability"),
-        caption: "(a) Beyond the curve a motion of this amplitude grows, by equivalent linearization. Others: \
-                  growth and frequency of vibrations about steady running, one curve a speed: positive growth \
-                  is hunting."
+        caption: "Beyond the curve over the amplitude a motion of this amplitude grows, by equivalent linearization. \
+                  Root loci: growth and frequency of the vibrations about steady running that grow most, from the \
+                  lowest to the highest speed, each named by its frequency there; positive growth is hunting."
             .to_owned(),
         panels,
         ..Figure::default()
     }
 }
 
-/// Returns the root locus of a branch: growth and frequency of its slow vibrations, a curve a speed.
-fn locus(branch: &Branch, speeds: &[f64], letter: &str, units: Units) -> Panel {
-    let own = speeds.iter().zip(&branch.modes);
-    // First, middle and last speed are enough to see where roots go.
-    let shown = [0, branch.modes.len() / 2, branch.modes.len().saturating_sub(1)];
-    let curves = own.enumerate().filter(|(number, _)| shown.contains(number));
-    let curves = curves.enumerate().map(|(place, (_, (speed, modes)))| {
-        let (colour, line) = distinct(place);
-        let mut points: Vec<(f64, f64)> = modes
-            .iter()
-            .filter(|mode| mode.growth > DRAWN && mode.frequency < FASTEST)
-            .map(|mode| (mode.growth, mode.frequency))
-            .collect();
-        points.sort_by(|a, b| a.1.total_cmp(&b.1));
+/// Returns the root locus of a branch over the speed: a curve for each of the vibrations that grow most at the
+/// highest speed, followed to the others by the nearest root.
+fn locus(branch: &Branch, speeds: &[f64], units: Units) -> Panel {
+    let root = |mode: &NamedMode| (mode.growth, mode.frequency);
+    let slow = |modes: &Vec<NamedMode>| -> Vec<(f64, f64)> {
+        let own = modes.iter().map(root);
+        own.filter(|(growth, frequency)| *growth > DRAWN && *frequency < FASTEST)
+            .collect()
+    };
+    let last = branch.modes.last().map(slow).unwrap_or_default();
+    let curves = last.into_iter().take(FOLLOWED).enumerate().map(|(number, end)| {
+        let mut points = vec![end];
+        let mut here = end;
+        for modes in branch.modes.iter().rev().skip(1) {
+            let apart = |own: &(f64, f64)| libm::hypot(own.0 - here.0, own.1 - here.1);
+            let near = slow(modes)
+                .into_iter()
+                .min_by(|a, b| apart(a).total_cmp(&apart(b)));
+            let Some(near) = near else { break };
+            points.push(near);
+            here = near;
+        }
+        points.reverse();
+        let (colour, line) = distinct(number);
         PlotCurve {
-            label: format!(
-                "{:.0} {}",
-                speed * Kind::TravelSpeed.from_si(units),
-                Kind::TravelSpeed.label(units)
-            ),
+            label: format!("{:.2} Hz", end.1),
             colour,
             line,
             points,
         }
     });
-    let words = match branch.kind {
-        BranchKind::Tied => "linear benchmark",
-        kind => kind.words(),
-    };
+    let speed = |own: Option<&f64>| own.copied().unwrap_or_default() * Kind::TravelSpeed.from_si(units);
     Panel {
-        title: format!("({letter}) root locus, {words}"),
+        title: format!(
+            "{}, {:.0} to {:.0} {}",
+            branch.kind.words(),
+            speed(speeds.first()),
+            speed(speeds.last()),
+            Kind::TravelSpeed.label(units)
+        ),
         x_label: "growth (1/s)".to_owned(),
         y_label: "frequency (Hz)".to_owned(),
         curves: curves.collect(),
