@@ -23,8 +23,10 @@ pub const NUMBERS: &str = "stability.json";
 pub const FIGURE: &str = "stability.svg";
 /// The same as a picture.
 pub const PICTURE: &str = "stability.png";
+/// The page.
+pub const PAGE: &str = "stability.html";
 /// All of them.
-pub const NAMES: [&str; 5] = [TABLE, CURVE, NUMBERS, FIGURE, PICTURE];
+pub const NAMES: [&str; 6] = [TABLE, CURVE, NUMBERS, FIGURE, PICTURE, PAGE];
 /// The schema of [`NUMBERS`].
 pub const SCHEMA: &str = "wedgelab.car_stability/2";
 

@@ -13,6 +13,7 @@ mod runs;
 mod sensitivity;
 mod short;
 pub mod side_by_side;
+pub mod stability;
 pub mod study;
 pub mod truck;
 pub mod truck_run;

@@ -8,7 +8,7 @@
 
 use car::{Mass, Parameters, Wheels};
 use study::car::CarCase;
-use study::car::run::CarResult;
+use study::result::RunResult;
 use truck::WEDGE_NAMES;
 use wheelrail::profile::{Profile, ProfileError, nominal};
 use wheelrail::track::RailLines;
@@ -35,7 +35,7 @@ const SIDES: [&str; 2] = ["left", "right"];
 
 /// Returns the scene; none if there are no profiles to draw.
 #[must_use]
-pub fn scene(case: &CarCase, result: &CarResult) -> Option<Scene> {
+pub fn scene<S>(case: &CarCase, result: &RunResult<S>) -> Option<Scene> {
     let own = &case.parameters;
     let [wheel, rail] = profiles(own).ok()?;
     let half = 0.5 * own.truck_distance;
@@ -254,7 +254,7 @@ fn add_truck(scene: &mut Scene, parameters: &truck::Parameters, prefix: &str) {
 
 /// Returns the quantities that its plots may show.
 #[must_use]
-pub fn plots(result: &CarResult) -> Vec<Plot> {
+pub fn plots<S>(result: &RunResult<S>) -> Vec<Plot> {
     let named = |title: &str, curves: Vec<(String, String)>| Plot {
         title: title.to_owned(),
         curves,

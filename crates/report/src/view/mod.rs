@@ -5,7 +5,8 @@
 //! - [`run`]: a run's columns, and which belong in one plot; [`kept`]: a run as its own page keeps it.
 //! - [`scene`]: what a run looks like: bodies, solids, coils, contacts; [`truck`] and [`half_truck`]: that of
 //!   a truck and of a half-truck, by what both have in common; [`rolling`]: track, wheels and contact patches
-//!   of all that rolls, [`wheelset`]: one wheelset, [`car`]: a car of two trucks.
+//!   of all that rolls, [`wheelset`]: one wheelset, [`car`]: a car of two trucks, [`mode_shape`]: a motion
+//!   about its steady running.
 //!
 //! All numbers are in SI units; how they are shown in either system stands with them.
 
@@ -15,6 +16,7 @@ pub mod chart;
 pub mod data;
 pub mod half_truck;
 pub mod kept;
+pub mod mode_shape;
 mod pressure;
 pub mod rolling;
 pub mod run;

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use mechanics::output::Column;
 use serde::Serialize;
 use study::car::CarCase;
+use study::car::mode_shape::ModeRecording;
 use study::car::motions::MotionTable;
 use study::car::run::CarResult;
 use study::contacts::ContactTable;
@@ -18,7 +19,7 @@ use wedge::outputs::{CORNERS, FACES};
 use super::data::{Data, Precision};
 use super::scene::Scene;
 use super::stand_alone;
-use super::{car, half_truck, kind_name, truck, wheelset};
+use super::{car, half_truck, kind_name, mode_shape, truck, wheelset};
 use crate::figures::CaseOutcome;
 use crate::overlay::moves;
 
@@ -135,6 +136,17 @@ impl Recording {
         all.extend(motions.iter().flat_map(|own| table(&own.columns, &own.values)));
         let scene = motions.and_then(|_| car::scene(case, result));
         Self::new((&case.name, &case.title), &all, car::plots(result), scene, detail)
+    }
+
+    /// Makes the view of a motion about a car's steady running, exaggerated by a factor at first.
+    #[must_use]
+    pub fn of_mode_shape(own: &ModeRecording, factor: f64) -> Self {
+        let (columns, values) = mode_shape::at_rest(own);
+        let mut all = table(&own.result.columns, &own.result.values);
+        all.extend(table(&columns, &values));
+        let (scene, plots) = (mode_shape::scene(own, factor), mode_shape::plots(own));
+        let named = (own.case.name.as_str(), own.case.title.as_str());
+        Self::new(named, &all, plots, scene, Detail::Full)
     }
 
     /// Makes the view of a wheelset on a track.

@@ -16,6 +16,7 @@ pub mod hunting;
 mod lading;
 pub mod limits;
 pub mod locked_in;
+pub mod mode_shape;
 pub mod motions;
 mod named;
 pub mod onset;

@@ -88,6 +88,8 @@ pub struct Branch {
     pub modes: Vec<Vec<NamedMode>>,
     /// The lowest of the speeds from which on a vibration grows, refined; none if none grows.
     pub critical: Option<Critical>,
+    /// Its motion, of any size, for pictures of it.
+    pub motion: Option<CriticalSpeed>,
 }
 
 /// A motion that neither grows nor dies at a speed, beyond which it grows.
@@ -244,6 +246,7 @@ fn branch(
         kind,
         modes: Vec::new(),
         critical: None,
+        motion: None,
     };
     let mut first = None;
     for (number, speed) in speeds.iter().enumerate() {
@@ -282,12 +285,13 @@ fn branch(
             name: name_of(car.car(), &model, &own.shape),
             at_lowest: before.is_none(),
         });
+        branch.motion = Some(own);
     }
     Ok((branch, true))
 }
 
 /// Returns the same car on straight track, long enough to settle on.
-fn straight(parameters: &Parameters) -> Parameters {
+pub(super) fn straight(parameters: &Parameters) -> Parameters {
     /// Longer than a second at the speed of settling, m.
     const WAY: f64 = 100.0;
     let mut own = parameters.clone();

@@ -254,6 +254,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             stability_files::write_numbers(&case, &found, units, out)
         })?;
         figure.add(files, stability_files::FIGURE, stability_files::PICTURE)?;
+        files.add(stability_files::PAGE, |out| {
+            report::page::stability::write(&case, &found, units, out)
+        })?;
         if let Some((held, figure)) = &onset_drawn {
             files.add(onset_files::TABLE, |out| {
                 onset_files::write_table(held, units, out)
