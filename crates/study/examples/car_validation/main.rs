@@ -2,6 +2,7 @@
 //!
 //! `cargo run --release -p study --example car_validation`: some minutes on two cores.
 
+mod amplitude;
 mod explained;
 mod onset;
 mod shared;
@@ -38,10 +39,11 @@ linear vehicles: [validation of wheelsets](validation-rolling.md).
 type Section = fn() -> Result<String, Failure>;
 
 fn main() -> Result<(), Failure> {
-    let sections: [Section; 12] = [
+    let sections: [Section; 13] = [
         hunting_over_speed,
         hunting_held,
         onset::of_treads,
+        amplitude::critical_speeds,
         flange_contact,
         sides_in_curves,
         turning_moment,
@@ -57,7 +59,7 @@ fn main() -> Result<(), Failure> {
         .and_then(|word| word.parse::<usize>().ok());
     if let Some(number) = chosen {
         // One section, to look at.
-        let section = sections.get(number).ok_or("there are sections 0 to 11")?;
+        let section = sections.get(number).ok_or("there are sections 0 to 12")?;
         println!("{}", section()?);
         return Ok(());
     }
