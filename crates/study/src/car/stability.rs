@@ -228,7 +228,7 @@ pub fn stability(
 }
 
 /// Returns a branch, and whether it is whole.
-fn branch(
+pub(super) fn branch(
     car: &mut SteadyCar,
     kind: BranchKind,
     friction: FrictionState,
@@ -282,7 +282,7 @@ fn branch(
 }
 
 /// Returns the same car on straight track, long enough to settle on.
-fn straight(parameters: &Parameters) -> Parameters {
+pub(super) fn straight(parameters: &Parameters) -> Parameters {
     /// Longer than a second at the speed of settling, m.
     const WAY: f64 = 100.0;
     let mut own = parameters.clone();

@@ -4,6 +4,7 @@
 mod assumptions;
 mod case;
 mod input;
+mod locus;
 mod onset;
 #[path = "../common/problems.rs"]
 mod problems;
