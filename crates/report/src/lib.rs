@@ -15,7 +15,7 @@
 //! - [`run_files`]: the files of a run.
 //! - [`half_truck_files`]: the files of a half-truck's run.
 //! - [`warp_files`], [`curves_files`], [`wear_files`]: the files of `wedgelab warp`, `curves` and `wear`;
-//!   [`stability_files`], [`hunting_files`], [`onset_files`]: those of `wedgelab stability`;
+//!   [`stability_files`], [`locus_files`], [`hunting_files`], [`onset_files`]: those of `wedgelab stability`;
 //!   [`wheelrail_files`]: those of `wedgelab wheelrail plot`; [`track_files`]: those of
 //!   `wedgelab track show`.
 //! - [`table`]: tables of results, read back; [`run_folder`]: whole runs.
@@ -54,6 +54,7 @@ pub mod fit_files;
 pub mod half_truck_files;
 pub mod hunting_files;
 pub mod lock_up_files;
+pub mod locus_files;
 pub mod mat;
 pub mod mat5;
 pub mod onset_files;

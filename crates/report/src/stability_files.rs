@@ -31,11 +31,11 @@ pub const NAMES: [&str; 6] = [TABLE, CURVE, NUMBERS, FIGURE, PICTURE, PAGE];
 pub const SCHEMA: &str = "wedgelab.car_stability/2";
 
 /// Growth below which a vibration is not drawn, 1/s: it is far from hunting.
-const DRAWN: f64 = -6.0;
+pub(crate) const DRAWN: f64 = -6.0;
 /// Vibrations that are followed over the speed.
 const FOLLOWED: usize = 5;
 /// Largest frequency drawn, Hz.
-const FASTEST: f64 = 8.0;
+pub(crate) const FASTEST: f64 = 8.0;
 
 /// Writes all vibrations: speed, friction, growth, frequency, damping ratio, what moves.
 ///

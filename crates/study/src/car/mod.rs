@@ -3,7 +3,7 @@
 //! [`CarCase`] is what a user writes, completed and in SI; [`regime`] has the tracks and speeds of the field,
 //! [`builtin`] cases on them; [`statistics`] says what rules for the assessment of cars ask, [`limits`]
 //! beside what they allow; [`run`] records a run, [`motions`] what a picture of it needs; [`stability`]
-//! linearizes; [`hunting`] ramps the speed, [`onset`] holds it.
+//! linearizes, [`locus`] over any parameter; [`hunting`] ramps the speed, [`onset`] holds it.
 
 pub(crate) mod assumptions;
 pub mod builtin;
@@ -16,6 +16,7 @@ pub mod hunting;
 mod lading;
 pub mod limits;
 pub mod locked_in;
+pub mod locus;
 pub mod mode_shape;
 pub mod motions;
 mod named;

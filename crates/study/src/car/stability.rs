@@ -235,7 +235,7 @@ pub fn stability(
 }
 
 /// Returns a branch, and whether it is whole.
-fn branch(
+pub(super) fn branch(
     car: &mut SteadyCar,
     kind: BranchKind,
     friction: FrictionState,

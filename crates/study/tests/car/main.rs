@@ -4,6 +4,7 @@
 mod assumptions;
 mod case;
 mod input;
+mod locus;
 mod mode_shape;
 mod onset;
 #[path = "../common/problems.rs"]

@@ -19,6 +19,7 @@ pub mod report;
 pub mod reproduce;
 pub mod run;
 pub mod stability;
+mod stability_locus;
 pub mod study;
 pub mod track;
 pub mod warp;

@@ -17,6 +17,7 @@ use study::car::stability::{BEYOND, Branch, BranchKind, Stability, left_out, sta
 use study::outcome::Outcome;
 
 use super::run::read_any;
+use super::stability_locus::{Around, VaryArguments};
 use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
@@ -81,6 +82,8 @@ pub struct Arguments {
     #[arg(long, value_name = "LENGTH", default_value = "0.05 in", value_parser = threshold,
           requires = "nonlinear")]
     threshold: f64,
+    #[command(flatten)]
+    vary: VaryArguments,
     /// Set one value over those of the case
     #[arg(long, value_name = "PATH.KEY=VALUE")]
     set: Vec<String>,
@@ -141,6 +144,17 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             return Err(Message::new(message, advice).into());
         }
     };
+    let around = Around {
+        path: &arguments.case,
+        set: &arguments.set,
+        speeds: arguments.speeds,
+        out: arguments.out.as_ref(),
+        force: arguments.force,
+        quiet: arguments.quiet,
+    };
+    if let Some(done) = arguments.vary.execute(&case, around) {
+        return done;
+    }
     let path = arguments
         .out
         .clone()
