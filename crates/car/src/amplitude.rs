@@ -15,10 +15,11 @@
 //! Cooperrider, Hedrick, Law and Malstrom 1975, and Hull and Cooperrider 1977 (remembered).
 //!
 //! Inverse iteration for λ and φ, a Newton step for V and a part of the way to the new equivalents share one
-//! loop; amplitudes fall, each begins with the solution before it. Limits: one harmonic; normal forces are those
-//! of steady running, so that what the start locks in counts; side bearings and stops neither open nor close.
-//! Motions on the flanges are left out: a flange that bears is a steep cone for the harmonic linearization, while
-//! in truth it slides, and critical speeds fall by a third within the first hundredth of an inch.
+//! loop; amplitudes fall, each begins with the solution before it. Limits: one harmonic; normal forces are
+//! those of steady running, so that what the start locks in counts; side bearings and stops neither open nor
+//! close. Motions on the flanges are left out: a flange that bears is a steep cone for the harmonic
+//! linearization, while in truth it slides, and critical speeds fall by a third within the first hundredth of
+//! an inch.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -26,6 +27,7 @@ use std::ops::ControlFlow;
 use mechanics::linear::{Equivalent, LinearModel, SecondOrder};
 use nalgebra::{Complex, DMatrix, DVector};
 use rolling::wheelset::coordinate;
+use wheelrail::conicity::LinearGeometry;
 use wheelrail::contact::CreepLaw;
 
 use crate::linearize::{LinearizeError, SteadyCar, VIBRATIONS, vibrations};
@@ -49,7 +51,9 @@ const BEGINNINGS: usize = 4;
 const SAME: f64 = 1e-3;
 /// Motions that are followed over the amplitude.
 const FOLLOWED: usize = 3;
-/// Half the distance of the contacts where profiles give none, m.
+/// Shift of a wheelset for the geometry in the middle, m; half the distance of the contacts where there is
+/// none.
+const MIDDLE: f64 = 1e-4;
 const HALF_DISTANCE: f64 = 29.75 * 0.0254;
 /// Largest amplitude of linear wheels, which have no flanges, m: 0.4 in.
 const WITHOUT_FLANGES: f64 = 0.4 * 0.0254;
@@ -91,8 +95,8 @@ pub struct OverAmplitude {
     without_creep: Option<SteadyCar>,
     wheels: Option<WheelsOverAmplitude>,
     saturation: Saturation,
-    /// Of each wheelset: places of its lateral displacement and of its heading, and of all coordinates that its
-    /// creep acts on.
+    /// Of each wheelset: places of its lateral displacement and of its heading, and of all coordinates that
+    /// its creep acts on.
     places: Vec<([usize; 2], Vec<usize>)>,
     axle_load: f64,
     /// Friction limit of a wheel, N.
@@ -126,6 +130,9 @@ impl OverAmplitude {
                 own.saturation = Saturation::of(wheels.law.creep);
                 own.wheels = Some(WheelsOverAmplitude::new(&wheels.geometry));
                 own.limit = 0.5 * axle_load * wheels.law.friction;
+                if let Ok(middle) = LinearGeometry::of(&wheels.geometry, MIDDLE) {
+                    own.half_distance = middle.half_distance;
+                }
                 let mut bare = parameters.clone();
                 if let Wheels::OnRails(wheels) = &mut bare.wheels {
                     wheels.law.creep = CreepLaw::Frictionless;
@@ -150,9 +157,9 @@ impl OverAmplitude {
             .map_or(WITHOUT_FLANGES, WheelsOverAmplitude::clearance)
     }
 
-    /// Returns the slowest neutral motion of each amplitude (m, falling): none where all motions of it die up to
-    /// one and a half of the fastest speed (m/s). `go_on` receives the share that is done; where it breaks, the
-    /// motions found come back, fewer than amplitudes.
+    /// Returns the slowest neutral motion of each amplitude (m, falling): none where all motions of it die up
+    /// to one and a half of the fastest speed (m/s). `go_on` receives the share that is done; where it
+    /// breaks, the motions found come back, fewer than amplitudes.
     ///
     /// # Errors
     /// [`LinearizeError`].
@@ -250,8 +257,8 @@ impl OverAmplitude {
         Ok(false)
     }
 
-    /// Moves the equivalents of sliders and creep towards those of a motion. Returns the largest relative change
-    /// that was wanted.
+    /// Moves the equivalents of sliders and creep towards those of a motion. Returns the largest relative
+    /// change that was wanted.
     fn renew(&self, models: &Models, amplitude: f64, own: &mut Iterate) -> f64 {
         let mut change = 0.0_f64;
         let scale = amplitude / self.largest(&own.shape);
@@ -344,8 +351,8 @@ impl Models {
     }
 }
 
-/// Returns the places of lateral displacement and heading of each wheelset, and of all coordinates that its creep
-/// acts on: its own and those of the rails under it.
+/// Returns the places of lateral displacement and heading of each wheelset, and of all coordinates that its
+/// creep acts on: its own and those of the rails under it.
 fn places(car: &SteadyCar) -> Vec<([usize; 2], Vec<usize>)> {
     let system = &car.car().system;
     let numbers = &car.car().numbers;
@@ -363,8 +370,8 @@ fn places(car: &SteadyCar) -> Vec<([usize; 2], Vec<usize>)> {
     all.collect()
 }
 
-/// Returns value and shape of the motion nearest to one that is known, by Newton's method with inverse iteration:
-/// `A(σ) x = A'(σ) φ`, `λ = σ - φ_k/x_k`.
+/// Returns value and shape of the motion nearest to one that is known, by Newton's method with inverse
+/// iteration: `A(σ) x = A'(σ) φ`, `λ = σ - φ_k/x_k`.
 fn nearest(matrices: &SecondOrder, known: &Iterate) -> Option<(Complex<f64>, DVector<Complex<f64>>)> {
     let n = matrices.mass.nrows();
     let (mut value, mut shape) = (known.value, known.shape.clone());

@@ -1,11 +1,11 @@
 //! The linear benchmark of the industry's textbooks, posed with a car of one's own: side frames pinned to the
-//! axles, the body on plates that turn freely and do nothing else, no friction and no damping in the suspension,
-//! and a warp stiffness.
+//! axles, the body on plates that turn freely and do nothing else, no friction and no damping in the
+//! suspension, and a warp stiffness.
 //!
-//! Wedges carry nothing; load coils keep their stiffness, all in the middle of their nest, so that the nest gives
-//! the bolster no stiffness against turning but the warp stiffness. The coils' shear along the track, which holds
-//! the bolster square to the axles, is in series with it: what is asked for is the stiffness of both. Wheels are
-//! those of the car: `wheels.geometry = "linear"` for a conicity of one's own.
+//! Wedges carry nothing; load coils keep their stiffness, all in the middle of their nest, so that the nest
+//! gives the bolster no stiffness against turning but the warp stiffness. The coils' shear along the track,
+//! which holds the bolster square to the axles, is in series with it: what is asked for is the stiffness of
+//! both. Wheels are those of the car: `wheels.geometry = "linear"` for a conicity of one's own.
 
 use thiserror::Error;
 use truck::{Adapter, AdapterPad, ControlCoil, NestCoil, SideBearing, Spring, WedgeKind, empirical_warp};
@@ -25,7 +25,8 @@ const WARP: f64 = 0.030;
 /// The warp stiffness cannot be had.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error(
-    "a warp stiffness of {warp:.4e} N·m/rad a truck cannot be had: the shear of the load coils along the track, \
+    "a warp stiffness of {warp:.4e} N·m/rad a truck cannot be had: the shear of the load coils along \
+     the track, \
      which is in series with it, gives {shear:.4e} N·m/rad"
 )]
 pub struct NoWarp {

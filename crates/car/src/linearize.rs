@@ -1,11 +1,11 @@
-//! Motions about steady running on straight track: growth, frequency and shape, with friction stuck, absent, or
-//! at an amplitude.
+//! Motions about steady running on straight track: growth, frequency and shape, with friction stuck, absent,
+//! or at an amplitude.
 //!
-//! A car with profiled wheels runs for a second, so that creep forces and loads agree; then all its bodies move
-//! forward and its wheels roll, and nothing else moves. With steady running all forces depend on creepages
-//! alone: the state of another speed has the same displacements. Cars on linear wheels are taken as they start.
-//! Distance and spin stand in no force and give eigenvalues of zero. The car coasts: a control of its speed would
-//! damp its pitch.
+//! A car with profiled wheels runs for a second, so that creep forces and loads agree; then all its bodies
+//! move forward and its wheels roll, and nothing else moves. With steady running all forces depend on
+//! creepages alone: the state of another speed has the same displacements. Cars on linear wheels are taken as
+//! they start. Distance and spin stand in no force and give eigenvalues of zero. The car coasts: a control of
+//! its speed would damp its pitch.
 //!
 //! What friction does in wedges, plates, adapters and side bearings decides: bristles that stick are springs;
 //! without friction these parts are free where nothing else holds them; at an amplitude each slider has the
@@ -233,8 +233,8 @@ impl SteadyCar {
         Ok(vibrations(&model, friction.of(&model))?)
     }
 
-    /// Returns the critical speed between a speed at which nothing grows and one at which a vibration does (m/s),
-    /// within a thousandth.
+    /// Returns the critical speed between a speed at which nothing grows and one at which a vibration does
+    /// (m/s), within a thousandth.
     ///
     /// # Errors
     /// [`LinearizeError`].
@@ -276,8 +276,8 @@ impl SteadyCar {
 }
 
 impl Parameters {
-    /// Returns growth and frequency of the vibrations about steady running at a speed (m/s), by falling growth;
-    /// see [`SteadyCar::new`].
+    /// Returns growth and frequency of the vibrations about steady running at a speed (m/s), by falling
+    /// growth; see [`SteadyCar::new`].
     ///
     /// # Errors
     /// [`LinearizeError`].

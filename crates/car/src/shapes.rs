@@ -1,7 +1,7 @@
 //! Names of motions about steady running, by the bodies that move and how.
 //!
-//! The share of a body's coordinate is that of its kinetic energy, `m |φ|²`, couplings within a body left out.
-//! Wedges go with their bolsters, rails with nothing.
+//! The share of a body's coordinate is that of its kinetic energy, `m |φ|²`, couplings within a body left
+//! out. Wedges go with their bolsters, rails with nothing.
 
 use mechanics::linear::LinearModel;
 use nalgebra::Complex;

@@ -9,9 +9,10 @@
 //! creep      η(S) = (1/(π S)) ∮ F(S sin u) sin u du      S: amplitude of the linear creep force over μN
 //! ```
 //!
-//! (de Pater 1961, Cooperrider et al. 1975, remembered.) Defects: the wheels touch at one point each and do not
-//! give way; a flange that bears is a stiff spring and a steep cone here, which slides in truth. Creep along and
-//! across saturate together by the larger semi-axis of the ellipse of their sum; spin's part goes with it.
+//! (de Pater 1961, Cooperrider et al. 1975, remembered.) Defects: the wheels touch at one point each and do
+//! not give way; a flange that bears is a stiff spring and a steep cone here, which slides in truth. Creep
+//! along and across saturate together by the larger semi-axis of the ellipse of their sum; spin's part goes
+//! with it.
 
 use std::f64::consts::PI;
 
@@ -26,8 +27,8 @@ const SHIFTS: usize = 300;
 /// Points of the midpoint rule over half a cycle, of the geometry and of creep.
 const POINTS: usize = 200;
 const CREEP_POINTS: usize = 32;
-/// Stiffness over axle load from which on a flange bears, 1/m: a wheelset that is lifted by a twentieth of its
-/// shift at an amplitude of 0.4 in.
+/// Stiffness over axle load from which on a flange bears, 1/m: a wheelset that is lifted by a twentieth of
+/// its shift at an amplitude of 0.4 in.
 const FLANGE: f64 = 5.0;
 
 /// The tables of a wheelset.
@@ -149,8 +150,8 @@ mod tests {
     use wheelrail::profile::nominal;
     use wheelrail::wheelset::Layout;
 
-    /// Between cones and round rails conicity is that of the cone at all amplitudes, and the wheelset is hardly
-    /// lifted.
+    /// Between cones and round rails conicity is that of the cone at all amplitudes, and the wheelset is
+    /// hardly lifted.
     #[test]
     fn analytic_cones_have_one_conicity() {
         let (wheel, rail) = (nominal::cone(0.05, 0.06).unwrap(), nominal::rail_136re().unwrap());

@@ -59,9 +59,10 @@ fn reduced(conicity: f64, warp: f64, harder: f64) -> Parameters {
     parameters.tied(warp).unwrap()
 }
 
-/// Returns the critical speed (m/s) of nine coordinates: lateral displacement, roll and yaw of the body with its
-/// bolsters, and of each truck lateral displacement, yaw of the side frames and yaw of the axles with the bolster.
-/// Side frames and axles are a parallelogram with a warp spring; the nests' shear is between truck and bolster.
+/// Returns the critical speed (m/s) of nine coordinates: lateral displacement, roll and yaw of the body with
+/// its bolsters, and of each truck lateral displacement, yaw of the side frames and yaw of the axles with the
+/// bolster. Side frames and axles are a parallelogram with a warp spring; the nests' shear is between truck
+/// and bolster.
 fn nine_coordinates(conicity: f64, warp: f64) -> f64 {
     let car = empty(tangent(300.0), 10.0);
     let truck = &car.trucks[0];
@@ -389,8 +390,8 @@ fn cross_code_linear_models_are_the_ends_of_the_whole_system() {
     }
 }
 
-/// Neutral motions grow neither with a larger amplitude at their speed nor die: the curve is that of a car whose
-/// friction gives way; the same search gives the same bits again.
+/// Neutral motions grow neither with a larger amplitude at their speed nor die: the curve is that of a car
+/// whose friction gives way; the same search gives the same bits again.
 #[test]
 fn limits_critical_speeds_over_the_amplitude() {
     let mut parameters = empty(tangent(300.0), 10.0);

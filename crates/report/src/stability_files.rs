@@ -1,5 +1,5 @@
-//! The files of `wedgelab stability`: vibrations of a car over speed, and critical speeds over amplitude, as CSV,
-//! JSON and figure.
+//! The files of `wedgelab stability`: vibrations of a car over speed, and critical speeds over amplitude, as
+//! CSV, JSON and figure.
 
 use std::io::{self, Write};
 
@@ -228,8 +228,10 @@ pub fn figure(case: &str, found: &Stability, units: Units) -> Figure {
     panels.extend(found.branches.iter().map(|own| locus(own, &found.speeds, units)));
     Figure {
         title: format!("{case}: linear stability"),
-        caption: "Beyond the curve over the amplitude a motion of this amplitude grows, by equivalent linearization. \
-                  Root loci: growth and frequency of the vibrations about steady running that grow most, from the \
+        caption: "Beyond the curve over the amplitude a motion of this amplitude grows, by equivalent \
+                          linearization. \
+                  Root loci: growth and frequency of the vibrations about steady running that grow \
+                  most, from the \
                   lowest to the highest speed, each named by its frequency there; positive growth is hunting."
             .to_owned(),
         panels,
@@ -237,8 +239,8 @@ pub fn figure(case: &str, found: &Stability, units: Units) -> Figure {
     }
 }
 
-/// Returns the root locus of a branch over the speed: a curve for each of the vibrations that grow most at the
-/// highest speed, followed to the others by the nearest root.
+/// Returns the root locus of a branch over the speed: a curve for each of the vibrations that grow most at
+/// the highest speed, followed to the others by the nearest root.
 fn locus(branch: &Branch, speeds: &[f64], units: Units) -> Panel {
     let root = |mode: &NamedMode| (mode.growth, mode.frequency);
     let slow = |modes: &Vec<NamedMode>| -> Vec<(f64, f64)> {

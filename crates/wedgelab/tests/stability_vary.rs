@@ -14,7 +14,8 @@ fn limits_a_locus_is_written_and_told() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     let arguments = "stability car_hunting_empty -q --set wheels.geometry=linear \
-                     --set track.support.kind=rigid --vary wheels.conicity=0.05..0.2 --vary-steps 4 --vary-speed 60mph --out l";
+                     --set track.support.kind=rigid --vary wheels.conicity=0.05..0.2 --vary-steps 4 \
+                     --vary-speed 60mph --out l";
     let arguments: Vec<&str> = arguments.split_whitespace().collect();
     let output = wedgelab(at, &arguments);
     assert_eq!(output.code, Some(0), "{}", output.err);

@@ -35,8 +35,8 @@ pub struct SlidingPair {
 }
 
 impl SlidingPair {
-    /// Returns the larger semi-axis of the ellipse that the slip describes in a harmonic motion of this shape,
-    /// m.
+    /// Returns the larger semi-axis of the ellipse that the slip describes in a harmonic motion of this
+    /// shape, m.
     #[must_use]
     pub fn amplitude(&self, shape: &[Complex<f64>]) -> f64 {
         let [a, b] = self.slip.each_ref().map(|row| {

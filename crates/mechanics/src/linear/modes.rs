@@ -1,10 +1,11 @@
 //! Slow motions of a linear second-order system: growth, frequency and shape.
 //!
-//! `M q¨ = K q + D q˙` has motions `q = Re(φ exp(λ t))` with `(λ² M - λ D - K) φ = 0`. Those near a real shift σ
-//! are found by Arnoldi's method on `(σ - J)⁻¹`, J being the matrix of `(q, q˙)`, one solution of
-//! `σ² M - σ D - K` a step, with full orthogonalization (Saad, Numerical Methods for Large Eigenvalue Problems,
-//! 2011, chapters 6 and 8, remembered). A Ritz pair counts if its residual is below a bound, relative to the
-//! eigenvalue of the inverse; others are left out. The start vector is fixed: same input, same bits.
+//! `M q¨ = K q + D q˙` has motions `q = Re(φ exp(λ t))` with `(λ² M - λ D - K) φ = 0`. Those near a real
+//! shift σ are found by Arnoldi's method on `(σ - J)⁻¹`, J being the matrix of `(q, q˙)`, one solution of
+//! `σ² M - σ D - K` a step, with full orthogonalization (Saad, Numerical Methods for Large Eigenvalue
+//! Problems, 2011, chapters 6 and 8, remembered). A Ritz pair counts if its residual is below a bound,
+//! relative to the eigenvalue of the inverse; others are left out. The start vector is fixed: same input,
+//! same bits.
 
 use nalgebra::linalg::{LU, Schur};
 use nalgebra::{Complex, DMatrix, DVector, Dyn};
@@ -16,12 +17,12 @@ const RESIDUAL: f64 = 1e-7;
 /// Part of a vector below which nothing new is left of it.
 const NOTHING_NEW: f64 = 1e-13;
 
-/// Bounds below which an entry beside the diagonal is zero, in parts of rounding: a larger one where rounding keeps
-/// those of fast motions above the smallest. One of 1e8 moves eigenvalues by 2e-8 of the largest.
+/// Bounds below which an entry beside the diagonal is zero, in parts of rounding: a larger one where rounding
+/// keeps those of fast motions above the smallest. One of 1e8 moves eigenvalues by 2e-8 of the largest.
 const SCHUR_BOUNDS: [f64; 5] = [1.0, 100.0, 1e4, 1e6, 1e8];
 
-/// The matrices of `M q¨ = K q + D q˙`: K and D are derivatives of the forces, so that a spring has a negative
-/// stiffness there.
+/// The matrices of `M q¨ = K q + D q˙`: K and D are derivatives of the forces, so that a spring has a
+/// negative stiffness there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SecondOrder {
     /// M, kg and so on.

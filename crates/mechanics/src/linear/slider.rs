@@ -1,8 +1,8 @@
 //! A bristle with a slider under a harmonic motion: equivalent stiffness and damping.
 //!
-//! A spring k in series with a slider that slips at F, moved harmonically with the amplitude A and the angular
-//! frequency ω: while `k A <= F` it is a spring. Beyond, its force over a cycle is a parallelogram; the parts
-//! of its first harmonic in phase with displacement and with velocity are
+//! A spring k in series with a slider that slips at F, moved harmonically with the amplitude A and the
+//! angular frequency ω: while `k A <= F` it is a spring. Beyond, its force over a cycle is a parallelogram;
+//! the parts of its first harmonic in phase with displacement and with velocity are
 //!
 //! ```text
 //! k_eq = k (t - sin t cos t)/π,   cos t = 1 - 2F/(k A)
@@ -10,12 +10,12 @@
 //! ```
 //!
 //! (Iwan and Gates 1979 and textbooks of describing functions, remembered; the integrals are derived again in
-//! the tests.) With `A -> 0` both go to `k` and `0`, with `A -> ∞` to zero. The bristle's own damping C counts
-//! with the share of the cycle in which it deflects: `C k_eq/k`, an approximation of a small term.
+//! the tests.) With `A -> 0` both go to `k` and `0`, with `A -> ∞` to zero. The bristle's own damping C
+//! counts with the share of the cycle in which it deflects: `C k_eq/k`, an approximation of a small term.
 //!
 //! In the plane of a face both directions share one limit: A is the larger semi-axis of the ellipse that the
-//! slip describes, and stiffness and damping are taken the same in both directions. Exact where the slip goes to
-//! and fro along a line, as it mostly does. Limits: the normal force is that of the state, and the first
+//! slip describes, and stiffness and damping are taken the same in both directions. Exact where the slip goes
+//! to and fro along a line, as it mostly does. Limits: the normal force is that of the state, and the first
 //! harmonic stands for the whole force.
 
 use std::f64::consts::PI;

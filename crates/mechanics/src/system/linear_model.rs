@@ -9,9 +9,9 @@ use crate::friction::FrictionLaw;
 use crate::linear::{Entry, LinearModel, Slider, SliderPlace, SlidingPair};
 
 impl System {
-    /// Returns the linear model about a state at rest or in steady motion, in which nothing slips. Bristles are
-    /// taken relaxed, whatever their deflections in the state: so every closed point sticks; the turning of
-    /// their forces with the bodies is left out.
+    /// Returns the linear model about a state at rest or in steady motion, in which nothing slips. Bristles
+    /// are taken relaxed, whatever their deflections in the state: so every closed point sticks; the turning
+    /// of their forces with the bodies is left out.
     ///
     /// Coordinates are the positions in the order of the state vector.
     #[must_use]

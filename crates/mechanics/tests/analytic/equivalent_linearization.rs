@@ -10,8 +10,8 @@ const SLIDER: Slider = Slider {
     limit: 500.0,
 };
 
-/// In-phase and out-of-phase parts of the first harmonic of a spring with a slider that is moved by `a cos θ`,
-/// over its amplitude: the slider is followed in small steps until its cycle repeats.
+/// In-phase and out-of-phase parts of the first harmonic of a spring with a slider that is moved by `a cos
+/// θ`, over its amplitude: the slider is followed in small steps until its cycle repeats.
 fn by_steps(slider: &Slider, amplitude: f64) -> [f64; 2] {
     const STEPS: usize = 200_000;
     let mut slipped = 0.0_f64;

@@ -10,10 +10,13 @@ use crate::shared::{Failure, INCH, MPH, each};
 /// Returns the section.
 pub(crate) fn critical_speeds() -> Result<String, Failure> {
     let mut out = "## Critical speed over amplitude\n\n\
-         The empty car on roller side bearings, by equivalent linearization (`wedgelab stability`): the speed above which a motion \
-         grows whose wheelset with the largest motion has this lateral\namplitude; 0.39 in is where flanges bear. Wedges have the \
+         The empty car on roller side bearings, by equivalent linearization (`wedgelab stability`): the \
+         speed above which a motion \
+         grows whose wheelset with the largest motion has this lateral\namplitude; 0.39 in is where \
+         flanges bear. Wedges have the \
          normal forces that the start locks in.\n\n\
-         | tread | start | 0.10 in, mph | 0.20 in, mph | 0.39 in, mph | its frequency, Hz |\n|---|---|---|---|---|---|\n"
+         | tread | start | 0.10 in, mph | 0.20 in, mph | 0.39 in, mph | its frequency, Hz \
+         |\n|---|---|---|---|---|---|\n"
         .to_owned();
     let rows = [
         ("aar_1b", "equilibrium"),
@@ -51,8 +54,10 @@ pub(crate) fn critical_speeds() -> Result<String, Failure> {
         ))
     })?;
     out.extend(lines);
-    out += "\nThe ramps above run from flange to flange: with 1:20 down to 68 mph, with 1:10 down to 49 mph. The curve does not reach \
-            these motions: within a hundredth of an inch\nbeyond 0.39 in the flanges bear, and harmonic linearization makes steep \
+    out += "\nThe ramps above run from flange to flange: with 1:20 down to 68 mph, with 1:10 down to 49 \
+             mph. The curve does not reach \
+            these motions: within a hundredth of an inch\nbeyond 0.39 in the flanges bear, and harmonic \
+            linearization makes steep \
             cones of them that let the critical speed fall by 40 %, while a flange slides.\n";
     Ok(out)
 }

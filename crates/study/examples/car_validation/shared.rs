@@ -17,8 +17,8 @@ pub type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 pub const MPH: f64 = 0.447_04;
 pub const INCH: f64 = 0.0254;
-/// Amplitude of a wheelset from which on a motion is hunting, and from which on it runs from flange to flange,
-/// m.
+/// Amplitude of a wheelset from which on a motion is hunting, and from which on it runs from flange to
+/// flange, m.
 const HUNTS: f64 = 0.05 * INCH;
 const FLANGES: f64 = 0.38 * INCH;
 

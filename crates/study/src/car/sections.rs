@@ -104,7 +104,8 @@ fn stability(r: &mut CaseReader<'_>) -> Option<f64> {
     );
     let mut moment = None;
     let form: QuantityForm = (Kind::Moment, Range::Positive, Reach::Positive);
-    let comment = "of a nest at 30 mrad of warp in the linear benchmark (adapters and plates tied, plates free in \
+    let comment = "of a nest at 30 mrad of warp in the linear benchmark (adapters and plates tied, \
+                      plates free in \
                    yaw, no friction): NUCARS has 255 kip in for a new truck; left out: no benchmark";
     r.optional("warp_moment", form, &mut moment, "\"255000 lbf in\"", comment);
     moment.map(|own: f64| 2.0 * own / 0.030)

@@ -1,5 +1,6 @@
 //! Stability of a car by linearization about steady running: the motions that grow, over speed, with friction
-//! stuck and absent, and the critical speed over the amplitude between these ends by equivalent linearization.
+//! stuck and absent, and the critical speed over the amplitude between these ends by equivalent
+//! linearization.
 //!
 //! The car runs on straight track without irregularities, whatever its case's track is; the springs under its
 //! rails are the case's. What is linearized, and how, say [`car::SteadyCar`] and [`car::OverAmplitude`]. With
@@ -156,8 +157,8 @@ pub fn left_out(case: &CarCase) -> Option<&'static str> {
     }
 }
 
-/// Returns the vibrations at these speeds (m/s, rising), the critical speeds of all branches, and the curve over
-/// the amplitude. `go_on` receives the share that is done.
+/// Returns the vibrations at these speeds (m/s, rising), the critical speeds of all branches, and the curve
+/// over the amplitude. `go_on` receives the share that is done.
 ///
 /// # Errors
 /// [`StabilityError`].
@@ -322,8 +323,8 @@ impl Stability {
         own.min_by(|a, b| a.1.speed.total_cmp(&b.1.speed))
     }
 
-    /// Returns the smallest amplitude (m) that grows at no more than the fastest speed that was asked for, with
-    /// its critical speed.
+    /// Returns the smallest amplitude (m) that grows at no more than the fastest speed that was asked for,
+    /// with its critical speed.
     #[must_use]
     pub fn smallest(&self) -> Option<(f64, &Critical)> {
         let fastest = self.speeds.iter().fold(0.0_f64, |most, own| most.max(*own));
@@ -376,7 +377,8 @@ impl Stability {
         let [largest, least] = [length(amplitude), speed(slowest.speed)];
         match smallest {
             None => format!(
-                "Up to {}, {off} of up to {} grows; above {least} a motion of {largest} does: {what}.{flanges}",
+                "Up to {}, {off} of up to {} grows; above {least} a motion of {largest} does: \
+                 {what}.{flanges}",
                 speed(fastest),
                 length(self.clearance)
             ),

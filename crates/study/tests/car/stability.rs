@@ -36,8 +36,8 @@ fn limits_modes_of_the_empty_car_on_profiles() {
     assert!(worst.growth < 0.0 && worst.growth > -2.0, "{worst:?}");
 }
 
-/// The linear benchmark posed by keys: 65, 45 and 32 mph at conicities of 0.05, 0.1 and 0.2 with 17 kip·in/mrad of
-/// warp stiffness, from a separate model of nine coordinates.
+/// The linear benchmark posed by keys: 65, 45 and 32 mph at conicities of 0.05, 0.1 and 0.2 with 17
+/// kip·in/mrad of warp stiffness, from a separate model of nine coordinates.
 #[test]
 fn reproduction_the_linear_benchmark_is_posed_by_keys() {
     for (conicity, expected) in [(0.05, 65.0), (0.1, 45.0), (0.2, 32.0)] {

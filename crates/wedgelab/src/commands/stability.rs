@@ -28,14 +28,15 @@ use crate::table::TerminalTable;
 /// Stability of a car over speed: growth and frequency of its vibrations, critical speeds, hunting
 ///
 /// Linearizes the car about steady running on straight track without irregularities, at each speed: with all
-/// friction of wedges, center plates, adapters and side bearings stuck (bristles are springs), without it, and,
-/// if [stability] warp_moment is set, as the linear benchmark of textbooks. Between stuck and absent lies the
-/// critical speed over the amplitude: friction, conicity and creep by equivalent linearization. Writes
-/// stability.csv (all vibrations of 0.05 to 30 Hz), critical_speed.csv, stability.json, stability.svg and
-/// stability.png.
+/// friction of wedges, center plates, adapters and side bearings stuck (bristles are springs), without it,
+/// and, if [stability] warp_moment is set, as the linear benchmark of textbooks. Between stuck and absent
+/// lies the critical speed over the amplitude: friction, conicity and creep by equivalent linearization.
+/// Writes stability.csv (all vibrations of 0.05 to 30 Hz), critical_speed.csv, stability.json, stability.svg
+/// and stability.png.
 ///
-/// With --onset it also runs the car at held speeds on perfect track and on track of FRA class 4, and finds the
-/// speeds from which on measures of hunting pass their limits. Writes onset.csv, onset.json, onset.svg, onset.png.
+/// With --onset it also runs the car at held speeds on perfect track and on track of FRA class 4, and finds
+/// the speeds from which on measures of hunting pass their limits. Writes onset.csv, onset.json, onset.svg,
+/// onset.png.
 ///
 /// With --nonlinear it also runs the car at falling and at rising speed, and finds the speeds at which
 /// hunting ends after a lateral start at the highest speed, and at which hunting begins over small dips of
@@ -62,8 +63,9 @@ pub struct Arguments {
         value_parser = clap::value_parser!(u32).range(2..=1000),
     )]
     steps: u32,
-    /// Also run the car at this many held speeds, on perfect track and on track of FRA class 4: onset of hunting by
-    /// the standard deviation of the body's lateral acceleration over 2,000 ft and the truck's RMS over 2 s
+    /// Also run the car at this many held speeds, on perfect track and on track of FRA class 4: onset of
+    /// hunting by the standard deviation of the body's lateral acceleration over 2,000 ft and the truck's RMS
+    /// over 2 s
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=50))]
     onset: Option<u32>,
     /// Also run the car at falling and at rising speed, to find the speeds at which it hunts
@@ -331,7 +333,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     writeln!(
         out,
         "\nGrowth and frequency of the vibration that grows most, of 0.05 to 30 Hz; positive growth is \
-         hunting. Over the amplitude: the speed beyond\nwhich a motion of this lateral amplitude of a wheelset \
+         hunting. Over the amplitude: the speed beyond\nwhich a motion of this lateral amplitude of a \
+         wheelset \
          grows, by equivalent linearization{}\n\nWritten into {}: {}.",
         if runs.is_some() {
             "."
@@ -449,7 +452,8 @@ fn line_of(branch: &Branch, units: Units) -> String {
     let (frequency, name) = (own.frequency, &own.name);
     match (own.at_lowest, branch.kind) {
         (true, BranchKind::Absent) => format!(
-            "{words}: {name} at {frequency:.2} Hz grows at {speed:.1} {unit} already: wheelsets that nothing holds."
+            "{words}: {name} at {frequency:.2} Hz grows at {speed:.1} {unit} already: wheelsets that \
+             nothing holds."
         ),
         (true, _) => format!("{words}: {name} at {frequency:.2} Hz grows at {speed:.1} {unit} already."),
         (false, _) => format!("{words}: {name} at {frequency:.2} Hz grows from {speed:.1} {unit} on."),
