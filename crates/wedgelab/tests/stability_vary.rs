@@ -14,11 +14,12 @@ fn limits_a_locus_is_written_and_told() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     let arguments = "stability car_hunting_empty -q --set wheels.geometry=linear \
-                     --set track.support.kind=rigid --vary wheels.conicity=0.05..0.2 --vary-steps 4 --vary-speed 60mph --out l";
+                     --set track.support.kind=rigid --vary wheels.conicity=0.05..0.2 \
+                     --vary-steps 4 --vary-speed 67mph --out l";
     let arguments: Vec<&str> = arguments.split_whitespace().collect();
     let output = wedgelab(at, &arguments);
     assert_eq!(output.code, Some(0), "{}", output.err);
-    for part in ["wheels.conicity", "0.15", "at 60.0 mph", "locus.csv"] {
+    for part in ["wheels.conicity", "0.15", "at 67.0 mph", "locus.csv"] {
         assert!(output.out.contains(part), "lacks {part}: {}", output.out);
     }
     let table = fs::read_to_string(at.join("l/locus.csv")).unwrap();

@@ -172,8 +172,8 @@ impl Vary {
         self.values.iter().filter_map(|own| own.in_unit(unit)).collect()
     }
 
-    /// Checks that the key is one of a number, if the case has it. Keys that it has not are left to the reader
-    /// of cases, which knows those that may be left out.
+    /// Checks that the key is one of a number, if the case has it. Keys that it has not are left to the
+    /// reader of cases, which knows those that may be left out.
     ///
     /// # Errors
     /// [`VaryError::NotNumber`].
@@ -259,7 +259,8 @@ pub struct Locus {
 }
 
 /// Returns the vibrations at a speed (m/s) for each value. `read` reads the case with an override
-/// (`key=value`) laid over it; all cases are read before anything is computed. `go_on` receives the share that is done.
+/// (`key=value`) laid over it; all cases are read before anything is computed. `go_on` receives the share that
+/// is done.
 ///
 /// # Errors
 /// [`LocusError`], which names the value.
