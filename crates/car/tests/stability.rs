@@ -390,6 +390,31 @@ fn cross_code_linear_models_are_the_ends_of_the_whole_system() {
     }
 }
 
+/// Eigenvalues are found at speeds at which rounding keeps entries beside the diagonal of fast motions above the
+/// smallest bound: a conicity of 0.15 at 60 mph is one.
+#[test]
+fn issue_051_eigenvalues_are_found_at_all_speeds() {
+    let mut parameters = empty(tangent(300.0), 10.0);
+    parameters.support = None;
+    let axle_load = parameters.weight() / 4.0;
+    let Wheels::Linear {
+        mut wheelset,
+        support,
+    } = on_linear_wheels(1.0).wheels
+    else {
+        unreachable!("linear wheels");
+    };
+    (wheelset.geometry.conicity, wheelset.axle_load) = (0.15, axle_load);
+    parameters.wheels = Wheels::Linear { wheelset, support };
+    let mut car = SteadyCar::new(&parameters).unwrap();
+    for speed in 55..70 {
+        let modes = car
+            .vibrations(f64::from(speed) * MPH, FrictionState::Absent)
+            .unwrap();
+        assert!(modes.len() > 5, "{speed} mph: {}", modes.len());
+    }
+}
+
 /// Neutral motions grow neither with a larger amplitude at their speed nor die: the curve is that of a car
 /// whose friction gives way; the same search gives the same bits again.
 #[test]
