@@ -71,6 +71,28 @@ pub struct NeutralMotion {
     pub shape: Vec<Complex<f64>>,
 }
 
+/// What has been found of an amplitude.
+#[derive(Clone, Debug)]
+pub enum Neutral {
+    /// The slowest neutral motion.
+    At(NeutralMotion),
+    /// Its motions die up to one and a half of the fastest speed that was asked for.
+    Above,
+    /// An iteration came to no end: there may be one.
+    Unsolved,
+}
+
+/// The end of an iteration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum End {
+    /// A neutral motion.
+    Neutral,
+    /// It would be faster than is looked for.
+    Above,
+    /// It does not converge.
+    Lost,
+}
+
 /// What an iteration has come to.
 #[derive(Clone, Debug)]
 struct Iterate {
@@ -157,9 +179,8 @@ impl OverAmplitude {
             .map_or(WITHOUT_FLANGES, WheelsOverAmplitude::clearance)
     }
 
-    /// Returns the slowest neutral motion of each amplitude (m, falling): none where all motions of it die up
-    /// to one and a half of the fastest speed (m/s). `go_on` receives the share that is done; where it
-    /// breaks, the motions found come back, fewer than amplitudes.
+    /// Returns the slowest neutral motion of each amplitude (m, falling). `go_on` receives the share that is
+    /// done; where it breaks, what was found comes back, for fewer amplitudes.
     ///
     /// # Errors
     /// [`LinearizeError`].
@@ -168,31 +189,49 @@ impl OverAmplitude {
         amplitudes: &[f64],
         fastest: f64,
         mut go_on: impl FnMut(f64) -> ControlFlow<()>,
-    ) -> Result<Vec<Option<NeutralMotion>>, LinearizeError> {
+    ) -> Result<Vec<Neutral>, LinearizeError> {
         let mut found = Vec::new();
         let mut followed: Vec<Iterate> = Vec::new();
         for (number, amplitude) in amplitudes.iter().enumerate() {
-            let beginnings = match followed.is_empty() {
-                true => self.beginnings(fastest)?,
-                false => followed,
-            };
-            let mut next: Vec<Iterate> = Vec::new();
-            for mut own in beginnings {
-                let neutral = self.converge(*amplitude, fastest, &mut own)?;
-                let known = |other: &Iterate| (other.speed / own.speed - 1.0).abs() < SAME;
-                if neutral && !next.iter().any(known) {
-                    next.push(own);
-                }
+            let (mut next, mut lost) = self.from(followed, *amplitude, fastest)?;
+            if next.is_empty() {
+                // A motion may come from others than those that were followed.
+                let beginnings = self.beginnings(fastest)?;
+                (next, lost) = self.from(beginnings, *amplitude, fastest)?;
             }
-            next.sort_by(|a, b| a.speed.total_cmp(&b.speed));
-            next.truncate(FOLLOWED);
-            found.push(next.first().map(|own| self.motion(*amplitude, own)));
+            found.push(match next.first() {
+                Some(own) => Neutral::At(self.motion(*amplitude, own)),
+                None if lost => Neutral::Unsolved,
+                None => Neutral::Above,
+            });
             followed = next;
             if go_on((number + 1) as f64 / amplitudes.len() as f64).is_break() {
                 break;
             }
         }
         Ok(found)
+    }
+
+    /// Returns the neutral motions of an amplitude that iterations from these beginnings come to, by rising
+    /// speed, and whether one came to no end.
+    fn from(
+        &mut self,
+        beginnings: Vec<Iterate>,
+        amplitude: f64,
+        fastest: f64,
+    ) -> Result<(Vec<Iterate>, bool), LinearizeError> {
+        let (mut next, mut lost): (Vec<Iterate>, bool) = (Vec::new(), false);
+        for mut own in beginnings {
+            let end = self.converge(amplitude, fastest, &mut own)?;
+            lost |= end == End::Lost;
+            let known = |other: &Iterate| (other.speed / own.speed - 1.0).abs() < SAME;
+            if end == End::Neutral && !next.iter().any(known) {
+                next.push(own);
+            }
+        }
+        next.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        next.truncate(FOLLOWED);
+        Ok((next, lost))
     }
 
     fn motion(&self, amplitude: f64, own: &Iterate) -> NeutralMotion {
@@ -220,13 +259,13 @@ impl OverAmplitude {
         Ok(modes.into_iter().take(BEGINNINGS).map(beginning).collect())
     }
 
-    /// Iterates to a neutral motion of an amplitude. Returns false if there is none near.
-    fn converge(&mut self, amplitude: f64, fastest: f64, own: &mut Iterate) -> Result<bool, LinearizeError> {
+    /// Iterates to a neutral motion of an amplitude.
+    fn converge(&mut self, amplitude: f64, fastest: f64, own: &mut Iterate) -> Result<End, LinearizeError> {
         let mut slope = None;
         for step in 0..STEPS {
             let models = self.models(own.speed)?;
             let Some((value, shape)) = nearest(&self.matrices(&models, own, amplitude), own) else {
-                return Ok(false);
+                return Ok(End::Lost);
             };
             (own.value, own.shape) = (value, shape);
             if step % RENEWED == 0 || slope.is_none() {
@@ -247,14 +286,18 @@ impl OverAmplitude {
             let moved = wanted.clamp(-0.1 * own.speed, 0.1 * own.speed);
             let [equivalents, speeds] = SETTLED;
             if change < equivalents && moved.abs() < speeds * own.speed {
-                return Ok(own.value.im > TAU * VIBRATIONS[0]);
+                let vibrates = own.value.im > TAU * VIBRATIONS[0];
+                return Ok(if vibrates { End::Neutral } else { End::Lost });
             }
             own.speed += 1.4 * PART * moved;
-            if !(SLOWEST..FASTEST * fastest).contains(&own.speed) {
-                return Ok(false);
+            if own.speed > FASTEST * fastest {
+                return Ok(End::Above);
+            }
+            if own.speed < SLOWEST {
+                return Ok(End::Lost);
             }
         }
-        Ok(false)
+        Ok(End::Lost)
     }
 
     /// Moves the equivalents of sliders and creep towards those of a motion. Returns the largest relative

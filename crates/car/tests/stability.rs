@@ -5,7 +5,7 @@ mod common;
 
 use std::f64::consts::TAU;
 
-use car::{FrictionState, Mode, OverAmplitude, Parameters, SteadyCar, Wheels};
+use car::{FrictionState, Mode, Neutral, OverAmplitude, Parameters, SteadyCar, Wheels};
 use common::{INCH, MPH, POUND_FORCE, empty, loaded, tangent};
 use mechanics::linear::SecondOrder;
 use nalgebra::DMatrix;
@@ -415,6 +415,13 @@ fn issue_051_eigenvalues_are_found_at_all_speeds() {
     }
 }
 
+fn neutral_speed(found: &Neutral) -> f64 {
+    match found {
+        Neutral::At(own) => own.speed,
+        other => unreachable!("{other:?}"),
+    }
+}
+
 /// Neutral motions grow neither with a larger amplitude at their speed nor die: the curve is that of a car
 /// whose friction gives way; the same search gives the same bits again.
 #[test]
@@ -434,10 +441,7 @@ fn limits_critical_speeds_over_the_amplitude() {
     let amplitudes = [clearance, 0.8 * clearance, 0.6 * clearance];
     let go_on = |_| std::ops::ControlFlow::Continue(());
     let found = car.neutral_motions(&amplitudes, 35.0, go_on).unwrap();
-    let speeds: Vec<f64> = found
-        .iter()
-        .map(|own| own.as_ref().unwrap().speed / MPH)
-        .collect();
+    let speeds: Vec<f64> = found.iter().map(|own| neutral_speed(own) / MPH).collect();
     // Friction that slides more gives way more.
     assert!(speeds.windows(2).all(|pair| pair[0] < pair[1]), "{speeds:?}");
     assert!(speeds.iter().all(|own| (60.0..115.0).contains(own)), "{speeds:?}");
@@ -447,11 +451,8 @@ fn limits_critical_speeds_over_the_amplitude() {
     let same: Vec<u64> = again
         .unwrap()
         .iter()
-        .map(|own| own.as_ref().unwrap().speed.to_bits())
+        .map(|own| neutral_speed(own).to_bits())
         .collect();
-    let first: Vec<u64> = found
-        .iter()
-        .map(|own| own.as_ref().unwrap().speed.to_bits())
-        .collect();
+    let first: Vec<u64> = found.iter().map(|own| neutral_speed(own).to_bits()).collect();
     assert_eq!(same, first);
 }

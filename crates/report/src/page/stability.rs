@@ -144,7 +144,10 @@ fn over_amplitude(found: &Stability, units: Units) -> Markup {
                                     td { (own.name) }
                                 },
                                 None => {
-                                    td.number { "above " (speed(BEYOND * fastest, units)) }
+                                    td.number {
+                                        @if own.unsolved { "not found" }
+                                        @else { "above " (speed(BEYOND * fastest, units)) }
+                                    }
                                     td.number { "–" } td { "–" }
                                 },
                             }

@@ -35,13 +35,19 @@ pub(crate) fn critical_speeds() -> Result<String, Failure> {
                 .curve
                 .iter()
                 .min_by(|a, b| apart(a.amplitude).total_cmp(&apart(b.amplitude)));
-            near.and_then(|own| own.critical.as_ref())
+            near
         };
         let speed = |amplitude: f64| match at(amplitude) {
-            Some(own) => format!("{:.0}", own.speed / MPH),
-            None => "above 120".to_owned(),
+            Some(own) => match (&own.critical, own.unsolved) {
+                (Some(own), _) => format!("{:.0}", own.speed / MPH),
+                (None, false) => "above 120".to_owned(),
+                (None, true) => "not found".to_owned(),
+            },
+            None => "-".to_owned(),
         };
-        let frequency = at(0.39).map_or("-".to_owned(), |own| format!("{:.2}", own.frequency));
+        let frequency = at(0.39)
+            .and_then(|own| own.critical.as_ref())
+            .map_or("-".to_owned(), |own| format!("{:.2}", own.frequency));
         let name = match *tread {
             "aar_1b" => "1:20",
             other => other.trim_start_matches("aar_1b_"),

@@ -10,8 +10,8 @@
 use std::ops::ControlFlow;
 
 use car::{
-    CriticalSpeed, FrictionState, NeutralMotion, NoWarp, OverAmplitude, Parameters, Start, StartKind,
-    SteadyCar, Wheels, growing, name_of, vibrations,
+    CriticalSpeed, FrictionState, Neutral, NeutralMotion, NoWarp, OverAmplitude, Parameters, Start,
+    StartKind, SteadyCar, Wheels, growing, name_of, vibrations,
 };
 use quantity::{Kind, System as Units};
 use thiserror::Error;
@@ -113,6 +113,8 @@ pub struct AtAmplitude {
     pub amplitude: f64,
     /// The critical speed; none if motions of this amplitude die at all speeds that were looked at.
     pub critical: Option<Critical>,
+    /// True if no motion was found though there may be one: the iteration does not converge.
+    pub unsolved: bool,
     /// The motion, for pictures of it.
     pub motion: Option<NeutralMotion>,
 }
@@ -212,6 +214,11 @@ pub fn stability(
     let fastest = speeds.iter().fold(0.0_f64, |most, own| most.max(*own));
     let motions = car.neutral_motions(&amplitudes, fastest, |share| go_on(done + (1.0 - done) * share))?;
     for (amplitude, motion) in amplitudes.iter().zip(motions) {
+        let (motion, unsolved) = match motion {
+            Neutral::At(own) => (Some(own), false),
+            Neutral::Above => (None, false),
+            Neutral::Unsolved => (None, true),
+        };
         let critical = match &motion {
             None => None,
             Some(own) => {
@@ -227,6 +234,7 @@ pub fn stability(
         found.curve.push(AtAmplitude {
             amplitude: *amplitude,
             critical,
+            unsolved,
             motion,
         });
     }

@@ -504,6 +504,7 @@ fn over_amplitude(found: &Stability, units: Units) -> TerminalTable {
                 format!("{:.2}", own.frequency),
                 own.name.clone(),
             ],
+            None if own.unsolved => ["not found".to_owned(), "-".to_owned(), "-".to_owned()],
             None => [format!("above {beyond:.0}"), "-".to_owned(), "-".to_owned()],
         });
         table.row(cells);
