@@ -238,6 +238,12 @@ pub fn stability(
             motion,
         });
     }
+    // Where a smaller amplitude grows, one that does not has more likely been lost than found above.
+    let mut grows = false;
+    for own in found.curve.iter_mut().rev() {
+        grows |= own.critical.is_some();
+        own.unsolved |= grows && own.critical.is_none();
+    }
     found.clearance = clearance;
     found.complete = found.curve.len() == AMPLITUDES;
     Ok(found)
