@@ -31,11 +31,10 @@ pub(crate) fn critical_speeds() -> Result<String, Failure> {
         let found = stability(&case, &speeds, |_| ControlFlow::Continue(()))?;
         let at = |amplitude: f64| {
             let apart = |own: f64| (own / INCH - amplitude).abs();
-            let near = found
+            found
                 .curve
                 .iter()
-                .min_by(|a, b| apart(a.amplitude).total_cmp(&apart(b.amplitude)));
-            near
+                .min_by(|a, b| apart(a.amplitude).total_cmp(&apart(b.amplitude)))
         };
         let speed = |amplitude: f64| match at(amplitude) {
             Some(own) => match (&own.critical, own.unsolved) {
