@@ -390,8 +390,8 @@ fn cross_code_linear_models_are_the_ends_of_the_whole_system() {
     }
 }
 
-/// Eigenvalues are found at speeds at which rounding keeps entries beside the diagonal of fast motions above the
-/// smallest bound: a conicity of 0.15 at 60 mph is one.
+/// Eigenvalues are found at speeds at which rounding keeps entries beside the diagonal of fast motions above
+/// the smallest bound: a conicity of 0.15 at 60 mph is one.
 #[test]
 fn issue_051_eigenvalues_are_found_at_all_speeds() {
     let mut parameters = empty(tangent(300.0), 10.0);
