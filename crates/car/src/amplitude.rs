@@ -30,7 +30,7 @@ use rolling::wheelset::coordinate;
 use wheelrail::conicity::LinearGeometry;
 use wheelrail::contact::CreepLaw;
 
-use crate::linearize::{LinearizeError, SteadyCar, VIBRATIONS, vibrations};
+use crate::linearize::{CriticalSpeed, LinearizeError, SteadyCar, VIBRATIONS, vibrations};
 use crate::parameters::{Parameters, Wheels};
 use crate::wheels_over_amplitude::{Saturation, WheelsOverAmplitude};
 
@@ -58,24 +58,11 @@ const HALF_DISTANCE: f64 = 29.75 * 0.0254;
 /// Largest amplitude of linear wheels, which have no flanges, m: 0.4 in.
 const WITHOUT_FLANGES: f64 = 0.4 * 0.0254;
 
-/// A motion that neither grows nor dies.
-#[derive(Clone, Debug)]
-pub struct NeutralMotion {
-    /// Lateral amplitude of the wheelset that moves most, m.
-    pub amplitude: f64,
-    /// The speed, m/s.
-    pub speed: f64,
-    /// Frequency, Hz.
-    pub frequency: f64,
-    /// The shape, in the order of the positions; the wheelset that moves most has the amplitude 1.
-    pub shape: Vec<Complex<f64>>,
-}
-
 /// What has been found of an amplitude.
 #[derive(Clone, Debug)]
 pub enum Neutral {
-    /// The slowest neutral motion.
-    At(NeutralMotion),
+    /// The slowest neutral motion; in its shape the wheelset that moves most has the amplitude 1.
+    At(CriticalSpeed),
     /// Its motions die up to one and a half of the fastest speed that was asked for.
     Above,
     /// An iteration came to no end: there may be one.
@@ -200,7 +187,7 @@ impl OverAmplitude {
                 (next, lost) = self.from(beginnings, *amplitude, fastest)?;
             }
             found.push(match next.first() {
-                Some(own) => Neutral::At(self.motion(*amplitude, own)),
+                Some(own) => Neutral::At(self.motion(own)),
                 None if lost => Neutral::Unsolved,
                 None => Neutral::Above,
             });
@@ -234,10 +221,9 @@ impl OverAmplitude {
         Ok((next, lost))
     }
 
-    fn motion(&self, amplitude: f64, own: &Iterate) -> NeutralMotion {
+    fn motion(&self, own: &Iterate) -> CriticalSpeed {
         let size = self.largest(&own.shape);
-        NeutralMotion {
-            amplitude,
+        CriticalSpeed {
             speed: own.speed,
             frequency: own.value.im / TAU,
             shape: own.shape.iter().map(|value| value / size).collect(),

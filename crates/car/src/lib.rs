@@ -56,7 +56,7 @@ mod start;
 mod tipping;
 mod wheels_over_amplitude;
 
-pub use amplitude::{Neutral, NeutralMotion, OverAmplitude};
+pub use amplitude::{Neutral, OverAmplitude};
 pub use assemble::{Car, Numbers};
 pub use benchmark::NoWarp;
 pub use derailment::Derailment;

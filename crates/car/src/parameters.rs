@@ -90,6 +90,17 @@ pub enum Drive {
     Coasting,
 }
 
+impl Drive {
+    /// Returns the force by speed, N·s/m; none of a car that coasts.
+    #[must_use]
+    pub fn gain(&self) -> Option<f64> {
+        match self {
+            Self::Held { gain } | Self::Over { gain, .. } | Self::History { gain, .. } => Some(*gain),
+            Self::Coasting => None,
+        }
+    }
+}
+
 /// Place and speed at which a run begins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {

@@ -3,14 +3,10 @@
 
 mod common;
 
-use std::sync::Arc;
-
 use car::{BuildError, Car, Parameters, StartKind, Wheels};
-use common::{INCH, MPH, POUND_FORCE, at_start, curve, loaded, massless, run, tangent};
+use common::{INCH, MPH, POUND_FORCE, at_start, curve, loaded, massless, put_on_gauge, run, tangent};
 use integrate::Problem;
 use wheelrail::contact::CreepLaw;
-use wheelrail::hertz::Material;
-use wheelrail::wheelset::{Layout, RigidWheelset};
 
 fn starting(mut parameters: Parameters, kind: StartKind) -> Parameters {
     parameters.start.kind = kind;
@@ -216,22 +212,10 @@ fn limits_other_cars_are_shaken_too() {
 #[test]
 fn input_cars_that_cannot_be_shaken_are_refused() {
     let mut wide = shaken(18.0);
-    let Wheels::OnRails(wheels) = &mut wide.wheels else {
-        panic!("profiles are expected");
-    };
-    let [wheel, rail] = &*wheels.profiles;
-    let layout = Layout {
-        tape_distance: wheels.tape_distance,
-        gauge: 60.5 * INCH,
-        gauge_depth: 0.625 * INCH,
-    };
-    let steel = Material {
-        youngs_modulus: 207e9,
-        poisson: 0.27,
-    };
-    let made = RigidWheelset::new([wheel; 2], [18.0 * INCH; 2], [rail; 2], layout, steel);
-    wheels.geometry = Arc::new(made.unwrap());
-    wheels.law.creep = CreepLaw::Frictionless;
+    put_on_gauge(&mut wide, 60.5);
+    if let Wheels::OnRails(wheels) = &mut wide.wheels {
+        wheels.law.creep = CreepLaw::Frictionless;
+    }
     let error = Car::new(&wide).unwrap_err();
     let text = error.to_string();
     assert!(

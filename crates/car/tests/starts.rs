@@ -3,12 +3,8 @@
 
 mod common;
 
-use std::sync::Arc;
-
-use car::{BuildError, Car, Loads, Mass, Parameters, StartKind, Support, Wheels};
-use common::{INCH, POUND_FORCE, at_start, loaded, run, tangent};
-use wheelrail::hertz::Material;
-use wheelrail::wheelset::{Layout, RigidWheelset};
+use car::{BuildError, Car, Loads, Mass, Parameters, StartKind, Support};
+use common::{INCH, POUND_FORCE, at_start, loaded, put_on_gauge, run, tangent};
 
 const GRAVITY: f64 = 9.806_65;
 
@@ -27,21 +23,7 @@ fn laden(kip: f64, place: [f64; 3]) -> Parameters {
 /// Returns the car on rails of a gauge (in).
 fn on_gauge(gauge: f64) -> Parameters {
     let mut parameters = loaded(tangent(60.0), 0.0);
-    let Wheels::OnRails(wheels) = &mut parameters.wheels else {
-        panic!("profiles are expected");
-    };
-    let [wheel, rail] = &*wheels.profiles;
-    let layout = Layout {
-        tape_distance: wheels.tape_distance,
-        gauge: gauge * INCH,
-        gauge_depth: 0.625 * INCH,
-    };
-    let steel = Material {
-        youngs_modulus: 207e9,
-        poisson: 0.27,
-    };
-    let made = RigidWheelset::new([wheel; 2], [18.0 * INCH; 2], [rail; 2], layout, steel);
-    wheels.geometry = Arc::new(made.unwrap());
+    put_on_gauge(&mut parameters, gauge);
     parameters
 }
 

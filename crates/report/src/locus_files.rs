@@ -8,7 +8,7 @@ use study::car::locus::{Locus, LocusBranch};
 
 use crate::csv::{RowWriter, rounded};
 use crate::drawing::{Figure, Panel, PlotCurve, distinct};
-use crate::stability_files::{DRAWN, FASTEST, write_mode};
+use crate::stability_files::{roots, write_mode};
 
 /// The table of vibrations: the root locus over the parameter.
 pub const TABLE: &str = "locus.csv";
@@ -50,22 +50,23 @@ pub fn write_table(found: &Locus, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Returns the figure: the root locus with friction stuck and absent, one curve a value, and the growth of
-/// the vibration that grows most over the value.
+/// Returns the figure: the root locus with friction stuck and absent, one curve a vibration, and the growth
+/// of the vibration that grows most over the value.
 #[must_use]
 pub fn figure(case: &str, found: &Locus, units: Units) -> Figure {
     let [stuck, absent] = &found.branches;
+    let title = |letter: &str, own: &LocusBranch| format!("{letter} root locus, {}", own.kind.words());
     let speed = Number(rounded(found.speed * Kind::TravelSpeed.from_si(units)));
     let speed = format!("{speed} {}", Kind::TravelSpeed.label(units));
     Figure {
         title: format!("{case}: vibrations over {} at {speed}", found.key),
-        caption:
-            "(a), (b) Growth and frequency of vibrations about steady running, one curve a value: positive \
-                  growth is hunting. (c) Growth of the vibration that grows most."
-                .to_owned(),
+        caption: "(a), (b) Growth and frequency of the vibrations about steady running that grow most, from \
+                  the first to the last value, each named by its frequency there; positive growth is \
+                  hunting. (c) Growth of the vibration that grows most."
+            .to_owned(),
         panels: vec![
-            roots("(a)", stuck, found),
-            roots("(b)", absent, found),
+            roots(title("(a)", stuck), &stuck.modes),
+            roots(title("(b)", absent), &absent.modes),
             Panel {
                 title: "(c) largest growth".to_owned(),
                 x_label: labelled(&found.key, &found.unit),
@@ -96,38 +97,5 @@ fn largest(branch: &LocusBranch, found: &Locus, style: usize) -> PlotCurve {
         colour,
         line,
         points: points.map(|(number, value)| (*value, growth(number))).collect(),
-    }
-}
-
-/// Returns growth and frequency of the slow vibrations of first, middle and last value, a curve a value.
-fn roots(letter: &str, branch: &LocusBranch, found: &Locus) -> Panel {
-    let last = found.values.len().saturating_sub(1);
-    let mut shown = vec![0, last / 2, last];
-    shown.dedup();
-    let own = shown
-        .into_iter()
-        .filter_map(|number| Some((found.values.get(number)?, branch.modes.get(number)?)));
-    let curves = own.enumerate().map(|(place, (value, modes))| {
-        let (colour, line) = distinct(place);
-        let slow = modes
-            .iter()
-            .filter(|mode| mode.growth > DRAWN && mode.frequency < FASTEST);
-        let mut points: Vec<(f64, f64)> = slow.map(|mode| (mode.growth, mode.frequency)).collect();
-        points.sort_by(|a, b| a.1.total_cmp(&b.1));
-        PlotCurve {
-            label: format!("{} {}", Number(rounded(*value)), found.unit)
-                .trim_end()
-                .to_owned(),
-            colour,
-            line,
-            points,
-        }
-    });
-    Panel {
-        title: format!("{letter} root locus, {}", branch.kind.words()),
-        x_label: "growth (1/s)".to_owned(),
-        y_label: "frequency (Hz)".to_owned(),
-        curves: curves.collect(),
-        ..Panel::default()
     }
 }

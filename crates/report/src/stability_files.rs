@@ -31,11 +31,11 @@ pub const NAMES: [&str; 6] = [TABLE, CURVE, NUMBERS, FIGURE, PICTURE, PAGE];
 pub const SCHEMA: &str = "wedgelab.car_stability/2";
 
 /// Growth below which a vibration is not drawn, 1/s: it is far from hunting.
-pub(crate) const DRAWN: f64 = -6.0;
+const DRAWN: f64 = -6.0;
 /// Vibrations that are followed over the speed.
 const FOLLOWED: usize = 5;
 /// Largest frequency drawn, Hz.
-pub(crate) const FASTEST: f64 = 8.0;
+const FASTEST: f64 = 8.0;
 
 /// Writes all vibrations: speed, friction, growth, frequency, damping ratio, what moves.
 ///
@@ -239,20 +239,33 @@ pub fn figure(case: &str, found: &Stability, units: Units) -> Figure {
     }
 }
 
-/// Returns the root locus of a branch over the speed: a curve for each of the vibrations that grow most at
-/// the highest speed, followed to the others by the nearest root.
+/// Returns the root locus of a branch over the speed.
 fn locus(branch: &Branch, speeds: &[f64], units: Units) -> Panel {
+    let speed = |own: Option<&f64>| own.copied().unwrap_or_default() * Kind::TravelSpeed.from_si(units);
+    let title = format!(
+        "{}, {:.0} to {:.0} {}",
+        branch.kind.words(),
+        speed(speeds.first()),
+        speed(speeds.last()),
+        Kind::TravelSpeed.label(units)
+    );
+    roots(title, &branch.modes)
+}
+
+/// Returns the root locus over what the lists of vibrations belong to: a curve for each of those that grow
+/// most in the last list, followed to the others by the nearest root.
+pub(crate) fn roots(title: String, all: &[Vec<NamedMode>]) -> Panel {
     let root = |mode: &NamedMode| (mode.growth, mode.frequency);
     let slow = |modes: &Vec<NamedMode>| -> Vec<(f64, f64)> {
         let own = modes.iter().map(root);
         own.filter(|(growth, frequency)| *growth > DRAWN && *frequency < FASTEST)
             .collect()
     };
-    let last = branch.modes.last().map(slow).unwrap_or_default();
+    let last = all.last().map(slow).unwrap_or_default();
     let curves = last.into_iter().take(FOLLOWED).enumerate().map(|(number, end)| {
         let mut points = vec![end];
         let mut here = end;
-        for modes in branch.modes.iter().rev().skip(1) {
+        for modes in all.iter().rev().skip(1) {
             let apart = |own: &(f64, f64)| libm::hypot(own.0 - here.0, own.1 - here.1);
             let near = slow(modes)
                 .into_iter()
@@ -270,15 +283,8 @@ fn locus(branch: &Branch, speeds: &[f64], units: Units) -> Panel {
             points,
         }
     });
-    let speed = |own: Option<&f64>| own.copied().unwrap_or_default() * Kind::TravelSpeed.from_si(units);
     Panel {
-        title: format!(
-            "{}, {:.0} to {:.0} {}",
-            branch.kind.words(),
-            speed(speeds.first()),
-            speed(speeds.last()),
-            Kind::TravelSpeed.label(units)
-        ),
+        title,
         x_label: "growth (1/s)".to_owned(),
         y_label: "frequency (Hz)".to_owned(),
         curves: curves.collect(),

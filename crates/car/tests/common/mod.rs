@@ -1,11 +1,15 @@
 //! Cars on tracks.
 #![allow(dead_code, missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
-use car::{Car, Loads, Parameters};
+use std::sync::Arc;
+
+use car::{Car, Loads, Parameters, Wheels};
 use integrate::{Integrator, Method, Options, Problem};
 use mechanics::energy_balance::EnergyBalance;
 use truck::{Lading, WedgeKind};
+use wheelrail::hertz::Material;
 use wheelrail::track::{CenterLine, CurveElements, Segment, Track};
+use wheelrail::wheelset::{Layout, RigidWheelset};
 
 pub const INCH: f64 = 0.0254;
 pub const POUND_FORCE: f64 = 4.448_221_615_260_5;
@@ -115,4 +119,23 @@ pub fn at_start(car: &Car) -> Loads {
     system.derivative(0.0, &car.initial_state, &mut rates);
     let seen = system.observe(0.0, &car.initial_state);
     car.loads(&seen, &rates)
+}
+
+/// Puts a car's profiles on rails of a gauge (in), tape circles where they are.
+pub fn put_on_gauge(parameters: &mut Parameters, gauge: f64) {
+    let Wheels::OnRails(wheels) = &mut parameters.wheels else {
+        panic!("profiles are expected");
+    };
+    let [wheel, rail] = &*wheels.profiles;
+    let layout = Layout {
+        tape_distance: wheels.tape_distance,
+        gauge: gauge * INCH,
+        gauge_depth: 0.625 * INCH,
+    };
+    let steel = Material {
+        youngs_modulus: 207e9,
+        poisson: 0.27,
+    };
+    let made = RigidWheelset::new([wheel; 2], [18.0 * INCH; 2], [rail; 2], layout, steel);
+    wheels.geometry = Arc::new(made.unwrap());
 }

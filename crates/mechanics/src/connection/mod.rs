@@ -202,10 +202,7 @@ impl Connections {
             .surfaces
             .iter()
             .map(|e| (e.site.connection, e.law.accumulator));
-        let wedges = self
-            .wedges
-            .iter()
-            .map(|e| (e.site.connection, e.law.accumulator()));
+        let wedges = self.wedges.iter().map(|e| (e.site.connection, e.law.accumulator));
         let (_, own) = surfaces.chain(wedges).find(|(own, _)| *own == connection)?;
         match own {
             Accumulator::Bristle { stiffness, damping } => Some([stiffness, damping]),

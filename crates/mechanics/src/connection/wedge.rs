@@ -212,11 +212,6 @@ impl WedgeLaw {
         }
     }
 
-    /// Returns its force accumulator.
-    pub fn accumulator(&self) -> Accumulator {
-        self.accumulator
-    }
-
     /// Returns whether it has a longitudinal force.
     pub fn is_spatial(&self) -> bool {
         self.profile.is_some()

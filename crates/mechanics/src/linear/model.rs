@@ -1,6 +1,6 @@
 //! The linear model of a system about a state.
 
-use nalgebra::{Complex, DMatrix};
+use nalgebra::Complex;
 
 use super::{Equivalent, SecondOrder, Slider};
 
@@ -53,11 +53,9 @@ impl SlidingPair {
 pub struct LinearModel {
     /// Mass matrix, stiffness and damping without friction.
     pub without_friction: SecondOrder,
-    /// The sliders of all closed contacts with bristles.
-    pub sliders: Vec<SlidingPair>,
-    /// The numbers of the faces with closed points whose friction has no bristles (tanh): a damper in
+    /// The sliders of all closed contacts with bristles. Friction without them (tanh) is a damper of
     /// [`LinearModel::without_friction`] at any amplitude.
-    pub creeping: Vec<usize>,
+    pub sliders: Vec<SlidingPair>,
 }
 
 impl LinearModel {
@@ -80,31 +78,5 @@ impl LinearModel {
             }
         }
         own
-    }
-
-    /// Returns the matrices with all friction stuck.
-    #[must_use]
-    pub fn stuck(&self) -> SecondOrder {
-        self.with(self.sliders.iter().map(|own| own.slider.stuck()))
-    }
-
-    /// Returns the number of coordinates.
-    #[must_use]
-    pub fn size(&self) -> usize {
-        self.without_friction.mass.nrows()
-    }
-
-    /// Returns matrices of this size without entries.
-    pub(crate) fn empty(size: usize) -> Self {
-        let zero = DMatrix::zeros(size, size);
-        Self {
-            without_friction: SecondOrder {
-                mass: zero.clone(),
-                stiffness: zero.clone(),
-                damping: zero,
-            },
-            sliders: Vec::new(),
-            creeping: Vec::new(),
-        }
     }
 }

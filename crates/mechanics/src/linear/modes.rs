@@ -7,19 +7,15 @@
 //! relative to the eigenvalue of the inverse; others are left out. The start vector is fixed: same input,
 //! same bits.
 
-use nalgebra::linalg::{LU, Schur};
+use nalgebra::linalg::LU;
 use nalgebra::{Complex, DMatrix, DVector, Dyn};
 
-use crate::system::NoVibration;
+use crate::system::{NoVibration, inverse_eigenvalues};
 
 /// Residual of a Ritz pair, relative to the eigenvalue of the inverse, up to which it counts.
 const RESIDUAL: f64 = 1e-7;
 /// Part of a vector below which nothing new is left of it.
 const NOTHING_NEW: f64 = 1e-13;
-
-/// Bounds below which an entry beside the diagonal is zero, in parts of rounding: a larger one where rounding
-/// keeps those of fast motions above the smallest. One of 1e8 moves eigenvalues by 2e-8 of the largest.
-const SCHUR_BOUNDS: [f64; 5] = [1.0, 100.0, 1e4, 1e6, 1e8];
 
 /// The matrices of `M q¨ = K q + D q˙`: K and D are derivatives of the forces, so that a spring has a
 /// negative stiffness there.
@@ -134,12 +130,9 @@ impl SecondOrder {
             0.0
         };
         let square = hessenberg.view((0, 0), (count, count)).into_owned();
-        let schur = SCHUR_BOUNDS
-            .into_iter()
-            .find_map(|bound| Schur::try_new(square.clone(), bound * f64::EPSILON, 20 * count + 1000));
-        let schur = schur.ok_or(NoVibration)?;
+        let eigenvalues = inverse_eigenvalues(square.clone()).ok_or(NoVibration)?;
         let mut found = Vec::new();
-        for mu in schur.complex_eigenvalues().iter() {
+        for mu in &eigenvalues {
             // λ = σ - 1/μ
             let value = Complex::new(shift, 0.0) - mu.inv();
             if value.im < 0.0 || !value.re.is_finite() {

@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 use super::System;
 use crate::connection::{FrictionRule, FrictionRules, Law};
 use crate::friction::FrictionLaw;
-use crate::linear::{Entry, LinearModel, Slider, SliderPlace, SlidingPair};
+use crate::linear::{Entry, LinearModel, SecondOrder, Slider, SliderPlace, SlidingPair};
 
 impl System {
     /// Returns the linear model about a state at rest or in steady motion, in which nothing slips. Bristles
@@ -29,9 +29,10 @@ impl System {
         let mut df_dt = vec![0.0; state.len()];
         self.derivative(time, &state, &mut dx);
         self.linearize(time, &state, &dx, &mut df_dt);
-        let mut model = LinearModel::empty(n);
-        let own = &mut model.without_friction;
-        self.fill_matrices(&mut own.mass, &mut own.stiffness, &mut own.damping);
+        let mut model = LinearModel {
+            without_friction: self.matrices(),
+            sliders: Vec::new(),
+        };
         self.connections.friction_rules = before;
         self.sliders(time, &state, &mut model);
         // The bristles' own damping stands in D so far.
@@ -49,13 +50,10 @@ impl System {
         model
     }
 
-    /// Adds mass matrix, `∂Q/∂q` and `∂Q/∂q˙` of the last linearization.
-    pub(super) fn fill_matrices(
-        &mut self,
-        mass: &mut DMatrix<f64>,
-        stiffness: &mut DMatrix<f64>,
-        damping: &mut DMatrix<f64>,
-    ) {
+    /// Returns mass matrix, `∂Q/∂q` and `∂Q/∂q˙` of the last linearization.
+    pub(super) fn matrices(&mut self) -> SecondOrder {
+        let n = self.layout.speeds;
+        let [mut mass, mut stiffness, mut damping] = [(); 3].map(|()| DMatrix::zeros(n, n));
         for (i, row) in self.free.iter().enumerate() {
             let height = row.free.len();
             let own = DMatrix::from_row_slice(height, height, self.jacobian.mass_mut(i));
@@ -74,6 +72,11 @@ impl System {
                 }
             }
         }
+        SecondOrder {
+            mass,
+            stiffness,
+            damping,
+        }
     }
 
     /// Adds the sliders of closed contacts, from the last linearization; bristles are relaxed in the state.
@@ -83,9 +86,6 @@ impl System {
         for (number, (mounted, found)) in self.faces.iter().zip(&seen.faces).enumerate() {
             let face = &mounted.element;
             let FrictionLaw::Bristle { stiffness, damping } = face.law else {
-                if face.coefficient > 0.0 && found.points.iter().any(|point| point.normal > 0.0) {
-                    model.creeping.push(number);
-                }
                 continue;
             };
             for (point, (own, at)) in face.points.iter().zip(&found.points).enumerate() {

@@ -54,6 +54,7 @@ pub use applied_load::AppliedLoad;
 use applied_load::MountedLoad;
 pub use contact_states::{CLOSING_GAP, ContactState, OPENING_GAP, SLIP_LOAD, STICK_LOAD};
 pub use contacts::Contacts;
+pub(crate) use eigenvalues::inverse_eigenvalues;
 pub use energy_term::{EnergyTerm, EnergyTermKind};
 pub use equilibrium::{AtRest, NEARLY_AT_REST, NoEquilibrium, StaticFriction};
 pub use evaluation::{CoilEvaluation, ElementEvaluation, Load, PointEvaluation};

@@ -78,18 +78,20 @@ impl System {
     /// Returns the stiffness matrix `-∂Q/∂q`, N/m and so on, row-major in the order of the positions.
     #[must_use]
     pub fn stiffness_matrix(&mut self, time: f64, x: &[f64], held: Held) -> Vec<f64> {
-        let n = self.layout.speeds;
+        let [_, stiffness] = self.mass_and_stiffness(time, x, held);
+        stiffness.transpose().iter().copied().collect()
+    }
+
+    /// Returns the mass matrix and that of the stiffness.
+    fn mass_and_stiffness(&mut self, time: f64, x: &[f64], held: Held) -> [DMatrix<f64>; 2] {
         let friction_rules = std::mem::replace(&mut self.connections.friction_rules, held.friction_rules());
         let mut dx = vec![0.0; x.len()];
         let mut df_dt = vec![0.0; x.len()];
         self.derivative(time, x, &mut dx);
         self.linearize(time, x, &dx, &mut df_dt);
         self.connections.friction_rules = friction_rules;
-        let mut matrices = [(); 3].map(|()| DMatrix::zeros(n, n));
-        let [mass, by_position, by_speed] = &mut matrices;
-        self.fill_matrices(mass, by_position, by_speed);
-        let mut stiffness: Vec<f64> = by_position.transpose().iter().map(|value| -value).collect();
-        let mut add = |row: usize, column: usize, value: f64| stiffness[row * n + column] += value;
+        let matrices = self.matrices();
+        let mut stiffness = -matrices.stiffness;
         // A bristle that sticks follows the bodies: e = G_u q, so that F e is a stiffness.
         for (group, ends) in self.internal_ends.iter().enumerate() {
             for (row_side, &i) in ends.iter().enumerate() {
@@ -99,25 +101,12 @@ impl System {
                     let [_, g_u, _] = self.jacobian.side_mut(group, column_side);
                     for (r, c) in (0..m).flat_map(|r| (0..w).map(move |c| (r, c))) {
                         let value = f_t[r] * g_u[c] + f_t[m + r] * g_u[w + c];
-                        add(self.free[i].offset + r, self.free[j].offset + c, -value);
+                        stiffness[(self.free[i].offset + r, self.free[j].offset + c)] -= value;
                     }
                 }
             }
         }
-        stiffness
-    }
-
-    /// Returns the mass matrix at the state for which the Jacobian was formed last.
-    fn mass_matrix(&mut self) -> DMatrix<f64> {
-        let n = self.layout.speeds;
-        let mut mass = DMatrix::zeros(n, n);
-        for (number, free) in self.free.iter().enumerate() {
-            let size = free.free.len();
-            let own = DMatrix::from_row_slice(size, size, self.jacobian.mass_mut(number));
-            mass.view_mut((free.offset, free.offset), (size, size))
-                .copy_from(&own);
-        }
-        mass
+        [matrices.mass, stiffness]
     }
 
     /// Returns the natural vibrations about a state, by rising frequency.
@@ -125,10 +114,9 @@ impl System {
     /// # Errors
     /// The eigenvalues are not found.
     pub fn vibrations(&mut self, time: f64, x: &[f64], held: Held) -> Result<Vibrations, NoVibration> {
-        let n = self.layout.speeds;
-        let stiffness = DMatrix::from_row_slice(n, n, &self.stiffness_matrix(time, x, held));
+        let [mass, stiffness] = self.mass_and_stiffness(time, x, held);
         // M = L Lᵀ
-        let root = self.mass_matrix().cholesky().ok_or(NoVibration)?.l();
+        let root = mass.cholesky().ok_or(NoVibration)?.l();
         let half = root.solve_lower_triangular(&stiffness).ok_or(NoVibration)?;
         let matrix = root
             .solve_lower_triangular(&half.transpose())

@@ -36,7 +36,9 @@ const HOLD: f64 = 10.0;
 const INTERVAL: f64 = 0.01;
 /// Shift of wheelsets to the left at the start, if the case does not say, m: 0.4 in, near the flange; a
 /// smaller one may miss the limit cycle.
-const SHIFT: f64 = 0.4 * 0.0254;
+pub(super) const SHIFT: f64 = 0.4 * 0.0254;
+/// Gain of the drive of a car that coasts in its case, N·s/m.
+pub(super) const GAIN: f64 = 1e5;
 /// Depth and length of the rails' lateral dips, and from one to the next, m: 0.02 in, 30 ft, 200 ft.
 const DIP: [f64; 3] = [0.02 * 0.0254, 30.0 * 0.3048, 200.0 * 0.3048];
 
@@ -287,10 +289,7 @@ fn parameters(own: &Parameters, settings: &HuntingSettings, falls: bool) -> Opti
         });
         own.track.irregularities = dips.collect();
     }
-    let gain = match own.drive {
-        Drive::Held { gain } | Drive::Over { gain, .. } | Drive::History { gain, .. } => gain,
-        Drive::Coasting => 1e5,
-    };
+    let gain = own.drive.gain().unwrap_or(GAIN);
     own.drive = Drive::History {
         gain,
         speeds: vec![[HOLD, from], [HOLD + settings.ramp, to]],

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use truck::{WEDGE_NAMES, WedgeLoads};
 
 use super::columns::CarTable;
+use super::sections::STARTS;
 use crate::summary::SummaryValue;
 
 /// Normal forces of a wedge.
@@ -52,11 +53,8 @@ pub(super) fn summary(table: &CarTable, units: Units) -> BTreeMap<String, Locked
 
 /// Returns the name of a start in cases.
 pub(super) fn name(kind: StartKind) -> &'static str {
-    match kind {
-        StartKind::Equilibrium => "equilibrium",
-        StartKind::Nominal => "nominal",
-        StartKind::Shaken => "shaken",
-    }
+    let own = STARTS.iter().find(|(_, own)| *own == kind);
+    own.map_or("", |(name, _)| name)
 }
 
 /// Returns the line about the columns at a start of this name; none of a summary without them.

@@ -7,12 +7,12 @@
 
 use std::ops::ControlFlow;
 
-use car::{FrictionState, LinearizeError, SteadyCar};
+use car::{FrictionState, LinearizeError, SteadyCar, vibrations};
 use quantity::nearest;
 use thiserror::Error;
 
 use super::CarCase;
-use super::stability::{BranchKind, NamedMode, branch, straight};
+use super::stability::{BranchKind, NamedMode, named, straight};
 use crate::case::CaseError;
 use crate::case::field::Input;
 use crate::design::{Factor, Levels, Value};
@@ -313,14 +313,11 @@ pub fn locus(
 /// Returns the vibrations of a car with friction stuck and absent.
 fn both(case: &CarCase, speed: f64) -> Result<[Vec<NamedMode>; 2], LinearizeError> {
     let mut car = SteadyCar::new(&straight(&case.parameters))?;
-    let mut of = |kind, friction| -> Result<Vec<NamedMode>, LinearizeError> {
-        let (mut own, _) = branch(&mut car, kind, friction, &[speed], |_| ControlFlow::Continue(()))?;
-        Ok(own.modes.pop().unwrap_or_default())
+    let model = car.model(speed)?;
+    let of = |friction: FrictionState| -> Result<Vec<NamedMode>, LinearizeError> {
+        Ok(named(&car, &model, &vibrations(&model, friction.of(&model))?))
     };
-    Ok([
-        of(BranchKind::Stuck, FrictionState::Stuck)?,
-        of(BranchKind::Absent, FrictionState::Absent)?,
-    ])
+    Ok([of(FrictionState::Stuck)?, of(FrictionState::Absent)?])
 }
 
 impl LocusBranch {

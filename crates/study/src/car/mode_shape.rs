@@ -12,7 +12,7 @@ use quantity::Kind;
 use super::CarCase;
 use super::columns::CarTable;
 use super::motions::MotionTable;
-use super::stability::{Branch, BranchKind, Stability, straight};
+use super::stability::{Branch, BranchKind, Critical, Stability, straight};
 use crate::result::RunResult;
 
 /// Rows of a period, and periods.
@@ -64,18 +64,8 @@ pub fn motions(found: &Stability) -> Vec<ShownMotion> {
     let mut all: Vec<ShownMotion> = Vec::new();
     let of_curve = |largest: bool| {
         let mut own = found.curve.iter().filter_map(|own| {
-            let (critical, motion) = (own.critical.as_ref()?, own.motion.as_ref()?);
-            Some(ShownMotion {
-                of: MotionOf::Amplitude(own.amplitude),
-                name: critical.name.clone(),
-                speed: critical.speed,
-                frequency: critical.frequency,
-                shape: motion
-                    .shape
-                    .iter()
-                    .map(|part| [own.amplitude * part.re, own.amplitude * part.im])
-                    .collect(),
-            })
+            let of = MotionOf::Amplitude(own.amplitude);
+            Some(ShownMotion::new(of, own.critical.as_ref()?, own.amplitude))
         });
         if largest { own.next() } else { own.next_back() }
     };
@@ -95,25 +85,36 @@ pub fn motions(found: &Stability) -> Vec<ShownMotion> {
 /// Returns the motion at the critical speed of a branch, in which a body moves by `largest` (m) and none
 /// more.
 fn of_branch(branch: &Branch, car: &Car, largest: f64) -> Option<ShownMotion> {
-    let (critical, motion) = (branch.critical.as_ref()?, branch.motion.as_ref()?);
+    let critical = branch.critical.as_ref()?;
     let numbers = &car.numbers;
     let frames = numbers.side_frames.iter().flatten();
     let bodies = [numbers.body].into_iter().chain(numbers.bolsters);
     let bodies = bodies.chain(frames.copied()).chain(numbers.wheelsets);
     let places = bodies.flat_map(|body| (0..3).filter_map(move |k| car.system.position_of(body, k)));
-    let most = places.fold(0.0_f64, |most, place| most.max(motion.shape[place].norm()));
+    let most = places.fold(0.0_f64, |most, place| {
+        let [re, im] = critical.shape[place];
+        most.max(libm::hypot(re, im))
+    });
     let scale = largest / most;
-    scale.is_finite().then(|| ShownMotion {
-        of: MotionOf::Branch(branch.kind, critical.at_lowest),
-        name: critical.name.clone(),
-        speed: critical.speed,
-        frequency: critical.frequency,
-        shape: motion
-            .shape
-            .iter()
-            .map(|part| [scale * part.re, scale * part.im])
-            .collect(),
-    })
+    let of = MotionOf::Branch(branch.kind, critical.at_lowest);
+    scale.is_finite().then(|| ShownMotion::new(of, critical, scale))
+}
+
+impl ShownMotion {
+    /// Returns a motion, its shape multiplied.
+    fn new(of: MotionOf, critical: &Critical, scale: f64) -> Self {
+        Self {
+            of,
+            name: critical.name.clone(),
+            speed: critical.speed,
+            frequency: critical.frequency,
+            shape: critical
+                .shape
+                .iter()
+                .map(|part| part.map(|own| scale * own))
+                .collect(),
+        }
+    }
 }
 
 /// Returns what the bodies of a case's car do in a motion about its steady running. The car stands still

@@ -43,7 +43,8 @@ const DRIVES: Names<DriveKind> = &[
     ("over_time", DriveKind::OverTime),
     ("coasting", DriveKind::Coasting),
 ];
-const STARTS: Names<StartKind> = &[
+/// The starts, by name.
+pub(super) const STARTS: Names<StartKind> = &[
     ("equilibrium", StartKind::Equilibrium),
     ("nominal", StartKind::Nominal),
     ("shaken", StartKind::Shaken),

@@ -10,9 +10,10 @@
 use std::ops::ControlFlow;
 
 use car::{
-    CriticalSpeed, FrictionState, Neutral, NeutralMotion, NoWarp, OverAmplitude, Parameters, Start,
-    StartKind, SteadyCar, Wheels, growing, name_of, vibrations,
+    CriticalSpeed, FrictionState, Neutral, NoWarp, OverAmplitude, Parameters, Start, StartKind, SteadyCar,
+    Wheels, growing, name_of, vibrations,
 };
+use mechanics::linear::{LinearMode, LinearModel};
 use quantity::{Kind, System as Units};
 use thiserror::Error;
 
@@ -89,8 +90,6 @@ pub struct Branch {
     pub modes: Vec<Vec<NamedMode>>,
     /// The lowest of the speeds from which on a vibration grows, refined; none if none grows.
     pub critical: Option<Critical>,
-    /// Its motion, of any size, for pictures of it.
-    pub motion: Option<CriticalSpeed>,
 }
 
 /// A motion that neither grows nor dies at a speed, beyond which it grows.
@@ -104,6 +103,9 @@ pub struct Critical {
     pub name: String,
     /// True if it grows at the lowest speed that was asked for already: the critical speed is not above.
     pub at_lowest: bool,
+    /// Its shape in the order of the positions of the car's state, real and imaginary parts, for pictures of
+    /// it: that of an amplitude has 1 for the wheelset that moves most, that of a branch has any size.
+    pub shape: Vec<[f64; 2]>,
 }
 
 /// The critical speed of an amplitude.
@@ -115,8 +117,6 @@ pub struct AtAmplitude {
     pub critical: Option<Critical>,
     /// True if no motion was found though there may be one: the iteration does not converge.
     pub unsolved: bool,
-    /// The motion, for pictures of it.
-    pub motion: Option<NeutralMotion>,
 }
 
 /// The findings.
@@ -214,28 +214,15 @@ pub fn stability(
     let fastest = speeds.iter().fold(0.0_f64, |most, own| most.max(*own));
     let motions = car.neutral_motions(&amplitudes, fastest, |share| go_on(done + (1.0 - done) * share))?;
     for (amplitude, motion) in amplitudes.iter().zip(motions) {
-        let (motion, unsolved) = match motion {
-            Neutral::At(own) => (Some(own), false),
-            Neutral::Above => (None, false),
-            Neutral::Unsolved => (None, true),
-        };
-        let critical = match &motion {
-            None => None,
-            Some(own) => {
-                let model = found.steady.model(own.speed)?;
-                Some(Critical {
-                    speed: own.speed,
-                    frequency: own.frequency,
-                    name: name_of(found.steady.car(), &model, &own.shape),
-                    at_lowest: false,
-                })
-            }
+        let unsolved = matches!(motion, Neutral::Unsolved);
+        let critical = match motion {
+            Neutral::At(own) => Some(Critical::of(&mut found.steady, &own, false)?),
+            Neutral::Above | Neutral::Unsolved => None,
         };
         found.curve.push(AtAmplitude {
             amplitude: *amplitude,
             critical,
             unsolved,
-            motion,
         });
     }
     // Where a smaller amplitude grows, one that does not has more likely been lost than found above.
@@ -250,7 +237,7 @@ pub fn stability(
 }
 
 /// Returns a branch, and whether it is whole.
-pub(super) fn branch(
+fn branch(
     car: &mut SteadyCar,
     kind: BranchKind,
     friction: FrictionState,
@@ -261,7 +248,6 @@ pub(super) fn branch(
         kind,
         modes: Vec::new(),
         critical: None,
-        motion: None,
     };
     let mut first = None;
     for (number, speed) in speeds.iter().enumerate() {
@@ -270,12 +256,7 @@ pub(super) fn branch(
         if let (None, Some(mode)) = (&first, growing(&modes)) {
             first = Some((number, mode.clone()));
         }
-        let named = modes.into_iter().map(|mode| NamedMode {
-            growth: mode.growth(),
-            frequency: mode.frequency(),
-            name: name_of(car.car(), &model, &mode.shape),
-        });
-        branch.modes.push(named.collect());
+        branch.modes.push(named(car, &model, &modes));
         if go_on((number + 1) as f64 / speeds.len() as f64).is_break() {
             return Ok((branch, false));
         }
@@ -293,16 +274,33 @@ pub(super) fn branch(
         Some(before) => car.critical_speed([before, speeds[number]], friction)?,
     };
     if let Some(own) = found {
+        branch.critical = Some(Critical::of(car, &own, before.is_none())?);
+    }
+    Ok((branch, true))
+}
+
+/// Returns vibrations of a model with their names.
+pub(super) fn named(car: &SteadyCar, model: &LinearModel, modes: &[LinearMode]) -> Vec<NamedMode> {
+    let own = modes.iter().map(|mode| NamedMode {
+        growth: mode.growth(),
+        frequency: mode.frequency(),
+        name: name_of(car.car(), model, &mode.shape),
+    });
+    own.collect()
+}
+
+impl Critical {
+    /// Returns a motion with its name.
+    fn of(car: &mut SteadyCar, own: &CriticalSpeed, at_lowest: bool) -> Result<Self, LinearizeError> {
         let model = car.model(own.speed)?;
-        branch.critical = Some(Critical {
+        Ok(Self {
             speed: own.speed,
             frequency: own.frequency,
             name: name_of(car.car(), &model, &own.shape),
-            at_lowest: before.is_none(),
-        });
-        branch.motion = Some(own);
+            at_lowest,
+            shape: own.shape.iter().map(|part| [part.re, part.im]).collect(),
+        })
     }
-    Ok((branch, true))
 }
 
 /// Returns the same car on straight track, long enough to settle on.

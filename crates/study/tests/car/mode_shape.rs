@@ -135,7 +135,7 @@ fn limits_motions_that_are_shown_are_as_large_as_said() {
         all.iter()
             .any(|own| matches!(own.of, MotionOf::Branch(BranchKind::Absent, _)))
     );
-    let with_motion = found.curve.iter().filter(|own| own.motion.is_some());
+    let with_motion = found.curve.iter().filter(|own| own.critical.is_some());
     let amplitudes: Vec<f64> = with_motion.map(|own| own.amplitude).collect();
     let shown: Vec<&ShownMotion> = all
         .iter()

@@ -100,18 +100,19 @@ pub struct Arguments {
     quiet: bool,
 }
 
+/// Returns a speed, m/s.
+pub(super) fn speed(text: &str) -> Result<f64, String> {
+    let quantity = Quantity::parse_as(text.trim(), Kind::TravelSpeed).map_err(|error| error.to_string())?;
+    match quantity.to_si() {
+        own if own > 0.0 && own < 1e3 => Ok(own),
+        _ => Err("speeds must be positive, below 1000 m/s".to_owned()),
+    }
+}
+
 /// Returns a range of speeds, m/s, rising; whichever end comes first in the text.
 fn range(text: &str) -> Result<[f64; 2], String> {
     const HOW: &str = "write for example \"30 mph\"..\"80 mph\"";
     let (from, to) = text.split_once("..").ok_or(HOW)?;
-    let speed = |text: &str| {
-        let quantity =
-            Quantity::parse_as(text.trim(), Kind::TravelSpeed).map_err(|error| error.to_string())?;
-        match quantity.to_si() {
-            own if own > 0.0 && own < 1e3 => Ok(own),
-            _ => Err("speeds must be positive, below 1000 m/s".to_owned()),
-        }
-    };
     let [from, to] = [speed(from)?, speed(to)?];
     match from == to {
         true => Err(format!("this is one speed only; {HOW}")),

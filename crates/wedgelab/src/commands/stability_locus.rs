@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use miette::Diagnostic;
-use quantity::{Kind, Number, Quantity};
+use quantity::{Kind, Number};
 use report::locus_files;
 use study::any_case::AnyCase;
 use study::car::CarCase;
@@ -15,6 +15,7 @@ use study::car::locus::{Locus, LocusError, Vary, VaryError, locus};
 use study::case::CaseError;
 
 use super::run::is_built_in;
+use super::stability::speed;
 use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
@@ -57,14 +58,6 @@ pub struct Around<'a> {
     pub force: bool,
     /// Whether there is no progress.
     pub quiet: bool,
-}
-
-fn speed(text: &str) -> Result<f64, String> {
-    let quantity = Quantity::parse_as(text.trim(), Kind::TravelSpeed).map_err(|error| error.to_string())?;
-    match quantity.to_si() {
-        own if own > 0.0 && own < 1e3 => Ok(own),
-        _ => Err("the speed must be positive, below 1000 m/s".to_owned()),
-    }
 }
 
 impl VaryArguments {

@@ -5,11 +5,11 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::Sender;
 
 use car::{Drive, Start, Wheels};
-use quantity::INCH;
 use wheelrail::track::{Placed, RailLines, Track};
 
 use super::measured::{INTERVAL, Settled, deviation};
 use super::{CarCase, OnsetError, OnsetPoint, OnsetSettings, OnsetTrack, TRACKS};
+use crate::car::hunting::{GAIN, SHIFT};
 use crate::car::regime::Regime;
 use crate::car::statistics::Rules;
 use crate::car::track::tangent;
@@ -18,8 +18,6 @@ use crate::outcome::Outcome;
 use crate::run::Run;
 use crate::summary::RunSummary;
 
-/// Shift of the wheelsets to the left at the start on perfect track, m.
-const SHIFT: f64 = 0.4 * INCH;
 /// Durations are whole multiples of it, s.
 const DURATION_STEP: f64 = 0.05;
 /// Simulated time between two reports of a run, s.
@@ -154,10 +152,7 @@ impl<'c> Runs<'c> {
             parameters.start.wheelset_shifts = [SHIFT; 4];
         }
         parameters.drive = Drive::Held {
-            gain: match parameters.drive {
-                Drive::Held { gain } | Drive::Over { gain, .. } | Drive::History { gain, .. } => gain,
-                Drive::Coasting => 1e5,
-            },
+            gain: parameters.drive.gain().unwrap_or(GAIN),
         };
         own
     }
