@@ -120,7 +120,14 @@ impl OverAmplitude {
     /// # Errors
     /// [`LinearizeError`].
     pub fn new(parameters: &Parameters) -> Result<Self, LinearizeError> {
-        let car = SteadyCar::new(parameters)?;
+        Self::of(SteadyCar::new(parameters)?, parameters)
+    }
+
+    /// Returns the same of a car of these parameters that is in steady running already.
+    ///
+    /// # Errors
+    /// [`LinearizeError`].
+    pub fn of(car: SteadyCar, parameters: &Parameters) -> Result<Self, LinearizeError> {
         let axle_load = parameters.weight() / 4.0;
         let mut own = Self {
             without_creep: None,

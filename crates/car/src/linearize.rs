@@ -68,6 +68,8 @@ pub struct SteadyCar {
     /// The speed of the state, m/s.
     speed: f64,
     start: Start,
+    /// Places of the coordinates that are held.
+    held: Vec<usize>,
 }
 
 impl SteadyCar {
@@ -100,6 +102,7 @@ impl SteadyCar {
             state,
             speed: SETTLING_SPEED,
             start: running.start,
+            held: Vec::new(),
         })
     }
 
@@ -119,7 +122,15 @@ impl SteadyCar {
             state: self.state.clone(),
             speed: self.speed,
             start: self.start.clone(),
+            held: self.held.clone(),
         })
+    }
+
+    /// Holds the car's body in its steady motion, so that each truck runs alone under a mass without end.
+    pub fn hold_body(&mut self) {
+        let system = &self.car.system;
+        let body = self.car.numbers.body;
+        self.held = (0..6).filter_map(|k| system.position_of(body, k)).collect();
     }
 
     /// Returns the car.
@@ -160,7 +171,9 @@ impl SteadyCar {
             return Err(LinearizeError::Speed(speed));
         }
         let state = self.state(speed);
-        Ok(self.car.system.linear_model(0.0, &state))
+        let mut model = self.car.system.linear_model(0.0, &state);
+        model.hold(&self.held);
+        Ok(model)
     }
 }
 

@@ -62,8 +62,8 @@ fn reduced(conicity: f64, warp: f64, harder: f64) -> Parameters {
 /// Returns the critical speed (m/s) of nine coordinates: lateral displacement, roll and yaw of the body with
 /// its bolsters, and of each truck lateral displacement, yaw of the side frames and yaw of the axles with the
 /// bolster. Side frames and axles are a parallelogram with a warp spring; the nests' shear is between truck
-/// and bolster.
-fn nine_coordinates(conicity: f64, warp: f64) -> f64 {
+/// and bolster. Where the body is held the first three are none.
+fn nine_coordinates(conicity: f64, warp: f64, held: bool) -> f64 {
     let car = empty(tangent(300.0), 10.0);
     let truck = &car.trucks[0];
     let [nest, _, base] = truck.distances;
@@ -135,12 +135,17 @@ fn nine_coordinates(conicity: f64, warp: f64) -> f64 {
     let grows = |speed: f64| {
         let mut own = system.clone();
         own.damping /= speed;
-        let modes = own.modes(10.0, 18).unwrap();
+        if held {
+            for matrix in [&mut own.mass, &mut own.stiffness, &mut own.damping] {
+                *matrix = matrix.view((3, 3), (6, 6)).into_owned();
+            }
+        }
+        let modes = own.modes(10.0, 2 * own.mass.nrows()).unwrap();
         modes
             .iter()
             .any(|mode| mode.frequency() > 0.3 && mode.growth() > 0.0)
     };
-    let (mut low, mut high) = (5.0 * MPH, 120.0 * MPH);
+    let (mut low, mut high) = (5.0 * MPH, 300.0 * MPH);
     for _ in 0..30 {
         let middle = 0.5 * (low + high);
         *(if grows(middle) { &mut high } else { &mut low }) = middle;
@@ -153,9 +158,35 @@ fn nine_coordinates(conicity: f64, warp: f64) -> f64 {
 fn analytic_critical_speeds_of_nine_coordinates() {
     let warp = 17e6 * POUND_FORCE * INCH;
     for (conicity, expected) in [(0.05, 65.0), (0.1, 45.0), (0.2, 32.0)] {
-        let speed = nine_coordinates(conicity, warp) / MPH;
+        let speed = nine_coordinates(conicity, warp, false) / MPH;
         println!("{conicity}: {speed} mph");
         assert!((speed / expected - 1.0).abs() < 0.01, "{conicity}: {speed} mph");
+    }
+}
+
+/// Trucks alone, their body being held, hunt where those of nine coordinates less three do.
+#[test]
+fn cross_code_critical_speed_of_trucks_alone() {
+    let warp = 17e6 * POUND_FORCE * INCH;
+    for conicity in [0.1, 0.2] {
+        let expected = nine_coordinates(conicity, warp, true);
+        let mut car = SteadyCar::new(&reduced(conicity, warp, 1.0)).unwrap();
+        car.hold_body();
+        let range = [0.7 * expected, 1.4 * expected];
+        let found = car.critical_speed(range, FrictionState::Stuck).unwrap().unwrap();
+        let speed = found.speed;
+        println!("{conicity}: {} mph, {} expected", speed / MPH, expected / MPH);
+        assert!(
+            (speed / expected - 1.0).abs() < 0.03,
+            "{conicity}: {speed} {expected}"
+        );
+        // Nothing of the body moves.
+        let system = &car.car().system;
+        let body = (0..6).filter_map(|k| system.position_of(car.car().numbers.body, k));
+        let most = found.shape.iter().fold(0.0_f64, |most, own| most.max(own.norm()));
+        for place in body {
+            assert!(found.shape[place].norm() < 1e-9 * most);
+        }
     }
 }
 

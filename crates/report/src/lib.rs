@@ -80,3 +80,4 @@ pub mod view;
 pub mod warp_files;
 pub mod wear_files;
 pub mod wheelrail_files;
+pub mod wheelset_stability_files;

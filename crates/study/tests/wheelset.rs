@@ -4,9 +4,12 @@
 #[path = "common/wheelsets.rs"]
 mod wheelsets;
 
+use std::ops::ControlFlow;
+
 use study::run::Run;
 use study::summary::RunSummary;
 use study::wheelset::run::WheelsetResult;
+use study::wheelset::stability::stability;
 use study::wheelset::{Wheelset, WheelsetCase};
 use wheelsets::wheelset;
 
@@ -82,6 +85,46 @@ fn analytic_rows_of_a_curve_balance() {
         let hunting = summary.hunting.expect("a vibration");
         assert!(hunting.frequency_hz > 0.1 && hunting.damping_ratio.abs() < 1.0);
     }
+}
+
+/// Where a wheelset on springs begins to hunt: runs in time steps from 0.1 mm neither grow nor die at 69.8
+/// m/s (`docs/validation-rolling.md`). Without springs it hunts at any speed; the speed of its own run and
+/// its track do not count.
+#[test]
+fn cross_code_critical_speed_of_a_suspended_wheelset() {
+    let mut own = wheelset(
+        "[[segments]]\ntangent = \"20 m\"\n[support]\nkind = \"rigid\"\n",
+        5.0,
+    );
+    (own.stiffness, own.damping) = ([1.5e5, 8e5], [0.0; 2]);
+    own.axle_load = 58e3 + 1250.0 * GRAVITY;
+    let speeds = [40.0, 60.0, 80.0, 100.0];
+    let found = stability(&own, &speeds, |_| ControlFlow::Continue(())).unwrap();
+    assert!(found.complete && !found.grows_at_once());
+    let (speed, hunting) = found.critical.unwrap();
+    assert!((speed / 69.8 - 1.0).abs() < 0.01, "{speed}");
+    assert!((hunting.frequency_hz - 4.27).abs() < 0.03, "{hunting:?}");
+    let growth = found
+        .vibrations
+        .iter()
+        .map(|own| own.unwrap().growth_per_s)
+        .collect::<Vec<_>>();
+    assert!(growth[1] < 0.0 && growth[2] > 0.0, "{growth:?}");
+
+    own.stiffness = [0.0; 2];
+    let found = stability(&own, &speeds, |_| ControlFlow::Continue(())).unwrap();
+    assert!(found.grows_at_once(), "{:?}", found.critical);
+    let stopped = stability(&own, &speeds, |_| ControlFlow::Break(())).unwrap();
+    assert!(!stopped.complete && stopped.speeds.len() == 1);
+}
+
+/// A wheelset is checked before anything is computed.
+#[test]
+fn input_a_wheelset_that_its_rails_do_not_carry_has_no_stability() {
+    let mut own = wheelset("[[segments]]\ntangent = \"20 m\"\n", 5.0);
+    own.axle_load = 100.0;
+    let error = stability(&own, &[10.0], |_| ControlFlow::Continue(())).unwrap_err();
+    assert!(error.to_string().contains("axle load"), "{error}");
 }
 
 /// A wheelset that is steered into its rail climbs, and the run ends there with place and time.

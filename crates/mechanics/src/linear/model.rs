@@ -58,7 +58,29 @@ pub struct LinearModel {
     pub sliders: Vec<SlidingPair>,
 }
 
+/// Angular frequency of what is held, 1/s: far above all that is looked for.
+const HELD: f64 = 1e5;
+
 impl LinearModel {
+    /// Holds coordinates: nothing moves them, and their motion moves nothing. They keep their places, each
+    /// with a vibration of its own, 1e5 rad/s, that is no part of the system.
+    pub fn hold(&mut self, places: &[usize]) {
+        let own = &mut self.without_friction;
+        for &place in places {
+            for matrix in [&mut own.mass, &mut own.stiffness, &mut own.damping] {
+                matrix.row_mut(place).fill(0.0);
+                matrix.column_mut(place).fill(0.0);
+            }
+            own.mass[(place, place)] = 1.0;
+            own.stiffness[(place, place)] = -HELD * HELD;
+        }
+        for pair in &mut self.sliders {
+            for row in pair.slip.iter_mut().chain(&mut pair.force) {
+                row.retain(|(place, _)| !places.contains(place));
+            }
+        }
+    }
+
     /// Returns the matrices with these stiffnesses and dampings of the sliders, in their order.
     #[must_use]
     pub fn with(&self, sliders: impl IntoIterator<Item = Equivalent>) -> SecondOrder {

@@ -7,12 +7,12 @@
 
 use std::ops::ControlFlow;
 
-use car::{FrictionState, LinearizeError, SteadyCar, vibrations};
+use car::{FrictionState, LinearizeError, vibrations};
 use quantity::nearest;
 use thiserror::Error;
 
 use super::CarCase;
-use super::stability::{BranchKind, NamedMode, named, straight};
+use super::stability::{BranchKind, NamedMode, named, steady, straight};
 use crate::case::CaseError;
 use crate::case::field::Input;
 use crate::design::{Factor, Levels, Value};
@@ -312,7 +312,7 @@ pub fn locus(
 
 /// Returns the vibrations of a car with friction stuck and absent.
 fn both(case: &CarCase, speed: f64) -> Result<[Vec<NamedMode>; 2], LinearizeError> {
-    let mut car = SteadyCar::new(&straight(&case.parameters))?;
+    let mut car = steady(case, &straight(&case.parameters))?;
     let model = car.model(speed)?;
     let of = |friction: FrictionState| -> Result<Vec<NamedMode>, LinearizeError> {
         Ok(named(&car, &model, &vibrations(&model, friction.of(&model))?))

@@ -65,8 +65,8 @@ pub struct CarCase {
     pub output_files: OutputFiles,
     /// The settings of the run.
     pub simulation: Simulation,
-    /// Warp stiffness of a truck in the linear benchmark of [`stability`], N·m/rad, if it is asked for.
-    pub benchmark_warp: Option<f64>,
+    /// What [`stability`](mod@stability) looks at besides.
+    pub stability: sections::StabilityKeys,
     /// Warnings of reading.
     pub doubts: Vec<String>,
     /// Profiles and measured tables that were read.
@@ -205,7 +205,7 @@ fn read(
         rules,
         output_files,
         simulation,
-        benchmark_warp,
+        stability,
         doubts,
     } = drawn?;
     Some(CarCase {
@@ -215,7 +215,7 @@ fn read(
         rules,
         output_files,
         simulation,
-        benchmark_warp,
+        stability,
         doubts,
         files,
         text,

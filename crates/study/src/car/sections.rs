@@ -24,7 +24,7 @@ pub(super) struct CarSections {
     pub rules: Rules,
     pub output_files: OutputFiles,
     pub simulation: Simulation,
-    pub benchmark_warp: Option<f64>,
+    pub stability: StabilityKeys,
     pub doubts: Vec<String>,
 }
 
@@ -82,7 +82,7 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     let mut output_files = OutputFiles::of_car();
     output_files.read(r);
     let simulation = simulation(r);
-    let benchmark_warp = stability(r);
+    let stability = stability(r);
     // Without a track there is no place to look at.
     let Notes { mut doubts, files } = line?.notes;
     r.files.extend(files);
@@ -92,13 +92,23 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
         rules,
         output_files,
         simulation,
-        benchmark_warp,
+        stability,
         doubts,
     })
 }
 
-/// Reads `[stability]`: the warp stiffness of a truck in the linear benchmark, N·m/rad.
-fn stability(r: &mut CaseReader<'_>) -> Option<f64> {
+/// What `wedgelab stability` looks at besides.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StabilityKeys {
+    /// Warp stiffness of a truck in the linear benchmark, N·m/rad, if it is asked for.
+    pub benchmark_warp: Option<f64>,
+    /// Whether the car's body is held, so that each truck runs alone.
+    pub body_held: bool,
+}
+
+/// Reads `[stability]`.
+fn stability(r: &mut CaseReader<'_>) -> StabilityKeys {
+    const BODIES: Names<bool> = &[("free", false), ("held", true)];
     r.section(
         "stability",
         "What `wedgelab stability` looks at besides; runs take nothing of it.",
@@ -109,7 +119,13 @@ fn stability(r: &mut CaseReader<'_>) -> Option<f64> {
                       plates free in \
                    yaw, no friction): NUCARS has 255 kip in for a new truck; left out: no benchmark";
     r.optional("warp_moment", form, &mut moment, "\"255000 lbf in\"", comment);
-    moment.map(|own: f64| 2.0 * own / 0.030)
+    let mut body_held = false;
+    let comment = "\"held\": it moves forward and nothing else, so that each truck runs alone";
+    r.choice("body", BODIES, &mut body_held, comment);
+    StabilityKeys {
+        benchmark_warp: moment.map(|own: f64| 2.0 * own / 0.030),
+        body_held,
+    }
 }
 
 /// Returns the springs under the rails.

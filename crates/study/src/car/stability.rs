@@ -4,8 +4,8 @@
 //!
 //! The car runs on straight track without irregularities, whatever its case's track is; the springs under its
 //! rails are the case's. What is linearized, and how, say [`car::SteadyCar`] and [`car::OverAmplitude`]. With
-//! `[stability] warp_stiffness` the car is taken as the linear benchmark of textbooks too
-//! ([`car::Parameters::tied`]).
+//! `[stability] warp_moment` the car is taken as the linear benchmark of textbooks too
+//! ([`car::Parameters::tied`]), and with `body = "held"` each truck alone ([`car::SteadyCar::hold_body`]).
 
 use std::ops::ControlFlow;
 
@@ -135,6 +135,8 @@ pub struct Stability {
     pub has_flanges: bool,
     /// The car in steady running, for pictures of its motions.
     pub steady: SteadyCar,
+    /// Whether its body is held, so that each truck runs alone.
+    pub body_held: bool,
     /// True if all was computed.
     pub complete: bool,
 }
@@ -170,16 +172,16 @@ pub fn stability(
     mut go_on: impl FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Stability, StabilityError> {
     let straight = straight(&case.parameters);
-    let tied = match case.benchmark_warp {
+    let tied = match case.stability.benchmark_warp {
         Some(warp) => {
             let mut own = straight.tied(warp)?;
             // Without friction nothing is locked in.
             own.start.kind = StartKind::Equilibrium;
-            Some(SteadyCar::new(&own)?)
+            Some(steady(case, &own)?)
         }
         None => None,
     };
-    let mut car = OverAmplitude::new(&straight)?;
+    let mut car = OverAmplitude::of(steady(case, &straight)?, &straight)?;
     let mut found = Stability {
         speeds: speeds.to_vec(),
         branches: Vec::new(),
@@ -187,6 +189,7 @@ pub fn stability(
         clearance: 0.0,
         has_flanges: matches!(case.parameters.wheels, Wheels::OnRails(_)),
         steady: car.steady().clone(),
+        body_held: case.stability.body_held,
         complete: false,
     };
     let kinds = [
@@ -234,6 +237,15 @@ pub fn stability(
     found.clearance = clearance;
     found.complete = found.curve.len() == AMPLITUDES;
     Ok(found)
+}
+
+/// Returns a car of these parameters in steady running, its body held if the case says so.
+pub(super) fn steady(case: &CarCase, parameters: &Parameters) -> Result<SteadyCar, LinearizeError> {
+    let mut own = SteadyCar::new(parameters)?;
+    if case.stability.body_held {
+        own.hold_body();
+    }
+    Ok(own)
 }
 
 /// Returns a branch, and whether it is whole.
@@ -351,6 +363,14 @@ impl Stability {
     /// Returns what has been found in a sentence.
     #[must_use]
     pub fn verdict(&self, units: Units) -> String {
+        let own = self.found(units);
+        match self.body_held {
+            true => format!("Each truck alone, the car's body being held. {own}"),
+            false => own,
+        }
+    }
+
+    fn found(&self, units: Units) -> String {
         let speed = |si: f64| {
             let unit = Kind::TravelSpeed.label(units);
             format!("{:.0} {unit}", si * Kind::TravelSpeed.from_si(units))
@@ -371,12 +391,13 @@ impl Stability {
                 own.frequency
             );
         }
-        let (off, flanges) = match self.has_flanges {
-            true => (
+        let (off, flanges) = match (self.has_flanges, self.body_held) {
+            (true, false) => (
                 "off the flanges nothing",
                 " On the flanges it may hunt at lower speeds: --nonlinear tells.",
             ),
-            false => ("nothing", ""),
+            (true, true) => ("off the flanges nothing", ""),
+            (false, _) => ("nothing", ""),
         };
         let (Some((amplitude, slowest)), smallest) = (self.slowest(), self.smallest()) else {
             let up_to = length(self.clearance);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use wheelrail::track::{CenterLine, Segment, Track};
+use wheelrail::track::Track;
 
 use crate::case::Tables;
 use crate::case::field::quoted;
@@ -10,17 +10,14 @@ use crate::case::problem::{Problem, Problems, TomlSource};
 use crate::case::section::CaseSection;
 use crate::case::tree::{self, NodeValue, TableNode};
 use crate::reader::CaseReader;
-use crate::track::{Notes, ReadTrack, Support, of_section, text_of};
+use crate::track::{Notes, ReadTrack, Support, TrackFile, of_section, text_of};
 
 /// Length of a track that is not given, ft.
 const USUAL: f64 = 5000.0;
 
 /// Returns a straight track without irregularities of a length (m).
 pub(super) fn tangent(length: f64) -> Option<Track> {
-    Some(Track {
-        center_line: CenterLine::new(&[Segment::Tangent(length)], 59.5 * 0.0254, &[]).ok()?,
-        irregularities: Vec::new(),
-    })
+    Some(TrackFile::straight(length).ok()?.track)
 }
 
 /// Reads the track.

@@ -94,6 +94,23 @@ pub(crate) fn text_of(path: &Path) -> Result<String, CaseError> {
 }
 
 impl TrackFile {
+    /// Returns straight perfect track of a length (m) on rigid rails.
+    ///
+    /// # Errors
+    /// The length is not positive.
+    pub fn straight(length: f64) -> Result<Self, TrackError> {
+        Ok(Self {
+            name: "straight".to_owned(),
+            title: String::new(),
+            track: Track {
+                center_line: CenterLine::new(&[Segment::Tangent(length)], 59.5 * 0.0254, &[])?,
+                irregularities: Vec::new(),
+            },
+            support: Support::Rigid,
+            doubts: Vec::new(),
+        })
+    }
+
     /// Reads a track file.
     ///
     /// # Errors

@@ -1,10 +1,12 @@
 //! Runs of one wheelset under a carriage on a track.
 //!
 //! [`Wheelset`] is what a user says: profiles, a track file, speed, load, springs. [`WheelsetCase`] is the
-//! model made of it, [`run`](mod@run) runs it, [`columns`] has its table, [`summary`] its numbers.
+//! model made of it, [`run`](mod@run) runs it, [`columns`] has its table, [`summary`] its numbers,
+//! [`stability`](mod@stability) how it hunts.
 
 pub mod columns;
 pub mod run;
+pub mod stability;
 pub mod summary;
 
 use std::collections::BTreeMap;
@@ -19,7 +21,7 @@ use thiserror::Error;
 use wheelrail::contact::{ContactLaw, ContactTable, CreepLaw};
 use wheelrail::hertz::Material;
 use wheelrail::profile::{Profile, ProfileError};
-use wheelrail::track::{CenterLine, RailLines, Segment, Track, TrackError};
+use wheelrail::track::{RailLines, Track, TrackError};
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
 use crate::car::assumptions::{of_profile, of_support};
@@ -202,28 +204,6 @@ impl WheelsetCase {
         })
     }
 
-    /// Returns growth (1/s) and frequency (rad/s) of the least damped lateral vibration about steady rolling
-    /// on straight perfect track; none if there is none, of the frequencies that wheelsets hunt with.
-    #[must_use]
-    pub fn hunting(&self) -> Option<[f64; 2]> {
-        let center_line = CenterLine::new(&[Segment::Tangent(100.0)], 1.5, &[]).ok()?;
-        let straight = Track {
-            center_line,
-            irregularities: Vec::new(),
-        };
-        let setup = setup(&self.wheelset, straight).ok()?;
-        let start = RigStart {
-            distance: 50.0,
-            ..RigStart::default()
-        };
-        let mut rig = Rig::new(&setup, start).ok()?;
-        let found = rig.system.eigenvalues(0.0, &rig.start.clone(), SHIFT).ok()?;
-        let [low, high] = HUNTING;
-        found
-            .into_iter()
-            .find(|[_, frequency]| (low..high).contains(frequency))
-    }
-
     /// Returns the assumptions in words.
     #[must_use]
     pub fn assumptions(&self) -> Vec<String> {
@@ -254,10 +234,6 @@ impl WheelsetCase {
         words
     }
 }
-
-/// Frequencies of hunting, rad/s, and a number of their size, 1/s.
-const HUNTING: [f64; 2] = [0.5, 300.0];
-const SHIFT: f64 = 20.0;
 
 fn check(wheelset: &Wheelset) -> Result<(), WheelsetError> {
     let positive = |value: f64| value > 0.0 && value.is_finite();

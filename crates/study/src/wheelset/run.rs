@@ -16,7 +16,8 @@ use wheelrail::loaded::Seat;
 
 use super::WheelsetCase;
 use super::columns::{RigReader, SIDES, columns};
-use super::summary::{Derailment, Hunting, SCHEMA, WheelsetSummary};
+use super::stability;
+use super::summary::{Derailment, SCHEMA, WheelsetSummary};
 use crate::energy;
 use crate::plausibility;
 use crate::result::RunResult;
@@ -170,7 +171,7 @@ fn output(mut run: Run<WheelsetCase>, stopped: Option<Stopped>) -> WheelsetResul
         failed: energy::failure(&balance, LOWER_THE_TOLERANCE),
         warnings,
         rows: table.column("time").len() - table.before(),
-        hunting: run.case.hunting().map(Hunting::of),
+        hunting: stability::hunting(&run.case.wheelset),
         extremes,
         ledger: LedgerSummary::of_run(&mut run, units),
         relative_tolerance: run.case.wheelset.relative_tolerance,

@@ -27,3 +27,5 @@ pub mod wear;
 pub mod wheelrail;
 mod wheelrail_contact;
 mod wheelrail_run;
+mod wheelrail_stability;
+mod wheelrail_suspended;

@@ -29,10 +29,10 @@ use crate::table::TerminalTable;
 ///
 /// Linearizes the car about steady running on straight track without irregularities, at each speed: with all
 /// friction of wedges, center plates, adapters and side bearings stuck (bristles are springs), without it,
-/// and, if [stability] warp_moment is set, as the linear benchmark of textbooks. Between stuck and absent
-/// lies the critical speed over the amplitude: friction, conicity and creep by equivalent linearization.
-/// Writes stability.csv (all vibrations of 0.05 to 30 Hz), critical_speed.csv, stability.json, stability.svg
-/// and stability.png.
+/// and, if [stability] warp_moment is set, as the linear benchmark of textbooks. [stability] body = "held"
+/// looks at each truck alone. Between stuck and absent lies the critical speed over the amplitude: friction,
+/// conicity and creep by equivalent linearization. Writes stability.csv (all vibrations of 0.05 to 30 Hz),
+/// critical_speed.csv, stability.json, stability.svg and stability.png.
 ///
 /// With --onset it also runs the car at held speeds on perfect track and on track of FRA class 4, and finds
 /// the speeds from which on measures of hunting pass their limits. Writes onset.csv, onset.json, onset.svg,
@@ -110,7 +110,7 @@ pub(super) fn speed(text: &str) -> Result<f64, String> {
 }
 
 /// Returns a range of speeds, m/s, rising; whichever end comes first in the text.
-fn range(text: &str) -> Result<[f64; 2], String> {
+pub(super) fn range(text: &str) -> Result<[f64; 2], String> {
     const HOW: &str = "write for example \"30 mph\"..\"80 mph\"";
     let (from, to) = text.split_once("..").ok_or(HOW)?;
     let [from, to] = [speed(from)?, speed(to)?];
@@ -118,6 +118,13 @@ fn range(text: &str) -> Result<[f64; 2], String> {
         true => Err(format!("this is one speed only; {HOW}")),
         false => Ok([from.min(to), from.max(to)]),
     }
+}
+
+/// Returns that many speeds, evenly spaced over a range.
+pub(super) fn spaced([from, to]: [f64; 2], count: u32) -> Vec<f64> {
+    let last = count - 1;
+    let speed = |k| from + (to - from) * f64::from(k) / f64::from(last);
+    (0..=last).map(speed).collect()
 }
 
 fn ramp_time(text: &str) -> Result<f64, String> {
@@ -147,6 +154,11 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             return Err(Message::new(message, advice).into());
         }
     };
+    if case.stability.body_held && (arguments.nonlinear || arguments.onset.is_some()) {
+        let message = "stability.body is \"held\", but --nonlinear and --onset run the whole car";
+        let advice = "leave them out, or write stability.body = \"free\"";
+        return Err(Message::new(message, advice).into());
+    }
     let around = Around {
         path: &arguments.case,
         set: &arguments.set,
@@ -180,13 +192,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         names.extend(onset_files::NAMES);
     }
     let folder = folders::check(path, &names, arguments.force)?;
-    let [from, to] = arguments.speeds;
-    let spaced = |count: u32| -> Vec<f64> {
-        let last = count - 1;
-        let speed = |k| from + (to - from) * f64::from(k) / f64::from(last);
-        (0..=last).map(speed).collect()
-    };
-    let speeds = spaced(arguments.steps);
+    let speeds = spaced(arguments.speeds, arguments.steps);
     let progress = Progress::new(1, arguments.quiet);
     interrupt::stops_run();
     let mut reached = progress.of_run(1.0);
@@ -223,7 +229,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             } else {
                 part
             };
-            Some(onset(&case, &spaced(count), |share| {
+            Some(onset(&case, &spaced(arguments.speeds, count), |share| {
                 reached(before + (1.0 - before) * share);
                 interrupt::go_on()
             }))

@@ -12,7 +12,7 @@ use wheelrail::hertz::Material;
 use wheelrail::profile::{Profile, ProfileError, ProfileKind, nominal};
 use wheelrail::wheelset::{Layout, RigidPosition, RigidWheelset};
 
-use super::{wheelrail_contact, wheelrail_run};
+use super::{wheelrail_contact, wheelrail_run, wheelrail_stability};
 use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};
 use crate::folders;
@@ -29,7 +29,8 @@ Examples:
   wedgelab wheelrail check aar_1b 136re
   wedgelab wheelrail plot worn.csv rail.prr --gauge \"56.75 in\" --out worn
   wedgelab wheelrail contact aar_1b 136re --lateral \"0.25 in\" --load \"33 kip\"
-  wedgelab wheelrail run aar_1b 136re my_track.toml --speed \"60 mph\"")]
+  wedgelab wheelrail run aar_1b 136re my_track.toml --speed \"60 mph\"
+  wedgelab wheelrail stability aar_1b 136re --speeds \"40 mph\"..\"200 mph\"")]
 pub struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -58,6 +59,11 @@ enum Command {
     /// Writes result.csv (place on the track, forces of both wheels, their contact patches), summary.json and
     /// index.html.
     Run(Box<wheelrail_run::Arguments>),
+    /// Stability of one wheelset over speed on straight perfect track: growth and frequency of its least
+    /// damped lateral vibration, critical speed
+    ///
+    /// Writes stability.csv, stability.svg and stability.png.
+    Stability(Box<wheelrail_stability::Arguments>),
 }
 
 /// A wheel and a rail, and where they are.
@@ -149,6 +155,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let (pair, files) = match &arguments.command {
         Command::Contact(own) => return wheelrail_contact::execute(own),
         Command::Run(own) => return wheelrail_run::execute(own),
+        Command::Stability(own) => return wheelrail_stability::execute(own),
         Command::Check(pair) => (pair, None),
         Command::Plot { pair, out, force } => (pair, Some((out, *force))),
     };

@@ -1,0 +1,78 @@
+//! The files of `wedgelab wheelrail stability`: the least damped vibration of a wheelset over speed, as CSV
+//! and figure.
+
+use std::io::{self, Write};
+
+use quantity::{Kind, System as Units};
+use study::wheelset::stability::WheelsetStability;
+use study::wheelset::summary::Hunting;
+
+use crate::csv::RowWriter;
+use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
+use crate::figures::axis;
+
+/// The table.
+pub const TABLE: &str = "stability.csv";
+/// The figure.
+pub const FIGURE: &str = "stability.svg";
+/// The same as a picture.
+pub const PICTURE: &str = "stability.png";
+/// All of them.
+pub const NAMES: [&str; 3] = [TABLE, FIGURE, PICTURE];
+
+/// Writes the vibration at each speed; empty cells: there is none.
+///
+/// # Errors
+/// The writer's.
+pub fn write_table(found: &WheelsetStability, units: Units, out: &mut dyn Write) -> io::Result<()> {
+    let mut table = RowWriter::new(out);
+    table.text(&format!("speed_{}", Kind::TravelSpeed.suffix(units)));
+    table
+        .texts(["growth_per_s", "frequency_hz", "damping_ratio"])
+        .end()?;
+    for (speed, own) in found.speeds.iter().zip(&found.vibrations) {
+        table.plain(speed * Kind::TravelSpeed.from_si(units));
+        match own {
+            Some(own) => table
+                .shown(own.growth_per_s)
+                .shown(own.frequency_hz)
+                .shown(own.damping_ratio),
+            None => table.texts(["", "", ""]),
+        };
+        table.end()?;
+    }
+    Ok(())
+}
+
+/// Returns the figure: growth and frequency over speed.
+#[must_use]
+pub fn figure(title: &str, found: &WheelsetStability, units: Units) -> Figure {
+    let panel = |title: &str, y_label: &str, of: fn(&Hunting) -> f64| {
+        let points = found.speeds.iter().zip(&found.vibrations);
+        let points = points
+            .filter_map(|(speed, own)| Some((speed * Kind::TravelSpeed.from_si(units), of(own.as_ref()?))));
+        Panel {
+            title: title.to_owned(),
+            x_label: axis("speed", Kind::TravelSpeed, units),
+            y_label: y_label.to_owned(),
+            curves: vec![PlotCurve {
+                label: String::new(),
+                colour: Colour::Blue,
+                line: Line::Solid,
+                points: points.collect(),
+            }],
+            ..Panel::default()
+        }
+    };
+    Figure {
+        title: format!("a wheelset, {title}: linear stability"),
+        caption: "The least damped lateral vibration about steady rolling on straight perfect track; \
+                  positive growth is hunting."
+            .to_owned(),
+        panels: vec![
+            panel("(a) growth", "growth (1/s)", |own| own.growth_per_s),
+            panel("(b) frequency", "frequency (Hz)", |own| own.frequency_hz),
+        ],
+        ..Figure::default()
+    }
+}
