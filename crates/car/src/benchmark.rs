@@ -94,7 +94,7 @@ impl Parameters {
             truck.lands.clearance = FREE;
             let nest = |coils: &[NestCoil]| coils.iter().map(|own| own.spring.shear_stiffness).sum::<f64>();
             let shear: f64 = truck.load_coils.iter().map(|own| nest(own)).sum();
-            let square = shear * truck.distances[0] * truck.distances[0];
+            let square = shear * truck.geometry.nest() * truck.geometry.nest();
             if !(warp > 0.0 && warp < square) {
                 return Err(NoWarp { warp, shear: square });
             }

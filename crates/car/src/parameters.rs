@@ -410,7 +410,7 @@ impl Parameters {
     /// Returns the distance of the outermost axles from the middle of the car, m.
     #[must_use]
     pub fn reach(&self) -> f64 {
-        let axles = self.trucks.iter().map(|own| own.distances[2]);
+        let axles = self.trucks.iter().map(|own| own.geometry.axle());
         0.5 * self.truck_distance + axles.fold(0.0, f64::max)
     }
 }

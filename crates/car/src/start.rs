@@ -246,7 +246,7 @@ impl Placement {
         };
         let mut trucks = [0, 1].map(|t| {
             let center = start.distance + [half, -half][t];
-            let axle = parameters.trucks[t].distances[2];
+            let axle = parameters.trucks[t].geometry.axle();
             between([section(center + axle), section(center - axle)])
         });
         let ends = trucks.map(|pose| (pose.place, pose.rotation.column(2)));

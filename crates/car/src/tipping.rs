@@ -93,7 +93,7 @@ impl Parameters {
             let solid = coils().filter_map(|coil| coil.spring.solid.map(|solid| solid[0]));
             let solid = solid.fold(f64::INFINITY, f64::min);
             let free = coils().map(|coil| coil.spring.preload / coil.spring.stiffness);
-            let lean = libm::atan((solid + free.fold(0.0, f64::max)) / (2.0 * own.distances[0]));
+            let lean = libm::atan((solid + free.fold(0.0, f64::max)) / own.geometry.nest_distance);
             solid.is_finite().then_some(lean)
         };
         let leans = self.trucks.iter().filter_map(of_truck);

@@ -66,7 +66,7 @@ fn reduced(conicity: f64, warp: f64, harder: f64) -> Parameters {
 fn nine_coordinates(conicity: f64, warp: f64, held: bool) -> f64 {
     let car = empty(tangent(300.0), 10.0);
     let truck = &car.trucks[0];
-    let [nest, _, base] = truck.distances;
+    let [nest, base] = [truck.geometry.nest(), truck.geometry.axle()];
     let [f11, f22] = [6.69e6, 6.21e6];
     let weight = car.weight() / 4.0;
     let side_frame = &truck.side_frames[0].body;

@@ -124,7 +124,7 @@ fn cross_code_moved_rails_do_what_the_same_irregularity_does() {
     part.begin();
     let axles: Vec<f64> = {
         let own = &dipped.parameters;
-        let (half, axle) = (0.5 * own.truck_distance, own.trucks[0].distances[2]);
+        let (half, axle) = (0.5 * own.truck_distance, own.trucks[0].geometry.axle());
         [half + axle, half - axle, -half + axle, -half - axle]
             .map(|x| own.start.distance + x)
             .to_vec()

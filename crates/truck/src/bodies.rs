@@ -5,7 +5,6 @@ use mechanics::frame::Frame;
 use wedge::parameters::NeighbourMotion;
 
 use crate::assemble::{CAR_BODY, INBOARD_HALVES};
-use crate::elements::HEIGHT;
 use crate::parameters::{Parameters, RigidBody, WedgeKind};
 use crate::split::{HALVES, WAYS};
 use crate::wedge_mount::wedge_body;
@@ -57,7 +56,8 @@ pub fn numbers(parameters: &Parameters) -> Vec<usize> {
 /// Returns the bodies of a truck whose center is at `center` (m), in the order of [`numbers`].
 #[must_use]
 pub fn bodies(parameters: &Parameters, center: [f64; 3]) -> Vec<Body> {
-    let [side, place, axle] = parameters.distances;
+    let geometry = &parameters.geometry;
+    let (side, axle) = (geometry.nest(), geometry.axle());
     let start = parameters.displacement_at_start();
     let moved = |mut body: Body| {
         if !body.is_prescribed() {
@@ -70,7 +70,11 @@ pub fn bodies(parameters: &Parameters, center: [f64; 3]) -> Vec<Body> {
         let still = NeighbourMotion::fixed();
         let wheelsets = parameters.wheelsets.as_ref();
         let motion = wheelsets.map_or(&still, |wheelsets| &wheelsets.motions[number]);
-        bodies.push(prescribed(name, motion, [[axle, -axle][number], 0.0, HEIGHT]));
+        bodies.push(prescribed(
+            name,
+            motion,
+            [[axle, -axle][number], 0.0, geometry.axle_height],
+        ));
     }
     let bolster = &parameters.bolster;
     // Wedges without mass leave theirs to the bolster, with which they go: the car weighs the same.
@@ -97,7 +101,7 @@ pub fn bodies(parameters: &Parameters, center: [f64; 3]) -> Vec<Body> {
     }
     let mut inboard = Vec::new();
     for ((name, wedge), [end, way]) in WEDGE_NAMES.into_iter().zip(&parameters.wedges).zip(PLACES) {
-        let at = [place * end, side * way, HEIGHT];
+        let at = geometry.wedge([end, way]);
         if wedge.kind == WedgeKind::Split {
             let halves = wedge.halves();
             let half = |number: usize| {

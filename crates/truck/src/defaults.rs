@@ -7,6 +7,7 @@ use mechanics::surface::SurfaceProfile;
 use wedge::face::{FaceDirection, FaceProfile, FaceProperties, Grid};
 use wedge::parameters::{Contact, Damping, FaceFriction, NeighbourMotion, STANDARD_GRAVITY, Start, Wear};
 
+use crate::geometry::Geometry;
 use crate::parameters::{
     Adapter, AdapterPad, Bolster, CarBody, CenterPlate, Clearance, ControlCoil, FrictionAdapter, Lading,
     NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Split, Spring, Wedge, WedgeKind,
@@ -242,7 +243,7 @@ impl Parameters {
         Self {
             damping,
             gravity: STANDARD_GRAVITY,
-            distances: inches([39.5, 8.5, 35.0]),
+            geometry: Geometry::default(),
             bolster: Bolster {
                 body: body(1300.0, [2915.0, 142.0, 2930.0], 22.0),
                 free: [false; 6],

@@ -18,19 +18,8 @@ use crate::parameters::{
     Adapter, AdapterPad, CarBody, Clearance, FrictionAdapter, Parameters, SideBearing, Spring, WedgeKind,
 };
 use crate::split::{self, SplitMount};
-use crate::units::INCH;
 use crate::wedge_mount::{WedgeMount, attach, marker_on, plane, point};
 use crate::{PLACES, WEDGE_NAMES};
-
-/// Height of the wedges' centers of gravity and of the gibs, m.
-pub(crate) const HEIGHT: f64 = 18.0 * INCH;
-/// Height at which load coils act, m.
-const SEAT_HEIGHT: f64 = 13.0 * INCH;
-/// Height of the adapters, m, and the places of their two points, of their two stops and of the lands.
-const ADAPTER_HEIGHT: f64 = 22.5 * INCH;
-const ADAPTER_POINTS: f64 = 3.0 * INCH;
-const ADAPTER_STOPS: f64 = 1.56 * INCH;
-const LANDS: [f64; 2] = [7.0 * INCH, 3.0 * INCH];
 
 /// The role of an element of the suspension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -252,7 +241,7 @@ impl Builder<'_> {
         }
         self.added.adapters.end = self.model.faces.len();
         for (number, side) in [1.0, -1.0].into_iter().enumerate() {
-            self.nest(number, side * self.parameters.distances[0]);
+            self.nest(number, side * self.parameters.geometry.nest());
         }
         self.applied_loads();
         if let Some(car) = &self.parameters.car_body {
@@ -347,9 +336,9 @@ impl Builder<'_> {
     /// A wedge's two faces, its control coil and the sides of its pocket.
     fn wedge(&mut self, number: usize) {
         let parameters = self.parameters;
-        let ([end, way], [side, place, _]) = (PLACES[number], parameters.distances);
+        let [end, way] = PLACES[number];
         let wedge = &parameters.wedges[number];
-        let center = [place * end, side * way, HEIGHT];
+        let center = parameters.geometry.wedge([end, way]);
         let bodies = &self.mount.bodies;
         let [bolster, side_frame] = [BOLSTER, SIDE_FRAMES + usize::from(way < 0.0)].map(|body| bodies[body]);
         if wedge.kind == WedgeKind::Massless {
@@ -388,29 +377,35 @@ impl Builder<'_> {
     fn nest(&mut self, number: usize, y: f64) {
         let (parameters, side_frame) = (self.parameters, SIDE_FRAMES + number);
         let ends = [BOLSTER, side_frame];
+        let geometry = &parameters.geometry;
         let side = ["left", "right"][number];
         for (i, coil) in parameters.load_coils[number].iter().enumerate() {
-            let at = [coil.place[0], y + coil.place[1], SEAT_HEIGHT];
+            let at = [coil.place[0], y + coil.place[1], geometry.seat_height];
             let name = format!("{side}_load_coil_{}", i + 1);
             self.spring(Role::LoadCoil, name, ends, at, &coil.spring);
         }
         if let Some(moment) = &parameters.warp_spring {
             let [a, b] = ends.map(|body| self.mount.bodies[body]);
-            let at = self.joint([a, b], [0.0, y, HEIGHT]);
+            let at = self.joint([a, b], [0.0, y, geometry.gib_height]);
             if ![a, b].iter().all(|body| self.model.bodies[*body].is_prescribed()) {
                 let spring = warp_spring(format!("{side}_warp_spring"), [a, b], at, moment);
                 self.model.connections.push(spring);
             }
         }
         let gib = format!("{side}_gib");
-        self.stop(Role::Gib, gib, ends, [0.0, y, HEIGHT], FRAC_PI_2, &parameters.gib);
+        let at = [0.0, y, geometry.gib_height];
+        self.stop(Role::Gib, gib, ends, at, FRAC_PI_2, &parameters.gib);
         for (end, end_name) in [(1.0, "leading"), (-1.0, "trailing")] {
             for (i, (across, up)) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
                 .into_iter()
                 .enumerate()
             {
-                let x = end * parameters.distances[1];
-                let at = [x, y + across * LANDS[0], HEIGHT + up * LANDS[1]];
+                let [aside, high] = geometry.lands;
+                let at = [
+                    end * geometry.wedge_distance,
+                    y + across * aside,
+                    geometry.land_height + up * high,
+                ];
                 let name = format!("{end_name}_{side}_land_{}", i + 1);
                 self.stop(Role::Land, name, ends, at, 0.0, &parameters.lands);
             }
@@ -518,10 +513,11 @@ impl Builder<'_> {
             return;
         };
         let side = ["left", "right"][number];
-        let y = parameters.distances[0] * [1.0, -1.0][number];
+        let geometry = &parameters.geometry;
+        let y = geometry.journal() * [1.0, -1.0][number];
         for (axle, end, end_name) in [(0, 1.0, "leading"), (1, -1.0, "trailing")] {
             let name = format!("{end_name}_{side}_adapter");
-            let place = [parameters.distances[2] * end, y, ADAPTER_HEIGHT];
+            let place = [geometry.axle() * end, y, geometry.adapter_height];
             let ends = [SIDE_FRAMES + number, WHEELSETS + axle].map(|body| self.mount.bodies[body]);
             // As with springs and stops, nothing is joined between two prescribed bodies.
             if ends.iter().all(|body| self.model.bodies[*body].is_prescribed()) {
@@ -538,31 +534,38 @@ impl Builder<'_> {
         &mut self,
         name: &str,
         [side, axle]: [usize; 2],
-        [x, y, _]: [f64; 3],
+        [x, y, height]: [f64; 3],
         adapter: &FrictionAdapter,
     ) {
         let side_frame = SIDE_FRAMES + side;
-        let points = [ADAPTER_POINTS, -ADAPTER_POINTS].map(|y_point| {
-            let (_, place) = self.marker(side_frame, [x, y + y_point, ADAPTER_HEIGHT], 0.0);
+        let [points, stops] = self.parameters.geometry.adapter;
+        let points = [points, -points].map(|y_point| {
+            let (_, place) = self.marker(side_frame, [x, y + y_point, height], 0.0);
             point(place.origin.0, &adapter.contact, 0.5)
         });
-        let top = ADAPTER_HEIGHT + adapter.preload / adapter.contact.stiffness;
+        let top = height + adapter.preload / adapter.contact.stiffness;
         let (number, marker) = self.turned_marker(WHEELSETS + axle, [x, y, top], [0.0, -FRAC_PI_2, 0.0]);
         let face = plane(name.to_owned(), points.to_vec(), &adapter.friction);
         self.model
             .faces
             .push((self.mount.bodies[side_frame], number, marker, face));
         let (role, ends) = (Role::Adapter(axle), [side_frame, WHEELSETS + axle]);
-        for across in [ADAPTER_STOPS, -ADAPTER_STOPS] {
-            let at = [x, y + across, ADAPTER_HEIGHT];
+        for across in [stops, -stops] {
+            let at = [x, y + across, height];
             let name = format!("{name}_longitudinal_stop");
             self.stop(role, name, ends, at, 0.0, &adapter.longitudinal);
         }
-        let (name, at) = (format!("{name}_lateral_stop"), [x, y, ADAPTER_HEIGHT]);
+        let (name, at) = (format!("{name}_lateral_stop"), [x, y, height]);
         self.stop(role, name, ends, at, FRAC_PI_2, &adapter.lateral);
     }
 
-    fn adapter_pad(&mut self, name: &str, [side, axle]: [usize; 2], [x, y, _]: [f64; 3], pad: &AdapterPad) {
+    fn adapter_pad(
+        &mut self,
+        name: &str,
+        [side, axle]: [usize; 2],
+        [x, y, height]: [f64; 3],
+        pad: &AdapterPad,
+    ) {
         let half = Spring {
             preload: 0.5 * pad.preload,
             stiffness: 0.5 * pad.stiffness,
@@ -571,7 +574,7 @@ impl Builder<'_> {
             solid: None,
         };
         for (across, half_name) in [(pad.half_distance, "left"), (-pad.half_distance, "right")] {
-            let at = [x, y + across, ADAPTER_HEIGHT];
+            let at = [x, y + across, height];
             let ends = [SIDE_FRAMES + side, WHEELSETS + axle];
             self.spring(
                 Role::Adapter(axle),

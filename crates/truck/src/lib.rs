@@ -21,6 +21,7 @@ mod assemble;
 mod bodies;
 mod defaults;
 mod elements;
+mod geometry;
 mod loads;
 mod massless;
 mod motions;
@@ -37,6 +38,7 @@ pub use assemble::{
 pub use bodies::{bodies, numbers};
 pub use defaults::{CROWN_RADIUS, SERVICE_GRID};
 pub use elements::{Mount, add_elements, mounted};
+pub use geometry::Geometry;
 pub use loads::{CenterPlateLoads, HalfLoads, Loads, WarpMoment, WedgeLoads};
 pub use massless::empirical_warp;
 pub use motions::{FaceForce, Motions};

@@ -8,7 +8,7 @@ use wedge::parameters::Damping;
 
 use crate::PLACES;
 use crate::assemble::{BOLSTER, NUMBERS};
-use crate::elements::{Added, HEIGHT, Mount};
+use crate::elements::{Added, Mount};
 use crate::parameters::{Parameters, Wedge};
 
 /// A truck in a model: which elements there are its own.
@@ -61,21 +61,18 @@ impl MountedTruck {
             axes,
             plate_height: car.map_or(0.0, |car| car.center_plate.height),
             warp_spring: parameters.warp_spring.clone(),
-            axle: parameters.distances[2],
+            axle: parameters.geometry.axle(),
             half_shifts: parameters.wedges.each_ref().map(Wedge::half_shift),
             toes: parameters.wedges.each_ref().map(|wedge| wedge.toe),
             angles: parameters.wedges.each_ref().map(|wedge| wedge.angle),
             damping: parameters.damping,
             part_places: {
-                let [side, ..] = parameters.distances;
+                let side = parameters.geometry.nest();
                 let [left, right] = parameters.side_frames.each_ref().map(|own| own.body.height);
                 let bolster = parameters.bolster.body.height;
                 [[0.0, 0.0, bolster], [0.0, side, left], [0.0, -side, right]].map(Vector)
             },
-            wedge_places: PLACES.map(|[end, way]| {
-                let [side, place, _] = parameters.distances;
-                Vector([place * end, side * way, HEIGHT])
-            }),
+            wedge_places: PLACES.map(|place| Vector(parameters.geometry.wedge(place))),
         }
     }
 

@@ -14,6 +14,8 @@ use wedge::parameters::{
     Contact, ControlCoil as ThesisCoil, Damping, FaceFriction, NeighbourMotion, Start, Wear,
 };
 
+use crate::geometry::Geometry;
+
 /// Mass and principal moments of inertia about the center of gravity, along the truck's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidBody {
@@ -318,8 +320,8 @@ pub struct Parameters {
     pub damping: Damping,
     /// Gravity, m/s².
     pub gravity: f64,
-    /// From the truck's center to the side frames (y), to the wedges' and to the axles' places (x), m.
-    pub distances: [f64; 3],
+    /// Where its parts are.
+    pub geometry: Geometry,
     /// The bolster.
     pub bolster: Bolster,
     /// Left and right side frame.

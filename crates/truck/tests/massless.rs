@@ -313,7 +313,7 @@ fn linearized(parameters: &Parameters) -> System {
             law,
         });
     };
-    let [side, _, axle] = parameters.distances;
+    let [side, axle] = [parameters.geometry.nest(), parameters.geometry.axle()];
     for (number, way) in [1.0, -1.0].into_iter().enumerate() {
         let frame = SIDE_FRAMES + number;
         for coil in &parameters.load_coils[number] {

@@ -167,7 +167,7 @@ fn frictionless(found: &mut Found, rigs: &Rigs) {
             .map(|(coil, way)| {
                 // A side frame turns about its own center: the seat moves by (-ψ own, ψ x).
                 let [x, own] = coil.place;
-                let y = own + way * case.parameters.distances[0];
+                let y = own + way * case.parameters.geometry.nest();
                 coil.spring.shear_stiffness * (x * x + y * own)
             })
             .sum();

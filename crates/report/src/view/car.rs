@@ -116,7 +116,8 @@ fn looks(own: &Parameters) -> Vec<Look> {
     // Places are counted from the center of gravity along the track.
     let front = [half - x, 0.0, 0.5];
     let rear = [-half - x, 0.0, 0.5];
-    let [side, place, axle] = own.trucks[0].distances;
+    let [place, side, _] = own.trucks[0].geometry.wedge([1.0, 1.0]);
+    let axle = own.trucks[0].geometry.axle();
     let rail = [half + axle - x, 0.5 * tape_distance(own), 0.0];
     let wedge = [half + place - x, side, 0.5];
     let [all, truck, corner] = ARROWS;

@@ -65,7 +65,8 @@ pub(super) fn carriage(parameters: &Parameters, prefix: &str, travel: &[Option<S
     };
     let still = [None, None, None];
     let names = ["left_side_frame", "right_side_frame"];
-    let [side, place, axle] = parameters.distances;
+    let geometry = &parameters.geometry;
+    let (side, journal, axle) = (geometry.nest(), geometry.journal(), geometry.axle());
     let parts = parameters.wedge_parts();
     let wedges = parts.iter().map(|part| {
         let (number, name, own) = (part.wedge, &part.name, &part.own);
@@ -74,7 +75,8 @@ pub(super) fn carriage(parameters: &Parameters, prefix: &str, travel: &[Option<S
             if number.is_multiple_of(2) { 1.0 } else { -1.0 },
         );
         let third = own.height * libm::tan(own.angle) / 3.0;
-        let at = [ahead * place, way * side + part.shift, 18.0 * INCH];
+        let [x, y, height] = geometry.wedge([ahead, way]);
+        let at = [x, y + part.shift, height];
         let offset = [ahead * third, 0.0, own.height / 6.0];
         let key = format!("{prefix}{name}");
         DrawnWedge {
@@ -120,9 +122,10 @@ pub(super) fn carriage(parameters: &Parameters, prefix: &str, travel: &[Option<S
             }
         }
     }
+    let high = geometry.adapter_height;
     let axles = [axle, -axle]
         .into_iter()
-        .flat_map(|x| [(0, [x, side, 22.5 * INCH]), (1, [x, -side, 22.5 * INCH])]);
+        .flat_map(|x| [(0, [x, journal, high]), (1, [x, -journal, high])]);
     Carriage {
         bolsters: vec![part("bolster", BOLSTER, travel)],
         side_frames: [0, 1].map(|k| part(names[k], SIDE_FRAMES + k, &still)).to_vec(),

@@ -213,7 +213,7 @@ fn way(r: &mut CaseReader<'_>, parameters: &Parameters, simulation: &Simulation)
         }
     }
     if tightest * LEAST_RADIUS > 1.0 {
-        let axle = parameters.trucks[0].distances[2];
+        let axle = parameters.trucks[0].geometry.axle();
         let turn = 0.5 * parameters.truck_distance * tightest;
         let bearings = parameters.trucks[0]
             .car_body

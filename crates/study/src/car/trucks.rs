@@ -104,6 +104,7 @@ fn truck(r: &mut CaseReader<'_>, name: &'static str, about: &str, lading: Lading
     let (condition, damping) = sections::condition_and_damping(r, "Its [friction]");
     let mut own = Parameters::new(damping);
     own.bolster.free = [true; 6];
+    sections::truck_places(r, &mut own.geometry);
     let bearings = match lading {
         Lading::Loaded => SideBearings::rollers(),
         Lading::Empty => SideBearings::constant_contact(),
@@ -111,9 +112,9 @@ fn truck(r: &mut CaseReader<'_>, name: &'static str, about: &str, lading: Lading
     own.car_body = Some(CarBody::new(lading, bearings));
     r.section("bolster", "The bolster.");
     sections::rigid_body(r, &mut own.bolster.body);
-    let mut draft = wedges::all(r, &own, condition.friction());
+    let mut draft = wedges::all(r, &mut own, condition.friction());
     r.section("side_frame", "Both side frames.");
-    wedges::toe_of_all(r, &mut draft);
+    wedges::columns_of_all(r, &mut own.geometry, &mut draft);
     let mut body = own.side_frames[0].body;
     sections::rigid_body(r, &mut body);
     for frame in &mut own.side_frames {
@@ -124,7 +125,7 @@ fn truck(r: &mut CaseReader<'_>, name: &'static str, about: &str, lading: Lading
     sections::stops(r, &mut own);
     sections::warp_spring(r, &mut own);
     if let Some(wheelsets) = &mut own.wheelsets {
-        sections::adapter(r, &mut wheelsets.adapter);
+        sections::adapter(r, &mut wheelsets.adapter, &mut own.geometry);
     }
     if let Some(car) = &mut own.car_body {
         sections::center_plate(r, &mut car.center_plate);

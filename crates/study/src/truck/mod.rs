@@ -164,6 +164,7 @@ fn read(
     );
     let (condition, damping) = sections::condition_and_damping(&mut r, "[friction]");
     let mut parameters = Parameters::new(damping);
+    sections::truck_places(&mut r, &mut parameters.geometry);
     r.section("load", "What stands on the truck.");
     let (mut load, mut lading) = (Load::Nothing, Lading::Loaded);
     let comment =
@@ -173,8 +174,10 @@ fn read(
         "\"loaded\": 263,000 lbf on rail; \"empty\": 62,600 lbf. Coils keep their loads: an empty car rises";
     r.choice("lading", sections::LADINGS, &mut lading, comment);
     sections::bolster(&mut r, &mut parameters, load, lading);
-    let mut draft = wedges::all(&mut r, &parameters, condition.friction());
-    sections::side_frames(&mut r, &mut parameters, |r| wedges::toe_of_all(r, &mut draft));
+    let mut draft = wedges::all(&mut r, &mut parameters, condition.friction());
+    sections::side_frames(&mut r, &mut parameters, |r, geometry| {
+        wedges::columns_of_all(r, geometry, &mut draft);
+    });
     wedges::single(&mut r, &mut parameters, &draft);
     sections::load_springs(&mut r, &mut parameters);
     sections::stops(&mut r, &mut parameters);

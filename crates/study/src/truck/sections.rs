@@ -1,16 +1,18 @@
 //! The sections of a truck's case, key by key.
 
 mod car_body;
+mod geometry;
 mod load_springs;
 mod wheelsets;
 
 use mechanics::friction::FrictionLaw;
 use quantity::Kind;
-use truck::{Bolster, Clearance, Lading, Parameters, RigidBody, WedgeKind, empirical_warp};
+use truck::{Bolster, Clearance, Geometry, Lading, Parameters, RigidBody, WedgeKind, empirical_warp};
 use wedge::parameters::{Contact, Damping, FaceFriction, Start};
 
 pub(super) use car_body::car_body;
 pub(crate) use car_body::{center_plate, side_bearings};
+pub(crate) use geometry::{columns, truck_places, wedge_places};
 pub(crate) use load_springs::load_springs;
 pub(super) use load_springs::spring_stiffnesses;
 pub(crate) use wheelsets::adapter;
@@ -188,14 +190,14 @@ pub(crate) fn bolster(r: &mut CaseReader<'_>, parameters: &mut Parameters, load:
 pub(crate) fn side_frames(
     r: &mut CaseReader<'_>,
     parameters: &mut Parameters,
-    toe: impl FnOnce(&mut CaseReader<'_>),
+    columns: impl FnOnce(&mut CaseReader<'_>, &mut Geometry),
 ) {
     let mut base = parameters.side_frames[0].clone();
     r.section(
         "side_frame",
         "Both side frames; [left_side_frame] and [right_side_frame] set one.",
     );
-    toe(r);
+    columns(r, &mut parameters.geometry);
     let comment = "of both side frames; [] prescribes the motions below";
     r.free_coordinates(&mut base.free, None, comment);
     rigid_body(r, &mut base.body);
@@ -257,9 +259,11 @@ pub(crate) fn warp_spring(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
 pub(crate) fn stops(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
     r.section("gib", "Gibs: lateral stops between bolster and side frame.");
     clearance(r, &mut parameters.gib);
+    geometry::gib(r, &mut parameters.geometry);
     let about = "Lands: longitudinal stops between bolster and side frame, four a column.";
     r.section("lands", about);
     clearance(r, &mut parameters.lands);
+    geometry::lands(r, &mut parameters.geometry);
 }
 
 /// Reads where a run starts. Returns the time for which the truck settles first, s.

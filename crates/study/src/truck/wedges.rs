@@ -3,11 +3,13 @@
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
 use quantity::Kind;
-use truck::{CROWN_RADIUS, ControlCoil, Parameters, SERVICE_GRID, Spring, WEDGE_NAMES, Wedge, WedgeKind};
+use truck::{
+    CROWN_RADIUS, ControlCoil, Geometry, Parameters, SERVICE_GRID, Spring, WEDGE_NAMES, Wedge, WedgeKind,
+};
 use wedge::face::{FaceDirection, Rectangle};
 use wedge::parameters::{ControlCoil as ThesisCoil, Damping};
 
-use super::sections::{contact, spring_stiffnesses};
+use super::sections::{columns, contact, spring_stiffnesses, wedge_places};
 use super::wedge_kinds::ACROSS;
 use crate::case::document::{FrictionLaw as Law, Toe, ToeDirection};
 use crate::case::face::{self, FaceSection};
@@ -394,7 +396,7 @@ impl Draft {
 
 /// Reads the sections that all four wedges share, in their places among the others: first `wedge`, then those
 /// that come after it.
-pub(crate) fn all(r: &mut CaseReader<'_>, parameters: &Parameters, friction: f64) -> Draft {
+pub(crate) fn all(r: &mut CaseReader<'_>, parameters: &mut Parameters, friction: f64) -> Draft {
     let mut draft = Draft::new(parameters, friction);
     r.section(
         "wedge",
@@ -404,6 +406,7 @@ pub(crate) fn all(r: &mut CaseReader<'_>, parameters: &Parameters, friction: f64
          slope_face, split.",
     );
     draft.body(r);
+    wedge_places(r, &mut parameters.geometry);
     let about = match parameters.damping {
         Damping::Variable => {
             "The control coils; they stand on the side frames (truck.damping = \"variable\")."
@@ -446,9 +449,10 @@ pub(crate) fn all(r: &mut CaseReader<'_>, parameters: &Parameters, friction: f64
     draft
 }
 
-/// Reads the toe of all columns.
-pub(crate) fn toe_of_all(r: &mut CaseReader<'_>, draft: &mut Draft) {
+/// Reads toe and distance of the columns.
+pub(crate) fn columns_of_all(r: &mut CaseReader<'_>, geometry: &mut Geometry, draft: &mut Draft) {
     draft.toe(r);
+    columns(r, geometry, &draft.wedge);
 }
 
 /// Reads the sections of single wedges over `base`.

@@ -88,7 +88,7 @@ impl<'r> Settled<'r> {
         for axle in 0..4 {
             let (truck, way) = (axle / 2, [1.0, -1.0]);
             let ahead = 0.5 * way[truck] * parameters.truck_distance
-                + way[axle % 2] * parameters.trucks[truck].distances[2];
+                + way[axle % 2] * parameters.trucks[truck].geometry.axle();
             let places = self.column(&format!("axle_{}_lateral", axle + 1));
             let own: Vec<f64> = places
                 .iter()

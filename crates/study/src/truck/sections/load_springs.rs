@@ -79,6 +79,7 @@ pub(crate) fn load_springs(r: &mut CaseReader<'_>, parameters: &mut Parameters) 
     let comment =
         "\"groups\": four springs a nest; \"single_coils\": D5 coils at their places in a 3 x 3 nest";
     r.choice("nest", KINDS, &mut kind, comment);
+    super::geometry::seat(r, &mut parameters.geometry);
     let Some(first) = parameters.load_coils[0].first().copied() else {
         return;
     };

@@ -1,6 +1,6 @@
 //! Wheelsets and adapters.
 
-use truck::{Adapter, FrictionAdapter, Parameters, Wheelsets};
+use truck::{Adapter, FrictionAdapter, Geometry, Parameters, Wheelsets};
 
 use super::{contact, friction};
 use crate::case::problem::Problem;
@@ -41,7 +41,7 @@ pub(in crate::truck) fn wheelsets(r: &mut CaseReader<'_>, parameters: &mut Param
     ];
     let comment = "\"friction\": steel on steel; \"pad\": elastomeric; \"nothing\": wheelsets and adapters \
                    are left out";
-    match read_adapter(r, KINDS, comment) {
+    match read_adapter(r, KINDS, comment, &mut parameters.geometry) {
         Some(adapter) => wheelsets.adapter = adapter,
         None => {
             parameters.wheelsets = None;
@@ -66,16 +66,21 @@ pub(in crate::truck) fn wheelsets(r: &mut CaseReader<'_>, parameters: &mut Param
 }
 
 /// The section of the adapters of a truck that cannot do without.
-pub(crate) fn adapter(r: &mut CaseReader<'_>, own: &mut Adapter) {
+pub(crate) fn adapter(r: &mut CaseReader<'_>, own: &mut Adapter, geometry: &mut Geometry) {
     const KINDS: Names<AdapterKind> = &[("friction", AdapterKind::Friction), ("pad", AdapterKind::Pad)];
     let comment = "\"friction\": steel on steel; \"pad\": elastomeric";
-    if let Some(adapter) = read_adapter(r, KINDS, comment) {
+    if let Some(adapter) = read_adapter(r, KINDS, comment, geometry) {
         *own = adapter;
     }
 }
 
 /// Returns the section of the adapters; `None` if there are none.
-fn read_adapter(r: &mut CaseReader<'_>, kinds: Names<AdapterKind>, comment: &str) -> Option<Adapter> {
+fn read_adapter(
+    r: &mut CaseReader<'_>,
+    kinds: Names<AdapterKind>,
+    comment: &str,
+    geometry: &mut Geometry,
+) -> Option<Adapter> {
     r.section("adapter", "Where side frames stand on the bearings.");
     let mut kind = AdapterKind::Friction;
     r.choice("kind", kinds, &mut kind, comment);
@@ -84,6 +89,7 @@ fn read_adapter(r: &mut CaseReader<'_>, kinds: Names<AdapterKind>, comment: &str
         AdapterKind::Pad => Adapter::pad(),
         AdapterKind::Nothing => return None,
     };
+    super::geometry::adapter(r, geometry, matches!(own, Adapter::Friction(_)));
     match &mut own {
         Adapter::Friction(adapter) => friction_adapter(r, adapter),
         Adapter::Pad(pad) => {
