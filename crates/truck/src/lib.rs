@@ -19,6 +19,7 @@
 
 mod assemble;
 mod bodies;
+pub mod coils;
 mod defaults;
 mod elements;
 mod geometry;

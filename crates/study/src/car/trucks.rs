@@ -3,6 +3,7 @@
 //! The keys are those of a truck's case, in tables of the truck: `[truck.wedge]`, `[front_truck.friction]`.
 //! Where both trucks have the same values the complete case has `[truck]` alone, else both in full.
 
+use truck::coils::CoilKind;
 use truck::{CarBody, Lading, Parameters, SideBearings};
 
 use crate::case::problem::{Problem, Problems};
@@ -82,23 +83,29 @@ fn unused(shared: &TableNode, path: &str, [front, rear]: [&TableNode; 2], proble
 
 /// Reads both trucks, front and rear.
 pub(super) fn trucks(r: &mut CaseReader<'_>, lading: Lading) -> [Parameters; 2] {
+    let coils = sections::coils(r);
     if EACH.iter().all(|name| !r.has(name)) {
         let own = truck(
             r,
             BOTH,
             "Both trucks; [front_truck] and [rear_truck] take the same keys.",
-            lading,
+            (lading, &coils),
         );
         return [own.clone(), own];
     }
     [
-        truck(r, EACH[0], "The front truck.", lading),
-        truck(r, EACH[1], "The rear truck.", lading),
+        truck(r, EACH[0], "The front truck.", (lading, &coils)),
+        truck(r, EACH[1], "The rear truck.", (lading, &coils)),
     ]
 }
 
 /// Reads one truck, or both.
-fn truck(r: &mut CaseReader<'_>, name: &'static str, about: &str, lading: Lading) -> Parameters {
+fn truck(
+    r: &mut CaseReader<'_>,
+    name: &'static str,
+    about: &str,
+    (lading, coils): (Lading, &[CoilKind]),
+) -> Parameters {
     r.within(name);
     r.section("", about);
     let (condition, damping) = sections::condition_and_damping(r, "Its [friction]");
@@ -112,7 +119,7 @@ fn truck(r: &mut CaseReader<'_>, name: &'static str, about: &str, lading: Lading
     own.car_body = Some(CarBody::new(lading, bearings));
     r.section("bolster", "The bolster.");
     sections::rigid_body(r, &mut own.bolster.body);
-    let mut draft = wedges::all(r, &mut own, condition.friction());
+    let mut draft = wedges::all(r, &mut own, condition.friction(), coils);
     r.section("side_frame", "Both side frames.");
     wedges::columns_of_all(r, &mut own.geometry, &mut draft);
     let mut body = own.side_frames[0].body;
@@ -121,7 +128,7 @@ fn truck(r: &mut CaseReader<'_>, name: &'static str, about: &str, lading: Lading
         frame.body = body;
     }
     wedges::single(r, &mut own, &draft);
-    sections::load_springs(r, &mut own);
+    sections::load_springs(r, &mut own, coils);
     sections::stops(r, &mut own);
     sections::warp_spring(r, &mut own);
     if let Some(wheelsets) = &mut own.wheelsets {

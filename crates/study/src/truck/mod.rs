@@ -165,6 +165,7 @@ fn read(
     let (condition, damping) = sections::condition_and_damping(&mut r, "[friction]");
     let mut parameters = Parameters::new(damping);
     sections::truck_places(&mut r, &mut parameters.geometry);
+    let coils = sections::coils(&mut r);
     r.section("load", "What stands on the truck.");
     let (mut load, mut lading) = (Load::Nothing, Lading::Loaded);
     let comment =
@@ -174,12 +175,12 @@ fn read(
         "\"loaded\": 263,000 lbf on rail; \"empty\": 62,600 lbf. Coils keep their loads: an empty car rises";
     r.choice("lading", sections::LADINGS, &mut lading, comment);
     sections::bolster(&mut r, &mut parameters, load, lading);
-    let mut draft = wedges::all(&mut r, &mut parameters, condition.friction());
+    let mut draft = wedges::all(&mut r, &mut parameters, condition.friction(), &coils);
     sections::side_frames(&mut r, &mut parameters, |r, geometry| {
         wedges::columns_of_all(r, geometry, &mut draft);
     });
     wedges::single(&mut r, &mut parameters, &draft);
-    sections::load_springs(&mut r, &mut parameters);
+    sections::load_springs(&mut r, &mut parameters, &coils);
     sections::stops(&mut r, &mut parameters);
     sections::warp_spring(&mut r, &mut parameters);
     sections::wheelsets(&mut r, &mut parameters);

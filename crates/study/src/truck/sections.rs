@@ -1,6 +1,7 @@
 //! The sections of a truck's case, key by key.
 
 mod car_body;
+mod coils;
 mod geometry;
 mod load_springs;
 mod wheelsets;
@@ -12,6 +13,9 @@ use wedge::parameters::{Contact, Damping, FaceFriction, Start};
 
 pub(super) use car_body::car_body;
 pub(crate) use car_body::{center_plate, side_bearings};
+pub(crate) use coils::{
+    coils, counts as coil_counts, height as coil_height, kind as coil_kind, together as coils_together,
+};
 pub(crate) use geometry::{columns, truck_places, wedge_places};
 pub(crate) use load_springs::load_springs;
 pub(super) use load_springs::spring_stiffnesses;

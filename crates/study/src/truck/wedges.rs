@@ -3,13 +3,14 @@
 use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
 use quantity::Kind;
+use truck::coils;
 use truck::{
     CROWN_RADIUS, ControlCoil, Geometry, Parameters, SERVICE_GRID, Spring, WEDGE_NAMES, Wedge, WedgeKind,
 };
 use wedge::face::{FaceDirection, Rectangle};
 use wedge::parameters::{ControlCoil as ThesisCoil, Damping};
 
-use super::sections::{columns, contact, spring_stiffnesses, wedge_places};
+use super::sections::{self, columns, contact, spring_stiffnesses, wedge_places};
 use super::wedge_kinds::ACROSS;
 use crate::case::document::{FrictionLaw as Law, Toe, ToeDirection};
 use crate::case::face::{self, FaceSection};
@@ -20,6 +21,7 @@ use crate::case::read::{ANGLE, COEFFICIENT};
 use crate::case::rise::RiseSection;
 use crate::case::section::{Names, Range};
 use crate::case::toe::read_toe;
+use crate::case::tree::NodeValue;
 use crate::case::write::{ANGLES, FRICTION, toe};
 use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, PRELOAD, STIFFNESS};
 
@@ -36,6 +38,20 @@ pub(crate) struct Draft {
     to_center: [f64; 3],
     faces: [FaceSection; 2],
     rise: RiseSection,
+    /// The catalog of coils, and what is taken of it.
+    known: Vec<coils::CoilKind>,
+    named: Named,
+}
+
+/// Coils by their name.
+#[derive(Clone)]
+struct Named {
+    name: String,
+    counts: [usize; 2],
+    /// In the nominal layout, m.
+    height: f64,
+    shear_ratio: f64,
+    solid_stiffness: f64,
 }
 
 /// Kinds of control coils.
@@ -44,6 +60,8 @@ pub(super) enum CoilKind {
     Shear,
     Thesis,
     Nothing,
+    /// By a name of the catalog.
+    Named,
 }
 
 const COIL_KINDS: Names<CoilKind> = &[
@@ -65,11 +83,23 @@ const OF_THESIS: [&str; 5] = [
 ];
 /// Keys that only a coil with shear stiffness has.
 const OF_SHEAR: [&str; 4] = ["preload", "shear_stiffness", "solid_travel", "solid_stiffness"];
+/// Those that a coil by its name has not, since they follow from its heights.
+const NOT_NAMED: [&str; 4] = ["preload", "stiffness", "shear_stiffness", "solid_travel"];
+/// Keys that only a coil by its name has.
+const OF_NAMED: [&str; 4] = ["outer", "inner", "height", "shear_ratio"];
 /// Keys of both.
 const OF_COILS: [&str; 2] = ["stiffness", "damping"];
 
 const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
+
+/// Height of control coils on side frames in the nominal layout, m: 1.4085 in above the solid height of the
+/// coils of the catalog, the travel to it in input files of NUCARS (derived).
+const COIL_HEIGHT: f64 = (6.5625 + 1.4085) * INCH;
+/// Stiffness of a control coil beyond its solid height, N/m.
+const SOLID_STIFFNESS: f64 = 250_000.0 * POUND_FORCE / INCH;
+/// Control coils of a wedge in each other, or beside each other, at the most.
+const MOST_COILS: usize = 2;
 
 /// Returns the thesis's coil (Steets 2007, table 3-2), and its place below the wedge.
 fn thesis_coil(damping: Damping) -> (ThesisCoil, [f64; 3]) {
@@ -105,13 +135,14 @@ fn in_service() -> [FaceSection; 2] {
 }
 
 impl Draft {
-    fn new(parameters: &Parameters, friction: f64) -> Self {
+    fn new(parameters: &Parameters, friction: f64, known: &[coils::CoilKind]) -> Self {
         let [wedge, ..] = &parameters.wedges;
         let mut wedge = wedge.clone();
         wedge.column_friction.coefficient = friction;
         wedge.slope_friction.coefficient = friction;
         wedge.split.friction.coefficient = friction;
         let (thesis, to_center) = thesis_coil(parameters.damping);
+        let in_bolster = thesis.nominal_length;
         let spring = match wedge.control_coil {
             ControlCoil::Shear(spring) => spring,
             ControlCoil::Thesis(..) | ControlCoil::Table(_) | ControlCoil::Nothing => Spring::default(),
@@ -131,6 +162,17 @@ impl Draft {
             to_center,
             faces: in_service(),
             rise: RiseSection::default(),
+            known: known.to_vec(),
+            named: Named {
+                name: "B-353".to_owned(),
+                counts: [1, 1],
+                height: match parameters.damping {
+                    Damping::Variable => COIL_HEIGHT,
+                    Damping::Constant => in_bolster,
+                },
+                shear_ratio: spring.shear_stiffness / spring.stiffness,
+                solid_stiffness: SOLID_STIFFNESS,
+            },
         }
     }
 
@@ -158,7 +200,7 @@ impl Draft {
             .map(|face| face.resolve().unwrap_or_default());
         (wedge.column_face, wedge.slope_face) = (column, slope);
         wedge.control_coil = match self.kind {
-            CoilKind::Shear => ControlCoil::Shear(self.spring),
+            CoilKind::Shear | CoilKind::Named => ControlCoil::Shear(self.spring),
             CoilKind::Thesis => ControlCoil::Thesis(self.thesis, self.to_center),
             CoilKind::Nothing => ControlCoil::Nothing,
         };
@@ -327,14 +369,66 @@ impl Draft {
         );
     }
 
+    /// Returns the name of the coils of the catalog that a section takes; none if it takes another kind.
+    fn named(&self, r: &CaseReader<'_>, path: &str) -> Option<String> {
+        let given = r.at(&format!("{path}.kind"));
+        match given.map(|node| &node.value) {
+            None if self.kind == CoilKind::Named => Some(self.named.name.clone()),
+            Some(NodeValue::Text(text)) if COIL_KINDS.iter().all(|(name, _)| name != text) => {
+                Some(self.named.name.clone())
+            }
+            _ => None,
+        }
+    }
+
+    /// Reads coils by their name.
+    fn named_coil(&mut self, r: &mut CaseReader<'_>, name: &str) {
+        let comment = "\"shear\": by its numbers; \"thesis\"; \"nothing\": broken; or by its name in the \
+                       catalog of [coils], outer and inner coil";
+        let Some(kind) = sections::coil_kind(r, (&self.known, name), comment) else {
+            return;
+        };
+        let own = &mut self.named;
+        own.counts = sections::coil_counts(r, (&kind, MOST_COILS), own.counts);
+        own.height = sections::coil_height(r, (&kind, own.counts), own.height);
+        let comment = "shear stiffness of the coils over their stiffness";
+        r.number(
+            "shear_ratio",
+            Range::NotNegative,
+            Reach::Positive,
+            &mut own.shear_ratio,
+            comment,
+        );
+        let beyond = "beyond the solid height";
+        r.quantity("solid_stiffness", STIFFNESS, &mut own.solid_stiffness, beyond);
+        let mut damping = self.spring.damping;
+        r.quantity("damping", DAMPING, &mut damping, "in every direction");
+        let standing = (own.height, own.shear_ratio, own.solid_stiffness);
+        self.spring = Spring {
+            damping,
+            ..sections::coils_together(&kind, own.counts, standing)
+        };
+        own.name = kind.name;
+    }
+
     fn coil(&mut self, r: &mut CaseReader<'_>, path: &str) {
         let comment = "\"shear\": a coil with shear stiffness; \"thesis\": a line from seat to wedge \
-                       (Steets 2007); \"nothing\": broken";
-        r.choice("kind", COIL_KINDS, &mut self.kind, comment);
+                       (Steets 2007); \"nothing\": broken; or a name of [coils], such as \"B-353\"";
+        let name = self.named(r, path);
+        match name {
+            Some(_) => self.kind = CoilKind::Named,
+            None => r.choice("kind", COIL_KINDS, &mut self.kind, comment),
+        }
         let others: &[(&[&'static str], &str)] = match self.kind {
-            CoilKind::Shear => &[(&OF_THESIS, "thesis")],
-            CoilKind::Thesis => &[(&OF_SHEAR, "shear")],
-            CoilKind::Nothing => &[(&OF_THESIS, "thesis"), (&OF_SHEAR, "shear"), (&OF_COILS, "shear")],
+            CoilKind::Shear => &[(&OF_THESIS, "thesis"), (&OF_NAMED, "B-353")],
+            CoilKind::Named => &[(&OF_THESIS, "thesis"), (&NOT_NAMED, "shear")],
+            CoilKind::Thesis => &[(&OF_SHEAR, "shear"), (&OF_NAMED, "B-353")],
+            CoilKind::Nothing => &[
+                (&OF_THESIS, "thesis"),
+                (&OF_SHEAR, "shear"),
+                (&OF_COILS, "shear"),
+                (&OF_NAMED, "B-353"),
+            ],
         };
         for (keys, kind) in others {
             for key in *keys {
@@ -348,6 +442,10 @@ impl Draft {
             }
         }
         if self.kind == CoilKind::Nothing {
+            return;
+        }
+        if let Some(name) = name {
+            self.named_coil(r, &name);
             return;
         }
         if self.kind == CoilKind::Shear {
@@ -396,8 +494,13 @@ impl Draft {
 
 /// Reads the sections that all four wedges share, in their places among the others: first `wedge`, then those
 /// that come after it.
-pub(crate) fn all(r: &mut CaseReader<'_>, parameters: &mut Parameters, friction: f64) -> Draft {
-    let mut draft = Draft::new(parameters, friction);
+pub(crate) fn all(
+    r: &mut CaseReader<'_>,
+    parameters: &mut Parameters,
+    friction: f64,
+    known: &[coils::CoilKind],
+) -> Draft {
+    let mut draft = Draft::new(parameters, friction, known);
     r.section(
         "wedge",
         "All four wedges: right triangular prisms. [wedge.leading_left], leading_right, trailing_left, \
