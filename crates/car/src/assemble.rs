@@ -31,6 +31,7 @@ use crate::error::BuildError;
 use crate::parameters::{Drive, Parameters, StartKind, Wheels};
 use crate::shaken::shaken;
 use crate::start::{Placement, at_rest, internal_states};
+use crate::statics::Couplers;
 
 /// Height of the couplers above the top of rail, at which the drive acts: 34.5 in, m.
 const COUPLERS: f64 = 34.5 * 0.0254;
@@ -101,6 +102,7 @@ pub struct Car {
     /// Center of gravity of the body, and its axes, in the nominal layout.
     pub(crate) carried: Carried,
     pub(crate) truck_distance: f64,
+    pub(crate) couplers: Couplers,
     /// Heights of the center plates, m.
     pub(crate) plates: [f64; 2],
     /// Heights of the accelerometers above the truck centers, m.
@@ -190,6 +192,7 @@ impl Car {
             wheels: nominal.wheels,
             carried,
             truck_distance: parameters.truck_distance,
+            couplers: parameters.couplers,
             plates: parameters.plate_heights(),
             accelerometers: parameters
                 .accelerometer_height

@@ -14,6 +14,7 @@ use wheelrail::track::Track;
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
 use crate::parameters::{Drive, Mass, Parameters, ProfiledWheels, Start, StartKind, Wheels};
+use crate::statics::Couplers;
 
 /// in, in m.
 const INCH: f64 = 0.0254;
@@ -146,6 +147,7 @@ impl Parameters {
             },
             truck_distance: 486.0 * INCH,
             accelerometer_height: None,
+            couplers: Couplers::default(),
             trucks: [own.clone(), own],
             wheelset: WheelsetBody {
                 mass: 2984.5 * POUND,

@@ -53,6 +53,7 @@ mod parameters;
 mod shaken;
 mod shapes;
 mod start;
+mod statics;
 mod tipping;
 mod wheels_over_amplitude;
 
@@ -70,4 +71,5 @@ pub use parameters::{
     ACCELEROMETER_HEIGHTS, Drive, Mass, Parameters, ProfiledWheels, Start, StartKind, TRUCK_DISTANCES, Wheels,
 };
 pub use shapes::name_of;
+pub use statics::{Couplers, Statics};
 pub use tipping::{Support, Tipping};

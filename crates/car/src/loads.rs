@@ -183,7 +183,7 @@ impl Car {
         self.lines.section(Line::Center, self.own(place).0)
     }
 
-    fn arm(&self, place: Vector<f64>, section: &TrackSection<f64>) -> [f64; 3] {
+    pub(crate) fn arm(&self, place: Vector<f64>, section: &TrackSection<f64>) -> [f64; 3] {
         (self.own(place) - Vector(section.origin)).0
     }
 
@@ -193,7 +193,12 @@ impl Car {
         motion_of(wheelset, [half, -half][i], &seen.bodies[on], self.axes)
     }
 
-    fn wheels(&self, w: usize, seen: &Observation, section: &TrackSection<f64>) -> [WheelLoads; 2] {
+    pub(crate) fn wheels(
+        &self,
+        w: usize,
+        seen: &Observation,
+        section: &TrackSection<f64>,
+    ) -> [WheelLoads; 2] {
         match &self.wheels {
             WheelElements::OnRails(wheels, half) => [0, 1].map(|i| {
                 let motion = self.wheel_motion(seen, w, i, *half);

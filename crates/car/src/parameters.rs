@@ -16,6 +16,7 @@ use wheelrail::track::Track;
 use wheelrail::wheelset::RigidWheelset;
 
 use crate::error::InvalidParameter;
+use crate::statics::Couplers;
 
 /// A rigid mass that the car body carries, fastened to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -177,6 +178,8 @@ pub struct Parameters {
     /// Height of the accelerometers on the body above the truck centers, above the top of rail in the nominal
     /// layout, m; none: that of each truck's center plate.
     pub accelerometer_height: Option<f64>,
+    /// Where its couplers are.
+    pub couplers: Couplers,
     /// Front and rear truck. Each has wheelsets and a car body, of which the center plate and the side
     /// bearings count: mass, freedom and loads of the half body and of the wheelsets' motions are not used.
     /// Bolsters, side frames and wedge bodies are free in all six coordinates.
@@ -213,6 +216,24 @@ impl Parameters {
             own.bolster.body.mass + own.wedge_mass() + frames
         });
         (self.carried_mass() + trucks.sum::<f64>() + 4.0 * self.wheelset.mass) * self.gravity
+    }
+
+    /// Returns the height of the center of gravity of the whole car above the top of rail, m.
+    #[must_use]
+    pub fn height_of_center(&self) -> f64 {
+        let [.., carried] = self.center_of_gravity();
+        let mut moment = carried * self.carried_mass();
+        for own in &self.trucks {
+            let frames = own
+                .side_frames
+                .iter()
+                .map(|frame| frame.body.mass * frame.body.height);
+            moment += own.bolster.body.mass * own.bolster.body.height
+                + own.wedge_mass() * own.geometry.wedge_height
+                + frames.sum::<f64>()
+                + 2.0 * self.wheelset.mass * own.geometry.axle_height;
+        }
+        moment * self.gravity / self.weight()
     }
 
     /// Returns the place of the center of gravity of body and lading: forward, to the left, above the top

@@ -10,6 +10,7 @@ use truck::{CROWN_RADIUS, WEDGE_NAMES, Wedge, WedgeKind};
 use wedge::face::{FaceDirection, FaceProfile, FaceProperties, LARGEST_GRID};
 
 use crate::assumptions::of_face;
+use crate::geometry;
 
 const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
@@ -61,12 +62,13 @@ pub(crate) fn assumptions(wedges: &[(String, &Wedge)]) -> Vec<String> {
     list
 }
 
-/// Returns the warnings about crowns that too few points carry.
+/// Returns the warnings about the wedges' shape: crowns that too few points carry, angles that none have.
 pub(crate) fn warnings(wedges: &[(String, &Wedge)]) -> Vec<String> {
     // The words of each warning, the first wedge that it is about, and how many more there are.
     let mut found: Vec<(String, &str, usize)> = Vec::new();
     for (name, wedge) in wedges {
-        for words in (0..FACES.len()).filter_map(|number| too_coarse(wedge, number)) {
+        let coarse = (0..FACES.len()).filter_map(|number| too_coarse(wedge, number));
+        for words in coarse.chain(geometry::of_angle(wedge.angle)) {
             match found.iter_mut().find(|(other, ..)| *other == words) {
                 Some((.., more)) => *more += 1,
                 None => found.push((words, name, 0)),

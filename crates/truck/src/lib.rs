@@ -30,6 +30,7 @@ mod mounted;
 pub mod nest;
 mod parameters;
 mod split;
+mod statics;
 mod units;
 mod wedge_mount;
 
@@ -50,6 +51,7 @@ pub use parameters::{
     WedgeKind, Wheelsets, unloaded,
 };
 pub use split::{HALVES, WedgePart};
+pub use statics::{CoilGroup, TruckStatics};
 pub use wedge_mount::{WedgeElements, WedgeMount, add_wedge, wedge_body};
 
 /// The names of the wedges in the order of all arrays of four: end (leading, trailing), then side.

@@ -398,7 +398,7 @@ impl MountedTruck {
 }
 
 /// Returns the place of marker A and the axes of marker B in fixed axes, and the motion of A against B.
-fn relative_motion(
+pub(crate) fn relative_motion(
     [(a, marker_a), (b, marker_b)]: &[(usize, Marker); 2],
     bodies: &[BodyState],
 ) -> (Vector<f64>, Matrix<f64>, RelativeMotion<f64>) {

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use study::car::summary::CarSummary;
 use study::summary::{RunSummary, SummaryValue};
 
-use super::{data_of, moving, run_page, shown_in};
+use super::{data_of, moving, run_page, shown_in, statics};
 use crate::figures::car::{CarRun, exhibits};
 use crate::figures::digits;
 use crate::view::run::{Detail, Recording};
@@ -28,6 +28,7 @@ pub fn render(run: &CarRun) -> Result<String, serde_json::Error> {
             h2 { "Figures" }
             @for exhibit in &exhibits { (shown_in(exhibit, &exhibit.figure.to_svg(), None)) }
         }
+        section { h2 { "At the start" } (statics::section(&summary.statics, summary.units)) }
         section { h2 { "Wedges" } (wedges(summary)) }
         section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
     };

@@ -14,6 +14,7 @@ mod sensitivity;
 mod short;
 pub mod side_by_side;
 pub mod stability;
+mod statics;
 pub mod study;
 pub mod truck;
 pub mod truck_run;

@@ -9,7 +9,7 @@ use study::summary::SummaryValue;
 use study::truck::WEDGE_NAMES;
 use study::truck::summary::TruckSummary;
 
-use super::{data_of, doubts, moving, run_page, shown_in, side_by_side};
+use super::{data_of, doubts, moving, run_page, shown_in, side_by_side, statics};
 use crate::figures::truck::{TruckRun, exhibits};
 use crate::run_folder::KeyNumber;
 use crate::view::run::{Detail, Recording};
@@ -31,6 +31,7 @@ pub fn render(run: &TruckRun) -> Result<String, serde_json::Error> {
             h2 { "Key numbers" }
             (side_by_side::table(&[("value", KeyNumber::of_truck(summary))], summary.units))
         }
+        section { h2 { "At the start" } (statics::section(&summary.statics, summary.units)) }
         section { h2 { "Wedges" } (wedges(summary)) }
         @if let Some(loss) = &summary.energy.loss {
             section { h2 { "Energy of a cycle" } (losses(&summary.energy, loss)) }

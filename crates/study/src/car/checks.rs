@@ -9,6 +9,7 @@ use wheelrail::track::CenterLine;
 use super::lading::LadingKind;
 use crate::case::Simulation;
 use crate::case::problem::Problem;
+use crate::geometry;
 use crate::reader::CaseReader;
 
 const FOOT: f64 = 0.3048;
@@ -28,6 +29,7 @@ pub(super) fn all(
     lading: LadingKind,
 ) -> Vec<String> {
     balance(r, parameters, lading);
+    overlap(r, parameters);
     way(r, parameters, simulation);
     let reaches = reach(r, parameters);
     let shakes = shaking(r, parameters);
@@ -38,7 +40,9 @@ pub(super) fn all(
             None => problem,
         });
     }
-    [height(parameters)].into_iter().flatten().collect()
+    let mut doubts = geometry::of_car(parameters);
+    doubts.extend(height(parameters));
+    doubts
 }
 
 /// Notes linear wheels of a car that shall be shaken; returns whether it can be.
@@ -68,6 +72,43 @@ fn reach(r: &mut CaseReader<'_>, parameters: &Parameters) -> bool {
             r.problem("rails.gauge", problem.help(error.remedy()));
             false
         }
+    }
+}
+
+/// Notes trucks or wheels that are in each other.
+fn overlap(r: &mut CaseReader<'_>, parameters: &Parameters) {
+    let wheel = 2.0 * parameters.wheel_radius();
+    let bases = parameters.trucks.each_ref().map(|own| own.geometry.wheelbase);
+    let between = parameters.truck_distance - 0.5 * (bases[0] + bases[1]);
+    if between < wheel {
+        let message = format!(
+            "the trucks overlap: their centers are {:.1} in apart, so that the inner axles are {:.1} in apart, \
+             and wheels have a diameter of {:.1} in",
+            parameters.truck_distance / INCH,
+            between / INCH,
+            wheel / INCH
+        );
+        let help = "look at car.truck_distance and truck.wheelbase, and at their units";
+        r.problem(
+            "car.truck_distance",
+            Problem::new(message).label("trucks overlap").help(help),
+        );
+    }
+    let name = if r.has("front_truck") {
+        "front_truck"
+    } else {
+        "truck"
+    };
+    let base = bases[0].min(bases[1]);
+    if base < wheel {
+        let message = format!(
+            "the wheels of a truck overlap: its axles are {:.1} in apart, and wheels have a diameter of {:.1} in",
+            base / INCH,
+            wheel / INCH
+        );
+        let problem = Problem::new(message).label("wheels overlap");
+        let help = "the wheelbase is from axle to axle: 66 to 72 in are usual";
+        r.problem(&format!("{name}.wheelbase"), problem.help(help));
     }
 }
 

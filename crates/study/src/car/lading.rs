@@ -1,6 +1,6 @@
 //! The sections of the car body and of what it carries.
 
-use car::{ACCELEROMETER_HEIGHTS, Mass, Parameters, TRUCK_DISTANCES};
+use car::{ACCELEROMETER_HEIGHTS, Couplers, Mass, Parameters, TRUCK_DISTANCES};
 use quantity::{Kind, STANDARD_GRAVITY};
 use truck::Lading;
 
@@ -8,7 +8,7 @@ use crate::case::field::{Reach, Written, quoted};
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Names, Range};
 use crate::case::tree::NodeValue;
-use crate::reader::{CaseReader, QuantityForm};
+use crate::reader::{CaseReader, LENGTH, QuantityForm};
 use crate::truck::sections;
 
 /// The kinds of lading.
@@ -79,6 +79,49 @@ pub(super) fn masses(r: &mut CaseReader<'_>, kind: LadingKind) -> Vec<Mass> {
         r.problem("lading.kind", problem.help(help));
     }
     read.into_iter().map(|own| own.mass).collect()
+}
+
+/// Reads the height of the whole car's center of gravity that the lading shall make, m.
+pub(super) fn center_of_gravity(r: &mut CaseReader<'_>, kind: LadingKind, masses: &[Mass]) -> Option<f64> {
+    let mut height = None;
+    let comment = "of the whole car above the top of rail in the nominal layout: the lading is raised or \
+                   lowered to make it; left out: it stays where it is";
+    r.optional("center_of_gravity", LENGTH, &mut height, "\"98 in\"", comment);
+    if height.is_some() && masses.is_empty() && kind == LadingKind::Empty {
+        let problem = Problem::new("`lading.center_of_gravity` has no effect: the car carries nothing");
+        let help = "write lading.kind = \"loaded\", or raise the body itself by car.height";
+        r.problem("lading.center_of_gravity", problem.label("not used").help(help));
+        return None;
+    }
+    height
+}
+
+/// Raises the lading until the center of gravity of the whole car has a height (m).
+pub(super) fn raise(r: &mut CaseReader<'_>, parameters: &mut Parameters, height: f64) {
+    let lading: f64 = parameters.lading.iter().map(|own| own.mass).sum();
+    if lading <= 0.0 {
+        return;
+    }
+    let mass = parameters.weight() / parameters.gravity;
+    let up = (height - parameters.height_of_center()) * mass / lading;
+    for own in &mut parameters.lading {
+        own.place[2] += up;
+    }
+    let lowest = parameters
+        .lading
+        .iter()
+        .map(|own| own.place[2])
+        .fold(f64::INFINITY, f64::min);
+    if !up.is_finite() || lowest < 0.0 {
+        let message = format!(
+            "with the center of gravity of the whole car at {:.1} in the lading would lie below the rails",
+            height / 0.0254
+        );
+        let problem = Problem::new(message).label("too low");
+        let help =
+            "heights are above the top of rail: 98 in is the highest that rules allow, 60 to 85 in are usual";
+        r.problem("lading.center_of_gravity", problem.help(help));
+    }
 }
 
 fn list(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Vec<Typed>> {
@@ -174,6 +217,12 @@ pub(super) fn body(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
         "of the accelerometers over the truck centers, above the top of rail; left out: that of the center \
          plate",
     );
+    let Couplers { height, distance } = &mut parameters.couplers;
+    let comment =
+        "of the couplers above the top of rail in the nominal layout, for the static table: a guess";
+    r.quantity("coupler_height", LENGTH, height, comment);
+    let comment = "from one pulling face to the other: 53 ft 1 in";
+    r.quantity("coupler_distance", LENGTH, distance, comment);
     let gravity: QuantityForm = (
         Kind::Acceleration,
         Range::NotNegative,

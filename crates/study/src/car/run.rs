@@ -354,6 +354,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         wedge_rise,
         start: locked_in::name(run.case.parameters.start.kind).to_owned(),
         locked_in: locked_in::summary(&run.recorder.table, units),
+        statics: run.recorder.table.static_table(units),
         energy,
         extremes,
         ledger,

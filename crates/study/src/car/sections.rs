@@ -59,6 +59,7 @@ const SHIFT: QuantityForm = (Kind::Length, Range::Any, Reach::Signed(0.0127));
 pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     let carried = lading::kind(r);
     let masses = lading::masses(r, carried);
+    let raised = lading::center_of_gravity(r, carried, &masses);
     let straight = track::tangent(1000.0)?;
     let mut parameters = Parameters::new(carried.usual(), straight, USUAL_SPEED * MILE_PER_HOUR).ok()?;
     parameters.lading = masses;
@@ -75,6 +76,9 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     }
     let rails = wheels::rails(r);
     wheels::wheels(r, &mut parameters, rails, sprung);
+    if let Some(height) = raised {
+        lading::raise(r, &mut parameters, height);
+    }
     speed(r, &mut parameters);
     start(r, &mut parameters);
     let mut rules = Rules::default();

@@ -12,6 +12,7 @@ use super::statistics::Statistic;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::outcome::RunEnd;
+use crate::statics::StaticTable;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
 use crate::wedge_rise::RiseSummary;
 
@@ -68,6 +69,9 @@ pub struct CarSummary {
     /// Normal forces of the wedges at the start, by their names: `truck_1_leading_left`.
     #[serde(default)]
     pub locked_in: BTreeMap<String, LockedIn>,
+    /// The car at the start: weight, wheels, heights, coils.
+    #[serde(default)]
+    pub statics: StaticTable,
     /// Sources and sinks of the energy of the run.
     pub energy: EnergySummary,
     /// Least and greatest values of all columns, by their names with units.

@@ -16,6 +16,9 @@ use super::{defaults, name};
 use input::limits;
 use mechanics::contact::FrictionDirections;
 use quantity::{Kind, Quantity, System};
+use wedge::parameters::Wear;
+
+use crate::geometry;
 
 /// The keys of every table.
 const KEYS: &[(&str, &[&str])] = &[
@@ -257,6 +260,21 @@ fn read_wedge(s: &CaseSection<'_>, problems: &mut Problems) -> Option<WedgeSecti
     let slope_wear = s.quantity("slope_wear", Kind::Length, Range::NotNegative, problems);
     let (column_wear, slope_wear) = (column_wear?, slope_wear?);
     let rise = RiseSection::of_wedge(s, [&column_wear, &slope_wear], problems);
+    if let (Some(angle), Some(height), Some(rise)) = (&angle, &height, &rise) {
+        let depths = Wear {
+            column: column_wear.to_si(),
+            slope: slope_wear.to_si(),
+        };
+        let wear = rise.wear([angle.to_si(), 0.0, 0.0]).unwrap_or(depths);
+        if let Some(reason) = geometry::worn_away(height.to_si(), angle.to_si(), &wear) {
+            let keys = ["rise", "column_wear", "slope_wear", "height"];
+            let mut problem = Problem::new(reason).label("beyond the wedge");
+            if let Some(node) = keys.into_iter().find_map(|key| s.table.get(key)) {
+                problem = problem.at(&node.place);
+            }
+            problems.push(problem.help("look at the unit: wear is a fraction of an inch"));
+        }
+    }
     let free_coordinates = read_free_coordinates(s, problems);
     Some(WedgeSection {
         damping: damping?,

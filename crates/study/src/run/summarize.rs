@@ -14,6 +14,7 @@ use crate::assumptions;
 use crate::case::Case;
 use crate::closed_form;
 use crate::energy;
+use crate::geometry;
 use crate::jam::{self, JamMargins};
 use crate::losses::{EnergySummary, Equivalent};
 use crate::metrics::{Cycle, FirstHarmonic, first_harmonic, mean, window_of};
@@ -86,6 +87,7 @@ fn warnings(run: &Run<Case>, damped: bool) -> Vec<String> {
         &closed_form::wedge(parameters),
         closed_form::yaw(parameters),
     ));
+    warnings.extend(geometry::of_angle(parameters.wedge.angle));
     if run.case.nothing_given {
         warnings.push(plausibility::NOTHING_GIVEN.to_owned());
     }

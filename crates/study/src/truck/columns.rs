@@ -3,13 +3,14 @@
 use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
 use mechanics::vector::{Matrix, Vector};
-use quantity::Kind;
+use quantity::{Kind, System as Units};
 use truck::{
-    BOLSTER, BuildError, CAR_BODY, HALVES, HalfLoads, Loads, Parameters, SIDE_FRAMES, Truck, WEDGE_NAMES,
-    WHEELSETS, WarpMoment, WedgeKind, WedgeLoads,
+    BOLSTER, BuildError, CAR_BODY, HALVES, HalfLoads, Loads, Parameters, SIDE_FRAMES, Truck, TruckStatics,
+    WEDGE_NAMES, WHEELSETS, WarpMoment, WedgeKind, WedgeLoads,
 };
 
 use super::TruckCase;
+use crate::statics::StaticTable;
 
 /// The source of values: an observation, its loads, and the stored energy at the start, J.
 struct Seen<'s> {
@@ -23,6 +24,7 @@ pub struct TruckTable {
     truck: Truck,
     columns: Columns,
     wedges_at_start: [WedgeLoads; 4],
+    statics: TruckStatics,
 }
 
 impl TruckTable {
@@ -36,6 +38,7 @@ impl TruckTable {
         let seen = truck.system.clone().observe(0.0, &truck.initial_state);
         Ok(Self {
             wedges_at_start: truck.loads(&seen).wedges,
+            statics: truck.statics(&seen),
             truck,
             columns,
         })
@@ -51,6 +54,14 @@ impl TruckTable {
     #[must_use]
     pub fn wedges_at_start(&self) -> &[WedgeLoads; 4] {
         &self.wedges_at_start
+    }
+
+    /// Returns the static table of the start.
+    #[must_use]
+    pub fn static_table(&self, units: Units) -> StaticTable {
+        let mut table = StaticTable::default();
+        table.add_truck("", &self.statics, &self.wedges_at_start, units);
+        table
     }
 
     /// Returns the equations of motion.

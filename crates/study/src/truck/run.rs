@@ -30,7 +30,7 @@ use crate::run::{
     Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, check_finite, check_length,
 };
 use crate::summary::{LedgerSummary, Stopped, SummaryValue};
-use crate::{wedge_faces, wedge_rise};
+use crate::{geometry, wedge_faces, wedge_rise};
 
 /// The result of a run.
 pub type TruckResult = RunResult<TruckSummary>;
@@ -314,6 +314,7 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
     warnings.extend(without_coil(&run.case));
     warnings.extend(closed(run.recorder.table.truck(), units));
     warnings.extend(expelled(&run.case.parameters));
+    warnings.extend(geometry::of_truck(&run.case.parameters, None));
     let risen = [(
         "",
         &run.case.parameters.wedges,
@@ -341,6 +342,7 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
             .map(|(name, own)| (name.to_owned(), JamMargins::new(&own, 0.0, units)))
             .collect(),
         wedge_rise,
+        statics: run.recorder.table.static_table(units),
         extremes: table.summary_extremes(&columns, units),
         energy: super::energies::of(&run, &column),
         ledger: LedgerSummary::of_run(&mut run, units),

@@ -10,6 +10,7 @@ use truck::HALVES;
 use crate::jam::JamMargins;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
+use crate::statics::StaticTable;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
 use crate::wedge_rise::RiseSummary;
 
@@ -49,6 +50,9 @@ pub struct TruckSummary {
     /// Rises of the wedges at the start, by their names.
     #[serde(default)]
     pub wedge_rise: BTreeMap<String, RiseSummary>,
+    /// The truck at the start: its coils and wedges.
+    #[serde(default)]
+    pub statics: StaticTable,
     /// Least and greatest values of all columns, by their names with units.
     pub extremes: BTreeMap<String, Extremes>,
     /// The energy ledger at the end; losses by element.

@@ -23,6 +23,7 @@ use crate::case::section::{Names, Range};
 use crate::case::toe::read_toe;
 use crate::case::tree::NodeValue;
 use crate::case::write::{ANGLES, FRICTION, toe};
+use crate::geometry;
 use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, PRELOAD, STIFFNESS};
 
 /// A wedge while its sections are read: laws of friction keep their numbers while another one is chosen.
@@ -298,6 +299,15 @@ impl Draft {
                        limits nothing, but what stands higher is told";
         r.quantity("rise_limit", LENGTH, &mut wedge.rise_limit, comment);
         self.rise.check_limit(r, wedge.rise_limit);
+        let wear = self.rise.wear(angles).unwrap_or(wedge.wear);
+        if let Some(reason) = geometry::worn_away(wedge.height, wedge.angle, &wear) {
+            let key = ["rise", "column_wear", "slope_wear"]
+                .into_iter()
+                .find(|key| r.given().is_some_and(|own| own.table.get(key).is_some()));
+            let path = r.path(key.unwrap_or("height"));
+            let help = "look at the unit: wear is a fraction of an inch";
+            r.problem_at(&path, Problem::new(reason).label("beyond the wedge").help(help));
+        }
         let comment = "of x, y, z, roll, pitch, yaw; the others are held";
         r.free_coordinates(&mut wedge.free, Some("the wedge could not move"), comment);
         let comment = "of the pocket's sides to each side; the thesis's wedge has none";

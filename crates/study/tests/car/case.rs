@@ -24,6 +24,7 @@ fn input_built_in_cars_read_back_to_the_same_case() {
         "car_tangent_empty",
         "car_constant_curve_loaded",
         "car_constant_curve_empty",
+        "car_286k_loaded",
         "car_spiral_loaded",
         "car_hunting_empty",
         "car_hunting_roller_empty",

@@ -3,6 +3,7 @@
 
 mod assumptions;
 mod case;
+mod geometry;
 mod input;
 mod locus;
 mod mode_shape;
@@ -12,4 +13,5 @@ mod problems;
 mod run;
 mod stability;
 mod start;
+mod statics;
 mod statistics;

@@ -23,7 +23,11 @@ pub(crate) fn truck_places(r: &mut CaseReader<'_>, own: &mut Geometry) {
 /// Keys of the wedges.
 pub(crate) fn wedge_places(r: &mut CaseReader<'_>, own: &mut Geometry) {
     let comment = "from the truck's center along the track to the center of gravity, and to the lands";
-    r.quantity("distance", LENGTH, &mut own.wedge_distance, comment);
+    if r.has("side_frame.column_distance") && !r.has("wedge.distance") {
+        r.expect("wedge", &["distance"]);
+    } else {
+        r.quantity("distance", LENGTH, &mut own.wedge_distance, comment);
+    }
     let comment = "of the center of gravity above the top of rail";
     r.quantity("center_height", HEIGHT, &mut own.wedge_height, comment);
 }

@@ -1,0 +1,91 @@
+//! A car at rest: its weight, the loads of its wheels, its heights, its coils.
+
+use mechanics::system::Observation;
+use mechanics::vector::Vector;
+use truck::TruckStatics;
+
+use crate::assemble::{Car, body_marker};
+
+/// Where the couplers are in the nominal layout, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Couplers {
+    /// Height above the top of rail.
+    pub height: f64,
+    /// From one pulling face to the other.
+    pub distance: f64,
+}
+
+impl Default for Couplers {
+    /// Returns 637 in between the pulling faces, as coal gondolas of 53 ft 1 in have them, and a height of
+    /// 32.5 in: a guess, with which the empty car has the 34.5 in that rules allow at the most (remembered).
+    fn default() -> Self {
+        const INCH: f64 = 0.0254;
+        Self {
+            height: 32.5 * INCH,
+            distance: 637.0 * INCH,
+        }
+    }
+}
+
+/// A car in a state, which should be one at rest on straight track, SI. Heights are above the track's plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statics {
+    /// Weight of all that stands on the rails, N.
+    pub weight: f64,
+    /// Vertical forces of the wheels of each wheelset from the front, left and right, N.
+    pub wheels: [[f64; 2]; 4],
+    /// Height of the center of gravity of body and lading, m.
+    pub body_height: f64,
+    /// Height of the center of gravity of the whole car, m.
+    pub height: f64,
+    /// Heights of the couplers, front and rear, m.
+    pub couplers: [f64; 2],
+    /// The coils of both trucks.
+    pub trucks: [TruckStatics; 2],
+}
+
+impl Car {
+    /// Returns the car at rest, from an observation of its system.
+    #[must_use]
+    pub fn statics(&self, seen: &Observation) -> Statics {
+        let height = |place: Vector<f64>| {
+            let section = self.section(place);
+            let [.., up] = section.of(self.arm(place, &section));
+            up
+        };
+        let on_wheels = [
+            self.numbers.bolsters.to_vec(),
+            self.numbers.side_frames.concat(),
+            self.numbers.wedges.concat(),
+            self.numbers.wheelsets.to_vec(),
+            vec![self.numbers.body],
+        ];
+        let (mut mass, mut moment) = (0.0, 0.0);
+        for number in on_wheels.concat() {
+            let body = &self.system.bodies()[number];
+            // A wedge without mass stands still, and is the bolster's.
+            if !body.is_prescribed() {
+                mass += body.mass;
+                moment += body.mass * height(seen.bodies[number].center_of_gravity);
+            }
+        }
+        let body = &seen.bodies[self.numbers.body];
+        let half = 0.5 * self.couplers.distance;
+        let coupler = |x: f64| {
+            let nominal = [x, 0.0, self.couplers.height];
+            let arm: Vector<f64> = body.rotation.apply(body_marker(&self.carried, nominal).origin);
+            height(body.origin + arm)
+        };
+        Statics {
+            weight: mass * self.gravity,
+            wheels: [0, 1, 2, 3].map(|w| {
+                let section = self.section(seen.bodies[self.numbers.wheelsets[w]].origin);
+                self.wheels(w, seen, &section).map(|own| own.vertical)
+            }),
+            body_height: height(body.center_of_gravity),
+            height: moment / mass,
+            couplers: [half, -half].map(coupler),
+            trucks: self.trucks.each_ref().map(|own| own.statics(seen)),
+        }
+    }
+}
