@@ -166,7 +166,8 @@ impl StaticTable {
             false => "",
         };
         Some(format!(
-            "At the start {} {} on rail, {a_wheel} a wheel{at_rest}; center of gravity at {} {unit} (body with lading \
+            "At the start {} {} on rail, {a_wheel} a wheel{at_rest}; center of gravity at {} {unit} \
+             (body with lading \
              {} {unit}), {couplers} above the top of rail.",
             whole(weight.value),
             weight.unit,

@@ -1,12 +1,12 @@
 //! Coils by their drawings: free height, height at which the windings touch, stiffness.
 //!
 //! [`catalog`] has kinds of the AAR (standard M-946, which is not public). Marks: **derived** are the D5
-//! coils, from the loads at solid height of two nests in input files of NUCARS. **Remembered** are the others,
-//! from tables in US patents of National Steel Car of 2003 and later; there stiffness times travel is the
-//! load at solid height, to the digits given. The remembered D5 coils (2,241.6 and 1,121.6 lbf/in; the inner
-//! one is free at 10.3125 in) differ from the derived ones by 0.3 % and 2.7 %, and the sum of B-353 and B-354,
-//! 1,936.0 lbf/in, from the 1,937 lbf/in of a pair in those input files by 0.05 %. D3 is in no source at
-//! hand.
+//! coils, from the loads at solid height of two nests in input files of NUCARS. **Remembered** are the
+//! others, from tables in US patents of National Steel Car of 2003 and later; there stiffness times travel is
+//! the load at solid height, to the digits given. The remembered D5 coils (2,241.6 and 1,121.6 lbf/in; the
+//! inner one is free at 10.3125 in) differ from the derived ones by 0.3 % and 2.7 %, and the sum of B-353 and
+//! B-354, 1,936.0 lbf/in, from the 1,937 lbf/in of a pair in those input files by 0.05 %. D3 is in no source
+//! at hand.
 
 use crate::parameters::Spring;
 use crate::units::{INCH, POUND_PER_INCH};

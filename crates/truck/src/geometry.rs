@@ -14,7 +14,8 @@ pub struct Geometry {
     pub journal_distance: f64,
     /// Height of the axles: the nominal radius of the wheels that the truck is made for.
     pub axle_height: f64,
-    /// From the truck's center along the track to the wedges' centers of gravity; lands are at the same place.
+    /// From the truck's center along the track to the wedges' centers of gravity; lands are at the same
+    /// place.
     pub wedge_distance: f64,
     /// Height of the wedges' centers of gravity.
     pub wedge_height: f64,

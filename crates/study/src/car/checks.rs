@@ -82,7 +82,8 @@ fn overlap(r: &mut CaseReader<'_>, parameters: &Parameters) {
     let between = parameters.truck_distance - 0.5 * (bases[0] + bases[1]);
     if between < wheel {
         let message = format!(
-            "the trucks overlap: their centers are {:.1} in apart, so that the inner axles are {:.1} in apart, \
+            "the trucks overlap: their centers are {:.1} in apart, so that the inner axles are {:.1} in \
+             apart, \
              and wheels have a diameter of {:.1} in",
             parameters.truck_distance / INCH,
             between / INCH,
@@ -102,7 +103,8 @@ fn overlap(r: &mut CaseReader<'_>, parameters: &Parameters) {
     let base = bases[0].min(bases[1]);
     if base < wheel {
         let message = format!(
-            "the wheels of a truck overlap: its axles are {:.1} in apart, and wheels have a diameter of {:.1} in",
+            "the wheels of a truck overlap: its axles are {:.1} in apart, and wheels have a diameter of \
+             {:.1} in",
             base / INCH,
             wheel / INCH
         );

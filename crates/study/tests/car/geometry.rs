@@ -146,13 +146,15 @@ fn input_geometry_that_cannot_be_is_refused() {
             "free_height",
         ),
         (
-            "coils.own=[{ name = \"shear\", outer = { free_height = \"2 in\", solid_height = \"1 in\", stiffness = \"1 \
+            "coils.own=[{ name = \"shear\", outer = { free_height = \"2 in\", solid_height = \"1 in\", \
+             stiffness = \"1 \
              lbf/in\" } }]",
             "cannot have a kind named \"shear\"",
             "of its own",
         ),
         (
-            "coils.own=[{ name = \"x\", outer = { free_height = \"1 in\", solid_height = \"2 in\", stiffness = \"1 \
+            "coils.own=[{ name = \"x\", outer = { free_height = \"1 in\", solid_height = \"2 in\", \
+             stiffness = \"1 \
              lbf/in\" } }]",
             "is not above its solid height",
             "exchanged",
@@ -184,7 +186,8 @@ fn input_doubtful_geometry_is_told() {
         ("truck.wedge.distance=1 in", "wedges overlap"),
         ("truck.adapter.height=15 in", "below the axles"),
         (
-            "lading={ kind = \"masses\", masses = [{ name = \"tank\", weight = \"100 kip\", place = [\"0 in\", \"0 in\", \"8 \
+            "lading={ kind = \"masses\", masses = [{ name = \"tank\", weight = \"100 kip\", place = \
+             [\"0 in\", \"0 in\", \"8 \
              in\"], inertia = [\"1e6 lbf in s^2\", \"1e7 lbf in s^2\", \"1e7 lbf in s^2\"] }] }",
             "the lading \"tank\" is 8.0 in above the top of rail",
         ),
@@ -224,7 +227,8 @@ fn input_wedge_angles_that_none_have_are_told() {
 #[test]
 fn input_coils_by_name_read_back() {
     let text = "model = \"car\"\n[[coils.own]]\nname = \"soft\"\nsource = \"drawing 12\"\n\
-                outer = { free_height = \"10.5 in\", solid_height = \"6.5 in\", stiffness = \"3000 lbf/in\" }\n\
+                outer = { free_height = \"10.5 in\", solid_height = \"6.5 in\", stiffness = \"3000 \
+                lbf/in\" }\n\
                 [truck]\nload_springs = { kind = \"soft\", outer = 6 }\n\
                 [truck.control_coil]\nkind = \"B-432\"\n\
                 [truck.wedge.leading_left.control_coil]\nkind = \"B-353\"\ninner = 0\n";
@@ -244,4 +248,29 @@ fn input_coils_by_name_read_back() {
     let again = CarCase::parse("case.toml", own.to_toml(), Tables::nowhere(), &[]).unwrap();
     assert_eq!(again.parameters.trucks, own.parameters.trucks);
     assert!(own.to_toml().contains("drawing 12"));
+}
+
+/// The picture in the documents is that of the default values, and names keys that there are.
+#[test]
+fn reproduction_the_picture_of_the_layout_is_up_to_date() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/figures/truck_layout.svg");
+    let drawn = std::fs::read_to_string(path).unwrap();
+    assert_eq!(
+        drawn,
+        crate::layout::picture(),
+        "cargo run --release -p study --example truck_layout writes it"
+    );
+    let text = read(&[]).unwrap().to_toml().to_owned();
+    for key in [
+        "wheelbase",
+        "nest_distance",
+        "journal_distance",
+        "axle_height",
+        "seat_height",
+        "half_length",
+        "point_distance",
+        "coupler_distance",
+    ] {
+        assert!(drawn.contains(key) && text.contains(key), "{key}");
+    }
 }

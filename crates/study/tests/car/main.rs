@@ -5,6 +5,8 @@ mod assumptions;
 mod case;
 mod geometry;
 mod input;
+#[path = "../case_keys/layout.rs"]
+mod layout;
 mod locus;
 mod mode_shape;
 mod onset;

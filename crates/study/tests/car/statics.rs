@@ -24,8 +24,10 @@ fn near(found: f64, expected: f64, within: f64, what: &str) {
     );
 }
 
-const HEAVY: &str = "lading.kind = \"masses\"\nlading.masses = [{ weight = \"200400 lbf\", place = [\"30 in\", \"0 in\", \
-                     \"87.8 in\"], inertia = [\"1.387e6 lbf in s^2\", \"1.258e7 lbf in s^2\", \"1.263e7 lbf in s^2\"] }]\n";
+const HEAVY: &str = "lading.kind = \"masses\"\nlading.masses = [{ weight = \"200400 lbf\", place = \
+[\"30 in\", \"0 in\", \
+                     \"87.8 in\"], inertia = [\"1.387e6 lbf in s^2\", \"1.258e7 lbf in s^2\", \"1.263e7 \
+                     lbf in s^2\"] }]\n";
 
 /// Weight and wheel loads are those of the masses; load and control coils together carry what stands on their
 /// nest, less the wedges, whose weight their coils carry too; each group is down by its load over its

@@ -27,7 +27,8 @@ pub(crate) fn coils(r: &mut CaseReader<'_>) -> Vec<CoilKind> {
     let known = catalog();
     let names: Vec<&str> = known.iter().map(|own| own.name.as_str()).collect();
     let about = format!(
-        "Coils of your own, beside those of the catalog: {}.\n# [[coils.own]] name, source, and outer, inner = \
+        "Coils of your own, beside those of the catalog: {}.\n# [[coils.own]] name, source, and outer, \
+         inner = \
          {{ free_height, solid_height, stiffness }}",
         names.join(", ")
     );
