@@ -82,25 +82,24 @@ pub(super) fn masses(r: &mut CaseReader<'_>, kind: LadingKind) -> Vec<Mass> {
 }
 
 /// Reads the height of the whole car's center of gravity that the lading shall make, m.
-pub(super) fn center_of_gravity(r: &mut CaseReader<'_>, kind: LadingKind, masses: &[Mass]) -> Option<f64> {
+pub(super) fn center_of_gravity(r: &mut CaseReader<'_>) -> Option<f64> {
     let mut height = None;
     let comment = "of the whole car above the top of rail in the nominal layout: the lading is raised or \
                    lowered to make it; left out: it stays where it is";
     r.optional("center_of_gravity", LENGTH, &mut height, "\"98 in\"", comment);
-    if height.is_some() && masses.is_empty() && kind == LadingKind::Empty {
-        let problem = Problem::new("`lading.center_of_gravity` has no effect: the car carries nothing");
-        let help = "write lading.kind = \"loaded\", or raise the body itself by car.height";
-        r.problem("lading.center_of_gravity", problem.label("not used").help(help));
-        return None;
-    }
     height
 }
 
-/// Raises the lading until the center of gravity of the whole car has a height (m).
-pub(super) fn raise(r: &mut CaseReader<'_>, parameters: &mut Parameters, height: f64) {
+/// Raises the lading until the center of gravity of the whole car has a height (m). Returns the warning about
+/// a car that carries nothing.
+pub(super) fn raise(r: &mut CaseReader<'_>, parameters: &mut Parameters, height: f64) -> Option<String> {
     let lading: f64 = parameters.lading.iter().map(|own| own.mass).sum();
     if lading <= 0.0 {
-        return;
+        return Some(
+            "`lading.center_of_gravity` has no effect, since the car carries nothing: raise the body itself by \
+             car.height"
+                .to_owned(),
+        );
     }
     let mass = parameters.weight() / parameters.gravity;
     let up = (height - parameters.height_of_center()) * mass / lading;
@@ -122,6 +121,7 @@ pub(super) fn raise(r: &mut CaseReader<'_>, parameters: &mut Parameters, height:
             "heights are above the top of rail: 98 in is the highest that rules allow, 60 to 85 in are usual";
         r.problem("lading.center_of_gravity", problem.help(help));
     }
+    None
 }
 
 fn list(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Vec<Typed>> {

@@ -59,7 +59,7 @@ const SHIFT: QuantityForm = (Kind::Length, Range::Any, Reach::Signed(0.0127));
 pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     let carried = lading::kind(r);
     let masses = lading::masses(r, carried);
-    let raised = lading::center_of_gravity(r, carried, &masses);
+    let raised = lading::center_of_gravity(r);
     let straight = track::tangent(1000.0)?;
     let mut parameters = Parameters::new(carried.usual(), straight, USUAL_SPEED * MILE_PER_HOUR).ok()?;
     parameters.lading = masses;
@@ -76,9 +76,7 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     }
     let rails = wheels::rails(r);
     wheels::wheels(r, &mut parameters, rails, sprung);
-    if let Some(height) = raised {
-        lading::raise(r, &mut parameters, height);
-    }
+    let nothing_to_raise = raised.and_then(|height| lading::raise(r, &mut parameters, height));
     speed(r, &mut parameters);
     start(r, &mut parameters);
     let mut rules = Rules::default();
@@ -90,6 +88,7 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     // Without a track there is no place to look at.
     let Notes { mut doubts, files } = line?.notes;
     r.files.extend(files);
+    doubts.extend(nothing_to_raise);
     doubts.extend(checks::all(r, &parameters, &simulation, carried));
     Some(CarSections {
         parameters,

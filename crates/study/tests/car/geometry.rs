@@ -179,6 +179,10 @@ fn input_doubtful_geometry_is_told() {
     assert_eq!(read(&[]).unwrap().doubts, Vec::<String>::new());
     for (set, expected) in [
         ("car.height=8 in", "below the center plates at 30.0 in"),
+        (
+            "lading={ kind = \"empty\", center_of_gravity = \"98 in\" }",
+            "the car carries nothing",
+        ),
         ("truck.nest_distance=79 cm", "truck.nest_distance is 31.10 in"),
         ("truck.axle_height=14 in", "it stands 4.00 in higher"),
         ("wheels.radius=14 in", "it stands 4.00 in lower"),

@@ -51,7 +51,7 @@ fn issue_047_no_limit_of_a_built_in_system_is_rounding() {
     for settings in [
         &[][..],
         &["car.weight=\"5e6 lbf\""],
-        &["wheels.radius=\"36 in\""],
+        &["wheels.radius=\"36 in\"", "truck.wheelbase=\"84 in\""],
         &["truck.adapter.kind=pad"],
     ] {
         let settings: Vec<String> = settings.iter().map(|own: &&str| (*own).to_owned()).collect();
