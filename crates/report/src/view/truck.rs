@@ -25,8 +25,8 @@ const INCH: f64 = 0.0254;
 const FACTOR: f64 = 5.0;
 /// The exaggerated size beyond which displacements grow to scale, m.
 const LIMIT: f64 = 4.0 * INCH;
-/// Radius of wheels and of axles, width and place of wheels as drawn, m.
-const WHEEL: [f64; 4] = [18.0 * INCH, 3.5 * INCH, 5.0 * INCH, 29.5 * INCH];
+/// Radius of axles, width and place of wheels as drawn, m.
+const WHEEL: [f64; 3] = [3.5 * INCH, 5.0 * INCH, 29.5 * INCH];
 /// Height of the floor of what stands on the bolster, as drawn, m: that of the center plate; its half length,
 /// half width and thickness.
 const FLOOR: [f64; 4] = [30.0 * INCH, 22.0 * INCH, 58.0 * INCH, 5.0 * INCH];
@@ -170,7 +170,7 @@ pub fn scene(case: &TruckCase) -> Option<Scene> {
     if parameters.wheelsets.is_some() {
         for (number, id) in ["leading_wheelset", "trailing_wheelset"].into_iter().enumerate() {
             add_body(id, WHEELSETS + number);
-            scene.solids.push(wheelset(id));
+            scene.solids.push(wheelset(id, parameters.geometry.axle_height));
         }
         // Wheels reach beyond the side frames.
         for (_, radius) in scene.looks.iter_mut().take(4).filter_map(|look| look.at.as_mut()) {
@@ -208,8 +208,9 @@ fn cylinder(id: &str, body: &str, radius: f64, y: f64, width: f64) -> Solid {
     solid
 }
 
-fn wheelset(id: &str) -> Solid {
-    let [wheel, axle, width, place] = WHEEL;
+/// Returns a wheelset with wheels of a radius (m).
+fn wheelset(id: &str, wheel: f64) -> Solid {
+    let [axle, width, place] = WHEEL;
     let mut solid = cylinder(id, id, axle, 0.0, 2.0 * place + 20.0 * INCH);
     for y in [place, -place] {
         solid.join(cylinder(id, id, wheel, y, width));

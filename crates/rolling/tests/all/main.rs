@@ -1,0 +1,15 @@
+//! Tests of `rolling`, one program: what is linked once is not linked thirty times.
+#![allow(clippy::expect_used, clippy::unwrap_used, missing_docs)]
+
+mod bogie;
+mod circle;
+mod climb;
+#[path = "../common/mod.rs"]
+mod common;
+mod curving;
+mod energy;
+mod hunting;
+mod impact;
+mod manchester;
+mod stability;
+mod validation_page;

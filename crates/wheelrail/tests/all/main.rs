@@ -1,0 +1,23 @@
+//! Tests of `wheelrail`, one program: what is linked once is not linked thirty times.
+#![allow(clippy::expect_used, clippy::unwrap_used, missing_docs)]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod contact;
+mod contact_benchmark;
+mod contact_limits;
+mod contact_table;
+mod creep;
+mod free_rolling;
+mod hertz;
+mod kinds;
+mod linear_wheelset;
+mod measured;
+mod profile;
+mod profile_limits;
+mod rails;
+mod shape;
+mod spectrum;
+mod track;
+mod validation_page;
+mod wheelset;
