@@ -12,4 +12,3 @@ mod hunting;
 mod impact;
 mod manchester;
 mod stability;
-mod validation_page;

@@ -96,8 +96,8 @@ pub(super) fn raise(r: &mut CaseReader<'_>, parameters: &mut Parameters, height:
     let lading: f64 = parameters.lading.iter().map(|own| own.mass).sum();
     if lading <= 0.0 {
         return Some(
-            "`lading.center_of_gravity` has no effect, since the car carries nothing: raise the body itself by \
-             car.height"
+            "`lading.center_of_gravity` has no effect, since the car carries nothing: raise the body itself \
+             by car.height"
                 .to_owned(),
         );
     }

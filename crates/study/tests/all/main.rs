@@ -6,3 +6,5 @@ mod issue_029_states_behaviour;
 mod parts;
 mod signal;
 mod wheelset;
+#[path = "../common/wheelsets.rs"]
+mod wheelsets;

@@ -1,10 +1,8 @@
 //! Runs in parts: all parts together are the whole run, in every column of every model, wherever it is cut.
 
-#[path = "../common/wheelsets.rs"]
-mod wheelsets;
-
 use std::fmt::Debug;
 
+use crate::wheelsets::wheelset;
 use rolling::rig::RigStart;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -17,7 +15,6 @@ use study::result::RunResult;
 use study::run::{Recorder, Run, RunCase, RunState};
 use study::truck;
 use study::wheelset::{Wheelset, WheelsetCase};
-use wheelsets::wheelset;
 
 /// A fixed sequence of numbers between zero and one, another one for each name.
 struct Sequence(u64);

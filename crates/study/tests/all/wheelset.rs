@@ -1,16 +1,13 @@
 //! Runs of a wheelset: rows against the balance of forces, derailments, refusals.
 
-#[path = "../common/wheelsets.rs"]
-mod wheelsets;
-
 use std::ops::ControlFlow;
 
+use crate::wheelsets::wheelset;
 use study::run::Run;
 use study::summary::RunSummary;
 use study::wheelset::run::WheelsetResult;
 use study::wheelset::stability::stability;
 use study::wheelset::{Wheelset, WheelsetCase};
-use wheelsets::wheelset;
 
 const INCH: f64 = 0.0254;
 const GRAVITY: f64 = 9.806_65;

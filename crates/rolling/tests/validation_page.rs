@@ -1,6 +1,7 @@
 //! reproduction: the page docs/validation-rolling.md holds what is computed.
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
-#[path = "../validation/page.rs"]
+#[path = "validation/page.rs"]
 mod page;
 
 /// The page's numbers are those of this build, and all parts are there.
