@@ -26,8 +26,7 @@ const WARP: f64 = 0.030;
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error(
     "a warp stiffness of {warp:.4e} N·m/rad a truck cannot be had: the shear of the load coils along \
-     the track, \
-     which is in series with it, gives {shear:.4e} N·m/rad"
+     the track, which is in series with it, gives {shear:.4e} N·m/rad"
 )]
 pub struct NoWarp {
     /// What is asked for, N·m/rad.

@@ -123,8 +123,8 @@ pub(crate) fn of_car(own: &car::Parameters) -> Vec<String> {
         if height < plate {
             once.push(format!(
                 "the center of gravity of {what} is {:.1} in above the top of rail, below the center \
-                 plates at \
-                 {:.1} in: heights are counted from the rail, not from the body's floor; look at {key}",
+                 plates at {:.1} in: heights are counted from the rail, not from the body's floor; look at \
+                 {key}",
                 height / INCH,
                 plate / INCH
             ));

@@ -167,8 +167,7 @@ impl StaticTable {
         };
         Some(format!(
             "At the start {} {} on rail, {a_wheel} a wheel{at_rest}; center of gravity at {} {unit} \
-             (body with lading \
-             {} {unit}), {couplers} above the top of rail.",
+             (body with lading {} {unit}), {couplers} above the top of rail.",
             whole(weight.value),
             weight.unit,
             height("center_of_gravity")?,

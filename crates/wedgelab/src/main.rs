@@ -11,6 +11,7 @@ mod json;
 mod progress;
 mod saved;
 mod select;
+mod start;
 mod table;
 mod units;
 

@@ -32,8 +32,7 @@ pub(super) fn section(table: &StaticTable, units: Units) -> Markup {
         }
         p {
             "Down: from free height. Left: to where the first coil of a group is solid; the load there. \
-             Column: \
-             normal force of a wedge's column. Rise: of a wedge in its pocket, as a gauge shows it."
+             Column: normal force of a wedge's column. Rise: of a wedge in its pocket, as a gauge shows it."
         }
         @if !table.wheels.is_empty() {
             div.wide {

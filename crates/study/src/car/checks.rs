@@ -83,8 +83,7 @@ fn overlap(r: &mut CaseReader<'_>, parameters: &Parameters) {
     if between < wheel {
         let message = format!(
             "the trucks overlap: their centers are {:.1} in apart, so that the inner axles are {:.1} in \
-             apart, \
-             and wheels have a diameter of {:.1} in",
+             apart, and wheels have a diameter of {:.1} in",
             parameters.truck_distance / INCH,
             between / INCH,
             wheel / INCH

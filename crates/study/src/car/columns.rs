@@ -1,16 +1,14 @@
 //! The columns of a car's results.
 
-use car::{BuildError, Car, Derailment, Loads, Parameters, Start, Statics};
+use car::{BuildError, Car, Derailment, Loads, Parameters};
 use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
-use quantity::{Kind, System as Units};
+use quantity::Kind;
 use truck::{HALVES, WEDGE_NAMES, WedgeKind, WedgeLoads};
 use wheelrail::track::Track;
 
+use super::derailment;
 use super::statistics::{SIDES, ratio};
-use super::{derailment, track};
-use crate::statics::StaticTable;
-use crate::summary::SummaryValue;
 use crate::truck::columns::{RISE, of_halves};
 
 /// The table of a car's results, for any observation of its system.
@@ -22,38 +20,6 @@ pub struct CarTable {
     /// Heights of the axles at the start, m.
     heights: [f64; 4],
     wedges_at_start: [[WedgeLoads; 4]; 2],
-    statics: Statics,
-}
-
-/// Difference of weight and wheel loads, over the weight, of a car that is at rest.
-const AT_REST: f64 = 0.01;
-
-/// Returns the car as it stands at its start on straight perfect track, its wheelsets in the middle.
-fn at_rest(car: &Car, parameters: &Parameters) -> Result<Statics, BuildError> {
-    let start = &parameters.start;
-    let aside = start.body_shift != 0.0 || start.wheelset_shifts != [0.0; 4];
-    if !aside && parameters.track.irregularities.is_empty() {
-        return Ok(still(car));
-    }
-    let mut own = parameters.clone();
-    let reach = own.reach();
-    if let Some(track) = track::tangent(2.0 * reach + 2.0) {
-        own.track = track;
-    }
-    own.start = Start {
-        kind: start.kind,
-        ..Start::at(reach + 1.0, start.speed)
-    };
-    Ok(still(&Car::new(&own)?))
-}
-
-/// Returns a car without its speed, which makes creep forces.
-fn still(car: &Car) -> Statics {
-    let mut system = car.system.clone();
-    let layout = system.layout();
-    let mut still = car.initial_state.clone();
-    still[layout.speeds..2 * layout.speeds].fill(0.0);
-    car.statics(&system.observe(0.0, &still))
 }
 
 impl CarTable {
@@ -71,7 +37,6 @@ impl CarTable {
         Ok(Self {
             heights: loads.axles.map(|axle| axle.height),
             wedges_at_start: loads.trucks.map(|truck| truck.wedges),
-            statics: at_rest(&car, parameters)?,
             track: parameters.track.clone(),
             car,
             columns,
@@ -89,47 +54,6 @@ impl CarTable {
     #[must_use]
     pub fn wedges_at_start(&self) -> &[[WedgeLoads; 4]; 2] {
         &self.wedges_at_start
-    }
-
-    /// Returns the static table of the start.
-    #[must_use]
-    pub fn static_table(&self, units: Units) -> StaticTable {
-        let own = &self.statics;
-        let force = |value: f64| SummaryValue::new(value, Kind::Force, units);
-        let mut table = StaticTable {
-            weight_on_rail: Some(force(own.weight)),
-            ..StaticTable::default()
-        };
-        // In the nominal layout wheels may not touch, or overlap with their rails.
-        let on_wheels: f64 = own.wheels.as_flattened().iter().sum();
-        table.disturbed = (on_wheels / own.weight - 1.0).abs() > AT_REST;
-        let wheels = match table.disturbed {
-            true => self.static_loads,
-            false => own.wheels,
-        };
-        for (axle, loads) in (1..).zip(wheels) {
-            let sides = SIDES.into_iter().zip(loads);
-            let named = sides.map(|(side, load)| (format!("axle_{axle}_{side}"), force(load)));
-            table.wheels.extend(named);
-        }
-        let [front, rear] = own.couplers;
-        let heights = [
-            ("center_of_gravity", own.height),
-            ("body_center_of_gravity", own.body_height),
-            ("front_coupler", front),
-            ("rear_coupler", rear),
-        ];
-        let length = |value: f64| SummaryValue::new(value, Kind::Length, units);
-        let named = heights.map(|(name, height)| (name.to_owned(), length(height)));
-        table.heights.extend(named);
-        for ((prefix, coils), wedges) in ["truck_1_", "truck_2_"]
-            .iter()
-            .zip(&own.trucks)
-            .zip(&self.wedges_at_start)
-        {
-            table.add_truck(prefix, coils, wedges, units);
-        }
-        table
     }
 
     /// Returns the columns.

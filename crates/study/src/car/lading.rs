@@ -7,7 +7,6 @@ use truck::Lading;
 use crate::case::field::{Reach, Written, quoted};
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Names, Range};
-use crate::case::tree::NodeValue;
 use crate::reader::{CaseReader, LENGTH, QuantityForm};
 use crate::truck::sections;
 
@@ -125,36 +124,15 @@ pub(super) fn raise(r: &mut CaseReader<'_>, parameters: &mut Parameters, height:
 }
 
 fn list(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Vec<Typed>> {
-    let node = section.table.get("masses")?;
-    let wrong = |found: &str| {
-        Problem::new(format!("`lading.masses` holds {found}; tables are expected"))
-            .label("not a list of tables")
-            .help("write [[lading.masses]] on a line of its own and the keys below it")
-    };
-    let NodeValue::List(items) = &node.value else {
-        problems.push(wrong(node.value.describe()).at(&node.place));
-        return None;
-    };
     let mut list = Vec::new();
-    for (number, item) in items.iter().enumerate() {
-        let NodeValue::Table(table) = &item.value else {
-            problems.push(wrong(item.value.describe()).at(&item.place));
-            return None;
-        };
-        let mut place = item.place.clone();
-        place.span.end = place.span.end.min(place.span.start + 1);
-        let own = CaseSection {
-            path: format!("lading.masses[{number}]"),
-            table,
-            place: Some(place),
-        };
+    for (number, own) in section.tables("masses", problems).into_iter().enumerate() {
         own.allow_in(
             &["name", "weight", "place", "inertia"],
             &[],
             "a mass of the lading",
             problems,
         );
-        let name = match table.get("name") {
+        let name = match own.table.get("name") {
             Some(_) => own.text("name", problems).map(|(text, _)| text.to_owned()),
             None => Some(format!("mass {}", number + 1)),
         };

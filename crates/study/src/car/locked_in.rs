@@ -9,6 +9,7 @@ use truck::{WEDGE_NAMES, WedgeLoads};
 
 use super::columns::CarTable;
 use super::sections::STARTS;
+use crate::case::section::name_of;
 use crate::summary::SummaryValue;
 
 /// Normal forces of a wedge.
@@ -53,8 +54,7 @@ pub(super) fn summary(table: &CarTable, units: Units) -> BTreeMap<String, Locked
 
 /// Returns the name of a start in cases.
 pub(super) fn name(kind: StartKind) -> &'static str {
-    let own = STARTS.iter().find(|(_, own)| *own == kind);
-    own.map_or("", |(name, _)| name)
+    name_of(STARTS, &kind)
 }
 
 /// Returns the line about the columns at a start of this name; none of a summary without them.

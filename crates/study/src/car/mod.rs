@@ -29,6 +29,7 @@ pub mod run;
 mod sections;
 pub mod speeds;
 pub mod stability;
+pub mod static_table;
 pub mod statistics;
 pub mod summary;
 mod track;

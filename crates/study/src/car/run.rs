@@ -17,6 +17,7 @@ use super::CarCase;
 use super::checks::POUND_FORCE;
 use super::columns::{CarTable, losses_of_wedge, points_of_wedges};
 use super::motions::MotionTable;
+use super::static_table::static_table;
 use super::statistics::{self, Histories, SIDES, Statistics};
 use super::summary::{CarSummary, Derailed, SCHEMA};
 use super::{limits, locked_in, peaks};
@@ -31,6 +32,7 @@ use crate::run::{
     Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, check_length, damaged,
 };
 use crate::signal::LowPass;
+use crate::statics::StaticTable;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue};
 use crate::wedge_faces;
 use crate::wedge_rise::{self, AtStart};
@@ -332,6 +334,10 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     let wedge_locked = wedges.zip(shares).filter(|_| counts.rows > 0).collect();
     let reached = column("distance").last().copied();
     let energy = whole_run(&mut run, reached);
+    let statics = static_table(&run.recorder.table, &run.case.parameters, units).unwrap_or_else(|error| {
+        warnings.push(format!("there is no static table of the start: {error}"));
+        StaticTable::default()
+    });
     let mut summary = CarSummary {
         schema: SCHEMA.to_owned(),
         program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
@@ -354,7 +360,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         wedge_rise,
         start: locked_in::name(run.case.parameters.start.kind).to_owned(),
         locked_in: locked_in::summary(&run.recorder.table, units),
-        statics: run.recorder.table.static_table(units),
+        statics,
         energy,
         extremes,
         ledger,

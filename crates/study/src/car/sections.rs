@@ -118,9 +118,8 @@ fn stability(r: &mut CaseReader<'_>) -> StabilityKeys {
     );
     let mut moment = None;
     let form: QuantityForm = (Kind::Moment, Range::Positive, Reach::Positive);
-    let comment = "of a nest at 30 mrad of warp in the linear benchmark (adapters and plates tied, \
-                      plates free in \
-                   yaw, no friction): NUCARS has 255 kip in for a new truck; left out: no benchmark";
+    let comment = "of a nest at 30 mrad of warp in the linear benchmark (adapters and plates tied, plates \
+                   free in yaw, no friction): NUCARS has 255 kip in for a new truck; left out: no benchmark";
     r.optional("warp_moment", form, &mut moment, "\"255000 lbf in\"", comment);
     let mut body_held = false;
     let comment = "\"held\": it moves forward and nothing else, so that each truck runs alone";

@@ -104,6 +104,47 @@ impl<'a> CaseSection<'a> {
         })
     }
 
+    /// Returns the tables of a list, `[[key]]`.
+    pub fn tables(&self, key: &str, problems: &mut Problems) -> Vec<CaseSection<'a>> {
+        let Some(node) = self.table.get(key) else {
+            return Vec::new();
+        };
+        let not_a_list = |node: &TreeNode, problems: &mut Problems| {
+            let problem = Problem::new(format!(
+                "`{}` holds {}; tables are expected",
+                self.path_of(key),
+                node.value.describe()
+            ));
+            problems.push(
+                problem
+                    .at(&node.place)
+                    .label("not a table")
+                    .help(format!("write [[{}]] on a line of its own", self.path_of(key))),
+            );
+        };
+        let NodeValue::List(items) = &node.value else {
+            not_a_list(node, problems);
+            return Vec::new();
+        };
+        let mut found = Vec::new();
+        for (number, item) in items.iter().enumerate() {
+            match &item.value {
+                NodeValue::Table(table) => {
+                    let mut place = item.place.clone();
+                    // Its first bracket: the rest may be long.
+                    place.span.end = place.span.end.min(place.span.start + 1);
+                    found.push(CaseSection {
+                        path: format!("{}[{number}]", self.path_of(key)),
+                        table,
+                        place: Some(place),
+                    });
+                }
+                _ => not_a_list(item, problems),
+            }
+        }
+        found
+    }
+
     /// Returns the value of a key that must be there.
     pub fn require(&self, key: &str, help: &str, problems: &mut Problems) -> Option<&'a TreeNode> {
         let node = self.table.get(key);

@@ -37,7 +37,7 @@ use wheelrail::track::{CLEARANCE, CenterLine, CurveElements, Placed, Segment, Tr
 
 use crate::case::problem::{Problem, Problems, TomlSource};
 use crate::case::section::{CaseSection, Names, Range};
-use crate::case::tree::{self, NodeValue, TableNode, TreeNode};
+use crate::case::tree::{self, NodeValue, TableNode};
 use crate::case::{CaseDocument, CaseError, STUDY_KEYS, Tables, name, text_of_file};
 
 use crate::case::tables::NamedFile;
@@ -234,11 +234,13 @@ pub(crate) fn of_section(
         let help = "write [[segments]] and below it tangent = \"500 ft\"";
         top.require("segments", help, problems)?;
     }
-    let segments: Vec<Option<Segment>> = list(top, "segments", problems)
+    let segments: Vec<Option<Segment>> = top
+        .tables("segments", problems)
         .iter()
         .map(|section| segment(section, problems))
         .collect();
-    let grades: Vec<Option<[f64; 2]>> = list(top, "grades", problems)
+    let grades: Vec<Option<[f64; 2]>> = top
+        .tables("grades", problems)
         .iter()
         .map(|section| {
             section.allow_in(&["distance", "grade"], &[], "a track", problems);
@@ -262,7 +264,8 @@ pub(crate) fn of_section(
         problems.push(near_itself(tree, distances));
     }
     let end = center_line.as_ref().map(CenterLine::length);
-    let irregularities: Vec<Option<Vec<Placed>>> = list(top, "irregularities", problems)
+    let irregularities: Vec<Option<Vec<Placed>>> = top
+        .tables("irregularities", problems)
         .iter()
         .map(|section| match section.table.get("table") {
             Some(_) => measured::irregularities(section, tables, end, &mut notes, problems),
@@ -307,47 +310,6 @@ fn impossible(tree: &TableNode, error: &TrackError) -> Problem {
         None => problem,
     };
     problem.help("segments count from 0; put a spiral between a tangent and a curve, and between two curves")
-}
-
-/// Returns the tables of a list, `[[key]]`.
-fn list<'t>(top: &CaseSection<'t>, key: &str, problems: &mut Problems) -> Vec<CaseSection<'t>> {
-    let Some(node) = top.table.get(key) else {
-        return Vec::new();
-    };
-    let not_a_list = |node: &TreeNode, problems: &mut Problems| {
-        let problem = Problem::new(format!(
-            "`{}` holds {}; tables are expected",
-            top.path_of(key),
-            node.value.describe()
-        ));
-        problems.push(
-            problem
-                .at(&node.place)
-                .label("not a table")
-                .help(format!("write [[{}]] on a line of its own", top.path_of(key))),
-        );
-    };
-    let NodeValue::List(items) = &node.value else {
-        not_a_list(node, problems);
-        return Vec::new();
-    };
-    let mut found = Vec::new();
-    for (number, item) in items.iter().enumerate() {
-        match &item.value {
-            NodeValue::Table(table) => {
-                let mut place = item.place.clone();
-                // Its first bracket: the rest may be long.
-                place.span.end = place.span.end.min(place.span.start + 1);
-                found.push(CaseSection {
-                    path: format!("{}[{number}]", top.path_of(key)),
-                    table,
-                    place: Some(place),
-                });
-            }
-            _ => not_a_list(item, problems),
-        }
-    }
-    found
 }
 
 /// Returns a length along a track, m: positive, or zero if it may be.

@@ -5,6 +5,7 @@
 pub(crate) mod assumptions;
 pub mod builtin;
 pub mod columns;
+mod control_coils;
 mod energies;
 pub mod loop_curve;
 pub mod run;

@@ -3,7 +3,8 @@
 use quantity::Kind;
 use truck::WedgeKind;
 
-use super::wedges::{CoilKind, Draft};
+use super::control_coils::CoilKind;
+use super::wedges::Draft;
 use crate::case::field::Reach;
 use crate::case::problem::Problem;
 use crate::case::read::COEFFICIENT;

@@ -1,6 +1,5 @@
 //! The sections of the wedges: for all four, and for single ones over them.
 
-use mechanics::coil::{CoilLaw, CoilLine};
 use mechanics::friction::FrictionLaw;
 use quantity::Kind;
 use truck::coils;
@@ -10,7 +9,8 @@ use truck::{
 use wedge::face::{FaceDirection, Rectangle};
 use wedge::parameters::{ControlCoil as ThesisCoil, Damping};
 
-use super::sections::{self, columns, contact, spring_stiffnesses, wedge_places};
+use super::control_coils::{CoilKind, Named, thesis_coil};
+use super::sections::{columns, contact, wedge_places};
 use super::wedge_kinds::ACROSS;
 use crate::case::document::{FrictionLaw as Law, Toe, ToeDirection};
 use crate::case::face::{self, FaceSection};
@@ -21,10 +21,9 @@ use crate::case::read::{ANGLE, COEFFICIENT};
 use crate::case::rise::RiseSection;
 use crate::case::section::{Names, Range};
 use crate::case::toe::read_toe;
-use crate::case::tree::NodeValue;
 use crate::case::write::{ANGLES, FRICTION, toe};
 use crate::geometry;
-use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, PRELOAD, STIFFNESS};
+use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, STIFFNESS};
 
 /// A wedge while its sections are read: laws of friction keep their numbers while another one is chosen.
 #[derive(Clone)]
@@ -34,93 +33,17 @@ pub(crate) struct Draft {
     reference_speed: f64,
     bristle: [f64; 2],
     pub(super) kind: CoilKind,
-    spring: Spring,
-    thesis: ThesisCoil,
-    to_center: [f64; 3],
+    pub(super) spring: Spring,
+    pub(super) thesis: ThesisCoil,
+    pub(super) to_center: [f64; 3],
     faces: [FaceSection; 2],
     rise: RiseSection,
     /// The catalog of coils, and what is taken of it.
-    known: Vec<coils::CoilKind>,
-    named: Named,
+    pub(super) known: Vec<coils::CoilKind>,
+    pub(super) named: Named,
 }
-
-/// Coils by their name.
-#[derive(Clone)]
-struct Named {
-    name: String,
-    counts: [usize; 2],
-    /// In the nominal layout, m.
-    height: f64,
-    shear_ratio: f64,
-    solid_stiffness: f64,
-}
-
-/// Kinds of control coils.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum CoilKind {
-    Shear,
-    Thesis,
-    Nothing,
-    /// By a name of the catalog.
-    Named,
-}
-
-const COIL_KINDS: Names<CoilKind> = &[
-    ("shear", CoilKind::Shear),
-    ("thesis", CoilKind::Thesis),
-    ("nothing", CoilKind::Nothing),
-];
-const LINES: Names<CoilLine> = &[
-    ("center_of_gravity", CoilLine::CenterOfGravity),
-    ("seat", CoilLine::Seat),
-];
-/// Keys that only the thesis's coil has.
-const OF_THESIS: [&str; 5] = [
-    "free_length",
-    "nominal_length",
-    "rotational_damping",
-    "acts_at",
-    "pulls",
-];
-/// Keys that only a coil with shear stiffness has.
-const OF_SHEAR: [&str; 4] = ["preload", "shear_stiffness", "solid_travel", "solid_stiffness"];
-/// Those that a coil by its name has not, since they follow from its heights.
-const NOT_NAMED: [&str; 4] = ["preload", "stiffness", "shear_stiffness", "solid_travel"];
-/// Keys that only a coil by its name has.
-const OF_NAMED: [&str; 4] = ["outer", "inner", "height", "shear_ratio"];
-/// Keys of both.
-const OF_COILS: [&str; 2] = ["stiffness", "damping"];
 
 const INCH: f64 = 0.0254;
-const POUND_FORCE: f64 = 4.448_221_615_260_5;
-
-/// Height of control coils on side frames in the nominal layout, m: 1.4085 in above the solid height of the
-/// coils of the catalog, the travel to it in input files of NUCARS (derived).
-const COIL_HEIGHT: f64 = (6.5625 + 1.4085) * INCH;
-/// Stiffness of a control coil beyond its solid height, N/m.
-const SOLID_STIFFNESS: f64 = 250_000.0 * POUND_FORCE / INCH;
-/// Control coils of a wedge in each other, or beside each other, at the most.
-const MOST_COILS: usize = 2;
-
-/// Returns the thesis's coil (Steets 2007, table 3-2), and its place below the wedge.
-fn thesis_coil(damping: Damping) -> (ThesisCoil, [f64; 3]) {
-    let [stiffness, free, nominal] = match damping {
-        Damping::Variable => [3000.0, 10.25, 10.25],
-        Damping::Constant => [1979.0, 7.25, 7.25 - 3702.2 / 1979.0],
-    };
-    let coil = ThesisCoil {
-        law: CoilLaw::Linear {
-            stiffness: stiffness * POUND_FORCE / INCH,
-        },
-        free_length: free * INCH,
-        nominal_length: nominal * INCH,
-        damping: POUND_FORCE / INCH,
-        rotational_damping: POUND_FORCE * INCH,
-        acts_at: CoilLine::CenterOfGravity,
-        pulls: true,
-    };
-    (coil, [-1.0734 * INCH, 0.0, 2.0417 * INCH])
-}
 
 /// Returns the faces of wedges in service, column and slope: see [`Parameters::in_service`].
 fn in_service() -> [FaceSection; 2] {
@@ -143,7 +66,6 @@ impl Draft {
         wedge.slope_friction.coefficient = friction;
         wedge.split.friction.coefficient = friction;
         let (thesis, to_center) = thesis_coil(parameters.damping);
-        let in_bolster = thesis.nominal_length;
         let spring = match wedge.control_coil {
             ControlCoil::Shear(spring) => spring,
             ControlCoil::Thesis(..) | ControlCoil::Table(_) | ControlCoil::Nothing => Spring::default(),
@@ -152,6 +74,7 @@ impl Draft {
             FrictionLaw::Bristle { stiffness, damping } => [stiffness, damping],
             FrictionLaw::Tanh { .. } => [0.0; 2],
         };
+        let named = Named::usual(parameters.damping, &spring, &thesis);
         Self {
             wedge,
             laws: [Law::Bristle; 2],
@@ -164,16 +87,7 @@ impl Draft {
             faces: in_service(),
             rise: RiseSection::default(),
             known: known.to_vec(),
-            named: Named {
-                name: "B-353".to_owned(),
-                counts: [1, 1],
-                height: match parameters.damping {
-                    Damping::Variable => COIL_HEIGHT,
-                    Damping::Constant => in_bolster,
-                },
-                shear_ratio: spring.shear_stiffness / spring.stiffness,
-                solid_stiffness: SOLID_STIFFNESS,
-            },
+            named,
         }
     }
 
@@ -377,128 +291,6 @@ impl Draft {
             damping,
             "bristle: tangential, per face",
         );
-    }
-
-    /// Returns the name of the coils of the catalog that a section takes; none if it takes another kind.
-    fn named(&self, r: &CaseReader<'_>, path: &str) -> Option<String> {
-        let given = r.at(&format!("{path}.kind"));
-        match given.map(|node| &node.value) {
-            None if self.kind == CoilKind::Named => Some(self.named.name.clone()),
-            Some(NodeValue::Text(text)) if COIL_KINDS.iter().all(|(name, _)| name != text) => {
-                Some(self.named.name.clone())
-            }
-            _ => None,
-        }
-    }
-
-    /// Reads coils by their name.
-    fn named_coil(&mut self, r: &mut CaseReader<'_>, name: &str) {
-        let comment = "\"shear\": by its numbers; \"thesis\"; \"nothing\": broken; or by its name in the \
-                       catalog of [coils], outer and inner coil";
-        let Some(kind) = sections::coil_kind(r, (&self.known, name), comment) else {
-            return;
-        };
-        let own = &mut self.named;
-        own.counts = sections::coil_counts(r, (&kind, MOST_COILS), own.counts);
-        own.height = sections::coil_height(r, (&kind, own.counts), own.height);
-        let comment = "shear stiffness of the coils over their stiffness";
-        r.number(
-            "shear_ratio",
-            Range::NotNegative,
-            Reach::Positive,
-            &mut own.shear_ratio,
-            comment,
-        );
-        let beyond = "beyond the solid height";
-        r.quantity("solid_stiffness", STIFFNESS, &mut own.solid_stiffness, beyond);
-        let mut damping = self.spring.damping;
-        r.quantity("damping", DAMPING, &mut damping, "in every direction");
-        let standing = (own.height, own.shear_ratio, own.solid_stiffness);
-        self.spring = Spring {
-            damping,
-            ..sections::coils_together(&kind, own.counts, standing)
-        };
-        own.name = kind.name;
-    }
-
-    fn coil(&mut self, r: &mut CaseReader<'_>, path: &str) {
-        let comment = "\"shear\": a coil with shear stiffness; \"thesis\": a line from seat to wedge \
-                       (Steets 2007); \"nothing\": broken; or a name of [coils], such as \"B-353\"";
-        let name = self.named(r, path);
-        match name {
-            Some(_) => self.kind = CoilKind::Named,
-            None => r.choice("kind", COIL_KINDS, &mut self.kind, comment),
-        }
-        let others: &[(&[&'static str], &str)] = match self.kind {
-            CoilKind::Shear => &[(&OF_THESIS, "thesis"), (&OF_NAMED, "B-353")],
-            CoilKind::Named => &[(&OF_THESIS, "thesis"), (&NOT_NAMED, "shear")],
-            CoilKind::Thesis => &[(&OF_SHEAR, "shear"), (&OF_NAMED, "B-353")],
-            CoilKind::Nothing => &[
-                (&OF_THESIS, "thesis"),
-                (&OF_SHEAR, "shear"),
-                (&OF_COILS, "shear"),
-                (&OF_NAMED, "B-353"),
-            ],
-        };
-        for (keys, kind) in others {
-            for key in *keys {
-                let full = format!("{path}.{key}");
-                if r.has(&full) {
-                    let problem = Problem::new(format!("`{full}` is a key of the coil of kind \"{kind}\""));
-                    let help = format!("leave it out, or write {path}.kind = \"{kind}\"");
-                    r.problem(&full, problem.label("of another kind").help(help));
-                    r.expect(path, keys);
-                }
-            }
-        }
-        if self.kind == CoilKind::Nothing {
-            return;
-        }
-        if let Some(name) = name {
-            self.named_coil(r, &name);
-            return;
-        }
-        if self.kind == CoilKind::Shear {
-            r.quantity(
-                "preload",
-                PRELOAD,
-                &mut self.spring.preload,
-                "in the nominal layout",
-            );
-            spring_stiffnesses(r, &mut self.spring, false);
-            r.quantity("damping", DAMPING, &mut self.spring.damping, "in every direction");
-            return;
-        }
-        let coil = &mut self.thesis;
-        if let CoilLaw::Linear { stiffness } = &mut coil.law {
-            r.quantity("stiffness", STIFFNESS, stiffness, "along the coil");
-        }
-        r.quantity("free_length", LENGTH, &mut coil.free_length, "without force");
-        r.quantity(
-            "nominal_length",
-            LENGTH,
-            &mut coil.nominal_length,
-            "in the nominal layout",
-        );
-        r.quantity("damping", DAMPING, &mut coil.damping, "along the coil");
-        let rotational = (Kind::RotationalDamping, Range::NotNegative, Reach::FromZero(1.0));
-        let comment = "of the wedge's rotations";
-        r.quantity(
-            "rotational_damping",
-            rotational,
-            &mut coil.rotational_damping,
-            comment,
-        );
-        r.choice(
-            "acts_at",
-            LINES,
-            &mut coil.acts_at,
-            "\"center_of_gravity\" or \"seat\"",
-        );
-        r.truth("pulls", &mut coil.pulls, "false: it lifts off at its free length");
-        let place = (Kind::Length, Range::Any, Reach::Signed(INCH));
-        let comment = "of the wedge's center of gravity from the coil's end, x towards the bolster";
-        r.triple("center_of_gravity", place, &mut self.to_center, comment);
     }
 }
 

@@ -1,6 +1,7 @@
 //! The static table of a car against closed forms.
 
 use study::car::columns::CarTable;
+use study::car::static_table::static_table;
 use study::car::{CarCase, builtin};
 use study::case::Tables;
 use study::statics::StaticTable;
@@ -13,7 +14,8 @@ fn case(lines: &str) -> CarCase {
 }
 
 fn table(case: &CarCase) -> StaticTable {
-    CarTable::new(&case.parameters).unwrap().static_table(Units::Us)
+    let own = CarTable::new(&case.parameters).unwrap();
+    static_table(&own, &case.parameters, Units::Us).unwrap()
 }
 
 /// Asserts that a value is near what is expected of it, relative.

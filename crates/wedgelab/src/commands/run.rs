@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use quantity::{Kind, Number, Quantity, System as Units, nearest};
+use quantity::{Kind, Number, Quantity, nearest};
 use report::figures::car::CarRun;
 use report::figures::truck::TruckRun;
 use report::files::Folder;
@@ -22,7 +22,6 @@ use study::car::{self, CarCase};
 use study::case::{Case, builtin};
 use study::outcome::Outcome;
 use study::output_files::{OutputFiles, TableFormat};
-use study::statics::{COILS, StaticTable};
 use study::summary::RunSummary;
 use study::truck::run::TruckResult;
 use study::truck::{self, TruckCase, WEDGE_NAMES};
@@ -39,6 +38,7 @@ use crate::json;
 use crate::progress::Progress;
 use crate::saved::{self, Parts, Saved};
 use crate::select::built_in_elsewhere;
+use crate::start;
 use crate::table::TerminalTable;
 
 /// Run one case: a wedge, a truck or a car
@@ -302,7 +302,9 @@ fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failur
     };
     write_page(folder, || page::truck_run::render(&run))?;
     let summary = &run.result.summary;
-    print_start(arguments, &summary.statics, summary.units)?;
+    if !arguments.json {
+        start::print(&summary.statics, summary.units)?;
+    }
     print_run(arguments, &place, &run.result.summary, || {
         let energy = energy::in_short(&run.result.summary.energy);
         (truck_table(&run.result), note(TRUCK_NOTE, energy))
@@ -330,7 +332,9 @@ fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     write_page(folder, || page::car_run::render(&run))?;
     let summary = &run.result.summary;
-    print_start(arguments, &summary.statics, summary.units)?;
+    if !arguments.json {
+        start::print(&summary.statics, summary.units)?;
+    }
     print_run(arguments, &place, summary, || limits_of_car(summary))?;
     match unsound::<CarCase>(summary, folder.path()) {
         Some(failure) => Err(failure),
@@ -366,41 +370,6 @@ fn print_run(
     let files = folders::listed(path, names);
     writeln!(out, "\n{note}\n\nWritten into {}: {files}{page}.", path.display())?;
     Ok(())
-}
-
-/// Returns the static table of a run's start.
-fn table_of_start(table: &StaticTable, units: Units) -> TerminalTable {
-    let labels = COILS.map(|(name, kind)| (name, kind.label(units)));
-    let mut head = vec![("coils at the start", "")];
-    head.extend(labels);
-    let mut out = TerminalTable::new(1, &head);
-    for row in table.coils() {
-        let mut cells = vec![row.name];
-        let values = row.values.iter().zip(COILS);
-        cells.extend(values.map(|(value, (_, kind))| match value {
-            None => "-".to_owned(),
-            Some(value) if kind == Kind::Force => format!("{value:.0}"),
-            Some(value) => format!("{value:.3}"),
-        }));
-        out.row(cells);
-    }
-    out
-}
-
-/// Prints the static table of a run's start, unless a document is asked for.
-fn print_start(arguments: &Arguments, statics: &StaticTable, units: Units) -> io::Result<()> {
-    if arguments.json {
-        return Ok(());
-    }
-    let mut out = io::stdout().lock();
-    if let Some(words) = statics.words() {
-        writeln!(out, "{words}\n")?;
-    }
-    table_of_start(statics, units).write(&mut out)?;
-    writeln!(
-        out,
-        "Down from free height; left until the first coil of a group is solid.\n"
-    )
 }
 
 /// Returns the text about a car's run: its limits, and what its start locks in.

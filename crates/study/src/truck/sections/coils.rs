@@ -8,7 +8,6 @@ use truck::nest::Ring;
 use crate::case::field::{Reach, Written, quoted};
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Range};
-use crate::case::tree::NodeValue;
 use crate::reader::{CaseReader, LENGTH};
 
 const INCH: f64 = 0.0254;
@@ -47,29 +46,8 @@ pub(crate) fn coils(r: &mut CaseReader<'_>) -> Vec<CoilKind> {
 }
 
 fn list(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Vec<Typed>> {
-    let node = section.table.get("own")?;
-    let wrong = |found: &str| {
-        Problem::new(format!("`coils.own` holds {found}; tables are expected"))
-            .label("not a list of tables")
-            .help(format!("write {EXAMPLE}"))
-    };
-    let NodeValue::List(items) = &node.value else {
-        problems.push(wrong(node.value.describe()).at(&node.place));
-        return None;
-    };
     let mut list: Vec<Typed> = Vec::new();
-    for (number, item) in items.iter().enumerate() {
-        let NodeValue::Table(table) = &item.value else {
-            problems.push(wrong(item.value.describe()).at(&item.place));
-            return None;
-        };
-        let mut place = item.place.clone();
-        place.span.end = place.span.end.min(place.span.start + 1);
-        let own = CaseSection {
-            path: format!("coils.own[{number}]"),
-            table,
-            place: Some(place),
-        };
+    for own in section.tables("own", problems) {
         own.allow_in(
             &["name", "source", "outer", "inner"],
             &[],
@@ -84,7 +62,7 @@ fn list(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Vec<Typed>
             problems.push(problem.at(&node.place).label("taken").help(help));
             return None;
         }
-        let source = match table.get("source") {
+        let source = match own.table.get("source") {
             Some(_) => own.text("source", problems)?.0,
             None => "",
         };
@@ -94,7 +72,7 @@ fn list(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Vec<Typed>
         }
         let mut found = [None, None];
         for ((key, _), found) in RINGS.iter().zip(&mut found) {
-            if table.get(key).is_some() {
+            if own.table.get(key).is_some() {
                 let (coil, text) = coil(&own.section(key, problems)?, problems)?;
                 *found = Some(coil);
                 toml += &format!(", {key} = {text}");
@@ -105,12 +83,11 @@ fn list(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Vec<Typed>
             let problem = Problem::new(format!(
                 "the kind of coils \"{name}\" has neither outer nor inner"
             ));
-            problems.push(
-                problem
-                    .at(&item.place)
-                    .label("no coil")
-                    .help(format!("write {EXAMPLE}")),
-            );
+            let problem = problem.label("no coil").help(format!("write {EXAMPLE}"));
+            problems.push(match &own.place {
+                Some(place) => problem.at(place),
+                None => problem,
+            });
             return None;
         }
         list.push(Typed {

@@ -8,7 +8,7 @@ use truck::{Parameters, Spring};
 use super::coils;
 use crate::case::field::Reach;
 use crate::case::problem::Problem;
-use crate::case::section::{Names, Range};
+use crate::case::section::{Names, Range, name_of};
 use crate::reader::{CaseReader, DAMPING, LENGTH, PRELOAD, STIFFNESS};
 
 /// Kinds of load coils: groups or single coils.
@@ -231,10 +231,7 @@ fn missing(r: &mut CaseReader<'_>, key: &'static str, coils: &[CoilPlace]) -> Ve
         "coils that are broken or missing, such as \"outer_leading_left\"; the others keep their loads";
     r.several(key, COILS, &mut missing, comment);
     if let Some(absent) = missing.iter().find(|coil| !coils.contains(coil)) {
-        let name = COILS
-            .iter()
-            .find(|(_, coil)| coil == absent)
-            .map_or("", |(name, _)| name);
+        let name = name_of(COILS, absent);
         let names: Vec<&str> = COILS
             .iter()
             .filter(|(_, own)| coils.contains(own))
