@@ -88,8 +88,7 @@ impl Source {
         let mut named = Vec::new();
         let (name, text) = match self {
             Self::Wedge(case) | Self::QuasiStatic(case) | Self::Truck(case) => {
-                let document = case.document.clone().with_tables_embedded();
-                (resources::CASE, document.to_toml())
+                (resources::CASE, case.to_toml_embedded().to_owned())
             }
             Self::HalfTruck(own) => (half_truck::RESOURCE, own.text().to_owned()),
             Self::ThreePieceTruck(case) => (resources::CASE, case.to_toml_embedded().to_owned()),

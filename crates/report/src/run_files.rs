@@ -160,8 +160,7 @@ impl RunFiles for Case {
     /// anywhere.
     fn add_others(&self, files: &mut Files<'_>, result: &RunResult) -> Result<(), FileError> {
         files.add(CASE_FILE_NAME, |out| {
-            let document = self.document.clone().with_tables_embedded();
-            out.write_all(document.to_toml().as_bytes())
+            out.write_all(self.to_toml_embedded().as_bytes())
         })?;
         files.add(summary::FILE_NAME, |out| summary::write(&result.summary, out))?;
         if let Some(figure) = pressure_figure(self, result) {

@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::car::{self, CarCase};
 use crate::case::model::{Model, model};
-use crate::case::problem::{Problems, TomlSource};
-use crate::case::{Case, CaseError, FieldSection, Problem, Tables, builtin, overrides, text_of, tree};
+use crate::case::problem::Problems;
+use crate::case::{Case, CaseError, FieldSection, Problem, Tables, builtin, text_of, tree_with_overrides};
 use crate::half_truck::files::{FilesError, Settings, case_of_run};
 use crate::half_truck::{HalfTruckCase, catalog};
 use crate::measures::{self, Definitions, Judged, Unmeasured, half_truck};
@@ -69,10 +69,12 @@ impl AnyCase {
         tables: impl Into<Tables<'t>>,
         overrides: &[String],
     ) -> Result<Self, CaseError> {
-        Ok(match named(source, text, overrides) {
-            Some(Model::Truck) => Self::Truck(Box::new(TruckCase::parse(source, text, tables, overrides)?)),
-            Some(Model::Car) => Self::Car(Box::new(CarCase::parse(source, text, tables, overrides)?)),
-            _ => Self::Wedge(Box::new(Case::parse(source, text, tables, overrides)?)),
+        let (tree, problems) = tree_with_overrides(source, text, overrides)?;
+        let tables = tables.into();
+        Ok(match model(&tree, &mut Problems::new()) {
+            Some(Model::Truck) => Self::Truck(Box::new(TruckCase::of_tree(tree, source, tables, problems)?)),
+            Some(Model::Car) => Self::Car(Box::new(CarCase::of_tree(tree, source, tables, problems)?)),
+            _ => Self::Wedge(Box::new(Case::of_tree(tree, source, tables, problems)?)),
         })
     }
 
@@ -141,7 +143,7 @@ impl AnyCase {
     #[must_use]
     pub fn fields(&self) -> Vec<FieldSection> {
         match self {
-            Self::Wedge(case) => case.document.fields(),
+            Self::Wedge(case) => case.fields().to_vec(),
             Self::HalfTruck(_) => Vec::new(),
             Self::Truck(case) => case.fields().to_vec(),
             Self::Car(case) => case.fields().to_vec(),
@@ -153,7 +155,7 @@ impl AnyCase {
     #[must_use]
     pub fn to_toml(&self) -> Option<String> {
         match self {
-            Self::Wedge(case) => Some(case.document.clone().with_tables_embedded().to_toml()),
+            Self::Wedge(case) => Some(case.to_toml_embedded().to_owned()),
             Self::HalfTruck(_) => None,
             Self::Truck(case) => Some(case.to_toml_embedded().to_owned()),
             Self::Car(case) => Some(case.to_toml_embedded().to_owned()),
@@ -183,14 +185,6 @@ impl AnyCase {
             Self::Car(case) => measures::car::judge(case),
         }
     }
-}
-
-/// Returns the model that a case file says, or an override; `None` if the text cannot be read.
-fn named(source: &str, text: &str, overrides: &[String]) -> Option<Model> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut tree = tree::parse(&TomlSource::new(source, text)).ok()?;
-    overrides::apply(&mut tree, overrides);
-    model(&tree, &mut Problems::new())
 }
 
 /// The result of a run of any model.

@@ -326,7 +326,7 @@ pub fn map(
     if points < 2 {
         return Err(MapError::OnePoint(points));
     }
-    let text = case.document.clone().with_tables_embedded().to_toml();
+    let text = case.to_toml_embedded();
     let values = spans.map(|span| span.values(points));
     let at = |number: usize| {
         let [x, y] = &values;

@@ -1,7 +1,7 @@
 //! The native part of the Python package `wedgelab`: what its Python part calls.
 //!
 //! Python code in `python/wedgelab` gives it names, types and tables; the work is done by lower layers. One
-//! module a thing: `case`, `outcome` (results), `run` and `many` (running), `step` (users' own loops),
+//! module a thing: `model_case`, `outcome` (results), `run` and `many` (running), `step` (users' own loops),
 //! `study`, `figures`, `nucars` and `half_truck`, `truck`, `quasi_static`, `wheelrail`, `quantity`, and
 //! `values` and `errors` for the way between the languages.
 //!
@@ -9,7 +9,6 @@
 
 use pyo3::prelude::*;
 
-mod case;
 mod certificate;
 mod errors;
 mod figures;
@@ -32,8 +31,6 @@ mod _wedgelab {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use crate::case::{NativeCase, built_in_groups};
-    #[pymodule_export]
     use crate::certificate::NativeCertificate;
     #[pymodule_export]
     use crate::errors::fail_inside;
@@ -44,9 +41,7 @@ mod _wedgelab {
     #[pymodule_export]
     use crate::many::run_many;
     #[pymodule_export]
-    use crate::model_case::NativeCarCase;
-    #[pymodule_export]
-    use crate::model_case::NativeTruckCase;
+    use crate::model_case::{NativeCarCase, NativeCase, NativeTruckCase, built_in_groups, wedge_assumptions};
     #[pymodule_export]
     use crate::nucars::{NativeFile, check_files, read_file};
     #[pymodule_export]

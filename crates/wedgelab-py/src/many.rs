@@ -12,9 +12,9 @@ use study::case::Case;
 use study::half_truck::HalfTruckCase;
 use study::truck::TruckCase;
 
-use crate::case::NativeCase;
 use crate::half_truck::NativeHalfTruckCase;
 use crate::model_case::NativeCarCase;
+use crate::model_case::NativeCase;
 use crate::model_case::NativeTruckCase;
 use crate::outcome::{NativeResult, Origin, Table};
 use crate::run::{Failure, table};

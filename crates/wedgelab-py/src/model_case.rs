@@ -1,4 +1,4 @@
-//! Cases of trucks and of cars, and their runs: the same class for each.
+//! Cases of wedges, trucks and cars, and their runs: the same class for each; the built-in wedges.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -7,9 +7,10 @@ use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 use study::car::{CarCase, builtin as cars};
-use study::case::{CaseError, text_of};
+use study::case::{Case, CaseError, builtin as wedges, text_of};
 use study::truck::{TruckCase, builtin as trucks};
 use toml::Table;
+use wedge::Wedge;
 
 use crate::errors::{case_error, case_message, guarded};
 use crate::outcome::{NativeResult, Origin};
@@ -160,6 +161,14 @@ macro_rules! model_case {
 }
 
 model_case!(
+    NativeCase,
+    "NativeCase",
+    Case,
+    wedges,
+    Wedge,
+    "A wedge's case, completed and checked."
+);
+model_case!(
     NativeTruckCase,
     "NativeTruckCase",
     TruckCase,
@@ -175,3 +184,33 @@ model_case!(
     Car,
     "A car's case, completed and checked."
 );
+
+/// Returns the assumptions of a run of a wedge.
+#[pyfunction]
+pub fn wedge_assumptions(py: Python<'_>, case: &NativeCase) -> PyResult<Vec<String>> {
+    guarded(py, || {
+        let wedge = Wedge::new(case.case.parameters.clone());
+        let wedge = wedge.map_err(|error| case_message(py, &error.to_string(), ""))?;
+        Ok(study::assumptions::of(&wedge))
+    })
+}
+
+/// A name and a title.
+type Named = (&'static str, &'static str);
+/// A group of built-in cases: name, title, what to look at, its cases.
+type GroupOfCases = (&'static str, &'static str, &'static str, Vec<Named>);
+
+/// Returns the groups of built-in cases: name, title, what to look at, and the names and titles of its cases.
+#[pyfunction]
+pub fn built_in_groups() -> Vec<GroupOfCases> {
+    let cases = |group: &'static wedges::CaseGroup| {
+        let cases = group.cases.iter();
+        cases
+            .map(|case| (case.name.as_str(), case.title.as_str()))
+            .collect()
+    };
+    wedges::groups()
+        .iter()
+        .map(|group| (group.name, group.title, group.look_at, cases(group)))
+        .collect()
+}

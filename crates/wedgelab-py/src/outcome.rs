@@ -21,9 +21,9 @@ use study::summary::{RunSummary, Summary};
 use study::truck::TruckCase;
 use study::truck::summary::TruckSummary;
 
-use crate::case::NativeCase;
 use crate::errors::{guarded, simple};
 use crate::model_case::NativeCarCase;
+use crate::model_case::NativeCase;
 use crate::model_case::NativeTruckCase;
 use crate::values;
 

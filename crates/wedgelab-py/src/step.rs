@@ -5,8 +5,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use study::stepping::{CoilInput, NeighbourState, Neighbours, SteppedState, SteppedWedge, SteppingError};
 
-use crate::case::NativeCase;
 use crate::errors::{guarded, simple};
+use crate::model_case::NativeCase;
 
 type Six = [f64; 6];
 /// Force and moment.

@@ -16,10 +16,10 @@ use report::parquet::Content;
 use report::study_folder::{StudyFolder, StudyFolderError, columns};
 use report::study_work;
 
-use crate::case::NativeCase;
 use crate::errors::{case_error, guarded, internal, panic_text, raise, shown, simple};
 use crate::half_truck;
 use crate::model_case::NativeCarCase;
+use crate::model_case::NativeCase;
 use crate::model_case::NativeTruckCase;
 use crate::outcome::from_saved;
 

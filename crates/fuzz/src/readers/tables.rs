@@ -1,14 +1,14 @@
 //! Tables: results of other programs, and motions and coils in CSV files beside a case.
 
+use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use quantity::Kind;
 use report::comparison::{ComparedResult, Comparison};
 use report::table::ResultTable;
-use study::case::{Case, CaseMotion, CoilForce, QuantityTable, builtin};
+use study::case::Case;
 
-use super::cases::{outcome, refused};
+use super::cases::outcome;
 use super::{ReadOutcome, Reader, corpus};
 use crate::limits::FINITE_COMPARISONS;
 
@@ -111,33 +111,25 @@ fn compare(entries: &[ComparedResult]) -> ReadOutcome {
     ReadOutcome::ACCEPTED
 }
 
-/// A case with such tables.
-static BASE: LazyLock<Option<Case>> = LazyLock::new(|| {
-    let set = ["simulation.duration=0.1 s".to_owned()];
-    builtin::case_with("vdrun_toe_out_0.2_psi_0.012", &set).ok()
-});
+/// What names such a table in a case: as motions of a length and of an angle, and as a coil.
+const NAMES: [&str; 3] = [
+    "bolster.vertical={ shape = \"table\", file = \"table.csv\" }",
+    "bolster.yaw={ shape = \"table\", file = \"table.csv\" }",
+    "control_coil.table=\"table.csv\"",
+];
 
 fn table(input: &[u8]) -> ReadOutcome {
-    let (Ok(text), Some(base)) = (std::str::from_utf8(input), BASE.as_ref()) else {
-        return ReadOutcome::NO_TEXT;
+    let written = tempfile::tempdir().and_then(|folder| {
+        fs::write(folder.path().join("table.csv"), input)?;
+        Ok(folder)
+    });
+    let folder = match written {
+        Ok(folder) => folder,
+        Err(error) => panic!("no table beside the case: {error}"),
     };
-    let [_, _, vertical, _, _, yaw] = [0, 1, 2, 3, 4, 5];
-    let motion = |kind: Kind, coordinate: usize| {
-        let table = match QuantityTable::parse_motion("table.csv", text, kind) {
-            Ok(table) => table,
-            Err(error) => return refused(&error),
-        };
-        let mut document = base.document.clone();
-        document.bolster.coordinates[coordinate] = CaseMotion::Table(table);
-        outcome(Case::from_document(&document))
-    };
-    let all = motion(Kind::Length, vertical).or(motion(Kind::Angle, yaw));
-    match QuantityTable::parse_coil("table.csv", text) {
-        Ok(table) => {
-            let mut document = base.document.clone();
-            document.control_coil.force = CoilForce::Table(table);
-            all.or(outcome(Case::from_document(&document)))
-        }
-        Err(error) => all.or(refused(&error)),
-    }
+    let base = "[wedge]\ndamping = \"variable\"\n[simulation]\nduration = \"0.1 s\"\n";
+    NAMES.into_iter().fold(ReadOutcome::NO_TEXT, |all, name| {
+        let case = Case::parse("case.toml", base, folder.path(), &[name.to_owned()]);
+        all.or(outcome(case))
+    })
 }

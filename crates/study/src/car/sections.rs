@@ -13,7 +13,7 @@ use crate::case::field::{Reach, Written, quoted};
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Names, Range, quantity};
 use crate::case::tree::NodeValue;
-use crate::case::{Simulation, write};
+use crate::case::{Simulation, page};
 use crate::output_files::OutputFiles;
 use crate::reader::{CaseReader, DAMPING, QuantityForm};
 use crate::track::{Notes, Support};
@@ -328,7 +328,7 @@ fn start(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
         &mut own.body_shift,
         "of the car body to the left",
     );
-    let heading: QuantityForm = (Kind::Angle, Range::Any, Reach::Signed(write::TURN));
+    let heading: QuantityForm = (Kind::Angle, Range::Any, Reach::Signed(page::TURN));
     r.quantity(
         "heading",
         heading,

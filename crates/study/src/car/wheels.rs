@@ -176,7 +176,7 @@ pub(super) fn wheels(r: &mut CaseReader<'_>, parameters: &mut Parameters, rails:
 
 fn contact_law(r: &mut CaseReader<'_>, sprung: bool) -> ContactLaw {
     let mut friction = 0.4;
-    let range = crate::case::read::COEFFICIENT;
+    let range = crate::case::friction::COEFFICIENT;
     r.number(
         "friction",
         range,

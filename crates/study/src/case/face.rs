@@ -3,12 +3,12 @@
 
 use super::face_values::{self as values, PadSection, Surface};
 use super::field::{Reach, Written};
+use super::friction::COEFFICIENT;
+use super::page::FRICTION;
 use super::problem::Problems;
-use super::read::COEFFICIENT;
 use super::section::{self, CaseSection, Range};
-use super::table::{self, TableForm};
+use super::table::{self, QuantityTable, TableForm};
 use super::tables::Tables;
-use super::write::FRICTION;
 use quantity::{Kind, Quantity};
 use wedge::face::{DepthMap, FaceProperties, FrictionMap, Grid, STRIBECK_SPEED};
 
@@ -36,11 +36,11 @@ pub struct FaceSection {
     /// The wedge's surface.
     pub wedge_surface: Surface,
     /// A map of its wear.
-    pub wedge_wear: Option<super::QuantityTable<3>>,
+    pub wedge_wear: Option<QuantityTable<3>>,
     /// The surface that it touches.
     pub counterface: Surface,
     /// A map of its wear.
-    pub counterface_wear: Option<super::QuantityTable<3>>,
+    pub counterface_wear: Option<QuantityTable<3>>,
     /// Coefficient of sliding; left out, that of rest.
     pub sliding_friction: Option<f64>,
     /// Slip speed of half of the way from rest to sliding.
@@ -96,7 +96,7 @@ impl FaceSection {
         };
         let wedge_surface = surface("wedge_surface", &self.wedge_surface);
         let counterface = surface("counterface", &self.counterface);
-        let mut worn = |key: &str, own: &Option<super::QuantityTable<3>>| match node(key) {
+        let mut worn = |key: &str, own: &Option<QuantityTable<3>>| match node(key) {
             Some((node, path)) => table::read(node, &path, &TableForm::map(), tables, problems).map(Some),
             None => Some(own.clone()),
         };
@@ -223,6 +223,13 @@ impl FaceSection {
         })
     }
 
+    /// Returns the rows of its tables.
+    pub(crate) fn rows(&self) -> usize {
+        let surfaces = [&self.wedge_surface, &self.counterface].map(Surface::rows);
+        let maps = self.wedge_wear.iter().chain(&self.counterface_wear);
+        surfaces.iter().sum::<usize>() + maps.map(|map| map.rows.len()).sum::<usize>()
+    }
+
     /// Returns the files of its tables.
     pub(crate) fn files_mut(&mut self) -> impl Iterator<Item = &mut Option<String>> {
         let surfaces = [&mut self.wedge_surface, &mut self.counterface];
@@ -234,7 +241,7 @@ impl FaceSection {
 }
 
 /// Returns a map of depths, SI.
-fn depths(table: &Option<super::QuantityTable<3>>) -> Result<Option<DepthMap>, String> {
+fn depths(table: &Option<QuantityTable<3>>) -> Result<Option<DepthMap>, String> {
     let Some(table) = table else { return Ok(None) };
     let rows = table.rows.iter();
     let points: Vec<[f64; 3]> = rows.map(|row| row.each_ref().map(Quantity::to_si)).collect();

@@ -1,10 +1,10 @@
 //! The values of a face's section: grids, surfaces, maps of friction, pads.
 
-use super::QuantityTable;
 use super::field::Written;
+use super::friction::COEFFICIENT;
 use super::problem::{Problem, Problems};
-use super::read::COEFFICIENT;
 use super::section::{self, CaseSection, Names, Range, name_of};
+use super::table::QuantityTable;
 use super::table::{self, TableForm};
 use super::tables::Tables;
 use super::tree::{NodeValue, TableNode, TreeNode};

@@ -1,48 +1,36 @@
 //! Cases: what a user writes, read, completed, checked and turned into SI.
 //!
-//! A case file is TOML in which every dimensional value is text with a unit. Three layers make a
-//! case: the thesis's values of its damping, the file over them, and `--set` over both. They are
-//! merged as trees that know where each value was written, so that every mistake
-//! is shown in the text it was made in. The merged tree is read into a [`CaseDocument`], which
-//! keeps what was typed, and that is turned into [`wedge::parameters::Parameters`] and
-//! [`Simulation`].
+//! A case file is TOML in which every dimensional value is text with a unit, and `--set` lays values over it.
+//! Both are merged as trees that know where each value was written, so that every mistake is shown in the
+//! text it was made in. The merged tree is read key by key over the defaults: one line for each key says its
+//! name, kind, range, default and meaning, and gives its value, its line of the complete case file and its
+//! field in the explorer.
 
 pub mod bounds;
 pub mod builtin;
-pub(crate) mod defaults;
-pub(crate) mod document;
-pub(crate) mod duration;
+pub(crate) mod coil;
 pub(crate) mod face;
 pub(crate) mod face_values;
 pub(crate) mod field;
+pub(crate) mod friction;
 pub(crate) mod model;
 pub(crate) mod motion;
 pub(crate) mod name;
+pub(crate) mod names;
 pub(crate) mod overrides;
+pub(crate) mod page;
 pub(crate) mod problem;
 pub(crate) mod read;
-pub(crate) mod resolve;
 pub mod rise;
 pub(crate) mod section;
-mod table;
+pub(crate) mod table;
 pub(crate) mod tables;
 pub(crate) mod toe;
 pub(crate) mod tree;
 pub(crate) mod units;
-mod values;
-pub(crate) mod write;
 
-pub use document::{
-    ActsAt, CaseDocument, CoilForce, CoilSection, ContactSection, Coordinate, Damping, EnvironmentSection,
-    FrictionLaw, FrictionSection, NeighbourSection, SimulationSection, Start, Toe, ToeDirection,
-    WedgeSection,
-};
-pub use face::FaceSection;
-pub use face_values::{PadSection, Surface};
 pub use field::{Field, FieldSection, Input, TypedNumber};
-pub use motion::{CaseMotion, MotionProfile};
 pub use problem::{CaseError, Problem};
-pub use table::QuantityTable;
 pub use tables::Tables;
 
 use input::file::{Expected, Reason, read_text};
@@ -53,7 +41,7 @@ use quantity::System;
 use std::path::Path;
 use wedge::parameters::Parameters;
 
-use model::{Model, model};
+use crate::reader::CaseText;
 
 /// A case that is ready to run.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,8 +50,6 @@ pub struct Case {
     pub name: String,
     /// One line for people; may be empty.
     pub title: String,
-    /// The typed case, completed.
-    pub document: CaseDocument,
     /// The physical parameters, SI, valid.
     pub parameters: Parameters,
     /// The settings of the run.
@@ -71,6 +57,7 @@ pub struct Case {
     /// True if the case file, with the values of `--set` over it, says nothing of wedge, coil, contact,
     /// friction and motions: they are defaults.
     pub nothing_given: bool,
+    text: CaseText,
 }
 
 /// The settings of a case's run. The start is one of the [`Parameters`].
@@ -88,6 +75,18 @@ pub struct Simulation {
     pub method: Method,
 }
 
+impl Default for Simulation {
+    fn default() -> Self {
+        Self {
+            duration: 10.0,
+            output_interval: 0.01,
+            relative_tolerance: 1e-6,
+            output_units: System::Us,
+            method: Method::default(),
+        }
+    }
+}
+
 impl Simulation {
     /// Returns the integrator's options. Methods that damp end their steps at every row at least, so that
     /// rows are resolved.
@@ -103,95 +102,7 @@ impl Simulation {
     }
 }
 
-impl Case {
-    /// Reads a case file and lays `--set` overrides (`path.key=value`) over it. A case without a
-    /// name takes that of its file.
-    ///
-    /// # Errors
-    /// The file cannot be read, or something in it, in a table it names, or in an override is
-    /// wrong; all mistakes are reported together.
-    pub fn read(path: &Path, overrides: &[String]) -> Result<Self, CaseError> {
-        let text = text_of(path)?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        Self::parse(&path.display().to_string(), &text, folder, overrides)
-    }
-
-    /// As [`Case::read`], from a text. `source` names it in messages; `tables` says where tables
-    /// are looked for: a folder, or [`Tables`] that restrict which files are read.
-    ///
-    /// # Errors
-    /// As [`Case::read`].
-    pub fn parse<'t>(
-        source: &str,
-        text: &str,
-        tables: impl Into<Tables<'t>>,
-        overrides: &[String],
-    ) -> Result<Self, CaseError> {
-        let (tree, problems) = tree_with_overrides(source, text, overrides)?;
-        let nothing_given = !tree.gives_values();
-        let case = Self::of_tree(tree, source, tables.into(), problems)?;
-        Ok(Self {
-            nothing_given,
-            ..case
-        })
-    }
-
-    /// Completes, reads and checks a tree; `problems` are those found on the way to it.
-    fn of_tree(
-        mut tree: tree::TableNode,
-        source: &str,
-        tables: Tables<'_>,
-        mut problems: Problems,
-    ) -> Result<Self, CaseError> {
-        if let Some(other @ (Model::Truck | Model::Car)) = model(&tree, &mut problems) {
-            let name = if other == Model::Car { "car" } else { "truck" };
-            let problem = Problem::new(format!(
-                "{source} is the case of a {name}; a single wedge's is expected"
-            ));
-            let help = format!("`wedgelab run` takes both; here leave out model = \"{name}\"");
-            let problem = problem.help(help);
-            problems.push(match tree.place_of("model") {
-                Some(place) => problem.at(place).label(format!("a {name}")),
-                None => problem,
-            });
-            return Err(CaseError::new(problems));
-        }
-        let default_name = name::of_source(source);
-        let document = read::document(&mut tree, default_name, tables, &mut problems);
-        let Some(document) = document.filter(|_| problems.is_empty()) else {
-            return Err(CaseError::new(problems));
-        };
-        let parameters = resolve::parameters(&document).map_err(|error| {
-            let problem = Problem::new(format!("`{}`: {}", error.path, error.reason))
-                .help("see `wedgelab case` for a case that is valid");
-            CaseError::from(match tree.place_of(&error.path) {
-                Some(place) => problem.at(place),
-                None => problem,
-            })
-        })?;
-        let simulation = resolve::simulation(&document.simulation);
-        Ok(Case {
-            name: document.name.clone(),
-            title: document.title.clone(),
-            document,
-            parameters,
-            simulation,
-            nothing_given: false,
-        })
-    }
-
-    /// Makes a case of a document, checking it as if it were read; tables in files are taken
-    /// from the document. Messages show the text of [`CaseDocument::to_toml`].
-    ///
-    /// # Errors
-    /// As [`Case::read`].
-    pub fn from_document(document: &CaseDocument) -> Result<Self, CaseError> {
-        let text = document.clone().with_tables_embedded().to_toml();
-        let mut case = Self::parse("case.toml", &text, Tables::nowhere(), &[])?;
-        case.document = document.clone();
-        Ok(case)
-    }
-}
+model::model_case!(Case, model::Model::Wedge, read::complete, read::case);
 
 /// Reads the text of a case file as a tree with `--set` overrides over it; returns the mistakes in these too.
 pub(crate) fn tree_with_overrides(
@@ -242,6 +153,20 @@ fn refuse_study(tree: &tree::TableNode, source: &str) -> Result<(), CaseError> {
     let problem = problem.at(&study.key_place).label("only a study has this");
     Err(problem.help(FileType::Study.advice(source)).into())
 }
+
+/// Tables that only a single wedge's case has, or a vehicle's too, and neither a study nor a track.
+pub(crate) const CASE_TABLES: [&str; 10] = [
+    "wedge",
+    "control_coil",
+    "contact",
+    "friction",
+    "column_face",
+    "slope_face",
+    "side_frame",
+    "bolster",
+    "environment",
+    "simulation",
+];
 
 /// Keys that only a study has.
 pub(crate) const STUDY_KEYS: [&str; 4] = ["sampling", "vary", "variants", "case"];

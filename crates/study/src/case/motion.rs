@@ -1,12 +1,13 @@
 //! Motions as typed, and their reading.
 
-use super::document::PROFILES;
 use super::problem::{Problem, Problems};
-use super::section::{self, CaseSection, Range, name_of};
+use super::section::{self, CaseSection, Names, Range, name_of};
 use super::table::{self, QuantityTable};
 use super::tables::Tables;
 use super::tree::{NodeValue, TreeNode};
 use super::units::in_system;
+use mechanics::motion::{Motion, Piece, RampProfile};
+use mechanics::spline::Spline;
 use quantity::{Kind, Quantity, System, nearest};
 use std::fmt::Write;
 
@@ -76,6 +77,24 @@ pub enum MotionProfile {
     /// Half a period of a cosine: the rate is zero at both ends.
     HalfCosine,
 }
+
+/// Names of the profiles of ramps.
+pub(crate) const PROFILES: Names<MotionProfile> = &[
+    ("smooth", MotionProfile::Smooth),
+    ("linear", MotionProfile::Linear),
+    ("half_cosine", MotionProfile::HalfCosine),
+];
+
+/// The ways of writing a motion, as lines of comments in a case.
+pub(crate) const SHAPES_WRITTEN: &str = "one held value, a list of motions to be added up, or one of\n\
+    # { shape = \"sine\", amplitude, frequency, phase, start }         frequency in rad/s, Hz or rpm\n\
+    # { shape = \"triangle\", amplitude, frequency, start }\n\
+    # { shape = \"swept_sine\", amplitude, start_frequency, end_frequency, duration, start }   then \
+    end_frequency\n\
+    # { shape = \"ramp\", amplitude, start, duration, profile }            profile \"smooth\", \
+    \"linear\" or \"half_cosine\"; then held\n\
+    # { shape = \"table\", file = \"motion.csv\" }                            a cubic spline; or points = \
+    [[time, value], ...]";
 
 const SHAPES: [&str; 6] = ["constant", "sine", "triangle", "swept_sine", "ramp", "table"];
 const EXAMPLE: &str = "write for example { shape = \"sine\", amplitude = \"1 in\", frequency = \"2 rad/s\" \
@@ -390,4 +409,65 @@ impl CaseMotion {
             _ => Vec::new(),
         }
     }
+}
+
+/// Returns a motion, SI.
+pub(crate) fn to_si(typed: &CaseMotion) -> Result<Motion, String> {
+    Ok(match typed {
+        CaseMotion::Constant(value) => Motion::Constant(value.to_si()),
+        CaseMotion::Sine {
+            amplitude,
+            frequency,
+            phase,
+        } => Motion::Sine {
+            amplitude: amplitude.to_si(),
+            angular_frequency: frequency.to_si(),
+            phase: phase.to_si(),
+        },
+        CaseMotion::Triangle { amplitude, frequency } => Motion::Triangle {
+            amplitude: amplitude.to_si(),
+            angular_frequency: frequency.to_si(),
+        },
+        CaseMotion::SweptSine {
+            amplitude,
+            start_frequency,
+            end_frequency,
+            duration,
+        } => Motion::SweptSine {
+            amplitude: amplitude.to_si(),
+            start: start_frequency.to_si(),
+            end: end_frequency.to_si(),
+            duration: duration.to_si(),
+        },
+        CaseMotion::Ramp {
+            amplitude,
+            start,
+            duration,
+            profile,
+        } => Motion::Ramp {
+            amplitude: amplitude.to_si(),
+            start: start.to_si(),
+            duration: duration.to_si(),
+            profile: match profile {
+                MotionProfile::Smooth => RampProfile::Smooth,
+                MotionProfile::Linear => RampProfile::Linear,
+                MotionProfile::HalfCosine => RampProfile::HalfCosine,
+            },
+        },
+        CaseMotion::Table(table) => Motion::Table(spline(table)?),
+        CaseMotion::Sum(parts) => Motion::Sum(parts.iter().map(to_si).collect::<Result<_, _>>()?),
+        CaseMotion::From { start, motion: own } => Motion::Sequence(vec![Piece {
+            start: start.to_si(),
+            motion: to_si(own)?,
+        }]),
+    })
+}
+
+fn spline(table: &QuantityTable) -> Result<Spline, String> {
+    let (times, values) = table
+        .rows
+        .iter()
+        .map(|[time, value]| (time.to_si(), value.to_si()))
+        .unzip();
+    Spline::new(times, values).map_err(|error| error.to_string())
 }

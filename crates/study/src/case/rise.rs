@@ -5,10 +5,11 @@
 use quantity::{Kind, Quantity, SixDigits};
 use wedge::parameters::Wear;
 
-use super::field::{Reach, Written};
-use super::problem::{Problem, Problems};
-use super::section::{CaseSection, Range};
-use super::write::{Page, WEAR};
+use super::field::Reach;
+use super::page::WEAR;
+use super::problem::Problem;
+use super::section::Range;
+use crate::geometry;
 use crate::reader::{CaseReader, QuantityForm};
 
 const INCH: f64 = 0.0254;
@@ -46,9 +47,6 @@ impl Default for RiseSection {
 }
 
 impl RiseSection {
-    /// The keys of a section.
-    pub(super) const KEYS: [&str; 2] = [RISE, SHARE];
-
     /// Returns the depths that the rise makes, m; `angles` are those of [`Wear::rise`]. Nothing without a
     /// rise.
     pub(crate) fn wear(&self, angles: [f64; 3]) -> Option<Wear> {
@@ -56,11 +54,10 @@ impl RiseSection {
         Some(Wear::of_rise(rise, self.column_share, angles))
     }
 
-    /// Reads the keys of rise and of both depths from the current section of a truck, and writes them. Depths
-    /// that are given replace a rise of all wedges.
+    /// Reads the keys of rise and of both depths from the current section, and writes them. Depths that are
+    /// given replace a rise of all wedges.
     pub(crate) fn read(&mut self, r: &mut CaseReader<'_>, wear: &mut Wear, angles: [f64; 3]) {
-        let given = |key: &str| r.given().is_some_and(|own| own.table.get(key).is_some());
-        let [rise, column, slope] = [RISE, DEPTHS[0], DEPTHS[1]].map(given);
+        let [rise, column, slope] = [RISE, DEPTHS[0], DEPTHS[1]].map(|key| r.gives(key));
         if rise {
             *wear = Wear::default();
         } else if let Some(depths) = self.wear(angles).filter(|_| column || slope) {
@@ -91,6 +88,16 @@ impl RiseSection {
         );
     }
 
+    /// Notes wear by which nothing is left of a wedge of this height (m) and angle (rad).
+    pub(crate) fn check_thickness(&self, r: &mut CaseReader<'_>, [height, angle]: [f64; 2], wear: &Wear) {
+        if let Some(reason) = geometry::worn_away(height, angle, wear) {
+            let key = [RISE, DEPTHS[0], DEPTHS[1]].into_iter().find(|key| r.gives(key));
+            let path = r.path(key.unwrap_or("height"));
+            let help = "look at the unit: wear is a fraction of an inch";
+            r.problem_at(&path, Problem::new(reason).label("beyond the wedge").help(help));
+        }
+    }
+
     /// Notes a rise beyond what the pocket holds, m.
     pub(crate) fn check_limit(&self, r: &mut CaseReader<'_>, limit: f64) {
         let Some(rise) = self.rise.as_ref().filter(|rise| rise.to_si() > limit) else {
@@ -103,56 +110,6 @@ impl RiseSection {
         ));
         let help = "write a smaller rise, or the rise that your pocket holds as rise_limit";
         r.problem_at(&path, problem.label("out of its pocket").help(help));
-    }
-
-    /// Reads the keys of a wedge's section; `depths` are those beside them.
-    pub(super) fn of_wedge(
-        s: &CaseSection<'_>,
-        depths: [&Quantity; 2],
-        problems: &mut Problems,
-    ) -> Option<Self> {
-        let given = |key: &str| s.table.get(key).is_some();
-        let usual = Self::default();
-        let column_share = match given(SHARE) {
-            true => s.number(SHARE, SHARES, "0.5", problems)?,
-            false => usual.column_share,
-        };
-        if !given(RISE) {
-            return Some(Self {
-                column_share,
-                ..usual
-            });
-        }
-        let (kind, range, _) = FORM;
-        let rise = s.quantity(RISE, kind, range, problems)?;
-        for (key, depth) in DEPTHS.into_iter().zip(depths) {
-            if let (true, Some(node)) = (depth.to_si() != 0.0, s.table.get(key)) {
-                problems.push(both(&s.path_of(key), depth).at(&node.place));
-            }
-        }
-        Some(Self {
-            rise: Some(rise),
-            column_share,
-        })
-    }
-
-    /// Writes the keys of a wedge's section with the depths beside them.
-    pub(super) fn write(&self, page: &mut Page, depths: [&Quantity; 2]) {
-        match &self.rise {
-            Some(rise) => page.line(RISE, Written::quantity(rise, FORM.0, FORM.2), OF_RISE),
-            None => {
-                for ((key, comment), depth) in DEPTHS.into_iter().zip(OF_DEPTHS).zip(depths) {
-                    let written = Written::quantity(depth, Kind::Length, Reach::FromZero(WEAR));
-                    page.line(key, written, comment);
-                }
-                page.absent(RISE, EXAMPLE, OF_RISE);
-            }
-        }
-        page.line(
-            SHARE,
-            Written::number(self.column_share, Reach::Between(0.0, 1.0)),
-            OF_SHARE,
-        );
     }
 }
 

@@ -4,7 +4,7 @@
 //! point. Empty lines and lines that begin with `#` do not count.
 
 use super::bounds;
-use super::problem::{CaseError, Problem, Problems, TomlLocation, TomlSource};
+use super::problem::{Problem, Problems, TomlLocation, TomlSource};
 use super::section::{self, CaseSection, Range};
 use super::tables::Tables;
 use super::tree::{NodeValue, TreeNode};
@@ -23,47 +23,10 @@ pub struct QuantityTable<const N: usize = 2> {
     pub rows: Vec<[Quantity; N]>,
 }
 
-impl QuantityTable {
-    /// Reads the text of a CSV file with times and values of this kind, as a motion takes it. Messages call
-    /// it `name`.
-    ///
-    /// # Errors
-    /// The text is no such table.
-    pub fn parse_motion(name: &str, text: &str, kind: Kind) -> Result<Self, CaseError> {
-        Self::parse(name, text, &TableForm::motion(kind))
-    }
-
-    /// Reads the text of a CSV file with compressions and forces, as a coil takes it. Messages call it
-    /// `name`.
-    ///
-    /// # Errors
-    /// The text is no such table.
-    pub fn parse_coil(name: &str, text: &str) -> Result<Self, CaseError> {
-        Self::parse(name, text, &TableForm::coil())
-    }
-
-    fn parse(name: &str, text: &str, form: &TableForm) -> Result<Self, CaseError> {
-        let source = TomlSource::new(name, text.strip_prefix('\u{feff}').unwrap_or(text));
-        let begin = TomlLocation {
-            source: Arc::clone(&source),
-            span: 0..0,
-        };
-        let mut problems = Problems::new();
-        let rows = read_csv(&source, form, &mut problems);
-        match rows {
-            Some(rows) if check(&rows, &begin, name, form, &mut problems).is_some() => Ok(Self {
-                file: Some(name.to_owned()),
-                rows: rows.into_iter().map(|row| row.values).collect(),
-            }),
-            _ => Err(CaseError::new(problems)),
-        }
-    }
-}
-
 impl<const N: usize> QuantityTable<N> {
     /// Returns the same points in the units of a system; `kinds` are those of the columns.
     #[must_use]
-    pub(super) fn in_system(&self, kinds: [Kind; N], system: System) -> Self {
+    pub(crate) fn in_system(&self, kinds: [Kind; N], system: System) -> Self {
         let row = |row: &[Quantity; N]| std::array::from_fn(|i| in_system(&row[i], kinds[i], system));
         Self {
             file: self.file.clone(),
@@ -72,7 +35,7 @@ impl<const N: usize> QuantityTable<N> {
     }
 
     /// Returns the points as a list, as written in a case file.
-    pub(super) fn points_to_toml(&self) -> String {
+    pub(crate) fn points_to_toml(&self) -> String {
         let text = |quantity: &Quantity| toml::Value::from(quantity.text()).to_string();
         let rows: Vec<String> = self
             .rows
@@ -84,9 +47,9 @@ impl<const N: usize> QuantityTable<N> {
 }
 
 /// The form of a table.
-pub(super) struct TableForm<const N: usize = 2> {
+pub(crate) struct TableForm<const N: usize = 2> {
     names: [&'static str; N],
-    kinds: [Kind; N],
+    pub kinds: [Kind; N],
     least: usize,
     /// True if the first column must increase.
     ordered: bool,
@@ -207,7 +170,7 @@ pub(super) fn read_either<const N: usize>(
 
 /// Reads a table from the name of a file or from points. Of a file that must not be quoted, messages tell the
 /// place and the kind of a mistake.
-pub(super) fn read<const N: usize>(
+pub(crate) fn read<const N: usize>(
     node: &TreeNode,
     path: &str,
     form: &TableForm<N>,

@@ -1,11 +1,13 @@
-//! Reading the toe of a column: an angle with its direction in words.
+//! The toe of a column: an angle with its direction in words.
 
 use quantity::{Kind, Quantity};
 
-use super::document::{Toe, ToeDirection};
+use super::field::{Input, Reach, TypedNumber, Written, quoted};
+use super::page::TURN;
 use super::problem::{Problem, Problems, TomlLocation};
 use super::section::{self, CaseSection, Range, inner_place, unit_problem};
 use super::tree::{NodeValue, TreeNode};
+use crate::reader::CaseReader;
 
 /// Toes that make sense, rad.
 const TOE: Range = Range::Between(
@@ -14,16 +16,77 @@ const TOE: Range = Range::Between(
     "below 22.5 deg",
 );
 
-/// Reads a toe: a text such as `0.2 deg out`, or a number in rad, positive out, from a program.
-/// Reads the height of the point about which toe turns the column; the middle of the face if it is left out.
-pub(crate) fn read_toe_pivot(s: &CaseSection<'_>, problems: &mut Problems) -> Option<Quantity> {
-    match s.table.get("toe_pivot") {
-        Some(_) => s.quantity("toe_pivot", Kind::Length, Range::Any, problems),
-        None => Quantity::new(0.0, "in").ok(),
+/// The direction in which the gap between column and bolster opens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Direction {
+    /// It closes downwards.
+    In,
+    /// It opens downwards.
+    Out,
+}
+
+impl Direction {
+    fn name(self) -> &'static str {
+        match self {
+            Self::In => "in",
+            Self::Out => "out",
+        }
     }
 }
 
-pub(crate) fn read_toe(s: &CaseSection<'_>, problems: &mut Problems) -> Option<Toe> {
+/// The toe angle of a column, as typed.
+pub(crate) struct Toe {
+    /// Its size, never negative.
+    angle: Quantity,
+    /// Its direction; may be left out for a toe of zero.
+    direction: Option<Direction>,
+}
+
+impl Toe {
+    /// Reads `toe` of the current section over an angle (rad, positive out). Returns the angle.
+    pub fn read(r: &mut CaseReader<'_>, usual: f64) -> f64 {
+        let degrees = usual.to_degrees();
+        let direction = match degrees {
+            _ if degrees > 0.0 => Some(Direction::Out),
+            _ if degrees < 0.0 => Some(Direction::In),
+            _ => None,
+        };
+        let Ok(angle) = Quantity::new(degrees.abs(), "deg") else {
+            return usual;
+        };
+        let comment = "of the column; out: the gap between column and bolster opens downwards; in: it closes";
+        let usual = Self { angle, direction };
+        r.other("toe", comment, usual, read, Self::written).to_si()
+    }
+
+    /// Returns the angle in rad, positive for toe out (eq. 5-1 of the thesis).
+    fn to_si(&self) -> f64 {
+        match self.direction {
+            Some(Direction::In) => -self.angle.to_si(),
+            _ => self.angle.to_si(),
+        }
+    }
+
+    fn written(&self) -> Written {
+        let mut number = TypedNumber::of(&self.angle, Kind::Angle, Reach::Signed(TURN));
+        let text = match self.direction {
+            Some(direction) => format!("{} {}", self.angle, direction.name()),
+            None => self.angle.to_string(),
+        };
+        if self.direction == Some(Direction::In) {
+            number.value = -number.value;
+            number.si = -number.si;
+        }
+        number.signs = Some([Direction::In, Direction::Out].map(Direction::name));
+        Written {
+            toml: quoted(&text),
+            input: Input::Number(number),
+        }
+    }
+}
+
+/// Reads a toe: a text such as `0.2 deg out`, or a number in rad, positive out, from a program.
+fn read(s: &CaseSection<'_>, problems: &mut Problems) -> Option<Toe> {
     const HELP: &str = "write for example \"0.2 deg out\" (the gap between column and bolster opens \
                         downwards), \"0.2 deg in\", or \"0 deg\"";
     let node = s.require("toe", HELP, problems)?;
@@ -48,8 +111,8 @@ pub(crate) fn read_toe(s: &CaseSection<'_>, problems: &mut Problems) -> Option<T
     };
     let trimmed = text.trim_end();
     let (angle, direction) = match trimmed.rsplit_once(char::is_whitespace) {
-        Some((angle, "out")) => (angle, Some(ToeDirection::Out)),
-        Some((angle, "in")) => (angle, Some(ToeDirection::In)),
+        Some((angle, "out")) => (angle, Some(Direction::Out)),
+        Some((angle, "in")) => (angle, Some(Direction::In)),
         _ => (trimmed, None),
     };
     let mut bad = |problem: Problem, place: &TomlLocation, label: &str| {
@@ -91,8 +154,8 @@ fn signed_toe(angle: f64, node: &TreeNode, path: &str, problems: &mut Problems) 
     Some(Toe {
         angle: section::quantity(&size, path, Kind::Angle, TOE, problems)?,
         direction: match angle {
-            _ if angle > 0.0 => Some(ToeDirection::Out),
-            _ if angle < 0.0 => Some(ToeDirection::In),
+            _ if angle > 0.0 => Some(Direction::Out),
+            _ if angle < 0.0 => Some(Direction::In),
             _ => None,
         },
     })

@@ -252,10 +252,12 @@ impl TableNode {
     /// Tables are completed key by key, but for motions of another `shape` and for keys that
     /// exclude each other.
     pub fn complete_from(&mut self, defaults: &TableNode) {
-        let has_table = self.entry("table").is_some();
+        let has = |key| self.entry(key).is_some();
+        // Of a coil's stiffness and its table one replaces the other.
+        let other = [("stiffness", has("table")), ("table", has("stiffness"))];
         for default in &defaults.entries {
             match self.entries.iter_mut().find(|entry| entry.key == default.key) {
-                None if default.key == "stiffness" && has_table => {}
+                None if other.contains(&(&*default.key, true)) => {}
                 None => self.entries.push(default.clone()),
                 Some(own) => {
                     if let (NodeValue::Table(own), NodeValue::Table(default)) =

@@ -18,7 +18,7 @@ use crate::case::name;
 use crate::case::problem::{Problem, Problems, TomlLocation, TomlSource};
 use crate::case::section::{CaseSection, Names};
 use crate::case::tree::{self, NodeValue as Toml, TableNode, TreeNode};
-use crate::case::{CASE_FILE, CaseDocument, CaseError};
+use crate::case::{CASE_FILE, CASE_TABLES, CaseError};
 use crate::truck;
 use vary::{RANGE_HELP, TRIED, assignments, check_paths, factors, variants};
 
@@ -102,7 +102,7 @@ pub(super) fn text(
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let failed = |problems| CaseError::new(problems).of("study");
     let tree = tree::parse(&TomlSource::new(file, text)).map_err(failed)?;
-    let sections = CaseDocument::SECTIONS.iter();
+    let sections = CASE_TABLES.iter();
     if let Some(case) = sections
         .filter(|_| tree.entry("case").is_none())
         .find_map(|key| tree.entry(key))

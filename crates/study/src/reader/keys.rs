@@ -3,11 +3,13 @@
 use quantity::{Kind, Quantity, STANDARD_GRAVITY, System};
 
 use super::{CaseReader, QuantityForm, WEIGHT};
-use crate::case::document::Coordinate;
 use crate::case::face::FaceSection;
-use crate::case::field::{Reach, Written};
+use crate::case::field::{Reach, Written, quoted};
+use crate::case::names::COORDINATES;
+use crate::case::page::write_points;
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{self, CaseSection, Names, Range};
+use crate::case::table::{self, QuantityTable, TableForm};
 use crate::case::tree::NodeValue;
 
 impl CaseReader<'_> {
@@ -18,11 +20,24 @@ impl CaseReader<'_> {
         value: &mut f64,
         comment: &str,
     ) -> Option<Quantity> {
+        self.quantity_or(key, form, None, value, comment)
+    }
+
+    /// A quantity with a default as it would be typed, or with its value as the default.
+    pub fn quantity_or(
+        &mut self,
+        key: &'static str,
+        form: QuantityForm,
+        default: Option<Quantity>,
+        value: &mut f64,
+        comment: &str,
+    ) -> Option<Quantity> {
         let (kind, range, reach) = form;
         let node = self.node(key);
-        let quantity = match node {
-            Some(node) => section::quantity(node, &self.path(key), kind, range, self.problems)?,
-            None => in_customary_units(*value, kind)?,
+        let quantity = match (node, default) {
+            (Some(node), _) => section::quantity(node, &self.path(key), kind, range, self.problems)?,
+            (None, Some(default)) => default,
+            (None, None) => in_customary_units(*value, kind)?,
         };
         *value = quantity.to_si();
         self.line(
@@ -43,10 +58,7 @@ impl CaseReader<'_> {
         example: &str,
         comment: &str,
     ) -> Option<Quantity> {
-        let given = self
-            .table_at(&self.section)
-            .is_some_and(|table| table.get(key).is_some());
-        if let (false, None) = (given, &value) {
+        if let (false, None) = (self.gives(key), &value) {
             self.node(key);
             if !self.overlay {
                 for page in &mut self.pages {
@@ -69,12 +81,24 @@ impl CaseReader<'_> {
     }
 
     pub fn triple(&mut self, key: &'static str, form: QuantityForm, values: &mut [f64; 3], comment: &str) {
+        self.triple_in(customary(form.0), key, form, values, comment);
+    }
+
+    /// Three quantities; a unit for their defaults.
+    pub fn triple_in(
+        &mut self,
+        unit: &str,
+        key: &'static str,
+        form: QuantityForm,
+        values: &mut [f64; 3],
+        comment: &str,
+    ) {
         let (kind, range, reach) = form;
         let given = self.node(key).is_some();
         let triple = match self.given().filter(|_| given) {
             Some(section) => section.triple(key, kind, range, self.problems),
             None => {
-                let [a, b, c] = values.map(|value| in_customary_units(value, kind));
+                let [a, b, c] = values.map(|value| in_unit(value, unit));
                 a.zip(b).zip(c).map(|((a, b), c)| [a, b, c])
             }
         };
@@ -164,12 +188,9 @@ impl CaseReader<'_> {
 
     /// The coordinates that are free; `none` says what is wrong if there are none, if that is wrong.
     pub fn free_coordinates(&mut self, free: &mut [bool; 6], none: Option<&str>, comment: &str) {
-        let mut list: Vec<Coordinate> = Coordinate::NAMES
-            .iter()
-            .filter(|(_, coordinate)| free[*coordinate as usize])
-            .map(|(_, coordinate)| *coordinate)
-            .collect();
-        self.several("free_coordinates", Coordinate::NAMES, &mut list, comment);
+        let chosen = COORDINATES.iter().map(|(_, number)| *number);
+        let mut list: Vec<usize> = chosen.filter(|number| free[*number]).collect();
+        self.several("free_coordinates", COORDINATES, &mut list, comment);
         if let Some(none) = none.filter(|_| list.is_empty()) {
             let path = self.path("free_coordinates");
             let problem = Problem::new(format!("`{path}` is empty: {none}"));
@@ -178,7 +199,7 @@ impl CaseReader<'_> {
         }
         *free = [false; 6];
         for coordinate in list {
-            free[coordinate as usize] = true;
+            free[coordinate] = true;
         }
     }
 
@@ -200,19 +221,44 @@ impl CaseReader<'_> {
         value
     }
 
+    /// A table that is given, of points or in a file.
+    pub fn table(
+        &mut self,
+        key: &'static str,
+        form: &TableForm,
+        reach: Reach,
+        comment: &str,
+    ) -> Option<QuantityTable> {
+        let node = self.node(key)?;
+        let table = table::read(node, &self.path(key), form, self.tables, self.problems)?;
+        self.rows += table.rows.len();
+        let kinds = form.kinds;
+        let embedded = QuantityTable {
+            file: None,
+            ..table.clone()
+        };
+        for (page, table) in self.pages.iter_mut().zip([&table, &embedded]) {
+            let written = |system: Option<System>| match (&table.file, system) {
+                (Some(file), _) => quoted(file),
+                (None, None) => table.points_to_toml(),
+                (None, Some(system)) => table.in_system(kinds, system).points_to_toml(),
+            };
+            page.line(key, Written::toml_in_units(written), comment);
+            write_points(page, key, table, kinds[1], reach);
+        }
+        Some(table)
+    }
+
     /// The keys of a face of a wedge.
     pub fn face(&mut self, face: &mut FaceSection) {
-        let given = |key: &str| {
-            self.table_at(&self.section)
-                .is_some_and(|table| table.get(key).is_some())
-        };
-        let given: Vec<bool> = FaceSection::KEYS.iter().map(|key| given(key)).collect();
+        let given: Vec<bool> = FaceSection::KEYS.iter().map(|key| self.gives(key)).collect();
         for key in FaceSection::KEYS {
             self.node(key);
         }
         if let Some(section) = self.given()
             && let Some(read) = face.read_over(&section, self.tables, self.problems)
         {
+            self.rows += read.rows();
             *face = read;
         }
         let mut embedded = face.clone();
@@ -230,14 +276,22 @@ impl CaseReader<'_> {
     }
 }
 
-/// Returns an SI value in the customary unit of its kind, with the fewest digits that differ from it by
-/// rounding only.
-pub(crate) fn in_customary_units(value: f64, kind: Kind) -> Option<Quantity> {
-    let unit = match kind {
+/// Returns the unit in which a default of this kind is written.
+fn customary(kind: Kind) -> &'static str {
+    match kind {
         Kind::Inertia => "lbf in s^2",
         Kind::Acceleration => "m/s^2",
         other => other.unit(System::Us),
-    };
+    }
+}
+
+/// Returns an SI value in the customary unit of its kind, as [`in_unit`].
+pub(crate) fn in_customary_units(value: f64, kind: Kind) -> Option<Quantity> {
+    in_unit(value, customary(kind))
+}
+
+/// Returns an SI value in a unit, with the fewest digits that differ from it by rounding only.
+fn in_unit(value: f64, unit: &str) -> Option<Quantity> {
     let one = Quantity::new(1.0, unit).ok()?.to_si();
     let number = value / one;
     let rounded = (0..17).filter_map(|decimals| format!("{number:.decimals$e}").parse::<f64>().ok());

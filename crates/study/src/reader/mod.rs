@@ -1,8 +1,7 @@
 //! Reading a case key by key: what is left out has a default, and everything is written down as it is read.
 //!
 //! One line for each key says its name, what it measures, its range, its default and what it means. From
-//! these lines come the values, the complete, commented case file and the fields of the explorer. Cases of
-//! trucks and of cars are read so.
+//! these lines come the values, the complete, commented case file and the fields of the explorer.
 
 mod keys;
 mod motions;
@@ -13,15 +12,17 @@ pub(crate) use keys::in_customary_units;
 pub(crate) use motions::check_motions;
 pub(crate) use text::CaseText;
 
+use std::mem;
+
 use quantity::Kind;
 
 use crate::case::field::{Reach, Written};
 use crate::case::model::{MODELS, Model};
+use crate::case::page::Page;
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Range};
 use crate::case::tables::NamedFile;
 use crate::case::tree::{NodeValue, TableNode, TreeNode};
-use crate::case::write::Page;
 use crate::case::{Tables, motion, name};
 
 /// Kind, range and suggested reach of a quantity.
@@ -57,6 +58,8 @@ pub(crate) struct CaseReader<'r> {
     known: Vec<(String, Vec<&'static str>)>,
     /// Sections whose keys others read.
     elsewhere: Vec<String>,
+    /// Rows of the tables that were read.
+    rows: usize,
     /// The motions that were given, with their paths.
     pub motions: Vec<(String, motion::CaseMotion)>,
     /// Profiles and measured tables that were read.
@@ -75,6 +78,7 @@ impl<'r> CaseReader<'r> {
             overlay: false,
             known: vec![(String::new(), Vec::new())],
             elsewhere: Vec::new(),
+            rows: 0,
             motions: Vec::new(),
             files: Vec::new(),
         }
@@ -139,6 +143,32 @@ impl<'r> CaseReader<'r> {
         let path = &self.full(path);
         let (section, key) = path.rsplit_once('.').unwrap_or(("", path));
         self.table_at(section)?.get(key)
+    }
+
+    /// Returns whether the case describes anything, whatever its name and its settings of the run.
+    pub fn gives_values(&self) -> bool {
+        self.tree.gives_values()
+    }
+
+    /// Returns whether the current section has a key.
+    pub fn gives(&self, key: &str) -> bool {
+        self.table_at(&self.section)
+            .is_some_and(|own| own.get(key).is_some())
+    }
+
+    /// Says that the current section may have a key too.
+    pub fn also_known(&mut self, key: &'static str) {
+        self.node(key);
+    }
+
+    /// Notes a mistake at the key with a full path, not at its value.
+    pub fn problem_at_key(&mut self, path: &str, problem: Problem) {
+        let (section, key) = path.rsplit_once('.').unwrap_or(("", path));
+        let entry = self.table_at(section).and_then(|table| table.entry(key));
+        self.problems.push(match entry {
+            Some(entry) => problem.at(&entry.key_place),
+            None => problem,
+        });
     }
 
     /// Notes a mistake at a path.
@@ -249,7 +279,7 @@ impl<'r> CaseReader<'r> {
     }
 
     /// Notes keys that nobody asked for; `what` is read: a truck's case. Returns the completed case.
-    pub fn finish(self, what: &str) -> CaseText {
+    pub fn finish(&mut self, what: &str) -> CaseText {
         let owners: Vec<(&str, &[&str])> = self
             .known
             .iter()
@@ -292,7 +322,7 @@ impl<'r> CaseReader<'r> {
                 section.allow_in(&keys, &owners, what, self.problems);
             }
         }
-        let [typed, embedded] = self.pages;
+        let [typed, embedded] = mem::take(&mut self.pages);
         CaseText {
             typed: typed.text,
             embedded: embedded.text,

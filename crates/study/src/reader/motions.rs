@@ -1,35 +1,38 @@
 //! Motions of bodies, and loads on them.
 
+use std::mem;
+
+use input::limits;
 use mechanics::motion::Motion;
 use quantity::{Kind, Quantity};
 use wedge::parameters::NeighbourMotion;
 
 use super::CaseReader;
 use super::keys::in_customary_units;
-use crate::case::document::{Coordinate, NeighbourSection};
 use crate::case::field::{Reach, Written};
+use crate::case::motion;
+use crate::case::names::{COORDINATES, MOTIONS};
+use crate::case::page::{TURN, write_motion};
 use crate::case::problem::Problem;
 use crate::case::section::Range;
-use crate::case::write::{TURN, write_motion};
-use crate::case::{self, motion, resolve};
 
 impl CaseReader<'_> {
-    /// The motions of a body; `free` says that it has free coordinates and must not be moved.
-    pub fn motions(&mut self, own: &mut NeighbourMotion, free: bool) {
+    /// The motions of a body; `free` says that it has free coordinates and must not be moved, `center` what the
+    /// point means about which it turns.
+    pub fn motions(&mut self, own: &mut NeighbourMotion, free: bool, center: &str) {
         let given = self.node("center").is_some();
         if let Some(section) = self.given().filter(|_| given) {
             if let Some(typed) = section.triple("center", Kind::Length, Range::Any, self.problems) {
                 own.center = Some(typed.each_ref().map(Quantity::to_si));
                 let written = Written::triple(&typed, Kind::Length, Reach::Signed(0.0254));
-                self.line("center", true, written, "the point it turns about, in truck axes");
+                self.line("center", true, written, center);
             }
         } else if !self.overlay {
             for page in &mut self.pages {
-                let comment = "the point it turns about, in truck axes; left out, its center of gravity";
-                page.absent("center", r#"["0 in", "0 in", "0 in"]"#, comment);
+                page.absent("center", r#"["0 in", "0 in", "0 in"]"#, center);
             }
         }
-        for (at, key) in NeighbourSection::COORDINATES.into_iter().enumerate() {
+        for (at, key) in MOTIONS.into_iter().enumerate() {
             let (kind, most) = if at < 3 {
                 (Kind::Length, 0.0254)
             } else {
@@ -48,7 +51,7 @@ impl CaseReader<'_> {
         if !self.overlay(&path, about) {
             return;
         }
-        for (at, key) in NeighbourSection::COORDINATES.into_iter().enumerate() {
+        for (at, key) in MOTIONS.into_iter().enumerate() {
             let (kind, most) = if at < 3 {
                 (Kind::Force, 1e5)
             } else {
@@ -60,7 +63,7 @@ impl CaseReader<'_> {
                 let problem = Problem::new(format!("`{path}` loads a coordinate that is not free"));
                 let help = format!(
                     "add \"{}\" to {body}.free_coordinates, or prescribe {body}.{key} instead",
-                    Coordinate::NAMES[at].0
+                    COORDINATES[at].0
                 );
                 self.problem_at(&path, problem.label("this would have no effect").help(help));
             }
@@ -85,7 +88,7 @@ impl CaseReader<'_> {
         let Some(typed) = motion::read(node, &path, kind, self.tables, self.problems) else {
             return;
         };
-        match resolve::motion(&typed) {
+        match motion::to_si(&typed) {
             Ok(motion) => *value = motion,
             Err(reason) => {
                 let problem = Problem::new(format!("`{path}`: {reason}")).at(&node.place);
@@ -123,22 +126,39 @@ impl CaseReader<'_> {
     }
 }
 
-/// The check of tables in motions against the duration.
+/// Notes tables in motions that do not last as long as the run, and too many rows in all tables together.
 pub(crate) fn check_motions(reader: &mut CaseReader<'_>, duration: &Quantity) {
-    let (tree, tables) = (reader.tree, reader.tables);
-    let mut rows = 0;
-    for (path, motion) in &reader.motions {
-        case::duration::check_motion_covers(path, motion, duration, tree, tables, reader.problems);
-        rows += motion
-            .tables()
-            .iter()
-            .map(|table| table.rows.len())
-            .sum::<usize>();
+    let mut rows = reader.rows;
+    for (path, motion) in mem::take(&mut reader.motions) {
+        let covers =
+            |first: &Quantity, last: &Quantity| first.to_si() <= 0.0 && last.to_si() >= duration.to_si();
+        for table in motion.tables() {
+            rows += table.rows.len();
+            let (Some([first, _]), Some([last, _])) = (table.rows.first(), table.rows.last()) else {
+                continue;
+            };
+            if covers(first, last) {
+                continue;
+            }
+            let message = match &table.file {
+                Some(file) if !reader.tables.may_quote() => {
+                    format!("`{path}`: {file} does not last from 0 to {duration}, as the run does")
+                }
+                _ => {
+                    format!(
+                        "`{path}` is given from {first} to {last}, but the run lasts from 0 to {duration}"
+                    )
+                }
+            };
+            let help = "add rows to the table, or shorten simulation.duration";
+            let problem = Problem::new(message).label("does not cover the run").help(help);
+            reader.problem_at(&path, problem);
+        }
     }
-    if rows > input::limits::CASE_ROWS {
-        let most = input::limits::CASE_ROWS;
+    if rows > limits::CASE_ROWS {
+        let most = limits::CASE_ROWS;
         let message = format!("the tables of the case have {rows} rows together; at most {most} are read");
-        let problem = Problem::new(message).help("leave out rows: motions are smooth between them");
+        let problem = Problem::new(message).help("leave out rows: values between them are interpolated");
         reader.problems.push(problem);
     }
 }

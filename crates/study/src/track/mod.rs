@@ -38,7 +38,7 @@ use wheelrail::track::{CLEARANCE, CenterLine, CurveElements, Placed, Segment, Tr
 use crate::case::problem::{Problem, Problems, TomlSource};
 use crate::case::section::{CaseSection, Names, Range};
 use crate::case::tree::{self, NodeValue, TableNode};
-use crate::case::{CaseDocument, CaseError, STUDY_KEYS, Tables, name, text_of_file};
+use crate::case::{CASE_TABLES, CaseError, STUDY_KEYS, Tables, name, text_of_file};
 
 use crate::case::tables::NamedFile;
 
@@ -127,7 +127,7 @@ impl TrackFile {
     pub fn parse(source: &str, text: &str) -> Result<Self, CaseError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let tree = tree::parse(&TomlSource::new(source, text)).map_err(CaseError::new)?;
-        let sections = CaseDocument::SECTIONS.iter();
+        let sections = CASE_TABLES.iter();
         let mut foreign = sections
             .chain(STUDY_KEYS.iter())
             .filter_map(|key| tree.entry(key));

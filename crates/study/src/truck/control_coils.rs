@@ -1,17 +1,17 @@
 //! Control coils: by their numbers, of the thesis, or by their name in the catalog.
 
-use mechanics::coil::{CoilLaw, CoilLine};
 use quantity::Kind;
 use truck::Spring;
 use wedge::parameters::{ControlCoil as ThesisCoil, Damping};
 
 use super::sections::{self, spring_stiffnesses};
 use super::wedges::Draft;
+use crate::case::coil;
 use crate::case::field::Reach;
 use crate::case::problem::Problem;
 use crate::case::section::{Names, Range};
 use crate::case::tree::NodeValue;
-use crate::reader::{CaseReader, DAMPING, LENGTH, PRELOAD, STIFFNESS};
+use crate::reader::{CaseReader, DAMPING, PRELOAD, STIFFNESS};
 
 const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
@@ -42,12 +42,9 @@ const COIL_KINDS: Names<CoilKind> = &[
     ("thesis", CoilKind::Thesis),
     ("nothing", CoilKind::Nothing),
 ];
-const LINES: Names<CoilLine> = &[
-    ("center_of_gravity", CoilLine::CenterOfGravity),
-    ("seat", CoilLine::Seat),
-];
 /// Keys that only the thesis's coil has.
-const OF_THESIS: [&str; 5] = [
+const OF_THESIS: [&str; 6] = [
+    "table",
     "free_length",
     "nominal_length",
     "rotational_damping",
@@ -73,22 +70,8 @@ const MOST_COILS: usize = 2;
 
 /// Returns the thesis's coil (Steets 2007, table 3-2), and its place below the wedge.
 pub(super) fn thesis_coil(damping: Damping) -> (ThesisCoil, [f64; 3]) {
-    let [stiffness, free, nominal] = match damping {
-        Damping::Variable => [3000.0, 10.25, 10.25],
-        Damping::Constant => [1979.0, 7.25, 7.25 - 3702.2 / 1979.0],
-    };
-    let coil = ThesisCoil {
-        law: CoilLaw::Linear {
-            stiffness: stiffness * POUND_FORCE / INCH,
-        },
-        free_length: free * INCH,
-        nominal_length: nominal * INCH,
-        damping: POUND_FORCE / INCH,
-        rotational_damping: POUND_FORCE * INCH,
-        acts_at: CoilLine::CenterOfGravity,
-        pulls: true,
-    };
-    (coil, [-1.0734 * INCH, 0.0, 2.0417 * INCH])
+    let own = wedge::thesis::parameters(damping, 0.0, 0.0);
+    (own.coil, own.wedge.center_of_gravity)
 }
 
 impl Named {
@@ -199,33 +182,7 @@ impl Draft {
             r.quantity("damping", DAMPING, &mut self.spring.damping, "in every direction");
             return;
         }
-        let coil = &mut self.thesis;
-        if let CoilLaw::Linear { stiffness } = &mut coil.law {
-            r.quantity("stiffness", STIFFNESS, stiffness, "along the coil");
-        }
-        r.quantity("free_length", LENGTH, &mut coil.free_length, "without force");
-        r.quantity(
-            "nominal_length",
-            LENGTH,
-            &mut coil.nominal_length,
-            "in the nominal layout",
-        );
-        r.quantity("damping", DAMPING, &mut coil.damping, "along the coil");
-        let rotational = (Kind::RotationalDamping, Range::NotNegative, Reach::FromZero(1.0));
-        let comment = "of the wedge's rotations";
-        r.quantity(
-            "rotational_damping",
-            rotational,
-            &mut coil.rotational_damping,
-            comment,
-        );
-        r.choice(
-            "acts_at",
-            LINES,
-            &mut coil.acts_at,
-            "\"center_of_gravity\" or \"seat\"",
-        );
-        r.truth("pulls", &mut coil.pulls, "false: it lifts off at its free length");
+        coil::thesis_coil(r, &mut self.thesis, self.damping);
         let place = (Kind::Length, Range::Any, Reach::Signed(INCH));
         let comment = "of the wedge's center of gravity from the coil's end, x towards the bolster";
         r.triple("center_of_gravity", place, &mut self.to_center, comment);

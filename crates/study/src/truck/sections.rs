@@ -9,7 +9,7 @@ mod wheelsets;
 use mechanics::friction::FrictionLaw;
 use quantity::Kind;
 use truck::{Bolster, Clearance, Geometry, Lading, Parameters, RigidBody, WedgeKind, empirical_warp};
-use wedge::parameters::{Contact, Damping, FaceFriction, Start};
+use wedge::parameters::{Damping, FaceFriction};
 
 pub(super) use car_body::car_body;
 pub(crate) use car_body::{center_plate, side_bearings};
@@ -23,10 +23,12 @@ pub(crate) use wheelsets::adapter;
 pub(super) use wheelsets::wheelsets;
 
 use crate::case::field::Reach;
+use crate::case::friction::COEFFICIENT;
+use crate::case::motion;
+use crate::case::names::{DAMPINGS, STARTS};
+use crate::case::page::FRICTION;
 use crate::case::problem::Problem;
-use crate::case::read::COEFFICIENT;
 use crate::case::section::{Names, Range, choice};
-use crate::case::write::FRICTION;
 use crate::reader::{CLEARANCE, CaseReader, DAMPING, QuantityForm, STIFFNESS};
 
 /// A named condition of a truck.
@@ -65,19 +67,15 @@ const CONDITIONS: Names<Condition> = &[
     ("mu_0.25", Condition::LessFriction),
     ("worn", Condition::LessFriction),
 ];
-const DAMPINGS: Names<Damping> = &[("variable", Damping::Variable), ("constant", Damping::Constant)];
 pub(crate) const LOADS: Names<Load> = &[
     ("nothing", Load::Nothing),
     ("half_car", Load::HalfCar),
     ("car_body", Load::CarBody),
 ];
 pub(crate) const LADINGS: Names<Lading> = &[("loaded", Lading::Loaded), ("empty", Lading::Empty)];
-const STARTS: Names<Start> = &[
-    ("rest", Start::Rest),
-    ("touching", Start::Touching),
-    ("equilibrium", Start::Equilibrium),
-];
 
+/// What the point about which a body turns means.
+const TURNS_ABOUT: &str = "the point it turns about, in truck axes; left out, its center of gravity";
 /// kip·in, in N·m.
 const KIP_INCH: f64 = 112.984_829_027_616_7;
 /// A height above the top of rail.
@@ -131,16 +129,6 @@ fn clearance(r: &mut CaseReader<'_>, stop: &mut Clearance) {
     );
 }
 
-pub(crate) fn contact(r: &mut CaseReader<'_>, contact: &mut Contact, of: &str) {
-    r.quantity("stiffness", STIFFNESS, &mut contact.stiffness, of);
-    r.quantity(
-        "damping",
-        DAMPING,
-        &mut contact.damping,
-        "the same; it never pulls",
-    );
-}
-
 /// Friction with a bristle.
 fn friction(r: &mut CaseReader<'_>, friction: &mut FaceFriction) {
     r.number(
@@ -171,23 +159,15 @@ pub(crate) fn bolster(r: &mut CaseReader<'_>, parameters: &mut Parameters, load:
         motion,
         applied,
     } = &mut parameters.bolster;
-    r.section(
-        "bolster",
-        "The bolster, with load.kind = \"half_car\" together with half a car. A motion is one held value, \
-         a list of\n# motions to be added up, or one of\n\
-         # { shape = \"sine\", amplitude, frequency, phase, start }         frequency in rad/s, Hz or \
-         rpm\n# { shape = \"triangle\", amplitude, frequency, start }\n\
-         # { shape = \"swept_sine\", amplitude, start_frequency, end_frequency, duration, start }   then \
-         end_frequency\n\
-         # { shape = \"ramp\", amplitude, start, duration, profile }            \
-         profile \"smooth\", \"linear\" or \"half_cosine\"\n\
-         # { shape = \"table\", file = \"motion.csv\" }                            a cubic spline; or \
-         points = [[time, value], ...]",
+    let about = format!(
+        "The bolster, with load.kind = \"half_car\" together with half a car. A motion is {}",
+        motion::SHAPES_WRITTEN
     );
+    r.section("bolster", &about);
     let comment = "of x, y, z, roll, pitch, yaw; the others are held. [] prescribes the motions below";
     r.free_coordinates(free, None, comment);
     rigid_body(r, body);
-    r.motions(motion, free.contains(&true));
+    r.motions(motion, free.contains(&true), TURNS_ABOUT);
     r.loads("bolster", applied, *free);
 }
 
@@ -205,7 +185,7 @@ pub(crate) fn side_frames(
     let comment = "of both side frames; [] prescribes the motions below";
     r.free_coordinates(&mut base.free, None, comment);
     rigid_body(r, &mut base.body);
-    r.motions(&mut base.motion, base.free.contains(&true));
+    r.motions(&mut base.motion, base.free.contains(&true), TURNS_ABOUT);
     r.loads("side_frame", &mut base.applied, base.free);
     parameters.side_frames = [base.clone(), base];
     for (name, own) in ["left_side_frame", "right_side_frame"]
@@ -215,7 +195,7 @@ pub(crate) fn side_frames(
         if r.overlay(name, "One side frame: what is not given is as in [side_frame].") {
             r.free_coordinates(&mut own.free, None, "of this side frame");
             rigid_body(r, &mut own.body);
-            r.motions(&mut own.motion, own.free.contains(&true));
+            r.motions(&mut own.motion, own.free.contains(&true), TURNS_ABOUT);
         }
         r.loads(name, &mut own.applied, own.free);
     }

@@ -6,10 +6,10 @@ use truck::WedgeKind;
 use super::control_coils::CoilKind;
 use super::wedges::Draft;
 use crate::case::field::Reach;
+use crate::case::friction::COEFFICIENT;
+use crate::case::page::FRICTION;
 use crate::case::problem::Problem;
-use crate::case::read::COEFFICIENT;
 use crate::case::section::Range;
-use crate::case::write::FRICTION;
 use crate::reader::{CLEARANCE, CaseReader};
 
 /// Keys that only a split wedge has, in a section of their own.

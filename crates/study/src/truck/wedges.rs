@@ -10,28 +10,28 @@ use wedge::face::{FaceDirection, Rectangle};
 use wedge::parameters::{ControlCoil as ThesisCoil, Damping};
 
 use super::control_coils::{CoilKind, Named, thesis_coil};
-use super::sections::{columns, contact, wedge_places};
+use super::sections::{columns, wedge_places};
 use super::wedge_kinds::ACROSS;
-use crate::case::document::{FrictionLaw as Law, Toe, ToeDirection};
 use crate::case::face::{self, FaceSection};
 use crate::case::face_values::Surface;
-use crate::case::field::{Reach, Written};
+use crate::case::field::Reach;
+use crate::case::friction::Laws;
+use crate::case::names::Law;
+use crate::case::page::ANGLES;
 use crate::case::problem::Problem;
-use crate::case::read::{ANGLE, COEFFICIENT};
+use crate::case::read::{ANGLE, contact};
 use crate::case::rise::RiseSection;
 use crate::case::section::{Names, Range};
-use crate::case::toe::read_toe;
-use crate::case::write::{ANGLES, FRICTION, toe};
-use crate::geometry;
+use crate::case::toe::Toe;
 use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, STIFFNESS};
 
 /// A wedge while its sections are read: laws of friction keep their numbers while another one is chosen.
 #[derive(Clone)]
 pub(crate) struct Draft {
     pub(super) wedge: Wedge,
-    laws: [Law; 2],
-    reference_speed: f64,
-    bristle: [f64; 2],
+    laws: Laws,
+    /// Where its control coil stands.
+    pub(super) damping: Damping,
     pub(super) kind: CoilKind,
     pub(super) spring: Spring,
     pub(super) thesis: ThesisCoil,
@@ -42,8 +42,6 @@ pub(crate) struct Draft {
     pub(super) known: Vec<coils::CoilKind>,
     pub(super) named: Named,
 }
-
-const INCH: f64 = 0.0254;
 
 /// Returns the faces of wedges in service, column and slope: see [`Parameters::in_service`].
 fn in_service() -> [FaceSection; 2] {
@@ -77,9 +75,8 @@ impl Draft {
         let named = Named::usual(parameters.damping, &spring, &thesis);
         Self {
             wedge,
-            laws: [Law::Bristle; 2],
-            reference_speed: 0.001 * INCH,
-            bristle,
+            laws: Laws::new(Law::Bristle, bristle),
+            damping: parameters.damping,
             kind: CoilKind::Shear,
             spring,
             thesis,
@@ -92,22 +89,13 @@ impl Draft {
     }
 
     fn finished(self) -> Wedge {
-        let law = |law| match law {
-            Law::Tanh => FrictionLaw::Tanh {
-                reference_speed: self.reference_speed,
-            },
-            Law::Bristle => FrictionLaw::Bristle {
-                stiffness: self.bristle[0],
-                damping: self.bristle[1],
-            },
-        };
         let mut wedge = self.wedge;
         if let Some(wear) = self.rise.wear(wedge.rise_angles()) {
             wedge.wear = wear;
         }
-        wedge.column_friction.law = law(self.laws[0]);
-        wedge.slope_friction.law = law(self.laws[1]);
-        wedge.split.friction.law = law(self.laws[1]);
+        wedge.column_friction.law = self.laws.law(0);
+        wedge.slope_friction.law = self.laws.law(1);
+        wedge.split.friction.law = self.laws.law(1);
         // What cannot be resolved was noted where it was read.
         let [column, slope] = self
             .faces
@@ -163,18 +151,7 @@ impl Draft {
     }
 
     fn toe(&mut self, r: &mut CaseReader<'_>) {
-        let degrees = self.wedge.toe.to_degrees();
-        let direction = match degrees {
-            _ if degrees > 0.0 => Some(ToeDirection::Out),
-            _ if degrees < 0.0 => Some(ToeDirection::In),
-            _ => None,
-        };
-        let Ok(angle) = quantity::Quantity::new(degrees.abs(), "deg") else {
-            return;
-        };
-        let comment = "of the column; out: the gap between column and bolster opens downwards; in: it closes";
-        let read = r.other("toe", comment, Toe { angle, direction }, read_toe, toe);
-        self.wedge.toe = read.to_si();
+        self.wedge.toe = Toe::read(r, self.wedge.toe);
     }
 
     fn body(&mut self, r: &mut CaseReader<'_>) {
@@ -214,14 +191,7 @@ impl Draft {
         r.quantity("rise_limit", LENGTH, &mut wedge.rise_limit, comment);
         self.rise.check_limit(r, wedge.rise_limit);
         let wear = self.rise.wear(angles).unwrap_or(wedge.wear);
-        if let Some(reason) = geometry::worn_away(wedge.height, wedge.angle, &wear) {
-            let key = ["rise", "column_wear", "slope_wear"]
-                .into_iter()
-                .find(|key| r.given().is_some_and(|own| own.table.get(key).is_some()));
-            let path = r.path(key.unwrap_or("height"));
-            let help = "look at the unit: wear is a fraction of an inch";
-            r.problem_at(&path, Problem::new(reason).label("beyond the wedge").help(help));
-        }
+        self.rise.check_thickness(r, [wedge.height, wedge.angle], &wear);
         let comment = "of x, y, z, roll, pitch, yaw; the others are held";
         r.free_coordinates(&mut wedge.free, Some("the wedge could not move"), comment);
         let comment = "of the pocket's sides to each side; the thesis's wedge has none";
@@ -246,51 +216,9 @@ impl Draft {
     }
 
     fn friction(&mut self, r: &mut CaseReader<'_>) {
-        let comment = "\"bristle\" (holds) or \"tanh\" (the thesis's; creeps under load); or { column = \
-                       ..., slope = ... }";
-        let laws = r.other(
-            "law",
-            comment,
-            self.laws,
-            crate::case::read::read_laws,
-            |laws| match laws {
-                [column, slope] if column == slope => Written::choice(Law::NAMES, column),
-                [column, slope] => Written::toml(format!(
-                    "{{ column = \"{}\", slope = \"{}\" }}",
-                    column.name(),
-                    slope.name()
-                )),
-            },
-        );
-        self.laws = laws;
         let wedge = &mut self.wedge;
-        let (column, slope) = (
-            &mut wedge.column_friction.coefficient,
-            &mut wedge.slope_friction.coefficient,
-        );
-        r.number("column", COEFFICIENT, FRICTION, column, "coefficient of friction");
-        r.number("slope", COEFFICIENT, FRICTION, slope, "coefficient of friction");
-        let speed = (Kind::Speed, Range::Positive, Reach::Wide);
-        r.quantity(
-            "reference_speed",
-            speed,
-            &mut self.reference_speed,
-            "tanh: below it friction fades",
-        );
-        let [stiffness, damping] = &mut self.bristle;
-        r.quantity(
-            "bristle_stiffness",
-            STIFFNESS,
-            stiffness,
-            "bristle: tangential, per face",
-        );
-        let positive = (Kind::Damping, Range::Positive, Reach::Wide);
-        r.quantity(
-            "bristle_damping",
-            positive,
-            damping,
-            "bristle: tangential, per face",
-        );
+        let faces = [&mut wedge.column_friction, &mut wedge.slope_friction];
+        self.laws.read(r, faces);
     }
 }
 

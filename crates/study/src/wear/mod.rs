@@ -20,12 +20,12 @@ pub mod energy;
 
 use std::ops::ControlFlow;
 
-use quantity::Quantity;
 use thiserror::Error;
 use wedge::face::{DepthMap, FaceProperties};
 use wedge::outputs::FACES;
 
-use crate::case::{Case, CaseError, QuantityTable};
+use crate::case::face::SECTIONS as FACE_SECTIONS;
+use crate::case::{Case, CaseError, Tables};
 use crate::run::RunError;
 use archard::Archard;
 use counterface::{Counterfaces, Lattice};
@@ -344,24 +344,28 @@ fn worn(
     depths: &[Vec<f64>; 2],
     counterfaces: Option<&Counterfaces<'_>>,
 ) -> Result<Case, WearError> {
-    let table = |map: DepthMap| QuantityTable {
-        file: None,
-        rows: map
+    let set = |section: &str, key: &str, map: DepthMap| {
+        let points = map
             .points()
-            .map(|point| point.map(|value| Quantity::new(value, "m")))
-            .map(|[up, across, depth]| Some([up.ok()?, across.ok()?, depth.ok()?]))
-            .collect::<Option<Vec<_>>>()
-            .unwrap_or_default(),
+            .map(|point| point.map(|value| format!("\"{value:?} m\"")));
+        let rows: Vec<String> = points.map(|point| format!("[{}]", point.join(", "))).collect();
+        format!("{section}.{key}=[{}]", rows.join(", "))
     };
-    let mut document = case.document.clone();
-    for (own, map) in document.faces.iter_mut().zip(maps(case, depths)) {
-        own.wedge_wear = map.map(table);
+    let mut overrides = Vec::new();
+    for (section, map) in FACE_SECTIONS.into_iter().zip(maps(case, depths)) {
+        overrides.extend(map.map(|map| set(section, "wedge_wear", map)));
     }
     let counterfaces = counterfaces.into_iter().flat_map(|own| own.wear(case));
-    for (own, worn) in document.faces.iter_mut().zip(counterfaces) {
-        own.counterface_wear = worn.map.map(table);
+    for (section, worn) in FACE_SECTIONS.into_iter().zip(counterfaces) {
+        overrides.extend(worn.map.map(|map| set(section, "counterface_wear", map)));
     }
-    Case::from_document(&document).map_err(|error| WearError::Case(Box::new(error)))
+    Case::parse(
+        "case.toml",
+        case.to_toml_embedded(),
+        Tables::nowhere(),
+        &overrides,
+    )
+    .map_err(|error| WearError::Case(Box::new(error)))
 }
 
 /// Returns these depths at the points of both faces as maps; none where there is nothing worn and no map

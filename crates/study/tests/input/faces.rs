@@ -68,14 +68,14 @@ fn input_faces_are_read_and_written_back() {
     assert_eq!(pad.friction, 0.6);
     assert!(pad.hardening.is_some() && pad.shear.is_some());
     // What is written reads back to the same bits.
-    let text = case.document.to_toml();
+    let text = case.to_toml();
     let again = Case::parse("again.toml", &text, Tables::nowhere(), &[]).unwrap();
     assert_eq!(again.parameters, case.parameters);
     // Left out, all is plain, and the keys stand there as comments.
     let plain = read("").unwrap();
     assert_eq!(plain.parameters.column_face.grid, Grid::default());
-    assert!(plain.document.to_toml().contains("# sliding_friction = 0.3"));
-    assert!(plain.document.to_toml().contains("wedge_surface = \"flat\""));
+    assert!(plain.to_toml().contains("# sliding_friction = 0.3"));
+    assert!(plain.to_toml().contains("wedge_surface = \"flat\""));
 }
 
 #[test]
@@ -198,8 +198,8 @@ fn input_maps_of_wear_come_from_files() {
     let case = read(good).unwrap();
     let map = case.parameters.slope_face.wedge_wear.clone().unwrap();
     assert!((map.depth(0.0, 0.0) - 0.0015).abs() < 1e-16);
-    assert!(case.document.to_toml().contains("wedge_wear = \"map.csv\""));
-    let embedded = case.document.clone().with_tables_embedded().to_toml();
+    assert!(case.to_toml().contains("wedge_wear = \"map.csv\""));
+    let embedded = case.to_toml_embedded();
     let again = Case::parse("again.toml", &embedded, Tables::nowhere(), &[]).unwrap();
     assert_eq!(again.parameters, case.parameters);
     for (csv, expected) in [

@@ -5,11 +5,8 @@ use std::path::Path;
 use study::case::{Case, Field, Input, builtin};
 
 fn fields(case: &Case) -> Vec<Field> {
-    case.document
-        .fields()
-        .into_iter()
-        .flat_map(|section| section.fields)
-        .collect()
+    let sections = case.fields().iter();
+    sections.flat_map(|section| section.fields.clone()).collect()
 }
 
 /// Returns it as the explorer writes it.
@@ -41,7 +38,7 @@ fn every_key_of_the_case_file_is_a_field() {
     let case = builtin::case("vdrun_toe_0_psi_0").unwrap();
     let mut section = String::new();
     let mut keys = Vec::new();
-    for line in case.document.to_toml().lines() {
+    for line in case.to_toml().lines() {
         if let Some(name) = line.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
             section = format!("{name}.");
         } else if let Some((key, _)) = line.split_once(" = ").filter(|(key, _)| !key.contains('#')) {

@@ -10,7 +10,14 @@ from pathlib import Path
 from typing import Any, ClassVar, TypeVar, Union
 
 from . import _html
-from ._wedgelab import NativeCarCase, NativeCase, NativeResult, NativeTruckCase, built_in_groups
+from ._wedgelab import (
+    NativeCarCase,
+    NativeCase,
+    NativeResult,
+    NativeTruckCase,
+    built_in_groups,
+    wedge_assumptions,
+)
 from .errors import CaseError
 from .result import Result, checked
 from .sections import (
@@ -227,9 +234,9 @@ class Case(CompleteCase):
         given = _given(name, title, sections)
         self._document = None
         if base is None:
-            self._native = NativeCase.thesis(given, Path())
+            self._native = _over_thesis(given)
         elif isinstance(base, Case):
-            self._native = base._native.replace(given) if given else base._native
+            self._native = base._with(given) if given else base._native
         elif isinstance(base, (str, os.PathLike)):
             self._native = _of_name(base, given)
         else:
@@ -261,7 +268,7 @@ class Case(CompleteCase):
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Case:
         """From nested mappings with the keys of case files; bare numbers are in SI units."""
-        return cls._of(NativeCase.thesis(dict(values), Path()))
+        return cls._of(_over_thesis(dict(values)))
 
     def replace(self, changes: Mapping[str, Any] | None = None, /, **sections: Any) -> Case:
         """This case with other values: by paths, as in ``{"friction.column": 0.3}``, by sections, or both.
@@ -273,7 +280,10 @@ class Case(CompleteCase):
             if key in given:
                 raise CaseError(f"`{key}` is given twice: in the paths and by its name")
             given[key] = value
-        return type(self)._of(self._native.replace(given))
+        return type(self)._of(self._with(given))
+
+    def _with(self, given: dict[str, Any]) -> NativeCase:
+        return NativeCase.parse(self.to_toml(), "case.toml", "", given)
 
     @property
     def wedge(self) -> WedgeSection:
@@ -336,7 +346,7 @@ class Case(CompleteCase):
     @property
     def assumptions(self) -> list[str]:
         """What the numbers of a run rest on."""
-        return self._native.assumptions()
+        return wedge_assumptions(self._native)
 
     def run(
         self,
@@ -363,6 +373,11 @@ def _names(columns: Iterable[str] | None) -> list[str] | None:
     if isinstance(columns, str):
         raise CaseError(f"columns is the text {columns!r}; a list of names is expected: [{columns!r}]")
     return None if columns is None else list(columns)
+
+
+def _over_thesis(given: dict[str, Any]) -> NativeCase:
+    """The thesis's wedge with these values."""
+    return NativeCase.parse('model = "wedge"', "case", "", given)
 
 
 def _of_name(base: str | os.PathLike[str], given: dict[str, Any]) -> NativeCase:

@@ -218,12 +218,9 @@ fn run_wedge(case: Case, arguments: &Arguments) -> Result<ExitCode, Failure> {
 /// Runs a case of any model in parts.
 fn execute_in_parts(case: &AnyCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
     match case {
-        AnyCase::Wedge(case) => {
-            let text = case.document.clone().with_tables_embedded().to_toml();
-            run_in_parts(&**case, &text, arguments, |done| {
-                (table([(&done.result.summary, done.wall)]), TABLE_NOTE.to_owned())
-            })
-        }
+        AnyCase::Wedge(case) => run_in_parts(&**case, case.to_toml_embedded(), arguments, |done| {
+            (table([(&done.result.summary, done.wall)]), TABLE_NOTE.to_owned())
+        }),
         AnyCase::Truck(case) => run_in_parts(&**case, case.to_toml_embedded(), arguments, |done| {
             (truck_table(&done.result), TRUCK_NOTE.to_owned())
         }),

@@ -149,8 +149,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             all.add(name, |out| files::write_counterface(&history, face, out))?;
         }
         all.add(files::CASE, |out| {
-            let document = history.case.document.clone().with_tables_embedded();
-            out.write_all(document.to_toml().as_bytes())
+            out.write_all(history.case.to_toml_embedded().as_bytes())
         })?;
         figure.add(all, files::FIGURE, files::PICTURE)?;
         all.add(files::WORDS, |out| out.write_all(words.as_bytes()))

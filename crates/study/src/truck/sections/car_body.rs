@@ -2,8 +2,9 @@
 
 use truck::{CarBody, CenterPlate, Lading, Parameters, SideBearing, SideBearings};
 
-use super::{HEIGHT, Load, clearance, contact, friction, rigid_body};
+use super::{HEIGHT, Load, clearance, friction, rigid_body};
 use crate::case::problem::Problem;
+use crate::case::read::contact;
 use crate::case::section::Names;
 use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, PRELOAD, STIFFNESS};
 

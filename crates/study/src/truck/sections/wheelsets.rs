@@ -2,8 +2,9 @@
 
 use truck::{Adapter, FrictionAdapter, Geometry, Parameters, Wheelsets};
 
-use super::{contact, friction};
+use super::{TURNS_ABOUT, friction};
 use crate::case::problem::Problem;
+use crate::case::read::contact;
 use crate::case::section::Names;
 use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, PRELOAD, STIFFNESS};
 
@@ -24,14 +25,14 @@ pub(in crate::truck) fn wheelsets(r: &mut CaseReader<'_>, parameters: &mut Param
         "wheelset",
         "Both wheelsets, prescribed; [leading_wheelset] and [trailing_wheelset] set one.",
     );
-    r.motions(&mut wheelsets.motions[0], false);
+    r.motions(&mut wheelsets.motions[0], false, TURNS_ABOUT);
     wheelsets.motions[1] = wheelsets.motions[0].clone();
     for (name, own) in ["leading_wheelset", "trailing_wheelset"]
         .into_iter()
         .zip(&mut wheelsets.motions)
     {
         if r.overlay(name, "One wheelset: what is not given is as in [wheelset].") {
-            r.motions(own, false);
+            r.motions(own, false, TURNS_ABOUT);
         }
     }
     const KINDS: Names<AdapterKind> = &[

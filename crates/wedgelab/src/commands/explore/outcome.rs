@@ -142,7 +142,7 @@ impl Outcome {
     /// Returns the fields of its case.
     pub fn fields(&self) -> Vec<FieldSection> {
         match self {
-            Self::Wedge(own) => own.0.document.fields(),
+            Self::Wedge(own) => own.0.fields().to_vec(),
             Self::Truck(own) => own.0.fields().to_vec(),
             Self::Car(own) => own.0.fields().to_vec(),
         }

@@ -37,11 +37,7 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
         // The same run gives the same files.
         let folder = folders::check(&path, &names, true)?;
         let whole = match study.case(*number)? {
-            AnyCase::Wedge(mut case) => {
-                case.name = name;
-                case.document.name.clone_from(&case.name);
-                one(&*case, &folder, &progress)?
-            }
+            AnyCase::Wedge(case) => one(&case.named(&name), &folder, &progress)?,
             AnyCase::HalfTruck(mut case) => {
                 case.name = name;
                 one(&*case, &folder, &progress)?
