@@ -156,6 +156,22 @@ macro_rules! model_case {
                 $crate::case::model::read_case($model, tree, from, problems, $complete, $read)
             }
 
+            /// Returns the sections and keys of the case with this text, and of all that may be laid over it.
+            pub(crate) fn known_keys(
+                text: &str,
+                overrides: &[String],
+            ) -> Vec<$crate::reader::schema::KnownSection> {
+                let tree = $crate::case::tree_with_overrides("case.toml", text, overrides);
+                let Ok((mut tree, mut problems)) = tree else {
+                    return Vec::new();
+                };
+                $complete(&mut tree, &mut problems);
+                let tables = $crate::case::Tables::nowhere();
+                let mut reader = $crate::reader::CaseReader::new(&tree, tables, &mut problems).completely();
+                let _ = $read(&mut reader, "case");
+                reader.into_known()
+            }
+
             /// Returns the same case under another name.
             #[must_use]
             pub fn named(&self, name: &str) -> Self {

@@ -96,7 +96,7 @@ pub(crate) const SHAPES_WRITTEN: &str = "one held value, a list of motions to be
     # { shape = \"table\", file = \"motion.csv\" }                            a cubic spline; or points = \
     [[time, value], ...]";
 
-const SHAPES: [&str; 6] = ["constant", "sine", "triangle", "swept_sine", "ramp", "table"];
+pub(crate) const SHAPES: [&str; 6] = ["constant", "sine", "triangle", "swept_sine", "ramp", "table"];
 const EXAMPLE: &str = "write for example { shape = \"sine\", amplitude = \"1 in\", frequency = \"2 rad/s\" \
                        }, or one held value";
 

@@ -33,7 +33,7 @@ impl Range {
     }
 
     /// Returns its ends, SI: infinite where it has none.
-    fn ends(self) -> [f64; 2] {
+    pub fn ends(self) -> [f64; 2] {
         match self {
             Range::Any => [f64::NEG_INFINITY, f64::INFINITY],
             Range::Positive | Range::NotNegative => [0.0, f64::INFINITY],

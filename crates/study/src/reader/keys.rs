@@ -2,6 +2,7 @@
 
 use quantity::{Kind, Quantity, STANDARD_GRAVITY, System};
 
+use super::schema::Form;
 use super::{CaseReader, QuantityForm, WEIGHT};
 use crate::case::face::FaceSection;
 use crate::case::field::{Reach, Written, quoted};
@@ -33,7 +34,7 @@ impl CaseReader<'_> {
         comment: &str,
     ) -> Option<Quantity> {
         let (kind, range, reach) = form;
-        let node = self.node(key);
+        let node = self.node(key, Form::Quantity(kind));
         let quantity = match (node, default) {
             (Some(node), _) => section::quantity(node, &self.path(key), kind, range, self.problems)?,
             (None, Some(default)) => default,
@@ -59,12 +60,8 @@ impl CaseReader<'_> {
         comment: &str,
     ) -> Option<Quantity> {
         if let (false, None) = (self.gives(key), &value) {
-            self.node(key);
-            if !self.overlay {
-                for page in &mut self.pages {
-                    page.absent(key, example, comment);
-                }
-            }
+            self.node(key, Form::Quantity(form.0));
+            self.absent(key, example, comment);
             return None;
         }
         let mut own = value.unwrap_or_default();
@@ -94,7 +91,7 @@ impl CaseReader<'_> {
         comment: &str,
     ) {
         let (kind, range, reach) = form;
-        let given = self.node(key).is_some();
+        let given = self.node(key, Form::Triple(kind)).is_some();
         let triple = match self.given().filter(|_| given) {
             Some(section) => section.triple(key, kind, range, self.problems),
             None => {
@@ -108,7 +105,7 @@ impl CaseReader<'_> {
     }
 
     pub fn number(&mut self, key: &'static str, range: Range, reach: Reach, value: &mut f64, comment: &str) {
-        let given = self.node(key).is_some();
+        let given = self.node(key, Form::number(range)).is_some();
         if let Some(section) = self.given().filter(|_| given) {
             let example = format!("{value:?}");
             let Some(number) = section.number(key, range, &example, self.problems) else {
@@ -120,7 +117,7 @@ impl CaseReader<'_> {
     }
 
     pub fn truth(&mut self, key: &'static str, value: &mut bool, comment: &str) {
-        let given = self.node(key).is_some();
+        let given = self.node(key, Form::Truth).is_some();
         if let Some(section) = self.given().filter(|_| given) {
             let Some(truth) = section.truth(key, self.problems) else {
                 return;
@@ -137,7 +134,7 @@ impl CaseReader<'_> {
         value: &mut T,
         comment: &str,
     ) {
-        let node = self.node(key);
+        let node = self.node(key, Form::choice(names));
         if let Some(node) = node {
             let Some(choice) = section::choice(node, &self.path(key), names, self.problems) else {
                 return;
@@ -155,7 +152,7 @@ impl CaseReader<'_> {
         values: &mut Vec<T>,
         comment: &str,
     ) {
-        let node = self.node(key);
+        let node = self.node(key, Form::several(names));
         if let Some(node) = node {
             let path = self.path(key);
             let NodeValue::List(items) = &node.value else {
@@ -212,7 +209,7 @@ impl CaseReader<'_> {
         read: impl FnOnce(&CaseSection<'_>, &mut Problems) -> Option<T>,
         write: impl FnOnce(&T) -> Written,
     ) -> T {
-        let given = self.node(key).is_some();
+        let given = self.node(key, Form::Other).is_some();
         let value = match self.given().filter(|_| given) {
             Some(section) => read(&section, self.problems).unwrap_or(default),
             None => default,
@@ -229,7 +226,7 @@ impl CaseReader<'_> {
         reach: Reach,
         comment: &str,
     ) -> Option<QuantityTable> {
-        let node = self.node(key)?;
+        let node = self.node(key, Form::Rows)?;
         let table = table::read(node, &self.path(key), form, self.tables, self.problems)?;
         self.rows += table.rows.len();
         let kinds = form.kinds;
@@ -253,7 +250,7 @@ impl CaseReader<'_> {
     pub fn face(&mut self, face: &mut FaceSection) {
         let given: Vec<bool> = FaceSection::KEYS.iter().map(|key| self.gives(key)).collect();
         for key in FaceSection::KEYS {
-            self.node(key);
+            self.node(key, Form::Other);
         }
         if let Some(section) = self.given()
             && let Some(read) = face.read_over(&section, self.tables, self.problems)
@@ -264,6 +261,10 @@ impl CaseReader<'_> {
         let mut embedded = face.clone();
         embedded.files_mut().for_each(|file| *file = None);
         let overlay = self.overlay;
+        for line in face.lines() {
+            let value = line.value.map(|value| value.toml).unwrap_or_default();
+            self.explain(line.key, line.comment, &value);
+        }
         for (page, face) in self.pages.iter_mut().zip([&*face, &embedded]) {
             for (line, given) in face.lines().into_iter().zip(&given) {
                 match line.value {

@@ -5,6 +5,7 @@
 
 mod keys;
 mod motions;
+pub(crate) mod schema;
 mod simulation;
 mod text;
 
@@ -15,12 +16,14 @@ pub(crate) use text::CaseText;
 use std::mem;
 
 use quantity::Kind;
+use schema::{Form, KnownKey, KnownSection};
 
+use crate::case::every_key::address;
 use crate::case::field::{Reach, Written};
 use crate::case::model::{MODELS, Model};
 use crate::case::page::Page;
 use crate::case::problem::{Problem, Problems};
-use crate::case::section::{CaseSection, Range};
+use crate::case::section::{self, CaseSection, Range};
 use crate::case::tables::NamedFile;
 use crate::case::tree::{NodeValue, TableNode, TreeNode};
 use crate::case::{Tables, motion, name};
@@ -55,9 +58,9 @@ pub(crate) struct CaseReader<'r> {
     /// True if only given values are written down, and no defaults.
     overlay: bool,
     /// Sections with their keys.
-    known: Vec<(String, Vec<&'static str>)>,
-    /// Sections whose keys others read.
-    elsewhere: Vec<String>,
+    known: Vec<KnownSection>,
+    /// True if sections that change nothing are read too, so that all keys are known.
+    complete: bool,
     /// Rows of the tables that were read.
     rows: usize,
     /// The motions that were given, with their paths.
@@ -76,8 +79,8 @@ impl<'r> CaseReader<'r> {
             within: "",
             section: String::new(),
             overlay: false,
-            known: vec![(String::new(), Vec::new())],
-            elsewhere: Vec::new(),
+            known: vec![known(String::new(), "")],
+            complete: false,
             rows: 0,
             motions: Vec::new(),
             files: Vec::new(),
@@ -103,7 +106,7 @@ impl<'r> CaseReader<'r> {
     pub fn section(&mut self, path: &str, about: &str) {
         self.section = self.full(path);
         self.overlay = false;
-        self.known.push((self.section.clone(), Vec::new()));
+        self.known.push(known(self.section.clone(), about));
         for page in &mut self.pages {
             page.section(&self.section, about);
         }
@@ -114,22 +117,42 @@ impl<'r> CaseReader<'r> {
     pub fn overlay(&mut self, path: &str, about: &str) -> bool {
         self.section = self.full(path);
         self.overlay = true;
-        self.known.push((self.section.clone(), Vec::new()));
+        self.known.push(known(self.section.clone(), about));
         let given = self.table_at(&self.section).is_some();
         if given {
             for page in &mut self.pages {
                 page.section(&self.section, about);
             }
         }
-        given
+        given || self.complete
+    }
+
+    /// Makes all sections be read, also those for one of several bodies that are not given.
+    pub fn completely(mut self) -> Self {
+        self.complete = true;
+        self
+    }
+
+    /// Returns the sections and keys that were met.
+    pub fn into_known(self) -> Vec<KnownSection> {
+        self.known
     }
 
     /// Says that a section holds keys that are read elsewhere.
     pub fn expect(&mut self, section: &str, keys: &[&'static str]) {
         let section = self.full(section);
-        match self.known.iter_mut().find(|(known, _)| *known == section) {
-            Some((_, known)) => known.extend(keys),
-            None => self.known.push((section, keys.to_vec())),
+        let keys = keys.iter().map(|name| KnownKey {
+            name,
+            form: Form::Unsaid,
+            help: String::new(),
+            value: String::new(),
+        });
+        match self.known.iter_mut().find(|known| known.path == section) {
+            Some(known) => known.keys.extend(keys),
+            None => self.known.push(KnownSection {
+                keys: keys.collect(),
+                ..known(section, "")
+            }),
         }
     }
 
@@ -158,7 +181,7 @@ impl<'r> CaseReader<'r> {
 
     /// Says that the current section may have a key too.
     pub fn also_known(&mut self, key: &'static str) {
-        self.node(key);
+        self.node(key, Form::Unsaid);
     }
 
     /// Notes a mistake at the key with a full path, not at its value.
@@ -204,11 +227,35 @@ impl<'r> CaseReader<'r> {
     }
 
     /// Takes note of a key. Returns the node there.
-    fn node(&mut self, key: &'static str) -> Option<&'r TreeNode> {
-        if let Some((_, keys)) = self.known.last_mut() {
-            keys.push(key);
+    fn node(&mut self, name: &'static str, form: Form) -> Option<&'r TreeNode> {
+        let key = KnownKey {
+            name,
+            form,
+            help: String::new(),
+            value: String::new(),
+        };
+        if let Some(section) = self.known.last_mut() {
+            section.keys.push(key);
         }
-        self.table_at(&self.section)?.get(key)
+        self.table_at(&self.section)?.get(name)
+    }
+
+    /// Takes note of what a key means, and of its value (TOML).
+    fn explain(&mut self, key: &str, help: &str, value: &str) {
+        let keys = self.known.last_mut().map(|section| &mut section.keys);
+        if let Some(known) = keys.and_then(|keys| keys.iter_mut().rfind(|known| known.name == key)) {
+            (known.help, known.value) = (help.to_owned(), value.to_owned());
+        }
+    }
+
+    /// A line that says that a key is left out, with an example.
+    fn absent(&mut self, key: &str, example: &str, comment: &str) {
+        self.explain(key, comment, "");
+        if !self.overlay {
+            for page in &mut self.pages {
+                page.absent(key, example, comment);
+            }
+        }
     }
 
     /// Returns the full path of a key of the current section.
@@ -217,6 +264,7 @@ impl<'r> CaseReader<'r> {
     }
 
     fn line(&mut self, key: &str, given: bool, written: Written, comment: &str) {
+        self.explain(key, comment, &written.toml);
         if given || !self.overlay {
             let [typed, embedded] = &mut self.pages;
             typed.line(key, written.clone(), comment);
@@ -224,11 +272,10 @@ impl<'r> CaseReader<'r> {
         }
     }
 
-    /// A line at the top of the file.
-    pub fn top(&mut self, key: &str, written: Written, comment: &str) {
-        for page in &mut self.pages {
-            page.line(key, written.clone(), comment);
-        }
+    /// A key at the top of the file.
+    fn top(&mut self, key: &'static str, form: Form, written: Written, comment: &str) {
+        self.node(key, form);
+        self.line(key, true, written, comment);
     }
 
     /// Returns the access to the files that the case names.
@@ -238,8 +285,9 @@ impl<'r> CaseReader<'r> {
 
     /// Says that the keys of the current section are read by another reader.
     pub fn known_elsewhere(&mut self) {
-        self.known.retain(|(path, _)| *path != self.section);
-        self.elsewhere.push(self.section.clone());
+        if let Some(section) = self.known.last_mut() {
+            section.open = true;
+        }
     }
 
     /// A line of the current section that another reader has read: as typed, and with files written into it.
@@ -271,36 +319,46 @@ impl<'r> CaseReader<'r> {
             Some(_) => top.text("title", self.problems).map(|(text, _)| text)?,
             None => "",
         };
-        self.expect("", &["name", "title", "model"]);
-        self.top("name", Written::text(&name), "a folder name: results go there");
-        self.top("title", Written::text(title), "one line for people");
-        self.top("model", Written::choice(MODELS, &model), comment);
+        let model_name = section::name_of(MODELS, &model);
+        for page in &mut self.pages {
+            page.text = format!("#:schema {}\n", address(model_name));
+        }
+        self.top(
+            "name",
+            Form::Text,
+            Written::text(&name),
+            "a folder name: results go there",
+        );
+        self.top("title", Form::Text, Written::text(title), "one line for people");
+        let own = Form::Choice(vec![model_name]);
+        self.top("model", own, Written::choice(MODELS, &model), comment);
         Some([name, title.to_owned()])
     }
 
     /// Notes keys that nobody asked for; `what` is read: a truck's case. Returns the completed case.
     pub fn finish(&mut self, what: &str) -> CaseText {
-        let owners: Vec<(&str, &[&str])> = self
+        let owners: Vec<(&str, Vec<&str>)> = self
             .known
             .iter()
-            .filter(|(path, _)| !path.is_empty() && !path.contains('.'))
-            .map(|(path, keys)| (path.as_str(), keys.as_slice()))
+            .filter(|known| !known.path.is_empty() && !known.path.contains('.'))
+            .map(|known| (known.path.as_str(), known.names()))
             .collect();
-        for (path, keys) in &self.known {
-            let mut keys: Vec<&str> = keys.clone();
+        let owners: Vec<(&str, &[&str])> = owners
+            .iter()
+            .map(|(path, keys)| (*path, keys.as_slice()))
+            .collect();
+        for section in &self.known {
+            let (path, mut keys) = (&section.path, section.names());
             // Sections within it.
             let prefix = if path.is_empty() {
                 String::new()
             } else {
                 format!("{path}.")
             };
-            for (other, _) in &self.known {
-                if let Some(rest) = other.strip_prefix(&prefix).filter(|rest| !rest.is_empty()) {
+            for other in &self.known {
+                if let Some(rest) = other.path.strip_prefix(&prefix).filter(|rest| !rest.is_empty()) {
                     keys.push(rest.split('.').next().unwrap_or(rest));
                 }
-            }
-            if path.is_empty() {
-                keys.extend(self.elsewhere.iter().map(String::as_str));
             }
             let (outer, key) = path.rsplit_once('.').unwrap_or(("", path));
             let outer = self.table_at(outer);
@@ -313,7 +371,7 @@ impl<'r> CaseReader<'r> {
                 let help = format!("write [{path}] on a line of its own and the keys below it");
                 self.problems.push(problem.help(help));
             }
-            if let Some(table) = self.table_at(path) {
+            if let Some(table) = self.table_at(path).filter(|_| !section.open) {
                 let section = CaseSection {
                     path: path.clone(),
                     table,
@@ -328,5 +386,15 @@ impl<'r> CaseReader<'r> {
             embedded: embedded.text,
             fields: typed.sections,
         }
+    }
+}
+
+/// A section of which no key is known yet.
+fn known(path: String, about: &str) -> KnownSection {
+    KnownSection {
+        path,
+        about: about.to_owned(),
+        keys: Vec::new(),
+        open: false,
     }
 }

@@ -9,6 +9,7 @@ use wedge::parameters::NeighbourMotion;
 
 use super::CaseReader;
 use super::keys::in_customary_units;
+use super::schema::Form;
 use crate::case::field::{Reach, Written};
 use crate::case::motion;
 use crate::case::names::{COORDINATES, MOTIONS};
@@ -20,17 +21,15 @@ impl CaseReader<'_> {
     /// The motions of a body; `free` says that it has free coordinates and must not be moved, `center` what the
     /// point means about which it turns.
     pub fn motions(&mut self, own: &mut NeighbourMotion, free: bool, center: &str) {
-        let given = self.node("center").is_some();
+        let given = self.node("center", Form::Triple(Kind::Length)).is_some();
         if let Some(section) = self.given().filter(|_| given) {
             if let Some(typed) = section.triple("center", Kind::Length, Range::Any, self.problems) {
                 own.center = Some(typed.each_ref().map(Quantity::to_si));
                 let written = Written::triple(&typed, Kind::Length, Reach::Signed(0.0254));
                 self.line("center", true, written, center);
             }
-        } else if !self.overlay {
-            for page in &mut self.pages {
-                page.absent("center", r#"["0 in", "0 in", "0 in"]"#, center);
-            }
+        } else {
+            self.absent("center", r#"["0 in", "0 in", "0 in"]"#, center);
         }
         for (at, key) in MOTIONS.into_iter().enumerate() {
             let (kind, most) = if at < 3 {
@@ -72,7 +71,7 @@ impl CaseReader<'_> {
 
     fn motion(&mut self, key: &'static str, kind: Kind, most: f64, value: &mut Motion, free: bool) {
         let path = self.path(key);
-        let Some(node) = self.node(key) else {
+        let Some(node) = self.node(key, Form::Motion(kind)) else {
             if let (false, Motion::Constant(held)) = (self.overlay, &*value)
                 && let Some(held) = in_customary_units(*held, kind)
             {

@@ -14,11 +14,13 @@ pub(crate) struct CaseText {
 }
 
 impl CaseText {
-    /// Returns the same of a case with another name, which stands in the first line.
+    /// Returns the same of a case with another name, which stands in the line below that of the schema.
     pub fn named(&self, name: &str) -> Self {
         let rename = |text: &str| {
-            let (_, rest) = text.split_once('\n').unwrap_or(("", text));
-            format!("name = {}\n{rest}", quoted(name))
+            let mut lines = text.splitn(3, '\n');
+            let (schema, _, rest) = (lines.next(), lines.next(), lines.next());
+            let [schema, rest] = [schema, rest].map(Option::unwrap_or_default);
+            format!("{schema}\nname = {}\n{rest}", quoted(name))
         };
         Self {
             typed: rename(&self.typed),

@@ -3,49 +3,24 @@
 use std::fmt::Write;
 
 use study::any_case::AnyCase;
+use study::case::every_key::{MODELS, ModelKeys, Variant};
 use study::case::{Field, Input};
 
-/// Cases of a model that together have all keys: name, overrides.
-type Cases = &'static [(&'static str, &'static [&'static str])];
-
-/// The heading and introduction of a model's sections, and its cases.
-const MODELS: [(&str, &str, Cases); 3] = [
+/// The heading and introduction of a model's sections.
+const HEADINGS: [(&str, &str); 3] = [
     (
         "A wedge",
-        "The model of a case without `model`. Defaults are those of the thesis; where they depend on the \
-         damping, that of variable damping comes first.",
-        &[
-            ("vdrun_toe_0_psi_0", &[]),
-            ("cdrun_toe_0_psi_0", &[]),
-            ("cdrun_toe_0_psi_0", &["friction.law=bristle"]),
-        ],
+        "`model = \"wedge\"`, or a case without `model`. Defaults are those of the thesis; where they depend \
+         on the damping, that of variable damping comes first.",
     ),
     (
         "A truck",
         "`model = \"truck\"`. Where a default depends on the rig or on the damping, each value stands once.",
-        &[
-            ("truck_vertical_variable", &[]),
-            ("truck_vertical_constant", &[]),
-            ("truck_warp_axles_variable_rising", &[]),
-            ("truck_roll_variable", &[]),
-            ("truck_vertical_variable", &["load.kind=car_body"]),
-            ("truck_warp_axles_variable_rising", &["adapter.kind=pad"]),
-            ("truck_vertical_variable", &["wedge.kind=massless"]),
-            ("truck_vertical_split", &[]),
-        ],
     ),
     (
         "A car on track",
         "`model = \"car\"`. The keys of trucks are those of a truck, below `truck.` for both, `front_truck.` \
          and `rear_truck.` for one, without its motions, loads and rigs.",
-        &[
-            ("car_tangent_loaded", &[]),
-            ("car_tangent_empty", &[]),
-            ("car_constant_curve_loaded", &[]),
-            ("car_hunting_empty", &[]),
-            ("car_hunting_roller_empty", &[]),
-            ("car_twist_and_roll_loaded", &[]),
-        ],
     ),
 ];
 
@@ -64,14 +39,16 @@ pub fn page() -> String {
          All keys of all models, as the program knows them; `cargo run --release -p study --example \
          case_keys` writes this page. Values are text with units; US customary and SI units mix freely. A \
          key is what `--set` takes; in a file the part before the last point is the name of a table. \
-         `wedgelab case NAME` prints a whole case with the same words.\n",
+         `wedgelab case NAME` prints a whole case with the same words. The files in [schema](schema) say the \
+         same to editors (JSON Schema): a printed case names its schema in the first line, and \
+         `wedgelab case --schema MODEL` prints it.\n",
     );
-    for (title, about, cases) in MODELS {
+    for (model, (title, about)) in MODELS.iter().zip(HEADINGS) {
         let _ = write!(
             page,
             "\n## {title}\n\n{about}\n\n| key | in built-in cases | meaning |\n|---|---|---|\n"
         );
-        for key in keys(cases) {
+        for key in keys(model.cases) {
             let values: Vec<String> = key.values.iter().map(|value| cell(value)).collect();
             let _ = writeln!(
                 page,
@@ -85,8 +62,13 @@ pub fn page() -> String {
     page
 }
 
+/// Returns the schema of a model's cases as its file.
+pub fn schema(model: &ModelKeys) -> String {
+    serde_json::to_string_pretty(&model.schema()).unwrap() + "\n"
+}
+
 /// Returns the keys of all cases of a model, in the order in which they first appear.
-fn keys(cases: Cases) -> Vec<Key> {
+fn keys(cases: &[Variant]) -> Vec<Key> {
     let mut keys: Vec<Key> = Vec::new();
     for (name, overrides) in cases {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();

@@ -8,6 +8,7 @@ use clap::Args;
 use study::any_case::AnyCase;
 use study::car;
 use study::case::builtin;
+use study::case::every_key::{MODELS, ModelKeys};
 use study::truck;
 
 use super::run::built_in_names;
@@ -27,10 +28,17 @@ use crate::table::TerminalTable;
 Examples:
   wedgelab case
   wedgelab case vdrun_toe_0_psi_0 > a.toml && wedgelab run a.toml
-  wedgelab case truck_vertical_variable --out cases")]
+  wedgelab case truck_vertical_variable --out cases
+  wedgelab case --schema car > car.schema.json")]
 pub struct Arguments {
     /// Name of a built-in case, or a beginning that only one has; with --out also a pattern
     name: Option<String>,
+    /// Print the schema of a model's cases (JSON Schema) [possible values: wedge, truck, car]
+    ///
+    /// Editors complete and check case files by it. A printed case names its schema in the first line.
+    #[arg(long, value_name = "MODEL", num_args = 0..=1, default_missing_value = "wedge",
+          hide_possible_values = true, value_parser = MODELS.map(|own| own.name), conflicts_with_all = ["name", "out"])]
+    schema: Option<String>,
     /// Write it into this folder, as NAME.toml, instead of printing it
     #[arg(long, value_name = "DIR", requires = "name")]
     out: Option<PathBuf>,
@@ -42,6 +50,12 @@ pub struct Arguments {
 /// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut out = io::stdout().lock();
+    if let Some(name) = &arguments.schema {
+        let schema = MODELS.iter().find(|own| own.name == name).map(ModelKeys::schema);
+        serde_json::to_writer_pretty(&mut out, &schema).map_err(io::Error::from)?;
+        writeln!(out)?;
+        return Ok(ExitCode::SUCCESS);
+    }
     let Some(name) = &arguments.name else {
         let groups = builtin::groups().iter().chain(truck::builtin::groups());
         let groups = groups.chain(car::builtin::groups());

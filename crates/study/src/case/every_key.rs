@@ -1,0 +1,115 @@
+//! All keys of a model's cases: built-in cases that together have all of them, and the schema by which editors
+//! complete and check a case.
+
+use std::collections::BTreeSet;
+
+use serde_json::Value;
+
+use super::{Case, builtin};
+use crate::car::CarCase;
+use crate::reader::schema::{KnownSection, schema as joined};
+use crate::truck::TruckCase;
+use crate::{car, truck};
+
+/// A built-in case and `--set` overrides of it.
+pub type Variant = (&'static str, &'static [&'static str]);
+
+/// A model, as `model` of a case names it.
+#[derive(Clone, Copy, Debug)]
+pub struct ModelKeys {
+    /// Its name.
+    pub name: &'static str,
+    /// Cases that together have all keys.
+    pub cases: &'static [Variant],
+    known: fn(&str, &[String]) -> Vec<KnownSection>,
+}
+
+/// The models of cases.
+pub const MODELS: [ModelKeys; 3] = [
+    ModelKeys {
+        name: "wedge",
+        cases: &[
+            ("vdrun_toe_0_psi_0", &[]),
+            ("cdrun_toe_0_psi_0", &[]),
+            ("cdrun_toe_0_psi_0", &["friction.law=bristle"]),
+            (
+                "cdrun_toe_0_psi_0",
+                &[r#"control_coil.table=[["0 in", "0 lbf"], ["1 in", "3000 lbf"]]"#],
+            ),
+        ],
+        known: Case::known_keys,
+    },
+    ModelKeys {
+        name: "truck",
+        cases: &[
+            ("truck_vertical_variable", &[]),
+            ("truck_vertical_constant", &[]),
+            ("truck_warp_axles_variable_rising", &[]),
+            ("truck_roll_variable", &[]),
+            ("truck_vertical_variable", &["load.kind=car_body"]),
+            ("truck_warp_axles_variable_rising", &["adapter.kind=pad"]),
+            ("truck_vertical_variable", &["wedge.kind=massless"]),
+            ("truck_vertical_split", &[]),
+            ("truck_vertical_variable", &["control_coil.kind=B-353"]),
+            (
+                "truck_vertical_variable",
+                &[
+                    "control_coil.kind=thesis",
+                    r#"control_coil.table=[["0 in", "0 lbf"], ["1 in", "3000 lbf"]]"#,
+                ],
+            ),
+        ],
+        known: TruckCase::known_keys,
+    },
+    ModelKeys {
+        name: "car",
+        cases: &[
+            ("car_tangent_loaded", &[]),
+            ("car_tangent_empty", &[]),
+            ("car_constant_curve_loaded", &[]),
+            ("car_hunting_empty", &[]),
+            ("car_hunting_roller_empty", &[]),
+            ("car_twist_and_roll_loaded", &[]),
+        ],
+        known: CarCase::known_keys,
+    },
+];
+
+/// Returns the address of the schema of a model's cases.
+pub(crate) fn address(model: &str) -> String {
+    let raw = "https://raw.githubusercontent.com/wedgelab/wedgelab/main/docs/schema";
+    format!("{raw}/{model}.json")
+}
+
+impl ModelKeys {
+    /// Returns the schema of its cases (JSON Schema, draft 7).
+    #[must_use]
+    pub fn schema(&self) -> Value {
+        let text = |name: &str| {
+            let texts = [
+                builtin::text(name),
+                truck::builtin::text(name),
+                car::builtin::text(name),
+            ];
+            texts.into_iter().find_map(Result::ok).unwrap_or_default()
+        };
+        // What is said first stands: the built-in cases before their variants.
+        let (mut sections, mut variants) = (Vec::new(), Vec::new());
+        let mut chosen = BTreeSet::new();
+        for (name, overrides) in self.cases {
+            let overrides: Vec<String> = overrides.iter().map(|&own| own.to_owned()).collect();
+            let known = (self.known)(text(name), &overrides);
+            // Keys that there are beside one choice alone.
+            for choice in known.iter().flat_map(KnownSection::choices) {
+                if chosen.insert(choice.clone()) {
+                    let overrides = [overrides.as_slice(), &[choice]].concat();
+                    variants.extend((self.known)(text(name), &overrides));
+                }
+            }
+            sections.extend(known);
+        }
+        sections.extend(variants);
+        let title = format!("A case of Wedgelab, model \"{}\"", self.name);
+        joined(&address(self.name), &title, &sections)
+    }
+}
