@@ -17,7 +17,7 @@ use thiserror::Error;
 mod lock;
 mod staging;
 
-pub(crate) use lock::Locked;
+pub use lock::Locked;
 pub(crate) use staging::PREFIX as HIDDEN;
 use staging::Staging;
 pub use staging::{Abandoned, abandon, remove_left_over};

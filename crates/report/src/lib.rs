@@ -1,14 +1,10 @@
 //! Files and figures of results.
 //!
-//! - [`claims`]: what the thesis says of its runs, with verdicts.
-//! - [`sensitivity`]: how far these verdicts hang on what the thesis leaves open.
-//! - [`agreement`]: how far the stand-alone wedge and the comparison program's wedges agree.
-//! - [`beyond`]: figures of the cases beyond the thesis, one a group.
 //! - [`csv`]: the table `result.csv`; [`result_parquet`]: `result.parquet`.
 //! - [`mat`]: the file `result.mat`, under the thesis's names; [`mat5`] is its format.
 //! - [`summary`]: the file `summary.json`.
 //! - [`files`]: writing whole results, or nothing.
-//! - [`sections`], [`page`]: the report as one page.
+//! - [`page`]: pages of runs and studies.
 //! - [`drawing`]: figures, their curves and axes, drawn as SVG and PNG; [`thin`] makes their curves small.
 //! - [`figures`]: the report's figures.
 //! - [`view`]: the data of the page's interactive part.
@@ -38,11 +34,8 @@
 //! # Ok::<(), String>(())
 //! ```
 
-pub mod agreement;
-pub mod beyond;
 pub mod certificate_files;
 pub mod certificate_work;
-pub mod claims;
 pub mod comparison;
 pub mod contour;
 pub mod csv;
@@ -65,8 +58,6 @@ pub mod plot;
 pub mod result_parquet;
 pub mod run_files;
 pub mod run_folder;
-pub mod sections;
-pub mod sensitivity;
 pub mod stability_files;
 pub mod study_digest;
 pub mod study_folder;
@@ -74,7 +65,6 @@ pub mod study_work;
 pub mod summary;
 pub mod table;
 pub mod thin;
-pub mod three_piece;
 pub mod track_files;
 pub mod view;
 pub mod warp_files;

@@ -4,10 +4,10 @@ use ::quantity::System as Units;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use report::agreement::TruckOutcome;
 use report::drawing::{Figure, Line, Panel, PlotCurve};
 use report::figures::{CaseOutcome, Exhibit};
-use report::sections::{self, SectionPlan};
+use reproduction::agreement::TruckOutcome;
+use reproduction::sections::{self, Section};
 use study::case::builtin;
 use study::half_truck::catalog;
 
@@ -116,7 +116,7 @@ pub fn report_figures<'py>(
             |name: &str| builtin::thesis_names().all(|own| own != name) && builtin::group_of(name).is_some();
         let (beyond, thesis): (Vec<CaseOutcome>, Vec<CaseOutcome>) =
             outcomes.into_iter().partition(|(case, _)| is_beyond(&case.name));
-        let mut plans: Vec<SectionPlan> = Vec::new();
+        let mut plans: Vec<Section> = Vec::new();
         if !thesis.is_empty() {
             plans.extend(
                 sections::thesis(&thesis)

@@ -21,6 +21,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("vehicles", &["car"]),
     ("analysis", &["study"]),
     ("output", &["report", "fmi"]),
+    ("reproduction", &["reproduction"]),
     ("libraries", &["wedgelab-fmu"]),
     (
         "interfaces",

@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use report::claims::{ClaimVerdict, claims};
-use report::sensitivity::{AXES, Kept, POINTS_FILE, PointOutcome, PointPlace, Space};
 use report::study_folder::{STUDY_FILE, StudyFolder};
+use reproduction::claims::{ClaimVerdict, claims};
+use reproduction::sensitivity::{AXES, POINTS_FILE, PointOutcome, PointPlace, PointsFile, Space};
 use study::design::Study;
 use study::measures::{Measures, of_wedges};
 use study::records::{self, Record, Status};
@@ -169,7 +169,7 @@ fn point_corpus() -> Vec<Vec<u8>> {
     let Ok(folder) = tempfile::tempdir() else {
         return Vec::new();
     };
-    let kept = Kept::open(folder.path(), &space, false);
+    let kept = PointsFile::open(folder.path(), &space, false);
     let places = [
         PointPlace::Decided,
         PointPlace::Space(3),
@@ -191,7 +191,7 @@ fn points_file(input: &[u8]) -> ReadOutcome {
     let Ok(folder) = tempfile::tempdir() else {
         return ReadOutcome::NO_TEXT;
     };
-    let open = || Kept::open(folder.path(), &space, false);
+    let open = || PointsFile::open(folder.path(), &space, false);
     if open().is_err() || std::fs::write(folder.path().join(POINTS_FILE), input).is_err() {
         return ReadOutcome::NO_TEXT;
     }

@@ -1,28 +1,20 @@
 //! The report's figures.
 //!
-//! - [`thesis`]: those of the thesis's stand-alone runs, three toe cases in each.
-//! - [`comparison`]: the stand-alone wedge against types 6.8 and 6.9 of the comparison program.
-//! - [`model`]: the bolster's motion, the friction law, the coil.
 //! - [`run`]: what the thesis lacks, run by run; `pressure`: over faces with grids of points.
 //! - [`power_flow`]: where the energy of a cycle goes, of any run.
 //! - [`truck`]: a run of a three-piece truck; [`car`]: of a car on track, over the distance.
 //! - [`certificate`]: of a car in regimes, over the speed.
 //! - [`side_by_side`]: runs over each other, read back from their folders.
-//! - [`sensitivity`]: statements that hold over the contact stiffness.
 //! - [`study`]: main effects and contours of studies; [`jam`]: their jam map.
 
 pub mod car;
 pub mod certificate;
-pub mod comparison;
 pub mod jam;
-pub mod model;
 pub mod power_flow;
 mod pressure;
 pub mod run;
-pub mod sensitivity;
 pub mod side_by_side;
 pub mod study;
-pub mod thesis;
 pub mod truck;
 pub mod wheelset;
 
@@ -126,7 +118,8 @@ pub(crate) fn lowered(title: &str) -> String {
 }
 
 /// Returns a word with its first letter made large.
-pub(crate) fn capital(text: &str) -> String {
+#[must_use]
+pub fn capital(text: &str) -> String {
     let mut letters = text.chars();
     match letters.next() {
         Some(first) => first.to_uppercase().chain(letters).collect(),
@@ -135,7 +128,8 @@ pub(crate) fn capital(text: &str) -> String {
 }
 
 /// Returns a number for a caption: three or four significant digits, a true minus sign.
-pub(crate) fn digits(value: f64) -> String {
+#[must_use]
+pub fn digits(value: f64) -> String {
     let size = value.abs();
     let decimals = match size {
         _ if size >= 100.0 || size == 0.0 => 0,

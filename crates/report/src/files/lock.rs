@@ -7,7 +7,7 @@ use std::fs::{File, TryLockError};
 /// Closing the file alone would not do: between `fork` and `exec` a child that another thread of this program
 /// starts holds the same open file, and with it the lock, for some milliseconds more.
 #[derive(Debug)]
-pub(crate) struct Locked(File);
+pub struct Locked(File);
 
 impl Locked {
     /// Locks a file.

@@ -1,22 +1,16 @@
 //! `index.html`: the report as one page that needs nothing else to be shown.
 
-mod agreement;
 pub mod car_run;
 pub mod certificate;
-mod claims;
 mod contents;
 pub mod explorer;
 pub mod half_truck_run;
 pub mod packed;
 mod paths;
-mod runs;
-mod sensitivity;
-mod short;
 pub mod side_by_side;
 pub mod stability;
 mod statics;
 pub mod study;
-pub mod truck;
 pub mod truck_run;
 mod viewer;
 pub mod wedge_run;
@@ -28,12 +22,8 @@ use ::study::summary::RunSummary;
 use maud::{DOCTYPE, Markup, PreEscaped, Render, html};
 use quantity::System as Units;
 
-pub use agreement::Comparison;
-
-use crate::claims::Claims;
 use crate::drawing::Figure;
-use crate::figures::{CaseOutcome, Exhibit, capital};
-use crate::sensitivity::Sensitivity;
+use crate::figures::{Exhibit, capital};
 use crate::view::View;
 use crate::view::data::Precision;
 use crate::view::kept::DATA;
@@ -41,8 +31,6 @@ use crate::view::run::Recording;
 
 /// The page's file name.
 pub const FILE_NAME: &str = "index.html";
-/// The folder of the figures' files, beside the page.
-pub const FIGURES: &str = "figures";
 
 const STYLE: &str = concat!(include_str!("colours.css"), include_str!("style.css"));
 /// The script of pages without the viewer.
@@ -50,154 +38,9 @@ const SCRIPT: &str = include_str!("page.js");
 /// The script that unpacks data and viewer, and starts the viewer.
 const UNPACK: &str = include_str!("unpack.js");
 
-/// A figure with its drawing.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DrawnFigure {
-    /// The figure.
-    pub exhibit: Exhibit,
-    /// Its drawing.
-    pub svg: String,
-}
-
-/// Figures that belong together.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PageSection {
-    /// Its name in links.
-    pub id: String,
-    /// Its heading.
-    pub title: String,
-    /// The features to look at; may be empty.
-    pub intro: String,
-    /// Its figures.
-    pub figures: Vec<DrawnFigure>,
-    /// True if it is folded at first.
-    pub folded: bool,
-    /// The run that it is about, if it is about one.
-    pub run: Option<String>,
-    /// The heading of folded sections of one kind; may be empty.
-    pub group: String,
-}
-
-/// The contents of the page.
-#[derive(Clone, Copy, Debug)]
-pub struct Contents<'c> {
-    /// The runs of the thesis.
-    pub outcomes: &'c [CaseOutcome],
-    /// Those beyond it.
-    pub beyond: &'c [CaseOutcome],
-    /// The thesis's statements and what was found.
-    pub claims: &'c Claims,
-    /// The parts of the space of what the thesis leaves open in which they hold, if points of it were run.
-    pub sensitivity: Option<&'c Sensitivity>,
-    /// The figures.
-    pub sections: &'c [PageSection],
-    /// The data of the interactive part, JSON of [`View`].
-    pub view: &'c str,
-    /// The comparison with the comparison program's wedges, if there is one.
-    pub comparison: Option<Comparison<'c>>,
-    /// True if the page of the three-piece truck is in the same folder.
-    pub truck: bool,
-}
-
-/// Returns the page as HTML.
-#[must_use]
-pub fn render(contents: &Contents<'_>) -> String {
-    let program = contents
-        .outcomes
-        .iter()
-        .chain(contents.beyond)
-        .next()
-        .map_or(String::new(), |(_, result)| result.summary.program.clone());
-    let (open, folded): (Vec<&PageSection>, Vec<&PageSection>) =
-        contents.sections.iter().partition(|section| !section.folded);
-    let lead = html! {
-        "One friction wedge of a three-piece truck between the column of the side frame and the slope of \
-         the bolster: a rigid body with unilateral contact, stick-slip friction and its control coil. \
-         Computed by "
-        (program) "."
-    };
-    let nav = html! {
-            ul {
-                @if !(contents.outcomes.is_empty() && contents.beyond.is_empty()) {
-                    li { a href="#short" { "In short" } }
-                }
-                @if !contents.outcomes.is_empty() { li { a href="#runs" { "Runs" } } }
-                @if !contents.claims.claims.is_empty() { li { a href="#found" { "What she found, and what \
-                holds" } } }
-                @if contents.sensitivity.is_some() { li { a href="#open" { "What the thesis leaves open" } } }
-                @if !contents.claims.claims.is_empty() {
-                    li { a href="#contradicts" { "Where the thesis contradicts itself" } }
-                    li { a href="#claims" { "The thesis's statements, one by one" } }
-                }
-                @if contents.comparison.is_some() { li { a href="#agreement" { "How far the models \
-                                                                                agree" } } }
-                @for section in &open { li { a href={ "#" (anchor(&section.id)) } { (section.title) } } }
-                @if !folded.is_empty() { li { a href="#run-by-run" { "Run by run" } } }
-                @if contents.truck { li { a href=(truck::FILE_NAME) { "The three-piece truck (a page of its \
-                    own)" } } }
-                li { a href="#assumptions" { "Assumptions" } }
-                li { a href="#files" { "Files" } }
-            }
-    };
-    let main = html! {
-        (short::section(contents))
-        (runs::table(contents.outcomes))
-        (claims::held(contents.claims, contents.sensitivity))
-        @if let Some(found) = contents.sensitivity { (sensitivity::section(found)) }
-        (claims::contradictions(contents.claims))
-        (claims::tables(contents.claims, contents.sensitivity))
-        @if let Some(comparison) = &contents.comparison { (agreement::section(comparison)) }
-        @for section in &open {
-            section {
-                h2 id=(anchor(&section.id)) { (section.title) }
-                (body(section))
-            }
-        }
-        @if !folded.is_empty() {
-            section {
-                h2 id="run-by-run" { "Run by run" }
-                p { "Open a run to see it move in 3D, with its plots on the same clock." }
-                p {
-                    "Of the thesis's runs, what the thesis does not show: the energy ledger, the state of \
-                     each contact, the forces at the corners, how much of the contact sticks, and the power \
-                     that wears the faces."
-                }
-                @for sections in folded.chunk_by(|a, b| a.group == b.group) {
-                    @if !sections[0].group.is_empty() { h3 { (sections[0].group) } }
-                    @for section in sections {
-                        details id=(anchor(&section.id)) data-run=[section.run.as_deref()] {
-                            summary { (section.title) }
-                            (body(section))
-                        }
-                    }
-                }
-            }
-        }
-        (runs::assumptions(contents))
-        (runs::files(contents))
-    };
-    document(
-        "Friction wedge: the runs of Steets (2007)",
-        &lead,
-        Some(&nav),
-        &main,
-        Some(contents.view),
-    )
-}
-
-fn body(section: &PageSection) -> Markup {
-    html! {
-        @if !section.intro.is_empty() { p { (section.intro) } }
-        @for figure in &section.figures { (shown(figure)) }
-    }
-}
-
-fn shown(drawn: &DrawnFigure) -> Markup {
-    shown_in(&drawn.exhibit, &drawn.svg, Some(FIGURES))
-}
-
 /// Returns a figure; `folder` is where its files are, if it has any.
-fn shown_in(exhibit: &Exhibit, svg: &str, folder: Option<&str>) -> Markup {
+#[must_use]
+pub fn shown_in(exhibit: &Exhibit, svg: &str, folder: Option<&str>) -> Markup {
     let name = exhibit.name.as_str();
     html! {
         figure id=(anchor(name)) data-figure=(name) {
@@ -216,10 +59,11 @@ fn shown_in(exhibit: &Exhibit, svg: &str, folder: Option<&str>) -> Markup {
 }
 
 /// The text on a run that has failed, after its name.
-const FAILED: &str = " has failed: do not use its numbers";
+pub const FAILED: &str = " has failed: do not use its numbers";
 
 /// Returns the list of what a run lacks to be complete and of what makes its numbers doubtful.
-fn doubts(summary: &impl RunSummary) -> Markup {
+#[must_use]
+pub fn doubts(summary: &impl RunSummary) -> Markup {
     doubts_about(summary.name(), summary)
 }
 
@@ -271,7 +115,8 @@ fn moving_as(name: &str, title: &str, open: bool) -> Markup {
 
 /// Returns a page with its heading, what stands below it, a list of links to its parts (none: to its
 /// headings), and the data of its interactive part if it has one.
-fn document(
+#[must_use]
+pub fn document(
     heading: &str,
     lead: &impl Render,
     nav: Option<&Markup>,
@@ -316,7 +161,8 @@ fn document(
 }
 
 /// Returns a name as the target of links: letters, digits and `-`, all else is `_`.
-fn anchor(name: &str) -> String {
+#[must_use]
+pub fn anchor(name: &str) -> String {
     let plain = |sign: char| sign.is_ascii_alphanumeric() || sign == '-';
     let signs = name.chars();
     signs.map(|sign| if plain(sign) { sign } else { '_' }).collect()

@@ -107,11 +107,6 @@ fn losses(energy: &EnergySummary, loss: &SummaryValue) -> Markup {
     }
 }
 
-/// Returns the energy (output units) that the friction of a wedge's face takes in a cycle.
-pub(super) fn loss(summary: &TruckSummary, wedge: &str, face: &str) -> Option<f64> {
-    summary.cycles.loss_at(wedge, face)
-}
-
 /// Returns the table of a run's wedges.
 fn wedges(summary: &TruckSummary) -> Markup {
     let [force, energy] = [Kind::Force, Kind::Energy].map(|kind| kind.label(summary.units));
@@ -141,8 +136,8 @@ fn wedges(summary: &TruckSummary) -> Markup {
                             th scope="row" { (wedge.replace('_', " ")) }
                             td.number { (cell(extremes.map(|found| found.minimum))) }
                             td.number { (cell(extremes.map(|found| found.maximum))) }
-                            td.number { (cell(loss(summary, wedge, "column"))) }
-                            td.number { (cell(loss(summary, wedge, "slope"))) }
+                            td.number { (cell(summary.cycles.loss_at(wedge, "column"))) }
+                            td.number { (cell(summary.cycles.loss_at(wedge, "slope"))) }
                         }
                     }
                 }

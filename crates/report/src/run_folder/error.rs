@@ -10,7 +10,10 @@ use thiserror::Error;
 
 use super::any_summary::SCHEMAS;
 use crate::table::{TableError, in_folder, is_of_run};
-use crate::{claims, study_folder, summary};
+use crate::{study_folder, summary};
+
+/// The file of the statements of a reproduction of the thesis, by which its folder is known.
+pub const REPRODUCTION_FILE: &str = "claims.json";
 
 /// Reasons why there is no run to read. Lines and columns count from one.
 #[derive(Debug, Error, Diagnostic)]
@@ -134,7 +137,7 @@ pub(super) fn folder_of(path: &Path) -> Result<PathBuf, RunFolderError> {
             );
             return Err(no_run("the folder of a study", advice));
         }
-        if !result && holds(claims::FILE_NAME) {
+        if !result && holds(REPRODUCTION_FILE) {
             let advice = format!(
                 "its own page is {}; its runs are the folders in {}",
                 path.join(crate::page::FILE_NAME).display(),

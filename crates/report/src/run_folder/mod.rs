@@ -13,7 +13,7 @@ use study::any_case::AnyCase;
 use study::result::RunResult;
 
 pub use any_summary::{AnySummary, Ledger};
-pub use error::RunFolderError;
+pub use error::{REPRODUCTION_FILE, RunFolderError};
 pub use key_numbers::{KeyNumber, branch_window};
 
 use crate::figures::car::CarRun;

@@ -1,18 +1,13 @@
 //! Tests of `report`, one program: what is linked once is not linked thirty times.
 #![allow(clippy::expect_used, clippy::unwrap_used, missing_docs)]
 
-mod beyond;
-mod claims;
-mod comparison;
 mod figures;
 mod files;
 mod input_tables;
 mod issue_029_behaviour;
 mod issue_029_leftovers;
 mod onset_files;
-mod sensitivity;
 mod study;
-mod three_piece;
 mod view;
 mod view_car;
 mod view_stability;

@@ -3,12 +3,9 @@
 use std::collections::BTreeMap;
 
 use quantity::System as Units;
-use report::claims::Claims;
-use report::figures::CaseOutcome;
-use report::page::{self, Contents, packed};
-use report::sections;
+use report::figures::{self, CaseOutcome};
+use report::view::View;
 use report::view::run::{Detail, Recording};
-use report::view::{View, kept};
 use serde_json::Value;
 use study::case::builtin;
 use study::half_truck::catalog;
@@ -30,9 +27,8 @@ fn full(outcomes: &[CaseOutcome]) -> Vec<Recording> {
 
 /// Returns the document as another program reads it.
 fn document(outcomes: &[CaseOutcome]) -> Value {
-    let plans = sections::thesis(outcomes);
-    let exhibits: Vec<_> = plans.iter().flat_map(|plan| &plan.exhibits).collect();
-    let json = View::new(Units::Us, full(outcomes), exhibits).to_json().unwrap();
+    let exhibits: Vec<_> = outcomes.iter().flat_map(figures::run::exhibits).collect();
+    let json = View::new(Units::Us, full(outcomes), &exhibits).to_json().unwrap();
     assert!(!json.contains('<'), "it stands in a script element");
     serde_json::from_str(&json).unwrap()
 }
@@ -282,33 +278,6 @@ fn figures_hold_their_curves_in_si() {
     );
     let factor = force["us_from_si"].as_f64().unwrap();
     assert!((factor * 4.448_221_615_260_5 - 1.0).abs() < 1e-14);
-}
-
-#[test]
-fn issue_048_the_page_holds_its_data_script_and_style() {
-    let outcomes = [outcome("cdrun_toe_0_psi_0", &["simulation.duration=0.1 s"])];
-    let view = View::new(Units::Us, full(&outcomes), []).to_json().unwrap();
-    let page = page::render(&Contents {
-        outcomes: &outcomes,
-        beyond: &[],
-        claims: &Claims::of(Vec::new()),
-        sensitivity: None,
-        comparison: None,
-        truck: false,
-        sections: &[],
-        view: &view,
-    });
-    for part in [".wl-scrubber", "<div data-shown=\"cdrun_toe_0_psi_0\""] {
-        assert!(page.contains(part), "{part}");
-    }
-    let data = kept::data_in(&page).unwrap();
-    assert!(data.starts_with("{\"schema\":\"wedgelab.view/1\""));
-    // What folds tables, the data, the viewer, and what unpacks both.
-    assert_eq!(page.matches("<script").count(), 4);
-    let (_, viewer) = page.split_once("id=\"wedgelab-viewer\">").unwrap();
-    let viewer = packed::unpack(viewer.split_once('<').unwrap().0).unwrap();
-    assert!(viewer.contains("three.js") && viewer.len() > 600_000);
-    assert_eq!(outcomes[0].1.summary.units, Units::Us);
 }
 
 /// Returns a half-truck's run of two seconds.

@@ -13,16 +13,18 @@ use std::time::Duration;
 
 use clap::Args;
 use rayon::prelude::*;
-use report::agreement::{self, TruckOutcome};
-use report::claims::{self, Claims, Evidence};
 use report::figures::{CaseOutcome, Exhibit};
 use report::files::{FileError, Folder};
-use report::page::{self, Contents};
-use report::sensitivity::Sensitivity;
-use report::three_piece::Basis;
+use report::run_files;
 use report::view::View;
 use report::view::run::{Detail, Recording};
-use report::{beyond, run_files, sections};
+use reproduction::agreement::{self, TruckOutcome};
+use reproduction::claims::{self, Claims, Evidence};
+use reproduction::figures::groups;
+use reproduction::page::{self, Contents};
+use reproduction::sections::{self, Section};
+use reproduction::sensitivity::Sensitivity;
+use reproduction::three_piece::Basis;
 use study::case::{Case, builtin};
 use study::half_truck::HalfTruckCase;
 use study::truck::TruckCase;
@@ -186,7 +188,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
          Written into {}: {} (the report; open it in a browser), {}, {}/ ({figures} figures as SVG and \
          PNG), runs/NAME/{{{}}}.",
         places.sheets.path().display(),
-        page::FILE_NAME,
+        report::page::FILE_NAME,
         claims::FILE_NAME,
         page::FIGURES,
         run_files::NAMES.join(", "),
@@ -203,7 +205,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             out,
             "The three-piece truck: {} and {}. Numbers as expected: {}.",
             page::truck::FILE_NAME,
-            report::three_piece::FILE_NAME,
+            reproduction::three_piece::FILE_NAME,
             agreeing.join(", ")
         )?;
     }
@@ -245,7 +247,7 @@ fn keep(case: Case, folder: &Folder, progress: &Progress) -> Result<Option<Repro
     let detail = if of_thesis { Detail::Full } else { Detail::Thinned };
     let recording = Recording::of_wedge(&outcome, detail);
     if !of_thesis {
-        outcome.1.keep_columns(beyond::needs);
+        outcome.1.keep_columns(groups::needs);
     }
     Ok(Some(ReproducedRun {
         outcome,
@@ -302,13 +304,13 @@ fn write_report(
     // The thesis's runs come first in the list of cases.
     let first_beyond = outcomes.partition_point(|(case, _)| is_of_thesis(case));
     let (outcomes, others) = outcomes.split_at(first_beyond);
-    let mut plans = sections::thesis(outcomes);
-    let run_by_run = plans.partition_point(|plan| !plan.folded);
+    let mut sections: Vec<Section> = sections::thesis(outcomes);
+    let run_by_run = sections.partition_point(|section| !section.folded);
     let more = explored.and_then(sections::sensitivity).into_iter();
     let more = more.chain(sections::comparison(outcomes, half_trucks));
-    plans.splice(run_by_run..run_by_run, more.chain(sections::beyond(others)));
-    plans.extend(sections::moving(others, half_trucks));
-    let exhibits: Vec<&Exhibit> = plans.iter().flat_map(|plan| &plan.exhibits).collect();
+    sections.splice(run_by_run..run_by_run, more.chain(sections::beyond(others)));
+    sections.extend(sections::moving(others, half_trucks));
+    let exhibits: Vec<&Exhibit> = sections.iter().flat_map(|section| &section.exhibits).collect();
     let svgs = draw(&exhibits, &places.figures)?;
     let count = exhibits.len();
     let view = View::new(units.unwrap_or_default(), recordings, exhibits.iter().copied())
@@ -318,10 +320,9 @@ fn write_report(
             Failure::Failed(Message::new(message, "").into())
         })?;
     let mut svgs = svgs.into_iter();
-    let sections: Vec<page::PageSection> = plans
-        .iter()
-        .map(|plan| sections::drawn(plan, svgs.by_ref().take(plan.exhibits.len())))
-        .collect();
+    for section in &mut sections {
+        section.svgs = svgs.by_ref().take(section.exhibits.len()).collect();
+    }
     let curved = claims::curved_slope_runs(outcomes);
     let evidence = Evidence::new(
         outcomes
@@ -348,12 +349,12 @@ fn write_report(
         truck: truck_report.is_some(),
     });
     places.sheets.write(|files| {
-        files.add(page::FILE_NAME, |out| out.write_all(page.as_bytes()))?;
+        files.add(report::page::FILE_NAME, |out| out.write_all(page.as_bytes()))?;
         if let Some(truck_report) = truck_report {
             three_piece::add(files, truck_report)?;
         }
         if let Some(explored) = explored {
-            files.add(report::sensitivity::FILE_NAME, |out| explored.write(out))?;
+            files.add(reproduction::sensitivity::FILE_NAME, |out| explored.write(out))?;
         }
         files.add(claims::FILE_NAME, |out| claims::write(&verdicts, out))
     })?;
@@ -379,11 +380,11 @@ fn check(out: &Path, cases: &[Case], force: bool) -> Result<Places, Failure> {
     });
     let present: Vec<&str> = present.iter().map(String::as_str).collect();
     let sheets = [
-        page::FILE_NAME,
+        report::page::FILE_NAME,
         claims::FILE_NAME,
         page::truck::FILE_NAME,
-        report::three_piece::FILE_NAME,
-        report::sensitivity::FILE_NAME,
+        reproduction::three_piece::FILE_NAME,
+        reproduction::sensitivity::FILE_NAME,
     ];
     let folders = [(out.to_owned(), sheets.as_slice()), (figures, present.as_slice())];
     let runs = cases

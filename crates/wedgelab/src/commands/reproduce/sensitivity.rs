@@ -6,10 +6,10 @@ use std::path::Path;
 
 use nucars::truck::Choices;
 use rayon::prelude::*;
-use report::agreement::TruckOutcome;
-use report::claims::needs_truck;
-use report::sensitivity::{
-    self, FILE_NAME, FOLDER, Kept, KeptError, PointOutcome, PointPlace, Sensitivity, Space,
+use reproduction::agreement::TruckOutcome;
+use reproduction::claims::needs_truck;
+use reproduction::sensitivity::{
+    self, FILE_NAME, FOLDER, PointOutcome, PointPlace, PointsFile, PointsFileError, Sensitivity, Space,
 };
 use study::half_truck::catalog;
 
@@ -20,11 +20,11 @@ use crate::failure::{Failure, Message};
 use crate::interrupt;
 use crate::progress::{Progress, Steady};
 
-impl From<KeptError> for Failure {
-    fn from(error: KeptError) -> Self {
+impl From<PointsFileError> for Failure {
+    fn from(error: PointsFileError) -> Self {
         match error {
-            KeptError::File { .. } => Self::Failed(error.into()),
-            KeptError::Changed { .. } | KeptError::Busy { .. } => Self::Input(error.into()),
+            PointsFileError::File { .. } => Self::Failed(error.into()),
+            PointsFileError::Changed { .. } | PointsFileError::Busy { .. } => Self::Input(error.into()),
         }
     }
 }
@@ -36,7 +36,7 @@ impl From<KeptError> for Failure {
 pub fn explore(arguments: &Arguments, points: u64, pool: &rayon::ThreadPool) -> Result<Sensitivity, Failure> {
     let space = Space::default();
     let folder = arguments.out.join(FOLDER);
-    let kept = Kept::open(&folder, &space, arguments.force)?;
+    let kept = PointsFile::open(&folder, &space, arguments.force)?;
     let places = space.places(points);
     let missing = kept.missing(&places);
     let before = places.len() - missing.len();

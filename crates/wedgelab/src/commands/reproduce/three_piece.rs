@@ -6,12 +6,11 @@ use rayon::prelude::*;
 use report::figures::Exhibit;
 use report::figures::truck::{TruckRun, of_rigs};
 use report::files::{FileError, Files, Folder};
-use report::page::DrawnFigure;
-use report::page::truck::{self, TruckContents};
 use report::run_files;
-use report::three_piece::{self, Rigs, TruckFindings, Variant};
 use report::view::View;
 use report::view::run::{Detail, Recording};
+use reproduction::page::truck::{self, TruckContents};
+use reproduction::three_piece::{self, Rigs, TruckFindings, Variant};
 use study::truck::summary::TruckSummary;
 use study::truck::{TruckCase, builtin};
 
@@ -155,11 +154,7 @@ pub fn report_on(made: Vec<Made>, figures: &Folder) -> Result<TruckReport, Failu
             let message = format!("cannot write the data of the truck's page: {error}");
             Failure::Failed(Message::new(message, "").into())
         })?;
-    let drawn: Vec<DrawnFigure> = exhibits
-        .into_iter()
-        .zip(svgs)
-        .map(|(exhibit, svg)| DrawnFigure { exhibit, svg })
-        .collect();
+    let drawn: Vec<(Exhibit, String)> = exhibits.into_iter().zip(svgs).collect();
     let results: Vec<_> = runs.into_iter().map(|run| run.result).collect();
     let page = truck::render(&TruckContents {
         rigs: &results,
