@@ -86,7 +86,7 @@ pub fn cvode(workspace: &Workspace, built: &Path) -> Result<PathBuf, String> {
 }
 
 fn drivers(workspace: &Workspace) -> PathBuf {
-    workspace.root.join("crates").join("race").join("drivers")
+    workspace.root.join("benchmarks").join("race").join("drivers")
 }
 
 /// Returns the folder of compiled drivers.

@@ -2,7 +2,7 @@
 //! on one with a contact.
 #![allow(missing_docs, clippy::unwrap_used)]
 
-#[path = "../../integrate/tests/common/mod.rs"]
+#[path = "../../../crates/integrate/tests/common/mod.rs"]
 mod common;
 
 use common::problems::{MU, robertson, van_der_pol};

@@ -1,4 +1,4 @@
-/* The equations of the race, compiled; see crates/race/src/c_interface.rs. SI units.
+/* The equations of the race, compiled; see benchmarks/race/src/c_interface.rs. SI units.
  *
  * State: positions, speeds, bristle deflections, energy lost in friction at the first face. Functions that return
  * int give 0 when all is well. A handle is used by one thread at a time. */

@@ -131,8 +131,8 @@ pub fn ledger(observation: &Observation, start: f64) -> Entries {
 /// The code in the crates' README files runs with the tests of documentation.
 #[cfg(doctest)]
 mod readmes {
-    #[doc = include_str!("../../integrate/README.md")]
+    #[doc = include_str!("../../../crates/integrate/README.md")]
     struct Integrate;
-    #[doc = include_str!("../../wheelrail/README.md")]
+    #[doc = include_str!("../../../crates/wheelrail/README.md")]
     struct Wheelrail;
 }

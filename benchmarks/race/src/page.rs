@@ -193,7 +193,7 @@ Our integrator and the solvers of others on the same equations: how much CPU tim
 error.
 `cargo xtask race` measures everything and writes this page; `cargo xtask race --page` writes it anew from \
 the stored results
-(`docs/measured/race.json`). Both take the text from `crates/race/src/page.rs`: edit it there.
+(`docs/measured/race.json`). Both take the text from `benchmarks/race/src/page.rs`: edit it there.
 
 ## What is measured
 
@@ -218,8 +218,8 @@ starts, a hundredth of a millimeter apart, and the error is the root mean square
   scatter of a root mean square. Nearer to the floor, luck decides.
 - **Octave's ode15s** gets one second of simulated time and is compared with ours over the same second, \
 whose first part is the release from the start.
-- **The drivers of the other solvers are ours** (`crates/race/drivers`, `crates/race/src/diffsol.rs`). Who \
-knows a solver better may set it better.
+- **The drivers of the other solvers are ours** (`benchmarks/race/drivers`, \
+`benchmarks/race/src/diffsol.rs`). Who knows a solver better may set it better.
 
 ## What is not the same for all
 

@@ -2,7 +2,7 @@
 %
 % [wedge, start, scales, times] = wedge_case (TEXT)
 %
-% TEXT is the case as JSON (crates/race/src/wedge_case.rs). Everything that does not change during a run is computed here, once. Names and
+% TEXT is the case as JSON (benchmarks/race/src/wedge_case.rs). Everything that does not change during a run is computed here, once. Names and
 % equations are those of docs/theory.md, sections 1 to 6.
 function [wedge, start, scales, times] = wedge_case (text)
   case_data = jsondecode (text);

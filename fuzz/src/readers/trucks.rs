@@ -298,7 +298,7 @@ fn profile_corpus() -> Vec<Vec<u8>> {
     }
     vec![
         csv.into_bytes(),
-        include_bytes!("../../../wheelrail/tests/data/manchester/MBench_UIC60_v3.prr").to_vec(),
+        include_bytes!("../../../crates/wheelrail/tests/data/manchester/MBench_UIC60_v3.prr").to_vec(),
     ]
 }
 

@@ -6,7 +6,7 @@
 //! damping the bolster goes down first here: going up it would leave the wedge free).
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
-#[path = "../../wedge/tests/common/mod.rs"]
+#[path = "../../../crates/wedge/tests/common/mod.rs"]
 mod common;
 
 use common::plain::Plain;

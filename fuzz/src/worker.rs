@@ -246,7 +246,9 @@ fn note_panic(info: &PanicHookInfo<'_>) {
     let place = info.location().map_or_else(String::new, ToString::to_string);
     let message = info.payload_as_str().unwrap_or("no message");
     // A broken promise is known by the words before the colon; a mistake of the code by its place.
-    let own = place.contains("crates/fuzz/");
+    let own = file!()
+        .strip_suffix("worker.rs")
+        .is_some_and(|folder| place.starts_with(folder));
     let kind = if own {
         message.split(':').next().unwrap_or_default()
     } else {
