@@ -9,6 +9,7 @@ use crate::case::problem::{Problem, Problems};
 use crate::case::section::CaseSection;
 use crate::case::tree::NodeValue;
 use crate::reader::CaseReader;
+use crate::reader::schema::Form;
 
 /// A format of the table of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -202,5 +203,5 @@ fn patterns(r: &mut CaseReader<'_>, key: &'static str, usual: &[String], comment
         let list: Vec<String> = own.iter().map(|name| quoted(name)).collect();
         Written::toml(format!("[{}]", list.join(", ")))
     };
-    r.other(key, comment, usual.to_vec(), read, write)
+    r.other(key, Form::Other, comment, usual.to_vec(), read, write)
 }

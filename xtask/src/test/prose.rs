@@ -41,10 +41,13 @@ pub fn check(workspace: &Workspace) -> Outcome {
     }
 }
 
-/// Returns the plain folder and file names in `.gitignore`; patterns are left aside.
+/// Returns the plain folder and file names in `.gitignore`, those of the topmost folder with a slash before
+/// them; patterns are left aside.
 fn ignored(gitignore: &str) -> Vec<String> {
-    let names = gitignore.lines().map(|line| line.trim().trim_matches('/'));
-    let plain = names.filter(|name| !name.is_empty() && !name.contains(['#', '*', '!', '/', '?', '[']));
+    let names = gitignore.lines().map(|line| line.trim().trim_end_matches('/'));
+    let inner = |name: &str| name.strip_prefix('/').unwrap_or(name).contains('/');
+    let plain =
+        names.filter(|name| !name.is_empty() && !name.contains(['#', '*', '!', '?', '[']) && !inner(name));
     plain
         .map(str::to_owned)
         .chain(["target".to_owned(), ".git".to_owned()])
@@ -64,7 +67,11 @@ impl Search<'_> {
         entries.sort_by_key(fs::DirEntry::file_name);
         for entry in entries {
             let name = entry.file_name();
-            if self.ignored.iter().any(|ignored| name == ignored.as_str()) {
+            let is_ignored = |ignored: &String| match ignored.strip_prefix('/') {
+                Some(top) => folder == self.root && name == top,
+                None => name == ignored.as_str(),
+            };
+            if self.ignored.iter().any(is_ignored) {
                 continue;
             }
             let kind = entry.file_type()?;
@@ -165,7 +172,7 @@ mod tests {
     #[test]
     fn plain_names_of_gitignore_are_left_out() {
         let names = ignored("# built\ntarget/\n/reproduction/\n*.tmp\n!kept\n\n");
-        assert_eq!(names, ["target", "reproduction", "target", ".git"]);
+        assert_eq!(names, ["target", "/reproduction", "target", ".git"]);
     }
 
     #[test]
@@ -176,6 +183,8 @@ mod tests {
             ("a.md", bad),
             ("target/b.md", bad),
             ("docs/c.md", bad),
+            ("results/e.md", bad),
+            ("docs/results/f.md", bad),
             ("d.bin", "\0/"),
         ] {
             let file = folder.path().join(name);
@@ -184,13 +193,13 @@ mod tests {
         }
         let mut search = Search {
             root: folder.path(),
-            ignored: ignored(""),
+            ignored: ignored("/results/\n"),
             files: 0,
             found: Vec::new(),
         };
         search.folder(folder.path()).expect("readable");
-        assert_eq!(search.files, 2);
-        assert_eq!(search.found.len(), 2);
+        assert_eq!(search.files, 3);
+        assert_eq!(search.found.len(), 3);
         assert!(search.found[0].starts_with("a.md:2: names"), "{:?}", search.found);
     }
 }

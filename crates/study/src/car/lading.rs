@@ -7,6 +7,7 @@ use truck::Lading;
 use crate::case::field::{Reach, Written, quoted};
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Names, Range};
+use crate::reader::schema::Form;
 use crate::reader::{CaseReader, LENGTH, QuantityForm};
 use crate::truck::sections;
 
@@ -66,10 +67,17 @@ pub(super) fn masses(r: &mut CaseReader<'_>, kind: LadingKind) -> Vec<Mass> {
     }
     let comment = "rigid masses: weight; place forward, to the left, above the top of rail; inertia about \
                    x, y, z; off the middle allowed";
-    let read = r.other("masses", comment, Vec::new(), list, |list: &Vec<Typed>| {
-        let lines: Vec<String> = list.iter().map(|own| format!("\n    {},", own.toml)).collect();
-        Written::toml(format!("[{}\n]", lines.concat()))
-    });
+    let read = r.other(
+        "masses",
+        Form::Other,
+        comment,
+        Vec::new(),
+        list,
+        |list: &Vec<Typed>| {
+            let lines: Vec<String> = list.iter().map(|own| format!("\n    {},", own.toml)).collect();
+            Written::toml(format!("[{}\n]", lines.concat()))
+        },
+    );
     if read.is_empty() && !r.has("lading.masses") {
         let problem = Problem::new("`lading.kind` is \"masses\", but there are none").label("which masses?");
         let help = "write lading.masses = [{ name = \"coil\", weight = \"40 kip\", place = [\"0 in\", \"10 \

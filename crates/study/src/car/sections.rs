@@ -15,6 +15,7 @@ use crate::case::section::{CaseSection, Names, Range, quantity};
 use crate::case::tree::NodeValue;
 use crate::case::{Simulation, page};
 use crate::output_files::OutputFiles;
+use crate::reader::schema::Form;
 use crate::reader::{CaseReader, DAMPING, QuantityForm};
 use crate::track::{Notes, Support};
 
@@ -225,7 +226,7 @@ type Pairs = Vec<[Quantity; 2]>;
 fn speeds_over(r: &mut CaseReader<'_>, over: &'static Over) -> Option<Vec<[f64; 2]>> {
     let key = over.key;
     let read = |section: &CaseSection<'_>, problems: &mut Problems| pairs(section, over, problems).map(Some);
-    let typed = r.other(key, over.comment, None, read, write_speeds);
+    let typed = r.other(key, Form::Rows, over.comment, None, read, write_speeds);
     let Some(typed) = typed.filter(|typed| !typed.is_empty()) else {
         if !r.has(&format!("speed.{key}")) {
             let problem = Problem::new(format!("`speed.kind` is \"{key}\", but `speed.{key}` is missing"));
@@ -413,7 +414,7 @@ fn frequency(r: &mut CaseReader<'_>, key: &'static str, hertz: &mut f64, comment
     let Ok(usual) = Quantity::parse_as(&default, Kind::Frequency) else {
         return;
     };
-    let own = r.other(key, comment, usual, read, |own| {
+    let own = r.other(key, Form::Quantity(form.0), comment, usual, read, |own| {
         Written::quantity(own, form.0, form.2)
     });
     // Angular and back again leaves a last digit.

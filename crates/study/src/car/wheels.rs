@@ -17,6 +17,7 @@ use crate::case::field::{Reach, Written};
 use crate::case::problem::Problem;
 use crate::case::section::{Names, Range};
 use crate::case::tables::NamedFile;
+use crate::reader::schema::Form;
 use crate::reader::{CaseReader, LENGTH, QuantityForm};
 
 const INCH: f64 = 0.0254;
@@ -318,7 +319,9 @@ fn text(r: &mut CaseReader<'_>, key: &'static str, default: &str, comment: &str)
                 problems: &mut crate::case::problem::Problems| {
         section.text(key, problems).map(|(text, _)| text.to_owned())
     };
-    r.other(key, comment, default.to_owned(), read, |text| Written::text(text))
+    r.other(key, Form::Text, comment, default.to_owned(), read, |text| {
+        Written::text(text)
+    })
 }
 
 /// Returns a nominal profile, or one from a file.

@@ -9,6 +9,7 @@ use super::problem::Problems;
 use super::section::{self, CaseSection, Range};
 use super::table::{self, QuantityTable, TableForm};
 use super::tables::Tables;
+use crate::reader::schema::Form;
 use quantity::{Kind, Quantity};
 use wedge::face::{DepthMap, FaceProperties, FrictionMap, Grid, STRIBECK_SPEED};
 
@@ -77,6 +78,22 @@ impl FaceSection {
         "friction_map",
         "pad",
     ];
+
+    /// Returns what may stand at these keys.
+    pub(crate) fn forms() -> [Form; 10] {
+        [
+            Form::Counts,
+            Form::Described,
+            Form::Rows,
+            Form::Described,
+            Form::Rows,
+            Form::number(COEFFICIENT),
+            Form::Quantity(Kind::Speed),
+            Form::Quantity(Kind::Force),
+            Form::Grid,
+            Form::Table,
+        ]
+    }
 
     /// Reads what a section says over these values.
     pub(crate) fn read_over(

@@ -10,6 +10,7 @@ use super::problem::Problems;
 use super::section::{CaseSection, Range, name_of};
 use super::tree::NodeValue;
 use super::{bounds, page::FRICTION};
+use crate::reader::schema::Form;
 use crate::reader::{CaseReader, STIFFNESS};
 
 /// A coefficient of friction.
@@ -52,7 +53,7 @@ impl Laws {
     pub fn read(&mut self, r: &mut CaseReader<'_>, faces: [&mut FaceFriction; 2]) {
         let comment = "\"tanh\" (the thesis's; creeps under load) or \"bristle\" (holds); or { column = \
                        ..., slope = ... }";
-        self.chosen = r.other("law", comment, self.chosen, read, written);
+        self.chosen = r.other("law", Form::Described, comment, self.chosen, read, written);
         for (key, friction) in ["column", "slope"].into_iter().zip(faces) {
             let coefficient = &mut friction.coefficient;
             r.number(key, COEFFICIENT, FRICTION, coefficient, "coefficient of friction");

@@ -8,6 +8,7 @@ use super::problem::{Problem, Problems, TomlLocation};
 use super::section::{self, CaseSection, Range, inner_place, unit_problem};
 use super::tree::{NodeValue, TreeNode};
 use crate::reader::CaseReader;
+use crate::reader::schema::Form;
 
 /// Toes that make sense, rad.
 const TOE: Range = Range::Between(
@@ -56,7 +57,15 @@ impl Toe {
         };
         let comment = "of the column; out: the gap between column and bolster opens downwards; in: it closes";
         let usual = Self { angle, direction };
-        r.other("toe", comment, usual, read, Self::written).to_si()
+        r.other(
+            "toe",
+            Form::Quantity(Kind::Angle),
+            comment,
+            usual,
+            read,
+            Self::written,
+        )
+        .to_si()
     }
 
     /// Returns the angle in rad, positive for toe out (eq. 5-1 of the thesis).

@@ -204,12 +204,13 @@ impl CaseReader<'_> {
     pub fn other<T>(
         &mut self,
         key: &'static str,
+        form: Form,
         comment: &str,
         default: T,
         read: impl FnOnce(&CaseSection<'_>, &mut Problems) -> Option<T>,
         write: impl FnOnce(&T) -> Written,
     ) -> T {
-        let given = self.node(key, Form::Other).is_some();
+        let given = self.node(key, form).is_some();
         let value = match self.given().filter(|_| given) {
             Some(section) => read(&section, self.problems).unwrap_or(default),
             None => default,
@@ -249,8 +250,8 @@ impl CaseReader<'_> {
     /// The keys of a face of a wedge.
     pub fn face(&mut self, face: &mut FaceSection) {
         let given: Vec<bool> = FaceSection::KEYS.iter().map(|key| self.gives(key)).collect();
-        for key in FaceSection::KEYS {
-            self.node(key, Form::Other);
+        for (key, form) in FaceSection::KEYS.iter().zip(FaceSection::forms()) {
+            self.node(key, form);
         }
         if let Some(section) = self.given()
             && let Some(read) = face.read_over(&section, self.tables, self.problems)

@@ -32,6 +32,14 @@ pub(crate) enum Form {
     Motion(Kind),
     /// Rows of quantities, or the name of a file.
     Rows,
+    /// Whole numbers in a list.
+    Counts,
+    /// Lists of numbers in a list.
+    Grid,
+    /// A name, or a table of values.
+    Described,
+    /// A table of values.
+    Table,
     /// What another reader reads.
     Other,
     /// Not said: the key is known only so that a mistake is not noted twice.
@@ -120,6 +128,10 @@ impl Form {
                     {"type": "array", "items": {"type": "array", "items": {"type": ["string", "number"]}}},
                 ],
             }),
+            Self::Counts => json!({"type": "array", "items": {"type": "integer", "minimum": 1}}),
+            Self::Grid => json!({"type": "array", "items": {"type": "array", "items": {"type": "number"}}}),
+            Self::Described => json!({"anyOf": [{"type": "string"}, {"type": "object"}]}),
+            Self::Table => json!({"type": "object"}),
             Self::Other | Self::Unsaid => json!({}),
         }
     }

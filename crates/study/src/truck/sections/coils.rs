@@ -8,6 +8,7 @@ use truck::nest::Ring;
 use crate::case::field::{Reach, Written, quoted};
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Range};
+use crate::reader::schema::Form;
 use crate::reader::{CaseReader, LENGTH};
 
 const INCH: f64 = 0.0254;
@@ -33,13 +34,20 @@ pub(crate) fn coils(r: &mut CaseReader<'_>) -> Vec<CoilKind> {
     );
     r.section("coils", &about);
     let comment = "kinds of coils; load_springs.kind and control_coil.kind name them";
-    let own = r.other("own", comment, Vec::new(), list, |list: &Vec<Typed>| {
-        let lines: Vec<String> = list.iter().map(|own| format!("\n    {},", own.toml)).collect();
-        match lines.is_empty() {
-            true => Written::toml("[]".to_owned()),
-            false => Written::toml(format!("[{}\n]", lines.concat())),
-        }
-    });
+    let own = r.other(
+        "own",
+        Form::Other,
+        comment,
+        Vec::new(),
+        list,
+        |list: &Vec<Typed>| {
+            let lines: Vec<String> = list.iter().map(|own| format!("\n    {},", own.toml)).collect();
+            match lines.is_empty() {
+                true => Written::toml("[]".to_owned()),
+                false => Written::toml(format!("[{}\n]", lines.concat())),
+            }
+        },
+    );
     let mut all: Vec<CoilKind> = own.into_iter().map(|own| own.kind).collect();
     all.extend(known);
     all
@@ -153,7 +161,9 @@ pub(crate) fn kind(
         let (text, _) = section.text("kind", problems)?;
         Some(text.to_owned())
     };
-    let name = r.other("kind", comment, usual.to_owned(), read, |own| Written::text(own));
+    let name = r.other("kind", Form::Text, comment, usual.to_owned(), read, |own| {
+        Written::text(own)
+    });
     let found = known.iter().find(|own| own.name == name).cloned();
     if found.is_none() {
         let names: Vec<String> = known.iter().map(|own| format!("\"{}\"", own.name)).collect();
@@ -190,7 +200,14 @@ pub(crate) fn counts(
             toml: own.to_string(),
             ..Written::number(*own, Reach::Between(0.0, most as f64))
         };
-        let own = r.other(key, comment, *count as f64, read, write);
+        let own = r.other(
+            key,
+            Form::number(Range::NotNegative),
+            comment,
+            *count as f64,
+            read,
+            write,
+        );
         let path = r.path(key);
         if own.fract() != 0.0 {
             let problem = Problem::new(format!("`{path}` is {own}")).label("no whole number");
