@@ -50,7 +50,16 @@ pub const MODELS: [ModelKeys; 3] = [
             ("truck_warp_axles_variable_rising", &["adapter.kind=pad"]),
             ("truck_vertical_variable", &["wedge.kind=massless"]),
             ("truck_vertical_split", &[]),
-            ("truck_vertical_variable", &["control_coil.kind=B-353"]),
+            (
+                "truck_vertical_variable",
+                &[
+                    "control_coil.kind=B-353",
+                    "load_springs.kind=D5",
+                    "load_springs.outer=7",
+                    "load_springs.inner=7",
+                    "load_springs.height=9 in",
+                ],
+            ),
             (
                 "truck_vertical_variable",
                 &[
@@ -70,6 +79,8 @@ pub const MODELS: [ModelKeys; 3] = [
             ("car_hunting_empty", &[]),
             ("car_hunting_roller_empty", &[]),
             ("car_twist_and_roll_loaded", &[]),
+            ("car_286k_loaded", &[]),
+            ("car_286k_loaded", &["truck.load_springs.height=9 in"]),
         ],
         known: CarCase::known_keys,
     },

@@ -25,10 +25,10 @@ const HEADINGS: [(&str, &str); 3] = [
 ];
 
 /// A key: its path, the values that it has in the cases, what it means, what may stand there.
-struct Key {
-    path: String,
+pub struct Key {
+    pub path: String,
     values: Vec<String>,
-    help: String,
+    pub help: String,
     input: Input,
 }
 
@@ -68,7 +68,7 @@ pub fn schema(model: &ModelKeys) -> String {
 }
 
 /// Returns the keys of all cases of a model, in the order in which they first appear.
-fn keys(cases: &[Variant]) -> Vec<Key> {
+pub fn keys(cases: &[Variant]) -> Vec<Key> {
     let mut keys: Vec<Key> = Vec::new();
     for (name, overrides) in cases {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();

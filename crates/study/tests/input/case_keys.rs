@@ -2,6 +2,8 @@
 
 #[path = "../case_keys/page.rs"]
 mod page;
+#[path = "../case_keys/python.rs"]
+mod python;
 
 use study::case::every_key::MODELS;
 
@@ -25,20 +27,15 @@ fn reproduction_the_reference_of_case_keys_is_that_of_this_build() {
     assert_eq!(unexplained.collect::<Vec<_>>(), Vec::<&str>::new());
 }
 
-/// The files of docs/schema are the schemas of this build.
+/// The schemas of docs/schema and the sections in Python are those of this build.
 #[test]
-fn reproduction_the_schemas_of_cases_are_those_of_this_build() {
-    for model in MODELS {
-        let path = format!(
-            "{}/../../docs/schema/{}.json",
-            env!("CARGO_MANIFEST_DIR"),
-            model.name
-        );
-        let written = std::fs::read_to_string(&path).unwrap();
+fn reproduction_schemas_and_python_sections_are_those_of_this_build() {
+    let schemas = MODELS.map(|model| (format!("docs/schema/{}.json", model.name), page::schema(&model)));
+    let python = "crates/wedgelab-py/python/wedgelab/sections.py".to_owned();
+    for (path, expected) in schemas.into_iter().chain([(python, python::sections())]) {
+        let written =
+            std::fs::read_to_string(format!("{}/../../{path}", env!("CARGO_MANIFEST_DIR"))).unwrap();
         let hint = "run cargo run --release -p study --example case_keys";
-        assert!(
-            written == page::schema(&model),
-            "{path} is of another build: {hint}"
-        );
+        assert!(written == expected, "{path} is of another build: {hint}");
     }
 }

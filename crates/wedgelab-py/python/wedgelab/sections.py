@@ -5,16 +5,27 @@ rad/s, N/m, N s/m, N m s/rad, kg m^2, m/s^2. What is ``None`` is left out, and t
 thesis. The sections of a case that was made hold every value, with quantities as `Quantity`.
 """
 
+# Written by `cargo run --release -p study --example case_keys`.
+
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
-from typing import Any, ClassVar, Union
+from dataclasses import dataclass
+from typing import Any
 
-import numpy as np
-import numpy.typing as npt
-
-from ._wedgelab import Quantity
+from ._motions import (
+    Constant,
+    MotionLike,
+    Points,
+    QuantityLike,
+    Ramp,
+    Section,
+    Sine,
+    SweptSine,
+    Table,
+    Triangle,
+    Triple,
+)
 
 __all__ = [
     "BolsterSection",
@@ -37,218 +48,59 @@ __all__ = [
     "WedgeSection",
 ]
 
-QuantityLike = Union[str, float, Quantity]
-"""A text with a unit, a number in SI units, or a quantity."""
-Triple = Sequence[QuantityLike]
-"""Three of them."""
-Points = Union[Sequence[Sequence[QuantityLike]], npt.NDArray[np.float64]]
-"""Rows of two quantities."""
-
-
-@dataclass(frozen=True)
-class Constant:
-    """A coordinate that is held."""
-
-    value: QuantityLike
-    """Length or angle."""
-
-    def _to_values(self) -> Mapping[str, Any]:
-        return {"shape": "constant", "value": self.value}
-
-
-@dataclass(frozen=True)
-class Sine:
-    """``amplitude · sin(frequency · t + phase)``."""
-
-    amplitude: QuantityLike
-    """Length or angle."""
-    frequency: QuantityLike
-    """Frequency; a bare number is in rad/s, ``"1 Hz"`` counts cycles."""
-    phase: QuantityLike | None = None
-    """Angle at time zero; 0 if left out."""
-
-    def _to_values(self) -> Mapping[str, Any]:
-        return {"shape": "sine", "amplitude": self.amplitude, "frequency": self.frequency, "phase": self.phase}
-
-
-@dataclass(frozen=True)
-class Triangle:
-    """A triangle wave that rises from zero."""
-
-    amplitude: QuantityLike
-    """Length or angle."""
-    frequency: QuantityLike
-    """Frequency; a bare number is in rad/s."""
-
-    def _to_values(self) -> Mapping[str, Any]:
-        return {"shape": "triangle", "amplitude": self.amplitude, "frequency": self.frequency}
-
-
-@dataclass(frozen=True)
-class SweptSine:
-    """A sine whose frequency changes linearly with time and then stays."""
-
-    amplitude: QuantityLike
-    """Length or angle."""
-    start_frequency: QuantityLike
-    """Frequency at time zero; a bare number is in rad/s."""
-    end_frequency: QuantityLike
-    """Frequency from ``duration`` on."""
-    duration: QuantityLike
-    """Time of the sweep."""
-
-    def _to_values(self) -> Mapping[str, Any]:
-        return {"shape": "swept_sine", **{field.name: getattr(self, field.name) for field in fields(self)}}
-
-
-@dataclass(frozen=True)
-class Ramp:
-    """From zero to the amplitude, which is then held."""
-
-    amplitude: QuantityLike
-    """Length or angle at the end."""
-    duration: QuantityLike
-    """Time it takes."""
-    start: QuantityLike | None = None
-    """Time it begins; 0 if left out."""
-    profile: str | None = None
-    """``"smooth"`` (if left out) or ``"linear"``."""
-
-    def _to_values(self) -> Mapping[str, Any]:
-        return {"shape": "ramp", **{field.name: getattr(self, field.name) for field in fields(self)}}
-
-
-@dataclass(frozen=True)
-class Table:
-    """A cubic spline through points of time and value: at least four, times increasing."""
-
-    points: Points | None = None
-    """Rows of time and value; an array holds s, and m or rad."""
-    file: str | None = None
-    """Instead of points: a CSV file whose first line is such as ``time [s], value [in]``."""
-
-    @classmethod
-    def of(cls, times: npt.ArrayLike, values: npt.ArrayLike) -> Table:
-        """From arrays of the same length: times in s, values in m or rad."""
-        columns = np.column_stack([np.asarray(times, dtype=float), np.asarray(values, dtype=float)])
-        return cls(columns)
-
-    def _to_values(self) -> Mapping[str, Any]:
-        return {"shape": "table", "points": self.points, "file": self.file}
-
-
-Motion = Union[Constant, Sine, Triangle, SweptSine, Ramp, Table]
-MotionLike = Union[Motion, QuantityLike, Mapping[str, Any], Sequence[Any]]
-"""A motion, one held value, a mapping as in a case file, or a list of motions to be added up."""
-
-_SHAPES: dict[str, Any] = {
-    "constant": Constant,
-    "sine": Sine,
-    "triangle": Triangle,
-    "swept_sine": SweptSine,
-    "ramp": Ramp,
-    "table": Table,
-}
-
-
-def _quantity(value: Any) -> Any:
-    """Texts as quantities, in lists too."""
-    if isinstance(value, str):
-        return Quantity(value)
-    if isinstance(value, list):
-        return tuple(_quantity(one) for one in value)
-    return value
-
-
-def _motion(value: Any) -> Any:
-    """A motion as a case file has it, as an object."""
-    if isinstance(value, list):
-        return tuple(_motion(one) for one in value)
-    if isinstance(value, dict):
-        entries = dict(value)
-        shape = _SHAPES[entries.pop("shape")]
-        words = ("profile", "file")
-        return shape(**{key: one if key in words else _quantity(one) for key, one in entries.items()})
-    return Constant(_quantity(value))
-
-
-class Section:
-    """A section of a case."""
-
-    _words: ClassVar[frozenset[str]] = frozenset()
-    """Fields that hold names, truths and plain numbers."""
-    _motions: ClassVar[frozenset[str]] = frozenset()
-    """Fields that hold motions."""
-
-    def _to_values(self) -> Mapping[str, Any]:
-        return {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]
-
-    @classmethod
-    def _of(cls, entries: Mapping[str, Any]) -> Any:
-        """From a complete section of a case file."""
-
-        def read(key: str, value: Any) -> Any:
-            if key in cls._motions:
-                return _motion(value)
-            if key in cls._words:
-                return tuple(value) if isinstance(value, list) else value
-            return _quantity(value)
-
-        return cls(**{key: read(key, value) for key, value in entries.items()})
-
 
 @dataclass(frozen=True)
 class WedgeSection(Section):
     """``[wedge]``"""
 
     damping: str | None = None
-    """Where the control coil stands: ``"variable"`` (side frame) or ``"constant"`` (bolster)."""
+    """"variable": the coil stands on the side frame; "constant": in the bolster."""
     angle: QuantityLike | None = None
-    """Angle between the slope and the vertical."""
+    """Between the slope and the vertical."""
     height: QuantityLike | None = None
-    """Length: height of the vertical face."""
+    """Of the vertical face."""
     width: QuantityLike | None = None
-    """Length: lateral width."""
+    """Across the track."""
     weight: QuantityLike | None = None
-    """Force under standard gravity."""
+    """A force; the mass is the weight over standard gravity."""
     inertia: Triple | None = None
-    """Moments of inertia about the center of gravity: roll, pitch, yaw."""
+    """Roll, pitch, yaw. The thesis gives no unit; lb in^2 is the only plausible one."""
     center_of_gravity: Triple | None = None
-    """Lengths from the wedge frame's origin: x, y, z."""
+    """From the point above the coil. It is taken as the prism's centroid, which places the faces."""
     column_wear: QuantityLike | None = None
-    """Length: depth of wear of the column and the wedge's vertical face together."""
+    """What column and wedge have lost there, together: the column lies deeper by it."""
     slope_wear: QuantityLike | None = None
-    """Length: depth of wear of the pocket's slope and the wedge's slope face together."""
+    """The same at the slope; a worn wedge rises. Begin in equilibrium."""
     rise: QuantityLike | None = None
-    """Length: rise of the wedge by wear, as a gauge shows it, in place of both depths."""
+    """Of the wedge by wear, as a gauge shows it, in place of both depths: (column_wear cos(angle) + slope_wear) / sin(angle) without toe."""
     rise_column_share: float | None = None
-    """Share of the column in the sum of both depths that ``rise`` makes, from 0 to 1."""
+    """Of the sum of both depths that rise makes, at the column: 0.5 is equal wear, a guess."""
     free_coordinates: Sequence[str] | None = None
-    """Those that are free of ``"x"``, ``"y"``, ``"z"``, ``"roll"``, ``"pitch"``, ``"yaw"``."""
+    """Of x, y, z, roll, pitch, yaw; the others are held."""
 
-    _words = frozenset({"damping", "free_coordinates"})
+    _words = frozenset({"damping", "rise_column_share", "free_coordinates"})
 
 
 @dataclass(frozen=True)
 class ControlCoilSection(Section):
     """``[control_coil]``"""
 
-    stiffness: QuantityLike | None = None
-    """Stiffness; or a ``table``."""
     table: Points | str | None = None
-    """Rows of compression (length) and force, or the name of a CSV file."""
+    """Compression and force; straight between the points."""
+    stiffness: QuantityLike | None = None
+    """Or table = [[compression, force], ...] or table = "coil.csv"."""
     free_length: QuantityLike | None = None
-    """Length without force."""
+    """Without force."""
     nominal_length: QuantityLike | None = None
-    """Length in the nominal position."""
+    """In the nominal position; the thesis: just free."""
     damping: QuantityLike | None = None
-    """Viscous damping along the coil."""
+    """Along the coil."""
     rotational_damping: QuantityLike | None = None
-    """Viscous damping of the wedge's rotations."""
+    """Of the wedge's rotations; the thesis uses the same number as along the coil."""
     acts_at: str | None = None
-    """Line of action: ``"center_of_gravity"`` or ``"seat"``."""
+    """"center_of_gravity": the thesis's moment equations hold no moment of the coil; or "seat", with its moment."""
     pulls: bool | None = None
-    """Whether it can pull."""
+    """The thesis's coil pushes and pulls; false: it lifts off at its free length."""
 
     _words = frozenset({"acts_at", "pulls"})
 
@@ -258,29 +110,29 @@ class ContactSection(Section):
     """``[contact]``"""
 
     stiffness: QuantityLike | None = None
-    """Stiffness per corner."""
+    """Per corner. The thesis gives none; four of 2.5e5 lbf/in give its limits and orderings."""
     damping: QuantityLike | None = None
-    """Viscous damping per corner."""
+    """The same; it never pulls."""
 
 
 @dataclass(frozen=True)
 class FrictionSection(Section):
     """``[friction]``"""
 
-    law: str | Mapping[str, str] | None = None
-    """``"tanh"`` or ``"bristle"``, or one for each of ``"column"`` and ``"slope"``."""
+    law: str | Mapping[str, Any] | None = None
+    """"tanh" (the thesis's; creeps under load) or "bristle" (holds); or { column = ..., slope = ... }."""
     column: float | None = None
-    """Coefficient of friction at the column."""
+    """Coefficient of friction."""
     slope: float | None = None
-    """Coefficient of friction at the slope."""
-    directions: str | None = None
-    """``"two"``: against the slip; ``"one"``: along a face's line of travel alone."""
+    """Coefficient of friction."""
     reference_speed: QuantityLike | None = None
-    """Speed v0 of the tanh law."""
+    """Tanh: below it friction fades. It is part of the result: ten times it moves the forces by 20 to 30 %."""
     bristle_stiffness: QuantityLike | None = None
-    """Tangential stiffness of the bristle law, per face."""
+    """Bristle: tangential, per face. Not in the thesis: from the comparison program."""
     bristle_damping: QuantityLike | None = None
-    """Tangential viscous damping of the bristle law, per face."""
+    """Bristle: tangential, per face. From the comparison program."""
+    directions: str | None = None
+    """"two": against the slip; "one": along a face's line of travel alone, one tangent a face as in the thesis's equations."""
 
     _words = frozenset({"law", "column", "slope", "directions"})
 
@@ -290,39 +142,27 @@ class FaceSection(Section):
     """``[column_face]`` or ``[slope_face]``"""
 
     grid: Sequence[int] | None = None
-    """Points up the face and across it, edges included; (2, 2): the corners."""
+    """Points up the face and across it, edges included; [2, 2]: the corners. More points spread the pressure."""
     wedge_surface: str | Mapping[str, Any] | None = None
-    """The wedge's surface: ``"flat"``, or a mapping as in a case file, such as
-    ``{"shape": "crown", "radius": "60 in", "direction": "up"}``."""
-    wedge_wear: str | Sequence[Sequence[QuantityLike]] | None = None
-    """Wear of the wedge's surface: a CSV file, or points of place up, place across and depth."""
+    """The wedge's surface: "flat", or { shape = "crown", radius = "60 in", direction = "up" }, ...."""
+    wedge_wear: Points | str | None = None
+    """Wear of the wedge's surface beyond that: a CSV file of up [in], across [in], depth [in], places from the middle; or the same as a list of points; left out, none."""
     counterface: str | Mapping[str, Any] | None = None
     """The surface that it touches, in the same words."""
-    counterface_wear: str | Sequence[Sequence[QuantityLike]] | None = None
-    """Wear of that surface, as ``wedge_wear``."""
+    counterface_wear: Points | str | None = None
+    """Wear of that surface, as wedge_wear; at least four places up and four across; left out, none."""
     sliding_friction: float | None = None
-    """Coefficient of sliding; left out, that of rest."""
+    """Coefficient of sliding; left out, that of rest, which is friction.column or friction.slope."""
     stribeck_speed: QuantityLike | None = None
-    """Slip speed at which half of the way from rest to sliding is gone."""
+    """Slip speed at which half of the way from rest to sliding is gone; left out, 0.1 in/s."""
     friction_half_load: QuantityLike | None = None
-    """Force: load of the face at which its coefficients are half of those without load."""
+    """Load of the face at which its coefficients are half of those without load; left out, no dependence."""
     friction_map: Sequence[Sequence[float]] | None = None
-    """Factors of the coefficients: rows from the lower edge, each from the right to the left edge."""
+    """Factors of the coefficients, rows from the lower edge, each from the right to the left edge; left out, 1."""
     pad: Mapping[str, Any] | None = None
-    """A resilient pad, as in a case file: stiffness, damping, hardening, friction, shear_stiffness, shear_damping."""
+    """A resilient pad in place of contact.stiffness and .damping, with friction of its own; left out, steel on steel."""
 
-    _words = frozenset(
-        {
-            "grid",
-            "wedge_surface",
-            "wedge_wear",
-            "counterface",
-            "counterface_wear",
-            "sliding_friction",
-            "friction_map",
-            "pad",
-        }
-    )
+    _words = frozenset({"grid", "wedge_surface", "counterface", "sliding_friction", "friction_map", "pad"})
 
 
 @dataclass(frozen=True)
@@ -330,26 +170,26 @@ class SideFrameSection(Section):
     """``[side_frame]``"""
 
     toe: QuantityLike | None = None
-    """Angle of the column: ``"0.2 deg out"``, ``"0.2 deg in"``; a number is in rad, positive out."""
+    """Of the column; out: the gap between column and bolster opens downwards; in: it closes."""
     toe_pivot: QuantityLike | None = None
-    """Height of the point about which toe turns the column, above the middle of the wedge's face."""
+    """The column turns about a point so far above the middle of the wedge's face. The thesis does not say."""
     center: Triple | None = None
-    """Lengths: the point it turns about; left out, the center of its face."""
+    """The point it turns about; left out, the centre of the column."""
     longitudinal: MotionLike | None = None
-    """Motion of a length."""
+    """A motion."""
     lateral: MotionLike | None = None
-    """Motion of a length."""
+    """A motion."""
     vertical: MotionLike | None = None
-    """Motion of a length."""
+    """A motion."""
     roll: MotionLike | None = None
-    """Motion of an angle."""
+    """A motion."""
     pitch: MotionLike | None = None
-    """Motion of an angle."""
+    """A motion."""
     yaw: MotionLike | None = None
-    """Motion of an angle."""
+    """A motion."""
 
-    # The toe has its direction in words.
     _words = frozenset({"toe"})
+
     _motions = frozenset({"longitudinal", "lateral", "vertical", "roll", "pitch", "yaw"})
 
 
@@ -358,19 +198,19 @@ class BolsterSection(Section):
     """``[bolster]``"""
 
     center: Triple | None = None
-    """Lengths: the point it turns about; left out, the center of its face."""
+    """The point it turns about; left out, the pocket's centre: about the truck's, one wedge could not follow a yaw."""
     longitudinal: MotionLike | None = None
-    """Motion of a length."""
+    """A motion."""
     lateral: MotionLike | None = None
-    """Motion of a length."""
+    """A motion."""
     vertical: MotionLike | None = None
-    """Motion of a length."""
+    """A motion."""
     roll: MotionLike | None = None
-    """Motion of an angle."""
+    """A motion."""
     pitch: MotionLike | None = None
-    """Motion of an angle."""
+    """A motion."""
     yaw: MotionLike | None = None
-    """Motion of an angle."""
+    """A motion."""
 
     _motions = frozenset({"longitudinal", "lateral", "vertical", "roll", "pitch", "yaw"})
 
@@ -380,7 +220,7 @@ class EnvironmentSection(Section):
     """``[environment]``"""
 
     gravity: QuantityLike | None = None
-    """Acceleration."""
+    """Standard gravity."""
 
 
 @dataclass(frozen=True)
@@ -388,17 +228,16 @@ class SimulationSection(Section):
     """``[simulation]``"""
 
     duration: QuantityLike | None = None
-    """Time the run ends."""
+    """A motion."""
     output_interval: QuantityLike | None = None
-    """Time between two rows of the result."""
+    """Time between two rows of the result; steps are chosen freely."""
     relative_tolerance: float | None = None
-    """Of the integrator; between 0 and 1."""
-    start: str | None = None
-    """``"rest"``, ``"touching"`` or ``"equilibrium"``."""
+    """Of the integrator, between 0 and 1."""
     output_units: str | None = None
-    """Units of the summary, of figures and of files: ``"us"`` or ``"si"``."""
+    """"us" (in, lbf) or "si" (m, N)."""
     method: str | None = None
-    """Integration method: ``"rodas5p"``; ``"tr-bdf2"`` and ``"esdirk3"`` damp vibrations: for averages and slow
-    motions."""
+    """"rodas5p"; "tr-bdf2" and "esdirk3" damp vibrations."""
+    start: str | None = None
+    """"rest": nominal position, corners may start inside; "touching"; or "equilibrium"."""
 
-    _words = frozenset({"relative_tolerance", "start", "output_units", "method"})
+    _words = frozenset({"relative_tolerance", "output_units", "method", "start"})
