@@ -1,7 +1,7 @@
 //! A case as a list of fields: what each value is, what may be typed there, how far a slider reaches.
 //!
-//! Written from the same lines as the commented case file
-//! ([`CaseDocument::to_toml`](super::CaseDocument::to_toml)), so that texts stand in one place.
+//! Written from the same lines as the commented case file ([`Case::to_toml`](super::Case::to_toml)), so that
+//! texts stand in one place.
 
 use quantity::{Kind, Quantity, System};
 use serde::Serialize;

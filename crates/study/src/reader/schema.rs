@@ -139,7 +139,7 @@ impl Form {
 
 fn quantity(kind: Kind) -> Value {
     // A number comes first, or a point before its digits; then a unit.
-    json!({"type": "string", "pattern": "^\\s*[+-]?\\.?\\d.*\\S", "examples": [example(kind)]})
+    json!({"type": "string", "pattern": "^\\s*[+-]?\\.?\\d[\\d.eE+-]*\\s*[^\\d\\s.eE+-]", "examples": [example(kind)]})
 }
 
 fn motion(kind: Kind) -> Value {

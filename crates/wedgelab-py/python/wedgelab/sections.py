@@ -54,7 +54,7 @@ class WedgeSection(Section):
     """``[wedge]``"""
 
     damping: str | None = None
-    """"variable": the coil stands on the side frame; "constant": in the bolster."""
+    """``"variable"``: the coil stands on the side frame; ``"constant"``: in the bolster."""
     angle: QuantityLike | None = None
     """Between the slope and the vertical."""
     height: QuantityLike | None = None
@@ -88,7 +88,7 @@ class ControlCoilSection(Section):
     table: Points | str | None = None
     """Compression and force; straight between the points."""
     stiffness: QuantityLike | None = None
-    """Or table = [[compression, force], ...] or table = "coil.csv"."""
+    """Or table = [[compression, force], ...] or table = ``"coil.csv"``."""
     free_length: QuantityLike | None = None
     """Without force."""
     nominal_length: QuantityLike | None = None
@@ -98,7 +98,7 @@ class ControlCoilSection(Section):
     rotational_damping: QuantityLike | None = None
     """Of the wedge's rotations; the thesis uses the same number as along the coil."""
     acts_at: str | None = None
-    """"center_of_gravity": the thesis's moment equations hold no moment of the coil; or "seat", with its moment."""
+    """``"center_of_gravity"``: the thesis's moment equations hold no moment of the coil; or ``"seat"``, with its moment."""
     pulls: bool | None = None
     """The thesis's coil pushes and pulls; false: it lifts off at its free length."""
 
@@ -120,7 +120,7 @@ class FrictionSection(Section):
     """``[friction]``"""
 
     law: str | Mapping[str, Any] | None = None
-    """"tanh" (the thesis's; creeps under load) or "bristle" (holds); or { column = ..., slope = ... }."""
+    """``"tanh"`` (the thesis's; creeps under load) or ``"bristle"`` (holds); or { column = ..., slope = ... }."""
     column: float | None = None
     """Coefficient of friction."""
     slope: float | None = None
@@ -132,7 +132,7 @@ class FrictionSection(Section):
     bristle_damping: QuantityLike | None = None
     """Bristle: tangential, per face. From the comparison program."""
     directions: str | None = None
-    """"two": against the slip; "one": along a face's line of travel alone, one tangent a face as in the thesis's equations."""
+    """``"two"``: against the slip; ``"one"``: along a face's line of travel alone, one tangent a face as in the thesis's equations."""
 
     _words = frozenset({"law", "column", "slope", "directions"})
 
@@ -144,7 +144,7 @@ class FaceSection(Section):
     grid: Sequence[int] | None = None
     """Points up the face and across it, edges included; [2, 2]: the corners. More points spread the pressure."""
     wedge_surface: str | Mapping[str, Any] | None = None
-    """The wedge's surface: "flat", or { shape = "crown", radius = "60 in", direction = "up" }, ...."""
+    """The wedge's surface: ``"flat"``, or { shape = ``"crown"``, radius = ``"60 in"``, direction = ``"up"`` }, ...."""
     wedge_wear: Points | str | None = None
     """Wear of the wedge's surface beyond that: a CSV file of up [in], across [in], depth [in], places from the middle; or the same as a list of points; left out, none."""
     counterface: str | Mapping[str, Any] | None = None
@@ -234,10 +234,10 @@ class SimulationSection(Section):
     relative_tolerance: float | None = None
     """Of the integrator, between 0 and 1."""
     output_units: str | None = None
-    """"us" (in, lbf) or "si" (m, N)."""
+    """``"us"`` (in, lbf) or ``"si"`` (m, N)."""
     method: str | None = None
-    """"rodas5p"; "tr-bdf2" and "esdirk3" damp vibrations."""
+    """``"rodas5p"``; ``"tr-bdf2"`` and ``"esdirk3"`` damp vibrations."""
     start: str | None = None
-    """"rest": nominal position, corners may start inside; "touching"; or "equilibrium"."""
+    """``"rest"``: nominal position, corners may start inside; ``"touching"``; or ``"equilibrium"``."""
 
     _words = frozenset({"relative_tolerance", "output_units", "method", "start"})
