@@ -76,7 +76,7 @@ fn program(workspace: &Workspace) -> Result<PathBuf, String> {
     let root = workspace.target.join("tools").join("mdbook");
     let program = root.join("bin").join("mdbook");
     if !program.is_file() {
-        println!("mdBook is installed into target/tools now, once.");
+        shell::say("mdBook is installed into target/tools now, once.");
         // Not optimized: it is compiled more often than it is run.
         let arguments = [
             "install",

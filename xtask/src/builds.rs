@@ -7,8 +7,9 @@
 //! Criterion, the Python package NumPy.
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX, EXE_SUFFIX};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
+use std::sync::OnceLock;
 
 use crate::shell::{self, PORTABLE, Workspace};
 
@@ -54,26 +55,34 @@ pub fn wedgelab(workspace: &Workspace) -> Result<PathBuf, String> {
     Ok(folder.join(format!("wedgelab{EXE_SUFFIX}")))
 }
 
-/// Builds the command `wedgelab`, makes a report with it in a folder, and returns the program's path.
+/// Builds the command `wedgelab` and makes a report with it, once for all checks; returns the program and the
+/// report's folder.
 ///
 /// # Errors
 /// It does not compile, or makes no report.
-pub fn report(workspace: &Workspace, folder: &Path) -> Result<PathBuf, String> {
-    let program = wedgelab(workspace)?;
-    let arguments = ["reproduce", "--force", "--quiet", "--out"];
-    shell::run(Command::new(&program).args(arguments).arg(folder))?;
-    Ok(program)
+pub fn report(workspace: &Workspace) -> Result<(PathBuf, PathBuf), String> {
+    static MADE: OnceLock<Result<(PathBuf, PathBuf), String>> = OnceLock::new();
+    MADE.get_or_init(|| {
+        let program = wedgelab(workspace)?;
+        let folder = workspace.target.join("report");
+        let arguments = ["reproduce", "--force", "--quiet", "--out"];
+        shell::run(Command::new(&program).args(arguments).arg(&folder))?;
+        Ok((program, folder))
+    })
+    .clone()
 }
 
-/// Builds the libraries that other programs load, those of FMUs and of the race, for all processors and
-/// returns their folder. Valgrind does not know all instructions of newer processors, and the libraries are
-/// to compute the same bits without them.
+/// Builds the library of a package, which other programs load, for all processors and returns its folder.
+/// Valgrind does not know all instructions of newer processors, and the library is to compute the same bits
+/// without them.
 ///
 /// # Errors
-/// They do not compile.
-pub fn portable_libraries(workspace: &Workspace) -> Result<PathBuf, String> {
-    let libraries = ["--package", "race", "--package", "wedgelab-fmu", "--lib"];
-    portable(workspace, &[&libraries[..], &["--no-default-features"]].concat())
+/// It does not compile.
+pub fn portable_library(workspace: &Workspace, package: &str) -> Result<PathBuf, String> {
+    portable(
+        workspace,
+        &["--package", package, "--lib", "--no-default-features"],
+    )
 }
 
 /// Builds with these arguments of `cargo build --release` for all processors, apart from all else, and

@@ -1,6 +1,7 @@
 //! Programs of the system that checks need; on Debian those that are missing are installed.
 
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
 
 use crate::shell;
 
@@ -14,7 +15,7 @@ pub fn need(programs: &[&str]) -> Result<(), String> {
     if missing.is_empty() {
         return Ok(());
     }
-    println!("{} is missing and is installed now.", missing.join(", "));
+    shell::say(format!("{} is missing and is installed now.", missing.join(", ")));
     install(&missing).map_err(|error| format!("{}\n{error}", advice(&missing)))?;
     if missing.iter().all(|name| is_there(name)) {
         Ok(())
@@ -28,9 +29,12 @@ pub fn need(programs: &[&str]) -> Result<(), String> {
 /// # Errors
 /// They cannot be installed; what an administrator would type is said.
 pub fn install(packages: &[&str]) -> Result<(), String> {
+    // Checks run at the same time, but only one `apt-get` may.
+    static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+    let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
     // Lists of packages may be missing or old; if they cannot be fetched, those that are there may do.
     if let Err(error) = apt(&["update"]) {
-        println!("{error}");
+        shell::say(error);
     }
     let mut arguments = vec!["install", "-y", "--no-install-recommends"];
     arguments.extend(packages);

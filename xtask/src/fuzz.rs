@@ -5,9 +5,6 @@ use std::process::{Command, ExitCode};
 use crate::builds;
 use crate::shell::{self, Workspace};
 
-/// Seconds that the check takes, all readers together.
-const CHECK: &str = "60";
-
 /// Runs the command. The program explains its arguments itself.
 pub fn run(workspace: &Workspace, arguments: &[String]) -> ExitCode {
     let ended = program(workspace).and_then(|mut program| {
@@ -23,14 +20,14 @@ pub fn run(workspace: &Workspace, arguments: &[String]) -> ExitCode {
     }
 }
 
-/// Runs the check: a minute over all readers, the same inputs every time. In the release profile: what is
+/// Runs the check: `seconds` over all readers, the same inputs every time. In the release profile: what is
 /// tested is what users run, and the tests have compiled it.
 ///
 /// # Errors
 /// Something was found.
-pub fn check(workspace: &Workspace) -> Result<(), String> {
+pub fn check(workspace: &Workspace, seconds: u32) -> Result<(), String> {
     let folder = builds::programs(workspace, &["--bin", "fuzz"])?;
-    shell::run(Command::new(folder.join("fuzz")).args(["--seconds", CHECK]))
+    shell::run(Command::new(folder.join("fuzz")).args(["--seconds", &seconds.to_string()]))
 }
 
 /// Builds the program, in the dev profile: overflows and what code claims about itself are checked there.

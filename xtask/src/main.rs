@@ -2,6 +2,7 @@
 //!
 //! One module a command. Exit codes: 0, 1 (a check failed), 2 (the call itself is wrong).
 
+mod architecture;
 mod bench;
 mod book;
 mod builds;
@@ -47,6 +48,11 @@ const COMMANDS: &[Command] = &[
         name: "race",
         about: "run other people's solvers and ours on the same equations, fetching what they need",
         run: race::run,
+    },
+    Command {
+        name: "architecture",
+        about: "write the table of the crates in ARCHITECTURE.md",
+        run: architecture::run,
     },
     Command {
         name: "book",

@@ -1,7 +1,11 @@
 //! The place of the workspace, and the start of other programs in it.
 
+use std::cell::RefCell;
 use std::env;
 use std::ffi::OsStr;
+use std::fmt::Display;
+use std::fs::File;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -59,13 +63,43 @@ fn line(command: &Command) -> String {
     settings + &words.join(" ")
 }
 
+thread_local! {
+    /// Where this thread's output goes, if it is not to be shown.
+    static KEPT: RefCell<Option<File>> = const { RefCell::new(None) };
+}
+
+/// Does some work; all that it says and what the commands of [`run`] print goes into a file.
+pub fn into_file<T>(file: File, work: impl FnOnce() -> T) -> T {
+    KEPT.set(Some(file));
+    let result = work();
+    KEPT.set(None);
+    result
+}
+
+/// Says something in a line.
+pub fn say(text: impl Display) {
+    KEPT.with_borrow_mut(|kept| match kept {
+        None => println!("{text}"),
+        // Whoever cannot write here is told by the command that follows.
+        Some(file) => writeln!(file, "{text}").unwrap_or_default(),
+    });
+}
+
 /// Runs the command with its output shown, after saying what it is.
 ///
 /// # Errors
 /// The command cannot be started or does not exit with 0.
 pub fn run(command: &mut Command) -> Result<(), String> {
     let line = line(command);
-    println!("$ {line}");
+    say(format!("$ {line}"));
+    KEPT.with_borrow(|kept| match kept {
+        None => Ok(()),
+        Some(file) => file.try_clone().and_then(|out| {
+            command.stderr(file.try_clone()?).stdout(out);
+            Ok(())
+        }),
+    })
+    .map_err(|error| format!("the output of `{line}` cannot be kept: {error}"))?;
     let status = command
         .status()
         .map_err(|error| format!("`{line}` cannot be started: {error}"))?;

@@ -1,9 +1,9 @@
-//! `cargo xtask test`: all checks, one after the other, and a table of the results.
+//! `cargo xtask test`: all checks, and a table of the results.
 
 mod deny;
 mod features;
 mod fmu;
-mod layers;
+pub mod layers;
 mod links;
 mod octave;
 mod page;
@@ -11,25 +11,30 @@ mod prose;
 mod python;
 mod race;
 mod readme;
+mod runner;
 mod viewer;
 
 use std::env::consts::EXE_SUFFIX;
 use std::process::{Command, ExitCode};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use crate::builds::{self, SHARED};
 use crate::shell::{self, Workspace};
 pub use python::path_with;
+use runner::{passed, run_checks, table};
 
 /// The remark of a passed check in the table, or the reason why it failed.
 type Outcome = Result<Option<String>, String>;
 
 /// One check.
+#[derive(Clone, Copy)]
 struct Check {
     name: &'static str,
     about: &'static str,
-    /// Runs only when asked for by name.
+    /// Runs only when asked for by name, or with `--all`.
     on_request: bool,
+    /// Runs at the same time as others of this kind, after the checks that compile.
+    beside: bool,
     run: fn(&Workspace) -> Outcome,
 }
 
@@ -39,26 +44,29 @@ impl Check {
             name,
             about,
             on_request: false,
+            beside: false,
             run,
         }
     }
 
-    const fn on_request(name: &'static str, about: &'static str, run: fn(&Workspace) -> Outcome) -> Self {
+    const fn on_request(self) -> Self {
         Self {
-            name,
-            about,
             on_request: true,
-            run,
+            ..self
         }
+    }
+
+    const fn beside(self) -> Self {
+        Self { beside: true, ..self }
     }
 }
 
-/// The checks in the order in which they run: the quick ones first.
+/// The checks in the order in which they run: the quick ones first, those that run beside others last.
 const CHECKS: &[Check] = &[
     Check::new("fmt", "the code is formatted", format),
     Check::new(
         "layers",
-        "every crate depends on lower layers only",
+        "every crate depends on lower layers only, ARCHITECTURE.md lists the crates as they are",
         layers::check,
     ),
     Check::new(
@@ -84,34 +92,9 @@ const CHECKS: &[Check] = &[
         tests,
     ),
     Check::new(
-        "browser",
-        "the report's pages and the explorer in a browser (needs Node.js; installs Chromium)",
-        viewer::browser,
-    ),
-    Check::new(
         "fuzz",
-        "a minute of broken inputs breaks no reader",
-        broken_inputs,
-    ),
-    Check::new(
-        "octave",
-        "Octave and SciPy read the results, the plotting scripts draw them",
-        octave::check,
-    ),
-    Check::new(
-        "python",
-        "the Python package installs, its tests, types, stubs and notebooks pass (needs Python 3.10)",
-        python::check,
-    ),
-    Check::new(
-        "fmu",
-        "FMUs are valid and give what runs give, in FMPy (needs Python 3)",
-        fmu::check,
-    ),
-    Check::new(
-        "race",
-        "tests of the race and of the benchmarks; CVODE agrees with our integrator (installs SUNDIALS)",
-        race::check,
+        "twenty seconds of broken inputs break no reader",
+        |workspace| broken_inputs(workspace, 20),
     ),
     Check::new(
         "doctest",
@@ -119,32 +102,72 @@ const CHECKS: &[Check] = &[
         doc_tests,
     ),
     Check::new("doc", "the documentation builds without a warning", docs),
-    // Its own installation, of some minutes on a new machine.
-    Check::new(
-        "book",
-        "the documentation builds as a book (installs mdBook)",
-        book,
-    ),
-    Check::new(
-        "page",
-        "the report's page passes an HTML validator (needs Node.js)",
-        page::check,
-    ),
-    Check::new(
-        "readme",
-        "the commands of the README and of the tutorial run in their order",
-        readme::check,
-    ),
     Check::new(
         "deny",
         "licences, duplicates and sources of dependencies",
         deny::check,
     ),
-    Check::on_request(
+    Check::new(
+        "python",
+        "the Python package installs, its tests, types, stubs and notebooks pass (needs Python 3.10)",
+        python::check,
+    )
+    .beside(),
+    Check::new(
+        "browser",
+        "the report's pages and the explorer in a browser (needs Node.js; installs Chromium)",
+        viewer::browser,
+    )
+    .beside(),
+    Check::new(
+        "octave",
+        "Octave and SciPy read the results, the plotting scripts draw them",
+        octave::check,
+    )
+    .beside(),
+    Check::new(
+        "fmu",
+        "FMUs are valid and give what runs give, in FMPy (needs Python 3)",
+        fmu::check,
+    )
+    .beside(),
+    // Its own installation, of some minutes on a new machine.
+    Check::new(
+        "book",
+        "the documentation builds as a book (installs mdBook)",
+        book,
+    )
+    .beside(),
+    Check::new(
+        "page",
+        "the report's page passes an HTML validator (needs Node.js)",
+        page::check,
+    )
+    .beside(),
+    Check::new(
+        "readme",
+        "the commands of the README and of the tutorial run in their order",
+        readme::check,
+    )
+    .beside(),
+    Check::new(
+        "fuzz-long",
+        "ten minutes of broken inputs break no reader",
+        |workspace| broken_inputs(workspace, 600),
+    )
+    .on_request(),
+    Check::new(
+        "race",
+        "tests of the race and of the benchmarks; CVODE agrees with our integrator (installs SUNDIALS)",
+        race::check,
+    )
+    .on_request(),
+    Check::new(
         "advisories",
         "known vulnerabilities of dependencies (needs GitHub)",
         deny::advisories,
-    ),
+    )
+    .on_request(),
 ];
 
 fn format(workspace: &Workspace) -> Outcome {
@@ -173,8 +196,8 @@ fn tests(workspace: &Workspace) -> Outcome {
     Ok(None)
 }
 
-fn broken_inputs(workspace: &Workspace) -> Outcome {
-    crate::fuzz::check(workspace)?;
+fn broken_inputs(workspace: &Workspace, seconds: u32) -> Outcome {
+    crate::fuzz::check(workspace, seconds)?;
     Ok(None)
 }
 
@@ -227,12 +250,16 @@ fn component(workspace: &Workspace, command: &str, component: &str) -> Result<()
 #[derive(Debug, PartialEq, Eq)]
 enum Request {
     Help,
-    Run { only: Vec<String>, fail_fast: bool },
+    Run {
+        only: Vec<String>,
+        all: bool,
+        fail_fast: bool,
+    },
 }
 
 fn parse(arguments: &[String]) -> Result<Request, String> {
     let mut only = Vec::new();
-    let mut fail_fast = false;
+    let (mut all, mut fail_fast) = (false, false);
     let mut arguments = arguments.iter();
     while let Some(argument) = arguments.next() {
         let names = match argument.as_str() {
@@ -241,13 +268,17 @@ fn parse(arguments: &[String]) -> Result<Request, String> {
                 fail_fast = true;
                 continue;
             }
+            "--all" => {
+                all = true;
+                continue;
+            }
             "--only" => arguments
                 .next()
                 .ok_or("`--only` wants names, as in `--only fmt,clippy`.")?
                 .as_str(),
-            other => other
-                .strip_prefix("--only=")
-                .ok_or_else(|| format!("`{other}` is unknown; there are `--only` and `--fail-fast`."))?,
+            other => other.strip_prefix("--only=").ok_or_else(|| {
+                format!("`{other}` is unknown; there are `--only`, `--all` and `--fail-fast`.")
+            })?,
         };
         for name in names.split(',').map(str::trim) {
             if !CHECKS.iter().any(|check| check.name == name) {
@@ -260,13 +291,17 @@ fn parse(arguments: &[String]) -> Result<Request, String> {
             only.push(name.to_owned());
         }
     }
-    Ok(Request::Run { only, fail_fast })
+    if all && !only.is_empty() {
+        return Err("`--all` and `--only` exclude each other.".to_owned());
+    }
+    Ok(Request::Run { only, all, fail_fast })
 }
 
-/// Returns the checks asked for, in their own order, each once; without names all but those on request.
-fn select(only: &[String]) -> Vec<&'static Check> {
+/// Returns the checks asked for, in their own order, each once; without names all of them, or all but those
+/// on request.
+fn select(only: &[String], all: bool) -> Vec<&'static Check> {
     let wanted = |check: &&Check| match only {
-        [] => !check.on_request,
+        [] => all || !check.on_request,
         names => names.iter().any(|name| name == check.name),
     };
     CHECKS.iter().filter(wanted).collect()
@@ -274,13 +309,17 @@ fn select(only: &[String]) -> Vec<&'static Check> {
 
 fn help() -> String {
     let mut text = String::from(
-        "Usage: cargo xtask test [--only NAME,...] [--fail-fast]\n\n\
-         Runs the checks, all of them even if one fails, and ends in a table.\n\n\
-         Options:\n  --only NAME,...  only these checks\n  --fail-fast      stop after the first failure\n\n\
+        "Usage: cargo xtask test [--only NAME,... | --all] [--fail-fast]\n\n\
+         Runs the checks, the others too if one fails, and ends in a table. First come those that\n\
+         compile, one after the other; then those that mostly wait, as many at a time as there are cores:\n\
+         each prints its output whole when it ends.\n\n\
+         Options:\n  --only NAME,...  only these checks\n  \
+         --all            also those that run only on request\n  \
+         --fail-fast      stop after the first failure\n\n\
          Checks:\n",
     );
     for check in CHECKS {
-        let when = if check.on_request { "; only when named" } else { "" };
+        let when = if check.on_request { "; only on request" } else { "" };
         text.push_str(&format!("  {:<12}{}{when}\n", check.name, check.about));
     }
     text.push_str("\nExit code: 0, 1 (a check failed), 2 (the call is wrong).");
@@ -289,8 +328,8 @@ fn help() -> String {
 
 /// Runs the command.
 pub fn run(workspace: &Workspace, arguments: &[String]) -> ExitCode {
-    let (only, fail_fast) = match parse(arguments) {
-        Ok(Request::Run { only, fail_fast }) => (only, fail_fast),
+    let (checks, fail_fast) = match parse(arguments) {
+        Ok(Request::Run { only, all, fail_fast }) => (select(&only, all), fail_fast),
         Ok(Request::Help) => {
             println!("{}", help());
             return ExitCode::SUCCESS;
@@ -300,87 +339,14 @@ pub fn run(workspace: &Workspace, arguments: &[String]) -> ExitCode {
             return ExitCode::from(2);
         }
     };
-    let results = run_checks(&select(&only), fail_fast, workspace);
-    println!("\n{}", table(&results));
+    let start = Instant::now();
+    let results = run_checks(&checks, fail_fast, workspace);
+    println!("\n{}", table(&results, start.elapsed()));
     if passed(&results) {
         ExitCode::SUCCESS
     } else {
         ExitCode::FAILURE
     }
-}
-
-/// A check and, if it ran, how long it took and what came out.
-struct Line {
-    name: &'static str,
-    result: Option<(Duration, Outcome)>,
-}
-
-fn run_checks(checks: &[&Check], fail_fast: bool, workspace: &Workspace) -> Vec<Line> {
-    let mut results = Vec::new();
-    let mut stopped = false;
-    for check in checks {
-        if stopped {
-            results.push(Line {
-                name: check.name,
-                result: None,
-            });
-            continue;
-        }
-        println!("\n=== {}: {}", check.name, check.about);
-        let start = Instant::now();
-        let outcome = (check.run)(workspace);
-        let took = start.elapsed();
-        match &outcome {
-            Ok(Some(note)) => println!("=== {}: ok, {} ({note})", check.name, duration(took)),
-            Ok(None) => println!("=== {}: ok, {}", check.name, duration(took)),
-            Err(message) => println!("{message}\n=== {}: FAILED, {}", check.name, duration(took)),
-        }
-        stopped = fail_fast && outcome.is_err();
-        results.push(Line {
-            name: check.name,
-            result: Some((took, outcome)),
-        });
-    }
-    results
-}
-
-/// Returns whether nothing failed and nothing was left out.
-fn passed(results: &[Line]) -> bool {
-    results.iter().all(|line| matches!(line.result, Some((_, Ok(_)))))
-}
-
-fn duration(took: Duration) -> String {
-    let seconds = took.as_secs_f64();
-    if seconds < 60.0 {
-        return format!("{seconds:.1} s");
-    }
-    let seconds = seconds.round() as u64;
-    format!("{} min {:02} s", seconds / 60, seconds % 60)
-}
-
-fn table(results: &[Line]) -> String {
-    let row = |name: &str, result: &str, time: &str, note: &str| {
-        format!("{name:<12}{result:<9}{time:>13}  {note}")
-            .trim_end()
-            .to_owned()
-    };
-    let mut rows = vec![row("check", "result", "time", "")];
-    let mut total = Duration::ZERO;
-    for line in results {
-        rows.push(match &line.result {
-            None => row(line.name, "not run", "", ""),
-            Some((took, outcome)) => {
-                total += *took;
-                match outcome {
-                    Ok(note) => row(line.name, "ok", &duration(*took), note.as_deref().unwrap_or("")),
-                    Err(_) => row(line.name, "FAILED", &duration(*took), ""),
-                }
-            }
-        });
-    }
-    let result = if passed(results) { "ok" } else { "FAILED" };
-    rows.push(row("total", result, &duration(total), ""));
-    rows.join("\n")
 }
 
 #[cfg(test)]
@@ -394,6 +360,7 @@ mod tests {
     fn run_of(only: &[&str], fail_fast: bool) -> Request {
         Request::Run {
             only: only.iter().map(|name| (*name).to_owned()).collect(),
+            all: false,
             fail_fast,
         }
     }
@@ -421,6 +388,7 @@ mod tests {
             ("--only fmt,,doc", "``"),
             ("--only fmt,style", "`style`"),
             ("--faster", "`--faster`"),
+            ("--all --only fmt", "`--all`"),
             ("fmt", "`fmt`"),
         ] {
             let message = parse_line(line).expect_err(line);
@@ -432,39 +400,13 @@ mod tests {
     fn checks_keep_their_order_and_run_once() {
         let names = |only: &[&str]| -> Vec<&str> {
             let only: Vec<String> = only.iter().map(|name| (*name).to_owned()).collect();
-            select(&only).iter().map(|check| check.name).collect()
+            select(&only, false).iter().map(|check| check.name).collect()
         };
         assert_eq!(names(&["clippy", "fmt", "clippy"]), ["fmt", "clippy"]);
         assert_eq!(names(&["advisories"]), ["advisories"]);
-        assert_eq!(names(&[]).len(), CHECKS.len() - 1);
-        assert!(!names(&[]).contains(&"advisories"));
-    }
-
-    #[test]
-    fn a_failure_does_not_hide_the_others() {
-        let checks = [
-            Check::new("a", "", |_| Ok(Some("a note".to_owned()))),
-            Check::new("b", "", |_| Err("broken".to_owned())),
-            Check::new("c", "", |_| Ok(None)),
-        ];
-        let checks: Vec<&Check> = checks.iter().collect();
-        let workspace = Workspace::find();
-
-        let all = run_checks(&checks, false, &workspace);
-        assert!(all.iter().all(|line| line.result.is_some()) && !passed(&all));
-        let text = table(&all);
-        assert!(text.contains("a note") && text.contains("FAILED"), "{text}");
-
-        let fast = run_checks(&checks, true, &workspace);
-        assert!(fast[2].result.is_none() && !passed(&fast));
-        assert!(table(&fast).contains("c           not run"));
-
-        assert!(passed(&run_checks(&checks[..1], true, &workspace)));
-    }
-
-    #[test]
-    fn durations_read_well() {
-        assert_eq!(duration(Duration::from_millis(440)), "0.4 s");
-        assert_eq!(duration(Duration::from_secs(123)), "2 min 03 s");
+        let on_request = ["fuzz-long", "race", "advisories"];
+        assert_eq!(names(&[]).len(), CHECKS.len() - on_request.len());
+        assert!(on_request.iter().all(|name| !names(&[]).contains(name)));
+        assert_eq!(select(&[], true).len(), CHECKS.len());
     }
 }

@@ -26,10 +26,10 @@ pub fn environment(root: &Path, name: &str, requirements: &Path) -> Result<PathB
     if is_made(&folder, &wanted) {
         return Ok(program);
     }
-    println!(
+    shell::say(format!(
         "The Python environment `{name}` is made in {} now, once.",
         folder.display()
-    );
+    ));
     make(&folder, &program, requirements).map_err(|error| {
         format!(
             "The Python environment `{name}` could not be made; it needs Python 3.10 or later with `venv` \

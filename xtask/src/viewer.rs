@@ -64,7 +64,7 @@ pub fn install(workspace: &Workspace) -> Result<(), String> {
     if same(&folder.join(LOCK), &stamp) {
         return Ok(());
     }
-    println!("The viewer's packages are installed into viewer/node_modules now, once (25 MB to fetch).");
+    shell::say("The viewer's packages are installed into viewer/node_modules now, once (25 MB to fetch).");
     let mut npm = Command::new("npm");
     npm.args(["ci", "--ignore-scripts", "--no-audit", "--no-fund"])
         .current_dir(&folder);

@@ -102,7 +102,7 @@ fn folder(workspace: &Workspace) -> Result<PathBuf, String> {
 fn compile_cvode(workspace: &Workspace, built: &Path, driver: &Path) -> Result<(), String> {
     let header = Path::new("/usr/include/cvode/cvode.h");
     if !header.is_file() {
-        println!("SUNDIALS is missing and is installed now, once.");
+        shell::say("SUNDIALS is missing and is installed now, once.");
         debian::install(&SUNDIALS)?;
     }
     let mut compile = Command::new("cc");
@@ -124,7 +124,7 @@ fn compile_cvode(workspace: &Workspace, built: &Path, driver: &Path) -> Result<(
 /// Compiles the functions for Octave.
 fn mex(workspace: &Workspace, built: &Path, made: &Path) -> Result<(), String> {
     if shell::output(Command::new("mkoctfile").arg("--version")).is_none() {
-        println!("Octave, or what compiles functions for it, is missing and is installed now, once.");
+        shell::say("Octave, or what compiles functions for it, is missing and is installed now, once.");
         debian::install(&OCTAVE)?;
     }
     let mut compile = Command::new("mkoctfile");

@@ -41,7 +41,9 @@ fn program(workspace: &Workspace) -> Result<PathBuf, String> {
     if let Some(found) = [PathBuf::from(&name), own.clone()].into_iter().find(is_ours) {
         return Ok(found);
     }
-    println!("cargo-deny {VERSION} is missing and is built now, once; this takes minutes.");
+    shell::say(format!(
+        "cargo-deny {VERSION} is missing and is built now, once; this takes minutes."
+    ));
     let build = tools.join("build");
     let mut install = workspace.cargo([
         "install",

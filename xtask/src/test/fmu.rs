@@ -17,7 +17,7 @@ const TESTS: &str = "crates/wedgelab-fmu/tests/python";
 pub fn check(workspace: &Workspace) -> Outcome {
     debian::need(&["gcc", "valgrind"])?;
     let program = builds::wedgelab(workspace)?;
-    let library = builds::portable_libraries(workspace)?.join(builds::library("wedgelab_fmu"));
+    let library = builds::portable_library(workspace, "wedgelab-fmu")?.join(builds::library("wedgelab_fmu"));
     let tests = workspace.root.join(TESTS);
     let python = venv::environment(&workspace.target, "fmu", &tests.join("requirements.txt"))?;
     let mut pytest = Command::new(&python);

@@ -8,10 +8,11 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use super::Outcome;
+use crate::architecture;
 use crate::shell::Workspace;
 
 /// The layers from the lowest up, and the crates of each.
-const LAYERS: &[(&str, &[&str])] = &[
+pub const LAYERS: &[(&str, &[&str])] = &[
     ("reading", &["input"]),
     ("foundation", &["numerics", "quantity"]),
     ("integration", &["integrate", "wheelrail"]),
@@ -23,16 +24,15 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("output", &["report", "fmi"]),
     ("reproduction", &["reproduction"]),
     ("libraries", &["wedgelab-fmu"]),
-    (
-        "interfaces",
-        &["wedgelab", "wedgelab-py", "benchmarks", "fuzz", "race", "xtask"],
-    ),
+    ("interfaces", &["wedgelab", "wedgelab-py"]),
+    ("tools", &["benchmarks", "fuzz", "race", "xtask"]),
 ];
 
-/// Checks the manifests of all members.
+/// Checks the manifests of all members, and the table of the crates in ARCHITECTURE.md.
 pub fn check(workspace: &Workspace) -> Outcome {
     let crates = read(&workspace.root)?;
-    let broken: Vec<String> = crates.iter().flat_map(violations).collect();
+    let mut broken: Vec<String> = crates.iter().flat_map(violations).collect();
+    broken.extend(architecture::stale(workspace, &crates)?);
     if broken.is_empty() {
         Ok(Some(format!(
             "{} crates in {} layers",
@@ -46,9 +46,13 @@ pub fn check(workspace: &Workspace) -> Outcome {
 
 /// A member of the workspace and the packages it depends on.
 #[derive(Debug)]
-struct Member {
-    name: String,
-    depends_on: BTreeSet<String>,
+pub struct Member {
+    /// Its name.
+    pub name: String,
+    /// What it is, from its manifest.
+    pub description: String,
+    /// The packages, those of others too.
+    pub depends_on: BTreeSet<String>,
 }
 
 fn layer(name: &str) -> Option<usize> {
@@ -74,7 +78,11 @@ fn violations(member: &Member) -> Vec<String> {
     member.depends_on.iter().filter_map(too_high).collect()
 }
 
-fn read(root: &Path) -> Result<Vec<Member>, String> {
+/// Reads the manifests of all members.
+///
+/// # Errors
+/// A manifest cannot be read, or lacks what it must have.
+pub fn read(root: &Path) -> Result<Vec<Member>, String> {
     let workspace = manifest(&root.join("Cargo.toml"))?;
     let workspace = workspace
         .get("workspace")
@@ -123,7 +131,9 @@ fn manifest(file: &Path) -> Result<Table, String> {
 /// Reads one manifest: dependencies and build dependencies, also those of some platforms only, under
 /// their true names. Development dependencies do not count.
 fn member(manifest: &Table, shared: &Table) -> Option<Member> {
-    let name = manifest.get("package")?.get("name")?.as_str()?.to_owned();
+    let package_table = manifest.get("package")?;
+    let text = |key: &str| package_table.get(key)?.as_str().map(str::to_owned);
+    let (name, description) = (text("name")?, text("description").unwrap_or_default());
     let platforms = manifest
         .get("target")
         .and_then(Value::as_table)
@@ -143,7 +153,11 @@ fn member(manifest: &Table, shared: &Table) -> Option<Member> {
             );
         }
     }
-    Some(Member { name, depends_on })
+    Some(Member {
+        name,
+        description,
+        depends_on,
+    })
 }
 
 /// Returns the package behind a dependency's key, which `package = "..."` may rename, here or in the
@@ -178,7 +192,7 @@ mod tests {
         let crates = Workspace::find().root.join("crates");
         let libraries = LAYERS
             .iter()
-            .filter(|(layer, _)| !["libraries", "interfaces"].contains(layer));
+            .filter(|(layer, _)| !["libraries", "interfaces", "tools"].contains(layer));
         for name in libraries.flat_map(|(_, crates)| *crates) {
             let text = fs::read_to_string(crates.join(name).join("src/lib.rs")).unwrap();
             let head: Vec<&str> = text.lines().take_while(|line| !line.starts_with("#!")).collect();

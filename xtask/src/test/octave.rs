@@ -5,7 +5,7 @@ use std::env;
 use std::process::Command;
 
 use super::Outcome;
-use crate::builds::{APART, SHARED};
+use crate::builds::SHARED;
 use crate::debian;
 use crate::shell::{self, Workspace};
 use crate::venv;
@@ -20,19 +20,22 @@ const DRAW: &str = "set (0, 'defaultfigurevisible', 'off'); plot (1:2); close al
 /// The requirements of Python.
 const REQUIREMENTS: &str = "crates/wedgelab/tests/octave/requirements.txt";
 
-/// Installs what is missing and runs the tests.
+/// Runs the tests of the results.
 pub fn check(workspace: &Workspace) -> Outcome {
+    tests(workspace, &SHARED)
+}
+
+/// Installs what is missing and runs the tests of these crates.
+pub fn tests(workspace: &Workspace, crates: &[&str]) -> Outcome {
     let octave = octave()?;
     let python = venv::environment(&workspace.target, "scipy", &workspace.root.join(REQUIREMENTS))?;
-    for crates in [&SHARED[..], &APART] {
-        let mut tests = workspace.cargo(["test", "--release"]);
-        tests
-            .args(crates)
-            .args(["--test", "octave", "--", "--ignored"])
-            .env("WEDGELAB_OCTAVE", &octave)
-            .env("WEDGELAB_PYTHON", &python);
-        shell::run(&mut tests)?;
-    }
+    let mut command = workspace.cargo(["test", "--release"]);
+    command
+        .args(crates)
+        .args(["--test", "octave", "--", "--ignored"])
+        .env("WEDGELAB_OCTAVE", &octave)
+        .env("WEDGELAB_PYTHON", &python);
+    shell::run(&mut command)?;
     Ok(version(&octave))
 }
 
@@ -42,7 +45,7 @@ fn octave() -> Result<String, String> {
     if draws(&program) {
         return Ok(program);
     }
-    println!("An Octave that can draw is missing and is installed now, once (90 MB to fetch).");
+    shell::say("An Octave that can draw is missing and is installed now, once (90 MB to fetch).");
     debian::install(&PACKAGES).map_err(|error| format!("{}\n{error}", advice()))?;
     if draws(&program) {
         Ok(program)

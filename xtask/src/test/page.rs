@@ -22,15 +22,14 @@ pub fn check(workspace: &Workspace) -> Outcome {
         fs::write(tool.join(name), own).map_err(failed)?;
     }
     if !fresh {
-        println!("The HTML validator is installed into target/tools now, once.");
+        shell::say("The HTML validator is installed into target/tools now, once.");
         let mut npm = Command::new("npm");
         npm.args(["ci", "--ignore-scripts", "--no-audit", "--no-fund"])
             .current_dir(&tool);
         shell::run(&mut npm)
             .map_err(|error| format!("html-validate needs Node.js with npm, and network.\n{error}"))?;
     }
-    let report = tool.join("report");
-    builds::report(workspace, &report)?;
+    let (_, report) = builds::report(workspace)?;
     let mut validate = Command::new("node");
     validate
         .arg("node_modules/html-validate/bin/html-validate.mjs")

@@ -31,8 +31,7 @@ pub fn check(workspace: &Workspace) -> Outcome {
 pub fn browser(workspace: &Workspace) -> Outcome {
     install(workspace)?;
     let chromium = chromium()?;
-    let report = workspace.target.join("viewer-report");
-    let program = builds::report(workspace, &report)?;
+    let (program, report) = builds::report(workspace)?;
     // One after the other: their pages fill two cores.
     let mut tests = node(
         workspace,
@@ -61,7 +60,7 @@ fn chromium() -> Result<String, String> {
     if let Some(path) = found() {
         return Ok(path);
     }
-    println!("Chromium is missing and is installed now, once (90 MB to fetch).");
+    shell::say("Chromium is missing and is installed now, once (90 MB to fetch).");
     debian::install(&["chromium"]).map_err(|error| format!("{}\n{error}", advice()))?;
     found().ok_or_else(advice)
 }
