@@ -1,17 +1,15 @@
 //! The files of a certificate: a table with a row each run and limit, as Parquet and CSV, and all of it as
 //! JSON.
 
-use std::borrow::Cow;
-use std::io::{self, Write};
-
 use quantity::{Kind, System as Units};
 use serde_json::json;
-use study::car::certificate::{Assessed, Certificate, LimitVerdict, verdicts};
+use study::car::certificate::{Assessed, Certificate, KeptLimit, LimitVerdict, verdicts};
 
 use crate::csv;
 use crate::files::{FileError, Folder};
+use crate::output_table::{Cell, Content, OutputTable};
 use crate::page::certificate as page;
-use crate::parquet::{Cell, Content, ParquetColumn, Storage, TableWriter};
+use crate::parquet::Storage;
 use crate::study_folder::{STUDY_KEY, StudyFolder, StudyFolderError};
 use crate::summary;
 
@@ -67,8 +65,12 @@ pub fn write(
     folder: &Folder,
 ) -> Result<(), FileError> {
     folder.write(|files| {
-        files.add(NAMES[0], |out| parquet(certificate, findings, out))?;
-        files.add(NAMES[1], |out| table_as_csv(certificate, findings, out))?;
+        let table = table(certificate, findings);
+        files.add(NAMES[0], |out| {
+            let description = serde_json::to_string(&certificate.study.description())?;
+            table.write_parquet(Storage::Values, (STUDY_KEY, description), out)
+        })?;
+        files.add(NAMES[1], |out| table.write_csv(out))?;
         files.add(NAMES[2], |out| {
             summary::write_json(&document(certificate, findings), out)
         })?;
@@ -76,130 +78,70 @@ pub fn write(
     })
 }
 
-/// Returns the columns of the table.
-fn columns() -> Vec<ParquetColumn> {
-    let speed = Kind::TravelSpeed;
-    let unit = speed.label(Units::Us);
-    let column = |name: &str, unit: &str, text: &str, content| ParquetColumn {
-        name: name.to_owned(),
-        unit: unit.to_owned(),
-        text: text.to_owned(),
-        content,
-    };
-    let text = Content::Text;
-    vec![
-        column("run", "", "number of the run, from 0", Content::Integer),
-        column("regime", "", "the regime", text),
-        column("condition", "", "the condition", text),
-        column("speed_mph", unit, "speed", Content::Number),
-        column(
-            "status",
-            "",
-            "complete, refused, stopped, failed or derailed",
-            text,
-        ),
-        column(
-            "limit",
-            "",
-            "the limit; missing where none is set for the regime",
-            text,
-        ),
-        column("value", "", "what was measured, in `unit`", Content::Number),
-        column("bound", "", "at_most or at_least", text),
-        column("limit_value", "", "the limit, in `unit`", Content::Number),
-        column("unit", "", "their unit", text),
-        column(
-            "margin",
-            "",
-            "what is left, in parts of the limit; negative where it is not kept; of a run that derailed, of \
-             the part until then",
-            Content::Number,
-        ),
-        column(
-            "verdict",
-            "",
-            "kept or exceeded (all limits, where a wheel left its rail); missing where nothing was measured",
-            text,
-        ),
-        column("note", "", "what else is to be said of the run", text),
-    ]
-}
-
-/// Returns the rows of the table: each run beside each limit of its regime, or alone if there is none.
-fn rows<'c>(
+/// Returns the table: each run beside each limit of its regime, or alone if there is none.
+fn table<'c>(
     certificate: &'c Certificate,
     findings: &'c CertificateFindings,
-) -> impl Iterator<Item = Vec<Cell<'c>>> {
-    let text = |own: &'c str| match own {
-        "" => Cell::Missing,
-        own => Cell::Text(Cow::Borrowed(own)),
-    };
-    findings.runs.iter().flat_map(move |run| {
-        let head = vec![
-            Cell::Integer(run.run as i64),
-            text(&certificate.regimes[run.regime].name),
-            text(&certificate.conditions[run.condition].name),
-            Cell::Number(csv::rounded(run.speed_si * Kind::TravelSpeed.from_si(Units::Us))),
-            text(run.status),
-        ];
-        let checks: Vec<Vec<Cell<'c>>> = match run.checks.as_slice() {
-            [] => vec![vec![Cell::Missing; 7]],
-            checks => checks
-                .iter()
-                .map(|check| {
-                    let limit = &certificate.limits.limits[check.limit];
-                    let number = |own: Option<f64>| own.map_or(Cell::Missing, Cell::Number);
-                    let verdict = match run.keeps(check) {
-                        Some(true) => text("kept"),
-                        Some(false) => text("exceeded"),
-                        None => Cell::Missing,
-                    };
-                    vec![
-                        text(&limit.name),
-                        number(check.value),
-                        text(limit.bound.name()),
-                        Cell::Number(limit.value),
-                        text(&limit.unit),
-                        number(check.margin),
-                        verdict,
-                    ]
-                })
-                .collect(),
-        };
-        checks.into_iter().map(move |own| {
-            let mut row = head.clone();
-            row.extend(own);
-            row.push(text(&run.note));
-            row
-        })
-    })
-}
-
-fn parquet(
-    certificate: &Certificate,
-    findings: &CertificateFindings,
-    out: &mut (dyn Write + Send),
-) -> io::Result<()> {
-    let description = serde_json::to_string(&certificate.study.description()).map_err(io::Error::other)?;
-    let metadata = [(STUDY_KEY, description)];
-    let mut table = TableWriter::new(out, columns(), Storage::Values, &metadata).map_err(io::Error::other)?;
-    for row in rows(certificate, findings) {
-        table.row(row).map_err(io::Error::other)?;
-    }
-    table.finish().map_err(io::Error::other)
-}
-
-fn table_as_csv(
-    certificate: &Certificate,
-    findings: &CertificateFindings,
-    out: &mut dyn Write,
-) -> io::Result<()> {
-    let columns = columns();
-    csv::write_header(columns.iter().map(|column| column.name.as_str()), out)?;
-    for row in rows(certificate, findings) {
-        csv::write_cells(&row, out)?;
-    }
-    Ok(())
+) -> OutputTable<'c, (&'c Assessed, Option<&'c KeptLimit>)> {
+    let rows = findings.runs.iter().flat_map(|run| {
+        let alone = run.checks.is_empty().then_some((run, None));
+        let checks = run.checks.iter().map(move |check| (run, Some(check)));
+        alone.into_iter().chain(checks)
+    });
+    let mut table = OutputTable::new(rows, Units::Us);
+    let (integer, number, text) = (Content::Integer, Content::Number, Content::Text);
+    let limit = |check: &Option<&KeptLimit>| Some(&certificate.limits.limits[(*check)?.limit]);
+    let numeric = |value: Option<f64>| value.map_or(Cell::Missing, Cell::Number);
+    let about = ["run", "", "number of the run, from 0"];
+    table.column(about, integer, |(run, _)| Cell::Integer(run.run as i64));
+    table.column(["regime", "", "the regime"], text, |(run, _)| {
+        certificate.regimes[run.regime].name.as_str().into()
+    });
+    table.column(["condition", "", "the condition"], text, |(run, _)| {
+        certificate.conditions[run.condition].name.as_str().into()
+    });
+    table.quantity(["speed", "speed"], Kind::TravelSpeed, |(run, _), factor| {
+        Cell::Number(csv::rounded(run.speed_si * factor))
+    });
+    let about = ["status", "", "complete, refused, stopped, failed or derailed"];
+    table.column(about, text, |(run, _)| run.status.into());
+    let about = ["limit", "", "the limit; missing where none is set for the regime"];
+    table.column(about, text, move |(_, check)| {
+        limit(check).map_or("", |own| &own.name).into()
+    });
+    let about = ["value", "", "what was measured, in `unit`"];
+    table.column(about, number, move |(_, check)| {
+        numeric(check.and_then(|own| own.value))
+    });
+    let about = ["bound", "", "at_most or at_least"];
+    table.column(about, text, move |(_, check)| {
+        limit(check).map_or("", |own| own.bound.name()).into()
+    });
+    let about = ["limit_value", "", "the limit, in `unit`"];
+    table.column(about, number, move |(_, check)| {
+        numeric(limit(check).map(|own| own.value))
+    });
+    let about = ["unit", "", "their unit"];
+    table.column(about, text, move |(_, check)| {
+        limit(check).map_or("", |own| &own.unit).into()
+    });
+    let about = "what is left, in parts of the limit; negative where it is not kept; of a run that derailed, \
+                 of the part until then";
+    table.column(["margin", "", about], number, move |(_, check)| {
+        numeric(check.and_then(|own| own.margin))
+    });
+    let about = "kept or exceeded (all limits, where a wheel left its rail); missing where nothing was \
+                 measured";
+    table.column(["verdict", "", about], text, |(run, check)| {
+        match check.and_then(|own| run.keeps(own)) {
+            Some(true) => "kept".into(),
+            Some(false) => "exceeded".into(),
+            None => Cell::Missing,
+        }
+    });
+    let about = ["note", "", "what else is to be said of the run"];
+    table.column(about, text, |(run, _)| run.note.as_str().into());
+    table
 }
 
 /// Returns all that a certificate says.

@@ -9,8 +9,8 @@ use std::io::{self, Write};
 
 use quantity::{Kind, System as Units};
 
-use crate::csv::RowWriter;
 use crate::drawing::Figure;
+use crate::output_table::OutputTable;
 use crate::overlay::{self, Axes};
 use crate::plot;
 use crate::table::{ResultTable, TableColumn};
@@ -250,49 +250,46 @@ impl Comparison {
     /// # Errors
     /// The writer's.
     pub fn write(&self, entries: &[ComparedResult], out: &mut dyn Write) -> io::Result<()> {
-        let mut table = RowWriter::new(out);
-        table.texts([
-            "column",
-            "unit",
-            "result",
-            "compared_with",
+        let differences = self.differences.iter().map(|own| {
+            let Difference {
+                largest, time, range, ..
+            } = *own;
+            let square = own.root_mean_square;
+            let relative = [largest.abs() / range, square, square / range, range];
+            let numbers = [&[largest, time][..], &relative, &[own.mean, own.mean_of_first]].concat();
+            (own.column.clone(), own.unit, own.result, numbers)
+        });
+        let energies = self.energies.iter().map(|own| {
+            let mut numbers = vec![own.value - own.first];
+            numbers.extend([f64::NAN; 5]);
+            numbers.extend([own.value, own.first]);
+            (
+                format!("energy_per_cycle_{}", own.place),
+                own.unit,
+                own.result,
+                numbers,
+            )
+        });
+        let label = |index: usize| entries.get(index).map_or("", |entry| entry.label.as_str());
+        let mut table = OutputTable::new(differences.chain(energies), self.units);
+        table.text("column", |(column, ..)| column);
+        table.text("unit", |(_, unit, ..)| unit);
+        table.text("result", move |(_, _, result, _)| label(*result));
+        table.text("compared_with", move |_| label(0));
+        let names = [
             "largest_difference",
             "time_s",
-        ]);
-        table.texts([
             "largest_relative",
             "rms_difference",
             "rms_relative",
             "range",
             "mean",
-        ]);
-        table.text("mean_of_compared_with").end()?;
-        let label = |index: usize| entries.get(index).map_or("", |entry| entry.label.as_str());
-        for one in &self.differences {
-            table.texts([&one.column, one.unit, label(one.result), label(0)]);
-            table
-                .finite(one.largest)
-                .finite(one.time)
-                .finite(one.largest.abs() / one.range);
-            table
-                .finite(one.root_mean_square)
-                .finite(one.root_mean_square / one.range);
-            table
-                .finite(one.range)
-                .finite(one.mean)
-                .finite(one.mean_of_first)
-                .end()?;
+            "mean_of_compared_with",
+        ];
+        for (place, name) in names.into_iter().enumerate() {
+            table.number(name, Kind::Count, move |(.., numbers)| numbers[place]);
         }
-        for one in &self.energies {
-            table.text(&format!("energy_per_cycle_{}", one.place));
-            table.texts([one.unit, label(one.result), label(0)]);
-            table.finite(one.value - one.first);
-            for _ in 0..5 {
-                table.missing();
-            }
-            table.finite(one.value).finite(one.first).end()?;
-        }
-        Ok(())
+        table.write_csv(out)
     }
 }
 

@@ -5,9 +5,10 @@ use std::io::{self, Write};
 use quantity::System as Units;
 use study::truck::loop_curve::{LoopCurve, LoopKind};
 
-use crate::csv::{RowWriter, converted};
+use crate::csv::converted;
 use crate::drawing::{Figure, Panel, PlotCurve, distinct};
 use crate::figures::axis;
+use crate::output_table::OutputTable;
 
 /// The table of loops.
 pub const LOOPS: &str = "curves.csv";
@@ -37,20 +38,16 @@ pub fn write(loops: &[LabeledLoop], out: &mut dyn Write) -> io::Result<()> {
     let Some((_, first)) = loops.first() else {
         return Ok(());
     };
-    let ([motion, resistance], [a, b]) = (names(first.kind), first.kind.kinds());
-    let mut table = RowWriter::new(out);
-    table.text("test");
-    table.text(&format!("{motion}_{}", a.suffix(Units::Us)));
-    table
-        .text(&format!("{resistance}_{}", b.suffix(Units::Us)))
-        .end()?;
-    for (label, own) in loops {
-        for (motion, resistance) in own.motion.iter().zip(&own.resistance) {
-            table.text(label).shown(converted(*motion, a, Units::Us));
-            table.shown(converted(*resistance, b, Units::Us)).end()?;
-        }
+    let points = loops.iter().flat_map(|(label, own)| {
+        let pairs = own.motion.iter().zip(&own.resistance);
+        pairs.map(move |(motion, resistance)| (label, [*motion, *resistance]))
+    });
+    let mut table = OutputTable::new(points, Units::Us);
+    table.text("test", |(label, _)| label);
+    for (place, name) in names(first.kind).into_iter().enumerate() {
+        table.number(name, first.kind.kinds()[place], move |(_, values)| values[place]);
     }
-    Ok(())
+    table.write_csv(out)
 }
 
 /// Returns the figure of the loops.

@@ -35,6 +35,7 @@ use study::half_truck::{HalfTruckCase, HalfTruckResult, yaw};
 use wedge::parameters::Damping;
 
 use crate::csv::converted;
+use crate::output_table::RunTable;
 use crate::{csv, mat, mat5, summary};
 
 /// The files of a half-truck's run.
@@ -158,7 +159,8 @@ pub fn write_mat(
             array.columns.join(", ")
         ));
     }
-    mat::write_columns(result, &mut about, out)?;
+    let columns = result.columns.iter().zip(&result.values);
+    RunTable::of_run(columns, own.units)?.write_mat(&mut about, out)?;
     mat5::text("about", about.trim_end(), out)
 }
 

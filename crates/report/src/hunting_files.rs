@@ -8,9 +8,10 @@ use serde::Serialize;
 use study::car::hunting::{Boundary, Hunting, Point, Ramp};
 use study::car::stability::{BranchKind, Stability};
 
-use crate::csv::{RowWriter, rounded};
+use crate::csv::rounded;
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures::axis;
+use crate::output_table::OutputTable;
 use crate::summary::write_json;
 
 /// The table.
@@ -39,33 +40,19 @@ fn ramps(found: &Hunting) -> Vec<(&'static str, &Ramp)> {
 /// # Errors
 /// The writer's.
 pub fn write_table(found: &Hunting, units: Units, out: &mut dyn Write) -> io::Result<()> {
-    let mut table = RowWriter::new(out);
-    table
-        .texts(["ramp", "time_s"])
-        .text(&format!("speed_{}", Kind::TravelSpeed.suffix(units)));
-    for axle in 1..=4 {
-        table.text(&format!(
-            "axle_{axle}_lateral_amplitude_{}",
-            Kind::Length.suffix(units)
-        ));
+    let ramps = ramps(found).into_iter();
+    let points = ramps.flat_map(|(name, ramp)| ramp.points.iter().map(move |point| (name, point)));
+    let mut table = OutputTable::new(points, units);
+    table.text("ramp", |(name, _)| name);
+    table.number("time", Kind::Time, |(_, point)| point.time);
+    table.rounded("speed", Kind::TravelSpeed, |(_, point)| point.speed);
+    for axle in 0..4 {
+        let name = format!("axle_{}_lateral_amplitude", axle + 1);
+        table.number(&name, Kind::Length, move |(_, point)| point.axles[axle]);
     }
-    let acceleration = Kind::RideAcceleration.suffix(units);
-    table
-        .text(&format!("body_lateral_acceleration_amplitude_{acceleration}"))
-        .end()?;
-    for (name, ramp) in ramps(found) {
-        for point in &ramp.points {
-            table.text(name).shown(point.time);
-            table.plain(point.speed * Kind::TravelSpeed.from_si(units));
-            for own in point.axles {
-                table.shown(own * Kind::Length.from_si(units));
-            }
-            table
-                .shown(point.acceleration * Kind::RideAcceleration.from_si(units))
-                .end()?;
-        }
-    }
-    Ok(())
+    let name = "body_lateral_acceleration_amplitude";
+    table.number(name, Kind::RideAcceleration, |(_, point)| point.acceleration);
+    table.write_csv(out)
 }
 
 #[derive(Serialize)]

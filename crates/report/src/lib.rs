@@ -1,6 +1,7 @@
 //! Files and figures of results.
 //!
-//! - [`csv`]: the table `result.csv`; [`result_parquet`]: `result.parquet`.
+//! - [`output_table`]: tables that are written, in each format; [`csv`]: the table `result.csv`;
+//!   [`result_parquet`]: `result.parquet`.
 //! - [`mat`]: the file `result.mat`, under the thesis's names; [`mat5`] is its format.
 //! - [`summary`]: the file `summary.json`.
 //! - [`files`]: writing whole results, or nothing.
@@ -51,6 +52,7 @@ pub mod locus_files;
 pub mod mat;
 pub mod mat5;
 pub mod onset_files;
+pub mod output_table;
 mod overlay;
 pub mod page;
 pub mod parquet;

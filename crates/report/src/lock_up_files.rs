@@ -3,14 +3,14 @@
 use std::io::{self, Write};
 
 use mechanics::quasi_static::{SlidingDirection, SlopeFriction};
-use quantity::System as Units;
+use quantity::{Kind, System as Units};
 use study::case::Case;
 use study::lock_up::{LockUpMap, MapAxis, RigOutcome};
 
 use crate::contour::{self, HeightGrid};
-use crate::csv::RowWriter;
 use crate::drawing::{Colour, Figure, Line, Mark, Panel, PlotCurve};
 use crate::figures::study::contour_curves;
+use crate::output_table::OutputTable;
 
 /// The table.
 pub const TABLE: &str = "lock_up.csv";
@@ -44,39 +44,34 @@ fn heading(axis: MapAxis, units: Units) -> String {
 /// # Errors
 /// The writer's.
 pub fn write_table(map: &LockUpMap, units: Units, out: &mut dyn Write) -> io::Result<()> {
-    let [first, second] = map.spans.map(|span| span.axis);
-    let mut table = RowWriter::new(out);
-    table.text(&heading(first, units)).text(&heading(second, units));
-    table.texts([
-        "closing_angle_deg",
-        "lock_up_margin_deg",
-        "found",
-        "holding_column",
-        "holding_slope",
-        "column_force_ratio",
-        "quasi_static_column_force_ratio",
-        "reason",
-    ]);
-    table.end()?;
     let points = map.values[1].len();
-    for (place, cell) in map.cells.iter().enumerate() {
-        table.plain(map.values[0][place / points] * first.unit(units).1);
-        table.plain(map.values[1][place % points] * second.unit(units).1);
-        table.plain(cell.closing_angle.to_degrees());
-        table.plain(cell.margin.to_degrees());
-        table.text(cell.found.name());
-        table
-            .finite(cell.holding[0])
-            .finite(cell.holding[1])
-            .finite(cell.ratio);
-        table.finite(cell.expected_ratio.unwrap_or(f64::NAN));
-        match &cell.found {
-            RigOutcome::Unknown(reason) => table.text(reason),
-            _ => table.missing(),
-        };
-        table.end()?;
+    let places = |(place, cell)| ([place / points, place % points], cell);
+    let mut table = OutputTable::new(map.cells.iter().enumerate().map(places), units);
+    for axis in [0, 1] {
+        let own = map.spans[axis].axis;
+        let factor = own.unit(units).1;
+        table.rounded(&heading(own, units), Kind::Count, move |(places, _)| {
+            map.values[axis][places[axis]] * factor
+        });
     }
-    Ok(())
+    table.rounded("closing_angle_deg", Kind::Count, |(_, cell)| {
+        cell.closing_angle.to_degrees()
+    });
+    table.rounded("lock_up_margin_deg", Kind::Count, |(_, cell)| {
+        cell.margin.to_degrees()
+    });
+    table.text("found", |(_, cell)| cell.found.name());
+    table.number("holding_column", Kind::Count, |(_, cell)| cell.holding[0]);
+    table.number("holding_slope", Kind::Count, |(_, cell)| cell.holding[1]);
+    table.number("column_force_ratio", Kind::Count, |(_, cell)| cell.ratio);
+    table.number("quasi_static_column_force_ratio", Kind::Count, |(_, cell)| {
+        cell.expected_ratio.unwrap_or(f64::NAN)
+    });
+    table.text("reason", |(_, cell)| match &cell.found {
+        RigOutcome::Unknown(reason) => reason,
+        _ => "",
+    });
+    table.write_csv(out)
 }
 
 /// Returns the figure: the margin with what the rigs found, and the column's force over the load.

@@ -6,9 +6,10 @@ use std::io::{self, Write};
 use quantity::{Kind, Number, System as Units};
 use study::car::locus::{Locus, LocusBranch};
 
-use crate::csv::{RowWriter, rounded};
+use crate::csv::rounded;
 use crate::drawing::{Figure, Panel, PlotCurve, distinct};
-use crate::stability_files::{roots, write_mode};
+use crate::output_table::OutputTable;
+use crate::stability_files::{add_mode, roots};
 
 /// The table of vibrations: the root locus over the parameter.
 pub const TABLE: &str = "locus.csv";
@@ -25,29 +26,17 @@ pub const NAMES: [&str; 3] = [TABLE, FIGURE, PICTURE];
 /// # Errors
 /// The writer's.
 pub fn write_table(found: &Locus, out: &mut dyn Write) -> io::Result<()> {
-    let mut table = RowWriter::new(out);
-    table
-        .texts([
-            "parameter",
-            "value",
-            "unit",
-            "friction",
-            "growth_per_s",
-            "frequency_hz",
-            "damping_ratio",
-            "motion",
-        ])
-        .end()?;
-    for branch in &found.branches {
-        for (value, modes) in found.values.iter().zip(&branch.modes) {
-            for mode in modes {
-                table.text(&found.key).plain(*value).text(&found.unit);
-                table.text(branch.kind.name());
-                write_mode(&mut table, mode)?;
-            }
-        }
-    }
-    Ok(())
+    let modes = found.branches.iter().flat_map(|branch| {
+        let modes = found.values.iter().zip(&branch.modes);
+        modes.flat_map(move |(value, modes)| modes.iter().map(move |mode| (*value, branch.kind, mode)))
+    });
+    let mut table = OutputTable::new(modes, Units::Si);
+    table.text("parameter", |_| &found.key);
+    table.rounded("value", Kind::Count, |(value, ..)| *value);
+    table.text("unit", |_| &found.unit);
+    table.text("friction", |(_, kind, _)| kind.name());
+    add_mode(&mut table, |(.., mode)| mode);
+    table.write_csv(out)
 }
 
 /// Returns the figure: the root locus with friction stuck and absent, one curve a vibration, and the growth

@@ -37,8 +37,9 @@ use study::summary::RunSummary;
 use wedge::outputs::CORNERS;
 use wedge::parameters::Damping;
 
-use crate::csv::{Table, converted};
+use crate::csv::converted;
 use crate::mat5;
+use crate::output_table::RunTable;
 
 /// The file's name.
 pub const FILE_NAME: &str = "result.mat";
@@ -75,38 +76,6 @@ pub fn write(case: &Case, result: &RunResult, out: &mut dyn Write) -> io::Result
     mat5::text("about", &about(result, &variables), out)
 }
 
-/// Writes the columns of a table under their full names, in the units of its summary, and appends a line on
-/// each to `about`.
-///
-/// # Errors
-/// The writer's.
-pub fn write_columns<S: RunSummary>(
-    result: &RunResult<S>,
-    about: &mut String,
-    out: &mut dyn Write,
-) -> io::Result<()> {
-    let values = result.values.iter().map(Vec::as_slice);
-    let table: Vec<_> = result.columns.iter().zip(values).collect();
-    write_table(&table, result.summary.units(), about, out)
-}
-
-fn write_table(table: &Table<'_>, units: Units, about: &mut String, out: &mut dyn Write) -> io::Result<()> {
-    for (column, values) in table {
-        let name = column.full_name(units);
-        let values: Vec<f64> = values
-            .iter()
-            .map(|si| converted(*si, column.kind, units))
-            .collect();
-        mat5::matrix(&name, &[&values], out)?;
-        let unit = match column.kind {
-            Kind::Count => String::new(),
-            kind => format!(" ({})", kind.label(units)),
-        };
-        about.push_str(&format!("{name}{unit}: {}\n", column.text));
-    }
-    Ok(())
-}
-
 /// Returns the sentence on a run that is incomplete or has failed.
 pub fn soundness(summary: &impl RunSummary) -> String {
     let outcome = summary.outcome();
@@ -122,7 +91,7 @@ pub fn soundness(summary: &impl RunSummary) -> String {
 /// # Errors
 /// The writer's.
 pub fn write_named<S: RunSummary>(
-    table: &Table<'_>,
+    table: &RunTable<'_>,
     summary: &S,
     [name, title, program]: [&str; 3],
     out: &mut dyn Write,
@@ -130,7 +99,7 @@ pub fn write_named<S: RunSummary>(
     mat5::header(&format!("{program}, case {name}"), out)?;
     let mut about = format!("{name}: {title}\nwritten by {program}\n");
     about += &soundness(summary);
-    write_table(table, summary.units(), &mut about, out)?;
+    table.write_mat(&mut about, out)?;
     mat5::text("about", about.trim_end(), out)
 }
 

@@ -7,9 +7,10 @@ use quantity::{Kind, System as Units};
 use serde::Serialize;
 use study::car::onset::{MEASURES, Measure, OnTrack, Onset, OnsetSpeed, OnsetTrack};
 
-use crate::csv::{RowWriter, rounded};
+use crate::csv::rounded;
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures::axis;
+use crate::output_table::OutputTable;
 use crate::summary::write_json;
 
 /// The table.
@@ -30,33 +31,19 @@ pub const SCHEMA: &str = "wedgelab.car_onset/1";
 /// # Errors
 /// The writer's.
 pub fn write_table(found: &Onset, units: Units, out: &mut dyn Write) -> io::Result<()> {
-    let mut table = RowWriter::new(out);
-    table
-        .text("track")
-        .text(&format!("speed_{}", Kind::TravelSpeed.suffix(units)));
+    let tracks = found.tracks.iter();
+    let points = tracks.flat_map(|own| own.points.iter().map(|point| (own.track, point)));
+    let mut table = OutputTable::new(points, units);
+    table.text("track", |(track, _)| track.name());
+    table.rounded("speed", Kind::TravelSpeed, |(_, point)| point.speed);
     for measure in MEASURES {
-        table.text(&format!("{}_{}", measure.name(), measure.kind().suffix(units)));
+        table.number(measure.name(), measure.kind(), move |(_, point)| {
+            point.raw(measure)
+        });
     }
-    let acceleration = Kind::RideAcceleration;
-    table
-        .text(&format!("body_rms_{}", acceleration.suffix(units)))
-        .text("outcome")
-        .end()?;
-    for own in &found.tracks {
-        for point in &own.points {
-            table
-                .text(own.track.name())
-                .plain(point.speed * Kind::TravelSpeed.from_si(units));
-            for measure in MEASURES {
-                table.shown(point.raw(measure) * measure.kind().from_si(units));
-            }
-            table
-                .shown(point.body_rms * acceleration.from_si(units))
-                .text(point.outcome.word())
-                .end()?;
-        }
-    }
-    Ok(())
+    table.number("body_rms", Kind::RideAcceleration, |(_, point)| point.body_rms);
+    table.text("outcome", |(_, point)| point.outcome.word());
+    table.write_csv(out)
 }
 
 #[derive(Serialize)]

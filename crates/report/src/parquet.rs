@@ -6,8 +6,7 @@
 //! deflated. No number loses a bit. The metadata has, under `wedgelab.columns`, JSON with name, unit and text
 //! of each column, and what else the writer is given.
 
-use std::borrow::Cow;
-use std::io::Write;
+use std::io::{self, Write};
 use std::sync::Arc;
 
 use parquet::basic::{Compression, Encoding, GzipLevel, LogicalType, Repetition, Type as Physical};
@@ -17,7 +16,8 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{WriterProperties, WriterPropertiesBuilder};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
-use serde::Serialize;
+
+use crate::output_table::{Cell, Content, Description};
 
 /// The key of the columns' description in the metadata.
 pub const COLUMNS_KEY: &str = "wedgelab.columns";
@@ -46,44 +46,6 @@ impl Storage {
     }
 }
 
-/// The contents of a column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Content {
-    /// Whole numbers.
-    Integer,
-    /// Numbers; may be missing.
-    Number,
-    /// Texts; may be missing.
-    Text,
-}
-
-/// A column.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ParquetColumn {
-    /// Its name.
-    pub name: String,
-    /// Its unit, such as `lbf·in`; empty for pure numbers and texts.
-    pub unit: String,
-    /// The description, a few words.
-    pub text: String,
-    /// Its values.
-    pub content: Content,
-}
-
-/// A cell.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Cell<'c> {
-    /// A whole number.
-    Integer(i64),
-    /// A number.
-    Number(f64),
-    /// A text.
-    Text(Cow<'c, str>),
-    /// Nothing.
-    Missing,
-}
-
 /// The values of a column that are gathered; missing ones are left out.
 #[derive(Debug, Default)]
 struct Gathered {
@@ -97,7 +59,7 @@ struct Gathered {
 /// Writes a table row by row.
 pub struct TableWriter<W: Write + Send> {
     writer: SerializedFileWriter<W>,
-    columns: Vec<ParquetColumn>,
+    columns: Vec<Description>,
     gathered: Vec<Gathered>,
     rows: usize,
 }
@@ -109,7 +71,7 @@ impl<W: Write + Send> TableWriter<W> {
     /// It cannot be written.
     pub fn new(
         out: W,
-        columns: Vec<ParquetColumn>,
+        columns: Vec<Description>,
         storage: Storage,
         metadata: &[(&str, String)],
     ) -> Result<Self, ParquetError> {
@@ -148,7 +110,7 @@ impl<W: Write + Send> TableWriter<W> {
                     gathered.integers.push(value);
                     1
                 }
-                (Content::Number, Some(Cell::Number(value))) if !value.is_nan() => {
+                (Content::Number, Some(Cell::Number(value) | Cell::Decimal(value))) if !value.is_nan() => {
                     gathered.numbers.push(value);
                     1
                 }
@@ -207,7 +169,7 @@ impl<W: Write + Send> TableWriter<W> {
     }
 }
 
-fn field(column: &ParquetColumn) -> Result<Arc<Type>, ParquetError> {
+fn field(column: &Description) -> Result<Arc<Type>, ParquetError> {
     let (physical, logical) = match column.content {
         Content::Integer => (Physical::INT64, None),
         Content::Number => (Physical::DOUBLE, None),
@@ -217,4 +179,12 @@ fn field(column: &ParquetColumn) -> Result<Arc<Type>, ParquetError> {
         .with_repetition(Repetition::OPTIONAL)
         .with_logical_type(logical);
     field.build().map(Arc::new)
+}
+
+/// Returns the system's error, without the library's words around it.
+pub(crate) fn plain(error: ParquetError) -> io::Error {
+    match error {
+        ParquetError::External(reason) => io::Error::other(reason),
+        other => io::Error::other(other),
+    }
 }

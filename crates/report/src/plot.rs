@@ -4,11 +4,10 @@ use std::io::{self, Write};
 
 use study::signal::Spectrum;
 
-use crate::csv;
 use crate::drawing::Figure;
 use crate::figures::digits;
+use crate::output_table::{Cell, Content, OutputTable};
 use crate::overlay::{self, Axes};
-use crate::parquet::Cell;
 use crate::table::{ResultTable, TableColumn, TableError};
 
 /// Returns the figure of the columns `ys` over the column `x`, in the table's units; one panel a unit.
@@ -113,15 +112,14 @@ pub fn write_density(
         "" => "1".to_owned(),
         suffix => format!("{suffix}_squared"),
     };
-    let names = [
-        "frequency_Hz".to_owned(),
-        format!("{}_psd_{unit}_per_Hz", column.name),
-    ];
-    csv::write_header(names.iter().map(String::as_str), out)?;
-    for (frequency, density) in spectrum.frequencies.iter().zip(&spectrum.density) {
-        csv::write_cells(&[Cell::Number(*frequency), Cell::Number(*density)], out)?;
-    }
-    Ok(())
+    let rows = spectrum.frequencies.iter().zip(&spectrum.density);
+    let name = format!("{}_psd_{unit}_per_Hz", column.name);
+    let mut table = OutputTable::new(rows, table.units);
+    table.column(["frequency_Hz", "", ""], Content::Number, |(own, _)| {
+        Cell::Number(**own)
+    });
+    table.column([&name, "", ""], Content::Number, |(_, own)| Cell::Number(**own));
+    table.write_csv(out)
 }
 
 /// Returns a column's name as the name of a file, without ending: of others' names only letters, digits, `_`

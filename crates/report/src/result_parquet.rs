@@ -15,10 +15,9 @@ use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use quantity::{Kind, System as Units};
 
-use crate::csv::{Table, converted, rows_of};
-use crate::parquet::{Cell, Content, ParquetColumn, Storage, TableWriter};
+use crate::output_table::RunTable;
+use crate::parquet::Storage;
 use crate::table::TableError;
 
 /// The file's name.
@@ -28,30 +27,12 @@ pub const TABLE_KEY: &str = "wedgelab.table";
 /// The schema.
 const SCHEMA: &str = "wedgelab.result/1";
 
-/// Writes a table in a system of units.
+/// Writes the table of a run.
 ///
 /// # Errors
-/// The writer's; or the columns differ in length.
-pub fn write(table: &Table<'_>, units: Units, out: &mut (dyn Write + Send)) -> io::Result<()> {
-    let columns = table.iter().map(|(column, _)| ParquetColumn {
-        name: column.full_name(units),
-        unit: match column.kind {
-            Kind::Count => String::new(),
-            kind => kind.label(units).to_owned(),
-        },
-        text: column.text.clone(),
-        content: Content::Number,
-    });
-    let rows = rows_of(table)?;
-    let metadata = [(TABLE_KEY, SCHEMA.to_owned())];
-    let writer = TableWriter::new(out, columns.collect(), Storage::Histories, &metadata);
-    let mut writer = writer.map_err(io::Error::other)?;
-    for row in 0..rows {
-        let cells = table.iter();
-        let cells = cells.map(|(column, values)| Cell::Number(converted(values[row], column.kind, units)));
-        writer.row(cells).map_err(io::Error::other)?;
-    }
-    writer.finish().map_err(io::Error::other)
+/// The writer's.
+pub fn write(table: &RunTable<'_>, out: &mut (dyn Write + Send)) -> io::Result<()> {
+    table.write_parquet(Storage::Histories, (TABLE_KEY, SCHEMA.to_owned()), out)
 }
 
 /// Names of columns with their values; a value that is missing is no number.

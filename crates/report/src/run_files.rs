@@ -24,9 +24,9 @@ use study::wheelset::run::WheelsetResult;
 use wedge::face::Grid;
 use wedge::outputs::Outputs;
 
-use crate::csv::Table;
 use crate::figures::pressure_figure;
 use crate::files::{FileError, Files, Folder};
+use crate::output_table::RunTable;
 use crate::{csv, half_truck_files, mat, result_parquet, summary};
 
 /// The name of the case's file.
@@ -69,7 +69,7 @@ pub trait RunFiles: RunCase<Output = RunResult<Self::Summary>> {
     ///
     /// # Errors
     /// The writer's.
-    fn write_mat(&self, result: &Self::Output, table: &Table<'_>, out: &mut dyn Write) -> io::Result<()>;
+    fn write_mat(&self, result: &Self::Output, table: &RunTable<'_>, out: &mut dyn Write) -> io::Result<()>;
 
     /// Adds the files besides the table.
     ///
@@ -119,12 +119,11 @@ pub trait RunFiles: RunCase<Output = RunResult<Self::Summary>> {
         out: &mut (dyn Write + Send),
     ) -> io::Result<()> {
         let units = result.summary.units();
-        let values = result.values.iter().map(Vec::as_slice);
-        let all = result.columns.iter().zip(values);
-        let table: Vec<_> = all.filter(|(own, _)| output.writes(format, own, units)).collect();
+        let all = result.columns.iter().zip(&result.values);
+        let table = RunTable::of_run(all.filter(|(own, _)| output.writes(format, own, units)), units)?;
         match format {
-            TableFormat::Parquet => result_parquet::write(&table, units, out),
-            TableFormat::Csv => csv::write_table(&table, units, out),
+            TableFormat::Parquet => result_parquet::write(&table, out),
+            TableFormat::Csv => table.write_csv(out),
             TableFormat::Mat => self.write_mat(result, &table, out),
         }
     }
@@ -152,7 +151,7 @@ impl RunFiles for Case {
     }
 
     /// The thesis's variables, whatever the columns of other tables.
-    fn write_mat(&self, result: &RunResult, _table: &Table<'_>, out: &mut dyn Write) -> io::Result<()> {
+    fn write_mat(&self, result: &RunResult, _table: &RunTable<'_>, out: &mut dyn Write) -> io::Result<()> {
         mat::write(self, result, out)
     }
 
@@ -185,7 +184,12 @@ impl RunFiles for HalfTruckCase {
         table_names(output).chain([summary::FILE_NAME]).collect()
     }
 
-    fn write_mat(&self, result: &HalfTruckResult, _table: &Table<'_>, out: &mut dyn Write) -> io::Result<()> {
+    fn write_mat(
+        &self,
+        result: &HalfTruckResult,
+        _table: &RunTable<'_>,
+        out: &mut dyn Write,
+    ) -> io::Result<()> {
         half_truck_files::write_mat(self, result, self.script_interval, out)
     }
 
@@ -201,7 +205,7 @@ impl RunFiles for TruckCase {
         Ok(TruckTable::new(self)?.columns().to_vec())
     }
 
-    fn write_mat(&self, result: &TruckResult, table: &Table<'_>, out: &mut dyn Write) -> io::Result<()> {
+    fn write_mat(&self, result: &TruckResult, table: &RunTable<'_>, out: &mut dyn Write) -> io::Result<()> {
         let own = &result.summary;
         mat::write_named(table, own, [&own.name, &own.title, &own.program], out)
     }
@@ -223,7 +227,7 @@ impl RunFiles for CarCase {
         car::run::columns(self)
     }
 
-    fn write_mat(&self, result: &CarResult, table: &Table<'_>, out: &mut dyn Write) -> io::Result<()> {
+    fn write_mat(&self, result: &CarResult, table: &RunTable<'_>, out: &mut dyn Write) -> io::Result<()> {
         let own = &result.summary;
         mat::write_named(table, own, [&own.name, &own.title, &own.program], out)
     }
@@ -252,7 +256,12 @@ impl RunFiles for WheelsetCase {
         table_names(output).chain([summary::FILE_NAME]).collect()
     }
 
-    fn write_mat(&self, result: &WheelsetResult, table: &Table<'_>, out: &mut dyn Write) -> io::Result<()> {
+    fn write_mat(
+        &self,
+        result: &WheelsetResult,
+        table: &RunTable<'_>,
+        out: &mut dyn Write,
+    ) -> io::Result<()> {
         let own = &result.summary;
         mat::write_named(table, own, [&own.name, "", &own.program], out)
     }

@@ -6,11 +6,12 @@ use std::io::{self, Write};
 use quantity::{Kind, System as Units};
 use serde::Serialize;
 use study::car::CarCase;
-use study::car::stability::{Branch, Critical, NamedMode, Stability, left_out};
+use study::car::stability::{AtAmplitude, Branch, Critical, NamedMode, Stability, left_out};
 
-use crate::csv::{RowWriter, rounded};
+use crate::csv::rounded;
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 use crate::figures::axis;
+use crate::output_table::OutputTable;
 use crate::summary::write_json;
 
 /// The table of vibrations: the root locus over speed.
@@ -42,36 +43,29 @@ const FASTEST: f64 = 8.0;
 /// # Errors
 /// The writer's.
 pub fn write_table(found: &Stability, units: Units, out: &mut dyn Write) -> io::Result<()> {
-    let mut table = RowWriter::new(out);
-    table.text(&format!("speed_{}", Kind::TravelSpeed.suffix(units)));
-    table
-        .texts([
-            "friction",
-            "growth_per_s",
-            "frequency_hz",
-            "damping_ratio",
-            "motion",
-        ])
-        .end()?;
-    for branch in &found.branches {
-        for (speed, modes) in found.speeds.iter().zip(&branch.modes) {
-            for mode in modes {
-                table
-                    .plain(speed * Kind::TravelSpeed.from_si(units))
-                    .text(branch.kind.name());
-                write_mode(&mut table, mode)?;
-            }
-        }
-    }
-    Ok(())
+    let modes = found.branches.iter().flat_map(|branch| {
+        let modes = found.speeds.iter().zip(&branch.modes);
+        modes.flat_map(move |(speed, modes)| modes.iter().map(move |mode| (*speed, branch.kind, mode)))
+    });
+    let mut table = OutputTable::new(modes, units);
+    table.rounded("speed", Kind::TravelSpeed, |(speed, ..)| *speed);
+    table.text("friction", |(_, kind, _)| kind.name());
+    add_mode(&mut table, |(.., mode)| mode);
+    table.write_csv(out)
 }
 
-/// Writes the cells of a vibration, and ends the row.
-pub(crate) fn write_mode(table: &mut RowWriter<'_>, mode: &NamedMode) -> io::Result<()> {
-    let angular_frequency = 2.0 * std::f64::consts::PI * mode.frequency;
-    let ratio = -mode.growth / libm::hypot(mode.growth, angular_frequency);
-    table.shown(mode.growth).shown(mode.frequency).shown(ratio);
-    table.text(&mode.name).end()
+/// Adds the columns of a vibration.
+pub(crate) fn add_mode<'t, R>(
+    table: &mut OutputTable<'t, R>,
+    mode: impl for<'r> Fn(&'r R) -> &'r NamedMode + Copy + 't,
+) {
+    table.number("growth_per_s", Kind::Count, move |row| mode(row).growth);
+    table.number("frequency_hz", Kind::Count, move |row| mode(row).frequency);
+    table.number("damping_ratio", Kind::Count, move |row| {
+        let (growth, frequency) = (mode(row).growth, mode(row).frequency);
+        -growth / libm::hypot(growth, 2.0 * std::f64::consts::PI * frequency)
+    });
+    table.text("motion", move |row| &mode(row).name);
 }
 
 /// Writes the critical speed over the lateral amplitude of the wheelset that moves most; empty cells: none.
@@ -79,24 +73,17 @@ pub(crate) fn write_mode(table: &mut RowWriter<'_>, mode: &NamedMode) -> io::Res
 /// # Errors
 /// The writer's.
 pub fn write_curve(found: &Stability, units: Units, out: &mut dyn Write) -> io::Result<()> {
-    let mut table = RowWriter::new(out);
-    table
-        .text(&format!("amplitude_{}", Kind::Length.suffix(units)))
-        .text(&format!("critical_speed_{}", Kind::TravelSpeed.suffix(units)))
-        .texts(["frequency_hz", "motion"])
-        .end()?;
-    for own in &found.curve {
-        table.shown(own.amplitude * Kind::Length.from_si(units));
-        match &own.critical {
-            Some(own) => table
-                .shown(own.speed * Kind::TravelSpeed.from_si(units))
-                .shown(own.frequency)
-                .text(&own.name),
-            None => table.texts(["", "", ""]),
-        };
-        table.end()?;
-    }
-    Ok(())
+    let critical = |own: &&AtAmplitude, of: fn(&Critical) -> f64| own.critical.as_ref().map_or(f64::NAN, of);
+    let mut table = OutputTable::new(&found.curve, units);
+    table.number("amplitude", Kind::Length, |own| own.amplitude);
+    table.number("critical_speed", Kind::TravelSpeed, move |own| {
+        critical(own, |own| own.speed)
+    });
+    table.number("frequency_hz", Kind::Count, move |own| {
+        critical(own, |own| own.frequency)
+    });
+    table.text("motion", |own| own.critical.as_ref().map_or("", |own| &own.name));
+    table.write_csv(out)
 }
 
 #[derive(Serialize)]

@@ -13,7 +13,6 @@
 //! is passed over and its variant computed again. The table and the page appear whole or not at all
 //! ([`crate::files`]).
 
-use std::borrow::Cow;
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -21,14 +20,14 @@ use std::sync::{Mutex, PoisonError};
 
 use input::file::{Expected, ReadError, Reason, read, read_text};
 use input::{FileType, limits};
-use parquet::errors::ParquetError;
 use study::design::{Factor, Study, Value};
 use study::records::{self, Record};
 
 use crate::csv;
 use crate::files::{self, FileError, Folder, Locked};
+use crate::output_table::{Cell, Content, OutputTable};
 use crate::page::study as page;
-use crate::parquet::{Cell, Content, ParquetColumn, Storage, TableWriter};
+use crate::parquet::{Storage, TableWriter, plain};
 
 mod error;
 
@@ -276,28 +275,27 @@ impl StudyFolder {
         mut each: impl FnMut(&[Option<Value>], &Record),
     ) -> Result<(), StudyFolderError> {
         let folder = Folder::check(&self.path, &[TABLE_FILE, TABLE_CSV_FILE], true)?;
-        let columns = columns(study);
+        let table = table(study);
         // An error of reading leaves the closure of writing by this way.
         let mut unread = None;
         let written = folder.write(|files| {
             files.add(TABLE_FILE, |out| {
                 let metadata = [(STUDY_KEY, self.description.clone())];
-                let mut table =
-                    TableWriter::new(out, columns.clone(), Storage::Values, &metadata).map_err(plain)?;
+                let columns = table.descriptions().to_vec();
+                let mut rows = TableWriter::new(out, columns, Storage::Values, &metadata).map_err(plain)?;
                 self.for_each(&mut unread, |record| {
-                    let values = study.values(record.number);
-                    table.row(cells(study, &values, record)).map_err(plain)?;
-                    each(&values, record);
+                    let row = (study.values(record.number), record);
+                    rows.row(table.cells(&row)).map_err(plain)?;
+                    each(&row.0, &row.1);
                     Ok(())
                 })?;
-                table.finish().map_err(plain)
+                rows.finish().map_err(plain)
             })?;
             // The parts are read again: the rows need not be kept.
             files.add(TABLE_CSV_FILE, |out| {
-                csv::write_header(columns.iter().map(|column| column.name.as_str()), out)?;
+                let mut lines = csv::Lines::new(table.descriptions(), out)?;
                 self.for_each(&mut unread, |record| {
-                    let values = study.values(record.number);
-                    csv::write_cells(&cells(study, &values, record), out)
+                    lines.row(table.cells(&(study.values(record.number), record)))
                 })
             })
         });
@@ -312,7 +310,7 @@ impl StudyFolder {
     fn for_each(
         &self,
         unread: &mut Option<StudyFolderError>,
-        mut each: impl FnMut(&Record) -> io::Result<()>,
+        mut each: impl FnMut(Record) -> io::Result<()>,
     ) -> io::Result<()> {
         for part in 0..self.parts() {
             let found =
@@ -322,7 +320,7 @@ impl StudyFolder {
                         missing => Err(StudyFolderError::Incomplete { missing }),
                     });
             match found {
-                Ok(found) => found.records.iter().try_for_each(&mut each)?,
+                Ok(found) => found.records.into_iter().try_for_each(&mut each)?,
                 Err(error) => {
                     *unread = Some(error);
                     return Err(io::Error::other("a part cannot be read"));
@@ -359,14 +357,6 @@ fn refuse_foreign(path: &Path) -> Result<(), StudyFolderError> {
     }
 }
 
-/// Returns the system's error, without the library's words around it.
-fn plain(error: ParquetError) -> io::Error {
-    match error {
-        ParquetError::External(reason) => io::Error::other(reason),
-        other => io::Error::other(other),
-    }
-}
-
 fn write_error(file: &Path, reason: io::Error) -> StudyFolderError {
     StudyFolderError::File(FileError::Write {
         file: file.to_owned(),
@@ -399,84 +389,45 @@ pub fn factor_column(factor: &Factor) -> String {
     }
 }
 
-/// Returns the columns of a study's table.
+/// Returns the table of a study, without rows: values of the factors, and the record.
 #[must_use]
-pub fn columns(study: &Study) -> Vec<ParquetColumn> {
-    let column = |name: String, unit: &str, text: String, content| ParquetColumn {
-        name,
-        unit: unit.to_owned(),
-        text,
-        content,
-    };
-    let units = study.units();
-    let mut columns = vec![
-        column(
-            "run".to_owned(),
-            "",
-            "number of the variant, from 0".to_owned(),
-            Content::Integer,
-        ),
-        column(
-            "status".to_owned(),
-            "",
-            "complete; refused: its values make no run; stopped: it did not come to its end; failed: its \
-             energy ledger does not close, and its measures are not to be used; derailed: a wheel left its \
-             rail, where it ended, and its measures are of the part until then"
-                .to_owned(),
-            Content::Text,
-        ),
-    ];
-    columns.extend(study.factors.iter().map(|factor| {
+pub fn table(study: &Study) -> OutputTable<'_, (Vec<Option<Value>>, Record)> {
+    let mut table = OutputTable::<(Vec<Option<Value>>, Record)>::new([], study.units());
+    let number = ["run", "", "number of the variant, from 0"];
+    table.column(number, Content::Integer, |(_, record)| {
+        Cell::Integer(record.number as i64)
+    });
+    let status = "complete; refused: its values make no run; stopped: it did not come to its end; failed: \
+                  its energy ledger does not close, and its measures are not to be used; derailed: a wheel \
+                  left its rail, where it ended, and its measures are of the part until then";
+    table.column(["status", "", status], Content::Text, |(_, record)| {
+        record.status.name().into()
+    });
+    for (place, factor) in study.factors.iter().enumerate() {
         let text = match factor.paths.as_slice() {
             [_] => "varied".to_owned(),
             [_, others @ ..] => format!("varied, and with it {}", others.join(", ")),
             [] => String::new(),
         };
-        let content = match factor.unit() {
-            Some(_) => Content::Number,
-            None => Content::Text,
-        };
-        column(factor_column(factor), factor.unit().unwrap_or(""), text, content)
-    }));
-    columns.extend(study.measures().iter().map(|measure| {
-        let suffix = measure.kind.suffix(units);
-        let name = match suffix {
-            "" => measure.name.clone().into_owned(),
-            suffix => format!("{}_{suffix}", measure.name),
-        };
-        let unit = measure.kind.label(units);
-        column(name, unit, measure.text.clone().into_owned(), Content::Number)
-    }));
-    columns.push(column(
-        "reason".to_owned(),
-        "",
-        "why it is not complete".to_owned(),
-        Content::Text,
-    ));
-    columns
-}
-
-fn cells<'r>(study: &Study, values: &'r [Option<Value>], record: &'r Record) -> Vec<Cell<'r>> {
-    let units = study.units();
-    let mut cells = vec![
-        Cell::Integer(record.number as i64),
-        Cell::Text(Cow::Borrowed(record.status.name())),
-    ];
-    for (factor, value) in study.factors.iter().zip(values) {
-        cells.push(match (value, factor.unit()) {
+        let unit = factor.unit();
+        let content = unit.map_or(Content::Text, |_| Content::Number);
+        let about = [&factor_column(factor), unit.unwrap_or(""), &text];
+        table.column(about, content, move |(values, _)| match (&values[place], unit) {
             (None, _) => Cell::Missing,
             (Some(value), Some(unit)) => value.in_unit(unit).map_or(Cell::Missing, Cell::Number),
             (Some(value), None) => Cell::Text(value.shown()),
         });
     }
-    let measured = study.measures().iter().enumerate();
-    cells.extend(measured.map(|(place, measure)| {
-        let value = record.measures.0.get(place).copied().unwrap_or(f64::NAN);
-        Cell::Number(value * measure.kind.from_si(units))
-    }));
-    cells.push(match record.reason.as_str() {
-        "" => Cell::Missing,
-        reason => Cell::Text(Cow::Borrowed(reason)),
-    });
-    cells
+    for (place, measure) in study.measures().iter().enumerate() {
+        table.quantity(
+            [&measure.name, &measure.text],
+            measure.kind,
+            move |(_, record), factor| {
+                Cell::Number(record.measures.0.get(place).copied().unwrap_or(f64::NAN) * factor)
+            },
+        );
+    }
+    let reason = ["reason", "", "why it is not complete"];
+    table.column(reason, Content::Text, |(_, record)| record.reason.as_str().into());
+    table
 }

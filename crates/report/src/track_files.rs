@@ -2,10 +2,11 @@
 
 use std::io::{self, Write};
 
+use quantity::{Kind, System as Units};
 use wheelrail::track::{RailPlace, Track};
 
-use crate::csv::RowWriter;
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
+use crate::output_table::OutputTable;
 
 /// The table.
 pub const TABLE: &str = "track.csv";
@@ -158,50 +159,44 @@ impl<'t> Survey<'t> {
     /// # Errors
     /// The writer's.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let mut table = RowWriter::new(out);
-        table.texts([
-            "distance_ft",
-            "x_ft",
-            "y_ft",
-            "z_ft",
-            "heading_rad",
-            "curvature_per_ft",
-        ]);
-        table.texts(["degree_of_curve", "superelevation_in", "grade"]);
-        for measured in MeasuredTrack::ALL {
-            table.text(&format!("{}_in", measured.name()));
+        let rows = self.rows.iter();
+        let rows = rows.map(|row| (self.track.center_line.at(row.distance), row));
+        let mut table = OutputTable::new(rows, Units::Us);
+        table.rounded("distance_ft", Kind::Count, |(_, row)| row.distance / FOOT);
+        for (axis, name) in ["x_ft", "y_ft", "z_ft"].into_iter().enumerate() {
+            table.rounded(name, Kind::Count, move |(own, _)| own.position[axis] / FOOT);
         }
-        table.texts(["cross_level_in", "gauge_deviation_in"]);
+        table.number("heading", Kind::Angle, |(own, _)| own.heading);
+        table.rounded("curvature_per_ft", Kind::Count, |(own, _)| {
+            own.curvature[0] * FOOT
+        });
+        table.rounded("degree_of_curve", Kind::Count, |(own, _)| {
+            degree(own.curvature[0])
+        });
+        table.rounded("superelevation_in", Kind::Count, |(own, _)| {
+            own.superelevation[0] / INCH
+        });
+        table.number("grade", Kind::Count, |(own, _)| own.grade);
         for measured in MeasuredTrack::ALL {
-            for chord in CHORDS {
-                table.text(&format!("{}_offset_{chord}_ft_in", measured.name()));
-            }
+            let name = format!("{}_in", measured.name());
+            table.rounded(&name, Kind::Count, move |(_, row)| measured.of(&row.rails) / INCH);
         }
-        table.end()?;
-        for row in &self.rows {
-            let station = self.track.center_line.at(row.distance);
-            table.plain(row.distance / FOOT);
-            for own in station.position {
-                table.plain(own / FOOT);
-            }
-            table.shown(station.heading).plain(station.curvature[0] * FOOT);
-            table
-                .plain(degree(station.curvature[0]))
-                .plain(station.superelevation[0] / INCH);
-            table.shown(station.grade);
-            for measured in MeasuredTrack::ALL {
-                table.plain(measured.of(&row.rails) / INCH);
-            }
+        table.rounded("cross_level_in", Kind::Count, |(own, row)| {
             let [left, right] = &row.rails;
-            let cross_level = station.superelevation[0] + right.vertical[0] - left.vertical[0];
-            let gauge = left.lateral[0] - right.lateral[0];
-            table.plain(cross_level / INCH).plain(gauge / INCH);
-            for offset in row.offsets.iter().flatten() {
-                table.plain(offset / INCH);
+            (own.superelevation[0] + right.vertical[0] - left.vertical[0]) / INCH
+        });
+        table.rounded("gauge_deviation_in", Kind::Count, |(_, row)| {
+            (row.rails[0].lateral[0] - row.rails[1].lateral[0]) / INCH
+        });
+        for (number, measured) in MeasuredTrack::ALL.into_iter().enumerate() {
+            for (place, chord) in CHORDS.into_iter().enumerate() {
+                let name = format!("{}_offset_{chord}_ft_in", measured.name());
+                table.rounded(&name, Kind::Count, move |(_, row)| {
+                    row.offsets[number][place] / INCH
+                });
             }
-            table.end()?;
         }
-        Ok(())
+        table.write_csv(out)
     }
 
     /// Returns the figure.

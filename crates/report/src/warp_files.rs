@@ -8,9 +8,10 @@ use quantity::{Kind, System as Units};
 use study::truck::run::TruckResult;
 use study::truck::warp::{Growth, NUCARS_STIFFNESS, PARTS, WarpCurve};
 
-use crate::csv::{RowWriter, converted};
+use crate::csv::converted;
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 use crate::figures::axis;
+use crate::output_table::{Cell, Content, OutputTable};
 
 /// The table of stiffnesses.
 pub const STIFFNESS: &str = "warp.csv";
@@ -44,39 +45,37 @@ pub struct Tested {
 /// # Errors
 /// The writer's.
 pub fn write_stiffness(tests: &[Tested], out: &mut dyn Write) -> io::Result<()> {
-    let mut table = RowWriter::new(out);
-    table.texts([
-        "test",
-        "warp_angle_rad",
-        "warp_moment_lbf_in",
-        "warp_stiffness_lbf_in_per_rad",
-    ]);
-    for (name, ..) in PARTS {
-        table.text(&format!("{name}_lbf_in"));
+    let measured = tests.iter().flat_map(|test| {
+        let rows = test.curve.stiffness.iter().zip(&test.curve.parts);
+        rows.map(move |((angle, stiffness), parts)| {
+            (
+                test.label.as_str(),
+                [*angle, *stiffness],
+                Some((parts, test.curve.growth.name())),
+            )
+        })
+    });
+    let empirical = NUCARS_STIFFNESS
+        .into_iter()
+        .flat_map(|(name, stiffness)| [0.010, 0.020].map(|angle| (name, [angle, stiffness], None)));
+    let us = |value: f64| Cell::Text(format!("{:.1}", converted(value, Kind::Moment, Units::Us)).into());
+    let mut table = OutputTable::new(measured.chain(empirical), Units::Us);
+    table.text("test", |(name, ..)| name);
+    table.number("warp_angle", Kind::Angle, |(_, [angle, _], _)| *angle);
+    let number = Content::Number;
+    let moment = ["warp_moment_lbf_in", "", ""];
+    table.column(moment, number, move |(_, [angle, stiffness], _)| {
+        us(angle * stiffness)
+    });
+    let stiffness = ["warp_stiffness_lbf_in_per_rad", "", ""];
+    table.column(stiffness, number, move |(_, [_, stiffness], _)| us(*stiffness));
+    for (place, (name, ..)) in PARTS.into_iter().enumerate() {
+        table.column([&format!("{name}_lbf_in"), "", ""], number, move |(.., more)| {
+            more.map_or(Cell::Missing, |(parts, _)| us(parts[place]))
+        });
     }
-    table.text("growth").end()?;
-    let us = |value: f64| format!("{:.1}", converted(value, Kind::Moment, Units::Us));
-    for test in tests {
-        for ((angle, stiffness), parts) in test.curve.stiffness.iter().zip(&test.curve.parts) {
-            table.text(&test.label).shown(angle);
-            table.text(&us(angle * stiffness)).text(&us(*stiffness));
-            for part in parts {
-                table.text(&us(*part));
-            }
-            table.text(test.curve.growth.name()).end()?;
-        }
-    }
-    for (name, stiffness) in NUCARS_STIFFNESS {
-        for angle in [0.010, 0.020] {
-            table.text(name).shown(angle);
-            table.text(&us(angle * stiffness)).text(&us(stiffness));
-            for _ in PARTS {
-                table.missing();
-            }
-            table.missing().end()?;
-        }
-    }
-    Ok(())
+    table.text("growth", |(.., more)| more.map_or("", |(_, growth)| growth));
+    table.write_csv(out)
 }
 
 /// Writes angle, moment and its parts over the last whole cycle of each test.
@@ -84,26 +83,24 @@ pub fn write_stiffness(tests: &[Tested], out: &mut dyn Write) -> io::Result<()> 
 /// # Errors
 /// The writer's.
 pub fn write_loops(tests: &[Tested], out: &mut dyn Write) -> io::Result<()> {
-    let mut table = RowWriter::new(out);
-    table.texts(["test", "time_s", "warp_angle_rad", "warp_moment_lbf_in"]);
+    let rows = tests
+        .iter()
+        .flat_map(|test| test.curve.rows.clone().map(move |row| (test, row)));
+    let value =
+        |test: &Tested, row: usize, name: &str| test.result.column(name).map_or(f64::NAN, |own| own[row]);
+    let mut table = OutputTable::new(rows, Units::Us);
+    table.text("test", |(test, _)| &test.label);
+    for (name, kind) in [("time", Kind::Time), ("warp_angle", Kind::Angle)] {
+        table.rounded(name, kind, move |(test, row)| value(test, *row, name));
+    }
+    table.number("warp_moment", Kind::Moment, move |(test, row)| {
+        value(test, *row, "warp_moment")
+    });
     for (name, ..) in PARTS {
-        table.text(&format!("{name}_lbf_in"));
+        let column = format!("warp_moment_{name}");
+        table.number(name, Kind::Moment, move |(test, row)| value(test, *row, &column));
     }
-    table.end()?;
-    for test in tests {
-        let column = |name: &str| test.result.column(name).unwrap_or_default();
-        let mut columns = vec![column("warp_moment")];
-        columns.extend(PARTS.map(|(name, ..)| column(&format!("warp_moment_{name}"))));
-        let (times, angles) = (column("time"), column("warp_angle"));
-        for row in test.curve.rows.clone() {
-            table.text(&test.label).plain(times[row]).plain(angles[row]);
-            for column in &columns {
-                table.shown(converted(column[row], Kind::Moment, Units::Us));
-            }
-            table.end()?;
-        }
-    }
-    Ok(())
+    table.write_csv(out)
 }
 
 /// Writes the piecewise linear functions of one nest (half of the truck's moment), as NUCARS reads them:

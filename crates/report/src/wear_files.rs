@@ -8,9 +8,10 @@ use study::wear::{LIMIT, WearHistory, WearLaw, WearPlan, WearState, maps};
 use wedge::face::{DepthMap, FaceProperties};
 use wedge::outputs::FACES;
 
-use crate::csv::{RowWriter, converted};
+use crate::csv::converted;
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures::{axis, capital, digits, over_face};
+use crate::output_table::OutputTable;
 
 /// The course of wear over the cycles.
 pub const COURSE: &str = "wear.csv";
@@ -51,59 +52,6 @@ pub fn volume(si: f64, units: Units) -> (f64, &'static str) {
     (si * length * length * length, name)
 }
 
-/// A number of a state by its name and kind; volumes have none.
-type Number = (String, Option<Kind>, Box<dyn Fn(&WearState) -> f64>);
-
-/// Returns the numbers of states; those of counterfaces where these are worn.
-fn numbers(counterfaces: bool) -> Vec<Number> {
-    let mut all: Vec<Number> = Vec::new();
-    let mut add = |name: String, kind: Option<Kind>, of: Box<dyn Fn(&WearState) -> f64>| {
-        all.push((name, kind, of));
-    };
-    for (face, name) in FACES.into_iter().enumerate() {
-        add(
-            format!("{name}_volume"),
-            None,
-            Box::new(move |s| s.faces[face].volume),
-        );
-        let rate = Box::new(move |s: &WearState| s.faces[face].volume_per_cycle);
-        add(format!("{name}_volume_per_cycle"), None, rate);
-        let deepest = move |s: &WearState| {
-            s.faces[face]
-                .depths
-                .iter()
-                .copied()
-                .fold(f64::NEG_INFINITY, f64::max)
-        };
-        add(format!("{name}_deepest"), Some(Kind::Length), Box::new(deepest));
-        let greatest = move |s: &WearState| s.faces[face].pressures.iter().copied().fold(0.0, f64::max);
-        add(
-            format!("{name}_greatest_mean_pressure"),
-            Some(Kind::Pressure),
-            Box::new(greatest),
-        );
-        let force = Box::new(move |s: &WearState| s.faces[face].mean_force);
-        add(format!("{name}_mean_normal_force"), Some(Kind::Force), force);
-        let loss = Box::new(move |s: &WearState| s.faces[face].loss);
-        add(format!("{name}_loss_per_cycle"), Some(Kind::Energy), loss);
-        if counterfaces {
-            let own = move |s: &WearState| Some(s.counterfaces.as_ref()?[face].volume);
-            let volume = move |s: &WearState| own(s).unwrap_or_default();
-            add(format!("{name}_counterface_volume"), None, Box::new(volume));
-            let deepest = move |s: &WearState| deepest_of_counterface(s, face);
-            let name = format!("{name}_counterface_deepest");
-            add(name, Some(Kind::Length), Box::new(deepest));
-        }
-    }
-    add("wedge_rise".to_owned(), Some(Kind::Length), Box::new(|s| s.rise));
-    add(
-        "equivalent_damping".to_owned(),
-        Some(Kind::Damping),
-        Box::new(|s| s.damping),
-    );
-    all
-}
-
 /// Returns the largest depth of a counterface, m; zero where it is not worn.
 fn deepest_of_counterface(state: &WearState, face: usize) -> f64 {
     let map = state.counterfaces.as_ref().and_then(|own| own[face].map.as_ref());
@@ -118,25 +66,53 @@ fn deepest_of_counterface(state: &WearState, face: usize) -> f64 {
 pub fn write_course(history: &WearHistory, out: &mut dyn Write) -> io::Result<()> {
     let units = history.case.simulation.output_units;
     let worn = history.states.iter().any(|state| state.counterfaces.is_some());
-    let numbers = numbers(worn);
-    let mut table = RowWriter::new(out);
-    table.text("cycles");
-    for (name, kind, _) in &numbers {
-        let unit = kind.map_or(volume(0.0, units).1, |kind| kind.suffix(units));
-        table.text(&format!("{name}_{unit}"));
-    }
-    table.end()?;
-    for state in &history.states {
-        table.plain(state.cycles);
-        for (_, kind, of) in &numbers {
-            table.shown(match kind {
-                Some(kind) => converted(of(state), *kind, units),
-                None => volume(of(state), units).0,
-            });
+    let mut table = OutputTable::new(&history.states, units);
+    table.rounded("cycles", Kind::Count, |state| state.cycles);
+    for (face, name) in FACES.into_iter().enumerate() {
+        add_volume(&mut table, &format!("{name}_volume"), units, move |s| {
+            s.faces[face].volume
+        });
+        let rate = move |s: &WearState| s.faces[face].volume_per_cycle;
+        add_volume(&mut table, &format!("{name}_volume_per_cycle"), units, rate);
+        table.number(&format!("{name}_deepest"), Kind::Length, move |s| {
+            let depths = s.faces[face].depths.iter().copied();
+            depths.fold(f64::NEG_INFINITY, f64::max)
+        });
+        table.number(
+            &format!("{name}_greatest_mean_pressure"),
+            Kind::Pressure,
+            move |s| s.faces[face].pressures.iter().copied().fold(0.0, f64::max),
+        );
+        let force = format!("{name}_mean_normal_force");
+        table.number(&force, Kind::Force, move |s| s.faces[face].mean_force);
+        table.number(&format!("{name}_loss_per_cycle"), Kind::Energy, move |s| {
+            s.faces[face].loss
+        });
+        if worn {
+            add_volume(
+                &mut table,
+                &format!("{name}_counterface_volume"),
+                units,
+                move |s| s.counterfaces.as_ref().map_or(0.0, |own| own[face].volume),
+            );
+            let deepest = format!("{name}_counterface_deepest");
+            table.number(&deepest, Kind::Length, move |s| deepest_of_counterface(s, face));
         }
-        table.end()?;
     }
-    Ok(())
+    table.number("wedge_rise", Kind::Length, |state| state.rise);
+    table.number("equivalent_damping", Kind::Damping, |state| state.damping);
+    table.write_csv(out)
+}
+
+/// Adds a column of volumes.
+fn add_volume<'t>(
+    table: &mut OutputTable<'t, &'t WearState>,
+    name: &str,
+    units: Units,
+    of: impl Fn(&WearState) -> f64 + 't,
+) {
+    let name = format!("{name}_{}", volume(0.0, units).1);
+    table.number(&name, Kind::Count, move |state| volume(of(state), units).0);
 }
 
 fn faces(history: &WearHistory) -> [&FaceProperties; 2] {
@@ -150,32 +126,29 @@ fn faces(history: &WearHistory) -> [&FaceProperties; 2] {
 /// The writer's.
 pub fn write_points(history: &WearHistory, out: &mut dyn Write) -> io::Result<()> {
     let units = history.case.simulation.output_units;
-    let (length, pressure) = (Kind::Length.suffix(units), Kind::Pressure.suffix(units));
-    let mut table = RowWriter::new(out);
-    table.texts(["cycles", "face", "point"]);
-    for name in ["up", "across", "depth"] {
-        table.text(&format!("{name}_{length}"));
-    }
-    table.text(&format!("mean_pressure_{pressure}")).end()?;
     let rectangles = history.case.parameters.rectangles();
+    let mut rows = Vec::new();
     for state in &history.states {
         for (number, face) in faces(history).into_iter().enumerate() {
-            let (own, name) = (&state.faces[number], FACES[number]);
+            let own = &state.faces[number];
             let mut points: Vec<_> = face.grid.points().into_iter().enumerate().collect();
             points.sort_by_key(|(_, point)| (point.row, point.column));
-            for (i, point) in points {
+            rows.extend(points.into_iter().map(|(i, point)| {
                 let (up, across) = rectangles[number].distances(&point);
-                table.plain(state.cycles).text(name).shown(point.number());
-                for length in [up, across, own.depths[i]] {
-                    table.plain(converted(length, Kind::Length, units));
-                }
-                table
-                    .shown(converted(own.pressures[i], Kind::Pressure, units))
-                    .end()?;
-            }
+                let place = (state.cycles, FACES[number], point.number());
+                (place, [up, across, own.depths[i]], own.pressures[i])
+            }));
         }
     }
-    Ok(())
+    let mut table = OutputTable::new(rows, units);
+    table.rounded("cycles", Kind::Count, |((cycles, ..), ..)| *cycles);
+    table.text("face", |((_, face, _), ..)| face);
+    table.text("point", |((.., point), ..)| point);
+    for (place, name) in ["up", "across", "depth"].into_iter().enumerate() {
+        table.rounded(name, Kind::Length, move |(_, lengths, _)| lengths[place]);
+    }
+    table.number("mean_pressure", Kind::Pressure, |(.., pressure)| *pressure);
+    table.write_csv(out)
 }
 
 /// Writes the depths of a face at the end, as `wedge_wear` takes them.
@@ -206,19 +179,13 @@ fn write_map<'m>(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let units = history.case.simulation.output_units;
-    let unit = Kind::Length.label(units);
-    let mut table = RowWriter::new(out);
-    for name in ["up", " across", " depth"] {
-        table.text(&format!("{name} [{unit}]"));
+    let (unit, factor) = (Kind::Length.label(units), Kind::Length.from_si(units));
+    let mut table = OutputTable::new(map.flat_map(DepthMap::points), units);
+    for (place, name) in ["up", " across", " depth"].into_iter().enumerate() {
+        let name = format!("{name} [{unit}]");
+        table.rounded(&name, Kind::Count, move |point| point[place] * factor);
     }
-    table.end()?;
-    for point in map.flat_map(DepthMap::points) {
-        for value in point {
-            table.plain(converted(value, Kind::Length, units));
-        }
-        table.end()?;
-    }
-    Ok(())
+    table.write_csv(out)
 }
 
 /// Returns the figure: depths over both faces at the end, volumes and damping over the cycles.

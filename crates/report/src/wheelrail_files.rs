@@ -3,11 +3,12 @@
 
 use std::io::{self, Write};
 
+use quantity::{Kind, System as Units};
 use wheelrail::profile::Profile;
 use wheelrail::wheelset::RigidPosition;
 
-use crate::csv::RowWriter;
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
+use crate::output_table::OutputTable;
 
 /// The table.
 pub const TABLE: &str = "wheelrail.csv";
@@ -26,23 +27,25 @@ const INCH: f64 = 0.0254;
 /// # Errors
 /// The writer's.
 pub fn write(positions: &[RigidPosition], out: &mut dyn Write) -> io::Result<()> {
-    let mut table = RowWriter::new(out);
-    table.texts(["shift_in", "rolling_radius_difference_in"]);
-    table.texts(["left_contact_angle_rad", "right_contact_angle_rad", "roll_rad"]);
-    table.texts(["left_wheel_place_in", "right_wheel_place_in"]);
-    table.texts(["left_rail_place_in", "right_rail_place_in"]).end()?;
-    for position in positions {
-        let [left, right] = position.contact_angles();
-        let [a, b] = &position.touches;
-        table.plain(position.shift / INCH);
-        table.shown(position.rolling_radius_difference() / INCH);
-        table.shown(left).shown(right).shown(position.roll);
-        for place in [a.profile, b.profile, a.place[1], b.place[1]] {
-            table.shown(place / INCH);
-        }
-        table.end()?;
+    let mut table = OutputTable::new(positions, Units::Us);
+    table.rounded("shift_in", Kind::Count, |own| own.shift / INCH);
+    table.number("rolling_radius_difference_in", Kind::Count, |own| {
+        own.rolling_radius_difference() / INCH
+    });
+    for (side, name) in ["left", "right"].into_iter().enumerate() {
+        let name = format!("{name}_contact_angle");
+        table.number(&name, Kind::Angle, move |own| own.contact_angles()[side]);
     }
-    Ok(())
+    table.number("roll", Kind::Angle, |own| own.roll);
+    for (side, name) in ["left", "right"].into_iter().enumerate() {
+        let name = format!("{name}_wheel_place_in");
+        table.number(&name, Kind::Count, move |own| own.touches[side].profile / INCH);
+    }
+    for (side, name) in ["left", "right"].into_iter().enumerate() {
+        let name = format!("{name}_rail_place_in");
+        table.number(&name, Kind::Count, move |own| own.touches[side].place[1] / INCH);
+    }
+    table.write_csv(out)
 }
 
 /// Returns the figure: profiles, rolling radius difference, contact angles, places, and equivalent conicity

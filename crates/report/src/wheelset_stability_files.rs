@@ -7,9 +7,9 @@ use quantity::{Kind, System as Units};
 use study::wheelset::stability::WheelsetStability;
 use study::wheelset::summary::Hunting;
 
-use crate::csv::RowWriter;
 use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures::axis;
+use crate::output_table::OutputTable;
 
 /// The table.
 pub const TABLE: &str = "stability.csv";
@@ -25,23 +25,20 @@ pub const NAMES: [&str; 3] = [TABLE, FIGURE, PICTURE];
 /// # Errors
 /// The writer's.
 pub fn write_table(found: &WheelsetStability, units: Units, out: &mut dyn Write) -> io::Result<()> {
-    let mut table = RowWriter::new(out);
-    table.text(&format!("speed_{}", Kind::TravelSpeed.suffix(units)));
-    table
-        .texts(["growth_per_s", "frequency_hz", "damping_ratio"])
-        .end()?;
-    for (speed, own) in found.speeds.iter().zip(&found.vibrations) {
-        table.plain(speed * Kind::TravelSpeed.from_si(units));
-        match own {
-            Some(own) => table
-                .shown(own.growth_per_s)
-                .shown(own.frequency_hz)
-                .shown(own.damping_ratio),
-            None => table.texts(["", "", ""]),
-        };
-        table.end()?;
-    }
-    Ok(())
+    let rows = found.speeds.iter().zip(&found.vibrations);
+    let mut table = OutputTable::new(rows, units);
+    table.rounded("speed", Kind::TravelSpeed, |(speed, _)| **speed);
+    let value = |own: &Option<Hunting>, of: fn(&Hunting) -> f64| own.as_ref().map_or(f64::NAN, of);
+    table.number("growth_per_s", Kind::Count, move |(_, own)| {
+        value(own, |own| own.growth_per_s)
+    });
+    table.number("frequency_hz", Kind::Count, move |(_, own)| {
+        value(own, |own| own.frequency_hz)
+    });
+    table.number("damping_ratio", Kind::Count, move |(_, own)| {
+        value(own, |own| own.damping_ratio)
+    });
+    table.write_csv(out)
 }
 
 /// Returns the figure: growth and frequency over speed.

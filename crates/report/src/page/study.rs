@@ -12,7 +12,7 @@ use crate::figures::{Exhibit, digits};
 use crate::files::{FileError, Folder};
 use crate::overlay::words;
 use crate::study_digest::Digest;
-use crate::study_folder::{TABLE_FILE, columns, factor_column};
+use crate::study_folder::{TABLE_FILE, factor_column, table};
 
 /// The page's file name.
 pub const FILE_NAME: &str = "index.html";
@@ -239,7 +239,7 @@ fn files(study: &Study) -> Markup {
                     }
                 }
                 tbody {
-                    @for column in columns(study) {
+                    @for column in table(study).descriptions() {
                         tr {
                             th scope="row" { code { (column.name) } }
                             td.unit { (column.unit) }

@@ -6,7 +6,8 @@ use std::path::Path;
 use miette::Diagnostic;
 use quantity::{Kind, System as Units};
 use report::csv;
-use report::parquet::{Cell, Content, ParquetColumn, Storage, TableWriter};
+use report::output_table::{Cell, Content, Description};
+use report::parquet::{Storage, TableWriter};
 use report::table::{ResultTable, TableError};
 use study::case::builtin;
 use study::result::RunResult;
@@ -415,9 +416,10 @@ fn issue_048_tables_of_others_in_any_unit() {
 fn issue_048_parquet_tables_of_others_in_any_unit() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("other.parquet");
-    let column = |name: &str| ParquetColumn {
+    let column = |name: &str| Description {
         name: name.to_owned(),
         unit: String::new(),
+        kind: Kind::Count,
         text: String::new(),
         content: Content::Number,
     };
