@@ -62,33 +62,27 @@ pub fn figure(loops: &[LabeledLoop]) -> Figure {
         LoopKind::Roll => ["bolster's roll", "moment against it"],
     };
     let curves = loops.iter().enumerate().map(|(number, (label, own))| {
-        let (colour, line) = distinct(number);
         let points = own.motion.iter().zip(&own.resistance);
-        PlotCurve {
-            label: if label.is_empty() {
+        PlotCurve::new(
+            if label.is_empty() {
                 "truck".to_owned()
             } else {
                 label.clone()
             },
-            colour,
-            line,
-            points: points
-                .map(|(x, y)| (converted(*x, a, Units::Us), converted(*y, b, Units::Us)))
-                .collect(),
-        }
+            distinct(number),
+            points.map(|(x, y)| (converted(*x, a, Units::Us), converted(*y, b, Units::Us))),
+        )
     });
-    Figure {
-        title: "Suspension of a three-piece truck".to_owned(),
-        caption: "What both nests with their wedges resist over the bolster's motion, in the last whole \
+    Figure::new(
+        "Suspension of a three-piece truck",
+        "What both nests with their wedges resist over the bolster's motion, in the last whole \
                   cycle. The slope of the loop is the stiffness, its height in the middle twice what \
-                  friction holds, its area the energy lost."
-            .to_owned(),
-        panels: vec![Panel {
-            x_label: axis(motion, a, Units::Us),
-            y_label: axis(resistance, b, Units::Us),
-            curves: curves.collect(),
-            ..Panel::default()
-        }],
-        ..Figure::default()
-    }
+                  friction holds, its area the energy lost.",
+        [Panel::new(
+            "",
+            axis(motion, a, Units::Us),
+            axis(resistance, b, Units::Us),
+            curves,
+        )],
+    )
 }

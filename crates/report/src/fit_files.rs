@@ -97,11 +97,8 @@ pub fn figure(fit: &Fit, shown: &FitFigure<'_>) -> Figure {
         ),
         None => (times.clone(), axis("time", Kind::Time, units)),
     };
-    let curve = |label: &str, colour, line, x: &[f64], y: &[f64]| PlotCurve {
-        label: label.to_owned(),
-        colour,
-        line,
-        points: x.iter().copied().zip(y.iter().copied()).collect(),
+    let curve = |label: &str, colour, line, x: &[f64], y: &[f64]| {
+        PlotCurve::new(label, (colour, line), x.iter().copied().zip(y.iter().copied()))
     };
     let residuals: Vec<f64> = measured.iter().zip(&fitted).map(|(a, b)| a - b).collect();
     let size = converted(fit.standard_error, kind, units);
@@ -110,38 +107,35 @@ pub fn figure(fit: &Fit, shown: &FitFigure<'_>) -> Figure {
         times.last().copied().unwrap_or(0.0),
     ];
     let level = |label: &str, value: f64| curve(label, Colour::Black, Line::Dashed, &ends, &[value, value]);
-    Figure {
-        title: format!("{name}: measured and fitted"),
-        caption: format!(
+    Figure::new(
+        format!("{name}: measured and fitted"),
+        format!(
             "(a) The measured values and the run with the parameters found. (b) Measured less fitted over \
              time, with the standard error of one value ({} {}), up and down. What is left over should look \
              like noise: a pattern says that the model lacks something.",
             crate::figures::digits(size),
             kind.label(units)
         ),
-        panels: vec![
-            Panel {
-                title: "(a) measured and fitted".to_owned(),
+        [
+            Panel::new(
+                "(a) measured and fitted",
                 x_label,
-                y_label: axis(&name, kind, units),
-                curves: vec![
+                axis(&name, kind, units),
+                [
                     curve("measured", Colour::Orange, Line::Solid, &x, &measured),
                     curve("fitted", Colour::Blue, Line::Dashed, &x, &fitted),
                 ],
-                ..Panel::default()
-            },
-            Panel {
-                title: "(b) what is left over".to_owned(),
-                x_label: axis("time", Kind::Time, units),
-                y_label: axis("measured less fitted", kind, units),
-                curves: vec![
+            ),
+            Panel::new(
+                "(b) what is left over",
+                axis("time", Kind::Time, units),
+                axis("measured less fitted", kind, units),
+                [
                     curve("residual", Colour::Vermillion, Line::Solid, times, &residuals),
                     level("standard error", size),
                     level("standard error", -size),
                 ],
-                ..Panel::default()
-            },
+            ),
         ],
-        ..Figure::default()
-    }
+    )
 }

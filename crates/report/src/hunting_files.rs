@@ -163,12 +163,7 @@ pub fn figure(case: &str, found: &Hunting, stability: &Stability, units: Units) 
                 .map(|point| (speed(point.speed), of(point) * kind.from_si(units)))
                 .collect();
             top = points.iter().fold(top, |top, (_, value)| top.max(*value));
-            curves.push(PlotCurve {
-                label: label.to_owned(),
-                colour,
-                line,
-                points,
-            });
+            curves.push(PlotCurve::new(label, (colour, line), points));
         }
         let marks = linear(stability).into_iter().zip([
             (
@@ -190,40 +185,36 @@ pub fn figure(case: &str, found: &Hunting, stability: &Stability, units: Units) 
             .map(|(own, amplitude)| (speed(own), amplitude * Kind::Length.from_si(units)))
             .collect();
         if kind == Kind::Length && !over_amplitude.is_empty() {
-            curves.push(PlotCurve {
-                label: "equivalent linearization".to_owned(),
-                colour: Colour::Green,
-                line: Line::Dotted,
-                points: over_amplitude,
-            });
+            curves.push(PlotCurve::new(
+                "equivalent linearization",
+                (Colour::Green, Line::Dotted),
+                over_amplitude,
+            ));
         }
         // What grows at the lowest speed already has its critical speed below the figure.
         let lowest = stability.speeds.first().copied().unwrap_or_default();
         for (critical, (label, colour, line)) in marks {
             if let Some(critical) = critical.filter(|own| *own > lowest) {
-                curves.push(PlotCurve {
-                    label: label.to_owned(),
-                    colour,
-                    line,
-                    points: vec![(speed(critical), 0.0), (speed(critical), top)],
-                });
+                curves.push(PlotCurve::new(
+                    label,
+                    (colour, line),
+                    [(speed(critical), 0.0), (speed(critical), top)],
+                ));
             }
         }
-        Panel {
-            title: title.to_owned(),
-            x_label: axis("speed", Kind::TravelSpeed, units),
-            y_label: axis(name, kind, units),
+        Panel::new(
+            title,
+            axis("speed", Kind::TravelSpeed, units),
+            axis(name, kind, units),
             curves,
-            ..Panel::default()
-        }
+        )
     };
-    Figure {
-        title: format!("{case}: hunting over speed"),
-        caption: "Amplitudes within 1.5 s. Speed falls: from a lateral start at the highest speed. Speed \
+    Figure::new(
+        format!("{case}: hunting over speed"),
+        "Amplitudes within 1.5 s. Speed falls: from a lateral start at the highest speed. Speed \
                   rises: over lateral dips of the rails of 0.02 in every 200 ft. Where the curves differ the \
-                  car runs quietly or hunts, after what disturbed it."
-            .to_owned(),
-        panels: vec![
+                  car runs quietly or hunts, after what disturbed it.",
+        [
             panel(
                 "(a) wheelsets, the largest",
                 ("lateral amplitude", Kind::Length),
@@ -235,6 +226,5 @@ pub fn figure(case: &str, found: &Hunting, stability: &Stability, units: Units) 
                 |point| point.acceleration,
             ),
         ],
-        ..Figure::default()
-    }
+    )
 }

@@ -109,11 +109,12 @@ pub fn figure(case: &Case, map: &LockUpMap, units: Units) -> Figure {
         y: &fine_shown[1],
         heights,
     };
-    let boundary = |heights, label: &str, colour| PlotCurve {
-        label: label.to_owned(),
-        colour,
-        line: Line::Solid,
-        points: broken(contour::lines(&grid(heights), 0.0)),
+    let boundary = |heights, label: &str, colour| {
+        PlotCurve::new(
+            label,
+            (colour, Line::Solid),
+            broken(contour::lines(&grid(heights), 0.0)),
+        )
     };
     let boundaries = [
         boundary(&margins, "margin zero: locks up beyond", Colour::Vermillion),
@@ -267,12 +268,7 @@ fn signs(map: &LockUpMap, values: &[Vec<f64>; 2]) -> Vec<PlotCurve> {
         ),
     ];
     let curves = kinds.map(|(name, label, colour, strokes)| {
-        let mut curve = PlotCurve {
-            label: label.to_owned(),
-            colour,
-            line: Line::Solid,
-            points: Vec::new(),
-        };
+        let mut curve = PlotCurve::new(label, (colour, Line::Solid), []);
         let places = map
             .cells
             .iter()

@@ -47,25 +47,22 @@ pub fn figure(case: &str, found: &Locus, units: Units) -> Figure {
     let title = |letter: &str, own: &LocusBranch| format!("{letter} root locus, {}", own.kind.words());
     let speed = Number(rounded(found.speed * Kind::TravelSpeed.from_si(units)));
     let speed = format!("{speed} {}", Kind::TravelSpeed.label(units));
-    Figure {
-        title: format!("{case}: vibrations over {} at {speed}", found.key),
-        caption: "(a), (b) Growth and frequency of the vibrations about steady running that grow most, from \
+    Figure::new(
+        format!("{case}: vibrations over {} at {speed}", found.key),
+        "(a), (b) Growth and frequency of the vibrations about steady running that grow most, from \
                   the first to the last value, each named by its frequency there; positive growth is \
-                  hunting. (c) Growth of the vibration that grows most."
-            .to_owned(),
-        panels: vec![
+                  hunting. (c) Growth of the vibration that grows most.",
+        [
             roots(title("(a)", stuck), &stuck.modes),
             roots(title("(b)", absent), &absent.modes),
-            Panel {
-                title: "(c) largest growth".to_owned(),
-                x_label: labelled(&found.key, &found.unit),
-                y_label: "growth (1/s)".to_owned(),
-                curves: vec![largest(stuck, found, 6), largest(absent, found, 7)],
-                ..Panel::default()
-            },
+            Panel::new(
+                "(c) largest growth",
+                labelled(&found.key, &found.unit),
+                "growth (1/s)",
+                [largest(stuck, found, 6), largest(absent, found, 7)],
+            ),
         ],
-        ..Figure::default()
-    }
+    )
 }
 
 /// Returns a name with its unit, if it has one.
@@ -78,13 +75,11 @@ fn labelled(name: &str, unit: &str) -> String {
 
 /// Returns growth over the value of the vibration that grows most, in this style of [`distinct`].
 fn largest(branch: &LocusBranch, found: &Locus, style: usize) -> PlotCurve {
-    let (colour, line) = distinct(style);
     let growth = |number| branch.most(number).map_or(f64::NAN, |own| own.growth);
     let points = found.values.iter().enumerate();
-    PlotCurve {
-        label: branch.kind.words().to_owned(),
-        colour,
-        line,
-        points: points.map(|(number, value)| (*value, growth(number))).collect(),
-    }
+    PlotCurve::new(
+        branch.kind.words(),
+        distinct(style),
+        points.map(|(number, value)| (*value, growth(number))),
+    )
 }

@@ -197,12 +197,7 @@ fn curve(own: &OnTrack, measure: Measure, units: Units) -> PlotCurve {
         let speed = point.speed * Kind::TravelSpeed.from_si(units);
         (speed, point.raw(measure) * measure.kind().from_si(units))
     });
-    PlotCurve {
-        label: own.track.words().to_owned(),
-        colour,
-        line,
-        points: points.collect(),
-    }
+    PlotCurve::new(own.track.words(), (colour, line), points)
 }
 
 /// Returns the figure: each measure over the speed on both tracks, with its limit.
@@ -218,27 +213,24 @@ pub fn figure(case: &str, found: &Onset, units: Units) -> Figure {
             .map(|own| curve(own, measure, units))
             .collect();
         let limit = measure.limit() * kind.from_si(units);
-        curves.push(PlotCurve {
-            label: "limit".to_owned(),
-            colour: Colour::Grey,
-            line: Line::Dotted,
-            points: ends.map(|speed| (speed, limit)).into(),
-        });
-        Panel {
-            title: title.to_owned(),
-            x_label: axis("speed", Kind::TravelSpeed, units),
-            y_label: axis(name, kind, units),
+        curves.push(PlotCurve::new(
+            "limit",
+            (Colour::Grey, Line::Dotted),
+            ends.map(|speed| (speed, limit)),
+        ));
+        Panel::new(
+            title,
+            axis("speed", Kind::TravelSpeed, units),
+            axis(name, kind, units),
             curves,
-            ..Panel::default()
-        }
+        )
     };
-    Figure {
-        title: format!("{case}: onset of hunting"),
-        caption: "Held speeds, 2,000 ft of statistics. Perfect track: all axles start 0.4 in to the left. \
+    Figure::new(
+        format!("{case}: onset of hunting"),
+        "Held speeds, 2,000 ft of statistics. Perfect track: all axles start 0.4 in to the left. \
                   Class 4 track: irregularities by spectra. Limits: 0.13 g (AAR M-1001, chapter XI), 0.30 g \
-                  (49 CFR 213.333), both remembered, and 0.38 in, a guess."
-            .to_owned(),
-        panels: vec![
+                  (49 CFR 213.333), both remembered, and 0.38 in, a guess.",
+        [
             panel(
                 "(a) body, over 2,000 ft",
                 "standard deviation",
@@ -251,6 +243,5 @@ pub fn figure(case: &str, found: &Onset, units: Units) -> Figure {
                 Measure::Amplitude,
             ),
         ],
-        ..Figure::default()
-    }
+    )
 }

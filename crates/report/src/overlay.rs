@@ -45,28 +45,11 @@ pub(crate) fn figure(title: String, caption: String, axes: Vec<Axes>) -> Figure 
     let panel = |axes: Axes| {
         let curve = |(label, points): (String, Vec<(f64, f64)>)| {
             let place = names.iter().position(|name| *name == label).unwrap_or_default();
-            let (colour, line) = look(place);
-            PlotCurve {
-                label,
-                colour,
-                line,
-                points,
-            }
+            PlotCurve::new(label, look(place), points)
         };
-        Panel {
-            title: String::new(),
-            x_label: axes.x_label,
-            y_label: axes.y_label,
-            curves: axes.curves.into_iter().map(curve).collect(),
-            ..Panel::default()
-        }
+        Panel::new("", axes.x_label, axes.y_label, axes.curves.into_iter().map(curve))
     };
-    Figure {
-        title,
-        caption,
-        panels: axes.into_iter().map(panel).collect(),
-        ..Figure::default()
-    }
+    Figure::new(title, caption, axes.into_iter().map(panel))
 }
 
 /// Colour and line of the curve at this place; 28 differ.

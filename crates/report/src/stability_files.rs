@@ -184,46 +184,40 @@ pub fn figure(case: &str, found: &Stability, units: Units) -> Figure {
         let critical = own.critical.as_ref()?;
         Some((own.amplitude * Kind::Length.from_si(units), speed(critical.speed)))
     });
-    let mut curves = vec![PlotCurve {
-        label: "critical speed".to_owned(),
-        colour: Colour::Vermillion,
-        line: Line::Solid,
-        points: of_curve.collect(),
-    }];
+    let mut curves = vec![PlotCurve::new(
+        "critical speed",
+        (Colour::Vermillion, Line::Solid),
+        of_curve,
+    )];
     let largest = found.curve.first().map_or(0.0, |own| own.amplitude) * Kind::Length.from_si(units);
     for (number, branch) in found.branches.iter().enumerate() {
         if let Some(own) = branch.critical.as_ref().filter(|own| !own.at_lowest) {
             let (_, line) = distinct(number + 1);
-            curves.push(PlotCurve {
-                label: branch.kind.words().to_owned(),
-                colour: Colour::Grey,
-                line,
-                points: vec![(0.0, speed(own.speed)), (largest, speed(own.speed))],
-            });
+            curves.push(PlotCurve::new(
+                branch.kind.words(),
+                (Colour::Grey, line),
+                [(0.0, speed(own.speed)), (largest, speed(own.speed))],
+            ));
         }
     }
-    let over_amplitude = Panel {
-        title: "critical speed over amplitude, up to the flanges".to_owned(),
-        x_label: axis("lateral amplitude of a wheelset", Kind::Length, units),
-        y_label: axis("speed", Kind::TravelSpeed, units),
+    let over_amplitude = Panel::new(
+        "critical speed over amplitude, up to the flanges",
+        axis("lateral amplitude of a wheelset", Kind::Length, units),
+        axis("speed", Kind::TravelSpeed, units),
         curves,
-        ..Panel::default()
-    };
+    );
     // Nothing grows at any amplitude: there is no curve to draw.
     let drawn = over_amplitude.curves.iter().any(|own| !own.points.is_empty());
     let mut panels: Vec<Panel> = drawn.then_some(over_amplitude).into_iter().collect();
     panels.extend(found.branches.iter().map(|own| locus(own, &found.speeds, units)));
-    Figure {
-        title: format!("{case}: linear stability"),
-        caption: "Beyond the curve over the amplitude a motion of this amplitude grows, by equivalent \
-                          linearization. \
-                  Root loci: growth and frequency of the vibrations about steady running that grow \
-                  most, from the \
-                  lowest to the highest speed, each named by its frequency there; positive growth is hunting."
-            .to_owned(),
+    Figure::new(
+        format!("{case}: linear stability"),
+        "Beyond the curve over the amplitude a motion of this amplitude grows, by equivalent \
+         linearization. Root loci: growth and frequency of the vibrations about steady running that grow \
+         most, from the lowest to the highest speed, each named by its frequency there; positive growth is \
+         hunting.",
         panels,
-        ..Figure::default()
-    }
+    )
 }
 
 /// Returns the root locus of a branch over the speed.
@@ -262,19 +256,7 @@ pub(crate) fn roots(title: String, all: &[Vec<NamedMode>]) -> Panel {
             here = near;
         }
         points.reverse();
-        let (colour, line) = distinct(number);
-        PlotCurve {
-            label: format!("{:.2} Hz", end.1),
-            colour,
-            line,
-            points,
-        }
+        PlotCurve::new(format!("{:.2} Hz", end.1), distinct(number), points)
     });
-    Panel {
-        title,
-        x_label: "growth (1/s)".to_owned(),
-        y_label: "frequency (Hz)".to_owned(),
-        curves: curves.collect(),
-        ..Panel::default()
-    }
+    Panel::new(title, "growth (1/s)", "frequency (Hz)", curves)
 }

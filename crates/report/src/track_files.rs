@@ -208,20 +208,9 @@ impl<'t> Survey<'t> {
                 .map(|row| (row.distance / FOOT, value(row)))
                 .collect()
         };
-        let curve = |label: &str, colour, line, points| PlotCurve {
-            label: label.to_owned(),
-            colour,
-            line,
-            points,
-        };
+        let curve = |label: &str, colour, line, points| PlotCurve::new(label, (colour, line), points);
         let (blue, red) = (Colour::Blue, Colour::Vermillion);
-        let panel = |title: &str, y_label: &str, curves| Panel {
-            title: title.to_owned(),
-            x_label: "distance (ft)".to_owned(),
-            y_label: y_label.to_owned(),
-            curves,
-            ..Panel::default()
-        };
+        let panel = |title: &str, y_label: &str, curves| Panel::new(title, "distance (ft)", y_label, curves);
         let pair = |value: &dyn Fn(&Row, usize) -> f64| {
             let sides = [("left", blue, Line::Solid), ("right", red, Line::Dashed)]
                 .into_iter()
@@ -236,45 +225,45 @@ impl<'t> Survey<'t> {
         let curvature = over(&|row| degree(line.at(row.distance).curvature[0]));
         let superelevation = over(&|row| line.at(row.distance).superelevation[0] / INCH);
         Figure {
-            title: format!("Track {name}"),
-            caption: "Curvature is positive to the left, superelevation where the right rail is raised, \
-                      lateral irregularities to the left, vertical ones up. Offsets are mid-chord offsets \
-                      of a chord of 62 ft."
-                .to_owned(),
-            panels: vec![
-                panel(
-                    "(a) curvature",
-                    "degree of curve",
-                    vec![curve("", blue, Line::Solid, curvature)],
-                ),
-                panel(
-                    "(b) superelevation",
-                    "right above left (in)",
-                    vec![curve("", blue, Line::Solid, superelevation)],
-                ),
-                panel(
-                    "(c) profile",
-                    "vertical irregularity (in)",
-                    pair(&|row, rail| row.rails[rail].vertical[0]),
-                ),
-                panel(
-                    "(d) alignment",
-                    "lateral irregularity (in)",
-                    pair(&|row, rail| row.rails[rail].lateral[0]),
-                ),
-                panel(
-                    "(e) 62 ft offsets of profile",
-                    "mid-chord offset (in)",
-                    pair(&|row, rail| row.offsets[rail][1]),
-                ),
-                panel(
-                    "(f) 62 ft offsets of alignment",
-                    "mid-chord offset (in)",
-                    pair(&|row, rail| row.offsets[2 + rail][1]),
-                ),
-            ],
             columns: 2,
-            ..Figure::default()
+            ..Figure::new(
+                format!("Track {name}"),
+                "Curvature is positive to the left, superelevation where the right rail is raised, \
+                      lateral irregularities to the left, vertical ones up. Offsets are mid-chord offsets \
+                      of a chord of 62 ft.",
+                [
+                    panel(
+                        "(a) curvature",
+                        "degree of curve",
+                        vec![curve("", blue, Line::Solid, curvature)],
+                    ),
+                    panel(
+                        "(b) superelevation",
+                        "right above left (in)",
+                        vec![curve("", blue, Line::Solid, superelevation)],
+                    ),
+                    panel(
+                        "(c) profile",
+                        "vertical irregularity (in)",
+                        pair(&|row, rail| row.rails[rail].vertical[0]),
+                    ),
+                    panel(
+                        "(d) alignment",
+                        "lateral irregularity (in)",
+                        pair(&|row, rail| row.rails[rail].lateral[0]),
+                    ),
+                    panel(
+                        "(e) 62 ft offsets of profile",
+                        "mid-chord offset (in)",
+                        pair(&|row, rail| row.offsets[rail][1]),
+                    ),
+                    panel(
+                        "(f) 62 ft offsets of alignment",
+                        "mid-chord offset (in)",
+                        pair(&|row, rail| row.offsets[2 + rail][1]),
+                    ),
+                ],
+            )
         }
     }
 }

@@ -146,13 +146,14 @@ pub fn figure(tests: &[Tested]) -> Figure {
     let mut loops: Vec<PlotCurve> = NUCARS_STIFFNESS
         .iter()
         .zip([Line::Dotted, Line::Dashed])
-        .map(|((name, stiffness), line)| PlotCurve {
-            label: (*name).to_owned(),
-            colour: Colour::Grey,
-            line,
-            points: [-20.0, 20.0]
-                .map(|angle: f64| (angle, kip(1e-3 * angle * stiffness)))
-                .to_vec(),
+        .map(|((name, stiffness), line)| {
+            PlotCurve::new(
+                *name,
+                (Colour::Grey, line),
+                [-20.0, 20.0]
+                    .map(|angle: f64| (angle, kip(1e-3 * angle * stiffness)))
+                    .to_vec(),
+            )
         })
         .collect();
     let column = |test: &Tested, name: &str| -> Vec<f64> {
@@ -169,26 +170,23 @@ pub fn figure(tests: &[Tested]) -> Figure {
             .collect()
     };
     for (number, test) in tests.iter().enumerate() {
-        let (colour, line) = distinct(number);
         let label = if test.label.is_empty() {
             "truck".to_owned()
         } else {
             test.label.clone()
         };
-        loops.push(PlotCurve {
+        loops.push(PlotCurve::new(
             label,
-            colour,
-            line,
-            points: over_angle(test, "warp_moment"),
-        });
+            distinct(number),
+            over_angle(test, "warp_moment"),
+        ));
     }
-    let mut panels = vec![Panel {
-        title: "(a) warp moment".to_owned(),
-        x_label: "warp angle (mrad)".to_owned(),
-        y_label: "warp moment on the bolster (kip·in)".to_owned(),
-        curves: loops,
-        ..Panel::default()
-    }];
+    let mut panels = vec![Panel::new(
+        "(a) warp moment",
+        "warp angle (mrad)",
+        "warp moment on the bolster (kip·in)",
+        loops,
+    )];
     if let Some(first) = tests.first() {
         let named = if first.label.is_empty() {
             String::new()
@@ -197,59 +195,46 @@ pub fn figure(tests: &[Tested]) -> Figure {
         };
         let parts = PARTS.iter().enumerate().filter_map(|(number, (name, words, _))| {
             let points = over_angle(first, &format!("warp_moment_{name}"));
-            let (colour, line) = distinct(tests.len() + number);
             points
                 .iter()
                 .any(|(_, moment)| *moment != 0.0)
-                .then(|| PlotCurve {
-                    label: (*words).to_owned(),
-                    colour,
-                    line,
-                    points,
-                })
+                .then(|| PlotCurve::new(*words, distinct(tests.len() + number), points))
         });
-        panels.push(Panel {
-            title: format!("(b) its parts{named}"),
-            x_label: "warp angle (mrad)".to_owned(),
-            y_label: "part of the warp moment (kip·in)".to_owned(),
-            curves: parts.collect(),
-            ..Panel::default()
-        });
-        panels.push(Panel {
-            title: format!("(c) normal forces of the columns{named}"),
-            x_label: "warp angle (mrad)".to_owned(),
-            y_label: axis("column normal force", Kind::Force, Units::Us),
-            curves: study::truck::WEDGE_NAMES
+        panels.push(Panel::new(
+            format!("(b) its parts{named}"),
+            "warp angle (mrad)",
+            "part of the warp moment (kip·in)",
+            parts,
+        ));
+        panels.push(Panel::new(
+            format!("(c) normal forces of the columns{named}"),
+            "warp angle (mrad)",
+            axis("column normal force", Kind::Force, Units::Us),
+            study::truck::WEDGE_NAMES
                 .into_iter()
                 .enumerate()
                 .map(|(number, wedge)| {
-                    let (colour, line) = distinct(tests.len() + 3 + number);
                     let forces = column(first, &format!("{wedge}_column_normal"));
                     let angles = column(first, "warp_angle").into_iter().map(|angle| 1e3 * angle);
                     let forces = forces
                         .into_iter()
                         .map(|force| converted(force, Kind::Force, Units::Us));
-                    PlotCurve {
-                        label: wedge.replace('_', " "),
-                        colour,
-                        line,
-                        points: angles.zip(forces).collect(),
-                    }
-                })
-                .collect(),
-            ..Panel::default()
-        });
+                    PlotCurve::new(
+                        wedge.replace('_', " "),
+                        distinct(tests.len() + 3 + number),
+                        angles.zip(forces),
+                    )
+                }),
+        ));
     }
-    Figure {
-        title: "Warp of a three-piece truck".to_owned(),
-        caption: "Warp moment on the bolster over the warp angle (mean yaw of the side frames less that of \
+    Figure::new(
+        "Warp of a three-piece truck",
+        "Warp moment on the bolster over the warp angle (mean yaw of the side frames less that of \
                   the bolster) over the last whole cycle. Grey: NUCARS's empirical stiffnesses, which stand \
                   for wedging action where wedges have no bodies. Where a nest locks, contact and bristle \
-                  stiffness set the moment."
-            .to_owned(),
+                  stiffness set the moment.",
         panels,
-        ..Figure::default()
-    }
+    )
 }
 
 /// Returns the plateau or what there is instead, in words.

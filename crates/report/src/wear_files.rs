@@ -217,15 +217,12 @@ pub fn figure(history: &WearHistory) -> Figure {
         );
         panels.push(over_face(title, face, &rectangles[number], &heights, units));
     }
-    let course = |label: &str, colour: Colour, line: Line, of: &dyn Fn(&WearState) -> f64| PlotCurve {
-        label: label.to_owned(),
-        colour,
-        line,
-        points: history
-            .states
-            .iter()
-            .map(|state| (state.cycles, of(state)))
-            .collect(),
+    let course = |label: &str, colour: Colour, line: Line, of: &dyn Fn(&WearState) -> f64| {
+        PlotCurve::new(
+            label,
+            (colour, line),
+            history.states.iter().map(|state| (state.cycles, of(state))),
+        )
     };
     let (_, cubed) = volume(0.0, units);
     let volumes = [0, 1].map(|face: usize| {
@@ -234,31 +231,30 @@ pub fn figure(history: &WearHistory) -> Figure {
             volume(state.faces[face].volume, units).0
         })
     });
-    panels.push(Panel {
-        x_label: "cycles".to_owned(),
-        y_label: format!("volume worn ({cubed})"),
-        curves: volumes.to_vec(),
-        ..Panel::default()
-    });
+    panels.push(Panel::new(
+        "",
+        "cycles",
+        format!("volume worn ({cubed})"),
+        volumes.to_vec(),
+    ));
     let damping = course("", Colour::Black, Line::Solid, &|state| {
         converted(state.damping, Kind::Damping, units)
     });
-    panels.push(Panel {
-        x_label: "cycles".to_owned(),
-        y_label: axis("equivalent damping", Kind::Damping, units),
-        curves: vec![damping],
-        ..Panel::default()
-    });
+    panels.push(Panel::new(
+        "",
+        "cycles",
+        axis("equivalent damping", Kind::Damping, units),
+        [damping],
+    ));
     Figure {
-        title: format!("{}: wear after {} cycles", history.case.name, digits(last.cycles)),
-        caption:
+        columns: 2,
+        ..Figure::new(
+            format!("{}: wear after {} cycles", history.case.name, digits(last.cycles)),
             "Above: lines of equal depth over the wedge's faces, seen from the counterface; left (+y) is \
                   the wedge's left side. Below: the volume worn, and the viscous damping that would take as \
-                  much energy as the column's friction."
-                .to_owned(),
-        panels,
-        columns: 2,
-        ..Figure::default()
+                  much energy as the column's friction.",
+            panels,
+        )
     }
 }
 

@@ -57,12 +57,8 @@ pub fn figure(
     positions: &[RigidPosition],
     conicity: &[(f64, f64)],
 ) -> Figure {
-    let curve = |label: &str, colour, line, points: Vec<(f64, f64)>| PlotCurve {
-        label: label.to_owned(),
-        colour,
-        line,
-        points,
-    };
+    let curve =
+        |label: &str, colour, line, points: Vec<(f64, f64)>| PlotCurve::new(label, (colour, line), points);
     let over_shift = |value: &dyn Fn(&RigidPosition) -> f64| -> Vec<(f64, f64)> {
         positions
             .iter()
@@ -76,94 +72,90 @@ pub fn figure(
             .collect()
     };
     let shift = "lateral shift (in, left positive)";
-    let panel = |title: &str, x_label: &str, y_label: &str, curves: Vec<PlotCurve>| Panel {
-        title: title.to_owned(),
-        x_label: x_label.to_owned(),
-        y_label: y_label.to_owned(),
-        curves,
-        ..Panel::default()
+    let panel = |title: &str, x_label: &str, y_label: &str, curves: Vec<PlotCurve>| {
+        Panel::new(title, x_label, y_label, curves)
     };
     let (blue, red) = (Colour::Blue, Colour::Vermillion);
     Figure {
-        title: format!("{} on {}", wheel.name(), rail.name()),
-        caption: "A rigid wheelset on rigid rails: both wheels touch at each lateral shift. Profiles are \
-                  shown in their own axes. Equivalent conicity after EN 15302."
-            .to_owned(),
-        panels: vec![
-            panel(
-                "(a) profiles",
-                "y, field side positive (in)",
-                "z (in)",
-                vec![
-                    curve("wheel", blue, Line::Solid, outline(wheel)),
-                    curve("rail", red, Line::Dashed, outline(rail)),
-                ],
-            ),
-            panel(
-                "(b) rolling radius difference",
-                shift,
-                "left less right (in)",
-                vec![curve(
-                    "",
-                    blue,
-                    Line::Solid,
-                    over_shift(&|p| p.rolling_radius_difference() / INCH),
-                )],
-            ),
-            panel(
-                "(c) contact angles",
-                shift,
-                "contact angle (deg)",
-                vec![
-                    curve(
-                        "left",
-                        blue,
-                        Line::Solid,
-                        over_shift(&|p| p.contact_angles()[0].to_degrees()),
-                    ),
-                    curve(
-                        "right",
-                        red,
-                        Line::Dashed,
-                        over_shift(&|p| p.contact_angles()[1].to_degrees()),
-                    ),
-                ],
-            ),
-            panel(
-                "(d) contact on the wheels",
-                shift,
-                "y on the wheel (in)",
-                vec![
-                    curve(
-                        "left",
-                        blue,
-                        Line::Solid,
-                        over_shift(&|p| p.touches[0].profile / INCH),
-                    ),
-                    curve(
-                        "right",
-                        red,
-                        Line::Dashed,
-                        over_shift(&|p| p.touches[1].profile / INCH),
-                    ),
-                ],
-            ),
-            panel(
-                "(e) equivalent conicity",
-                "amplitude (in)",
-                "equivalent conicity",
-                vec![curve(
-                    "",
-                    blue,
-                    Line::Solid,
-                    conicity
-                        .iter()
-                        .map(|(amplitude, value)| (amplitude / INCH, *value))
-                        .collect(),
-                )],
-            ),
-        ],
         columns: 3,
-        ..Figure::default()
+        ..Figure::new(
+            format!("{} on {}", wheel.name(), rail.name()),
+            "A rigid wheelset on rigid rails: both wheels touch at each lateral shift. Profiles are \
+                  shown in their own axes. Equivalent conicity after EN 15302.",
+            [
+                panel(
+                    "(a) profiles",
+                    "y, field side positive (in)",
+                    "z (in)",
+                    vec![
+                        curve("wheel", blue, Line::Solid, outline(wheel)),
+                        curve("rail", red, Line::Dashed, outline(rail)),
+                    ],
+                ),
+                panel(
+                    "(b) rolling radius difference",
+                    shift,
+                    "left less right (in)",
+                    vec![curve(
+                        "",
+                        blue,
+                        Line::Solid,
+                        over_shift(&|p| p.rolling_radius_difference() / INCH),
+                    )],
+                ),
+                panel(
+                    "(c) contact angles",
+                    shift,
+                    "contact angle (deg)",
+                    vec![
+                        curve(
+                            "left",
+                            blue,
+                            Line::Solid,
+                            over_shift(&|p| p.contact_angles()[0].to_degrees()),
+                        ),
+                        curve(
+                            "right",
+                            red,
+                            Line::Dashed,
+                            over_shift(&|p| p.contact_angles()[1].to_degrees()),
+                        ),
+                    ],
+                ),
+                panel(
+                    "(d) contact on the wheels",
+                    shift,
+                    "y on the wheel (in)",
+                    vec![
+                        curve(
+                            "left",
+                            blue,
+                            Line::Solid,
+                            over_shift(&|p| p.touches[0].profile / INCH),
+                        ),
+                        curve(
+                            "right",
+                            red,
+                            Line::Dashed,
+                            over_shift(&|p| p.touches[1].profile / INCH),
+                        ),
+                    ],
+                ),
+                panel(
+                    "(e) equivalent conicity",
+                    "amplitude (in)",
+                    "equivalent conicity",
+                    vec![curve(
+                        "",
+                        blue,
+                        Line::Solid,
+                        conicity
+                            .iter()
+                            .map(|(amplitude, value)| (amplitude / INCH, *value))
+                            .collect(),
+                    )],
+                ),
+            ],
+        )
     }
 }

@@ -48,28 +48,20 @@ pub fn figure(title: &str, found: &WheelsetStability, units: Units) -> Figure {
         let points = found.speeds.iter().zip(&found.vibrations);
         let points = points
             .filter_map(|(speed, own)| Some((speed * Kind::TravelSpeed.from_si(units), of(own.as_ref()?))));
-        Panel {
-            title: title.to_owned(),
-            x_label: axis("speed", Kind::TravelSpeed, units),
-            y_label: y_label.to_owned(),
-            curves: vec![PlotCurve {
-                label: String::new(),
-                colour: Colour::Blue,
-                line: Line::Solid,
-                points: points.collect(),
-            }],
-            ..Panel::default()
-        }
+        Panel::new(
+            title,
+            axis("speed", Kind::TravelSpeed, units),
+            y_label,
+            [PlotCurve::new("", (Colour::Blue, Line::Solid), points)],
+        )
     };
-    Figure {
-        title: format!("a wheelset, {title}: linear stability"),
-        caption: "The least damped lateral vibration about steady rolling on straight perfect track; \
-                  positive growth is hunting."
-            .to_owned(),
-        panels: vec![
+    Figure::new(
+        format!("a wheelset, {title}: linear stability"),
+        "The least damped lateral vibration about steady rolling on straight perfect track; \
+                  positive growth is hunting.",
+        [
             panel("(a) growth", "growth (1/s)", |own| own.growth_per_s),
             panel("(b) frequency", "frequency (Hz)", |own| own.frequency_hz),
         ],
-        ..Figure::default()
-    }
+    )
 }

@@ -94,6 +94,22 @@ pub struct PlotCurve {
     pub points: Vec<(f64, f64)>,
 }
 
+impl PlotCurve {
+    /// Returns a curve with its name in the legend and its style.
+    pub fn new(
+        label: impl Into<String>,
+        (colour, line): (Colour, Line),
+        points: impl IntoIterator<Item = (f64, f64)>,
+    ) -> Self {
+        Self {
+            label: label.into(),
+            colour,
+            line,
+            points: points.into_iter().collect(),
+        }
+    }
+}
+
 /// A short text at a point, such as the number of a phase.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mark {
@@ -124,6 +140,24 @@ pub struct Panel {
     pub span: usize,
 }
 
+impl Panel {
+    /// Returns axes with a title, names, and curves.
+    pub fn new(
+        title: impl Into<String>,
+        x_label: impl Into<String>,
+        y_label: impl Into<String>,
+        curves: impl IntoIterator<Item = PlotCurve>,
+    ) -> Self {
+        Self {
+            title: title.into(),
+            x_label: x_label.into(),
+            y_label: y_label.into(),
+            curves: curves.into_iter().collect(),
+            ..Self::default()
+        }
+    }
+}
+
 /// Panels in rows, with a common legend below.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
@@ -142,6 +176,20 @@ pub struct Figure {
 }
 
 impl Figure {
+    /// Returns a figure of panels, all in one row.
+    pub fn new(
+        title: impl Into<String>,
+        caption: impl Into<String>,
+        panels: impl IntoIterator<Item = Panel>,
+    ) -> Self {
+        Self {
+            title: title.into(),
+            caption: caption.into(),
+            panels: panels.into_iter().collect(),
+            ..Self::default()
+        }
+    }
+
     /// Returns the figure as an SVG document.
     #[must_use]
     pub fn to_svg(&self) -> String {

@@ -52,21 +52,14 @@ impl CarRun {
     fn panel(&self, title: &str, y: (&str, Kind), columns: &[(String, String)]) -> Panel {
         let units = self.units();
         let curves = columns.iter().enumerate().map(|(number, (label, name))| {
-            let (colour, line) = distinct(number);
-            PlotCurve {
-                label: label.clone(),
-                colour,
-                line,
-                points: self.over_distance(name),
-            }
+            PlotCurve::new(label.clone(), distinct(number), self.over_distance(name))
         });
-        Panel {
-            title: title.to_owned(),
-            x_label: axis("distance", Kind::Distance, units),
-            y_label: axis(y.0, y.1, units),
-            curves: curves.filter(|curve| !curve.points.is_empty()).collect(),
-            ..Panel::default()
-        }
+        Panel::new(
+            title,
+            axis("distance", Kind::Distance, units),
+            axis(y.0, y.1, units),
+            curves.filter(|curve| !curve.points.is_empty()),
+        )
     }
 
     /// Returns the filtered column if there is one, else the raw one.
@@ -101,11 +94,8 @@ pub fn exhibits(run: &CarRun) -> Vec<Exhibit> {
         name: format!("{name}_{what}"),
         thesis: String::new(),
         figure: Figure {
-            title: format!("{name}: {title}"),
-            caption: caption.to_owned(),
-            panels,
             columns: 2,
-            ..Figure::default()
+            ..Figure::new(format!("{name}: {title}"), caption, panels)
         },
     };
     let filter = run.case.rules.wheel_filter;

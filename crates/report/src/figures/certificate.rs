@@ -16,7 +16,6 @@ pub fn over_speed(certificate: &Certificate, findings: &CertificateFindings, reg
     let over = |value: &dyn Fn(&Assessed) -> Option<f64>| -> Vec<PlotCurve> {
         let conditions = certificate.conditions.iter().enumerate();
         let curves = conditions.map(|(condition, named)| {
-            let (colour, line) = distinct(condition);
             let runs = findings.runs.iter();
             let own = runs.filter(|run| run.regime == regime && run.condition == condition);
             let own = own.filter(|run| run.status == Status::Complete.name());
@@ -24,21 +23,12 @@ pub fn over_speed(certificate: &Certificate, findings: &CertificateFindings, reg
                 .filter_map(|run| Some((run.speed_si * Kind::TravelSpeed.from_si(units), value(run)?)))
                 .collect();
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            PlotCurve {
-                label: named.name.replace('_', " "),
-                colour,
-                line,
-                points,
-            }
+            PlotCurve::new(named.name.replace('_', " "), distinct(condition), points)
         });
         curves.filter(|curve| !curve.points.is_empty()).collect()
     };
-    let panel = |title: String, y_label: String, curves: Vec<PlotCurve>| Panel {
-        title,
-        x_label: axis("speed", Kind::TravelSpeed, units),
-        y_label,
-        curves,
-        ..Panel::default()
+    let panel = |title: String, y_label: String, curves: Vec<PlotCurve>| {
+        Panel::new(title, axis("speed", Kind::TravelSpeed, units), y_label, curves)
     };
     let mut panels = Vec::new();
     for (number, limit) in certificate.limits.limits.iter().enumerate() {
@@ -57,12 +47,11 @@ pub fn over_speed(certificate: &Certificate, findings: &CertificateFindings, reg
                 (low.min(*at), high.max(*at))
             });
         if ends.0.is_finite() {
-            curves.push(PlotCurve {
-                label: "limit".to_owned(),
-                colour: Colour::Vermillion,
-                line: Line::Dotted,
-                points: vec![(ends.0, limit.value), (ends.1, limit.value)],
-            });
+            curves.push(PlotCurve::new(
+                "limit",
+                (Colour::Vermillion, Line::Dotted),
+                [(ends.0, limit.value), (ends.1, limit.value)],
+            ));
         }
         let unit = match limit.unit.as_str() {
             "" => String::new(),
@@ -100,19 +89,20 @@ pub fn over_speed(certificate: &Certificate, findings: &CertificateFindings, reg
         name: format!("over_speed_{}", own.name),
         thesis: String::new(),
         figure: Figure {
-            title: format!("{}: over the speed", capital(&own.title)),
-            caption: format!(
-                "{}. What is limited, with its limit (dotted); then the energy that the friction of all \
+            columns,
+            ..Figure::new(
+                format!("{}: over the speed", capital(&own.title)),
+                format!(
+                    "{}. What is limited, with its limit (dotted); then the energy that the friction of all \
                  wedges took in a run, and the share of the time after settling in which no point of a \
                  wedge's faces slips, mean of all wedges. Runs that did not reach the end of their track, or \
                  failed, are not drawn. Limits: {}, {}.",
-                capital(&own.title),
-                certificate.limits.title,
-                certificate.limits.source
-            ),
-            panels,
-            columns,
-            ..Figure::default()
+                    capital(&own.title),
+                    certificate.limits.title,
+                    certificate.limits.source
+                ),
+                panels,
+            )
         },
     }
 }

@@ -91,22 +91,22 @@ fn map(study: &Study, digest: &Digest, jam: &Jam, cells: &JamCells) -> Option<Ex
             .filter(|(at, _)| (x[0]..=x[x.len() - 1]).contains(at))
             .collect();
         if !boundary.is_empty() {
-            curves.push(PlotCurve {
-                label: "massless wedge jams left of this".to_owned(),
-                colour: Colour::Purple,
-                line: Line::Dotted,
-                points: boundary,
-            });
+            curves.push(PlotCurve::new(
+                "massless wedge jams left of this",
+                (Colour::Purple, Line::Dotted),
+                boundary,
+            ));
         }
         Panel {
-            title: title.to_owned(),
-            x_label: factor_axis(study, angle),
-            y_label: factor_axis(study, friction),
             x_window: Some((x[0], x[x.len() - 1])),
-            curves,
             marks,
             span: 1,
-            ..Panel::default()
+            ..Panel::new(
+                title,
+                factor_axis(study, angle),
+                factor_axis(study, friction),
+                curves,
+            )
         }
     });
     let (name, toe) = match cells.toe_in {
@@ -121,29 +121,30 @@ fn map(study: &Study, digest: &Digest, jam: &Jam, cells: &JamCells) -> Option<Ex
         name: format!("jam_map_toe_{name}"),
         thesis: String::new(),
         figure: Figure {
-            title: format!("Jam map, toe {name}: the column's normal force over the coil's load"),
-            caption: format!(
-                "{} runs with toe {name} ({} deg{among}). Lines of equal normal force of the column (its \
+            columns: 2,
+            ..Figure::new(
+                format!("Jam map, toe {name}: the column's normal force over the coil's load"),
+                format!(
+                    "{} runs with toe {name} ({} deg{among}). Lines of equal normal force of the column (its \
                  part along the track, mean over the branch) over the coil's force less the wedge's weight: \
                  computed (marked with the ratio), and of the massless wedge in steady sliding (eq. 5-1 \
                  with its misprint put right; ratios in brackets). Parameters that this map does not show \
                  vary in the computed lines and are the case's in the massless wedge's. {}",
-                cells.toe.count,
-                digits(toe),
-                match cells.toe_in {
-                    true =>
-                        "The massless wedge's force grows without bound towards its jam line, θ + φ = b \
+                    cells.toe.count,
+                    digits(toe),
+                    match cells.toe_in {
+                        true =>
+                            "The massless wedge's force grows without bound towards its jam line, θ + φ = b \
                          atan μ_s + a atan μ_c. The computed wedge has elastic contacts and need not slide: \
                          it passes the line with a finite force.",
-                    false =>
-                        "With toe out the frictions of the two faces act against each other, θ + φ = b atan \
-                         μ_s + a atan μ_c with b = -a, so that a wedge jams only at small angles or with \
-                         very different frictions.",
-                }
-            ),
-            columns: 2,
-            panels: panels.into(),
-            ..Figure::default()
+                        false =>
+                            "With toe out the frictions of the two faces act against each other, \
+                         θ + φ = b atan μ_s + a atan μ_c with b = -a, so that a wedge jams only at \
+                         small angles or with very different frictions.",
+                    }
+                ),
+                panels,
+            )
         },
     })
 }

@@ -92,12 +92,7 @@ pub fn curve<S: RunSummary>(
     y: &str,
     (label, colour, line): (&str, Colour, Line),
 ) -> PlotCurve {
-    PlotCurve {
-        label: label.to_owned(),
-        colour,
-        line,
-        points: points(result, x, y),
-    }
+    PlotCurve::new(label, (colour, line), points(result, x, y))
 }
 
 /// Returns a name with its unit, as axes have it.

@@ -37,16 +37,16 @@ pub fn figure(case: &Case, result: &RunResult) -> Option<Figure> {
         return None;
     }
     Some(Figure {
-        title: format!("{}: pressure over the faces", case.name),
-        caption: "Lines of equal pressure over the faces of the wedge, seen from the counterface: on \
+        columns: 2,
+        ..Figure::new(
+            format!("{}: pressure over the faces", case.name),
+            "Lines of equal pressure over the faces of the wedge, seen from the counterface: on \
                       the left at the time of the greatest pressure after the first tenth of the run, on \
                       the right on average over the same time. The pressure of a point of the grid is its \
                       normal force over the part of the face that it stands for; lines are straight between \
-                      points. Left (+y) is the wedge's left side."
-            .to_owned(),
-        panels: maps.into_iter().flatten().collect(),
-        columns: 2,
-        ..Figure::default()
+                      points. Left (+y) is the wedge's left side.",
+            maps.into_iter().flatten(),
+        )
     })
 }
 
@@ -137,12 +137,13 @@ pub(crate) fn over_face(
         marks.push(mark);
     }
     Panel {
-        title,
-        x_label: format!("across, left is positive ({unit})"),
-        y_label: format!("up the face ({unit})"),
         x_window: Some((x[0], x[x.len() - 1])),
-        curves,
         marks,
-        ..Panel::default()
+        ..Panel::new(
+            title,
+            format!("across, left is positive ({unit})"),
+            format!("up the face ({unit})"),
+            curves,
+        )
     }
 }

@@ -66,30 +66,26 @@ fn ledger(name: &str, result: &RunResult) -> Exhibit {
     exhibit(
         name,
         "energy_ledger",
-        Figure {
-            title: format!("{name}: the energy ledger"),
-            caption: "(a) Work done on the wedge since the start and where it went; every loss is \
+        Figure::new(
+            format!("{name}: the energy ledger"),
+            "(a) Work done on the wedge since the start and where it went; every loss is \
                       integrated from its own force and velocity. (b) What does not add up: the work less \
-                      stored energy and losses."
-                .to_owned(),
-            panels: vec![
-                Panel {
-                    title: "(a) entries".to_owned(),
-                    x_label: "time (s)".to_owned(),
-                    y_label: axis("energy", Kind::Energy, units),
+                      stored energy and losses.",
+            [
+                Panel::new(
+                    "(a) entries",
+                    "time (s)",
+                    axis("energy", Kind::Energy, units),
                     curves,
-                    ..Panel::default()
-                },
-                Panel {
-                    title: "(b) residual".to_owned(),
-                    x_label: "time (s)".to_owned(),
-                    y_label: axis("energy", Kind::Energy, units),
-                    curves: vec![curve(result, "time", "ledger_residual", residual)],
-                    ..Panel::default()
-                },
+                ),
+                Panel::new(
+                    "(b) residual",
+                    "time (s)",
+                    axis("energy", Kind::Energy, units),
+                    [curve(result, "time", "ledger_residual", residual)],
+                ),
             ],
-            ..Figure::default()
-        },
+        ),
     )
 }
 
@@ -103,12 +99,7 @@ fn contact_states(name: &str, result: &RunResult) -> Exhibit {
     let mut names = Vec::new();
     let mut curves: Vec<PlotCurve> = STATES
         .into_iter()
-        .map(|(label, colour)| PlotCurve {
-            label: label.to_owned(),
-            colour,
-            line: Line::Bar,
-            points: Vec::new(),
-        })
+        .map(|(label, colour)| PlotCurve::new(label, (colour, Line::Bar), []))
         .collect();
     for (face, corner) in FACES
         .iter()
@@ -134,21 +125,19 @@ fn contact_states(name: &str, result: &RunResult) -> Exhibit {
     exhibit(
         name,
         "contact_states",
-        Figure {
-            title: format!("{name}: contact states"),
-            caption: "State of each corner of the wedge at the column and at the slope, at the output \
+        Figure::new(
+            format!("{name}: contact states"),
+            "State of each corner of the wedge at the column and at the slope, at the output \
                       times: open, stick (with the tanh law: slower than its reference speed), slip. Left \
-                      is the wedge's +y side."
-                .to_owned(),
-            panels: vec![Panel {
+                      is the wedge's +y side.",
+            [Panel {
                 x_label: "time (s)".to_owned(),
                 curves,
                 y_names: names,
                 x_window: Some((0.0, end)),
                 ..Panel::default()
             }],
-            ..Figure::default()
-        },
+        ),
     )
 }
 
@@ -160,32 +149,24 @@ fn corner_forces(name: &str, result: &RunResult) -> Exhibit {
     let mut letter = 'a'..;
     for (what, title) in [("normal", "normal forces"), ("friction", "friction forces")] {
         for face in FACES {
-            let curves = CORNERS
-                .into_iter()
-                .enumerate()
-                .map(|(number, corner)| {
-                    let label = corner.replace('_', " ");
-                    let (colour, line) = distinct(number);
-                    let stem = format!("{face}_{corner}");
-                    if what == "normal" {
-                        let column = format!("{stem}_normal_force");
-                        return curve(result, "time", &column, (&label, colour, line));
-                    }
-                    PlotCurve {
-                        label,
-                        colour,
-                        line,
-                        points: friction(result, &stem),
-                    }
-                })
-                .collect();
+            let curves = CORNERS.into_iter().enumerate().map(|(number, corner)| {
+                let label = corner.replace('_', " ");
+                let (colour, line) = distinct(number);
+                let stem = format!("{face}_{corner}");
+                if what == "normal" {
+                    let column = format!("{stem}_normal_force");
+                    return curve(result, "time", &column, (&label, colour, line));
+                }
+                PlotCurve::new(label, (colour, line), friction(result, &stem))
+            });
             panels.push(Panel {
-                title: format!("({}) {face}: {title}", letter.next().unwrap_or_default()),
-                x_label: "time (s)".to_owned(),
-                y_label: axis("force", Kind::Force, units),
-                curves,
                 x_window: (start > 0.0).then_some((start, end)),
-                ..Panel::default()
+                ..Panel::new(
+                    format!("({}) {face}: {title}", letter.next().unwrap_or_default()),
+                    "time (s)",
+                    axis("force", Kind::Force, units),
+                    curves,
+                )
             });
         }
     }
@@ -208,11 +189,8 @@ fn corner_forces(name: &str, result: &RunResult) -> Exhibit {
         name,
         "corner_forces",
         Figure {
-            title: format!("{name}: forces at the corners"),
-            caption,
-            panels,
             columns: 2,
-            ..Figure::default()
+            ..Figure::new(format!("{name}: forces at the corners"), caption, panels)
         },
     )
 }
@@ -270,49 +248,41 @@ fn stick_and_wear(name: &str, result: &RunResult, cycles: &[CycleShare]) -> Exhi
     };
     let faces = [(0, "column"), (1, "slope")];
     let stick = faces.map(|(face, label)| {
-        let (colour, line) = distinct(face);
-        PlotCurve {
-            label: label.to_owned(),
-            colour,
-            line,
-            points: steps(&|cycle| 100.0 * cycle.stick[face].unwrap_or(f64::NAN)),
-        }
+        PlotCurve::new(
+            label,
+            distinct(face),
+            steps(&|cycle| 100.0 * cycle.stick[face].unwrap_or(f64::NAN)),
+        )
     });
     let wear = faces.map(|(face, label)| {
-        let (colour, line) = distinct(face);
-        PlotCurve {
-            label: label.to_owned(),
-            colour,
-            line,
-            points: steps(&|cycle| converted(cycle.wear_power[face], Kind::Power, units)),
-        }
+        PlotCurve::new(
+            label,
+            distinct(face),
+            steps(&|cycle| converted(cycle.wear_power[face], Kind::Power, units)),
+        )
     });
     exhibit(
         name,
         "stick_and_wear",
-        Figure {
-            title: format!("{name}: stick and wear, cycle by cycle"),
-            caption: "(a) Share of stick: of the output times at which corners touch, counted corner by \
+        Figure::new(
+            format!("{name}: stick and wear, cycle by cycle"),
+            "(a) Share of stick: of the output times at which corners touch, counted corner by \
                       corner, the part at which they stick. (b) Wear power: energy lost in friction at each \
-                      face in a cycle, over its length in time."
-                .to_owned(),
-            panels: vec![
-                Panel {
-                    title: "(a) share of stick".to_owned(),
-                    x_label: "time (s)".to_owned(),
-                    y_label: "share of contact (%)".to_owned(),
-                    curves: stick.to_vec(),
-                    ..Panel::default()
-                },
-                Panel {
-                    title: "(b) wear power".to_owned(),
-                    x_label: "time (s)".to_owned(),
-                    y_label: axis("power", Kind::Power, units),
-                    curves: wear.to_vec(),
-                    ..Panel::default()
-                },
+                      face in a cycle, over its length in time.",
+            [
+                Panel::new(
+                    "(a) share of stick",
+                    "time (s)",
+                    "share of contact (%)",
+                    stick.to_vec(),
+                ),
+                Panel::new(
+                    "(b) wear power",
+                    "time (s)",
+                    axis("power", Kind::Power, units),
+                    wear.to_vec(),
+                ),
             ],
-            ..Figure::default()
-        },
+        ),
     )
 }

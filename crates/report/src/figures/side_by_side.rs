@@ -80,14 +80,10 @@ fn exhibit(wanted: &Wanted, runs: &[RunFolder], units: Units) -> Option<Exhibit>
                 panel.y_label = axis(&words(y), ordinate.kind, units);
             }
             drawn[number] = true;
-            let (colour, line) = look(number);
             let points = abscissa.in_units(units).into_iter().zip(ordinate.in_units(units));
-            panel.curves.push(PlotCurve {
-                label: run.label.clone(),
-                colour,
-                line,
-                points: points.collect(),
-            });
+            panel
+                .curves
+                .push(PlotCurve::new(run.label.clone(), look(number), points));
         }
         if !panel.curves.is_empty() {
             panel.title.clone_from(title);
@@ -107,11 +103,8 @@ fn exhibit(wanted: &Wanted, runs: &[RunFolder], units: Units) -> Option<Exhibit>
         name: format!("overlay_{}", wanted.name),
         thesis: String::new(),
         figure: Figure {
-            title: wanted.title.clone(),
-            caption,
             columns: if panels.len() > 1 { 2 } else { 0 },
-            panels,
-            ..Figure::default()
+            ..Figure::new(wanted.title.clone(), caption, panels)
         },
     })
 }

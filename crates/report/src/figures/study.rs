@@ -104,12 +104,7 @@ pub fn main_effects(study: &Study, digest: &Digest, name: &str) -> Option<Exhibi
                 .map(|(x, cell)| (*x, of(&cell[place]) * factor))
                 .collect()
         };
-        let curve = |label: &str, colour, line, points| PlotCurve {
-            label: label.to_owned(),
-            colour,
-            line,
-            points,
-        };
+        let curve = |label: &str, colour, line, points| PlotCurve::new(label, (colour, line), points);
         let curves = vec![
             curve("least", Colour::Sky, Line::Dotted, points(|cell| cell.least)),
             curve("greatest", Colour::Orange, Line::Dashed, points(|cell| cell.most)),
@@ -129,12 +124,14 @@ pub fn main_effects(study: &Study, digest: &Digest, name: &str) -> Option<Exhibi
             _ => Vec::new(),
         };
         Panel {
-            x_label: factor_axis(study, number),
-            y_label: axis(&words(&measure.name), measure.kind, units),
-            curves,
             marks,
             span: 1,
-            ..Panel::default()
+            ..Panel::new(
+                "",
+                factor_axis(study, number),
+                axis(&words(&measure.name), measure.kind, units),
+                curves,
+            )
         }
     });
     let panels: Vec<Panel> = panels.collect();
@@ -142,19 +139,20 @@ pub fn main_effects(study: &Study, digest: &Digest, name: &str) -> Option<Exhibi
         name: format!("effects_{name}"),
         thesis: String::new(),
         figure: Figure {
-            title: format!("Main effects: {}", words(name)),
-            caption: format!(
-                "{}: mean, least and greatest value over the runs that share a value of one parameter (or \
-                 lie in one part of its range), over that parameter. All other parameters vary within each \
-                 point. All runs together: {} to {}, mean {}.",
-                words(name),
-                super::digits(all.least * factor),
-                super::digits(all.most * factor),
-                super::digits(all.mean() * factor),
-            ),
             columns: panels.len().min(2),
-            panels,
-            ..Figure::default()
+            ..Figure::new(
+                format!("Main effects: {}", words(name)),
+                format!(
+                    "{}: mean, least and greatest value over the runs that share a value of one \
+                 parameter (or lie in one part of its range), over that parameter. All other parameters \
+                 vary within each point. All runs together: {} to {}, mean {}.",
+                    words(name),
+                    super::digits(all.least * factor),
+                    super::digits(all.most * factor),
+                    super::digits(all.mean() * factor),
+                ),
+                panels,
+            )
         },
     })
 }
@@ -202,13 +200,7 @@ pub(crate) fn contour_curves(grid: &HeightGrid<'_>, levels: &[f64]) -> Vec<(Plot
             points.extend(line);
             points.push((f64::NAN, f64::NAN));
         }
-        let (colour, line) = distinct(number);
-        let curve = PlotCurve {
-            label: String::new(),
-            colour,
-            line,
-            points,
-        };
+        let curve = PlotCurve::new("", distinct(number), points);
         let text = super::digits(*level);
         curves.push((curve, Mark { at, text }));
     }
@@ -236,14 +228,15 @@ fn contours(study: &Study, digest: &Digest, pair: &ParameterPair) -> Option<Exhi
             let levels = contour::round_levels(&heights, LEVELS);
             let (curves, marks): (Vec<_>, Vec<_>) = contour_curves(&grid, &levels).into_iter().unzip();
             (!curves.is_empty()).then(|| Panel {
-                title: axis(&words(&measure.name), measure.kind, units),
-                x_label: factor_axis(study, first),
-                y_label: factor_axis(study, second),
                 x_window: Some((x[0], x[x.len() - 1])),
-                curves,
                 marks,
                 span: 1,
-                ..Panel::default()
+                ..Panel::new(
+                    axis(&words(&measure.name), measure.kind, units),
+                    factor_axis(study, first),
+                    factor_axis(study, second),
+                    curves,
+                )
             })
         })
         .collect();
@@ -252,13 +245,13 @@ fn contours(study: &Study, digest: &Digest, pair: &ParameterPair) -> Option<Exhi
         name: format!("contours_{}_{}", file_name(names[0]), file_name(names[1])),
         thesis: String::new(),
         figure: Figure {
-            title: format!("Contours over {} and {}", names[0], names[1]),
-            caption: "Lines of equal value of the means over all runs with these two values (or in these \
-                      two parts of the ranges), marked with it. All other parameters vary within each point."
-                .to_owned(),
             columns: 2,
-            panels,
-            ..Figure::default()
+            ..Figure::new(
+                format!("Contours over {} and {}", names[0], names[1]),
+                "Lines of equal value of the means over all runs with these two values (or in these \
+                      two parts of the ranges), marked with it. All other parameters vary within each point.",
+                panels,
+            )
         },
     })
 }

@@ -89,26 +89,23 @@ fn wedges(run: &TruckRun) -> Figure {
             let (label, name) = (wedge.replace('_', " "), format!("{wedge}_{what}"));
             curve(&run.result, "time", &name, (&label, colour, line))
         });
-        Panel {
-            title: format!("({letter}) {title}"),
-            x_label: "time (s)".to_owned(),
-            y_label: axis("force", Kind::Force, units),
-            curves: curves.collect(),
-            ..Panel::default()
-        }
+        Panel::new(
+            format!("({letter}) {title}"),
+            "time (s)",
+            axis("force", Kind::Force, units),
+            curves,
+        )
     };
-    Figure {
-        title: "Forces of the wedges".to_owned(),
-        caption: "Wedge by wedge: normal force of the column, its friction on the side frame along z \
-                  (positive up), normal force of the slope."
-            .to_owned(),
-        panels: vec![
+    Figure::new(
+        "Forces of the wedges",
+        "Wedge by wedge: normal force of the column, its friction on the side frame along z \
+                  (positive up), normal force of the slope.",
+        [
             panel('a', "column, normal", "column_normal"),
             panel('b', "column, friction", "column_friction_z"),
             panel('c', "slope, normal", "slope_normal"),
         ],
-        ..Figure::default()
-    }
+    )
 }
 
 /// For each wedge and face how many of its four corners are open, stick and slip.
@@ -155,31 +152,25 @@ fn contact_states(run: &TruckRun, contacts: &ContactTable) -> Figure {
                             None => points.push((*time, now)),
                         }
                     }
-                    PlotCurve {
-                        label: label.to_owned(),
-                        colour,
-                        line,
-                        points,
-                    }
+                    PlotCurve::new(label, (colour, line), points)
                 });
-            panels.push(Panel {
-                title: format!("{}, {face}", wedge.replace('_', " ")),
-                x_label: "time (s)".to_owned(),
-                y_label: "corners (%)".to_owned(),
-                curves: curves.collect(),
-                ..Panel::default()
-            });
+            panels.push(Panel::new(
+                format!("{}, {face}", wedge.replace('_', " ")),
+                "time (s)",
+                "corners (%)",
+                curves,
+            ));
         }
     }
     Figure {
-        title: "Contact states".to_owned(),
-        caption: "Of the corners (or points of a grid) of each wedge at column and slope, the share that is \
-                  open, sticks, and slips. With bristles a corner slips where its friction has reached its \
-                  limit."
-            .to_owned(),
-        panels,
         columns: 4,
-        ..Figure::default()
+        ..Figure::new(
+            "Contact states",
+            "Of the corners (or points of a grid) of each wedge at column and slope, the share that is \
+                  open, sticks, and slips. With bristles a corner slips where its friction has reached its \
+                  limit.",
+            panels,
+        )
     }
 }
 
@@ -196,12 +187,8 @@ fn ledger(run: &TruckRun) -> Figure {
         let (colour, line) = distinct(number);
         curve(&run.result, "time", name, (label, colour, line))
     };
-    let panel = |title: &str, curves: Vec<PlotCurve>| Panel {
-        title: title.to_owned(),
-        x_label: "time (s)".to_owned(),
-        y_label: axis("energy", Kind::Energy, units),
-        curves,
-        ..Panel::default()
+    let panel = |title: &str, curves: Vec<PlotCurve>| {
+        Panel::new(title, "time (s)", axis("energy", Kind::Energy, units), curves)
     };
     let entries = ENTRIES.into_iter().enumerate();
     let faces = ["column", "slope"]
@@ -212,13 +199,12 @@ fn ledger(run: &TruckRun) -> Figure {
             let label = format!("{}, {face}", wedge.replace('_', " "));
             curve(number, &format!("{wedge}_{face}_friction_loss"), &label)
         });
-    Figure {
-        title: "Energy ledger".to_owned(),
-        caption: "(a) Work since the start and where it went; every loss is integrated from its own force \
+    Figure::new(
+        "Energy ledger",
+        "(a) Work since the start and where it went; every loss is integrated from its own force \
                   and velocity. (b) What the friction of each wedge's faces took. (c) What does not add up: \
-                  the work less stored energy and losses."
-            .to_owned(),
-        panels: vec![
+                  the work less stored energy and losses.",
+        [
             panel(
                 "(a) entries",
                 entries
@@ -228,8 +214,7 @@ fn ledger(run: &TruckRun) -> Figure {
             panel("(b) by wedge and face", faces.collect()),
             panel("(c) residual", vec![curve(1, "ledger_residual", "residual")]),
         ],
-        ..Figure::default()
-    }
+    )
 }
 
 /// Returns the figures of all rigs together, for the report: vertical and roll loops, warp loops, states of

@@ -36,25 +36,19 @@ fn curves(result: &WheelsetResult, columns: &[(&str, &str)], kind: Kind) -> Vec<
     own.map(|((name, label), (colour, line))| {
         let values = result.column(name).unwrap_or_default();
         let point = |(at, value): (&f64, &f64)| (distance(*at, units), converted(*value, kind, units));
-        PlotCurve {
-            label: (*label).to_owned(),
-            colour,
-            line,
-            points: distances.iter().zip(values).map(point).collect(),
-        }
+        PlotCurve::new(*label, (colour, line), distances.iter().zip(values).map(point))
     })
     .collect()
 }
 
 fn panel(result: &WheelsetResult, title: &str, label: &str, kind: Kind, columns: &[(&str, &str)]) -> Panel {
     let units = result.summary.units;
-    Panel {
-        title: title.to_owned(),
-        x_label: along(units),
-        y_label: axis(label, kind, units),
-        curves: curves(result, columns, kind),
-        ..Panel::default()
-    }
+    Panel::new(
+        title,
+        along(units),
+        axis(label, kind, units),
+        curves(result, columns, kind),
+    )
 }
 
 /// Returns the figures.
@@ -80,63 +74,57 @@ pub fn exhibits(case: &WheelsetCase, result: &WheelsetResult) -> Vec<Exhibit> {
     let line = case.setup.lines.center_line();
     let curvature = result.column("distance").unwrap_or_default().iter();
     let curvature = curvature.map(|at| (distance(*at, units), degree(line.at(*at).curvature[0])));
-    let track = Panel {
-        title: "(a) curvature".to_owned(),
-        x_label: along(units),
-        y_label: "degree of curve".to_owned(),
-        curves: vec![PlotCurve {
-            label: String::new(),
-            colour: BLUE.0,
-            line: BLUE.1,
-            points: curvature.collect(),
-        }],
-        ..Panel::default()
-    };
+    let track = Panel::new(
+        "(a) curvature",
+        along(units),
+        "degree of curve",
+        [PlotCurve::new("", (BLUE.0, BLUE.1), curvature)],
+    );
     let motion = Figure {
-        title: format!("{name}: where the wheelset is"),
-        caption: "Over the distance: curvature (to the left) and irregularities under the wheels (lateral \
-                  to the left, vertical up); lateral place of the wheelset's center (to the left), its yaw \
-                  to the track (the angle of attack), its roll (left side up)."
-            .to_owned(),
-        panels: vec![
-            track,
-            both("(b) alignment", "rail, lateral", Kind::Length, "rail_lateral"),
-            both("(c) profile", "rail, vertical", Kind::Length, "rail_vertical"),
-            panel(
-                result,
-                "(d) lateral",
-                "to the left",
-                Kind::Length,
-                &[("lateral", "")],
-            ),
-            panel(result, "(e) yaw", "yaw", Kind::Angle, &[("yaw", "")]),
-            panel(result, "(f) roll", "roll", Kind::Angle, &[("roll", "")]),
-        ],
         columns: 3,
-        ..Figure::default()
+        ..Figure::new(
+            format!("{name}: where the wheelset is"),
+            "Over the distance: curvature (to the left) and irregularities under the wheels (lateral \
+                  to the left, vertical up); lateral place of the wheelset's center (to the left), its yaw \
+                  to the track (the angle of attack), its roll (left side up).",
+            [
+                track,
+                both("(b) alignment", "rail, lateral", Kind::Length, "rail_lateral"),
+                both("(c) profile", "rail, vertical", Kind::Length, "rail_vertical"),
+                panel(
+                    result,
+                    "(d) lateral",
+                    "to the left",
+                    Kind::Length,
+                    &[("lateral", "")],
+                ),
+                panel(result, "(e) yaw", "yaw", Kind::Angle, &[("yaw", "")]),
+                panel(result, "(f) roll", "roll", Kind::Angle, &[("roll", "")]),
+            ],
+        )
     };
     let forces = Figure {
-        title: format!("{name}: forces of the wheels"),
-        caption: "Over the distance: forces of the wheels on the rails, vertical ones square to the track, \
+        columns: 3,
+        ..Figure::new(
+            format!("{name}: forces of the wheels"),
+            "Over the distance: forces of the wheels on the rails, vertical ones square to the track, \
                   lateral ones positive where they spread the gauge, their quotient; longitudinal forces on \
                   the wheels, forward; the wear number (energy that creep takes by distance); contact \
-                  patches a wheel."
-            .to_owned(),
-        panels: vec![
-            both("(a) vertical", "force", Kind::Force, "vertical_force"),
-            both("(b) lateral", "force", Kind::Force, "lateral_force"),
-            both(
-                "(c) lateral over vertical",
-                "L/V",
-                Kind::Dimensionless,
-                "lateral_over_vertical",
-            ),
-            both("(d) longitudinal", "force", Kind::Force, "longitudinal_force"),
-            both("(e) wear number", "wear number", Kind::Force, "wear_number"),
-            both("(f) patches", "patches", Kind::Count, "patches"),
-        ],
-        columns: 3,
-        ..Figure::default()
+                  patches a wheel.",
+            [
+                both("(a) vertical", "force", Kind::Force, "vertical_force"),
+                both("(b) lateral", "force", Kind::Force, "lateral_force"),
+                both(
+                    "(c) lateral over vertical",
+                    "L/V",
+                    Kind::Dimensionless,
+                    "lateral_over_vertical",
+                ),
+                both("(d) longitudinal", "force", Kind::Force, "longitudinal_force"),
+                both("(e) wear number", "wear number", Kind::Force, "wear_number"),
+                both("(f) patches", "patches", Kind::Count, "patches"),
+            ],
+        )
     };
     vec![exhibit("motion", motion), exhibit("forces", forces)]
 }

@@ -55,37 +55,31 @@ pub fn render(
 #[must_use]
 pub fn loops(case: &HalfTruckCase, result: &HalfTruckResult) -> Exhibit {
     let units = result.summary.units;
-    let panel = |title: &str, what: &str| Panel {
-        title: title.to_owned(),
-        x_label: axis("stroke", Kind::Length, units),
-        y_label: axis("force", Kind::Force, units),
-        curves: case
-            .wedges()
-            .into_iter()
-            .enumerate()
-            .map(|(number, place)| {
+    let panel = |title: &str, what: &str| {
+        Panel::new(
+            title,
+            axis("stroke", Kind::Length, units),
+            axis("force", Kind::Force, units),
+            case.wedges().into_iter().enumerate().map(|(number, place)| {
                 let (colour, line) = distinct(number);
                 let wedge = case.truck.connections[place];
                 let [x, y] = ["stroke", what].map(|what| format!("wedge_{wedge}_{what}"));
                 curve(result, &x, &y, (&format!("wedge {wedge}"), colour, line))
-            })
-            .collect(),
-        ..Panel::default()
+            }),
+        )
     };
     Exhibit {
         name: format!("{}_loops", case.name),
         thesis: String::new(),
-        figure: Figure {
-            title: format!("{}: forces of the columns", case.name),
-            caption: "Wedge by wedge, over the vertical stroke of the bolster against the side frame: \
-                      friction of the column on the side frame, positive up, and the column's normal force."
-                .to_owned(),
-            panels: vec![
+        figure: Figure::new(
+            format!("{}: forces of the columns", case.name),
+            "Wedge by wedge, over the vertical stroke of the bolster against the side frame: \
+                      friction of the column on the side frame, positive up, and the column's normal force.",
+            [
                 panel("(a) friction", "column_friction"),
                 panel("(b) normal force", "column_normal_force"),
             ],
-            ..Figure::default()
-        },
+        ),
     }
 }
 

@@ -204,12 +204,7 @@ impl<'o> Sheet<'o> {
             points.push((f64::NAN, f64::NAN));
         }
         let (label, colour, line) = EQUATION;
-        Some(PlotCurve {
-            label: label.to_owned(),
-            colour,
-            line,
-            points,
-        })
+        Some(PlotCurve::new(label, (colour, line), points))
     }
 
     fn truck_curve(
@@ -224,14 +219,11 @@ impl<'o> Sheet<'o> {
         // Loops of the half-truck are drawn over its stroke.
         let x = if x == "bolster_vertical" { "wedge_z" } else { x };
         let points = truck_column(result, x)?.iter().zip(values);
-        Some(PlotCurve {
-            label: label.to_owned(),
-            colour,
-            line,
-            points: points
-                .map(|(x, y)| (converted(*x, x_kind, self.units), converted(y, kind, self.units)))
-                .collect(),
-        })
+        Some(PlotCurve::new(
+            label,
+            (colour, line),
+            points.map(|(x, y)| (converted(*x, x_kind, self.units), converted(y, kind, self.units))),
+        ))
     }
 
     fn over_time(&self, quantity: &Quantity) -> Exhibit {
@@ -250,13 +242,14 @@ impl<'o> Sheet<'o> {
             .filter(|zoom| zoom.1 <= end)
             .collect();
         let mut panels = vec![Panel {
-            title: "(a) the whole run".to_owned(),
-            x_label: "time (s)".to_owned(),
-            y_label: axis(quantity.name, quantity.kind, self.units),
             x_window: (start < end).then_some((start, end)),
-            curves: curves.clone(),
             span: zooms.len().max(1),
-            ..Panel::default()
+            ..Panel::new(
+                "(a) the whole run",
+                "time (s)",
+                axis(quantity.name, quantity.kind, self.units),
+                curves.clone(),
+            )
         }];
         for (zoom, letter) in zooms.iter().zip('b'..) {
             panels.push(Panel {
@@ -281,11 +274,8 @@ impl<'o> Sheet<'o> {
             name: self.name(quantity.column),
             thesis: quantity.thesis[self.number].to_owned(),
             figure: Figure {
-                title: self.title(quantity.name),
-                caption,
                 columns: if zooms.is_empty() { 1 } else { 2 },
-                panels,
-                ..Figure::default()
+                ..Figure::new(self.title(quantity.name), caption, panels)
             },
         }
     }
@@ -330,13 +320,12 @@ impl<'o> Sheet<'o> {
                         .is_some_and(|row| (piece.0..=piece.1).contains(&row.0))
                 });
             }
-            Panel {
-                title: title.to_owned(),
-                x_label: axis(x_label, Kind::Length, self.units),
-                y_label: axis(quantity.name, quantity.kind, self.units),
+            Panel::new(
+                title,
+                axis(x_label, Kind::Length, self.units),
+                axis(quantity.name, quantity.kind, self.units),
                 curves,
-                ..Panel::default()
-            }
+            )
         };
         let panels = vec![
             panel(
@@ -363,12 +352,11 @@ impl<'o> Sheet<'o> {
         Some(Exhibit {
             name: self.name(&format!("{}_loop", quantity.column)),
             thesis: thesis.to_owned(),
-            figure: Figure {
-                title: self.title(&format!("{}, hysteresis", quantity.name)),
+            figure: Figure::new(
+                self.title(&format!("{}, hysteresis", quantity.name)),
                 caption,
                 panels,
-                ..Figure::default()
-            },
+            ),
         })
     }
 }

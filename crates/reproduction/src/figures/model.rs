@@ -35,34 +35,25 @@ fn bolster_motion(outcomes: &[CaseOutcome]) -> Option<Exhibit> {
     Some(Exhibit {
         name: "bolster_motion".to_owned(),
         thesis: "figures 4-1 and 4-2".to_owned(),
-        figure: Figure {
-            title: "The bolster's prescribed motion".to_owned(),
-            caption: "(a) Vertical displacement of the bolster, the same in all runs: it rises first. (b) \
-                      Its yaw, which is held from the start."
-                .to_owned(),
-            panels: vec![
-                Panel {
-                    title: "(a) vertical displacement".to_owned(),
-                    x_label: "time (s)".to_owned(),
-                    y_label: axis("displacement", Kind::Length, units),
-                    curves: vec![curve(
+        figure: Figure::new(
+            "The bolster's prescribed motion",
+            "(a) Vertical displacement of the bolster, the same in all runs: it rises first. (b) \
+                      Its yaw, which is held from the start.",
+            [
+                Panel::new(
+                    "(a) vertical displacement",
+                    "time (s)",
+                    axis("displacement", Kind::Length, units),
+                    [curve(
                         result,
                         "time",
                         "bolster_vertical",
                         ("all runs", Colour::Blue, Line::Solid),
                     )],
-                    ..Panel::default()
-                },
-                Panel {
-                    title: "(b) yaw".to_owned(),
-                    x_label: "time (s)".to_owned(),
-                    y_label: axis("yaw", Kind::Angle, units),
-                    curves: yawing,
-                    ..Panel::default()
-                },
+                ),
+                Panel::new("(b) yaw", "time (s)", axis("yaw", Kind::Angle, units), yawing),
             ],
-            ..Figure::default()
-        },
+        ),
     })
 }
 
@@ -80,9 +71,9 @@ fn friction_law(outcomes: &[CaseOutcome]) -> Option<Exhibit> {
     Some(Exhibit {
         name: "friction_law".to_owned(),
         thesis: "figure 3-9".to_owned(),
-        figure: Figure {
-            title: "The friction laws".to_owned(),
-            caption: format!(
+        figure: Figure::new(
+            "The friction laws",
+            format!(
                 "(a) The thesis's law (eq. 3-8): friction over the friction limit as a function of the slip \
                  speed, v0 = {} {}. It is zero at rest, so that a loaded corner creeps. (b) The bristle \
                  law, the alternative: friction over the friction limit as a function of the displacement, \
@@ -90,34 +81,25 @@ fn friction_law(outcomes: &[CaseOutcome]) -> Option<Exhibit> {
                 digits(converted(reference_speed, Kind::Speed, units)),
                 Kind::Speed.label(units)
             ),
-            panels: vec![
-                Panel {
-                    title: "(a) tanh".to_owned(),
-                    x_label: axis("slip speed", Kind::Speed, units),
-                    y_label: "friction over its limit".to_owned(),
-                    curves: vec![PlotCurve {
-                        label: "tanh".to_owned(),
-                        colour: Colour::Blue,
-                        line: Line::Solid,
-                        points: law.collect(),
-                    }],
-                    ..Panel::default()
-                },
-                Panel {
-                    title: "(b) bristle".to_owned(),
-                    x_label: axis("displacement", Kind::Length, units),
-                    y_label: "friction over its limit".to_owned(),
-                    curves: vec![PlotCurve {
-                        label: "bristle".to_owned(),
-                        colour: Colour::Vermillion,
-                        line: Line::DashDot,
-                        points: bristle_loop(units),
-                    }],
-                    ..Panel::default()
-                },
+            [
+                Panel::new(
+                    "(a) tanh",
+                    axis("slip speed", Kind::Speed, units),
+                    "friction over its limit",
+                    [PlotCurve::new("tanh", (Colour::Blue, Line::Solid), law)],
+                ),
+                Panel::new(
+                    "(b) bristle",
+                    axis("displacement", Kind::Length, units),
+                    "friction over its limit",
+                    [PlotCurve::new(
+                        "bristle",
+                        (Colour::Vermillion, Line::DashDot),
+                        bristle_loop(units),
+                    )],
+                ),
             ],
-            ..Figure::default()
-        },
+        ),
     })
 }
 
@@ -169,12 +151,11 @@ fn coil(outcomes: &[CaseOutcome], damping: Damping) -> Option<Exhibit> {
                 converted(stiffness * (coil.free_length - length), Kind::Force, units),
             )
         });
-        over_length.push(PlotCurve {
-            label: "law".to_owned(),
-            colour: Colour::Grey,
-            line: Line::Solid,
-            points: points.to_vec(),
-        });
+        over_length.push(PlotCurve::new(
+            "law",
+            (Colour::Grey, Line::Solid),
+            points.to_vec(),
+        ));
     }
     let mut over_time = Vec::new();
     for (case, result) in &runs {
@@ -196,30 +177,27 @@ fn coil(outcomes: &[CaseOutcome], damping: Damping) -> Option<Exhibit> {
     Some(Exhibit {
         name: format!("{name}_coil_force"),
         thesis: thesis.to_owned(),
-        figure: Figure {
-            title: format!("{} damping: the control coil's force", capital(name)),
-            caption: format!(
+        figure: Figure::new(
+            format!("{} damping: the control coil's force", capital(name)),
+            format!(
                 "Force of the control coil on the wedge (a) over its length, with the law, and (b) over \
                  time, bolster not yawed. {seat}. The force is the spring's, without the coil's damping. \
                  The thesis draws it over the displacement.",
             ),
-            panels: vec![
-                Panel {
-                    title: "(a) over the coil's length".to_owned(),
-                    x_label: axis("coil length", Kind::Length, units),
-                    y_label: axis("coil force", Kind::Force, units),
-                    curves: over_length,
-                    ..Panel::default()
-                },
-                Panel {
-                    title: "(b) over time".to_owned(),
-                    x_label: "time (s)".to_owned(),
-                    y_label: axis("coil force", Kind::Force, units),
-                    curves: over_time,
-                    ..Panel::default()
-                },
+            [
+                Panel::new(
+                    "(a) over the coil's length",
+                    axis("coil length", Kind::Length, units),
+                    axis("coil force", Kind::Force, units),
+                    over_length,
+                ),
+                Panel::new(
+                    "(b) over time",
+                    "time (s)",
+                    axis("coil force", Kind::Force, units),
+                    over_time,
+                ),
             ],
-            ..Figure::default()
-        },
+        ),
     })
 }
