@@ -12,8 +12,8 @@ use ::study::records;
 use miette::Diagnostic;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
-use report::parquet::Content;
-use report::study_folder::{StudyFolder, StudyFolderError, columns};
+use report::output_table::Content;
+use report::study_folder::{StudyFolder, StudyFolderError, table};
 use report::study_work;
 
 use crate::errors::{case_error, guarded, internal, panic_text, raise, shown, simple};
@@ -107,7 +107,8 @@ impl NativeStudy {
     /// Returns the table's columns.
     fn columns(&self, py: Python<'_>) -> PyResult<Vec<NamedColumn>> {
         guarded(py, || {
-            let columns = columns(&self.study).into_iter();
+            let table = table(&self.study);
+            let columns = table.descriptions().iter().cloned();
             Ok(columns
                 .map(|column| {
                     let kind = match column.content {

@@ -132,7 +132,13 @@ fn sentence(help: &str) -> String {
     // Names in quotes become literals.
     let pieces = text.split('"').enumerate();
     let text: String = pieces
-        .map(|(at, piece)| if at % 2 == 1 { format!("``\"{piece}\"``") } else { piece.to_owned() })
+        .map(|(at, piece)| {
+            if at % 2 == 1 {
+                format!("``\"{piece}\"``")
+            } else {
+                piece.to_owned()
+            }
+        })
         .collect();
     format!("{text}.")
 }
