@@ -1,7 +1,6 @@
 //! The result of a run.
 
 use mechanics::output::Column;
-use serde::{Deserialize, Serialize};
 
 use crate::summary::Summary;
 
@@ -38,19 +37,4 @@ impl<S> RunResult<S> {
         let index = self.columns.iter().position(|column| column.name == name)?;
         Some(&self.values[index])
     }
-}
-
-/// A change of a contact point's mode.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ContactEvent {
-    /// Time, s.
-    pub time: f64,
-    /// The face: `column` or `slope`.
-    pub face: String,
-    /// The corner, such as `lower_left`.
-    pub corner: String,
-    /// The mode before: `open`, `stick` or `slip`.
-    pub from: String,
-    /// The mode after.
-    pub to: String,
 }

@@ -16,31 +16,10 @@ use crate::jam::JamMargins;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::outcome::{Outcome, RunEnd};
-use crate::result::ContactEvent;
-use crate::run::{Run, RunCase};
+pub use crate::summary_value::SummaryValue;
 
 /// The schema's name and version.
 pub const SCHEMA: &str = "wedgelab.summary/2";
-
-/// A number with its unit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SummaryValue {
-    /// The number.
-    pub value: f64,
-    /// Its unit, such as `lbf·in`; empty for plain numbers.
-    pub unit: String,
-}
-
-impl SummaryValue {
-    /// Returns an SI value in output units.
-    #[must_use]
-    pub fn new(si: f64, kind: Kind, units: Units) -> Self {
-        Self {
-            value: si * kind.from_si(units),
-            unit: kind.label(units).to_owned(),
-        }
-    }
-}
 
 /// The part that the summaries of all models have.
 pub trait RunSummary {
@@ -263,6 +242,21 @@ pub struct Events {
     pub cap: usize,
 }
 
+/// A change of a contact point's mode.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ContactEvent {
+    /// Time, s.
+    pub time: f64,
+    /// The face: `column` or `slope`.
+    pub face: String,
+    /// The corner, such as `lower_left`.
+    pub corner: String,
+    /// The mode before: `open`, `stick` or `slip`.
+    pub from: String,
+    /// The mode after.
+    pub to: String,
+}
+
 /// The friction of a face.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrictionSummary {
@@ -298,21 +292,6 @@ pub struct LedgerSummary {
 }
 
 impl LedgerSummary {
-    /// Returns the ledger at the time that a run has reached: losses and works by element, the stored energy,
-    /// the residual.
-    pub(crate) fn of_run<C: RunCase>(run: &mut Run<C>, units: Units) -> Self {
-        run.system.segment_like(run.integrator.problem());
-        let seen = run.system.observe(run.integrator.time(), run.integrator.x());
-        let measure = |value: f64| SummaryValue::new(value, Kind::Energy, units);
-        let mut entries = BTreeMap::new();
-        for (term, value) in run.system.energy_terms().iter().zip(&seen.quadratures) {
-            entries.insert(term.name(), measure(*value));
-        }
-        entries.insert("stored".to_owned(), measure(seen.energies.total()));
-        entries.insert("residual".to_owned(), measure(-seen.residual(run.start_energy)));
-        Self::new(entries, run.start_energy, &run.energy_balance, units)
-    }
-
     /// Returns the ledger with these entries, beside what a run's balance found; `start` is the energy stored
     /// at the start, J.
     pub(crate) fn new(

@@ -28,12 +28,11 @@ use crate::metrics::Extremes;
 use crate::plausibility;
 use crate::progress;
 use crate::result::RunResult;
-use crate::run::{
-    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, check_length, damaged,
-};
+use crate::run::{Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, findings};
+use crate::run_error::{check_length, damaged};
 use crate::signal::LowPass;
 use crate::statics::StaticTable;
-use crate::summary::{LedgerSummary, Stopped, SummaryValue};
+use crate::summary::{Stopped, SummaryValue};
 use crate::wedge_faces;
 use crate::wedge_rise::{self, AtStart};
 
@@ -284,7 +283,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         .into_iter()
         .collect();
     warnings.extend(run.start_warning.clone());
-    warnings.extend(plausibility::warnings_of_rolling(&run));
+    warnings.extend(findings::warnings_of_rolling(&run));
     warnings.extend(run.case.doubts.iter().cloned());
     let risen = wedges_at_start(&run);
     warnings.extend(wedge_rise::warnings(&risen, units));
@@ -326,7 +325,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         }
     }
     let rows = time.len() - table.before();
-    let ledger = LedgerSummary::of_run(&mut run, units);
+    let ledger = run.ledger(units);
     let wedge_losses = losses(&mut run);
     let counts = &run.recorder.counts;
     let shares = counts.locked.iter().map(|own| *own as f64 / counts.rows as f64);

@@ -24,10 +24,8 @@ use crate::finite::{find, is_finite};
 use crate::metrics::{Cycle, mean, window_of};
 use crate::plausibility;
 use crate::progress;
-use crate::run::{
-    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, check_finite, check_length,
-    damaged,
-};
+use crate::run::{Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, findings};
+use crate::run_error::{check_finite, check_length, damaged};
 use crate::summary::{Stopped, SummaryValue};
 
 /// Returns the state at the start.
@@ -253,7 +251,7 @@ fn output(mut run: Run<HalfTruckCase>, stopped: Option<Stopped>) -> HalfTruckRes
             warnings: energy::warning(&balance, energy::WHAT_TO_DO_WITH_FILES)
                 .into_iter()
                 .chain(run.start_warning.clone())
-                .chain(plausibility::warnings(&run))
+                .chain(findings::warnings(&run))
                 .collect(),
             rows: 0,
             yaw: None,

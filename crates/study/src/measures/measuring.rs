@@ -24,7 +24,7 @@ use crate::plausibility;
 use crate::progress;
 use crate::result::RunResult;
 use crate::run::wedge_run::{contact_states_in_words, friction_losses, options};
-use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError};
+use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError, findings};
 use crate::summary::{RunSummary, Stopped};
 
 /// Reasons why a run has no measures.
@@ -41,7 +41,7 @@ pub enum Unmeasured {
 pub struct Judged {
     /// The measures; of a run that derailed, of the part until then.
     pub measures: Measures,
-    /// The run's outcome, which is no stop; a run that is nonsense ([`plausibility::nonsense`]) has failed.
+    /// The run's outcome, which is no stop; a run that is nonsense ([`findings::nonsense`]) has failed.
     pub outcome: Outcome,
 }
 
@@ -140,7 +140,7 @@ impl RunCase for Measured<'_> {
                 )))
             }
             None => Ok(Judged {
-                outcome: plausibility::nonsense(&run).map_or(Outcome::Complete, Outcome::Failed),
+                outcome: findings::nonsense(&run).map_or(Outcome::Complete, Outcome::Failed),
                 measures: run
                     .recorder
                     .finish(&run.integrator, run.energy_balance.relative_residual()),

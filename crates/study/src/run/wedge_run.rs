@@ -20,8 +20,8 @@ use crate::losses::{LossCounts, LossRecorder, Window};
 use crate::metrics::Cycle;
 use crate::plausibility;
 use crate::progress;
-use crate::result::{ContactEvent, RunResult};
-use crate::summary::Stopped;
+use crate::result::RunResult;
+use crate::summary::{ContactEvent, Stopped};
 
 /// Largest number of listed events.
 pub const EVENT_CAP: usize = 500;

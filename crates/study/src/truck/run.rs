@@ -26,10 +26,9 @@ use crate::losses::{LossCounts, LossRecorder};
 use crate::plausibility;
 use crate::progress::{self, ADVANCE, Pace};
 use crate::result::RunResult;
-use crate::run::{
-    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, check_finite, check_length,
-};
-use crate::summary::{LedgerSummary, Stopped, SummaryValue};
+use crate::run::{Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, findings};
+use crate::run_error::{check_finite, check_length};
+use crate::summary::{Stopped, SummaryValue};
 use crate::{geometry, wedge_faces, wedge_rise};
 
 /// The result of a run.
@@ -309,7 +308,7 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
         .into_iter()
         .collect();
     warnings.extend(run.start_warning.clone());
-    warnings.extend(plausibility::warnings_by_kind(&run));
+    warnings.extend(findings::warnings_by_kind(&run));
     warnings.extend(surplus(&run.case, units));
     warnings.extend(without_coil(&run.case));
     warnings.extend(closed(run.recorder.table.truck(), units));
@@ -345,7 +344,7 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
         statics: run.recorder.table.static_table(units),
         extremes: table.summary_extremes(&columns, units),
         energy: super::energies::of(&run, &column),
-        ledger: LedgerSummary::of_run(&mut run, units),
+        ledger: run.ledger(units),
         method: run.case.simulation.method.to_string(),
         relative_tolerance: run.case.simulation.relative_tolerance,
         statistics: run.integrator.statistics().clone(),

@@ -21,8 +21,8 @@ use super::summary::{Derailment, SCHEMA, WheelsetSummary};
 use crate::energy;
 use crate::plausibility;
 use crate::result::RunResult;
-use crate::run::{Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows};
-use crate::summary::{LedgerSummary, Stopped, SummaryValue};
+use crate::run::{Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, findings};
+use crate::summary::{Stopped, SummaryValue};
 
 /// The result of a run.
 pub type WheelsetResult = RunResult<WheelsetSummary>;
@@ -155,7 +155,7 @@ fn output(mut run: Run<WheelsetCase>, stopped: Option<Stopped>) -> WheelsetResul
     let mut warnings: Vec<String> = energy::warning(&balance, LOWER_THE_TOLERANCE)
         .into_iter()
         .collect();
-    warnings.extend(plausibility::warnings_of_rolling(&run));
+    warnings.extend(findings::warnings_of_rolling(&run));
     warnings.extend(run.case.wheelset.track.doubts.iter().cloned());
     let mut extremes = table.summary_extremes(&columns, units);
     extremes.retain(|name, _| !name.contains("_patch_"));
@@ -173,7 +173,7 @@ fn output(mut run: Run<WheelsetCase>, stopped: Option<Stopped>) -> WheelsetResul
         rows: table.column("time").len() - table.before(),
         hunting: stability::hunting(&run.case.wheelset),
         extremes,
-        ledger: LedgerSummary::of_run(&mut run, units),
+        ledger: run.ledger(units),
         relative_tolerance: run.case.wheelset.relative_tolerance,
         statistics: run.integrator.statistics().clone(),
         assumptions: run.case.assumptions(),

@@ -11,8 +11,8 @@ use quantity::{Kind, Number};
 use report::locus_files;
 use study::any_case::AnyCase;
 use study::car::CarCase;
-use study::car::locus::{Locus, LocusError, Vary, VaryError, locus};
 use study::case::CaseError;
+use study::locus::{Locus, LocusError, Vary, VaryError, locus};
 
 use super::run::is_built_in;
 use super::stability::speed;

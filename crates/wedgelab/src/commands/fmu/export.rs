@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use fmi::description::{FmuModel, Version};
+use fmi::description::Version;
 use fmi::package::{self, Library, Platform};
-use fmi::source::Source;
+use fmi::source::{FmuModel, Source};
 use study::any_case::AnyCase;
 
 use super::half_truck::Choice;

@@ -7,9 +7,9 @@
 use car::{StartKind, Wheels};
 use serde::Serialize;
 
-use super::certificate::{Certificate, LimitVerdict};
-use super::locked_in::name;
+use super::{Certificate, LimitVerdict};
 use crate::any_case::AnyCase;
+use crate::car::locked_in::name;
 use crate::records::{self, Record, Status};
 
 /// Margin, in parts of the limit, up to which a result is near it, kept or not: a choice.
