@@ -16,13 +16,13 @@ use serde::Serialize;
 
 use self::conditions::Condition;
 use self::other_start::OtherStart;
-use crate::any_case::{AnyCase, CaseSource};
 use crate::car;
 use crate::car::limits::{Limit, LimitSet};
 use crate::car::regime::Regime;
 use crate::case::problem::Problem;
 use crate::case::{self, CaseError, overrides};
 use crate::design::{Study, StudySource, Value};
+use crate::models::{AnyCase, CaseSource, no_built_in};
 use crate::records::{Record, Status};
 
 /// The name of the study's text, which is made here.
@@ -365,7 +365,7 @@ fn car_of(request: &Request) -> Result<(CaseSource, AnyCase), CaseError> {
             folder: PathBuf::new(),
         },
         Err(_) if matches!(AnyCase::built_in(name, &[]), Ok(Some(_))) => return Err(no_car(path)),
-        Err(error) if !path.exists() && path.extension().is_none() => return Err(error),
+        Err(error) if !path.exists() && path.extension().is_none() => return Err(no_built_in(name, error)),
         _ => CaseSource::File {
             name: path.display().to_string(),
             text: case::text_of(path)?,

@@ -15,7 +15,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub mod any_case;
 pub mod assumptions;
 pub mod car;
 pub mod case;
@@ -35,6 +34,7 @@ pub mod locus;
 pub mod losses;
 pub mod measures;
 pub mod metrics;
+pub mod models;
 pub mod outcome;
 pub mod output_files;
 pub mod patches;

@@ -16,6 +16,16 @@ pub struct RunResult<S = Summary> {
 }
 
 impl<S> RunResult<S> {
+    /// Returns it with a summary of another type.
+    #[must_use]
+    pub fn with_summary<T>(self, change: impl FnOnce(S) -> T) -> RunResult<T> {
+        RunResult {
+            columns: self.columns,
+            values: self.values,
+            summary: change(self.summary),
+        }
+    }
+
     /// Number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {

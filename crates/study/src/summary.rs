@@ -23,18 +23,36 @@ pub const SCHEMA: &str = "wedgelab.summary/2";
 
 /// The part that the summaries of all models have.
 pub trait RunSummary {
+    /// Returns the schema that it names.
+    fn schema(&self) -> &str;
+    /// Returns the program that wrote it, with its version.
+    fn program(&self) -> &str;
     /// Returns the case's name.
     fn name(&self) -> &str;
+    /// Returns the case's title; may be empty.
+    fn title(&self) -> &str {
+        ""
+    }
     /// Returns the units of its numbers.
     fn units(&self) -> Units;
+    /// Returns the number of rows of the table.
+    fn rows(&self) -> usize;
     /// Returns the reason and time of the run's stop, if it did not come to its end.
     fn stopped(&self) -> Option<&Stopped>;
     /// Returns the reason why the numbers are not to be used, if so.
     fn failed(&self) -> Option<&str>;
     /// Returns the warnings about the numbers.
     fn warnings(&self) -> &[String];
+    /// Returns the assumptions of the numbers.
+    fn assumptions(&self) -> &[String];
+    /// Returns the energy ledger at the end.
+    fn ledger(&self) -> Ledger<'_>;
+    /// Returns the number of steps of the integrator, and its relative tolerance.
+    fn solver(&self) -> (u64, f64);
     /// Returns the relative residual of the energy ledger.
-    fn largest_relative_residual(&self) -> f64;
+    fn largest_relative_residual(&self) -> f64 {
+        self.ledger().largest_relative_residual
+    }
     /// Returns where a wheel left its rail, if one did.
     fn derailed(&self) -> Option<RunEnd> {
         None
@@ -61,17 +79,65 @@ pub trait RunSummary {
     }
 }
 
-/// Implements [`RunSummary`]; the residual is found under `$residual`. Summaries of models that run on a
-/// track name their functions for `derailed` and `reached`.
+/// The energy ledger at the end of a run of any model.
+#[derive(Clone, Copy, Debug)]
+pub struct Ledger<'s> {
+    /// Its entries by name.
+    pub entries: &'s BTreeMap<String, SummaryValue>,
+    /// Largest absolute residual at any output time.
+    pub largest_residual: &'s SummaryValue,
+    /// The first output time with this residual, s.
+    pub largest_residual_time: f64,
+    /// The measure of how well the ledger closes.
+    pub largest_relative_residual: f64,
+}
+
+/// Returns the [`Ledger`] of a summary or of its part `ledger`: `$own` has the residuals, `$entries` what the
+/// ledger is made of.
+macro_rules! ledger {
+    ($own:expr, $entries:expr) => {
+        $crate::summary::Ledger {
+            entries: &$entries,
+            largest_residual: &$own.largest_residual,
+            largest_residual_time: $own.largest_residual_time,
+            largest_relative_residual: $own.largest_relative_residual,
+        }
+    };
+}
+
+/// Implements [`RunSummary`] by the fields of these names, and from what differs: title, ledger and solver;
+/// models that run on a track add `derailed` and `reached`.
 macro_rules! run_summary {
-    ($summary:ty, $($residual:ident).+ $(, derailed: $derailed:path, reached: $reached:path)?) => {
+    (
+        $summary:ty, |$own:ident| $(title: $title:expr,)? ledger: $ledger:expr, solver: $solver:expr
+        $(, derailed: $derailed:expr, reached: $reached:expr)?
+    ) => {
         impl $crate::summary::RunSummary for $summary {
+            fn schema(&self) -> &str {
+                &self.schema
+            }
+
+            fn program(&self) -> &str {
+                &self.program
+            }
+
             fn name(&self) -> &str {
                 &self.name
             }
 
+            $(
+                fn title(&self) -> &str {
+                    let $own = self;
+                    $title
+                }
+            )?
+
             fn units(&self) -> quantity::System {
                 self.units
+            }
+
+            fn rows(&self) -> usize {
+                self.rows
             }
 
             fn stopped(&self) -> Option<&$crate::summary::Stopped> {
@@ -86,25 +152,42 @@ macro_rules! run_summary {
                 &self.warnings
             }
 
-            fn largest_relative_residual(&self) -> f64 {
-                self.$($residual).+
+            fn assumptions(&self) -> &[String] {
+                &self.assumptions
+            }
+
+            fn ledger(&self) -> $crate::summary::Ledger<'_> {
+                let $own = self;
+                $ledger
+            }
+
+            fn solver(&self) -> (u64, f64) {
+                let $own = self;
+                $solver
             }
             $(
                 fn derailed(&self) -> Option<$crate::outcome::RunEnd> {
-                    $derailed(self)
+                    let $own = self;
+                    $derailed
                 }
 
                 fn reached(&self) -> Option<$crate::summary::SummaryValue> {
-                    $reached(self)
+                    let $own = self;
+                    $reached
                 }
             )?
         }
     };
 }
 
-pub(crate) use run_summary;
+pub(crate) use {ledger, run_summary};
 
-run_summary!(Summary, ledger.largest_relative_residual);
+run_summary!(
+    Summary,
+    |own| title: &own.title,
+    ledger: ledger!(own.ledger, own.ledger.entries),
+    solver: (own.solver.statistics.steps, own.solver.relative_tolerance)
+);
 
 /// The summary of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
