@@ -17,6 +17,7 @@ use quantity::{Kind, System as Units};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::case::Simulation;
 use crate::finite::is_finite;
 use crate::progress::{self, INTERVALS, Pace};
 use crate::rows::Rows;
@@ -72,14 +73,27 @@ pub trait RunCase: Clone {
     /// Advice where a run cannot go on.
     const WHAT_TO_TRY: &'static str;
 
+    /// Returns the settings that every run has.
+    fn settings(&self) -> RunSettings<'_>;
     /// Returns the name of the case.
-    fn name(&self) -> &str;
+    fn name(&self) -> &str {
+        self.settings().name
+    }
     /// Returns the end of the run and the time between two rows, s.
-    fn duration_and_interval(&self) -> [f64; 2];
+    fn duration_and_interval(&self) -> [f64; 2] {
+        let RunSettings {
+            duration, interval, ..
+        } = self.settings();
+        [duration, interval]
+    }
     /// Returns the units of the results.
-    fn units(&self) -> Units;
+    fn units(&self) -> Units {
+        self.settings().units
+    }
     /// Returns the settings of the integrator.
-    fn options(&self) -> Options;
+    fn options(&self) -> Options {
+        self.settings().options
+    }
     /// Returns the equations, the state at time zero and the recorder.
     ///
     /// # Errors
@@ -91,6 +105,34 @@ pub trait RunCase: Clone {
     }
     /// Returns the results of a run that has ended, or has stopped on its way.
     fn output(run: Run<Self>, stopped: Option<Stopped>) -> Self::Output;
+}
+
+/// The settings that every run has.
+#[derive(Clone, Debug)]
+pub struct RunSettings<'c> {
+    /// Name of the case.
+    pub name: &'c str,
+    /// End of the run, s.
+    pub duration: f64,
+    /// Time between two rows, s.
+    pub interval: f64,
+    /// Units of the results.
+    pub units: Units,
+    /// Settings of the integrator.
+    pub options: Options,
+}
+
+impl<'c> RunSettings<'c> {
+    /// Returns those of a case with a name and the section `[simulation]`.
+    pub(crate) fn of(name: &'c str, simulation: &Simulation) -> Self {
+        Self {
+            name,
+            duration: simulation.duration,
+            interval: simulation.output_interval,
+            units: simulation.output_units,
+            options: simulation.options(),
+        }
+    }
 }
 
 /// The values with which a run begins.

@@ -99,8 +99,8 @@ impl Failure {
 /// The reason in the summary of a run that the caller stopped.
 pub const STOPPED: &str = "it was stopped from outside";
 
-/// Runs a case until its end, or until it is told to stop, and keeps these columns only, by their names without
-/// unit; panics become failures.
+/// Runs a case until its end, or until it is told to stop; panics become failures. Keeps these columns only,
+/// by their names without unit.
 pub fn table(
     case: &AnyCase,
     columns: Option<&[String]>,

@@ -90,7 +90,7 @@ fn lead(runs: &[RunFolder]) -> Markup {
             @let shared = run.summary.shared();
             @if number > 0 { br; }
             strong { (run.label) } ": " (run.what()) ", case " (shared.name())
-            @if !run.summary.shared().title().is_empty() && runs.len() > 1 { " (" (run.summary.shared().title()) ")" }
+            @if !shared.title().is_empty() && runs.len() > 1 { " (" (shared.title()) ")" }
             ", " (digits(run.table.times().last().copied().unwrap_or_default())) " s"
         }
         br;

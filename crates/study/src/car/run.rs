@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use car::Wheels;
-use integrate::{Integrator, Options, Problem};
+use integrate::{Integrator, Problem};
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
 use mechanics::plausibility::PlausibilityFinding;
@@ -28,7 +28,9 @@ use crate::metrics::Extremes;
 use crate::plausibility;
 use crate::progress;
 use crate::result::RunResult;
-use crate::run::{Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, findings};
+use crate::run::{
+    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
+};
 use crate::run_error::{check_length, damaged};
 use crate::signal::LowPass;
 use crate::statics::StaticTable;
@@ -81,20 +83,8 @@ impl RunCase for CarCase {
         "look for values that are out of proportion; `wedgelab case` has cars that run";
     const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
 
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn duration_and_interval(&self) -> [f64; 2] {
-        [self.simulation.duration, self.simulation.output_interval]
-    }
-
-    fn units(&self) -> Units {
-        self.simulation.output_units
-    }
-
-    fn options(&self) -> Options {
-        self.simulation.options()
+    fn settings(&self) -> RunSettings<'_> {
+        RunSettings::of(&self.name, &self.simulation)
     }
 
     fn begin(&self) -> Result<Beginning<CarRecorder>, RunError> {

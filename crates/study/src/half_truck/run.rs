@@ -24,7 +24,9 @@ use crate::finite::{find, is_finite};
 use crate::metrics::{Cycle, mean, window_of};
 use crate::plausibility;
 use crate::progress;
-use crate::run::{Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, findings};
+use crate::run::{
+    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
+};
 use crate::run_error::{check_finite, check_length, damaged};
 use crate::summary::{Stopped, SummaryValue};
 
@@ -89,22 +91,16 @@ impl RunCase for HalfTruckCase {
         "look for values that are out of proportion; `wedgelab nucars show` prints them as tables";
     const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY_WITH_FILES;
 
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn duration_and_interval(&self) -> [f64; 2] {
-        [self.duration, self.interval]
-    }
-
-    fn units(&self) -> Units {
-        self.units
-    }
-
-    fn options(&self) -> Options {
-        Options {
-            relative_tolerance: self.relative_tolerance,
-            ..Options::default()
+    fn settings(&self) -> RunSettings<'_> {
+        RunSettings {
+            name: &self.name,
+            duration: self.duration,
+            interval: self.interval,
+            units: self.units,
+            options: Options {
+                relative_tolerance: self.relative_tolerance,
+                ..Options::default()
+            },
         }
     }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use integrate::{Integrator, Options};
+use integrate::Integrator;
 use mechanics::energy_balance::Entries;
 use mechanics::plausibility::PlausibilityFinding;
 use mechanics::quasi_static::SlidingDirection;
@@ -23,8 +23,8 @@ use crate::outcome::{Outcome, RunEnd};
 use crate::plausibility;
 use crate::progress;
 use crate::result::RunResult;
-use crate::run::wedge_run::{contact_states_in_words, friction_losses, options};
-use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError, findings};
+use crate::run::wedge_run::{contact_states_in_words, friction_losses};
+use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError, RunSettings, findings};
 use crate::summary::{RunSummary, Stopped};
 
 /// Reasons why a run has no measures.
@@ -104,20 +104,8 @@ impl RunCase for Measured<'_> {
     const WHERE_TO_LOOK: &'static str = Case::WHERE_TO_LOOK;
     const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
 
-    fn name(&self) -> &str {
-        &self.0.name
-    }
-
-    fn duration_and_interval(&self) -> [f64; 2] {
-        self.0.duration_and_interval()
-    }
-
-    fn units(&self) -> Units {
-        self.0.simulation.output_units
-    }
-
-    fn options(&self) -> Options {
-        options(self.0)
+    fn settings(&self) -> RunSettings<'_> {
+        self.0.settings()
     }
 
     fn begin(&self) -> Result<Beginning<Measuring>, RunError> {

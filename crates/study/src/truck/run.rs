@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use integrate::{Integrator, Options};
+use integrate::Integrator;
 use mechanics::energy_balance::Entries;
 use mechanics::motion::Motion;
 use mechanics::output::Column;
@@ -26,7 +26,9 @@ use crate::losses::{LossCounts, LossRecorder};
 use crate::plausibility;
 use crate::progress::{self, ADVANCE, Pace};
 use crate::result::RunResult;
-use crate::run::{Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, findings};
+use crate::run::{
+    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
+};
 use crate::run_error::{check_finite, check_length};
 use crate::summary::{Stopped, SummaryValue};
 use crate::{geometry, wedge_faces, wedge_rise};
@@ -105,20 +107,8 @@ impl RunCase for TruckCase {
         "look for values that are out of proportion; `wedgelab case` has trucks that run";
     const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
 
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn duration_and_interval(&self) -> [f64; 2] {
-        [self.simulation.duration, self.simulation.output_interval]
-    }
-
-    fn units(&self) -> Units {
-        self.simulation.output_units
-    }
-
-    fn options(&self) -> Options {
-        self.simulation.options()
+    fn settings(&self) -> RunSettings<'_> {
+        RunSettings::of(&self.name, &self.simulation)
     }
 
     fn begin(&self) -> Result<Beginning<TruckRecorder>, RunError> {

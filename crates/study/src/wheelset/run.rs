@@ -21,7 +21,9 @@ use super::summary::{Derailment, SCHEMA, WheelsetSummary};
 use crate::energy;
 use crate::plausibility;
 use crate::result::RunResult;
-use crate::run::{Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, findings};
+use crate::run::{
+    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
+};
 use crate::summary::{Stopped, SummaryValue};
 
 /// The result of a run.
@@ -55,22 +57,16 @@ impl RunCase for WheelsetCase {
     const WHERE_TO_LOOK: &'static str = "look at speed, load and springs";
     const WHAT_TO_TRY: &'static str = "try a lower relative tolerance, sprung rails, or softer springs";
 
-    fn name(&self) -> &str {
-        &self.wheelset.name
-    }
-
-    fn duration_and_interval(&self) -> [f64; 2] {
-        [self.duration, self.wheelset.interval]
-    }
-
-    fn units(&self) -> Units {
-        self.wheelset.units
-    }
-
-    fn options(&self) -> Options {
-        Options {
-            relative_tolerance: self.wheelset.relative_tolerance,
-            ..Options::default()
+    fn settings(&self) -> RunSettings<'_> {
+        RunSettings {
+            name: &self.wheelset.name,
+            duration: self.duration,
+            interval: self.wheelset.interval,
+            units: self.wheelset.units,
+            options: Options {
+                relative_tolerance: self.wheelset.relative_tolerance,
+                ..Options::default()
+            },
         }
     }
 

@@ -219,29 +219,26 @@ fn run_wedge(case: Case, arguments: &Arguments) -> Result<ExitCode, Failure> {
 /// Runs a case of any model in parts.
 fn execute_in_parts(case: &AnyCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
     match case {
-        AnyCase::Wedge(case) => run_in_parts(&**case, case.to_toml_embedded(), arguments, |done| {
+        AnyCase::Wedge(case) => run_in_parts(&**case, arguments, |done| {
             (table([(&done.result.summary, done.wall)]), TABLE_NOTE.to_owned())
         }),
-        AnyCase::Truck(case) => run_in_parts(&**case, case.to_toml_embedded(), arguments, |done| {
+        AnyCase::Truck(case) => run_in_parts(&**case, arguments, |done| {
             (truck_table(&done.result), TRUCK_NOTE.to_owned())
         }),
-        AnyCase::Car(case) => run_in_parts(&**case, case.to_toml_embedded(), arguments, |done| {
-            limits_of_car(&done.result.summary)
-        }),
+        AnyCase::Car(case) => run_in_parts(&**case, arguments, |done| limits_of_car(&done.result.summary)),
         AnyCase::HalfTruck(case) => Err(not_here(&case.name)),
     }
 }
 
 fn run_in_parts<C: RunFiles>(
     case: &C,
-    text: &str,
     arguments: &Arguments,
     shown: impl FnOnce(&Done<C::Output>) -> (TerminalTable, String),
 ) -> Result<ExitCode, Failure> {
     let place = begin(case, &[], arguments)?;
     let (folder, progress) = (&place.folder, &place.progress);
     let parts = Parts {
-        case: text,
+        case: case.case_file().unwrap_or_default(),
         from: arguments.from.as_deref(),
         save: arguments.save.as_deref(),
         until: arguments.until.as_ref().map(Quantity::to_si),

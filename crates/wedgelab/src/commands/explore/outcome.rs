@@ -199,7 +199,7 @@ impl Outcome {
     pub fn write(&self, file: &str, out: &mut Vec<u8>) -> io::Result<&'static str> {
         let Some((format, _)) = TABLES.into_iter().find(|(_, name)| *name == file) else {
             match self {
-                Self::Wedge(own) => summary::write(&own.1.summary, out)?,
+                Self::Wedge(own) => summary::write_json(&own.1.summary, out)?,
                 Self::Truck(own) => summary::write_json(&own.1.summary, out)?,
                 Self::Car(own) => summary::write_json(&own.1.summary, out)?,
             }
