@@ -2,6 +2,7 @@
 //! summaries of whatever model.
 
 mod case;
+pub mod every_key;
 mod source;
 mod summary;
 

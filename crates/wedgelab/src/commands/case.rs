@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use study::case::every_key::{MODELS, ModelKeys};
+use study::models::every_key::{MODELS, ModelKeys};
 use study::models::{self, AnyCase};
 
 use crate::failure::{Failure, Message};
