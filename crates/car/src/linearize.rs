@@ -12,8 +12,7 @@
 //! stiffness and damping of its describing function ([`mechanics::linear::Slider`]). Wheels keep their creep.
 
 use integrate::{Integrator, Method, Options, SetupError, StepError};
-use mechanics::linear::{Equivalent, LinearMode, LinearModel};
-use mechanics::system::NoVibration;
+use mechanics::linear::{Equivalent, LinearMode, LinearModel, NoVibration};
 use nalgebra::Complex;
 use rolling::wheelset::coordinate;
 use thiserror::Error;

@@ -4,11 +4,9 @@ use mechanics::plausibility::{Location, PlausibilityFinding};
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
-use crate::quasi_static::QuasiStaticState;
-use crate::system::SystemState;
+use crate::element_state::ElementState;
 use crate::unit::Unit;
 use crate::variable::Start;
-use crate::wedge::WedgeState;
 
 /// The interface type of an instance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -84,6 +82,22 @@ impl QuantityEntry {
     }
 }
 
+/// Returns the description of the input that is the rate of a position.
+pub(crate) fn rate_of(position: &str) -> String {
+    format!("rate of {position}; never set, co-simulation finds it from {position}")
+}
+
+/// Returns the relative residual of the energy ledger.
+pub(crate) fn relative_residual() -> QuantityEntry {
+    QuantityEntry::real(
+        "ledger_relative_residual",
+        None,
+        None,
+        "residual of the energy ledger now over the largest of work, losses and change of stored energy \
+         since the start",
+    )
+}
+
 /// All quantities of an element.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Entries {
@@ -126,48 +140,6 @@ pub struct Setting {
     pub tolerance: Option<f64>,
     /// Time at the start, s.
     pub start_time: f64,
-}
-
-/// The saved state of an element.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum ElementState {
-    /// A wedge.
-    Wedge(Box<WedgeState>),
-    /// A quasi-static wedge.
-    QuasiStatic(QuasiStaticState),
-    /// A system with named ports.
-    System(Box<SystemState>),
-}
-
-/// The time of a saved element.
-pub(crate) struct ElementTime {
-    /// Its own, s.
-    pub own: f64,
-    /// The time of the experiment at which it is zero, s.
-    zero: f64,
-}
-
-impl ElementTime {
-    /// Returns the phase in which it must be at a time of the experiment.
-    pub fn of(&self, time: f64) -> f64 {
-        time - self.zero
-    }
-}
-
-impl ElementState {
-    /// Returns its time, in an experiment with this start.
-    pub(crate) fn time(&self, start: f64) -> ElementTime {
-        let (own, zero) = match self {
-            Self::Wedge(state) => match &**state {
-                // It counts from the start; the others have the time of the experiment.
-                WedgeState::Driven(state) => (state.integrator.time, start),
-                WedgeState::Equations { time, .. } => (*time, 0.0),
-            },
-            Self::QuasiStatic(state) => (state.time, 0.0),
-            Self::System(state) => (state.time, 0.0),
-        };
-        ElementTime { own, zero }
-    }
 }
 
 /// Derivatives of rates and outputs along a direction.

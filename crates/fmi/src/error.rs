@@ -1,5 +1,7 @@
 //! Errors of calls that an instance refuses or fails to do.
 
+use std::fmt::Display;
+
 use input::bounded;
 use thiserror::Error;
 
@@ -80,5 +82,29 @@ impl Error {
 impl From<study::stepping::SteppingError> for Error {
     fn from(error: study::stepping::SteppingError) -> Self {
         Self::new(error.to_string())
+    }
+}
+
+/// Returns a member of a saved state that cannot be.
+pub(crate) fn damaged(member: &str, found: impl Display, expected: impl Display) -> Error {
+    Error::new(format!(
+        "the saved state is damaged: {member} is {found}; it must be {expected}; restore a state as it was \
+         saved, or reset the instance"
+    ))
+}
+
+/// Checks whether all numbers of a member are finite.
+pub(crate) fn check_finite<'v>(member: &str, values: impl IntoIterator<Item = &'v f64>) -> Result<(), Error> {
+    match values
+        .into_iter()
+        .enumerate()
+        .find(|(_, value)| !value.is_finite())
+    {
+        Some((number, value)) => Err(damaged(
+            &format!("{member} {number} (counted from 0)"),
+            value,
+            "finite",
+        )),
+        None => Ok(()),
     }
 }

@@ -15,8 +15,8 @@
 //! - [`ssp`]: the truck with four wedges as a system structure.
 //!
 //! ```
-//! use fmi::description::{Description, FmuModel, Version};
-//! use fmi::source::Source;
+//! use fmi::description::{Description, Version};
+//! use fmi::source::{FmuModel, Source};
 //!
 //! let case = study::case::builtin::case("vdrun_toe_0_psi_0")?;
 //! let source = Source::of_case(FmuModel::Wedge, case).ok_or("made of something else")?;
@@ -30,6 +30,7 @@
 pub mod car;
 pub mod description;
 pub mod element;
+pub mod element_state;
 mod error;
 mod extrapolate;
 pub mod half_truck;

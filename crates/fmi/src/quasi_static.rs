@@ -6,7 +6,6 @@ use mechanics::plausibility::{
 use mechanics::system::scales;
 use numerics::scalar::{Dual, Real};
 use quantity::Kind;
-use serde::{Deserialize, Serialize};
 use study::case::Case;
 use study::stepping::{CoilInput, Neighbours};
 use wedge::Parameters;
@@ -14,9 +13,9 @@ use wedge::outputs::FACES;
 use wedge::quasi_static::{PlanePlace, PlaneReading, read};
 
 use crate::Error;
-use crate::element::{Element, ElementState, Entries, QuantityEntry, Setting, Slopes};
-use crate::instance::damaged;
-use crate::system::rate_of;
+use crate::element::{Element, Entries, QuantityEntry, Setting, Slopes, rate_of};
+use crate::element_state::{ElementState, QuasiStaticState};
+use crate::error::damaged;
 use crate::unit::Unit;
 use crate::wedge::entries::NEIGHBOURS;
 use crate::wedge::parameters;
@@ -29,15 +28,6 @@ const COIL_FORCE: usize = PLACES + 1;
 const PARTS: usize = 8;
 /// Work and losses.
 const STATES: usize = 3;
-
-/// The saved state of a quasi-static wedge.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct QuasiStaticState {
-    pub(crate) time: f64,
-    states: Vec<f64>,
-    inputs: Vec<f64>,
-    friction: [f64; 2],
-}
 
 /// A quasi-static wedge behind the variables.
 #[derive(Clone, Debug)]

@@ -6,13 +6,10 @@ use study::car::CarCase;
 use study::case::{Case, CaseError, Tables};
 use study::truck::TruckCase;
 
-use crate::description::FmuModel;
 use crate::half_truck::{self, HalfTruck};
-use crate::source::Source;
+use crate::source::{CASE, FmuModel, Source};
 use crate::{Error, limits};
 
-/// The file with the case.
-pub const CASE: &str = "case.toml";
 /// The file with the name of the model.
 pub const MODEL: &str = "model.txt";
 

@@ -1,16 +1,132 @@
-//! The source of an FMU, and the file in its resources that names it.
+//! The source of an FMU, its model, and the files in its resources.
 
 use study::car::CarCase;
 use study::case::Case;
 use study::truck::TruckCase;
 
 use crate::Error;
-use crate::description::FmuModel;
 use crate::element::{Element, Entries, Setting};
 use crate::half_truck::{self, HalfTruck};
 use crate::quasi_static::QuasiStaticElement;
 use crate::wedge::WedgeElement;
-use crate::{car, limits, quasi_static, resources, three_piece, truck, wedge};
+use crate::{car, limits, quasi_static, three_piece, truck, wedge};
+
+/// The file with the case.
+pub const CASE: &str = "case.toml";
+
+/// The element that an FMU holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FmuModel {
+    /// The wedge with mass.
+    Wedge,
+    /// The quasi-static wedge.
+    QuasiStatic,
+    /// A half-truck without its wedges.
+    Truck,
+    /// A half-truck with its wedges.
+    HalfTruck,
+    /// A three-piece truck with wedge bodies.
+    ThreePieceTruck,
+    /// A freight car on its track.
+    Car,
+}
+
+impl FmuModel {
+    /// Returns its name: of the model, and of the library in an FMU.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Wedge => "FrictionWedge",
+            Self::QuasiStatic => "FrictionWedgeQS",
+            Self::Truck => "FrictionTruck",
+            Self::HalfTruck => "HalfTruck",
+            Self::ThreePieceTruck => "ThreePieceTruck",
+            Self::Car => "FreightCar",
+        }
+    }
+
+    /// Returns whether it gives directional derivatives.
+    #[must_use]
+    pub fn has_derivatives(self) -> bool {
+        matches!(self, Self::Wedge | Self::QuasiStatic)
+    }
+
+    /// The description, one line.
+    pub(crate) fn text(self) -> &'static str {
+        match self {
+            Self::Wedge => {
+                "Friction wedge of a three-piece truck between bolster and side frame: rigid body with \
+                 mass, unilateral contact at eight corners, stick-slip friction"
+            }
+            Self::QuasiStatic => {
+                "Friction wedge of a three-piece truck between bolster and side frame: quasi-static, \
+                 without mass"
+            }
+            Self::Truck => {
+                "Loaded half of a three-piece truck without its four friction wedges: half a car on a \
+                 bolster, side frames, springs"
+            }
+            Self::ThreePieceTruck => {
+                "Three-piece truck with four friction wedges that have mass: bolster, side frames, coils, \
+                 stops, adapters"
+            }
+            Self::Car => {
+                "Freight car on its track: body and lading on two three-piece trucks with friction wedges, \
+                 whose wheelsets roll on rails"
+            }
+            Self::HalfTruck => {
+                "Loaded half of a three-piece truck from files of NUCARS: half a car on a bolster, friction \
+                 wedges, side frames, springs"
+            }
+        }
+    }
+
+    /// Returns its frames and signs, in a few sentences.
+    pub(crate) fn conventions(self) -> &'static str {
+        match self {
+            Self::Wedge | Self::QuasiStatic => {
+                "Fixed frame: x longitudinal, positive from the column towards the bolster; y lateral; z \
+                 up. Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). Forces act on the named neighbour, \
+                 along the fixed axes; moments are taken about the neighbour's turning center, the point \
+                 whose displacements are the inputs."
+            }
+            Self::Truck => {
+                "Axes: x forward, y left, z up; displacements from the drawn position, small angles. \
+                 Quantities of a wedge are in the axes of that wedge, which has x from the column towards \
+                 the bolster."
+            }
+            Self::ThreePieceTruck => {
+                "Axes: x forward, y left, z up from the top of rail, origin at the truck's center; \
+                 displacements of centers of gravity from the nominal (loaded) layout. Angles turn by R = \
+                 Ry(pitch) Rz(yaw) Rx(roll). The warp moment acts on the bolster."
+            }
+            Self::Car => {
+                "Fixed axes: x forward and y left where the track starts, z up. Vertical wheel forces act on \
+                 the rail, positive down; lateral ones are positive where they spread the gauge. Places of \
+                 axles are those against the track's center line, positive to the left."
+            }
+            Self::HalfTruck => {
+                "Axes: x forward, y left, z up; displacements of centers of gravity from the drawn \
+                 position, small angles. Bodies, wedges and connections have the numbers of the files; \
+                 forces of connections are positive in extension."
+            }
+        }
+    }
+
+    /// Returns the model of this name.
+    #[must_use]
+    pub fn of(name: &str) -> Option<Self> {
+        let all = [
+            Self::Wedge,
+            Self::QuasiStatic,
+            Self::Truck,
+            Self::HalfTruck,
+            Self::ThreePieceTruck,
+            Self::Car,
+        ];
+        all.into_iter().find(|model| model.name() == name)
+    }
+}
 
 /// The source of an FMU.
 #[derive(Clone, Debug)]
@@ -88,14 +204,14 @@ impl Source {
         let mut named = Vec::new();
         let (name, text) = match self {
             Self::Wedge(case) | Self::QuasiStatic(case) | Self::Truck(case) => {
-                (resources::CASE, case.to_toml_embedded().to_owned())
+                (CASE, case.to_toml_embedded().to_owned())
             }
             Self::HalfTruck(own) => (half_truck::RESOURCE, own.text().to_owned()),
-            Self::ThreePieceTruck(case) => (resources::CASE, case.to_toml_embedded().to_owned()),
+            Self::ThreePieceTruck(case) => (CASE, case.to_toml_embedded().to_owned()),
             Self::Car(case) => {
                 let (text, files) = case.packed();
                 named = files;
-                (resources::CASE, text)
+                (CASE, text)
             }
         };
         let mut files = vec![(name.to_owned(), text.into_bytes())];

@@ -15,7 +15,6 @@ use numerics::scalar::Number;
 use serde::{Deserialize, Serialize};
 
 use crate::frame::{Frame, FrameMotion};
-use crate::link::RotationAxes;
 use crate::motion::Motion;
 use crate::orientation::Orientation;
 use crate::vector::{Matrix, Vector};
@@ -374,6 +373,24 @@ impl Kinematics<f64> {
         }
         out
     }
+}
+
+/// The free angles of a body: their axes, the derivatives of the angular velocity by them at fixed rates, and
+/// the angular velocity (body axes). Slots beyond the number of free angles have no meaning.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RotationAxes {
+    pub axes: [Vector<f64>; 3],
+    pub axis_rates: [Vector<f64>; 3],
+    pub spin: Vector<f64>,
+}
+
+impl RotationAxes {
+    /// Of a body without free angles.
+    pub const NONE: Self = Self {
+        axes: [Vector([0.0; 3]); 3],
+        axis_rates: [Vector([0.0; 3]); 3],
+        spin: Vector([0.0; 3]),
+    };
 }
 
 impl Kinematics<f64> {

@@ -10,14 +10,15 @@
 //! Limits: such an element has no internal states and no events of its own; contact faces have both.
 
 mod reversed;
+pub(crate) mod tangent;
 
 use std::fmt::Debug;
 
 use numerics::scalar::{Dual, Real};
 
 use self::reversed::Reversed;
+use self::tangent::Tangent;
 use crate::link::{Marker, RelativeMotion};
-use crate::tangent::Tangent;
 use crate::vector::Vector;
 
 /// The wrench of an element on the body with marker A.

@@ -219,21 +219,3 @@ impl BodyWrench {
         powers: [0.0; 2],
     };
 }
-
-/// The free angles of a body: their axes, the derivatives of the angular velocity by them at fixed rates, and
-/// the angular velocity (body axes). Slots beyond the number of free angles have no meaning.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct RotationAxes {
-    pub axes: [Vector<f64>; 3],
-    pub axis_rates: [Vector<f64>; 3],
-    pub spin: Vector<f64>,
-}
-
-impl RotationAxes {
-    /// Of a body without free angles.
-    pub const NONE: Self = Self {
-        axes: [Vector([0.0; 3]); 3],
-        axis_rates: [Vector([0.0; 3]); 3],
-        spin: Vector([0.0; 3]),
-    };
-}

@@ -3,7 +3,7 @@
 
 use quantity::{Kind, System as Units};
 use serde_json::json;
-use study::car::certificate::{Assessed, Certificate, KeptLimit, LimitVerdict, verdicts};
+use study::certificate::{Assessed, Certificate, KeptLimit, LimitVerdict, verdicts};
 
 use crate::csv;
 use crate::files::{FileError, Folder};

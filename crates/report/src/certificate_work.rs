@@ -8,9 +8,9 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use study::any_case::AnyCase;
-use study::car::certificate::{Assessed, Certificate, worst_run};
-use study::car::other_start::{Repeated, near};
+use study::certificate::other_start::{Repeated, near};
+use study::certificate::{Assessed, Certificate, worst_run};
+use study::models::AnyCase;
 use study::run::Run;
 
 use crate::certificate_files::{self, CertificateFindings, NAMES};

@@ -4,7 +4,7 @@
 use std::io::{self, Write};
 
 use quantity::{Kind, Number, System as Units};
-use study::car::locus::{Locus, LocusBranch};
+use study::locus::{Locus, LocusBranch};
 
 use crate::csv::rounded;
 use crate::drawing::{Figure, Panel, PlotCurve, distinct};

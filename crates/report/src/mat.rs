@@ -86,16 +86,12 @@ pub fn soundness(summary: &impl RunSummary) -> String {
 }
 
 /// Writes the file of a run of a truck or car: the columns of a table under their full names, and a text on
-/// them; `texts` are the name and title of the case, and the program.
+/// them.
 ///
 /// # Errors
 /// The writer's.
-pub fn write_named<S: RunSummary>(
-    table: &RunTable<'_>,
-    summary: &S,
-    [name, title, program]: [&str; 3],
-    out: &mut dyn Write,
-) -> io::Result<()> {
+pub fn write_named<S: RunSummary>(table: &RunTable<'_>, summary: &S, out: &mut dyn Write) -> io::Result<()> {
+    let [name, title, program] = [summary.name(), summary.title(), summary.program()];
     mat5::header(&format!("{program}, case {name}"), out)?;
     let mut about = format!("{name}: {title}\nwritten by {program}\n");
     about += &soundness(summary);

@@ -8,7 +8,6 @@ use std::io::{self, Write};
 
 use mechanics::output::Column;
 use serde::Serialize;
-use study::car::run::CarResult;
 use study::car::{self, CarCase};
 use study::case::Case;
 use study::half_truck::{HalfTruckCase, HalfTruckResult};
@@ -18,9 +17,7 @@ use study::run::{RunCase, RunError};
 use study::summary::RunSummary;
 use study::truck::TruckCase;
 use study::truck::columns::TruckTable;
-use study::truck::run::TruckResult;
 use study::wheelset::WheelsetCase;
-use study::wheelset::run::WheelsetResult;
 use wedge::face::Grid;
 use wedge::outputs::Outputs;
 
@@ -59,23 +56,56 @@ pub trait RunFiles: RunCase<Output = RunResult<Self::Summary>> {
     /// The case makes no system.
     fn columns(&self) -> Result<Vec<Column>, RunError>;
 
+    /// Returns the completed case file, with the tables that it took from other files inside, so that it runs
+    /// anywhere; `None` of a model without case files.
+    fn case_file(&self) -> Option<&str> {
+        None
+    }
+
+    /// Returns the name of the figure that is written besides, if there is one.
+    fn figure_name(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Returns that figure as SVG.
+    fn figure(&self, _result: &Self::Output) -> Option<String> {
+        None
+    }
+
     /// Returns the files that [`RunFiles::write_as`] writes of this case.
     fn names(&self, output: &OutputFiles) -> Vec<&'static str> {
-        let others = [CASE_FILE_NAME, summary::FILE_NAME];
-        table_names(output).chain(others).collect()
+        let case = self.case_file().map(|_| CASE_FILE_NAME);
+        let others = case.into_iter().chain([summary::FILE_NAME]);
+        table_names(output)
+            .chain(others)
+            .chain(self.figure_name())
+            .collect()
     }
 
     /// Writes the file under the name `result.mat`, of the columns of `table`.
     ///
     /// # Errors
     /// The writer's.
-    fn write_mat(&self, result: &Self::Output, table: &RunTable<'_>, out: &mut dyn Write) -> io::Result<()>;
+    fn write_mat(&self, result: &Self::Output, table: &RunTable<'_>, out: &mut dyn Write) -> io::Result<()> {
+        mat::write_named(table, &result.summary, out)
+    }
 
     /// Adds the files besides the table.
     ///
     /// # Errors
     /// A file cannot be written.
-    fn add_others(&self, files: &mut Files<'_>, result: &Self::Output) -> Result<(), FileError>;
+    fn add_others(&self, files: &mut Files<'_>, result: &Self::Output) -> Result<(), FileError> {
+        if let Some(text) = self.case_file() {
+            files.add(CASE_FILE_NAME, |out| out.write_all(text.as_bytes()))?;
+        }
+        files.add(summary::FILE_NAME, |out| {
+            summary::write_json(&result.summary, out)
+        })?;
+        if let (Some(name), Some(figure)) = (self.figure_name(), self.figure(result)) {
+            files.add(name, |out| out.write_all(figure.as_bytes()))?;
+        }
+        Ok(())
+    }
 
     /// Writes the files of a run, all of them or none.
     ///
@@ -142,32 +172,23 @@ impl RunFiles for Case {
         Ok(Outputs::new(&self.parameters).columns().to_vec())
     }
 
-    fn names(&self, output: &OutputFiles) -> Vec<&'static str> {
+    fn case_file(&self) -> Option<&str> {
+        Some(self.to_toml_embedded())
+    }
+
+    fn figure_name(&self) -> Option<&'static str> {
         let faces = [&self.parameters.column_face, &self.parameters.slope_face];
         let pressure = faces.iter().any(|face| face.grid != Grid::default());
-        let more = pressure.then_some(PRESSURE_FILE_NAME);
-        let others = [CASE_FILE_NAME, summary::FILE_NAME].into_iter().chain(more);
-        table_names(output).chain(others).collect()
+        pressure.then_some(PRESSURE_FILE_NAME)
+    }
+
+    fn figure(&self, result: &RunResult) -> Option<String> {
+        Some(pressure_figure(self, result)?.to_svg())
     }
 
     /// The thesis's variables, whatever the columns of other tables.
     fn write_mat(&self, result: &RunResult, _table: &RunTable<'_>, out: &mut dyn Write) -> io::Result<()> {
         mat::write(self, result, out)
-    }
-
-    /// The case is written completed, with the tables that it took from other files inside, so that it runs
-    /// anywhere.
-    fn add_others(&self, files: &mut Files<'_>, result: &RunResult) -> Result<(), FileError> {
-        files.add(CASE_FILE_NAME, |out| {
-            out.write_all(self.to_toml_embedded().as_bytes())
-        })?;
-        files.add(summary::FILE_NAME, |out| summary::write(&result.summary, out))?;
-        if let Some(figure) = pressure_figure(self, result) {
-            files.add(PRESSURE_FILE_NAME, |out| {
-                out.write_all(figure.to_svg().as_bytes())
-            })?;
-        }
-        Ok(())
     }
 }
 
@@ -180,10 +201,6 @@ impl RunFiles for HalfTruckCase {
         Ok(columns.columns().to_vec())
     }
 
-    fn names(&self, output: &OutputFiles) -> Vec<&'static str> {
-        table_names(output).chain([summary::FILE_NAME]).collect()
-    }
-
     fn write_mat(
         &self,
         result: &HalfTruckResult,
@@ -191,10 +208,6 @@ impl RunFiles for HalfTruckCase {
         out: &mut dyn Write,
     ) -> io::Result<()> {
         half_truck_files::write_mat(self, result, self.script_interval, out)
-    }
-
-    fn add_others(&self, files: &mut Files<'_>, result: &HalfTruckResult) -> Result<(), FileError> {
-        add_summary(files, &result.summary)
     }
 }
 
@@ -205,14 +218,8 @@ impl RunFiles for TruckCase {
         Ok(TruckTable::new(self)?.columns().to_vec())
     }
 
-    fn write_mat(&self, result: &TruckResult, table: &RunTable<'_>, out: &mut dyn Write) -> io::Result<()> {
-        let own = &result.summary;
-        mat::write_named(table, own, [&own.name, &own.title, &own.program], out)
-    }
-
-    fn add_others(&self, files: &mut Files<'_>, result: &TruckResult) -> Result<(), FileError> {
-        add_case(files, self.to_toml_embedded())?;
-        add_summary(files, &result.summary)
+    fn case_file(&self) -> Option<&str> {
+        Some(self.to_toml_embedded())
     }
 }
 
@@ -227,14 +234,8 @@ impl RunFiles for CarCase {
         car::run::columns(self)
     }
 
-    fn write_mat(&self, result: &CarResult, table: &RunTable<'_>, out: &mut dyn Write) -> io::Result<()> {
-        let own = &result.summary;
-        mat::write_named(table, own, [&own.name, &own.title, &own.program], out)
-    }
-
-    fn add_others(&self, files: &mut Files<'_>, result: &CarResult) -> Result<(), FileError> {
-        add_case(files, self.to_toml_embedded())?;
-        add_summary(files, &result.summary)
+    fn case_file(&self) -> Option<&str> {
+        Some(self.to_toml_embedded())
     }
 }
 
@@ -251,30 +252,4 @@ impl RunFiles for WheelsetCase {
     fn columns(&self) -> Result<Vec<Column>, RunError> {
         Ok(study::wheelset::columns::columns())
     }
-
-    fn names(&self, output: &OutputFiles) -> Vec<&'static str> {
-        table_names(output).chain([summary::FILE_NAME]).collect()
-    }
-
-    fn write_mat(
-        &self,
-        result: &WheelsetResult,
-        table: &RunTable<'_>,
-        out: &mut dyn Write,
-    ) -> io::Result<()> {
-        let own = &result.summary;
-        mat::write_named(table, own, [&own.name, "", &own.program], out)
-    }
-
-    fn add_others(&self, files: &mut Files<'_>, result: &WheelsetResult) -> Result<(), FileError> {
-        add_summary(files, &result.summary)
-    }
-}
-
-fn add_case(files: &mut Files<'_>, text: &str) -> Result<(), FileError> {
-    files.add(CASE_FILE_NAME, |out| out.write_all(text.as_bytes()))
-}
-
-fn add_summary(files: &mut Files<'_>, summary: &impl Serialize) -> Result<(), FileError> {
-    files.add(summary::FILE_NAME, |out| summary::write_json(summary, out))
 }

@@ -7,18 +7,9 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
-use study::summary::Summary;
 
 /// The file's name.
 pub const FILE_NAME: &str = "summary.json";
-
-/// Writes the summary, indented.
-///
-/// # Errors
-/// The writer's.
-pub fn write(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
-    write_json(summary, out)
-}
 
 /// Writes anything as a summary is written: indented, a line feed at the end.
 ///

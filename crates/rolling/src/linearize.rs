@@ -8,7 +8,7 @@
 //! Limits: the state must be one of steady rolling (in a curve: what remains of a run when nothing changes
 //! any more); no irregularities, no spiral, no grade there.
 
-use mechanics::system::NoVibration;
+use mechanics::linear::NoVibration;
 use wheelrail::track::{Line, RailLines};
 
 use crate::rig::{RAILS, Rig, WHEELSET};

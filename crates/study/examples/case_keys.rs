@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use study::case::every_key::MODELS;
+use study::models::every_key::MODELS;
 
 #[path = "../tests/case_keys/page.rs"]
 mod page;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::summary::SummaryValue;
+use crate::summary_value::SummaryValue;
 
 /// Largest size, SI, of a number that counts as finite: in other units it must not overflow either.
 const LARGEST: f64 = 1e300;

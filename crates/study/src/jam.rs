@@ -10,7 +10,7 @@ use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
-use crate::summary::SummaryValue;
+use crate::summary_value::SummaryValue;
 
 /// The jam margins of a wedge.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -15,10 +15,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub mod any_case;
 pub mod assumptions;
 pub mod car;
 pub mod case;
+pub mod certificate;
 pub mod closed_form;
 pub mod contacts;
 pub mod cycles;
@@ -30,9 +30,11 @@ pub(crate) mod geometry;
 pub mod half_truck;
 pub mod jam;
 pub mod lock_up;
+pub mod locus;
 pub mod losses;
 pub mod measures;
 pub mod metrics;
+pub mod models;
 pub mod outcome;
 pub mod output_files;
 pub mod patches;
@@ -43,10 +45,12 @@ pub mod records;
 pub mod result;
 mod rows;
 pub mod run;
+mod run_error;
 pub mod signal;
 pub mod statics;
 pub mod stepping;
 pub mod summary;
+mod summary_value;
 pub mod track;
 pub mod truck;
 pub mod wear;

@@ -6,7 +6,7 @@
 
 use quantity::SixDigits;
 
-use crate::summary::SummaryValue;
+use crate::summary_value::SummaryValue;
 
 /// The outcome of a run.
 #[derive(Clone, Debug, PartialEq)]

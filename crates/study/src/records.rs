@@ -20,9 +20,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use mechanics::energy_balance::{FAILED, Verdict};
 use quantity::SixDigits;
 
-use crate::any_case::AnyCase;
 use crate::design::Study;
 use crate::measures::{Definitions, Judged, Measures, Unmeasured};
+use crate::models::AnyCase;
 use crate::outcome::Outcome;
 
 const MAGIC: [u8; 4] = *b"WLR2";

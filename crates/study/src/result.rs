@@ -1,7 +1,6 @@
 //! The result of a run.
 
 use mechanics::output::Column;
-use serde::{Deserialize, Serialize};
 
 use crate::summary::Summary;
 
@@ -17,6 +16,16 @@ pub struct RunResult<S = Summary> {
 }
 
 impl<S> RunResult<S> {
+    /// Returns it with a summary of another type.
+    #[must_use]
+    pub fn with_summary<T>(self, change: impl FnOnce(S) -> T) -> RunResult<T> {
+        RunResult {
+            columns: self.columns,
+            values: self.values,
+            summary: change(self.summary),
+        }
+    }
+
     /// Number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {
@@ -38,19 +47,4 @@ impl<S> RunResult<S> {
         let index = self.columns.iter().position(|column| column.name == name)?;
         Some(&self.values[index])
     }
-}
-
-/// A change of a contact point's mode.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ContactEvent {
-    /// Time, s.
-    pub time: f64,
-    /// The face: `column` or `slope`.
-    pub face: String,
-    /// The corner, such as `lower_left`.
-    pub corner: String,
-    /// The mode before: `open`, `stick` or `slip`.
-    pub from: String,
-    /// The mode after.
-    pub to: String,
 }

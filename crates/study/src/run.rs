@@ -8,23 +8,24 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use integrate::{Integrator, Options, SetupError};
+use integrate::{Integrator, Options};
 use mechanics::energy_balance::{EnergyBalance, Entries, LOOSEST, Verdict};
 use mechanics::output::Column;
 use mechanics::plausibility::{Plausibility, PlausibilityFinding};
-use mechanics::system::{ModelError, NoEquilibrium, System};
-use quantity::{SixDigits, System as Units};
+use mechanics::system::System;
+use quantity::{Kind, System as Units};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use thiserror::Error;
-use wedge::BuildError;
 
+use crate::case::Simulation;
 use crate::finite::is_finite;
 use crate::progress::{self, INTERVALS, Pace};
 use crate::rows::Rows;
-use crate::summary::Stopped;
+pub use crate::run_error::{NotFinite, RUN_STATE_VERSION, RunError};
+use crate::summary::{LedgerSummary, Stopped, SummaryValue};
 
 mod check;
+pub(crate) mod findings;
 mod pressed;
 mod row_table;
 pub mod saved;
@@ -34,106 +35,8 @@ pub(crate) mod wedge_run;
 
 pub(crate) use row_table::RowTable;
 pub use row_table::SavedRows;
-pub use state::{RUN_STATE_VERSION, RunState};
-pub(crate) use state::{check_finite, check_length, check_size, damaged};
+pub use state::RunState;
 pub use wedge_run::{Counts, EVENT_CAP};
-
-/// Reasons why a run cannot begin or go on.
-#[derive(Debug, Error)]
-pub enum RunError {
-    /// The parameters make no wedge.
-    #[error(transparent)]
-    Build(#[from] BuildError),
-    /// Bodies and elements make no system.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// The parameters make no truck.
-    #[error(transparent)]
-    Truck(#[from] truck::BuildError),
-    /// The parameters make no car.
-    #[error(transparent)]
-    Car(#[from] car::BuildError),
-    /// A wheel has left its rail: the run ends there, with its results.
-    #[error("{what}")]
-    Derailed {
-        /// The wheel, the place and the criterion.
-        what: String,
-    },
-    /// A force is so large that it would tear the model apart.
-    #[error(
-        "the force of `{element}` is {force:.3e} lbf at {} s, above the limit of {limit:.1e} lbf at which a \
-         run is taken for a truck torn apart: lower the motion that presses its parts together, or give them \
-         more clearance",
-        SixDigits(*time)
-    )]
-    TornApart {
-        /// The element.
-        element: String,
-        /// Its force, lbf.
-        force: f64,
-        /// The limit, lbf.
-        limit: f64,
-        /// The time, s.
-        time: f64,
-    },
-    /// The wheelset does not stand on its rails.
-    #[error(transparent)]
-    Rig(#[from] rolling::rig::RigError),
-    /// There is no equilibrium to start from.
-    #[error("no static equilibrium was found to start from: {0}")]
-    Equilibrium(#[from] NoEquilibrium),
-    /// The integrator cannot be set up.
-    #[error(transparent)]
-    Setup(#[from] SetupError),
-    /// The integrator cannot go on, or the run hardly progresses ([`progress`]).
-    #[error("{reason}; contacts: {contacts}")]
-    Step {
-        /// The reason, with the state whose error is largest.
-        reason: String,
-        /// Contact states at that time, in words.
-        contacts: String,
-    },
-    /// A column of the result is not finite.
-    #[error(transparent)]
-    NotFinite(#[from] NotFinite),
-    /// A saved state that this version cannot read.
-    #[error(
-        "the saved run state has version {found}; this program reads version {RUN_STATE_VERSION}. \
-         Continue it with the program that saved it, or run the case from its start"
-    )]
-    Version {
-        /// The version found.
-        found: u32,
-    },
-    /// A saved state has a member that no run of this case can have.
-    #[error(
-        "the saved run state is damaged: `{member}` is {found}; it must be {expected}. Continue from the \
-         state as it was saved, or run the case from its start"
-    )]
-    Damaged {
-        /// The member.
-        member: &'static str,
-        /// The description.
-        found: String,
-        /// The condition on it.
-        expected: String,
-    },
-}
-
-/// A value of the result is not finite.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[error(
-    "`{column}` is {value} at {} s, which is not a finite number: look for values out of all proportion",
-    SixDigits(*time)
-)]
-pub struct NotFinite {
-    /// The column, without unit.
-    pub column: String,
-    /// Its value, SI.
-    pub value: f64,
-    /// The time, s.
-    pub time: f64,
-}
 
 /// Appends a row (SI) at `time` (s) to the values of a table, one vector a column.
 ///
@@ -170,14 +73,27 @@ pub trait RunCase: Clone {
     /// Advice where a run cannot go on.
     const WHAT_TO_TRY: &'static str;
 
+    /// Returns the settings that every run has.
+    fn settings(&self) -> RunSettings<'_>;
     /// Returns the name of the case.
-    fn name(&self) -> &str;
+    fn name(&self) -> &str {
+        self.settings().name
+    }
     /// Returns the end of the run and the time between two rows, s.
-    fn duration_and_interval(&self) -> [f64; 2];
+    fn duration_and_interval(&self) -> [f64; 2] {
+        let RunSettings {
+            duration, interval, ..
+        } = self.settings();
+        [duration, interval]
+    }
     /// Returns the units of the results.
-    fn units(&self) -> Units;
+    fn units(&self) -> Units {
+        self.settings().units
+    }
     /// Returns the settings of the integrator.
-    fn options(&self) -> Options;
+    fn options(&self) -> Options {
+        self.settings().options
+    }
     /// Returns the equations, the state at time zero and the recorder.
     ///
     /// # Errors
@@ -189,6 +105,34 @@ pub trait RunCase: Clone {
     }
     /// Returns the results of a run that has ended, or has stopped on its way.
     fn output(run: Run<Self>, stopped: Option<Stopped>) -> Self::Output;
+}
+
+/// The settings that every run has.
+#[derive(Clone, Debug)]
+pub struct RunSettings<'c> {
+    /// Name of the case.
+    pub name: &'c str,
+    /// End of the run, s.
+    pub duration: f64,
+    /// Time between two rows, s.
+    pub interval: f64,
+    /// Units of the results.
+    pub units: Units,
+    /// Settings of the integrator.
+    pub options: Options,
+}
+
+impl<'c> RunSettings<'c> {
+    /// Returns those of a case with a name and the section `[simulation]`.
+    pub(crate) fn of(name: &'c str, simulation: &Simulation) -> Self {
+        Self {
+            name,
+            duration: simulation.duration,
+            interval: simulation.output_interval,
+            units: simulation.output_units,
+            options: simulation.options(),
+        }
+    }
 }
 
 /// The values with which a run begins.
@@ -482,6 +426,21 @@ impl<C: RunCase> Run<C> {
             reason,
             contacts: self.contact_states(),
         }
+    }
+
+    /// Returns the energy ledger at the time reached: losses and works by element, the stored energy, the
+    /// residual.
+    pub(crate) fn ledger(&mut self, units: Units) -> LedgerSummary {
+        self.system.segment_like(self.integrator.problem());
+        let seen = self.system.observe(self.integrator.time(), self.integrator.x());
+        let measure = |value: f64| SummaryValue::new(value, Kind::Energy, units);
+        let mut entries = BTreeMap::new();
+        for (term, value) in self.system.energy_terms().iter().zip(&seen.quadratures) {
+            entries.insert(term.name(), measure(*value));
+        }
+        entries.insert("stored".to_owned(), measure(seen.energies.total()));
+        entries.insert("residual".to_owned(), measure(-seen.residual(self.start_energy)));
+        LedgerSummary::new(entries, self.start_energy, &self.energy_balance, units)
     }
 
     /// Returns the contact states in words, by contact.

@@ -6,7 +6,7 @@ use quantity::{Kind, Number, System as Units};
 use serde::{Deserialize, Serialize};
 use truck::{CoilGroup, TruckStatics, WEDGE_NAMES, WedgeLoads};
 
-use crate::summary::SummaryValue;
+use crate::summary_value::SummaryValue;
 
 /// Coils that act together.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -16,46 +16,43 @@ use crate::jam::JamMargins;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::outcome::{Outcome, RunEnd};
-use crate::result::ContactEvent;
-use crate::run::{Run, RunCase};
+pub use crate::summary_value::SummaryValue;
 
 /// The schema's name and version.
 pub const SCHEMA: &str = "wedgelab.summary/2";
 
-/// A number with its unit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SummaryValue {
-    /// The number.
-    pub value: f64,
-    /// Its unit, such as `lbf·in`; empty for plain numbers.
-    pub unit: String,
-}
-
-impl SummaryValue {
-    /// Returns an SI value in output units.
-    #[must_use]
-    pub fn new(si: f64, kind: Kind, units: Units) -> Self {
-        Self {
-            value: si * kind.from_si(units),
-            unit: kind.label(units).to_owned(),
-        }
-    }
-}
-
 /// The part that the summaries of all models have.
 pub trait RunSummary {
+    /// Returns the schema that it names.
+    fn schema(&self) -> &str;
+    /// Returns the program that wrote it, with its version.
+    fn program(&self) -> &str;
     /// Returns the case's name.
     fn name(&self) -> &str;
+    /// Returns the case's title; may be empty.
+    fn title(&self) -> &str {
+        ""
+    }
     /// Returns the units of its numbers.
     fn units(&self) -> Units;
+    /// Returns the number of rows of the table.
+    fn rows(&self) -> usize;
     /// Returns the reason and time of the run's stop, if it did not come to its end.
     fn stopped(&self) -> Option<&Stopped>;
     /// Returns the reason why the numbers are not to be used, if so.
     fn failed(&self) -> Option<&str>;
     /// Returns the warnings about the numbers.
     fn warnings(&self) -> &[String];
+    /// Returns the assumptions of the numbers.
+    fn assumptions(&self) -> &[String];
+    /// Returns the energy ledger at the end.
+    fn ledger(&self) -> Ledger<'_>;
+    /// Returns the number of steps of the integrator, and its relative tolerance.
+    fn solver(&self) -> (u64, f64);
     /// Returns the relative residual of the energy ledger.
-    fn largest_relative_residual(&self) -> f64;
+    fn largest_relative_residual(&self) -> f64 {
+        self.ledger().largest_relative_residual
+    }
     /// Returns where a wheel left its rail, if one did.
     fn derailed(&self) -> Option<RunEnd> {
         None
@@ -82,17 +79,65 @@ pub trait RunSummary {
     }
 }
 
-/// Implements [`RunSummary`]; the residual is found under `$residual`. Summaries of models that run on a
-/// track name their functions for `derailed` and `reached`.
+/// The energy ledger at the end of a run of any model.
+#[derive(Clone, Copy, Debug)]
+pub struct Ledger<'s> {
+    /// Its entries by name.
+    pub entries: &'s BTreeMap<String, SummaryValue>,
+    /// Largest absolute residual at any output time.
+    pub largest_residual: &'s SummaryValue,
+    /// The first output time with this residual, s.
+    pub largest_residual_time: f64,
+    /// The measure of how well the ledger closes.
+    pub largest_relative_residual: f64,
+}
+
+/// Returns the [`Ledger`] of a summary or of its part `ledger`: `$own` has the residuals, `$entries` what the
+/// ledger is made of.
+macro_rules! ledger {
+    ($own:expr, $entries:expr) => {
+        $crate::summary::Ledger {
+            entries: &$entries,
+            largest_residual: &$own.largest_residual,
+            largest_residual_time: $own.largest_residual_time,
+            largest_relative_residual: $own.largest_relative_residual,
+        }
+    };
+}
+
+/// Implements [`RunSummary`] by the fields of these names, and from what differs: title, ledger and solver;
+/// models that run on a track add `derailed` and `reached`.
 macro_rules! run_summary {
-    ($summary:ty, $($residual:ident).+ $(, derailed: $derailed:path, reached: $reached:path)?) => {
+    (
+        $summary:ty, |$own:ident| $(title: $title:expr,)? ledger: $ledger:expr, solver: $solver:expr
+        $(, derailed: $derailed:expr, reached: $reached:expr)?
+    ) => {
         impl $crate::summary::RunSummary for $summary {
+            fn schema(&self) -> &str {
+                &self.schema
+            }
+
+            fn program(&self) -> &str {
+                &self.program
+            }
+
             fn name(&self) -> &str {
                 &self.name
             }
 
+            $(
+                fn title(&self) -> &str {
+                    let $own = self;
+                    $title
+                }
+            )?
+
             fn units(&self) -> quantity::System {
                 self.units
+            }
+
+            fn rows(&self) -> usize {
+                self.rows
             }
 
             fn stopped(&self) -> Option<&$crate::summary::Stopped> {
@@ -107,25 +152,42 @@ macro_rules! run_summary {
                 &self.warnings
             }
 
-            fn largest_relative_residual(&self) -> f64 {
-                self.$($residual).+
+            fn assumptions(&self) -> &[String] {
+                &self.assumptions
+            }
+
+            fn ledger(&self) -> $crate::summary::Ledger<'_> {
+                let $own = self;
+                $ledger
+            }
+
+            fn solver(&self) -> (u64, f64) {
+                let $own = self;
+                $solver
             }
             $(
                 fn derailed(&self) -> Option<$crate::outcome::RunEnd> {
-                    $derailed(self)
+                    let $own = self;
+                    $derailed
                 }
 
                 fn reached(&self) -> Option<$crate::summary::SummaryValue> {
-                    $reached(self)
+                    let $own = self;
+                    $reached
                 }
             )?
         }
     };
 }
 
-pub(crate) use run_summary;
+pub(crate) use {ledger, run_summary};
 
-run_summary!(Summary, ledger.largest_relative_residual);
+run_summary!(
+    Summary,
+    |own| title: &own.title,
+    ledger: ledger!(own.ledger, own.ledger.entries),
+    solver: (own.solver.statistics.steps, own.solver.relative_tolerance)
+);
 
 /// The summary of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -263,6 +325,21 @@ pub struct Events {
     pub cap: usize,
 }
 
+/// A change of a contact point's mode.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ContactEvent {
+    /// Time, s.
+    pub time: f64,
+    /// The face: `column` or `slope`.
+    pub face: String,
+    /// The corner, such as `lower_left`.
+    pub corner: String,
+    /// The mode before: `open`, `stick` or `slip`.
+    pub from: String,
+    /// The mode after.
+    pub to: String,
+}
+
 /// The friction of a face.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrictionSummary {
@@ -298,21 +375,6 @@ pub struct LedgerSummary {
 }
 
 impl LedgerSummary {
-    /// Returns the ledger at the time that a run has reached: losses and works by element, the stored energy,
-    /// the residual.
-    pub(crate) fn of_run<C: RunCase>(run: &mut Run<C>, units: Units) -> Self {
-        run.system.segment_like(run.integrator.problem());
-        let seen = run.system.observe(run.integrator.time(), run.integrator.x());
-        let measure = |value: f64| SummaryValue::new(value, Kind::Energy, units);
-        let mut entries = BTreeMap::new();
-        for (term, value) in run.system.energy_terms().iter().zip(&seen.quadratures) {
-            entries.insert(term.name(), measure(*value));
-        }
-        entries.insert("stored".to_owned(), measure(seen.energies.total()));
-        entries.insert("residual".to_owned(), measure(-seen.residual(run.start_energy)));
-        Self::new(entries, run.start_energy, &run.energy_balance, units)
-    }
-
     /// Returns the ledger with these entries, beside what a run's balance found; `start` is the energy stored
     /// at the start, J.
     pub(crate) fn new(

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use truck::{ControlCoil, WEDGE_NAMES, Wedge, WedgeLoads};
 use wedge::parameters::STANDARD_GRAVITY;
 
-use crate::summary::SummaryValue;
+use crate::summary_value::SummaryValue;
 
 /// Rise and limits of a wedge.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

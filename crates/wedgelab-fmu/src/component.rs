@@ -351,8 +351,9 @@ mod tests {
 
     use std::sync::Mutex;
 
-    use fmi::description::{FmuModel, Version};
+    use fmi::description::Version;
     use fmi::element::Interface;
+    use fmi::source::FmuModel;
     use study::case::builtin;
 
     use super::*;

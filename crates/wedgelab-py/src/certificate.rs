@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use ::study::car::certificate::{Certificate, Request};
+use ::study::certificate::{Certificate, Request};
 use pyo3::prelude::*;
 use quantity::{Kind, Quantity};
 use report::certificate_work;

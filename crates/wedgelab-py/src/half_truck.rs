@@ -9,14 +9,14 @@ use ::quantity::{System as Units, nearest};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
 use serde::{Deserialize, Serialize};
-use study::any_case::CaseSource;
 use study::half_truck::catalog::{self, CatalogEntry, YawCase};
 use study::half_truck::files::{Settings, case_of_run};
 use study::half_truck::{HalfTruckCase, HalfTruckStart, options};
+use study::models::{AnyCase, CaseSource};
 
 use crate::errors::{findings, guarded, raise, simple};
 use crate::nucars::load_error;
-use crate::outcome::{NativeResult, Origin, from_saved};
+use crate::outcome::{NativeResult, from_saved};
 use crate::run::{Progress, run_one};
 
 /// The source of a case, with all that is needed to make it again elsewhere.
@@ -286,7 +286,12 @@ impl NativeHalfTruckCase {
         interruptible: bool,
     ) -> PyResult<NativeResult> {
         let progress = Progress::new(progress, interruptible);
-        run_one(py, &*self.case, Origin::HalfTruck, columns.as_deref(), progress)
+        run_one(
+            py,
+            AnyCase::HalfTruck(Arc::clone(&self.case)),
+            columns.as_deref(),
+            progress,
+        )
     }
 }
 

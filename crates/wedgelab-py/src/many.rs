@@ -7,67 +7,21 @@ use std::thread;
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use study::car::CarCase;
-use study::case::Case;
-use study::half_truck::HalfTruckCase;
-use study::truck::TruckCase;
+use study::models::{AnyCase, AnySummary};
+use study::result::RunResult;
 
 use crate::half_truck::NativeHalfTruckCase;
 use crate::model_case::NativeCarCase;
 use crate::model_case::NativeCase;
 use crate::model_case::NativeTruckCase;
-use crate::outcome::{NativeResult, Origin, Table};
+use crate::outcome::NativeResult;
 use crate::run::{Failure, table};
 
 /// The interval of asking Python for signals.
 const INTERVAL: Duration = Duration::from_millis(50);
 
-/// A case of any model.
-enum Work {
-    Wedge(Arc<Case>),
-    HalfTruck(Arc<HalfTruckCase>),
-    Truck(Arc<TruckCase>),
-    Car(Arc<CarCase>),
-}
-
-impl Work {
-    fn name(&self) -> &str {
-        match self {
-            Self::Wedge(case) => &case.name,
-            Self::HalfTruck(case) => &case.name,
-            Self::Truck(case) => &case.name,
-            Self::Car(case) => &case.name,
-        }
-    }
-
-    fn origin(&self) -> Origin {
-        match self {
-            Self::Wedge(case) => Origin::Wedge(Arc::clone(case)),
-            Self::HalfTruck(_) => Origin::HalfTruck,
-            Self::Truck(case) => Origin::Truck(Arc::clone(case)),
-            Self::Car(case) => Origin::Car(Arc::clone(case)),
-        }
-    }
-
-    fn run(&self, columns: Option<&[String]>, cancelled: &AtomicBool) -> Result<Table, Failure> {
-        let go_on = |_: f64| {
-            if cancelled.load(Ordering::Relaxed) {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        };
-        match self {
-            Self::Wedge(case) => table(&**case, columns, go_on),
-            Self::HalfTruck(case) => table(&**case, columns, go_on),
-            Self::Truck(case) => table(&**case, columns, go_on),
-            Self::Car(case) => table(&**case, columns, go_on),
-        }
-    }
-}
-
 /// A result or the exception that stands for it.
-type Slot = Result<Table, Failure>;
+type Slot = Result<RunResult<AnySummary>, Failure>;
 
 /// Runs cases on `workers` threads; the list has a result or an exception for each, in their order.
 /// `progress` is called with how many are done.
@@ -82,21 +36,21 @@ pub fn run_many(
 ) -> PyResult<Vec<Py<PyAny>>> {
     let work = cases.iter().map(|case| {
         if let Ok(case) = case.cast::<NativeCase>() {
-            return Ok(Work::Wedge(Arc::clone(&case.get().case)));
+            return Ok(AnyCase::Wedge(Arc::clone(&case.get().case)));
         }
         if let Ok(case) = case.cast::<NativeTruckCase>() {
-            return Ok(Work::Truck(Arc::clone(&case.get().case)));
+            return Ok(AnyCase::Truck(Arc::clone(&case.get().case)));
         }
         if let Ok(case) = case.cast::<NativeCarCase>() {
-            return Ok(Work::Car(Arc::clone(&case.get().case)));
+            return Ok(AnyCase::Car(Arc::clone(&case.get().case)));
         }
         let case = case.cast::<NativeHalfTruckCase>()?;
-        Ok(Work::HalfTruck(Arc::clone(&case.get().case)))
+        Ok(AnyCase::HalfTruck(Arc::clone(&case.get().case)))
     });
-    let work: Vec<Work> = work.collect::<PyResult<_>>()?;
+    let work: Vec<AnyCase> = work.collect::<PyResult<_>>()?;
     let slots = py.detach(|| all(&work, workers, columns.as_deref(), progress.as_ref()))?;
     let results = work.iter().zip(slots).map(|(work, slot)| match slot {
-        Some(Ok(table)) => Ok(Py::new(py, NativeResult::new(work.origin(), table))?.into_any()),
+        Some(Ok(table)) => Ok(Py::new(py, NativeResult::new(work.clone(), table))?.into_any()),
         Some(Err(failure)) => Ok(failure.error(py, work.name()).into_value(py).into_any()),
         None => {
             let lost = Failure::Panic("a worker was lost".to_owned());
@@ -108,7 +62,7 @@ pub fn run_many(
 
 /// Runs all, telling Python of it; an exception there (Ctrl-C) ends all runs within a step each.
 fn all(
-    work: &[Work],
+    work: &[AnyCase],
     workers: usize,
     columns: Option<&[String]>,
     progress: Option<&Py<PyAny>>,
@@ -126,7 +80,11 @@ fn all(
                     let (Some(work), Some(slot)) = (work.get(index), slots.get(index)) else {
                         return;
                     };
-                    let result = work.run(columns, cancelled);
+                    let go_on = |_: f64| match cancelled.load(Ordering::Relaxed) {
+                        true => ControlFlow::Break(()),
+                        false => ControlFlow::Continue(()),
+                    };
+                    let result = table(work, columns, go_on);
                     *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
                     // Nobody listens only when all is cancelled.
                     let _ = done.send(());

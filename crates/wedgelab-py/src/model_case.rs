@@ -8,12 +8,13 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 use study::car::{CarCase, builtin as cars};
 use study::case::{Case, CaseError, builtin as wedges, text_of};
+use study::models::{AnyCase, no_built_in};
 use study::truck::{TruckCase, builtin as trucks};
 use toml::Table;
 use wedge::Wedge;
 
 use crate::errors::{case_error, case_message, guarded};
-use crate::outcome::{NativeResult, Origin};
+use crate::outcome::NativeResult;
 use crate::run::{Progress, run_one};
 use crate::values;
 
@@ -29,10 +30,10 @@ fn over<C: Send>(
     guarded(py, || make(values).map_err(|error| case_error(py, &error)))
 }
 
-/// A class for the cases of a model: its name here and in Python, the case, its module of built-in ones, the
-/// origin of its results. (Classes for Python cannot be generic.)
+/// A class for the cases of a model: its name here and in Python, the case, its module of built-in ones, its
+/// variant of [`AnyCase`]. (Classes for Python cannot be generic.)
 macro_rules! model_case {
-    ($native:ident, $name:literal, $case:ident, $builtin:ident, $origin:ident, $about:literal) => {
+    ($native:ident, $name:literal, $case:ident, $builtin:ident, $model:ident, $about:literal) => {
         #[doc = $about]
         #[pyclass(frozen, module = "wedgelab._wedgelab", name = $name)]
         pub struct $native {
@@ -42,10 +43,8 @@ macro_rules! model_case {
 
         impl $native {
             /// Makes it of a case of lower layers.
-            pub fn new(case: $case) -> Self {
-                Self {
-                    case: Arc::new(case),
-                }
+            pub fn new(case: impl Into<Arc<$case>>) -> Self {
+                Self { case: case.into() }
             }
         }
 
@@ -55,7 +54,7 @@ macro_rules! model_case {
             #[classmethod]
             fn built_in(class: &Bound<'_, PyType>, name: &str, given: &Bound<'_, PyDict>) -> PyResult<Self> {
                 over(class.py(), given, |values| {
-                    let text = $builtin::text(name)?;
+                    let text = $builtin::text(name).map_err(|error| no_built_in(name, error))?;
                     $case::of_values(&format!("{name}.toml"), text, values, Path::new(""))
                 })
                 .map(Self::new)
@@ -143,8 +142,8 @@ macro_rules! model_case {
                 interruptible: bool,
             ) -> PyResult<NativeResult> {
                 let progress = Progress::new(progress, interruptible);
-                let origin = Origin::$origin(Arc::clone(&self.case));
-                run_one(py, &*self.case, origin, columns.as_deref(), progress)
+                let case = AnyCase::$model(Arc::clone(&self.case));
+                run_one(py, case, columns.as_deref(), progress)
             }
 
             /// Returns the result that was taken apart by `NativeResult.parts`.
@@ -154,7 +153,8 @@ macro_rules! model_case {
                 header: &[u8],
                 values: PyReadonlyArray2<'_, f64>,
             ) -> PyResult<NativeResult> {
-                NativeResult::of_parts(py, Origin::$origin(Arc::clone(&self.case)), header, &values)
+                let case = AnyCase::$model(Arc::clone(&self.case));
+                NativeResult::of_parts(py, Some(case), header, &values)
             }
         }
     };

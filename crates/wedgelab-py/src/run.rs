@@ -5,11 +5,11 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
 use pyo3::prelude::*;
-use report::run_files::RunFiles;
-use study::run::{Run, RunCase, RunError};
+use study::models::{AnyCase, AnySummary};
+use study::result::RunResult;
 
 use crate::errors::{internal, panic_text, simple};
-use crate::outcome::{AnySummary, NativeResult, Origin, Table};
+use crate::outcome::NativeResult;
 
 /// The interval of asking Python for signals and of reporting progress.
 const INTERVAL: Duration = Duration::from_millis(50);
@@ -99,49 +99,36 @@ impl Failure {
 /// The reason in the summary of a run that the caller stopped.
 pub const STOPPED: &str = "it was stopped from outside";
 
-/// Runs a case until its end, or until it is told to stop; panics become failures.
-pub fn outcome<C: RunCase>(
-    case: &C,
-    progress: impl FnMut(f64) -> ControlFlow<()>,
-) -> Result<C::Output, Failure> {
-    let run = AssertUnwindSafe(|| drive(case, progress));
-    match catch_unwind(run) {
-        Ok(Ok(result)) => Ok(result),
-        Ok(Err(error)) => Err(Failure::Begin(error.to_string())),
-        Err(panic) => Err(Failure::Panic(panic_text(panic.as_ref()))),
-    }
-}
-
-fn drive<C: RunCase>(
-    case: &C,
-    mut progress: impl FnMut(f64) -> ControlFlow<()>,
-) -> Result<C::Output, RunError> {
-    Ok(Run::new(case)?.finish_while(|time| progress(time).map_break(|()| STOPPED.to_owned())))
-}
-
-/// As [`outcome`], with these columns only, by their names without unit.
-pub fn table<C: RunFiles<Summary: Into<AnySummary>>>(
-    case: &C,
+/// Runs a case until its end, or until it is told to stop; panics become failures. Keeps these columns only,
+/// by their names without unit.
+pub fn table(
+    case: &AnyCase,
     columns: Option<&[String]>,
-    progress: impl FnMut(f64) -> ControlFlow<()>,
-) -> Result<Table, Failure> {
-    let mut table = Table::of_run(outcome(case, progress)?);
-    table.keep(columns);
-    Ok(table)
+    mut progress: impl FnMut(f64) -> ControlFlow<()>,
+) -> Result<RunResult<AnySummary>, Failure> {
+    let run = || case.run_while(|time| progress(time).map_break(|()| STOPPED.to_owned()));
+    let mut result = match catch_unwind(AssertUnwindSafe(run)) {
+        Ok(Ok(result)) => result,
+        Ok(Err(error)) => return Err(Failure::Begin(error.to_string())),
+        Err(panic) => return Err(Failure::Panic(panic_text(panic.as_ref()))),
+    };
+    if let Some(wanted) = columns {
+        result.keep_columns(|name| wanted.iter().any(|own| own == name));
+    }
+    Ok(result)
 }
 
 /// Runs a case for Python.
-pub fn run_one<C: RunFiles<Summary: Into<AnySummary>> + Sync>(
+pub fn run_one(
     py: Python<'_>,
-    case: &C,
-    origin: Origin,
+    case: AnyCase,
     columns: Option<&[String]>,
     mut progress: Progress,
 ) -> PyResult<NativeResult> {
-    let done = py.detach(|| table(case, columns, |time| progress.report(time)));
+    let done = py.detach(|| table(&case, columns, |time| progress.report(time)));
     if let Some(error) = progress.into_error() {
         return Err(error);
     }
-    let table = done.map_err(|failure| failure.error(py, case.name()))?;
-    Ok(NativeResult::new(origin, table))
+    let result = done.map_err(|failure| failure.error(py, case.name()))?;
+    Ok(NativeResult::new(case, result))
 }

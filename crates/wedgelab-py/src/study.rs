@@ -6,8 +6,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use ::study::any_case::AnyCase;
 use ::study::design::{MANY, Study, StudySource};
+use ::study::models::AnyCase;
 use ::study::records;
 use miette::Diagnostic;
 use pyo3::prelude::*;
@@ -146,9 +146,9 @@ impl NativeStudy {
         guarded(py, || {
             let case = self.study.case(number).map_err(|error| case_error(py, &error))?;
             match case {
-                AnyCase::Wedge(case) => Ok(Py::new(py, NativeCase::new(*case))?.into_any()),
-                AnyCase::Truck(case) => Ok(Py::new(py, NativeTruckCase::new(*case))?.into_any()),
-                AnyCase::Car(case) => Ok(Py::new(py, NativeCarCase::new(*case))?.into_any()),
+                AnyCase::Wedge(case) => Ok(Py::new(py, NativeCase::new(case))?.into_any()),
+                AnyCase::Truck(case) => Ok(Py::new(py, NativeTruckCase::new(case))?.into_any()),
+                AnyCase::Car(case) => Ok(Py::new(py, NativeCarCase::new(case))?.into_any()),
                 AnyCase::HalfTruck(_) => {
                     let set = self.study.overrides(number);
                     let case = half_truck::of_source(py, &self.study.source().case, set)?;

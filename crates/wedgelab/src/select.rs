@@ -6,15 +6,15 @@ use quantity::{fits_pattern, is_pattern, nearest};
 use report::table::ResultTable;
 use study::case::builtin;
 use study::half_truck::catalog;
+use study::models::built_in;
 
-use crate::commands::run::built_in_names;
 use crate::failure::{Failure, Message};
 
 /// Returns the command that runs the built-in case or half-truck of this name, to the user of one that does
 /// not take it; `None` if nothing has this name.
 pub fn built_in_elsewhere(path: &Path) -> Option<Message> {
-    let name = &*builtin::own_name(path.to_str()?);
-    let (what, command) = match built_in_names().any(|own| own == name) {
+    let name = path.to_str()?;
+    let (what, command) = match built_in(name).is_some() {
         true => ("a built-in case", "wedgelab run"),
         false => (
             catalog::entry(name).map(|_| "a built-in half-truck")?,

@@ -8,12 +8,12 @@ use report::certificate_files::{self, CertificateFindings, NAMES};
 use report::files::Folder;
 use report::page::certificate::{self as page, Against};
 use report::study_folder::StudyFolder;
-use study::car::certificate::{Certificate, Request};
-use study::car::conditions::{self, Condition};
 use study::car::limits::LimitSet;
 use study::car::regime::Regime;
 use study::car::speeds;
 use study::case::CaseError;
+use study::certificate::conditions::{self, Condition};
+use study::certificate::{Certificate, Request};
 use study::measures::Measures;
 use study::records::{Record, Status};
 
@@ -390,7 +390,7 @@ fn assessed(input: &[u8]) -> ReadOutcome {
         if let Err(error) = written {
             return ReadOutcome::refused(&error);
         }
-        let finite = |worst: &&study::car::certificate::WorstSpeed| worst.value.is_finite();
+        let finite = |worst: &&study::certificate::WorstSpeed| worst.value.is_finite();
         let worst = findings.verdicts.iter().filter_map(|own| own.worst.as_ref());
         let said = worst.filter(finite).count();
         match Against::read(path) {

@@ -2,11 +2,11 @@
 
 use std::sync::LazyLock;
 
-use fmi::description::{FmuModel, Version};
+use fmi::description::Version;
 use fmi::element::Interface;
 use fmi::half_truck::HalfTruck;
 use fmi::instance::{Instance, Saved};
-use fmi::source::Source;
+use fmi::source::{FmuModel, Source};
 use serde::Deserialize;
 use study::half_truck::files::Settings;
 use study::progress::most_attempts;

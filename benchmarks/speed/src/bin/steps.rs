@@ -4,9 +4,10 @@
 use std::process::ExitCode;
 use std::time::Instant;
 
-use fmi::description::{FmuModel, Version};
+use fmi::description::Version;
 use fmi::element::Interface;
 use fmi::instance::Instance;
+use fmi::source::FmuModel;
 use study::case::builtin;
 
 fn main() -> ExitCode {

@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 
 use crate::Error;
 use crate::element::{Entries, QuantityEntry};
-use crate::source::Source;
+use crate::source::{FmuModel, Source};
 use crate::unit::Unit;
 use crate::variable::{Causality, Start, Variability, Variable, VariableRole};
 
@@ -20,120 +20,6 @@ pub enum Version {
     Two,
     /// FMI 3.0.
     Three,
-}
-
-/// The element that an FMU holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FmuModel {
-    /// The wedge with mass.
-    Wedge,
-    /// The quasi-static wedge.
-    QuasiStatic,
-    /// A half-truck without its wedges.
-    Truck,
-    /// A half-truck with its wedges.
-    HalfTruck,
-    /// A three-piece truck with wedge bodies.
-    ThreePieceTruck,
-    /// A freight car on its track.
-    Car,
-}
-
-impl FmuModel {
-    /// Returns its name: of the model, and of the library in an FMU.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Wedge => "FrictionWedge",
-            Self::QuasiStatic => "FrictionWedgeQS",
-            Self::Truck => "FrictionTruck",
-            Self::HalfTruck => "HalfTruck",
-            Self::ThreePieceTruck => "ThreePieceTruck",
-            Self::Car => "FreightCar",
-        }
-    }
-
-    /// Returns whether it gives directional derivatives.
-    #[must_use]
-    pub fn has_derivatives(self) -> bool {
-        matches!(self, Self::Wedge | Self::QuasiStatic)
-    }
-
-    /// The description, one line.
-    fn text(self) -> &'static str {
-        match self {
-            Self::Wedge => {
-                "Friction wedge of a three-piece truck between bolster and side frame: rigid body with \
-                 mass, unilateral contact at eight corners, stick-slip friction"
-            }
-            Self::QuasiStatic => {
-                "Friction wedge of a three-piece truck between bolster and side frame: quasi-static, \
-                 without mass"
-            }
-            Self::Truck => {
-                "Loaded half of a three-piece truck without its four friction wedges: half a car on a \
-                 bolster, side frames, springs"
-            }
-            Self::ThreePieceTruck => {
-                "Three-piece truck with four friction wedges that have mass: bolster, side frames, coils, \
-                 stops, adapters"
-            }
-            Self::Car => {
-                "Freight car on its track: body and lading on two three-piece trucks with friction wedges, \
-                 whose wheelsets roll on rails"
-            }
-            Self::HalfTruck => {
-                "Loaded half of a three-piece truck from files of NUCARS: half a car on a bolster, friction \
-                 wedges, side frames, springs"
-            }
-        }
-    }
-
-    /// Returns its frames and signs, in a few sentences.
-    pub(crate) fn conventions(self) -> &'static str {
-        match self {
-            Self::Wedge | Self::QuasiStatic => {
-                "Fixed frame: x longitudinal, positive from the column towards the bolster; y lateral; z \
-                 up. Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). Forces act on the named neighbour, \
-                 along the fixed axes; moments are taken about the neighbour's turning center, the point \
-                 whose displacements are the inputs."
-            }
-            Self::Truck => {
-                "Axes: x forward, y left, z up; displacements from the drawn position, small angles. \
-                 Quantities of a wedge are in the axes of that wedge, which has x from the column towards \
-                 the bolster."
-            }
-            Self::ThreePieceTruck => {
-                "Axes: x forward, y left, z up from the top of rail, origin at the truck's center; \
-                 displacements of centers of gravity from the nominal (loaded) layout. Angles turn by R = \
-                 Ry(pitch) Rz(yaw) Rx(roll). The warp moment acts on the bolster."
-            }
-            Self::Car => {
-                "Fixed axes: x forward and y left where the track starts, z up. Vertical wheel forces act on \
-                 the rail, positive down; lateral ones are positive where they spread the gauge. Places of \
-                 axles are those against the track's center line, positive to the left."
-            }
-            Self::HalfTruck => {
-                "Axes: x forward, y left, z up; displacements of centers of gravity from the drawn \
-                 position, small angles. Bodies, wedges and connections have the numbers of the files; \
-                 forces of connections are positive in extension."
-            }
-        }
-    }
-
-    /// Returns the model of this name.
-    #[must_use]
-    pub fn of(name: &str) -> Option<Self> {
-        let all = [
-            Self::Wedge,
-            Self::QuasiStatic,
-            Self::Truck,
-            Self::HalfTruck,
-            Self::ThreePieceTruck,
-            Self::Car,
-        ];
-        all.into_iter().find(|model| model.name() == name)
-    }
 }
 
 /// Everything an importer can know of an FMU.

@@ -11,7 +11,6 @@ mod warn;
 
 pub use phase::Phase;
 pub use save::Saved;
-pub(crate) use save::{check_finite, damaged};
 pub use step::EventUpdate;
 use warn::Warned;
 
@@ -21,10 +20,10 @@ use std::sync::Arc;
 use numerics::processor::{self, OldProcessor};
 use study::case::Case;
 
-use crate::description::{Description, FmuModel, Version};
+use crate::description::{Description, Version};
 use crate::element::{Element, Interface, Setting};
 use crate::extrapolate::Point;
-use crate::source::Source;
+use crate::source::{FmuModel, Source};
 use crate::variable::Start;
 use crate::watch::{Doubt, positions};
 use crate::{Category, Error, Severity, resources};

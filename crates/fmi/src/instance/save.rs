@@ -4,11 +4,10 @@ mod check;
 
 use serde::{Deserialize, Serialize};
 
-pub(crate) use check::{check_finite, damaged};
-
 use super::{Experiment, Instance, Phase};
 use crate::Error;
-use crate::element::{ElementState, Interface};
+use crate::element::Interface;
+use crate::element_state::ElementState;
 use crate::extrapolate::Point;
 use crate::limits;
 use crate::watch::Doubt;

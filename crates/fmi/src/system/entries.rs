@@ -10,7 +10,7 @@ use mechanics::vector::Vector;
 use quantity::Kind;
 
 use super::ports::{LoadPort, MotionPort, PortDirection, Ports, Reading, coordinates};
-use crate::element::{Entries, QuantityEntry};
+use crate::element::{Entries, QuantityEntry, rate_of, relative_residual};
 use crate::unit::Unit;
 
 /// Returns the unit of a kind.
@@ -42,11 +42,6 @@ pub(crate) fn load(prefix: &str, on: &str, coordinate: usize, text: &str) -> Qua
         Some(0.0),
         format!("{load} on {text}, {axis} axis"),
     )
-}
-
-/// Returns the description of the input that is the rate of a position.
-pub(crate) fn rate_of(position: &str) -> String {
-    format!("rate of {position}; never set, co-simulation finds it from {position}")
 }
 
 /// Adds inputs for value and rate of a coordinate of a prescribed body; they start where its own motion does,
@@ -308,6 +303,6 @@ pub(crate) fn ledger(residual: &str) -> Vec<QuantityEntry> {
     ]
     .map(|(name, text)| QuantityEntry::real(name, unit(Kind::Energy), None, text))
     .into_iter()
-    .chain([crate::wedge::entries::relative_residual()])
+    .chain([relative_residual()])
     .collect()
 }

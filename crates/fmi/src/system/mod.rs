@@ -18,14 +18,14 @@ use mechanics::system::{Contacts, Observation, StaticFriction, System};
 use study::progress::{self, Pace};
 
 use crate::Error;
-use crate::element::{Element, ElementState, Interface, Setting, Slopes};
+use crate::element::{Element, Interface, Setting, Slopes};
+use crate::element_state::ElementState;
 pub(crate) use entries::{
     accumulated, accumulators, add_loads, add_motion, add_table, contact, contacts, deflection, internals,
-    kinds, ledger, load, motions, motions_along_axes, options, rate_of, unit,
+    kinds, ledger, load, motions, motions_along_axes, options, unit,
 };
 use inputs::{InputLoads, lead, place};
 pub use ports::{LoadPort, MotionPort, Plant, PortDirection, Ports, Reading, Six, StartPort, TableReader};
-pub use state::SystemState;
 
 /// The place of the option that says who moves prescribed bodies, in [`options`].
 pub(crate) const MOTION: usize = 0;

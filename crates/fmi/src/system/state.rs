@@ -1,26 +1,14 @@
 //! The saved state of a system behind the variables.
 
-use integrate::{Integrator, Problem, State};
+use integrate::{Integrator, Problem};
 use mechanics::system::ContactState;
-use serde::{Deserialize, Serialize};
 
 use super::SystemElement;
 use super::inputs::place;
 use crate::Error;
 use crate::element::Element;
-use crate::instance::{check_finite, damaged};
-
-/// The saved state of a system.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SystemState {
-    pub(crate) time: f64,
-    states: Vec<f64>,
-    inputs: Vec<f64>,
-    contact_states: Vec<u8>,
-    start_energy: f64,
-    piece_start: f64,
-    integrator: Option<State>,
-}
+use crate::element_state::SystemState;
+use crate::error::{check_finite, damaged};
 
 impl SystemState {
     /// Checks whether it can be a state of this element; its integrator is checked by the element's.

@@ -12,8 +12,7 @@ use wedge::parameters::Start as StartOfRun;
 
 use super::parameters;
 use crate::Error;
-use crate::element::{Entries, QuantityEntry};
-use crate::system::rate_of;
+use crate::element::{Entries, QuantityEntry, rate_of, relative_residual};
 use crate::unit::Unit;
 
 /// Neighbours, in the order of the inputs.
@@ -63,17 +62,6 @@ pub(crate) fn column_numbers(equations: &Equations) -> Vec<usize> {
         .filter(|(_, column)| is_column(&column.name))
         .map(|(number, _)| number)
         .collect()
-}
-
-/// Returns the relative residual of the energy ledger.
-pub(crate) fn relative_residual() -> QuantityEntry {
-    QuantityEntry::real(
-        "ledger_relative_residual",
-        None,
-        None,
-        "residual of the energy ledger now over the largest of work, losses and change of stored energy \
-         since the start",
-    )
 }
 
 /// Returns all quantities of the wedge of a case.

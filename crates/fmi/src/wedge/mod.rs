@@ -6,14 +6,14 @@ pub(crate) mod parameters;
 use integrate::Options;
 use mechanics::plausibility::{Location, PlausibilityFinding};
 use numerics::scalar::Dual;
-use serde::{Deserialize, Serialize};
 use study::case::Case;
-use study::stepping::{CoilInput, Equations, Neighbours, Reading, SteppedState, SteppedWedge};
+use study::stepping::{CoilInput, Equations, Reading, SteppedWedge};
 use wedge::inputs::COIL;
 use wedge::parameters::Start;
 
 use crate::Error;
-use crate::element::{Element, ElementState, Entries, Interface, Setting, Slopes};
+use crate::element::{Element, Entries, Interface, Setting, Slopes};
+use crate::element_state::{ElementState, WedgeState};
 use entries::{COIL_FORCE, COIL_STIFFNESS, neighbours};
 
 /// Tolerances that an importer may ask for.
@@ -43,36 +43,6 @@ pub struct WedgeElement {
     columns: Vec<usize>,
     /// Places of the coefficients of friction among the parameters.
     friction: [Option<usize>; 2],
-}
-
-/// The saved state of a wedge.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "it lies in a box as a whole, see ElementState"
-)]
-pub enum WedgeState {
-    /// One that integrates itself.
-    Driven(SteppedState),
-    /// One that an importer integrates.
-    Equations {
-        /// Time, s.
-        time: f64,
-        /// The states.
-        states: Vec<f64>,
-        /// The contact states.
-        modes: Vec<u8>,
-        /// The poses of the neighbours.
-        neighbours: Neighbours,
-        /// Their poses at the start.
-        start: Neighbours,
-        /// The coil now.
-        coil: CoilInput,
-        /// The coil at the start.
-        start_coil: CoilInput,
-        /// Coefficients of friction.
-        friction: [f64; 2],
-    },
 }
 
 fn coil(mode: i32, inputs: &[f64]) -> CoilInput {

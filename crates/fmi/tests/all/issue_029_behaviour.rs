@@ -8,11 +8,11 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::thread;
 
-use fmi::description::{Description, FmuModel, Version};
+use fmi::description::{Description, Version};
 use fmi::element::Interface;
 use fmi::half_truck::HalfTruck;
 use fmi::instance::{Instance, Phase, Saved};
-use fmi::source::Source;
+use fmi::source::{FmuModel, Source};
 use fmi::{limits, package, resources};
 use serde_json::{Value, json};
 use study::case::{Case, builtin};
@@ -239,7 +239,7 @@ fn issue_029_steps_that_are_lost_against_the_time_are_refused() {
 /// Returns the folder `resources` of an FMU.
 fn resources_of(folder: &Path) -> PathBuf {
     let description = Description::new(&Source::Wedge(Box::new(case()))).unwrap();
-    fs::write(folder.join(resources::CASE), &description.files[0].1).unwrap();
+    fs::write(folder.join(fmi::source::CASE), &description.files[0].1).unwrap();
     fs::write(folder.join(resources::MODEL), "FrictionWedge\n").unwrap();
     folder.to_owned()
 }
@@ -255,7 +255,7 @@ fn issue_029_resources_that_fill_the_memory_are_refused() {
         written.set_len(bytes).unwrap();
         resources::read(&path).unwrap_err().message
     };
-    let text = reason(resources::CASE, limits::TEXT_FILE + 1);
+    let text = reason(fmi::source::CASE, limits::TEXT_FILE + 1);
     assert!(
         text.contains("case.toml") && text.contains("at most 16 MiB are read"),
         "{text}"

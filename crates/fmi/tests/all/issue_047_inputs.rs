@@ -1,11 +1,11 @@
 //! Issue 47: inputs left alone hold a wedge still; a position without its rate works, or is warned of; what
 //! no machine does is warned of once.
 
-use fmi::description::{Description, FmuModel, Version};
+use fmi::description::{Description, Version};
 use fmi::element::Interface;
 use fmi::half_truck::HalfTruck;
 use fmi::instance::{Instance, Saved};
-use fmi::source::Source;
+use fmi::source::{FmuModel, Source};
 use fmi::{Category, Severity};
 use study::car::CarCase;
 use study::case::{Case, Tables, builtin};

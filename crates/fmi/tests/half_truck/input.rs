@@ -1,10 +1,10 @@
 //! Loads, starts and everything that is refused.
 
-use fmi::description::{Description, FmuModel, Version};
+use fmi::description::{Description, Version};
 use fmi::element::Interface;
 use fmi::half_truck::{HalfTruck, RESOURCE};
 use fmi::instance::Instance;
-use fmi::source::Source;
+use fmi::source::{FmuModel, Source};
 use fmi::{limits, resources};
 use nucars::file_sets::{Instead, RunFiles, Text};
 use serde_json::{Value, json};

@@ -10,7 +10,8 @@ use super::surface::Surface;
 use super::wedge::{ColumnFace, WedgeLaw};
 use super::{Axis, Connection, Connections, Law, Options, Spatial};
 use crate::body::Body;
-use crate::system::{EnergyTerm, EnergyTermKind, Parts};
+use crate::energy::{EnergyTerm, EnergyTermKind};
+use crate::parts::Parts;
 
 /// Assembles connections between bodies.
 pub(crate) struct ConnectionAssembler<'m> {

@@ -10,7 +10,7 @@
 use super::accumulator::Friction;
 use super::forces::{CoordinatesAndRates, SpatialLaw, deflection_at};
 use super::{Connections, FrictionRule, Spatial};
-use crate::system::{ContactState, SLIP_LOAD, STICK_LOAD};
+use crate::contact_state::{ContactState, SLIP_LOAD, STICK_LOAD};
 
 /// An element closes at this normal (or coil) force, N.
 pub const CLOSING_FORCE: f64 = 2e-3;

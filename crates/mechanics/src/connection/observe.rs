@@ -6,7 +6,8 @@ use super::site::CoordinateRow;
 use super::wedge::{WedgeLaw, WedgeState};
 use super::{Connections, FrictionRule, Spatial};
 use crate::body::Body;
-use crate::system::{ContactState, Energies};
+use crate::contact_state::ContactState;
+use crate::energy::Energies;
 
 /// A connection (SI); components in the order of [`super::Law::coordinates`].
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -15,9 +15,9 @@ use numerics::lanes::Lanes;
 use super::blocks::{OUTPUTS, PointBlock, PointDerivatives, Points};
 use super::motion::FaceMotion;
 use super::{PointForce, PointKinematics};
+use crate::element::tangent::{Tangent, TangentColumn, TangentColumns, sum};
 use crate::link::RelativeMotion;
 use crate::surface::{Bend, SurfaceShape, compose, resolve};
-use crate::tangent::{Tangent, TangentColumn, TangentColumns, sum};
 use crate::vector::Vector;
 
 /// A curved surface, and the motion of the body with the points.

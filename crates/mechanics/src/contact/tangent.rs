@@ -13,8 +13,8 @@ use numerics::lanes::Lanes;
 use numerics::scalar::Number;
 
 use super::blocks::{OUTPUTS, PointDerivatives, Points};
+use crate::element::tangent::{Tangent, TangentColumn, TangentColumns, sum};
 use crate::link::RelativeMotion;
-use crate::tangent::{Tangent, TangentColumn, TangentColumns, sum};
 use crate::vector::Vector;
 
 /// Adds the derivatives of the law's outputs by the velocity of a point.

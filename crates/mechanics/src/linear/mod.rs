@@ -23,5 +23,6 @@ mod slider;
 
 pub(crate) use model::Entry;
 pub use model::{LinearModel, SliderPlace, SlidingPair};
-pub use modes::{LinearMode, SecondOrder};
+pub(crate) use modes::inverse_eigenvalues;
+pub use modes::{LinearMode, NoVibration, SecondOrder};
 pub use slider::{Equivalent, Slider};

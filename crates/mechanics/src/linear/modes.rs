@@ -7,10 +7,9 @@
 //! relative to the eigenvalue of the inverse; others are left out. The start vector is fixed: same input,
 //! same bits.
 
-use nalgebra::linalg::LU;
+use nalgebra::linalg::{LU, Schur};
 use nalgebra::{Complex, DMatrix, DVector, Dyn};
-
-use crate::system::{NoVibration, inverse_eigenvalues};
+use thiserror::Error;
 
 /// Residual of a Ritz pair, relative to the eigenvalue of the inverse, up to which it counts.
 const RESIDUAL: f64 = 1e-7;
@@ -199,4 +198,26 @@ fn ritz(matrix: &DMatrix<f64>, mu: Complex<f64>) -> Option<DVector<Complex<f64>>
         vector.unscale_mut(size);
     }
     Some(vector)
+}
+
+/// Eigenvalues could not be found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error(
+    "the eigenvalues of the linearized system were not found: its stiffness holds values that are not \
+     finite or too far apart"
+)]
+pub struct NoVibration;
+
+/// Returns the eigenvalues μ of the inverse of a shifted matrix, or of what stands for it.
+///
+/// Those of fast motions are so small that rounding keeps sub-diagonal entries beside them above the smallest
+/// bound for being zero, which is relative to its neighbors. A bound t moves the μ of slow motions by about t
+/// of themselves: the largest by 2e-8.
+pub(crate) fn inverse_eigenvalues(matrix: DMatrix<f64>) -> Option<DVector<Complex<f64>>> {
+    let n = matrix.nrows();
+    let mut bounds = [1.0, 100.0, 1e4, 1e6, 1e8]
+        .into_iter()
+        .map(|times| times * f64::EPSILON);
+    let schur = bounds.find_map(|bound| Schur::try_new(matrix.clone(), bound, 20 * n + 1000))?;
+    Some(schur.complex_eigenvalues())
 }

@@ -2,9 +2,9 @@
 
 use super::FreeBody;
 use super::model::ModelError;
-use super::mounted::Parts;
 use crate::body::{Body, COORDINATES};
 use crate::motion::Motion;
+use crate::parts::Parts;
 
 /// A load over time on a free coordinate of a body: a force along x, y or z of its reference frame at the
 /// body's origin, or a moment about the axis of an angle. Its work counts as that of the motions.

@@ -4,13 +4,14 @@ use numerics::lanes::LANES;
 use numerics::partitioned::Partitioned;
 
 use super::FrameState;
-use super::energy_term::{EnergyTerm, EnergyTermKind};
 use super::model::ModelError;
-use super::mounted::{Mounted, Parts};
+use super::mounted::Mounted;
 use crate::body::{Body, Kinematics};
 use crate::contact::Points;
+use crate::element::tangent::{Tangent, TangentColumns};
+use crate::energy::{EnergyTerm, EnergyTermKind};
 use crate::link::{Marker, RelativeFrame, Translation};
-use crate::tangent::{Tangent, TangentColumns};
+use crate::parts::Parts;
 
 /// Assembles elements between bodies.
 pub(super) struct ElementAssembler<'m> {

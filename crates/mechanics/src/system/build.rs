@@ -3,11 +3,10 @@
 use numerics::partitioned::Partitioned;
 
 use super::assembler::ElementAssembler;
-use super::energy_term::{EnergyTerm, EnergyTermKind};
 use super::error_bounds::{error_bounds, presses};
 use super::jacobian::Gathered;
 use super::model::{Model, ModelError};
-use super::mounted::{Mounted, Parts};
+use super::mounted::Mounted;
 use super::spectral_radius::mobility;
 use super::{
     FrameState, FreeBody, Linear, MountedLoad, Move, MovedBody, System, is_bristle, scale_of, scales,
@@ -16,9 +15,11 @@ use super::{
 use crate::body::{Body, COORDINATES, Kinematics};
 use crate::connection;
 use crate::contact::{ContactFace, Interface, Points};
+use crate::energy::{EnergyTerm, EnergyTermKind};
 use crate::frame::Frame;
 use crate::link::Marker;
 use crate::motion::Motion;
+use crate::parts::Parts;
 use crate::surface::Plane;
 use crate::vector::Vector;
 

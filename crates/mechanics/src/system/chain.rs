@@ -24,8 +24,11 @@ use numerics::lanes::Lanes;
 
 use super::{FreeBody, Mounted};
 use crate::body::Kinematics;
-use crate::link::{RelativeMotion, RotationAxes};
-use crate::tangent::{Change, Tangent, TangentColumn, TangentColumns, combined, force_of, moment_of, sum};
+use crate::body::RotationAxes;
+use crate::element::tangent::{
+    Change, Tangent, TangentColumn, TangentColumns, combined, force_of, moment_of, sum,
+};
+use crate::link::RelativeMotion;
 use crate::vector::{Matrix, Vector};
 
 /// The rows of a generalized force at a body: of its translations (axes of its reference frame), and of its

@@ -16,10 +16,11 @@
 //! points that do not touch, are left out: they relax by themselves.
 
 use integrate::Problem;
-use nalgebra::linalg::{Schur, balancing::balance_parlett_reinsch};
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::DMatrix;
+use nalgebra::linalg::balancing::balance_parlett_reinsch;
 
-use super::{NoVibration, System};
+use super::System;
+use crate::linear::{NoVibration, inverse_eigenvalues};
 
 impl System {
     /// Returns the eigenvalues λ (real and imaginary part, 1/s) of the motion about a state, by falling real
@@ -95,18 +96,4 @@ impl System {
         found.sort_by(|a, b| b[0].total_cmp(&a[0]).then(b[1].total_cmp(&a[1])));
         Ok(found)
     }
-}
-
-/// Returns the eigenvalues μ of the inverse of a shifted matrix, or of what stands for it.
-///
-/// Those of fast motions are so small that rounding keeps sub-diagonal entries beside them above the smallest
-/// bound for being zero, which is relative to its neighbors. A bound t moves the μ of slow motions by about t
-/// of themselves: the largest by 2e-8.
-pub(crate) fn inverse_eigenvalues(matrix: DMatrix<f64>) -> Option<DVector<Complex<f64>>> {
-    let n = matrix.nrows();
-    let mut bounds = [1.0, 100.0, 1e4, 1e6, 1e8]
-        .into_iter()
-        .map(|times| times * f64::EPSILON);
-    let schur = bounds.find_map(|bound| Schur::try_new(matrix.clone(), bound, 20 * n + 1000))?;
-    Some(schur.complex_eigenvalues())
 }

@@ -1,6 +1,7 @@
 //! The stored energies of a state, without other derived quantities.
 
-use super::{Energies, Linear, System, scales};
+use super::{Linear, System, scales};
+use crate::energy::Energies;
 use crate::link::RelativeMotion;
 use crate::vector::Vector;
 

@@ -11,10 +11,10 @@ use super::{FreeBody, Mounted, System};
 use crate::body::{Kinematics, Rigid};
 use crate::coil::{Coil, CoilForce};
 use crate::contact::{ContactFace, CurvedMotion, FaceResultant, Interface, PlaneMotion, Points};
+use crate::element::tangent::{Tangent, TangentColumns};
 use crate::element::{Element, Marked, Wrench};
 use crate::frame::FrameMotion;
 use crate::link::{BodyWrench, Marker, RelativeFrame, RelativeMotion};
-use crate::tangent::{Tangent, TangentColumns};
 use crate::vector::Vector;
 
 /// An element between two bodies.

@@ -1,7 +1,7 @@
 //! The Jacobian, element by element.
 //!
 //! The speed rows hold the residual `Q(q, u) - M(q) u˙ - b(q, u)` at fixed accelerations, so that the change
-//! of M with the coordinates is included. Every element gives its tangent ([`crate::tangent`]), and
+//! of M with the coordinates is included. Every element gives its tangent ([`crate::element::tangent`]), and
 //! [`super::chain`] applies the chain rule for the coordinates of the bodies at its two ends. Inertia is
 //! differentiated by dual numbers: by angles and their rates only, if the reference frame stands still.
 
@@ -13,10 +13,11 @@ use super::chain::{Block, Chain, NO_BLOCK, Powers, add_block};
 use super::forces::{Mountable, WORK};
 use super::{FreeBody, Mounted, System};
 use crate::body::Kinematics;
+use crate::body::RotationAxes;
 use crate::connection;
 use crate::contact::{ContactFace, Interface};
-use crate::link::{RelativeMotion, RotationAxes};
-use crate::tangent::{Change, TangentColumns};
+use crate::element::tangent::{Change, TangentColumns};
+use crate::link::RelativeMotion;
 use crate::vector::Vector;
 
 /// Derivatives that are summed for a free body while the elements are differentiated.

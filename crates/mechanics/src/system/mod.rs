@@ -13,7 +13,6 @@ mod contact_states;
 mod contacts;
 mod eigenvalues;
 mod energies;
-mod energy_term;
 mod equilibrium;
 mod error_bounds;
 mod evaluation;
@@ -50,12 +49,13 @@ use crate::link::Marker;
 use crate::motion::Motion;
 use crate::vector::Vector;
 
+pub use crate::contact_state::{ContactState, SLIP_LOAD, STICK_LOAD};
+pub use crate::energy::{Energies, EnergyTerm, EnergyTermKind};
+use crate::parts::Parts;
 pub use applied_load::AppliedLoad;
 use applied_load::MountedLoad;
-pub use contact_states::{CLOSING_GAP, ContactState, OPENING_GAP, SLIP_LOAD, STICK_LOAD};
+pub use contact_states::{CLOSING_GAP, OPENING_GAP};
 pub use contacts::Contacts;
-pub(crate) use eigenvalues::inverse_eigenvalues;
-pub use energy_term::{EnergyTerm, EnergyTermKind};
 pub use equilibrium::{AtRest, NEARLY_AT_REST, NoEquilibrium, StaticFriction};
 pub use evaluation::{CoilEvaluation, ElementEvaluation, Load, PointEvaluation};
 pub use inputs::InputError;
@@ -63,9 +63,8 @@ pub use jacobian_vector_product::{JacobianVectorProduct, MotionChange, StateDire
 pub use loads::{CoilLoad, FaceLoad, SystemLoads};
 pub use model::{Model, ModelError};
 pub use mounted::Mounted;
-pub(crate) use mounted::Parts;
-pub use observe::{BodyState, CoilState, ElementState, Energies, FaceState, Observation};
-pub use vibration::{Held, NoVibration, Vibration, Vibrations};
+pub use observe::{BodyState, CoilState, ElementState, FaceState, Observation};
+pub use vibration::{Held, Vibration, Vibrations};
 
 /// Fixed error scales, by kind of state: the error of a step is measured against
 /// `relative tolerance × scale`.

@@ -1,9 +1,8 @@
 //! An element in a system: between which bodies it is, and where its states and energies are.
 
-use super::energy_term::EnergyTerm;
 use crate::contact::Points;
+use crate::element::tangent::{Tangent, TangentColumns};
 use crate::link::{Marker, RelativeFrame, Translation};
-use crate::tangent::{Tangent, TangentColumns};
 
 /// An element between two bodies of a system.
 #[derive(Clone, Debug)]
@@ -47,12 +46,4 @@ pub struct Mounted<E> {
     pub(super) rows: [[Option<usize>; 3]; 2],
     /// First row of the quadratures by pairs of internal states.
     pub(super) first_internal_row: usize,
-}
-
-/// Energy terms and couplings that are collected during assembly.
-pub(crate) struct Parts {
-    pub energy_terms: Vec<EnergyTerm>,
-    pub internal_pairs: Vec<Vec<usize>>,
-    pub quadrature_bodies: Vec<(usize, usize)>,
-    pub quadrature_pairs: Vec<(usize, usize)>,
 }

@@ -7,6 +7,7 @@ use crate::coil::CoilForce;
 use crate::connection::ConnectionState;
 use crate::contact::PointContact;
 use crate::element::Marked;
+use crate::energy::Energies;
 use crate::energy_balance::Entries;
 use crate::link::RelativeMotion;
 use crate::vector::{Matrix, Vector};
@@ -107,33 +108,6 @@ pub struct ElementState {
     pub moment: Vector<f64>,
     /// Stored energy, J.
     pub energy: f64,
-}
-
-/// Energies of the whole system, J.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Energies {
-    /// Kinetic energy.
-    pub kinetic: f64,
-    /// Potential energy in the gravity field.
-    pub gravity: f64,
-    /// Energy of the coils, those of massless wedges included.
-    pub coil: f64,
-    /// Energy of the contact springs.
-    pub contact: f64,
-    /// Energy of the bristles of contact points and of the force accumulators of connections.
-    pub bristle: f64,
-    /// Energy of the springs of connections, also behind gaps and under surfaces.
-    pub spring: f64,
-    /// Energy of other force elements.
-    pub element: f64,
-}
-
-impl Energies {
-    /// Returns all of it.
-    #[must_use]
-    pub fn total(&self) -> f64 {
-        self.kinetic + self.gravity + self.coil + self.contact + self.bristle + self.spring + self.element
-    }
 }
 
 /// All derived quantities of a state.

@@ -8,9 +8,9 @@ use super::jacobian::rates_along;
 use super::{FrameState, Mounted, System};
 use crate::body::Kinematics;
 use crate::element::Wrench;
+use crate::element::tangent::{Change, combined, force_of, moment_of, sum};
 use crate::frame::FrameMotion;
 use crate::link::{RelativeFrame, RelativeMotion};
-use crate::tangent::{Change, combined, force_of, moment_of, sum};
 use crate::vector::{Matrix, Vector};
 
 impl System {

@@ -7,10 +7,10 @@
 
 use integrate::Problem;
 use nalgebra::{Complex, DMatrix, DVector};
-use thiserror::Error;
 
 use super::System;
 use crate::connection::{FrictionRule, FrictionRules};
+use crate::linear::NoVibration;
 
 /// The closed connections with friction that stick in a vibration; the others have no friction. Contact
 /// points follow their law and state: bristles at rest stick, tanh has no stiffness.
@@ -62,14 +62,6 @@ pub struct Vibrations {
     /// The largest entry of the antisymmetric part of `L⁻¹ K L⁻ᵀ`, relative to its largest entry.
     pub asymmetry: f64,
 }
-
-/// Eigenvalues could not be found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error(
-    "the eigenvalues of the linearized system were not found: its stiffness holds values that are not \
-     finite or too far apart"
-)]
-pub struct NoVibration;
 
 /// Below this asymmetry the stiffness counts as symmetric.
 const SYMMETRIC: f64 = 1e-9;

@@ -1,6 +1,6 @@
 //! Figures of a certificate: what is limited, and what the wedges do, over the speed.
 
-use ::study::car::certificate::{Assessed, Certificate};
+use ::study::certificate::{Assessed, Certificate};
 use ::study::records::Status;
 use quantity::{Kind, System as Units};
 

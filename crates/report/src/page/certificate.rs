@@ -2,8 +2,8 @@
 
 use maud::{Markup, html};
 use quantity::System as Units;
-use study::car::certificate::{Certificate, LimitVerdict, worst_run};
 use study::car::limits::Bound;
+use study::certificate::{Certificate, LimitVerdict, worst_run};
 use study::records::Status;
 
 use super::{document, moving_as, shown_in};

@@ -8,8 +8,9 @@ use study::summary::SummaryValue;
 use super::{anchor, document, moving_as, shown_in};
 use crate::figures::side_by_side::exhibits;
 use crate::figures::{Exhibit, capital, digits};
-use crate::run_folder::{AnySummary, KeyNumber, RunFolder, Seen};
+use crate::run_folder::{KeyNumber, RunFolder, Seen};
 use crate::view::View;
+use study::models::AnySummary;
 
 /// Returns the page as HTML, which needs nothing else to be shown; `links` are the addresses of the runs'
 /// folders from the page.
@@ -45,7 +46,7 @@ pub fn render(runs: &[RunFolder], links: &[String]) -> Result<String, serde_json
     };
     let labels: Vec<&str> = runs.iter().map(|run| run.label.as_str()).collect();
     let heading = match runs {
-        [one] if !one.summary.title().is_empty() => capital(one.summary.title()),
+        [one] if !one.summary.shared().title().is_empty() => capital(one.summary.shared().title()),
         [one] => capital(&one.label),
         _ => format!("{} runs: {}", runs.len(), labels.join(", ")),
     };
@@ -82,14 +83,14 @@ fn data(
 }
 
 fn lead(runs: &[RunFolder]) -> Markup {
-    let mut programs: Vec<&str> = runs.iter().map(|run| run.summary.program()).collect();
+    let mut programs: Vec<&str> = runs.iter().map(|run| run.summary.shared().program()).collect();
     programs.dedup();
     html! {
         @for (number, run) in runs.iter().enumerate() {
             @let shared = run.summary.shared();
             @if number > 0 { br; }
-            strong { (run.label) } ": " (run.summary.what()) ", case " (shared.name())
-            @if !run.summary.title().is_empty() && runs.len() > 1 { " (" (run.summary.title()) ")" }
+            strong { (run.label) } ": " (run.what()) ", case " (shared.name())
+            @if !shared.title().is_empty() && runs.len() > 1 { " (" (shared.title()) ")" }
             ", " (digits(run.table.times().last().copied().unwrap_or_default())) " s"
         }
         br;
@@ -311,7 +312,7 @@ fn ledger(runs: &[RunFolder]) -> Markup {
     let units = runs[0].units();
     let mut names: Vec<&str> = Vec::new();
     for run in runs {
-        for name in run.summary.ledger().entries.keys() {
+        for name in run.summary.shared().ledger().entries.keys() {
             if !names.contains(&name.as_str()) {
                 names.push(name);
             }
@@ -349,7 +350,7 @@ fn ledger(runs: &[RunFolder]) -> Markup {
                     tr {
                         th scope="row" { "largest residual" }
                         @for run in runs {
-                            @let own = run.summary.ledger();
+                            @let own = run.summary.shared().ledger();
                             td.number {
                                 (energy(own.largest_residual)) " "
                                 span.unit { "at " (digits(own.largest_residual_time)) " s" }
@@ -359,7 +360,7 @@ fn ledger(runs: &[RunFolder]) -> Markup {
                     tr {
                         th scope="row" { "steps, at a relative tolerance of" }
                         @for run in runs {
-                            @let (steps, tolerance) = run.summary.solver();
+                            @let (steps, tolerance) = run.summary.shared().solver();
                             td.number { (steps) ", " (format!("{tolerance:e}").replace('-', "\u{2212}")) }
                         }
                     }
@@ -368,7 +369,7 @@ fn ledger(runs: &[RunFolder]) -> Markup {
                             th scope="row" { (name.replace('_', " ")) }
                             @for run in runs {
                                 td.number {
-                                    @match run.summary.ledger().entries.get(name) {
+                                    @match run.summary.shared().ledger().entries.get(name) {
                                         Some(value) => (energy(value)),
                                         None => "–",
                                     }
@@ -385,7 +386,7 @@ fn ledger(runs: &[RunFolder]) -> Markup {
 fn assumptions(runs: &[RunFolder]) -> Markup {
     let mut texts: Vec<(&str, Vec<&str>)> = Vec::new();
     for run in runs {
-        for text in run.summary.assumptions() {
+        for text in run.summary.shared().assumptions() {
             match texts.iter_mut().find(|(own, _)| own == text) {
                 Some((_, labels)) => labels.push(&run.label),
                 None => texts.push((text, vec![&run.label])),

@@ -5,10 +5,9 @@ use std::path::{Path, PathBuf};
 use input::file::ReadError;
 use input::shortened;
 use miette::Diagnostic;
-use study::any_case::AnyCase;
+use study::models::{AnyCase, MODELS};
 use thiserror::Error;
 
-use super::any_summary::SCHEMAS;
 use crate::table::{TableError, in_folder, is_of_run};
 use crate::{study_folder, summary};
 
@@ -95,7 +94,7 @@ impl RunFolderError {
     pub(super) fn schema(file: &Path, found: &str) -> Self {
         let stem = |schema: &str| schema.split('/').next().unwrap_or_default().to_owned();
         let folder = file.parent().unwrap_or(Path::new(".")).display();
-        let same = SCHEMAS.iter().find(|(own, _)| stem(own) == stem(found));
+        let same = MODELS.iter().find(|model| stem(model.schema) == stem(found));
         Self::Schema {
             file: file.to_owned(),
             found: match found {
@@ -103,16 +102,20 @@ impl RunFolderError {
                 found => format!("`{}`", shortened(found)),
             },
             expected: match same {
-                Some((own, _)) => format!("`{own}`"),
-                None => SCHEMAS.map(|(own, _)| format!("`{own}`")).join(", "),
+                Some(model) => format!("`{}`", model.schema),
+                None => MODELS
+                    .each_ref()
+                    .map(|model| format!("`{}`", model.schema))
+                    .join(", "),
             },
             advice: match same {
-                Some((_, "run")) => format!(
+                Some(model) if model.command == "run" => format!(
                     "another version of the program wrote it: `wedgelab run {folder}/case.toml --out \
                      {folder} --force` runs the case again with this one"
                 ),
-                Some((_, command)) => format!(
-                    "another version of the program wrote it: run the case again with `wedgelab {command}`"
+                Some(model) => format!(
+                    "another version of the program wrote it: run the case again with `wedgelab {}`",
+                    model.command
                 ),
                 None => "name the folder of a run, which `wedgelab run` has written".to_owned(),
             },

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use quantity::{Kind, System as Units};
-use study::any_case::AnyCase;
 use study::car::summary::CarSummary;
 use study::half_truck::HalfTruckSummary;
 use study::metrics::Extremes;
+use study::models::{AnyCase, AnySummary};
 use study::summary::{Summary, SummaryValue};
 use study::truck::WEDGE_NAMES;
 use study::truck::summary::TruckSummary;
@@ -14,7 +14,7 @@ use study::wedge_rise::RiseSummary;
 use study::wheelset::summary::WheelsetSummary;
 use wedge::parameters::Damping;
 
-use super::{AnySummary, RunFolder};
+use super::RunFolder;
 use crate::figures::digits;
 
 /// A number of a run.

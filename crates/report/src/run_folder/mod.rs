@@ -9,10 +9,10 @@ use input::file::{Expected, Reason, read};
 use input::{FileType, limits};
 use mechanics::output::Column;
 use quantity::System as Units;
-use study::any_case::AnyCase;
+use serde::Deserialize;
+use study::models::{self, AnyCase, AnySummary};
 use study::result::RunResult;
 
-pub use any_summary::{AnySummary, Ledger};
 pub use error::{REPRODUCTION_FILE, RunFolderError};
 pub use key_numbers::{KeyNumber, branch_window};
 
@@ -24,7 +24,6 @@ use crate::view::kept::KeptView;
 use crate::view::run::{Detail, Recording};
 use crate::{csv, mat, page, result_parquet, summary};
 
-mod any_summary;
 mod error;
 mod key_numbers;
 
@@ -88,14 +87,14 @@ impl RunFolder {
             },
             _ => RunFolderError::Unreadable(error),
         })?;
-        let summary = AnySummary::parse(&file, &bytes)?;
+        let summary = summary_of(&file, &bytes)?;
         let mut notes = Vec::new();
         let rows = table.times().len();
-        if rows != summary.rows() {
+        if rows != summary.shared().rows() {
             notes.push(format!(
                 "{} has {rows} rows, and summary.json is about {}: they are not of one run",
                 table.file.file_name().unwrap_or_default().display(),
-                summary.rows()
+                summary.shared().rows()
             ));
         }
         let case = folder.join(CASE_FILE_NAME);
@@ -126,6 +125,12 @@ impl RunFolder {
             case,
             notes,
         })
+    }
+
+    /// Returns the name of its model, with the article.
+    #[must_use]
+    pub fn what(&self) -> &'static str {
+        models::of_schema(self.summary.shared().schema()).map_or("", |model| model.what)
     }
 
     /// Returns the units of its numbers.
@@ -217,6 +222,21 @@ impl RunFolder {
             summary,
         }
     }
+}
+
+/// The schema that every document of the program names.
+#[derive(Deserialize)]
+struct Named {
+    schema: Option<String>,
+}
+
+/// Reads the content of a `summary.json`, by the schema that it names.
+fn summary_of(file: &Path, bytes: &[u8]) -> Result<AnySummary, RunFolderError> {
+    let damaged = |error| RunFolderError::damaged(file, &error);
+    let named: Named = serde_json::from_slice(bytes).map_err(damaged)?;
+    let schema = named.schema.unwrap_or_default();
+    let model = models::of_schema(&schema).ok_or_else(|| RunFolderError::schema(file, &schema))?;
+    (model.summary)(bytes).map_err(damaged)
 }
 
 /// Gives runs names that differ: folders of one name are called as they were named.

@@ -53,7 +53,7 @@ pub(super) fn summary(table: &CarTable, units: Units) -> BTreeMap<String, Locked
 }
 
 /// Returns the name of a start in cases.
-pub(super) fn name(kind: StartKind) -> &'static str {
+pub(crate) fn name(kind: StartKind) -> &'static str {
     name_of(STARTS, &kind)
 }
 

@@ -3,25 +3,21 @@
 //! [`CarCase`] is what a user writes, completed and in SI; [`regime`] has the tracks and speeds of the field,
 //! [`builtin`] cases on them; [`statistics`] says what rules for the assessment of cars ask, [`limits`]
 //! beside what they allow; [`run`] records a run, [`motions`] what a picture of it needs; [`stability`]
-//! linearizes, [`locus`] over any parameter; [`hunting`] ramps the speed, [`onset`] holds it.
+//! linearizes, [`locus`](crate::locus) over any parameter; [`hunting`] ramps the speed, [`onset`] holds it.
 
 pub(crate) mod assumptions;
 pub mod builtin;
-pub mod certificate;
 mod checks;
 pub mod columns;
-pub mod conditions;
 mod derailment;
 pub mod hunting;
 mod lading;
 pub mod limits;
 pub mod locked_in;
-pub mod locus;
 pub mod mode_shape;
 pub mod motions;
-mod named;
+pub(crate) mod named;
 pub mod onset;
-pub mod other_start;
 mod packed;
 mod peaks;
 pub mod regime;

@@ -10,7 +10,7 @@ use crate::case::CaseError;
 use crate::case::problem::Problem;
 
 /// The target of a name.
-pub(super) enum BuiltInOrFile<'a, T> {
+pub(crate) enum BuiltInOrFile<'a, T> {
     /// Something built in.
     BuiltIn(&'a T),
     /// A file.
@@ -18,7 +18,7 @@ pub(super) enum BuiltInOrFile<'a, T> {
 }
 
 /// Finds what a text names; `none` begins the message if there is neither: `there is no regime`.
-pub(super) fn find<'a, T>(
+pub(crate) fn find<'a, T>(
     none: &str,
     text: &'a str,
     all: &'a [T],
@@ -44,7 +44,7 @@ pub(super) fn find<'a, T>(
 }
 
 /// Reads such a file; `help` says where one to begin with is found.
-pub(super) fn read(
+pub(crate) fn read(
     path: &Path,
     what: &'static str,
     types: &'static [FileType],

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use car::Wheels;
-use integrate::{Integrator, Options, Problem};
+use integrate::{Integrator, Problem};
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
 use mechanics::plausibility::PlausibilityFinding;
@@ -29,11 +29,12 @@ use crate::plausibility;
 use crate::progress;
 use crate::result::RunResult;
 use crate::run::{
-    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, check_length, damaged,
+    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
 };
+use crate::run_error::{check_length, damaged};
 use crate::signal::LowPass;
 use crate::statics::StaticTable;
-use crate::summary::{LedgerSummary, Stopped, SummaryValue};
+use crate::summary::{Stopped, SummaryValue};
 use crate::wedge_faces;
 use crate::wedge_rise::{self, AtStart};
 
@@ -82,20 +83,8 @@ impl RunCase for CarCase {
         "look for values that are out of proportion; `wedgelab case` has cars that run";
     const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
 
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn duration_and_interval(&self) -> [f64; 2] {
-        [self.simulation.duration, self.simulation.output_interval]
-    }
-
-    fn units(&self) -> Units {
-        self.simulation.output_units
-    }
-
-    fn options(&self) -> Options {
-        self.simulation.options()
+    fn settings(&self) -> RunSettings<'_> {
+        RunSettings::of(&self.name, &self.simulation)
     }
 
     fn begin(&self) -> Result<Beginning<CarRecorder>, RunError> {
@@ -284,7 +273,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         .into_iter()
         .collect();
     warnings.extend(run.start_warning.clone());
-    warnings.extend(plausibility::warnings_of_rolling(&run));
+    warnings.extend(findings::warnings_of_rolling(&run));
     warnings.extend(run.case.doubts.iter().cloned());
     let risen = wedges_at_start(&run);
     warnings.extend(wedge_rise::warnings(&risen, units));
@@ -326,7 +315,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         }
     }
     let rows = time.len() - table.before();
-    let ledger = LedgerSummary::of_run(&mut run, units);
+    let ledger = run.ledger(units);
     let wedge_losses = losses(&mut run);
     let counts = &run.recorder.counts;
     let shares = counts.locked.iter().map(|own| *own as f64 / counts.rows as f64);

@@ -240,7 +240,7 @@ pub fn stability(
 }
 
 /// Returns a car of these parameters in steady running, its body held if the case says so.
-pub(super) fn steady(case: &CarCase, parameters: &Parameters) -> Result<SteadyCar, LinearizeError> {
+pub(crate) fn steady(case: &CarCase, parameters: &Parameters) -> Result<SteadyCar, LinearizeError> {
     let mut own = SteadyCar::new(parameters)?;
     if case.stability.body_held {
         own.hold_body();
@@ -292,7 +292,7 @@ fn branch(
 }
 
 /// Returns vibrations of a model with their names.
-pub(super) fn named(car: &SteadyCar, model: &LinearModel, modes: &[LinearMode]) -> Vec<NamedMode> {
+pub(crate) fn named(car: &SteadyCar, model: &LinearModel, modes: &[LinearMode]) -> Vec<NamedMode> {
     let own = modes.iter().map(|mode| NamedMode {
         growth: mode.growth(),
         frequency: mode.frequency(),
@@ -316,7 +316,7 @@ impl Critical {
 }
 
 /// Returns the same car on straight track, long enough to settle on.
-pub(super) fn straight(parameters: &Parameters) -> Parameters {
+pub(crate) fn straight(parameters: &Parameters) -> Parameters {
     /// Longer than a second at the speed of settling, m.
     const WAY: f64 = 100.0;
     let mut own = parameters.clone();

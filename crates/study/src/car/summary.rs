@@ -13,7 +13,7 @@ use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::outcome::RunEnd;
 use crate::statics::StaticTable;
-use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
+use crate::summary::{LedgerSummary, Stopped, SummaryValue, ledger, run_summary};
 use crate::wedge_rise::RiseSummary;
 
 /// The schema's name and version.
@@ -90,9 +90,11 @@ pub struct CarSummary {
 
 run_summary!(
     CarSummary,
-    ledger.largest_relative_residual,
-    derailed: CarSummary::end_of_derailed,
-    reached: CarSummary::end_distance
+    |own| title: &own.title,
+    ledger: ledger!(own.ledger, own.ledger.entries),
+    solver: (own.solver.steps, own.relative_tolerance),
+    derailed: own.end_of_derailed(),
+    reached: own.end_distance()
 );
 
 impl CarSummary {

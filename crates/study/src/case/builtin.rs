@@ -11,7 +11,6 @@ pub use thesis::own_name;
 
 use super::problem::Problem;
 use super::{Case, CaseError};
-use crate::{car, half_truck, truck};
 use quantity::nearest;
 use std::path::Path;
 use std::sync::LazyLock;
@@ -122,9 +121,6 @@ pub fn text(name: &str) -> Result<&'static str, CaseError> {
     if let Some(case) = CASES.iter().find(|case| case.name == own) {
         return Ok(&case.text);
     }
-    if let Some(problem) = of_another_model(name) {
-        return Err(problem.into());
-    }
     let help = match nearest(name, names()) {
         Some(near) => format!("did you mean {near}?"),
         None => format!(
@@ -135,28 +131,6 @@ pub fn text(name: &str) -> Result<&'static str, CaseError> {
     Err(Problem::new(format!("there is no built-in case \"{name}\""))
         .help(help)
         .into())
-}
-
-/// Returns what to say where a built-in case is of another model than the one that was asked for.
-fn of_another_model(name: &str) -> Option<Problem> {
-    let (what, class) = if names().any(|own| own == name) {
-        ("wedge", "Case")
-    } else if truck::builtin::names().any(|own| own == name) {
-        ("truck", "TruckCase")
-    } else if car::builtin::names().any(|own| own == name) {
-        ("car", "CarCase")
-    } else {
-        half_truck::catalog::entry(name)?;
-        ("half-truck", "HalfTruckCase")
-    };
-    let problem = Problem::new(format!("\"{name}\" is a built-in {what}"));
-    let command = match what {
-        "half-truck" => "wedgelab nucars run",
-        _ => "wedgelab run",
-    };
-    Some(problem.help(format!(
-        "`{command} {name}` runs it; in Python `{class}` takes it"
-    )))
 }
 
 /// Returns the names of all cases of groups.
@@ -179,9 +153,6 @@ pub(crate) fn text_in(
         .find(|case| case.name == name)
         .map(BuiltIn::text)
         .ok_or_else(|| {
-            if let Some(problem) = of_another_model(name) {
-                return problem.into();
-            }
             let help = match nearest(name, names_in(groups)) {
                 Some(near) => format!("did you mean {near}?"),
                 None => "`wedgelab case` lists all".to_owned(),

@@ -9,7 +9,6 @@
 pub mod bounds;
 pub mod builtin;
 pub(crate) mod coil;
-pub mod every_key;
 pub(crate) mod face;
 pub(crate) mod face_values;
 pub(crate) mod field;

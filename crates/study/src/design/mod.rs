@@ -23,9 +23,9 @@ pub use sobol::{DIMENSIONS, Sobol};
 
 pub(crate) use read::settings;
 
-use crate::any_case::{AnyCase, CaseSource};
 use crate::case::CaseError;
 use crate::measures::Definitions;
+use crate::models::{AnyCase, CaseSource};
 
 /// Version of what a study computes: it grows when the same document gives another table.
 pub const STUDY_VERSION: u32 = 5;

@@ -11,15 +11,12 @@ use input::{FileType, limits};
 
 use super::factor::{Factor, Value};
 use super::{Accuracy, DIMENSIONS, Sampling, Study, StudySource, accuracy_overrides};
-use crate::any_case::CaseSource;
-use crate::car;
-use crate::case::builtin;
 use crate::case::name;
 use crate::case::problem::{Problem, Problems, TomlLocation, TomlSource};
 use crate::case::section::{CaseSection, Names};
 use crate::case::tree::{self, NodeValue as Toml, TableNode, TreeNode};
 use crate::case::{CASE_FILE, CASE_TABLES, CaseError};
-use crate::truck;
+use crate::models::{self, CaseSource};
 use vary::{RANGE_HELP, TRIED, assignments, check_paths, factors, variants};
 
 const KEYS: [&str; 11] = [
@@ -431,13 +428,11 @@ fn case_source(case: &str, node: &TreeNode, folder: &Path, problems: &mut Proble
         }
     }
     if !path.is_file()
-        && let Ok(text) = builtin::text(case)
-            .or_else(|_| truck::builtin::text(case))
-            .or_else(|_| car::builtin::text(case))
+        && let Some(own) = models::built_in(case)
     {
         return Some(CaseSource::File {
             name: format!("{case}.toml"),
-            text: text.to_owned(),
+            text: own.text().to_owned(),
             folder: folder.to_owned(),
         });
     }
@@ -449,9 +444,7 @@ fn case_source(case: &str, node: &TreeNode, folder: &Path, problems: &mut Proble
         }),
         Err(error) => {
             let shown = path.display();
-            let names = builtin::names().chain(truck::builtin::names());
-            let names = names.chain(car::builtin::names());
-            let (message, help) = match quantity::nearest(case, names) {
+            let (message, help) = match quantity::nearest(case, models::built_in_names()) {
                 _ if !matches!(error.reason, Reason::NotFound) => {
                     (error.to_string(), error.help().unwrap_or_default())
                 }

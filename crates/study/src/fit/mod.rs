@@ -13,10 +13,10 @@ use input::bounded;
 use quantity::Quantity;
 use thiserror::Error;
 
-use crate::any_case::AnyCase;
 use crate::case::CaseError;
 use crate::design::Value;
 use crate::energy;
+use crate::models::AnyCase;
 use crate::plausibility::{self, at_bound};
 use least_squares::{Evaluate, SearchSettings, minimize};
 
@@ -206,7 +206,7 @@ pub struct Fit {
 /// The run cannot begin or stops, ends before the last time, or has no such column.
 pub fn course(case: &AnyCase, column: &str, times: &[f64]) -> Result<Vec<f64>, String> {
     let result = case.run().map_err(|error| error.to_string())?;
-    let outcome = result.outcome();
+    let outcome = result.summary.shared().outcome();
     if let (Some(_), Some(told)) = (outcome.end(), outcome.told()) {
         return Err(format!("the run {told}"));
     }
@@ -284,16 +284,16 @@ pub fn fit(
     let result = case(&values)?
         .run()
         .map_err(|error| FitError::Model(error.to_string()))?;
-    let warnings = result.warnings();
+    let warnings = result.summary.shared().warnings();
     let of_run = energy::among(warnings).chain(plausibility::among(warnings));
     let at_bound = fit.parameters.iter().filter(|found| found.at_bound);
     Ok(Fit {
-        largest_relative_residual: result.largest_relative_residual(),
+        largest_relative_residual: result.summary.shared().largest_relative_residual(),
         warnings: of_run
             .map(str::to_owned)
             .chain(at_bound.map(bound_warning))
             .collect(),
-        failed: result.failed().map(str::to_owned),
+        failed: result.summary.shared().failed().map(str::to_owned),
         ..fit
     })
 }

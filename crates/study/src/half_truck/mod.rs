@@ -24,7 +24,7 @@ use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 
 use crate::result::RunResult;
-use crate::summary::{Stopped, SummaryValue, run_summary};
+use crate::summary::{Stopped, SummaryValue, ledger, run_summary};
 use requests::Request;
 use wedge_bodies::MountedWedge;
 pub use yaw::YawSummary;
@@ -132,7 +132,12 @@ pub struct HalfTruckSummary {
     pub assumptions: Vec<String>,
 }
 
-run_summary!(HalfTruckSummary, largest_relative_residual);
+run_summary!(
+    HalfTruckSummary,
+    |own| title: &own.title,
+    ledger: ledger!(own, own.ledger),
+    solver: (own.statistics.steps, own.relative_tolerance)
+);
 
 /// A wedge's averages.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -25,9 +25,9 @@ use crate::metrics::{Cycle, mean, window_of};
 use crate::plausibility;
 use crate::progress;
 use crate::run::{
-    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, check_finite, check_length,
-    damaged,
+    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
 };
+use crate::run_error::{check_finite, check_length, damaged};
 use crate::summary::{Stopped, SummaryValue};
 
 /// Returns the state at the start.
@@ -91,22 +91,16 @@ impl RunCase for HalfTruckCase {
         "look for values that are out of proportion; `wedgelab nucars show` prints them as tables";
     const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY_WITH_FILES;
 
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn duration_and_interval(&self) -> [f64; 2] {
-        [self.duration, self.interval]
-    }
-
-    fn units(&self) -> Units {
-        self.units
-    }
-
-    fn options(&self) -> Options {
-        Options {
-            relative_tolerance: self.relative_tolerance,
-            ..Options::default()
+    fn settings(&self) -> RunSettings<'_> {
+        RunSettings {
+            name: &self.name,
+            duration: self.duration,
+            interval: self.interval,
+            units: self.units,
+            options: Options {
+                relative_tolerance: self.relative_tolerance,
+                ..Options::default()
+            },
         }
     }
 
@@ -253,7 +247,7 @@ fn output(mut run: Run<HalfTruckCase>, stopped: Option<Stopped>) -> HalfTruckRes
             warnings: energy::warning(&balance, energy::WHAT_TO_DO_WITH_FILES)
                 .into_iter()
                 .chain(run.start_warning.clone())
-                .chain(plausibility::warnings(&run))
+                .chain(findings::warnings(&run))
                 .collect(),
             rows: 0,
             yaw: None,

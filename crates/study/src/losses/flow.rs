@@ -1,7 +1,7 @@
 //! The flow of energy through a cycle: what a power flow figure (Sankey diagram) shows.
 
 use super::{EnergySummary, STATES};
-use crate::summary::SummaryValue;
+use crate::summary_value::SummaryValue;
 
 /// A loss smaller than this share of the inflow is added to others.
 const SMALL: f64 = 0.01;

@@ -23,7 +23,7 @@ use integrate::Integrator;
 use mechanics::system::{ContactState, Energies, System};
 use serde::{Deserialize, Serialize};
 
-use crate::run::{RunError, check_finite, check_length};
+use crate::run_error::{RunError, check_finite, check_length};
 use stroke::{PARTS, Stroke};
 
 pub use summary::{EnergySummary, Equivalent, LossSplit, STATES};

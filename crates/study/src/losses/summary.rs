@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::stroke::PARTS;
 use super::{KINDS, LossRecorder, STORED};
 use crate::metrics::{Cycle, FirstHarmonic};
-use crate::summary::SummaryValue;
+use crate::summary_value::SummaryValue;
 
 /// The contact states, by number.
 pub const STATES: [&str; 3] = ["open", "stick", "slip"];

@@ -12,7 +12,7 @@ use quantity::{Kind, System as Units};
 
 use super::summary::EnergySummary;
 use super::{LossSplit, STORED, stored};
-use crate::summary::SummaryValue;
+use crate::summary_value::SummaryValue;
 
 /// Words of elements' names that tell where one is, as numbers do.
 const PLACES: [&str; 9] = [

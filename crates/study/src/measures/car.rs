@@ -11,7 +11,8 @@ use super::{Definitions, Judged, Measure, Measures, Unmeasured};
 use crate::car::CarCase;
 use crate::car::run::CarResult;
 use crate::car::worst::WORST;
-use crate::{plausibility, wedge_rise};
+use crate::run::findings;
+use crate::wedge_rise;
 
 const OTHERS: [(&str, Kind, &str); 10] = [
     (
@@ -91,7 +92,7 @@ pub fn judge(case: &CarCase) -> Result<Judged, Unmeasured> {
     // The summary's numbers are in the units of the results.
     let mut case = case.clone();
     case.simulation.output_units = Units::Si;
-    let (result, outcome) = run_whole(&case, plausibility::nonsense_in_car)?;
+    let (result, outcome) = run_whole(&case, findings::nonsense_in_car)?;
     Ok(Judged {
         measures: measures(&result),
         outcome,

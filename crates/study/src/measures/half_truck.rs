@@ -8,7 +8,7 @@ use quantity::{Kind, System as Units};
 use super::measuring::run_whole;
 use super::{Definitions, Judged, Measure, Measures, Unmeasured};
 use crate::half_truck::{HalfTruckCase, HalfTruckSummary, WedgeSummary};
-use crate::plausibility;
+use crate::run::findings;
 use crate::summary;
 
 /// The metric of a wedge: its name after `wedge_NUMBER_`, kind, text, and where it stands in the summary.
@@ -118,7 +118,7 @@ pub fn judge(case: &HalfTruckCase) -> Result<Judged, Unmeasured> {
         units: Units::Si,
         ..case.clone()
     };
-    let (result, outcome) = run_whole(&case, plausibility::nonsense)?;
+    let (result, outcome) = run_whole(&case, findings::nonsense)?;
     Ok(Judged {
         measures: of_summary(&case, &result.summary),
         outcome,

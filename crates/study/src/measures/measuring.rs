@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use integrate::{Integrator, Options};
+use integrate::Integrator;
 use mechanics::energy_balance::Entries;
 use mechanics::plausibility::PlausibilityFinding;
 use mechanics::quasi_static::SlidingDirection;
@@ -23,8 +23,8 @@ use crate::outcome::{Outcome, RunEnd};
 use crate::plausibility;
 use crate::progress;
 use crate::result::RunResult;
-use crate::run::wedge_run::{contact_states_in_words, friction_losses, options};
-use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError};
+use crate::run::wedge_run::{contact_states_in_words, friction_losses};
+use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError, RunSettings, findings};
 use crate::summary::{RunSummary, Stopped};
 
 /// Reasons why a run has no measures.
@@ -41,7 +41,7 @@ pub enum Unmeasured {
 pub struct Judged {
     /// The measures; of a run that derailed, of the part until then.
     pub measures: Measures,
-    /// The run's outcome, which is no stop; a run that is nonsense ([`plausibility::nonsense`]) has failed.
+    /// The run's outcome, which is no stop; a run that is nonsense ([`findings::nonsense`]) has failed.
     pub outcome: Outcome,
 }
 
@@ -104,20 +104,8 @@ impl RunCase for Measured<'_> {
     const WHERE_TO_LOOK: &'static str = Case::WHERE_TO_LOOK;
     const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
 
-    fn name(&self) -> &str {
-        &self.0.name
-    }
-
-    fn duration_and_interval(&self) -> [f64; 2] {
-        self.0.duration_and_interval()
-    }
-
-    fn units(&self) -> Units {
-        self.0.simulation.output_units
-    }
-
-    fn options(&self) -> Options {
-        options(self.0)
+    fn settings(&self) -> RunSettings<'_> {
+        self.0.settings()
     }
 
     fn begin(&self) -> Result<Beginning<Measuring>, RunError> {
@@ -140,7 +128,7 @@ impl RunCase for Measured<'_> {
                 )))
             }
             None => Ok(Judged {
-                outcome: plausibility::nonsense(&run).map_or(Outcome::Complete, Outcome::Failed),
+                outcome: findings::nonsense(&run).map_or(Outcome::Complete, Outcome::Failed),
                 measures: run
                     .recorder
                     .finish(&run.integrator, run.energy_balance.relative_residual()),

@@ -12,10 +12,11 @@ use truck::WEDGE_NAMES;
 
 use super::measuring::run_whole;
 use super::{Definitions, Judged, Measure, Measures, Unmeasured};
+use crate::run::findings;
 use crate::truck::TruckCase;
 use crate::truck::run::{TruckResult, window};
 use crate::truck::summary::{WARP_ANGLES, warp_stiffness};
-use crate::{plausibility, wedge_rise};
+use crate::wedge_rise;
 
 /// Measures of all runs.
 const OF_ALL: [(&str, Kind, &str, bool); 13] = [
@@ -150,7 +151,7 @@ pub fn judge(case: &TruckCase) -> Result<Judged, Unmeasured> {
     // The summary's numbers are in the units of the results.
     let mut case = case.clone();
     case.simulation.output_units = Units::Si;
-    let (result, outcome) = run_whole(&case, plausibility::nonsense_in_truck)?;
+    let (result, outcome) = run_whole(&case, findings::nonsense_in_truck)?;
     Ok(Judged {
         measures: measures(&case, &result),
         outcome,

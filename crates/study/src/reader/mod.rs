@@ -18,7 +18,6 @@ use std::mem;
 use quantity::Kind;
 use schema::{Form, KnownKey, KnownSection};
 
-use crate::case::every_key::address;
 use crate::case::field::{Reach, Written};
 use crate::case::model::{MODELS, Model};
 use crate::case::page::Page;
@@ -321,7 +320,7 @@ impl<'r> CaseReader<'r> {
         };
         let model_name = section::name_of(MODELS, &model);
         for page in &mut self.pages {
-            page.text = format!("#:schema {}\n", address(model_name));
+            page.text = format!("#:schema {}\n", schema::address(model_name));
         }
         self.top(
             "name",

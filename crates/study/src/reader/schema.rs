@@ -11,6 +11,12 @@ use serde_json::{Map, Value, json};
 
 use crate::case::section::{Names, Range, example};
 
+/// Returns the address of the schema of a model's cases.
+pub(crate) fn address(model: &str) -> String {
+    let raw = "https://raw.githubusercontent.com/wedgelab/wedgelab/main/docs/schema";
+    format!("{raw}/{model}.json")
+}
+
 /// What may stand at a key.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Form {

@@ -3,9 +3,9 @@
 use mechanics::system::ContactState;
 use wedge::outputs::{FACES, PointNames};
 
-use super::state::check_count;
-use super::{Counts, EVENT_CAP, RunError, check_finite, check_length, check_size, damaged};
-use crate::result::ContactEvent;
+use super::{Counts, EVENT_CAP};
+use crate::run_error::{RunError, check_count, check_finite, check_length, check_size, damaged};
+use crate::summary::ContactEvent;
 
 impl Counts {
     /// Checks them for a wedge with these contact points, and so many probes passed.

@@ -6,8 +6,9 @@ use mechanics::output::Column;
 use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 
-use super::{NotFinite, RunError, append, check_finite, check_length, damaged};
+use super::append;
 use crate::metrics::Extremes;
+use crate::run_error::{NotFinite, RunError, check_finite, check_length, damaged};
 
 /// The rows of a run, SI, one vector a column. A run that goes on from a saved state has the rows after it;
 /// of the time and of the columns that its summary reads row by row it has all rows since the start, and of

@@ -1,7 +1,7 @@
 //! Saved states of runs, and whether one can be that of a case's run: all that could lead a run astray is
 //! looked at before it goes on.
 
-use integrate::{MAXIMUM_COUNT, State};
+use integrate::State;
 use mechanics::energy_balance::EnergyBalance;
 use mechanics::plausibility::PlausibilityRecord;
 use mechanics::system::ContactState;
@@ -10,9 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::{RunCase, RunError};
 use crate::progress::Pace;
 use crate::rows::Rows;
-
-/// Version of [`RunState`].
-pub const RUN_STATE_VERSION: u32 = 6;
+use crate::run_error::{RUN_STATE_VERSION, check_count, check_finite, check_size, damaged};
 
 /// Everything needed to continue a run with the same bits; `N` is what the case's recorder has counted.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -111,49 +109,4 @@ impl<N> RunState<N> {
         check_finite("energy_balance.work", balance.work)?;
         check_finite("energy_balance.losses", balance.losses)
     }
-}
-
-/// Returns the error about a member.
-pub(crate) fn damaged<T>(
-    member: &'static str,
-    found: impl ToString,
-    expected: impl ToString,
-) -> Result<T, RunError> {
-    Err(RunError::Damaged {
-        member,
-        found: found.to_string(),
-        expected: expected.to_string(),
-    })
-}
-
-pub(crate) fn check_length(member: &'static str, found: usize, expected: usize) -> Result<(), RunError> {
-    if found == expected {
-        return Ok(());
-    }
-    damaged(
-        member,
-        format!("a list of {found}"),
-        format!("a list of {expected}"),
-    )
-}
-
-pub(crate) fn check_size(member: &'static str, value: f64) -> Result<(), RunError> {
-    if value >= 0.0 && value.is_finite() {
-        return Ok(());
-    }
-    damaged(member, value, "zero or positive, and finite")
-}
-
-pub(crate) fn check_finite(member: &'static str, value: f64) -> Result<(), RunError> {
-    if value.is_finite() {
-        return Ok(());
-    }
-    damaged(member, value, "finite")
-}
-
-pub(crate) fn check_count(member: &'static str, count: u64) -> Result<(), RunError> {
-    if count <= MAXIMUM_COUNT {
-        return Ok(());
-    }
-    damaged(member, count, format!("at most {MAXIMUM_COUNT}"))
 }

@@ -9,7 +9,7 @@ use quantity::Kind;
 use wedge::face::FaceProperties;
 use wedge::outputs::{FACES, Outputs};
 
-use super::{EVENT_CAP, Run, pressed};
+use super::{EVENT_CAP, Run, findings, pressed};
 use crate::assumptions;
 use crate::case::Case;
 use crate::closed_form;
@@ -77,7 +77,7 @@ fn warnings(run: &Run<Case>, damped: bool) -> Vec<String> {
     }
     warnings.extend(energy::warning(&run.energy_balance, what_to_do(damped)));
     warnings.extend(run.start_warning.clone());
-    warnings.extend(plausibility::warnings(run));
+    warnings.extend(findings::warnings(run));
     let parameters = &run.case.parameters;
     let faces = [&parameters.column_face, &parameters.slope_face];
     let (columns, values) = (run.recorder.outputs.columns(), run.recorder.rows.columns());

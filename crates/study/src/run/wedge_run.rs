@@ -13,15 +13,15 @@ use serde::{Deserialize, Serialize};
 use wedge::Wedge;
 use wedge::outputs::{FACES, Outputs, PointNames};
 
-use super::{Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, summarize};
+use super::{Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, summarize};
 use crate::case::Case;
 use crate::losses::stroke::Stroke;
 use crate::losses::{LossCounts, LossRecorder, Window};
 use crate::metrics::Cycle;
 use crate::plausibility;
 use crate::progress;
-use crate::result::{ContactEvent, RunResult};
-use crate::summary::Stopped;
+use crate::result::RunResult;
+use crate::summary::{ContactEvent, Stopped};
 
 /// Largest number of listed events.
 pub const EVENT_CAP: usize = 500;
@@ -69,20 +69,11 @@ impl RunCase for Case {
         "look for values that are out of proportion; `wedgelab case` has cases that run";
     const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
 
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn duration_and_interval(&self) -> [f64; 2] {
-        [self.simulation.duration, self.simulation.output_interval]
-    }
-
-    fn units(&self) -> Units {
-        self.simulation.output_units
-    }
-
-    fn options(&self) -> Options {
-        options(self)
+    fn settings(&self) -> RunSettings<'_> {
+        RunSettings {
+            options: options(self),
+            ..RunSettings::of(&self.name, &self.simulation)
+        }
     }
 
     fn begin(&self) -> Result<Beginning<WedgeRecorder>, RunError> {
@@ -292,7 +283,7 @@ pub(crate) fn contact_states_in_words(
 const STEPS_A_CYCLE: f64 = 200.0;
 
 /// Returns the settings of the integrator for a case.
-pub(crate) fn options(case: &Case) -> Options {
+fn options(case: &Case) -> Options {
     let mut options = case.simulation.options();
     if case.simulation.method.tableau().family == Family::DiagonallyImplicit
         && let Some(cycle) = Cycle::of(&case.parameters)

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use integrate::{Integrator, Options};
+use integrate::Integrator;
 use mechanics::energy_balance::Entries;
 use mechanics::motion::Motion;
 use mechanics::output::Column;
@@ -27,9 +27,10 @@ use crate::plausibility;
 use crate::progress::{self, ADVANCE, Pace};
 use crate::result::RunResult;
 use crate::run::{
-    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows, check_finite, check_length,
+    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
 };
-use crate::summary::{LedgerSummary, Stopped, SummaryValue};
+use crate::run_error::{check_finite, check_length};
+use crate::summary::{Stopped, SummaryValue};
 use crate::{geometry, wedge_faces, wedge_rise};
 
 /// The result of a run.
@@ -106,20 +107,8 @@ impl RunCase for TruckCase {
         "look for values that are out of proportion; `wedgelab case` has trucks that run";
     const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
 
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn duration_and_interval(&self) -> [f64; 2] {
-        [self.simulation.duration, self.simulation.output_interval]
-    }
-
-    fn units(&self) -> Units {
-        self.simulation.output_units
-    }
-
-    fn options(&self) -> Options {
-        self.simulation.options()
+    fn settings(&self) -> RunSettings<'_> {
+        RunSettings::of(&self.name, &self.simulation)
     }
 
     fn begin(&self) -> Result<Beginning<TruckRecorder>, RunError> {
@@ -309,7 +298,7 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
         .into_iter()
         .collect();
     warnings.extend(run.start_warning.clone());
-    warnings.extend(plausibility::warnings_by_kind(&run));
+    warnings.extend(findings::warnings_by_kind(&run));
     warnings.extend(surplus(&run.case, units));
     warnings.extend(without_coil(&run.case));
     warnings.extend(closed(run.recorder.table.truck(), units));
@@ -345,7 +334,7 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
         statics: run.recorder.table.static_table(units),
         extremes: table.summary_extremes(&columns, units),
         energy: super::energies::of(&run, &column),
-        ledger: LedgerSummary::of_run(&mut run, units),
+        ledger: run.ledger(units),
         method: run.case.simulation.method.to_string(),
         relative_tolerance: run.case.simulation.relative_tolerance,
         statistics: run.integrator.statistics().clone(),

@@ -11,7 +11,7 @@ use crate::jam::JamMargins;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::statics::StaticTable;
-use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
+use crate::summary::{LedgerSummary, Stopped, SummaryValue, ledger, run_summary};
 use crate::wedge_rise::RiseSummary;
 
 /// The schema's name and version.
@@ -70,7 +70,12 @@ pub struct TruckSummary {
     pub assumptions: Vec<String>,
 }
 
-run_summary!(TruckSummary, ledger.largest_relative_residual);
+run_summary!(
+    TruckSummary,
+    |own| title: &own.title,
+    ledger: ledger!(own.ledger, own.ledger.entries),
+    solver: (own.statistics.steps, own.relative_tolerance)
+);
 
 /// Energies a cycle of the first periodic motion, over whole cycles after the first one.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -21,8 +21,10 @@ use super::summary::{Derailment, SCHEMA, WheelsetSummary};
 use crate::energy;
 use crate::plausibility;
 use crate::result::RunResult;
-use crate::run::{Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, SavedRows};
-use crate::summary::{LedgerSummary, Stopped, SummaryValue};
+use crate::run::{
+    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
+};
+use crate::summary::{Stopped, SummaryValue};
 
 /// The result of a run.
 pub type WheelsetResult = RunResult<WheelsetSummary>;
@@ -55,22 +57,16 @@ impl RunCase for WheelsetCase {
     const WHERE_TO_LOOK: &'static str = "look at speed, load and springs";
     const WHAT_TO_TRY: &'static str = "try a lower relative tolerance, sprung rails, or softer springs";
 
-    fn name(&self) -> &str {
-        &self.wheelset.name
-    }
-
-    fn duration_and_interval(&self) -> [f64; 2] {
-        [self.duration, self.wheelset.interval]
-    }
-
-    fn units(&self) -> Units {
-        self.wheelset.units
-    }
-
-    fn options(&self) -> Options {
-        Options {
-            relative_tolerance: self.wheelset.relative_tolerance,
-            ..Options::default()
+    fn settings(&self) -> RunSettings<'_> {
+        RunSettings {
+            name: &self.wheelset.name,
+            duration: self.duration,
+            interval: self.wheelset.interval,
+            units: self.wheelset.units,
+            options: Options {
+                relative_tolerance: self.wheelset.relative_tolerance,
+                ..Options::default()
+            },
         }
     }
 
@@ -155,7 +151,7 @@ fn output(mut run: Run<WheelsetCase>, stopped: Option<Stopped>) -> WheelsetResul
     let mut warnings: Vec<String> = energy::warning(&balance, LOWER_THE_TOLERANCE)
         .into_iter()
         .collect();
-    warnings.extend(plausibility::warnings_of_rolling(&run));
+    warnings.extend(findings::warnings_of_rolling(&run));
     warnings.extend(run.case.wheelset.track.doubts.iter().cloned());
     let mut extremes = table.summary_extremes(&columns, units);
     extremes.retain(|name, _| !name.contains("_patch_"));
@@ -173,7 +169,7 @@ fn output(mut run: Run<WheelsetCase>, stopped: Option<Stopped>) -> WheelsetResul
         rows: table.column("time").len() - table.before(),
         hunting: stability::hunting(&run.case.wheelset),
         extremes,
-        ledger: LedgerSummary::of_run(&mut run, units),
+        ledger: run.ledger(units),
         relative_tolerance: run.case.wheelset.relative_tolerance,
         statistics: run.integrator.statistics().clone(),
         assumptions: run.case.assumptions(),

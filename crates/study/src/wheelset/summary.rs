@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::metrics::Extremes;
 use crate::outcome::RunEnd;
-use crate::summary::{LedgerSummary, Stopped, SummaryValue, run_summary};
+use crate::summary::{LedgerSummary, Stopped, SummaryValue, ledger, run_summary};
 
 /// The schema's name and version.
 pub const SCHEMA: &str = "wedgelab.wheelset/1";
@@ -54,9 +54,10 @@ pub struct WheelsetSummary {
 
 run_summary!(
     WheelsetSummary,
-    ledger.largest_relative_residual,
-    derailed: WheelsetSummary::end_of_derailed,
-    reached: WheelsetSummary::end_distance
+    |own| ledger: ledger!(own.ledger, own.ledger.entries),
+    solver: (own.statistics.steps, own.relative_tolerance),
+    derailed: own.end_of_derailed(),
+    reached: own.end_distance()
 );
 
 impl WheelsetSummary {

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use study::any_case::{AnyCase, CaseSource};
 use study::case::{Case, CaseError};
 use study::fit::least_squares::{SearchSettings, minimize};
 use study::fit::{Free, Measured, course, fit, two_sided};
+use study::models::{AnyCase, CaseSource};
 
 /// Normally distributed numbers (Box and Muller), of a linear congruential generator.
 struct Noise(u64);
@@ -125,7 +125,7 @@ const CASE: &str = "[wedge]\ndamping = \"constant\"\n[side_frame]\ntoe = \"0.2 d
 
 fn case(set: &[String]) -> Result<AnyCase, CaseError> {
     let case = Case::parse("fit.toml", CASE, Path::new(""), set)?;
-    Ok(AnyCase::Wedge(Box::new(case)))
+    Ok(case.into())
 }
 
 /// The wedge itself: column friction and coil stiffness from loops with noise of 2 % of the force. Of 24

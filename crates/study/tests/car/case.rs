@@ -1,9 +1,9 @@
 //! Cases are read and written by the same lines.
 
 use car::{Drive, Wheels};
-use study::any_case::AnyCase;
 use study::car::{CarCase, builtin};
 use study::case::Tables;
+use study::models::AnyCase;
 
 fn parse(lines: &str) -> CarCase {
     let text = match lines.starts_with("name = ") {

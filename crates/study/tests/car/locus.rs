@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 
 use study::car::builtin;
-use study::car::locus::{Locus, LocusError, Vary, VaryError, locus};
 use study::car::stability::stability;
 use study::case::CaseError;
+use study::locus::{Locus, LocusError, Vary, VaryError, locus};
 
 const CAR: &str = "car_hunting_empty";
 const SPEED: f64 = 30.0;

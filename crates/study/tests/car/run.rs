@@ -4,11 +4,11 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use quantity::System;
-use study::any_case::CaseSource;
 use study::car::CarCase;
 use study::car::run::CarResult;
 use study::case::Tables;
 use study::design::{Study, StudySource};
+use study::models::CaseSource;
 use study::outcome::Outcome;
 use study::records::{self, Status};
 use study::run::Run;

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use study::any_case::AnyCase;
-use study::case::every_key::{MODELS, ModelKeys, Variant};
 use study::case::{Field, Input};
+use study::models::AnyCase;
+use study::models::every_key::{MODELS, ModelKeys, Variant};
 
 /// The heading and introduction of a model's sections.
 const HEADINGS: [(&str, &str); 3] = [

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use serde_json::Value;
-use study::case::every_key::MODELS;
+use study::models::every_key::MODELS;
 
 use super::page::{Key, keys};
 

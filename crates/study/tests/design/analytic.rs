@@ -1,7 +1,7 @@
 //! The variants of a study, against the methods' papers and the programs of others.
 
-use study::any_case::AnyCase;
 use study::design::{DIMENSIONS, LatinHypercube, Sobol, Value};
+use study::models::AnyCase;
 
 use super::common::{HEAD, study};
 

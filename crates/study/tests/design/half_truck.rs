@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use study::any_case::AnyCase;
 use study::design::Study;
+use study::models::AnyCase;
 use study::records::{self, Record, Status};
 use study::run::Run;
 

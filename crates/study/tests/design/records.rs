@@ -1,8 +1,8 @@
 //! Records survive what happens to files.
 
-use study::any_case::CaseSource;
 use study::design::Study;
 use study::measures::{Measures, of_wedges};
+use study::models::CaseSource;
 use study::records::{self, Record, Status};
 
 use super::common::{HEAD, SHORT, study};

@@ -5,7 +5,7 @@ mod page;
 #[path = "../case_keys/python.rs"]
 mod python;
 
-use study::case::every_key::MODELS;
+use study::models::every_key::MODELS;
 
 #[test]
 fn reproduction_the_reference_of_case_keys_is_that_of_this_build() {

@@ -1,8 +1,8 @@
 //! `--set`, good and bad, and names of built-in cases.
 
 use crate::common::only;
-use study::any_case::AnyCase;
 use study::case::{Case, CaseError, builtin};
+use study::models::AnyCase;
 
 fn set(overrides: &[&str]) -> Result<Case, CaseError> {
     let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_string()).collect();

@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use quantity::Quantity;
-use study::any_case::AnyCase;
-use study::car::certificate::{Certificate, Request, verdicts, worst_run};
-use study::car::conditions::{self, Condition};
 use study::car::limits::{Bound, LimitSet};
-use study::car::other_start::near;
+use study::certificate::conditions::{self, Condition};
+use study::certificate::other_start::near;
+use study::certificate::{Certificate, Request, verdicts, worst_run};
 use study::measures::Measures;
+use study::models::AnyCase;
 use study::records::{Record, Status};
 
 fn request(regimes: &[&str]) -> Request {

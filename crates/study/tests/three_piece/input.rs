@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::problems::in_words;
-use study::any_case::AnyCase;
 use study::case::{Case, Tables};
+use study::models::AnyCase;
 use study::run::Run;
 use study::truck::{TruckCase, builtin};
 

@@ -136,7 +136,7 @@ fn issue_029_an_instance_of_fmi_3_that_cannot_be_made_says_why() {
     }
     // Files that fill the memory: refused before they are read.
     for (file, bytes) in [
-        (resources::CASE, limits::TEXT_FILE),
+        (fmi::source::CASE, limits::TEXT_FILE),
         (resources::MODEL, limits::MODEL_FILE),
     ] {
         let fmu = Fmu::new(Version::Three);

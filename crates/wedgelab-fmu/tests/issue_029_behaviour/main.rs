@@ -121,7 +121,7 @@ impl Fmu {
         let case = builtin::case("cdrun_toe_out_0.2_psi_0.012").unwrap();
         let description = Description::new(&Source::Wedge(Box::new(case))).unwrap();
         let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join(resources::CASE), &description.files[0].1).unwrap();
+        std::fs::write(folder.path().join(fmi::source::CASE), &description.files[0].1).unwrap();
         std::fs::write(folder.path().join(resources::MODEL), "FrictionWedge\n").unwrap();
         let find = |name: &str| {
             let variable = description

@@ -5,13 +5,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use study::any_case::AnyCase;
-use study::car;
-use study::case::builtin;
-use study::case::every_key::{MODELS, ModelKeys};
-use study::truck;
+use study::models::every_key::{MODELS, ModelKeys};
+use study::models::{self, AnyCase};
 
-use super::run::built_in_names;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::select::select;
@@ -57,9 +53,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return Ok(ExitCode::SUCCESS);
     }
     let Some(name) = &arguments.name else {
-        let groups = builtin::groups().iter().chain(truck::builtin::groups());
-        let groups = groups.chain(car::builtin::groups());
-        for (index, group) in groups.enumerate() {
+        for (index, group) in models::groups().enumerate() {
             let between = if index == 0 { "" } else { "\n" };
             writeln!(out, "{between}{}: {}", group.name, group.title)?;
             let mut table = TerminalTable::new(2, &[]);
@@ -73,7 +67,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         }
         return Ok(ExitCode::SUCCESS);
     };
-    let names = select(std::slice::from_ref(name), built_in_names())?;
+    let names = select(std::slice::from_ref(name), models::built_in_names())?;
     if let ([first, .., last], None) = (names.as_slice(), &arguments.out) {
         let message = format!(
             "{} cases fit `{name}`, from {first} to {last}; one is printed",

@@ -10,9 +10,9 @@ use report::certificate_work;
 use report::page::certificate::Against;
 use report::study_folder::TABLE_FILE;
 use serde_json::json;
-use study::car::certificate::{Certificate, Request};
-use study::car::other_start::NEAR;
 use study::car::speeds;
+use study::certificate::other_start::NEAR;
+use study::certificate::{Certificate, Request};
 use study::records::Status;
 
 use super::study::work;
@@ -104,7 +104,7 @@ pub fn assess(car: &Path, regimes: &[String], common: &Common, ending: &str) -> 
         None => Vec::new(),
         // The option alone: all of them.
         Some(names) if names.is_empty() => {
-            let all = study::car::conditions::Condition::all().iter();
+            let all = study::certificate::conditions::Condition::all().iter();
             all.map(|own| own.name.clone()).collect()
         }
         Some(names) => names.clone(),

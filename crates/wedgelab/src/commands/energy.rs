@@ -9,10 +9,10 @@ use quantity::{Kind, SixDigits, System as Units};
 use report::figures::power_flow;
 use report::run_files::{CASE_FILE_NAME, RunFiles};
 use report::summary::write_json;
-use study::any_case::AnyCase;
 use study::losses::flow::{PowerFlow, words};
 use study::losses::stroke::PARTS;
 use study::losses::{EnergySummary, LossSplit};
+use study::models::AnyCase;
 use study::summary::{RunSummary, SummaryValue};
 
 use super::run::read_any;

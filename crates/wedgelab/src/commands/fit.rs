@@ -10,10 +10,10 @@ use rayon::prelude::*;
 use report::fit_files::{self, FitFigure};
 use report::run_files;
 use report::table::{ResultTable as Measurements, TableColumn};
-use study::any_case::{AnyCase, CaseSource};
 use study::case::CaseError;
 use study::fit::{Fit, FitError, Free, FreeError, Measured, fit};
 use study::metrics::Cycle;
+use study::models::{AnyCase, CaseSource};
 
 use super::run::{is_built_in, read_any};
 use crate::adjust::{self, Names, seconds};

@@ -6,9 +6,9 @@ use std::process::ExitCode;
 
 use clap::Args;
 use quantity::nearest;
-use study::car::conditions;
 use study::car::limits::LimitSet;
 use study::car::regime::Regime;
+use study::certificate::conditions;
 
 use super::certify::{Common, assess};
 use super::run::is_built_in;

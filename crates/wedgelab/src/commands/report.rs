@@ -71,7 +71,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             json!({
                 "label": run.label,
                 "folder": run.folder,
-                "schema": run.summary.schema(),
+                "schema": run.summary.shared().schema(),
                 "outcome": run.summary.shared().outcome().word(),
                 "notes": run.notes,
                 "numbers": run.key_numbers().into_iter().map(|number| json!({

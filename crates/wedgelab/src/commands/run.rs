@@ -5,6 +5,7 @@ use std::io;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use clap::Args;
 use quantity::{Kind, Number, Quantity, nearest};
@@ -15,16 +16,16 @@ use report::page;
 use report::run_files::{CASE_FILE_NAME, RunFiles, TABLES};
 use serde::Serialize;
 use serde_json::json;
-use study::any_case::AnyCase;
+use study::car::CarCase;
 use study::car::statistics::NO_STATISTICS;
 use study::car::summary::CarSummary;
-use study::car::{self, CarCase};
-use study::case::{Case, builtin};
+use study::case::Case;
+use study::models::{AnyCase, built_in, built_in_names};
 use study::outcome::Outcome;
 use study::output_files::{OutputFiles, TableFormat};
 use study::summary::RunSummary;
 use study::truck::run::TruckResult;
-use study::truck::{self, TruckCase, WEDGE_NAMES};
+use study::truck::{TruckCase, WEDGE_NAMES};
 
 use super::energy;
 use crate::execute::{
@@ -157,7 +158,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return execute_in_parts(&case, arguments);
     }
     match case {
-        AnyCase::Wedge(case) => run_wedge(*case, arguments),
+        AnyCase::Wedge(case) => run_wedge(Arc::unwrap_or_clone(case), arguments),
         AnyCase::Truck(case) => run_truck(&case, arguments),
         AnyCase::Car(case) => run_car(&case, arguments),
         AnyCase::HalfTruck(case) => Err(not_here(&case.name)),
@@ -218,29 +219,26 @@ fn run_wedge(case: Case, arguments: &Arguments) -> Result<ExitCode, Failure> {
 /// Runs a case of any model in parts.
 fn execute_in_parts(case: &AnyCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
     match case {
-        AnyCase::Wedge(case) => run_in_parts(&**case, case.to_toml_embedded(), arguments, |done| {
+        AnyCase::Wedge(case) => run_in_parts(&**case, arguments, |done| {
             (table([(&done.result.summary, done.wall)]), TABLE_NOTE.to_owned())
         }),
-        AnyCase::Truck(case) => run_in_parts(&**case, case.to_toml_embedded(), arguments, |done| {
+        AnyCase::Truck(case) => run_in_parts(&**case, arguments, |done| {
             (truck_table(&done.result), TRUCK_NOTE.to_owned())
         }),
-        AnyCase::Car(case) => run_in_parts(&**case, case.to_toml_embedded(), arguments, |done| {
-            limits_of_car(&done.result.summary)
-        }),
+        AnyCase::Car(case) => run_in_parts(&**case, arguments, |done| limits_of_car(&done.result.summary)),
         AnyCase::HalfTruck(case) => Err(not_here(&case.name)),
     }
 }
 
 fn run_in_parts<C: RunFiles>(
     case: &C,
-    text: &str,
     arguments: &Arguments,
     shown: impl FnOnce(&Done<C::Output>) -> (TerminalTable, String),
 ) -> Result<ExitCode, Failure> {
     let place = begin(case, &[], arguments)?;
     let (folder, progress) = (&place.folder, &place.progress);
     let parts = Parts {
-        case: text,
+        case: case.case_file().unwrap_or_default(),
         from: arguments.from.as_deref(),
         save: arguments.save.as_deref(),
         until: arguments.until.as_ref().map(Quantity::to_si),
@@ -469,16 +467,9 @@ fn truck_table(result: &TruckResult) -> TerminalTable {
     table
 }
 
-/// Returns the names of all built-in cases: wedges, then trucks, then cars.
-pub fn built_in_names() -> impl Iterator<Item = &'static str> {
-    let names = builtin::names().chain(truck::builtin::names());
-    names.chain(car::builtin::names())
-}
-
 /// Returns whether a built-in case is meant. A folder may well have its name: that of its results.
 pub fn is_built_in(path: &Path) -> bool {
-    let name = builtin::own_name(path.to_str().unwrap_or(""));
-    (!path.exists() || path.is_dir()) && built_in_names().any(|builtin| builtin == name)
+    (!path.exists() || path.is_dir()) && path.to_str().and_then(built_in).is_some()
 }
 
 /// Returns the case that a user names, of a wedge, a truck or a car, with `--set` overrides.
@@ -519,16 +510,12 @@ pub fn read(path: &Path, set: &[String]) -> Result<Case, Failure> {
 /// Returns the wedge's case, where no other will do.
 pub fn wedge_of(case: AnyCase) -> Result<Case, Failure> {
     match case {
-        AnyCase::Wedge(case) => Ok(*case),
+        AnyCase::Wedge(case) => Ok(Arc::unwrap_or_clone(case)),
         other => Err(Message::new(
             format!(
                 "{} is a {}, and this command takes a single wedge",
                 other.name(),
-                if matches!(other, AnyCase::Car(_)) {
-                    "car"
-                } else {
-                    "truck"
-                }
+                other.model()
             ),
             "`wedgelab run`, `study`, `fit`, `plot` and `compare` take trucks and cars",
         )

@@ -9,11 +9,11 @@ use clap::Args;
 use quantity::{Kind, Quantity, System as Units};
 use report::stability_files::NAMES;
 use report::{hunting_files, onset_files, stability_files};
-use study::any_case::AnyCase;
 use study::car::CarCase;
 use study::car::hunting::{Boundary, Hunting, HuntingError, HuntingSettings, hunting};
 use study::car::onset::onset;
 use study::car::stability::{BEYOND, Branch, BranchKind, Stability, left_out, stability};
+use study::models::AnyCase;
 use study::outcome::Outcome;
 
 use super::run::read_any;

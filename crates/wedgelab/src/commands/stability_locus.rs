@@ -4,15 +4,16 @@ use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use clap::Args;
 use miette::Diagnostic;
 use quantity::{Kind, Number};
 use report::locus_files;
-use study::any_case::AnyCase;
 use study::car::CarCase;
-use study::car::locus::{Locus, LocusError, Vary, VaryError, locus};
 use study::case::CaseError;
+use study::locus::{Locus, LocusError, Vary, VaryError, locus};
+use study::models::AnyCase;
 
 use super::run::is_built_in;
 use super::stability::speed;
@@ -136,7 +137,7 @@ fn read(around: Around<'_>, set: &[String], case: &CarCase) -> Result<CarCase, C
         None => AnyCase::read(around.path, &all)?,
     };
     match any {
-        AnyCase::Car(own) => Ok(*own),
+        AnyCase::Car(own) => Ok(Arc::unwrap_or_clone(own)),
         // Numbers change no model.
         _ => Ok(case.clone()),
     }

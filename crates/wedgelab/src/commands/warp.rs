@@ -3,10 +3,11 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use clap::Args;
 use report::warp_files::{self, KIP_INCH, NAMES, Tested};
-use study::any_case::AnyCase;
+use study::models::AnyCase;
 use study::truck::TruckCase;
 use study::truck::run::TruckResult;
 use study::truck::warp::{NUCARS_STIFFNESS, WarpCurve};
@@ -221,12 +222,14 @@ type Variant = (String, Vec<String>);
 /// Returns the case of a truck with values laid over it.
 fn truck(case: &Path, set: &[String]) -> Result<TruckCase, Failure> {
     let what = match read_any(case, set)? {
-        AnyCase::Truck(case) => return Ok(*case),
-        AnyCase::Car(_) => "a car",
-        AnyCase::HalfTruck(_) => "a half-truck",
-        _ => "a single wedge",
+        AnyCase::Truck(case) => return Ok(Arc::unwrap_or_clone(case)),
+        AnyCase::Wedge(_) => "single wedge",
+        other => other.model(),
     };
-    let message = format!("{} is the case of {what}; a truck's is expected", case.display());
+    let message = format!(
+        "{} is the case of a {what}; a truck's is expected",
+        case.display()
+    );
     let advice = "take a built-in truck (`wedgelab case` lists them), or a case with model = \"truck\"";
     Err(Message::new(message, advice).into())
 }

@@ -1,38 +1,13 @@
 //! Checks of a saved state against an instance: everything that could lead it astray is checked before it is
 //! taken over.
 
-use std::fmt::Display;
-
 use super::super::check_experiment;
 use super::{Instance, Phase, Saved};
 use crate::Error;
 use crate::element::Interface;
+use crate::error::{check_finite, damaged};
 use crate::extrapolate::KEPT_POINTS;
 use crate::watch::Doubt;
-
-/// Returns a member of a saved state that cannot be.
-pub(crate) fn damaged(member: &str, found: impl Display, expected: impl Display) -> Error {
-    Error::new(format!(
-        "the saved state is damaged: {member} is {found}; it must be {expected}; restore a state as it was \
-         saved, or reset the instance"
-    ))
-}
-
-/// Checks whether all numbers of a member are finite.
-pub(crate) fn check_finite<'v>(member: &str, values: impl IntoIterator<Item = &'v f64>) -> Result<(), Error> {
-    match values
-        .into_iter()
-        .enumerate()
-        .find(|(_, value)| !value.is_finite())
-    {
-        Some((number, value)) => Err(damaged(
-            &format!("{member} {number} (counted from 0)"),
-            value,
-            "finite",
-        )),
-        None => Ok(()),
-    }
-}
 
 impl Saved {
     /// Checks whether it can be a state of this instance, as far as that can be said without its element.

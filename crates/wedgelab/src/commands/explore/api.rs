@@ -8,14 +8,13 @@ use std::time::Instant;
 use report::view::View;
 use report::{run_files, summary};
 use serde::{Deserialize, Serialize};
-use study::any_case::AnyCase;
 use study::case::builtin::CaseGroup;
-use study::case::{CaseError, FieldSection, builtin};
-use study::{car, truck};
+use study::case::{CaseError, FieldSection};
+use study::models::{self, AnyCase, AnySummary};
 
 use super::base::Base;
 use super::limits;
-use super::outcome::{AnySummary, Loop, Outcome, compute};
+use super::outcome::{Loop, Outcome, compute};
 
 /// The name and version of the answers.
 pub const SCHEMA: &str = "wedgelab.explore/1";
@@ -66,6 +65,7 @@ pub struct Answer {
     schema: &'static str,
     /// `wedgelab.view/1`.
     view: View,
+    #[serde(serialize_with = "AnySummary::serialize_content")]
     summary: AnySummary,
     /// The loop that is shown over earlier ones.
     #[serde(rename = "loop")]
@@ -231,15 +231,11 @@ impl Explorer {
                 })
                 .collect(),
         };
-        let groups = builtin::groups().iter();
-        let groups = groups
-            .chain(truck::builtin::groups())
-            .chain(car::builtin::groups());
         Ok(Opening {
             schema: SCHEMA,
             preset: self.base.preset().map(str::to_owned),
             name: case.name().to_owned(),
-            presets: groups.map(presets).collect(),
+            presets: models::groups().map(presets).collect(),
             sections: case.fields(),
         })
     }

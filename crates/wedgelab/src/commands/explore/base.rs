@@ -5,9 +5,8 @@
 
 use std::path::{Path, PathBuf};
 
-use study::any_case::AnyCase;
 use study::case::{CaseError, Tables, builtin, text_of};
-use study::{car, truck};
+use study::models::{AnyCase, built_in};
 
 use super::super::run;
 use super::limits;
@@ -54,12 +53,9 @@ impl Base {
     pub fn with(&self, overrides: &[String]) -> Result<AnyCase, CaseError> {
         match self {
             Self::BuiltIn(name) => {
-                let text = if truck::builtin::names().any(|own| own == name) {
-                    truck::builtin::text(name)?
-                } else if car::builtin::names().any(|own| own == name) {
-                    car::builtin::text(name)?
-                } else {
-                    builtin::text(name)?
+                let text = match built_in(name) {
+                    Some(own) => own.text(),
+                    None => builtin::text(name)?,
                 };
                 AnyCase::parse(&format!("{name}.toml"), text, Tables::nowhere(), overrides)
             }

@@ -2,8 +2,7 @@
 
 use std::time::Duration;
 
-use study::any_case::AnyCase;
-use study::run::RunCase;
+use study::models::AnyCase;
 
 /// Rows of output of a run, at most: one such run and its answer take some 40 MB.
 pub const ROWS: u64 = 20_001;
@@ -70,7 +69,7 @@ pub struct TooLong {
 /// # Errors
 /// The run is longer.
 pub fn check(case: &AnyCase) -> Result<(), TooLong> {
-    let [duration, interval] = simulation(case);
+    let [duration, interval] = case.duration_and_interval();
     if matches!(case, AnyCase::Car(_)) && duration > CAR_SECONDS {
         return Err(TooLong {
             path: "simulation.duration",
@@ -79,16 +78,6 @@ pub fn check(case: &AnyCase) -> Result<(), TooLong> {
         });
     }
     rows([duration, interval])
-}
-
-/// Duration and output interval of a case, s.
-fn simulation(case: &AnyCase) -> [f64; 2] {
-    match case {
-        AnyCase::Wedge(case) => [case.simulation.duration, case.simulation.output_interval],
-        AnyCase::Car(case) => [case.simulation.duration, case.simulation.output_interval],
-        AnyCase::Truck(case) => [case.simulation.duration, case.simulation.output_interval],
-        AnyCase::HalfTruck(case) => case.duration_and_interval(),
-    }
 }
 
 /// Refuses a run of more rows than [`ROWS`].

@@ -2,6 +2,7 @@
 
 use std::io;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use quantity::Kind;
 use report::run_files::{RunFiles, TABLES};
@@ -9,19 +10,17 @@ use report::summary;
 use report::view::View;
 use report::view::run::{Detail, Recording};
 use serde::Serialize;
-use study::any_case::AnyCase;
 use study::car::CarCase;
 use study::car::motions::MotionTable;
 use study::car::run::CarResult;
-use study::car::summary::CarSummary;
 use study::case::{Case, FieldSection};
 use study::contacts::ContactTable;
+use study::models::{AnyCase, AnySummary};
 use study::output_files::{OutputFiles, TableFormat};
 use study::result::RunResult;
 use study::run::{Run, RunCase};
-use study::summary::{RunSummary, Summary};
+use study::summary::RunSummary;
 use study::truck::run::TruckResult;
-use study::truck::summary::TruckSummary;
 use study::truck::{TruckCase, WEDGE_NAMES};
 
 use super::api::Refused;
@@ -35,18 +34,6 @@ pub enum Outcome {
     Truck(Box<(TruckCase, TruckResult, Option<ContactTable>)>),
     /// A car, with the motions of its bodies.
     Car(Box<(CarCase, CarResult, Option<MotionTable>)>),
-}
-
-/// The summary of any.
-#[derive(Debug, Serialize)]
-#[serde(untagged)]
-pub enum AnySummary {
-    /// `wedgelab.summary/2`, without the list of events.
-    Wedge(Box<Summary>),
-    /// `wedgelab.three_piece_truck/1`.
-    Truck(Box<TruckSummary>),
-    /// `wedgelab.car/1`.
-    Car(Box<CarSummary>),
 }
 
 /// An axis of the loop: a column of the run, and in words.
@@ -88,18 +75,18 @@ pub fn compute(case: AnyCase, wanted: impl Fn() -> bool) -> Result<Outcome, Refu
     let outcome = match case {
         AnyCase::Wedge(case) => {
             let result = started(Run::new(&*case))?.finish_while(&mut goes_on);
-            Outcome::Wedge(Box::new((*case, result)))
+            Outcome::Wedge(Box::new((Arc::unwrap_or_clone(case), result)))
         }
         AnyCase::Truck(case) => {
             let run = started(Run::with_contacts(&*case))?;
             let (result, contacts) = run.finish_with_contacts(&mut goes_on);
-            Outcome::Truck(Box::new((*case, result, contacts)))
+            Outcome::Truck(Box::new((Arc::unwrap_or_clone(case), result, contacts)))
         }
         AnyCase::HalfTruck(_) => return Err(Refused::mistake("", NO_HALF_TRUCK.to_owned(), "")),
         AnyCase::Car(case) => {
             let run = started(Run::with_motions(&case))?;
             let (result, motions) = run.finish_with_motions(&mut goes_on);
-            Outcome::Car(Box::new((*case, result, motions)))
+            Outcome::Car(Box::new((Arc::unwrap_or_clone(case), result, motions)))
         }
     };
     if replaced {
@@ -186,16 +173,16 @@ impl Outcome {
         }
     }
 
-    /// Returns its summary.
+    /// Returns its summary, of a wedge without the list of events.
     pub fn summary(&self) -> AnySummary {
         match self {
             Self::Wedge(own) => {
                 let mut summary = own.1.summary.clone();
                 summary.events.listed.clear();
-                AnySummary::Wedge(Box::new(summary))
+                summary.into()
             }
-            Self::Truck(own) => AnySummary::Truck(Box::new(own.1.summary.clone())),
-            Self::Car(own) => AnySummary::Car(Box::new(own.1.summary.clone())),
+            Self::Truck(own) => own.1.summary.clone().into(),
+            Self::Car(own) => own.1.summary.clone().into(),
         }
     }
 
@@ -212,7 +199,7 @@ impl Outcome {
     pub fn write(&self, file: &str, out: &mut Vec<u8>) -> io::Result<&'static str> {
         let Some((format, _)) = TABLES.into_iter().find(|(_, name)| *name == file) else {
             match self {
-                Self::Wedge(own) => summary::write(&own.1.summary, out)?,
+                Self::Wedge(own) => summary::write_json(&own.1.summary, out)?,
                 Self::Truck(own) => summary::write_json(&own.1.summary, out)?,
                 Self::Car(own) => summary::write_json(&own.1.summary, out)?,
             }

@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use fmi::description::{FmuModel, Version};
+use fmi::description::Version;
 use fmi::package::{self, Library, Platform};
-use fmi::source::Source;
-use study::any_case::AnyCase;
+use fmi::source::{FmuModel, Source};
+use study::car::CarCase;
+use study::models::AnyCase;
+use study::truck::TruckCase;
 
 use super::half_truck::Choice;
 use super::write;
@@ -115,8 +117,10 @@ impl Arguments {
         }
         let any = run::read_any(&self.case, &self.set)?;
         let whole = match &any {
-            AnyCase::Truck(case) => Some((Source::ThreePieceTruck(case.clone()), "truck")),
-            AnyCase::Car(case) => Some((Source::Car(case.clone()), "car")),
+            AnyCase::Truck(case) => {
+                Some((Source::ThreePieceTruck(Box::new(TruckCase::clone(case))), "truck"))
+            }
+            AnyCase::Car(case) => Some((Source::Car(Box::new(CarCase::clone(case))), "car")),
             _ => None,
         };
         if let Some((source, what)) = whole {

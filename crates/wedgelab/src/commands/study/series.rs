@@ -4,12 +4,13 @@
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use report::files::Folder;
 use report::run_files::RunFiles;
 use report::study_folder::SERIES;
-use study::any_case::AnyCase;
 use study::design::Study;
+use study::models::AnyCase;
 
 use crate::execute::{execute_whole, unsound};
 use crate::failure::{Failure, Message};
@@ -38,9 +39,10 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
         let folder = folders::check(&path, &names, true)?;
         let whole = match study.case(*number)? {
             AnyCase::Wedge(case) => one(&case.named(&name), &folder, &progress)?,
-            AnyCase::HalfTruck(mut case) => {
+            AnyCase::HalfTruck(case) => {
+                let mut case = Arc::unwrap_or_clone(case);
                 case.name = name;
-                one(&*case, &folder, &progress)?
+                one(&case, &folder, &progress)?
             }
             AnyCase::Truck(case) => one(&case.named(&name), &folder, &progress)?,
             AnyCase::Car(case) => one(&case.named(&name), &folder, &progress)?,

@@ -14,8 +14,8 @@ use std::sync::LazyLock;
 use input::FileType;
 use input::limits::CONDITIONS as MOST;
 
-use super::CarCase;
-use super::named::{self, BuiltInOrFile, find};
+use crate::car::CarCase;
+use crate::car::named::{self, BuiltInOrFile, find};
 use crate::case::problem::{Problem, Problems, TomlSource};
 use crate::case::section::CaseSection;
 use crate::case::tree::{self, NodeValue, TableNode};

@@ -1,4 +1,31 @@
-//! The quadratures of a system: work of the motions, and every dissipation.
+//! The energies of a system: what is stored, and the quadratures of works and dissipations.
+
+/// Energies of the whole system, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energies {
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Potential energy in the gravity field.
+    pub gravity: f64,
+    /// Energy of the coils, those of massless wedges included.
+    pub coil: f64,
+    /// Energy of the contact springs.
+    pub contact: f64,
+    /// Energy of the bristles of contact points and of the force accumulators of connections.
+    pub bristle: f64,
+    /// Energy of the springs of connections, also behind gaps and under surfaces.
+    pub spring: f64,
+    /// Energy of other force elements.
+    pub element: f64,
+}
+
+impl Energies {
+    /// Returns all of it.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.gravity + self.coil + self.contact + self.bristle + self.spring + self.element
+    }
+}
 
 /// The description of the integrand of a quadrature.
 #[derive(Clone, Debug, PartialEq, Eq)]

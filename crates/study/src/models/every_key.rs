@@ -1,15 +1,16 @@
-//! All keys of a model's cases: built-in cases that together have all of them, and the schema by which editors
-//! complete and check a case.
+//! All keys of a model's cases: built-in cases that together have all of them, and the schema by which
+//! editors complete and check a case.
 
 use std::collections::BTreeSet;
 
 use serde_json::Value;
 
-use super::{Case, builtin};
+use super::built_in;
 use crate::car::CarCase;
-use crate::reader::schema::{KnownSection, schema as joined};
+use crate::case::Case;
+use crate::case::builtin::BuiltIn;
+use crate::reader::schema::{KnownSection, address, schema as joined};
 use crate::truck::TruckCase;
-use crate::{car, truck};
 
 /// A built-in case and `--set` overrides of it.
 pub type Variant = (&'static str, &'static [&'static str]);
@@ -86,24 +87,11 @@ pub const MODELS: [ModelKeys; 3] = [
     },
 ];
 
-/// Returns the address of the schema of a model's cases.
-pub(crate) fn address(model: &str) -> String {
-    let raw = "https://raw.githubusercontent.com/wedgelab/wedgelab/main/docs/schema";
-    format!("{raw}/{model}.json")
-}
-
 impl ModelKeys {
     /// Returns the schema of its cases (JSON Schema, draft 7).
     #[must_use]
     pub fn schema(&self) -> Value {
-        let text = |name: &str| {
-            let texts = [
-                builtin::text(name),
-                truck::builtin::text(name),
-                car::builtin::text(name),
-            ];
-            texts.into_iter().find_map(Result::ok).unwrap_or_default()
-        };
+        let text = |name: &str| built_in(name).map_or("", BuiltIn::text);
         // What is said first stands: the built-in cases before their variants.
         let (mut sections, mut variants) = (Vec::new(), Vec::new());
         let mut chosen = BTreeSet::new();

@@ -2,7 +2,7 @@
 //! speed, with friction stuck and absent, for evenly spaced values of the parameter.
 //!
 //! Each value is a case of its own, read again with the key set, so that everything that follows from the key
-//! follows here too. As in [`stability`](super::stability) the car runs on straight track without
+//! follows here too. As in [`stability`](crate::car::stability) the car runs on straight track without
 //! irregularities.
 
 use std::ops::ControlFlow;
@@ -11,8 +11,8 @@ use car::{FrictionState, LinearizeError, vibrations};
 use quantity::nearest;
 use thiserror::Error;
 
-use super::CarCase;
-use super::stability::{BranchKind, NamedMode, named, steady, straight};
+use crate::car::CarCase;
+use crate::car::stability::{BranchKind, NamedMode, named, steady, straight};
 use crate::case::CaseError;
 use crate::case::field::Input;
 use crate::design::{Factor, Levels, Value};

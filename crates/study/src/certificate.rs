@@ -4,6 +4,9 @@
 //! study's folder, table and cluster serve it as they are. What is more here is the assessment of a record
 //! ([`Certificate::assess`]).
 
+pub mod conditions;
+pub mod other_start;
+
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -11,14 +14,15 @@ use mechanics::energy_balance::Verdict;
 use quantity::{Kind, Quantity};
 use serde::Serialize;
 
-use super::conditions::Condition;
-use super::limits::{Limit, LimitSet};
-use super::other_start::OtherStart;
-use super::regime::Regime;
-use crate::any_case::{AnyCase, CaseSource};
+use self::conditions::Condition;
+use self::other_start::OtherStart;
+use crate::car;
+use crate::car::limits::{Limit, LimitSet};
+use crate::car::regime::Regime;
 use crate::case::problem::Problem;
 use crate::case::{self, CaseError, overrides};
 use crate::design::{Study, StudySource, Value};
+use crate::models::{AnyCase, CaseSource, no_built_in};
 use crate::records::{Record, Status};
 
 /// The name of the study's text, which is made here.
@@ -125,7 +129,7 @@ impl Certificate {
             [] => Condition::all().iter().take(1).cloned().collect(),
             names => Condition::chosen(names)?,
         };
-        let (source, car) = car(request)?;
+        let (source, car) = car_of(request)?;
         let text = text(&regimes, &conditions, request, &car)?;
         let study = Study::of_source(StudySource {
             name: STUDY.to_owned(),
@@ -351,17 +355,17 @@ fn repeated(regimes: &[Regime]) -> Option<&str> {
 }
 
 /// Reads the car.
-fn car(request: &Request) -> Result<(CaseSource, AnyCase), CaseError> {
+fn car_of(request: &Request) -> Result<(CaseSource, AnyCase), CaseError> {
     let path = &request.car;
     let name = path.to_str().unwrap_or_default();
-    let source = match super::builtin::text(name) {
+    let source = match car::builtin::text(name) {
         Ok(text) if !path.is_file() => CaseSource::File {
             name: format!("{name}.toml"),
             text: text.to_owned(),
             folder: PathBuf::new(),
         },
         Err(_) if matches!(AnyCase::built_in(name, &[]), Ok(Some(_))) => return Err(no_car(path)),
-        Err(error) if !path.exists() && path.extension().is_none() => return Err(error),
+        Err(error) if !path.exists() && path.extension().is_none() => return Err(no_built_in(name, error)),
         _ => CaseSource::File {
             name: path.display().to_string(),
             text: case::text_of(path)?,

@@ -4,12 +4,14 @@
 //! the start of its run. The run that keeps a limit least is therefore computed once more where its margin is
 //! within [`NEAR`]: from the shaken car, or from the equilibrium if its own start is shaken.
 
+use std::sync::Arc;
+
 use car::{StartKind, Wheels};
 use serde::Serialize;
 
-use super::certificate::{Certificate, LimitVerdict};
-use super::locked_in::name;
-use crate::any_case::AnyCase;
+use super::{Certificate, LimitVerdict};
+use crate::car::locked_in::name;
+use crate::models::AnyCase;
 use crate::records::{self, Record, Status};
 
 /// Margin, in parts of the limit, up to which a result is near it, kept or not: a choice.
@@ -50,7 +52,7 @@ impl Certificate {
     /// Computes a run of it from its other start; `None` for a car on linear wheels, which has no other one.
     #[must_use]
     pub fn repeat(&self, number: u64) -> Option<Repeated> {
-        let Ok(AnyCase::Car(mut case)) = self.study.case(number) else {
+        let Ok(AnyCase::Car(case)) = self.study.case(number) else {
             return None;
         };
         if matches!(case.parameters.wheels, Wheels::Linear { .. }) {
@@ -61,8 +63,9 @@ impl Certificate {
             StartKind::Shaken => StartKind::Equilibrium,
             StartKind::Equilibrium | StartKind::Nominal => StartKind::Shaken,
         };
+        let mut case = Arc::unwrap_or_clone(case);
         case.parameters.start.kind = other;
-        let record = records::run_case(&self.study, number, &AnyCase::Car(case));
+        let record = records::run_case(&self.study, number, &case.into());
         Some((number, [own, other].map(name), record))
     }
 
