@@ -37,8 +37,8 @@ pub(crate) fn thesis_coil(r: &mut CaseReader<'_>, coil: &mut ControlCoil, dampin
     let usual = along.as_ref().and_then(rotational_damping);
     let rotational = &mut coil.rotational_damping;
     r.quantity_or("rotational_damping", ROTATIONAL, usual, rotational, comment);
-    let comment = "\"center_of_gravity\": the thesis's moment equations hold no moment of the coil; or \"seat\", with \
-         its moment";
+    let comment = "\"center_of_gravity\": the thesis's moment equations hold no moment of the coil; or \
+                   \"seat\", with its moment";
     r.choice("acts_at", COIL_LINES, &mut coil.acts_at, comment);
     let comment = "the thesis's coil pushes and pulls; false: it lifts off at its free length";
     r.truth("pulls", &mut coil.pulls, comment);
@@ -88,8 +88,8 @@ fn law(r: &mut CaseReader<'_>, law: &mut CoilLaw) {
     }
 }
 
-/// Returns what the thesis writes in its moment equations (3-13, 3-18), the same C: numerically the damping in
-/// lbf s/in, as lbf s in.
+/// Returns what the thesis writes in its moment equations (3-13, 3-18), the same C: numerically the damping
+/// in lbf s/in, as lbf s in.
 fn rotational_damping(damping: &Quantity) -> Option<Quantity> {
     let number = if damping.unit_text() == Kind::Damping.unit(System::Us) {
         damping.value()

@@ -124,9 +124,10 @@ macro_rules! model_case {
                 Self::of_tree(tree, source, tables.into(), problems)
             }
 
-            /// Lays values over the text of a case: TOML as in a case file, but a bare number where a quantity
-            /// is expected is in SI units (a toe in rad, positive out). Tables are merged key by key; a motion
-            /// of another shape replaces the whole motion, and lists (a track's, a lading's) are replaced.
+            /// Lays values over the text of a case: TOML as in a case file, but a bare number where a
+            /// quantity is expected is in SI units (a toe in rad, positive out). Tables are merged key by
+            /// key; a motion of another shape replaces the whole motion, and lists (a track's, a lading's)
+            /// are replaced.
             ///
             /// # Errors
             /// As `parse`.

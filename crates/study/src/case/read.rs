@@ -34,8 +34,8 @@ const POUND_PER_INCH: f64 = 4.448_221_615_260_5 / 0.0254;
 const BRISTLE: [f64; 2] = [1e6 * POUND_PER_INCH, 1e3 * POUND_PER_INCH];
 
 /// The bolster's motion in the thesis's runs, which completes a motion of the same shape.
-const BOLSTER: &str = "[bolster]\nvertical = { shape = \"sine\", amplitude = \"1 in\", frequency = \"2 rad/s\", \
-                       phase = \"0 deg\" }\n";
+const BOLSTER: &str = "[bolster]\nvertical = { shape = \"sine\", amplitude = \"1 in\", frequency = \
+                       \"2 rad/s\", phase = \"0 deg\" }\n";
 
 /// Keys and tables that only trucks and cars have, beside those that a single wedge has too, and why.
 const OF_TRUCKS: [(&str, &str, &str); 3] = [

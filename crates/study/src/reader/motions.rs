@@ -18,8 +18,8 @@ use crate::case::problem::Problem;
 use crate::case::section::Range;
 
 impl CaseReader<'_> {
-    /// The motions of a body; `free` says that it has free coordinates and must not be moved, `center` what the
-    /// point means about which it turns.
+    /// The motions of a body; `free` says that it has free coordinates and must not be moved, `center` what
+    /// the point means about which it turns.
     pub fn motions(&mut self, own: &mut NeighbourMotion, free: bool, center: &str) {
         let given = self.node("center", Form::Triple(Kind::Length)).is_some();
         if let Some(section) = self.given().filter(|_| given) {

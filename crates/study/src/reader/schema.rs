@@ -145,12 +145,14 @@ impl Form {
 
 fn quantity(kind: Kind) -> Value {
     // A number comes first, or a point before its digits; then a unit.
-    json!({"type": "string", "pattern": "^\\s*[+-]?\\.?\\d[\\d.eE+-]*\\s*[^\\d\\s.eE+-]", "examples": [example(kind)]})
+    let pattern = r"^\s*[+-]?\.?\d[\d.eE+-]*\s*[^\d\s.eE+-]";
+    json!({"type": "string", "pattern": pattern, "examples": [example(kind)]})
 }
 
 fn motion(kind: Kind) -> Value {
     let one = quantity(kind);
     let text = || json!({"type": "string"});
+    let profiles = Form::choice(crate::case::motion::PROFILES).schema();
     let shape = json!({
         "type": "object",
         "properties": {
@@ -161,7 +163,7 @@ fn motion(kind: Kind) -> Value {
             "end_frequency": quantity(Kind::Frequency),
             "phase": quantity(Kind::Angle),
             "start": quantity(Kind::Time), "duration": quantity(Kind::Time),
-            "profile": {"enum": crate::case::motion::PROFILES.iter().map(|(name, _)| name).collect::<Vec<_>>()},
+            "profile": profiles,
             "file": text(),
             "points": {"type": "array"},
         },

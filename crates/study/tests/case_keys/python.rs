@@ -26,9 +26,10 @@ const CLASSES: [(&str, &str, &str); 9] = [
 
 const HEAD: &str = "\"\"\"The sections of a case and the motions of its neighbours, as typed objects.
 
-Every dimensional value is a text with a unit (``\"32 deg\"``), a `Quantity`, or a number in SI units: m, N, s, rad,
-rad/s, N/m, N s/m, N m s/rad, kg m^2, m/s^2. What is ``None`` is left out, and takes the value of the case that is changed, or of the
-thesis. The sections of a case that was made hold every value, with quantities as `Quantity`.
+Every dimensional value is a text with a unit (``\"32 deg\"``), a `Quantity`, or a number in SI units: m, N,
+s, rad, rad/s, N/m, N s/m, N m s/rad, kg m^2, m/s^2. What is ``None`` is left out, and takes the value of the
+case that is changed, or of the thesis. The sections of a case that was made hold every value, with
+quantities as `Quantity`.
 \"\"\"
 
 # Written by `cargo run --release -p study --example case_keys`.

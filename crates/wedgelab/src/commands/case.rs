@@ -29,11 +29,11 @@ Examples:
 pub struct Arguments {
     /// Name of a built-in case, or a beginning that only one has; with --out also a pattern
     name: Option<String>,
-    /// Print the schema of a model's cases (JSON Schema) [possible values: wedge, truck, car]
+    /// Print the schema of a model's cases (JSON Schema)
     ///
     /// Editors complete and check case files by it. A printed case names its schema in the first line.
-    #[arg(long, value_name = "MODEL", num_args = 0..=1, default_missing_value = "wedge",
-          hide_possible_values = true, value_parser = MODELS.map(|own| own.name), conflicts_with_all = ["name", "out"])]
+    #[arg(long, value_name = "MODEL", num_args = 0..=1, default_missing_value = "wedge")]
+    #[arg(value_parser = MODELS.map(|own| own.name), conflicts_with_all = ["name", "out"])]
     schema: Option<String>,
     /// Write it into this folder, as NAME.toml, instead of printing it
     #[arg(long, value_name = "DIR", requires = "name")]
