@@ -1,6 +1,6 @@
 //! Work-precision figures: time over error, one panel a case, one curve a solver.
 
-use report::drawing::{Colour, Figure, Line, Panel, PlotCurve};
+use drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 use crate::contest::{IN_OCTAVE, RECORDED, SOLVERS};
 use crate::problem::is_yawed;

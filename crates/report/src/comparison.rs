@@ -9,12 +9,12 @@ use std::io::{self, Write};
 
 use quantity::{Kind, System as Units};
 
-use crate::drawing::Figure;
 use crate::output_table::OutputTable;
 use crate::overlay::{self, Axes};
 use crate::plot;
 use crate::table::{ResultTable, TableColumn};
 use choose::choose;
+use drawing::Figure;
 use energies::{SummaryPart, energies, summaries};
 pub use error::ComparisonError;
 

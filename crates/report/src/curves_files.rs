@@ -6,9 +6,9 @@ use quantity::System as Units;
 use study::truck::loop_curve::{LoopCurve, LoopKind};
 
 use crate::csv::converted;
-use crate::drawing::{Figure, Panel, PlotCurve, distinct};
 use crate::figures::axis;
 use crate::output_table::OutputTable;
+use drawing::{Figure, Panel, PlotCurve, distinct};
 
 /// The table of loops.
 pub const LOOPS: &str = "curves.csv";

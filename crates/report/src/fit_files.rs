@@ -7,9 +7,9 @@ use serde_json::{Value, json};
 use study::fit::{Fit, Measured};
 
 use crate::csv::converted;
-use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures::axis;
 use crate::overlay::words;
+use drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 /// The numbers.
 pub const FILE_NAME: &str = "fit.json";

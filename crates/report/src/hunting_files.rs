@@ -9,10 +9,10 @@ use study::car::hunting::{Boundary, Hunting, Point, Ramp};
 use study::car::stability::{BranchKind, Stability};
 
 use crate::csv::rounded;
-use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures::axis;
 use crate::output_table::OutputTable;
 use crate::summary::write_json;
+use drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 /// The table.
 pub const TABLE: &str = "hunting.csv";

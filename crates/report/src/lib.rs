@@ -6,7 +6,6 @@
 //! - [`summary`]: the file `summary.json`.
 //! - [`files`]: writing whole results, or nothing.
 //! - [`page`]: pages of runs and studies.
-//! - [`drawing`]: figures, their curves and axes, drawn as SVG and PNG; [`thin`] makes their curves small.
 //! - [`figures`]: the report's figures.
 //! - [`view`]: the data of the page's interactive part.
 //! - [`run_files`]: the files of a run.
@@ -21,27 +20,12 @@
 //! - [`certificate_work`], [`certificate_files`]: a certificate of a car, made and written.
 //! - [`fit_files`]: the files of an identification.
 //! - [`comparison`]: results beside each other; [`plot`]: any column over any other.
-//!
-//! ```
-//! use report::drawing::{Figure, Panel, PlotCurve, distinct};
-//!
-//! let (colour, line) = distinct(0);
-//! let points = vec![(-1.0, -900.0), (1.0, -900.0), (1.0, 1300.0), (-1.0, 1300.0)];
-//! let curve = PlotCurve { label: "wedge".to_owned(), colour, line, points };
-//! let panel = Panel { x_label: "stroke (in)".to_owned(), curves: vec![curve], ..Panel::default() };
-//! let figure = Figure { title: "A loop".to_owned(), panels: vec![panel], ..Figure::default() };
-//! assert!(figure.to_svg().contains("stroke (in)"));
-//! assert!(figure.to_png()?.starts_with(b"\x89PNG"));
-//! # Ok::<(), String>(())
-//! ```
 
 pub mod certificate_files;
 pub mod certificate_work;
 pub mod comparison;
-pub mod contour;
 pub mod csv;
 pub mod curves_files;
-pub mod drawing;
 pub mod figures;
 pub mod files;
 pub mod fit_files;
@@ -66,7 +50,6 @@ pub mod study_folder;
 pub mod study_work;
 pub mod summary;
 pub mod table;
-pub mod thin;
 pub mod track_files;
 pub mod view;
 pub mod warp_files;

@@ -7,10 +7,10 @@ use quantity::{Kind, System as Units};
 use study::case::Case;
 use study::lock_up::{LockUpMap, MapAxis, RigOutcome};
 
-use crate::contour::{self, HeightGrid};
-use crate::drawing::{Colour, Figure, Line, Mark, Panel, PlotCurve};
 use crate::figures::study::contour_curves;
 use crate::output_table::OutputTable;
+use drawing::contour::{self, HeightGrid};
+use drawing::{Colour, Figure, Line, Mark, Panel, PlotCurve};
 
 /// The table.
 pub const TABLE: &str = "lock_up.csv";

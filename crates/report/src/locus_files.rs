@@ -7,9 +7,9 @@ use quantity::{Kind, Number, System as Units};
 use study::locus::{Locus, LocusBranch};
 
 use crate::csv::rounded;
-use crate::drawing::{Figure, Panel, PlotCurve, distinct};
 use crate::output_table::OutputTable;
 use crate::stability_files::{add_mode, roots};
+use drawing::{Figure, Panel, PlotCurve, distinct};
 
 /// The table of vibrations: the root locus over the parameter.
 pub const TABLE: &str = "locus.csv";

@@ -8,10 +8,10 @@ use serde::Serialize;
 use study::car::onset::{MEASURES, Measure, OnTrack, Onset, OnsetSpeed, OnsetTrack};
 
 use crate::csv::rounded;
-use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures::axis;
 use crate::output_table::OutputTable;
 use crate::summary::write_json;
+use drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 /// The table.
 pub const TABLE: &str = "onset.csv";

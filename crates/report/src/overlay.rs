@@ -2,9 +2,9 @@
 
 use quantity::{Kind, System as Units};
 
-use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures;
 use crate::table::TableColumn;
+use drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 /// Axes with curves, each a name with its points.
 pub(crate) struct Axes {

@@ -4,11 +4,11 @@ use std::io::{self, Write};
 
 use study::signal::Spectrum;
 
-use crate::drawing::Figure;
 use crate::figures::digits;
 use crate::output_table::{Cell, Content, OutputTable};
 use crate::overlay::{self, Axes};
 use crate::table::{ResultTable, TableColumn, TableError};
+use drawing::Figure;
 
 /// Returns the figure of the columns `ys` over the column `x`, in the table's units; one panel a unit.
 ///

@@ -9,10 +9,10 @@ use study::car::CarCase;
 use study::car::stability::{AtAmplitude, Branch, Critical, NamedMode, Stability, left_out};
 
 use crate::csv::rounded;
-use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 use crate::figures::axis;
 use crate::output_table::OutputTable;
 use crate::summary::write_json;
+use drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 
 /// The table of vibrations: the root locus over speed.
 pub const TABLE: &str = "stability.csv";

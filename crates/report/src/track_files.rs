@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use quantity::{Kind, System as Units};
 use wheelrail::track::{RailPlace, Track};
 
-use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::output_table::OutputTable;
+use drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 /// The table.
 pub const TABLE: &str = "track.csv";

@@ -9,9 +9,9 @@ use study::truck::run::TruckResult;
 use study::truck::warp::{Growth, NUCARS_STIFFNESS, PARTS, WarpCurve};
 
 use crate::csv::converted;
-use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 use crate::figures::axis;
 use crate::output_table::{Cell, Content, OutputTable};
+use drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 
 /// The table of stiffnesses.
 pub const STIFFNESS: &str = "warp.csv";

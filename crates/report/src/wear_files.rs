@@ -9,9 +9,9 @@ use wedge::face::{DepthMap, FaceProperties};
 use wedge::outputs::FACES;
 
 use crate::csv::converted;
-use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures::{axis, capital, digits, over_face};
 use crate::output_table::OutputTable;
+use drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 /// The course of wear over the cycles.
 pub const COURSE: &str = "wear.csv";

@@ -7,8 +7,8 @@ use quantity::{Kind, System as Units};
 use wheelrail::profile::Profile;
 use wheelrail::wheelset::RigidPosition;
 
-use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::output_table::OutputTable;
+use drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 /// The table.
 pub const TABLE: &str = "wheelrail.csv";

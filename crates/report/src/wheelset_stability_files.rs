@@ -7,9 +7,9 @@ use quantity::{Kind, System as Units};
 use study::wheelset::stability::WheelsetStability;
 use study::wheelset::summary::Hunting;
 
-use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::figures::axis;
 use crate::output_table::OutputTable;
+use drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 /// The table.
 pub const TABLE: &str = "stability.csv";

@@ -1,10 +1,10 @@
 //! The report's figures as data.
 
 use ::quantity::System as Units;
+use drawing::{Figure, Line, Panel, PlotCurve};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use report::drawing::{Figure, Line, Panel, PlotCurve};
 use report::figures::{CaseOutcome, Exhibit};
 use reproduction::agreement::TruckOutcome;
 use reproduction::sections::{self, Section};

@@ -1,6 +1,6 @@
 //! Figures as the files of commands: each as a drawing (SVG) and as a picture (PNG).
 
-use report::drawing::Figure;
+use drawing::Figure;
 use report::files::{FileError, Files};
 
 use crate::failure::{Failure, Message};

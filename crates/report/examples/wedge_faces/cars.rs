@@ -1,6 +1,6 @@
 //! Cars: curving and rocking with other faces, rocking over wedge rise, center plates and adapters.
 
-use report::drawing::{Figure, Panel, PlotCurve, distinct};
+use drawing::{Figure, Panel, PlotCurve, distinct};
 use study::car::run::CarResult;
 
 use crate::shared::{Failure, INCH, column, each, late, run_in, statistic};

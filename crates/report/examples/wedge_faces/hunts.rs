@@ -1,6 +1,6 @@
 //! Hunting of the empty car on roller side bearings over ramps of the speed.
 
-use report::drawing::{Figure, Panel, PlotCurve, distinct};
+use drawing::{Figure, Panel, PlotCurve, distinct};
 use study::car::hunting::Hunting;
 
 use crate::shared::{Failure, INCH, MPH, cells, each, hunt};

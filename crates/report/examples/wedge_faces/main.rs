@@ -11,7 +11,7 @@ mod warps;
 
 use std::{fs, path::Path};
 
-use report::drawing::Figure;
+use drawing::Figure;
 use shared::Failure;
 
 pub(crate) const POUND_FORCE: f64 = 4.448_221_615_260_5;

@@ -1,6 +1,6 @@
 //! Warp: stiffness over the angle with other faces, friction and contacts.
 
-use report::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
+use drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 use report::warp_files::{KIP_INCH, growth_in_words};
 use study::run::Run;
 use study::truck::builtin;

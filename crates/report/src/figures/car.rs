@@ -9,7 +9,7 @@ use quantity::{Kind, System as Units};
 
 use super::{Exhibit, axis};
 use crate::csv::converted;
-use crate::drawing::{Figure, Panel, PlotCurve, distinct};
+use drawing::{Figure, Panel, PlotCurve, distinct};
 
 /// A run of a car.
 #[derive(Clone, Debug)]

@@ -6,7 +6,7 @@ use quantity::{Kind, System as Units};
 
 use super::{Exhibit, axis, capital};
 use crate::certificate_files::CertificateFindings;
-use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
+use drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 
 /// Returns the figure of a regime over the speed: a panel for each of its limits, then the wedges.
 #[must_use]

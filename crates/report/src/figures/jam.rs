@@ -7,9 +7,9 @@ use study::design::Study;
 
 use super::study::{contour_curves, factor_axis};
 use super::{Exhibit, digits};
-use crate::contour::HeightGrid;
-use crate::drawing::{Colour, Figure, Line, Mark, Panel, PlotCurve};
 use crate::study_digest::{Digest, Jam, JamCells};
+use drawing::contour::HeightGrid;
+use drawing::{Colour, Figure, Line, Mark, Panel, PlotCurve};
 
 /// Column forces over the coil's load.
 const RATIOS: [f64; 8] = [0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 30.0];

@@ -27,7 +27,7 @@ pub(crate) use pressure::over_face;
 use quantity::{Kind, System as Units};
 
 use crate::csv::converted;
-use crate::drawing::{Colour, Figure, Line, PlotCurve};
+use drawing::{Colour, Figure, Line, PlotCurve};
 
 /// A case and what came out of it.
 pub type CaseOutcome = (Case, RunResult);

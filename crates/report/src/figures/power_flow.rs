@@ -4,9 +4,9 @@ use ::study::losses::flow::{Flow, PowerFlow};
 use ::study::losses::{EnergySummary, STATES};
 
 use super::digits;
-use crate::drawing::Colour;
-use crate::drawing::Figure;
-use crate::drawing::flow::{Band, FlowChart, FlowNode};
+use drawing::Colour;
+use drawing::Figure;
+use drawing::flow::{Band, FlowChart, FlowNode};
 
 /// Names and colors of the contact states.
 const NAMED: [(&str, Colour); STATES.len()] = [

@@ -8,9 +8,9 @@ use wedge::outputs::FACES;
 
 use super::study::contour_curves;
 use super::{CaseOutcome, Exhibit, capital, digits};
-use crate::contour::{HeightGrid, round_levels};
 use crate::csv::converted;
-use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
+use drawing::contour::{HeightGrid, round_levels};
+use drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 /// Lines of equal pressure in a map.
 const LEVELS: usize = 6;

@@ -9,7 +9,7 @@ use wedge::outputs::{CORNERS, FACES};
 
 use super::{CaseOutcome, Exhibit, axis, column, curve, digits, lowered, points, power_flow};
 use crate::csv::converted;
-use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
+use drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 
 /// Returns the figures of one run.
 #[must_use]

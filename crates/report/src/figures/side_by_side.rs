@@ -7,10 +7,10 @@ use ::study::truck::WEDGE_NAMES;
 use quantity::System as Units;
 
 use super::{Exhibit, axis};
-use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 use crate::overlay::{self, words};
 use crate::run_folder::RunFolder;
 use crate::table::TableColumn;
+use drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 use study::models::AnySummary;
 
 /// A figure that a model has: panels of one column over another.

@@ -4,10 +4,10 @@ use study::design::Study;
 use study::measures::Measure;
 
 use super::{Exhibit, axis, jam};
-use crate::contour::{self, HeightGrid};
-use crate::drawing::{Colour, Figure, Line, Mark, Panel, PlotCurve, distinct};
 use crate::overlay::words;
 use crate::study_digest::{Digest, Gathered, ParameterAxis, ParameterPair};
+use drawing::contour::{self, HeightGrid};
+use drawing::{Colour, Figure, Line, Mark, Panel, PlotCurve, distinct};
 
 /// Measures of wedges whose main effects are drawn; of other models the first ones are.
 const EFFECTS: [&str; MOST_EFFECTS] = [

@@ -10,9 +10,9 @@ use quantity::Kind;
 use truck::HALVES;
 
 use super::{Exhibit, axis, curve, lowered, power_flow};
-use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 use crate::warp_files::Tested;
 use crate::{curves_files, warp_files};
+use drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 
 /// A run of a truck.
 #[derive(Clone, Debug)]

@@ -6,8 +6,8 @@ use quantity::{Kind, System as Units};
 
 use super::{Exhibit, axis};
 use crate::csv::converted;
-use crate::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use crate::track_files::degree;
+use drawing::{Colour, Figure, Line, Panel, PlotCurve};
 
 const BLUE: (Colour, Line) = (Colour::Blue, Line::Solid);
 const RED: (Colour, Line) = (Colour::Vermillion, Line::Dashed);

@@ -7,9 +7,9 @@ use study::half_truck::{HalfTruckCase, HalfTruckResult, HalfTruckSummary};
 use study::summary::SummaryValue;
 
 use super::{data_of, doubts, moving, run_page, shown_in};
-use crate::drawing::{Figure, Panel, distinct};
 use crate::figures::{Exhibit, axis, curve};
 use crate::view::run::{Detail, Recording};
+use drawing::{Figure, Panel, distinct};
 
 /// Returns the page as HTML; it needs nothing else to be shown. `contacts` are the corners of wedges that are
 /// bodies.

@@ -22,12 +22,12 @@ use ::study::summary::RunSummary;
 use maud::{DOCTYPE, Markup, PreEscaped, Render, html};
 use quantity::System as Units;
 
-use crate::drawing::Figure;
 use crate::figures::{Exhibit, capital};
 use crate::view::View;
 use crate::view::data::Precision;
 use crate::view::kept::DATA;
 use crate::view::run::Recording;
+use drawing::Figure;
 
 /// The page's file name.
 pub const FILE_NAME: &str = "index.html";

@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use super::data::{Data, Precision};
 use super::kind_name;
-use crate::drawing::{Figure, Panel, PlotCurve};
-use crate::thin::thin;
+use drawing::thin::thin;
+use drawing::{Figure, Panel, PlotCurve};
 
 /// Curves keep what can be seen over this many columns: four times the widest screen in use.
 const COLUMNS: u32 = 8000;

@@ -1,6 +1,6 @@
 //! Figures keep their peaks and their styles.
 
-use report::drawing::{Figure, Panel, PlotCurve};
+use drawing::{Figure, Panel, PlotCurve};
 use report::figures;
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use report::drawing::PlotCurve;
+use drawing::PlotCurve;
 use report::figures::Exhibit;
 use report::figures::jam::maps;
 use report::study_digest::Digest;

@@ -5,10 +5,10 @@
 //! is known. Their columns are those of the leading left wedge, drawn under the names of the stand-alone
 //! wedge's columns that stand for the same ([`crate::agreement::truck_column`]).
 
+use drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use mechanics::quasi_static::SlidingDirection;
 use quantity::{Kind, System as Units};
 use report::csv::converted;
-use report::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use report::figures::{CaseOutcome, Exhibit, axis, capital, curve};
 use study::closed_form;
 use study::half_truck::HalfTruckResult;

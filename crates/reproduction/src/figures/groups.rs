@@ -3,10 +3,10 @@
 //! Reference lines are those of the quasi-static wedge ([`study::closed_form`]), dashed or dotted, and are
 //! not drawn where it has none.
 
+use drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use mechanics::quasi_static::{SlidingDirection, SlopeFriction};
 use quantity::{Kind, System as Units};
 use report::csv::converted;
-use report::drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use report::figures::{CaseOutcome, axis};
 use study::case::{Case, builtin};
 use study::closed_form;

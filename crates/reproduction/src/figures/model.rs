@@ -1,10 +1,10 @@
 //! Figures of what goes into the runs: the bolster's motion, the friction law, the coil.
 
+use drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 use mechanics::coil::CoilLaw;
 use mechanics::friction::{FrictionLaw, bristle, tanh};
 use quantity::{Kind, System as Units};
 use report::csv::converted;
-use report::drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 use report::figures::{CaseOutcome, Exhibit, axis, capital, curve, digits, toe_style, yaw};
 use wedge::parameters::Damping;
 

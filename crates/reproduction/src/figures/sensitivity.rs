@@ -1,6 +1,6 @@
 //! The number of the thesis's statements that hold, over the contact stiffness.
 
-use report::drawing::{Colour, Figure, Line, Panel, PlotCurve};
+use drawing::{Colour, Figure, Line, Panel, PlotCurve};
 use report::figures::Exhibit;
 
 use crate::sensitivity::{Alone, Mean, Sensitivity, StiffnessPart};

@@ -1,9 +1,9 @@
 //! The figures of the thesis's stand-alone runs: for each damping, without and with yaw, the three toe cases.
 
+use drawing::thin::window;
+use drawing::{Colour, Figure, Line, Mark, Panel, PlotCurve};
 use quantity::{Kind, System as Units};
-use report::drawing::{Colour, Figure, Line, Mark, Panel, PlotCurve};
 use report::figures::{CaseOutcome, Exhibit, axis, capital, curve, digits, points, toe_style, yaw};
-use report::thin::window;
 use study::metrics::Cycle;
 use wedge::parameters::Damping;
 

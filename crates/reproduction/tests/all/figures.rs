@@ -263,7 +263,7 @@ fn names_are_unique_and_texts_are_there() {
 fn energy_bands_of_the_power_flow_balance() {
     let figure = exhibit("vdrun_toe_in_0.2_psi_0.012_power_flow").figure;
     let chart = figure.flow.unwrap();
-    let sum = |own: fn(&report::drawing::flow::Band) -> usize, number: usize| -> f64 {
+    let sum = |own: fn(&drawing::flow::Band) -> usize, number: usize| -> f64 {
         let bands = chart.bands.iter().filter(|band| own(band) == number);
         bands.map(|band| band.value).sum()
     };

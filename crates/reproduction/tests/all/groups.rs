@@ -1,6 +1,6 @@
 //! Figures of the cases beyond the thesis show what the runs say.
 
-use report::drawing::{Figure, Panel};
+use drawing::{Figure, Panel};
 use report::figures::CaseOutcome;
 use reproduction::figures::groups::{self, GROUPS};
 use study::case::builtin;

@@ -1,11 +1,27 @@
 //! The drawing layer: what figures are made of, and how they become SVG and PNG.
 //!
 //! Figures are described without reference to a drawing library: panels, axes, curves. Only `paint` knows the
-//! library that draws them, so that it can be changed, and other formats added, in one place.
+//! library that draws them, so that it can be changed, and other formats added, in one place. [`thin`] makes
+//! curves small; [`contour`] finds lines of equal height; [`flow`] draws flow charts.
+//!
+//! ```
+//! use drawing::{Figure, Panel, PlotCurve, distinct};
+//!
+//! let (colour, line) = distinct(0);
+//! let points = vec![(-1.0, -900.0), (1.0, -900.0), (1.0, 1300.0), (-1.0, 1300.0)];
+//! let curve = PlotCurve { label: "wedge".to_owned(), colour, line, points };
+//! let panel = Panel { x_label: "stroke (in)".to_owned(), curves: vec![curve], ..Panel::default() };
+//! let figure = Figure { title: "A loop".to_owned(), panels: vec![panel], ..Figure::default() };
+//! assert!(figure.to_svg().contains("stroke (in)"));
+//! assert!(figure.to_png()?.starts_with(b"\x89PNG"));
+//! # Ok::<(), String>(())
+//! ```
 
+pub mod contour;
 pub mod flow;
 mod paint;
 mod scale;
+pub mod thin;
 
 /// Colours that people with any kind of colour vision can tell apart (Okabe and Ito, 2008).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
