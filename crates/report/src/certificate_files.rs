@@ -6,12 +6,12 @@ use serde_json::json;
 use study::certificate::{Assessed, Certificate, KeptLimit, LimitVerdict, verdicts};
 
 use crate::csv;
-use crate::files::{FileError, Folder};
 use crate::output_table::{Cell, Content, OutputTable};
 use crate::page::certificate as page;
 use crate::parquet::Storage;
 use crate::study_folder::{STUDY_KEY, StudyFolder, StudyFolderError};
 use crate::summary;
+use staging::{FileError, Folder};
 
 /// The name and version of the JSON.
 pub const SCHEMA: &str = "wedgelab.certificate/1";

@@ -15,11 +15,11 @@ use study::run::Run;
 
 use crate::certificate_files::{self, CertificateFindings, NAMES};
 use crate::figures::car::CarRun;
-use crate::files::{FileError, Folder};
 use crate::page as pages;
 use crate::page::certificate::{self as page, Against, WorstRun};
 use crate::run_files::RunFiles;
 use crate::study_folder::{StudyFolder, StudyFolderError};
+use staging::{FileError, Folder};
 
 /// The folder of the worst runs, in that of the certificate.
 pub const WORST: &str = "worst";

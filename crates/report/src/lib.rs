@@ -4,7 +4,6 @@
 //!   [`result_parquet`]: `result.parquet`.
 //! - [`mat`]: the file `result.mat`, under the thesis's names; [`mat5`] is its format.
 //! - [`summary`]: the file `summary.json`.
-//! - [`files`]: writing whole results, or nothing.
 //! - [`page`]: pages of runs and studies.
 //! - [`figures`]: the report's figures.
 //! - [`view`]: the data of the page's interactive part.
@@ -27,7 +26,6 @@ pub mod comparison;
 pub mod csv;
 pub mod curves_files;
 pub mod figures;
-pub mod files;
 pub mod fit_files;
 pub mod half_truck_files;
 pub mod hunting_files;

@@ -22,9 +22,9 @@ use wedge::face::Grid;
 use wedge::outputs::Outputs;
 
 use crate::figures::pressure_figure;
-use crate::files::{FileError, Files, Folder};
 use crate::output_table::RunTable;
 use crate::{csv, half_truck_files, mat, result_parquet, summary};
+use staging::{FileError, Files, Folder};
 
 /// The name of the case's file.
 pub const CASE_FILE_NAME: &str = "case.toml";

@@ -11,7 +11,7 @@
 //!
 //! Variant `i` belongs to part `i / part_size`. A part only ever grows; a record that was cut off or damaged
 //! is passed over and its variant computed again. The table and the page appear whole or not at all
-//! ([`crate::files`]).
+//! ([`staging`]).
 
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
@@ -24,10 +24,10 @@ use study::design::{Factor, Study, Value};
 use study::records::{self, Record};
 
 use crate::csv;
-use crate::files::{self, FileError, Folder, Locked};
 use crate::output_table::{Cell, Content, OutputTable};
 use crate::page::study as page;
 use crate::parquet::{Storage, TableWriter, plain};
+use staging::{FileError, Folder, Locked};
 
 mod error;
 
@@ -132,7 +132,7 @@ impl StudyFolder {
             folder.write(|files| files.add(STUDY_FILE, |out| out.write_all(description.as_bytes())))?;
         }
         Ok(Self {
-            removed: files::remove_left_over([&folder]),
+            removed: staging::remove_left_over([&folder]),
             path: path.to_owned(),
             fingerprint: study.fingerprint(),
             description,
@@ -344,7 +344,7 @@ fn refuse_foreign(path: &Path) -> Result<(), StudyFolderError> {
     };
     let own = |name: &str| {
         [LOCK_FILE, PARTS, STUDY_FILE].contains(&name)
-            || name.starts_with(files::HIDDEN)
+            || name.starts_with(staging::HIDDEN)
             || made.contains(&name)
     };
     let mut names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());

@@ -338,7 +338,7 @@ pub fn map(
     // The corners first: a value that the case refuses is refused before anything runs.
     let last = points * points - 1;
     for corner in [0, points - 1, last + 1 - points, last] {
-        rig(&text, at(corner))?;
+        rig(text, at(corner))?;
     }
     let next = AtomicUsize::new(0);
     let done = Mutex::new((vec![None; points * points], None));
@@ -351,7 +351,7 @@ pub fn map(
             let outcome = match go_on(number) {
                 ControlFlow::Break(reason) => Err(MapError::Interrupted(reason)),
                 ControlFlow::Continue(()) => {
-                    rig(&text, at(number)).map(|case| cell(&case)).map_err(Into::into)
+                    rig(text, at(number)).map(|case| cell(&case)).map_err(Into::into)
                 }
             };
             let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);

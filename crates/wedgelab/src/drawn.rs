@@ -1,7 +1,7 @@
 //! Figures as the files of commands: each as a drawing (SVG) and as a picture (PNG).
 
 use drawing::Figure;
-use report::files::{FileError, Files};
+use staging::{FileError, Files};
 
 use crate::failure::{Failure, Message};
 

@@ -6,9 +6,9 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use quantity::SixDigits;
-use report::files::Folder;
 use report::page;
 use report::run_files::RunFiles;
+use staging::Folder;
 use study::car::CarCase;
 use study::car::motions::MotionTable;
 use study::car::run::CarResult;

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use report::files::{self, Folder};
+use staging::{self, Folder};
 
 use crate::failure::{Failure, say};
 
@@ -11,7 +11,7 @@ use crate::failure::{Failure, say};
 /// and is removed.
 pub fn check(path: impl Into<PathBuf>, names: &[&str], force: bool) -> Result<Folder, Failure> {
     let folder = Folder::check(path, names, force).map_err(|error| Failure::Input(error.into()))?;
-    tell_removed(&files::remove_left_over([&folder]));
+    tell_removed(&staging::remove_left_over([&folder]));
     Ok(folder)
 }
 
@@ -20,8 +20,8 @@ pub fn check_all<'n>(
     folders: impl IntoIterator<Item = (PathBuf, &'n [&'n str])>,
     force: bool,
 ) -> Result<Vec<Folder>, Failure> {
-    let folders = files::check_all(folders, force).map_err(|error| Failure::Input(error.into()))?;
-    tell_removed(&files::remove_left_over(&folders));
+    let folders = staging::check_all(folders, force).map_err(|error| Failure::Input(error.into()))?;
+    tell_removed(&staging::remove_left_over(&folders));
     Ok(folders)
 }
 

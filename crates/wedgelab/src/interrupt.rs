@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 use std::sync::{Mutex, PoisonError, mpsc};
 use std::thread;
 
-use report::files::{Abandoned, abandon};
+use staging::{Abandoned, abandon};
 use study::summary::Stopped;
 
 use crate::failure::say;

@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use input::limits::SAVED_STATE;
 use quantity::Number;
-use report::files::Folder;
+use staging::Folder;
 use study::run::{Run, RunCase, saved};
 
 use crate::execute::{Done, started};

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use report::certificate_files::{self, CertificateFindings, NAMES};
-use report::files::Folder;
 use report::page::certificate::{self as page, Against};
 use report::study_folder::StudyFolder;
+use staging::Folder;
 use study::car::limits::LimitSet;
 use study::car::regime::Regime;
 use study::car::speeds;

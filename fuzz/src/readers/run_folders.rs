@@ -4,11 +4,11 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use report::comparison::{ComparedResult, Comparison};
-use report::files::Folder;
 use report::page::{self, side_by_side};
 use report::run_files::RunFiles;
 use report::run_folder::RunFolder;
 use report::table::ResultTable;
+use staging::Folder;
 use study::run::Run;
 
 use super::models;

@@ -14,7 +14,7 @@ use crate::shell::Workspace;
 /// The layers from the lowest up, and the crates of each.
 pub const LAYERS: &[(&str, &[&str])] = &[
     ("reading", &["input"]),
-    ("foundation", &["numerics", "quantity", "drawing"]),
+    ("foundation", &["numerics", "quantity", "drawing", "staging"]),
     ("integration", &["integrate", "wheelrail"]),
     ("mechanics", &["mechanics"]),
     ("systems", &["wedge", "nucars", "rolling"]),

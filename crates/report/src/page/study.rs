@@ -8,11 +8,11 @@ use study::design::{Accuracy, Levels, Sampling, Study};
 use super::{anchor, document, inline};
 use crate::figures::study::exhibits;
 use crate::figures::{Exhibit, digits};
-use crate::files::{FileError, Folder};
 use crate::overlay::words;
 use crate::study_digest::Digest;
 use crate::study_folder::{TABLE_FILE, factor_column, table};
 use drawing::Figure;
+use staging::{FileError, Folder};
 
 /// The page's file name.
 pub const FILE_NAME: &str = "index.html";

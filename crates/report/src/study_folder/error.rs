@@ -8,7 +8,7 @@ use miette::Diagnostic;
 use serde_json::Value;
 use thiserror::Error;
 
-use crate::files::FileError;
+use staging::FileError;
 
 /// Reasons why a study's folder cannot be used.
 #[derive(Debug, Error, Diagnostic)]

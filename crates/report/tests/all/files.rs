@@ -5,10 +5,10 @@ use std::io;
 use std::path::Path;
 
 use quantity::System as Units;
-use report::files::{FileError, Folder, check_all};
 use report::output_table::Cell;
 use report::run_files::{self, RunFiles};
 use report::{csv, curves_files, lock_up_files, mat};
+use staging::{FileError, Folder, check_all};
 use study::case::{Case, builtin};
 use study::lock_up::{LockUpMap, MapAxis, MapPoint, MapRange, RigOutcome};
 use study::result::RunResult;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError, mpsc};
 use std::time::{Duration, SystemTime};
 
-use report::files::{FileError, Folder, abandon, remove_left_over};
+use staging::{FileError, Folder, abandon, remove_left_over};
 
 /// Files are given up for the whole program: one test at a time.
 static ALONE: Mutex<()> = Mutex::new(());

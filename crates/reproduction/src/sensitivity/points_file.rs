@@ -14,8 +14,8 @@ use std::sync::{Mutex, PoisonError};
 use input::file::{Expected, ReadError, Reason, read, read_text};
 use input::{FileType, limits};
 use miette::Diagnostic;
-use report::files::Locked;
 use serde::{Deserialize, Serialize};
+use staging::Locked;
 use thiserror::Error;
 
 use super::axes::AXES;

@@ -64,10 +64,7 @@ fn law(r: &mut CaseReader<'_>, law: &mut CoilLaw) {
         let Some(table) = r.table("table", &TableForm::coil(), reach, comment) else {
             return;
         };
-        let points = table
-            .rows
-            .iter()
-            .map(|row| row.each_ref().map(Quantity::to_si).into());
+        let points = table.rows.iter().map(|row| row.each_ref().map(Quantity::to_si));
         match Characteristic::new(points.collect()) {
             Ok(points) => *law = CoilLaw::Table(points),
             Err(error) => {

@@ -69,7 +69,7 @@ fn input_faces_are_read_and_written_back() {
     assert!(pad.hardening.is_some() && pad.shear.is_some());
     // What is written reads back to the same bits.
     let text = case.to_toml();
-    let again = Case::parse("again.toml", &text, Tables::nowhere(), &[]).unwrap();
+    let again = Case::parse("again.toml", text, Tables::nowhere(), &[]).unwrap();
     assert_eq!(again.parameters, case.parameters);
     // Left out, all is plain, and the keys stand there as comments.
     let plain = read("").unwrap();
@@ -200,7 +200,7 @@ fn input_maps_of_wear_come_from_files() {
     assert!((map.depth(0.0, 0.0) - 0.0015).abs() < 1e-16);
     assert!(case.to_toml().contains("wedge_wear = \"map.csv\""));
     let embedded = case.to_toml_embedded();
-    let again = Case::parse("again.toml", &embedded, Tables::nowhere(), &[]).unwrap();
+    let again = Case::parse("again.toml", embedded, Tables::nowhere(), &[]).unwrap();
     assert_eq!(again.parameters, case.parameters);
     for (csv, expected) in [
         (good.replace("2\n", "nan\n"), "not a finite number"),

@@ -227,7 +227,7 @@ fn issue_029_tables_have_at_most_100000_rows() {
     assert_eq!(error.problems()[0].line_and_column(), Some((100_002, 1)));
     // The largest table is read again from the case that holds it.
     let embedded = full.to_toml_embedded();
-    assert!(Case::parse("case.toml", &embedded, Path::new(""), &[]).is_ok());
+    assert!(Case::parse("case.toml", embedded, Path::new(""), &[]).is_ok());
 }
 
 #[test]

@@ -43,7 +43,7 @@ fn analytic_a_rise_makes_the_depths_of_its_formula() {
     let single = Case::parse("case.toml", text, Tables::nowhere(), &[]).unwrap();
     assert!((single.parameters.wedge_rise() / INCH - 0.5).abs() < 1e-12);
     assert_eq!(single.parameters.wear.column, single.parameters.wear.slope);
-    let again = Case::parse("again.toml", &single.to_toml(), Tables::nowhere(), &[]).unwrap();
+    let again = Case::parse("again.toml", single.to_toml(), Tables::nowhere(), &[]).unwrap();
     assert_eq!(again.parameters, single.parameters);
 }
 

@@ -6,10 +6,10 @@ use std::process::ExitCode;
 
 use clap::Args;
 use quantity::{Kind, Quantity};
-use report::files::Folder;
 use report::page;
 use report::run_files::RunFiles;
 use rolling::rig::RigStart;
+use staging::Folder;
 use study::track::TrackFile;
 use study::wheelset::summary::WheelsetSummary;
 use study::wheelset::{Wheelset, WheelsetCase};

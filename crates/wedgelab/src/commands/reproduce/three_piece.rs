@@ -5,12 +5,12 @@ use std::path::Path;
 use rayon::prelude::*;
 use report::figures::Exhibit;
 use report::figures::truck::{TruckRun, of_rigs};
-use report::files::{FileError, Files, Folder};
 use report::run_files;
 use report::view::View;
 use report::view::run::{Detail, Recording};
 use reproduction::page::truck::{self, TruckContents};
 use reproduction::three_piece::{self, Rigs, TruckFindings, Variant};
+use staging::{FileError, Files, Folder};
 use study::truck::summary::TruckSummary;
 use study::truck::{TruckCase, builtin};
 

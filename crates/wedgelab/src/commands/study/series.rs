@@ -6,9 +6,9 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use report::files::Folder;
 use report::run_files::RunFiles;
 use report::study_folder::SERIES;
+use staging::Folder;
 use study::design::Study;
 use study::models::AnyCase;
 

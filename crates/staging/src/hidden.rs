@@ -12,10 +12,10 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use super::{FileError, Folder};
+use crate::{FileError, Folder};
 
 /// The prefix of the names of hidden folders.
-pub(crate) const PREFIX: &str = ".wedgelab-";
+pub const PREFIX: &str = ".wedgelab-";
 /// Number of letters and digits that follow.
 const RANDOM: usize = 6;
 /// The locked file in a hidden folder.

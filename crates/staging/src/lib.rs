@@ -14,13 +14,13 @@ use std::path::{Path, PathBuf};
 use miette::Diagnostic;
 use thiserror::Error;
 
+mod hidden;
 mod lock;
-mod staging;
 
+pub use hidden::PREFIX as HIDDEN;
+use hidden::Staging;
+pub use hidden::{Abandoned, abandon, remove_left_over};
 pub use lock::Locked;
-pub(crate) use staging::PREFIX as HIDDEN;
-use staging::Staging;
-pub use staging::{Abandoned, abandon, remove_left_over};
 
 /// Reasons why files cannot be written.
 #[derive(Debug, Error, Diagnostic)]
