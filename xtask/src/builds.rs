@@ -4,7 +4,7 @@
 //! selected, tests among them. The crates of [`SHARED`] ask for the same features as a user's `cargo build`:
 //! one build of every dependency serves users, tests, doc tests and broken inputs. The check `features` holds
 //! them to it. Other crates bring dependencies with features of their own: the race diffsol, the benchmarks
-//! Criterion, the Python package NumPy.
+//! Criterion. The Python package asks for the same through the crate `features`.
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX, EXE_SUFFIX};
 use std::path::PathBuf;

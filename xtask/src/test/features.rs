@@ -6,18 +6,20 @@ use super::Outcome;
 use crate::builds::SHARED;
 use crate::shell::{self, Workspace};
 
-/// Compares the features of dependencies in a user's build with those in the build of the tests.
+/// Compares the features of dependencies in a user's build, and in the Python package's, with those in the
+/// build of the tests.
 pub fn check(workspace: &Workspace) -> Outcome {
     let users = features(workspace, &["--edges", "no-dev"])?;
+    let python = features(workspace, &["--edges", "no-dev", "--package", "wedgelab-py"])?;
     let tests = features(workspace, &SHARED)?;
-    let differing = differences(&users, &tests);
+    let differing = [differences(&users, &tests), differences(&python, &tests)].concat();
     if differing.is_empty() {
         return Ok(Some(format!("{} dependencies", users.len())));
     }
     Err(format!(
         "These are compiled twice, with everything that depends on them: ask for the features in \
-         [workspace.dependencies] too, or move what asks for them to a crate that xtask/src/builds.rs builds \
-         apart.\n{}",
+         [workspace.dependencies] or in the crate `features` too, or move what asks for them to a crate that \
+         xtask/src/builds.rs builds apart.\n{}",
         differing.join("\n")
     ))
 }
@@ -42,7 +44,7 @@ fn differences(users: &BTreeMap<String, String>, tests: &BTreeMap<String, String
     let other = |(package, users): (&String, &String)| {
         let tests = tests.get(package).filter(|tests| *tests != users)?;
         Some(format!(
-            "{package}: users build it with [{users}], tests with [{tests}]"
+            "{package}: a program is built with [{users}], tests with [{tests}]"
         ))
     };
     users.iter().filter_map(other).collect()
@@ -61,7 +63,7 @@ mod tests {
         let tests = read("a v1.0.0 [alloc,std]\na v2.0.0 []\nb v0.1.0 (/b) []");
         assert_eq!(
             differences(&users, &tests),
-            ["a v1.0.0: users build it with [std], tests with [alloc,std]"]
+            ["a v1.0.0: a program is built with [std], tests with [alloc,std]"]
         );
     }
 }

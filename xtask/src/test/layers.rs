@@ -14,7 +14,10 @@ use crate::shell::Workspace;
 /// The layers from the lowest up, and the crates of each.
 pub const LAYERS: &[(&str, &[&str])] = &[
     ("reading", &["input"]),
-    ("foundation", &["numerics", "quantity", "drawing", "staging"]),
+    (
+        "foundation",
+        &["numerics", "quantity", "drawing", "staging", "features"],
+    ),
     ("integration", &["integrate", "wheelrail"]),
     ("mechanics", &["mechanics"]),
     ("systems", &["wedge", "nucars", "rolling"]),
