@@ -35,7 +35,7 @@ pub(crate) fn model(tree: &TableNode, problems: &mut Problems) -> Option<Model> 
 }
 
 impl Model {
-    /// Returns what a case of it is: `the case of a car`.
+    /// Returns what its cases are of: `a car`.
     fn what(self) -> &'static str {
         match self {
             Self::Wedge => "a single wedge",
@@ -62,7 +62,7 @@ pub(crate) fn read_case<C>(
 ) -> Result<C, CaseError> {
     if let Some(other) = model(&tree, &mut problems).filter(|other| *other != own) {
         let message = format!(
-            "{source} is the case of {}; that of {} is expected",
+            "{source} is the case of {}; {}'s is expected",
             other.what(),
             own.what()
         );

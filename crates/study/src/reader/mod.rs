@@ -105,10 +105,20 @@ impl<'r> CaseReader<'r> {
     pub fn section(&mut self, path: &str, about: &str) {
         self.section = self.full(path);
         self.overlay = false;
-        self.known.push(known(self.section.clone(), about));
+        self.begin(about);
         for page in &mut self.pages {
             page.section(&self.section, about);
         }
+    }
+
+    /// Takes note of the current section, of which some keys may be known.
+    fn begin(&mut self, about: &str) {
+        let at = self.known.iter().position(|known| known.path == self.section);
+        let mut own = known(self.section.clone(), about);
+        if let Some(at) = at {
+            own.keys = self.known.remove(at).keys;
+        }
+        self.known.push(own);
     }
 
     /// Begins a section that holds for one of several bodies, and of which nothing is written that is not
@@ -116,7 +126,7 @@ impl<'r> CaseReader<'r> {
     pub fn overlay(&mut self, path: &str, about: &str) -> bool {
         self.section = self.full(path);
         self.overlay = true;
-        self.known.push(known(self.section.clone(), about));
+        self.begin(about);
         let given = self.table_at(&self.section).is_some();
         if given {
             for page in &mut self.pages {

@@ -6,7 +6,7 @@ use study::case::Tables;
 use study::models::AnyCase;
 
 fn parse(lines: &str) -> CarCase {
-    let text = match lines.starts_with("name = ") {
+    let text = match lines.contains("model = \"car\"") {
         true => lines.to_owned(),
         false => format!("model = \"car\"\n{lines}"),
     };

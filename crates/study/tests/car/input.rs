@@ -280,7 +280,11 @@ fn input_models_are_told_apart() {
             .contains("is the case of a car; a single wedge's is expected")
     );
     let error = CarCase::parse("c.toml", "model = \"truck\"", Tables::nowhere(), &[]).unwrap_err();
-    assert!(error.problems()[0].to_string().contains("is no case of a car"));
+    assert!(
+        error.problems()[0]
+            .to_string()
+            .contains("is the case of a truck; a car's is expected")
+    );
 }
 
 /// Doubtful inputs that are not wrong are kept for the summary.
