@@ -33,6 +33,9 @@ const POUND_PER_INCH: f64 = 4.448_221_615_260_5 / 0.0254;
 /// Stiffness and damping of a bristle, N/m and N·s/m.
 const BRISTLE: [f64; 2] = [1e6 * POUND_PER_INCH, 1e3 * POUND_PER_INCH];
 
+/// The name of values that the case leaves out, as a source.
+const DEFAULTS: &str = "the thesis's values";
+
 /// The bolster's motion in the thesis's runs, which completes a motion of the same shape.
 const BOLSTER: &str = "[bolster]\nvertical = { shape = \"sine\", amplitude = \"1 in\", frequency = \
                        \"2 rad/s\", phase = \"0 deg\" }\n";
@@ -54,7 +57,7 @@ const OF_TRUCKS: [(&str, &str, &str); 3] = [
 
 /// Completes a motion of the bolster that has the shape of the thesis's.
 pub(super) fn complete(tree: &mut TableNode, problems: &mut Problems) {
-    match tree::parse(&TomlSource::new("the thesis's values", BOLSTER)) {
+    match tree::parse(&TomlSource::new(DEFAULTS, BOLSTER)) {
         Ok(usual) => tree.complete_from(&usual),
         Err(broken) => problems.append(broken),
     }
@@ -62,7 +65,7 @@ pub(super) fn complete(tree: &mut TableNode, problems: &mut Problems) {
 
 /// Reads a case, section by section.
 pub(super) fn case(r: &mut CaseReader<'_>, default_name: &str) -> Option<Case> {
-    let nothing_given = !r.gives_values();
+    let nothing_given = !r.gives_values(DEFAULTS);
     let comment = "a single wedge; or \"truck\" or \"car\"";
     let [name, title] = r.head(default_name, Model::Wedge, comment)?;
     for (section, key, why) in OF_TRUCKS {

@@ -213,12 +213,15 @@ impl TableNode {
     }
 
     /// Returns whether a case file's tree describes anything: whether it has a value besides name, title and
-    /// the section `simulation`.
-    pub fn gives_values(&self) -> bool {
+    /// the section `simulation`, apart from defaults that this source has completed.
+    pub fn gives_values(&self, defaults: &str) -> bool {
         let beside = |key: &str| matches!(key, "name" | "title" | "simulation");
         self.entries.iter().any(|entry| match &entry.node.value {
             _ if beside(&entry.key) => false,
-            NodeValue::Table(table) => !table.entries.is_empty(),
+            NodeValue::Table(table) => {
+                let mut sources = table.entries.iter().map(|own| own.key_place.source.name());
+                sources.any(|source| source != defaults)
+            }
             _ => true,
         })
     }

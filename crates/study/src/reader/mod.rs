@@ -177,9 +177,10 @@ impl<'r> CaseReader<'r> {
         self.table_at(section)?.get(key)
     }
 
-    /// Returns whether the case describes anything, whatever its name and its settings of the run.
-    pub fn gives_values(&self) -> bool {
-        self.tree.gives_values()
+    /// Returns whether the case describes anything, whatever its name, its settings of the run and what the
+    /// source `defaults` has completed.
+    pub fn gives_values(&self, defaults: &str) -> bool {
+        self.tree.gives_values(defaults)
     }
 
     /// Returns whether the current section has a key.

@@ -133,7 +133,7 @@ fn the_list_of_cases() {
     let printed = wedgelab(folder.path(), &["case", "rig_c"]);
     assert_eq!(printed.code, Some(0));
     assert!(
-        printed.out.starts_with("name = \"rig_constant\""),
+        printed.out.starts_with("#:schema ") && printed.out.contains("\nname = \"rig_constant\""),
         "{}",
         printed.out
     );
