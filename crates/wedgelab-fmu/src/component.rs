@@ -8,7 +8,7 @@ use fmi::instance::{Instance, Message};
 use fmi::{Category, Error, Severity};
 
 use crate::handles::{HandleKind, hand_out, is_alive, take_back};
-use crate::pointers::string;
+use crate::pointers::{slice, slice_mut, string};
 
 /// Status codes, the same in both versions.
 pub(crate) type Status = i32;
@@ -194,16 +194,51 @@ pub(crate) unsafe fn free(pointer: *mut c_void) {
     });
 }
 
+/// What a call gives back where nothing is wrong.
+pub(crate) trait Answer {
+    /// Returns the status of it.
+    fn status(self) -> Status;
+}
+
+impl Answer for Status {
+    fn status(self) -> Status {
+        self
+    }
+}
+
+impl Answer for () {
+    fn status(self) -> Status {
+        OK
+    }
+}
+
+/// Defines functions of the C interface, each with its arguments after the instance and what it does with the
+/// [`Component`] there.
+macro_rules! functions {
+    ($(
+        $(#[$about:meta])*
+        fn $name:ident($($argument:ident: $type:ty),* $(,)?) |$component:pat_param| $run:expr;
+    )*) => {$(
+        $(#[$about])*
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(instance: *mut c_void, $($argument: $type),*) -> Status {
+            // SAFETY: the standard's contract, which the documentation of the module repeats.
+            unsafe { $crate::component::call(stringify!($name), instance, |$component| $run) }
+        }
+    )*};
+}
+pub(crate) use functions;
+
 /// Runs a call of a function on the instance behind a pointer. Without an instance there is no logger to tell
 /// that to: it is an error, and nothing else.
 ///
 /// # Safety
 /// The instance behind `pointer` is used by no other thread at the same time: the standard asks importers for
 /// that.
-pub(crate) unsafe fn call(
+pub(crate) unsafe fn call<A: Answer>(
     function: &'static str,
     pointer: *mut c_void,
-    run: impl FnOnce(&mut Component) -> Result<Status, Error>,
+    run: impl FnOnce(&mut Component) -> Result<A, Error>,
 ) -> Status {
     if !is_alive(pointer, HandleKind::Instance) {
         return ERROR;
@@ -222,7 +257,7 @@ pub(crate) unsafe fn call(
             ERROR
         } else {
             match catch_unwind(AssertUnwindSafe(|| run(component))) {
-                Ok(Ok(status)) => status,
+                Ok(Ok(answer)) => answer.status(),
                 Ok(Err(error)) => {
                     failure = Some(error.message);
                     ERROR
@@ -306,39 +341,68 @@ pub(crate) unsafe fn log(logger: Logger, name: &CStr, message: &Message) {
     }
 }
 
+/// References of variables and their number.
+pub(crate) type Referenced = (*const u32, usize);
+
 /// Reads as many variables as there are references.
-pub(crate) fn read<T>(
-    references: &[u32],
-    out: &mut [T],
-    mut get: impl FnMut(u32) -> Result<T, Error>,
-) -> Result<Status, Error> {
-    for (reference, target) in references.iter().zip(out) {
-        *target = get(*reference)?;
+///
+/// # Safety
+/// As of the functions of the interface.
+pub(crate) unsafe fn get<T>(
+    component: &mut Component,
+    (references, count): Referenced,
+    values: *mut T,
+    one: impl Fn(&mut Instance, u32) -> Result<T, Error>,
+) -> Result<(), Error> {
+    // SAFETY: by this function's contract.
+    let (references, values) = unsafe {
+        (
+            slice(references, count, "the references")?,
+            slice_mut(values, count, "the values")?,
+        )
+    };
+    for (reference, value) in references.iter().zip(values) {
+        *value = one(&mut component.instance, *reference)?;
     }
-    Ok(OK)
+    Ok(())
 }
 
 /// Sets as many variables as there are references: all of them, or none if one cannot be set.
-pub(crate) fn write<T: Copy>(
-    instance: &mut Instance,
-    references: &[u32],
-    values: &[T],
+///
+/// # Safety
+/// As of the functions of the interface.
+pub(crate) unsafe fn set<T: Copy>(
+    component: &mut Component,
+    (references, count): Referenced,
+    values: *const T,
     check: impl Fn(&Instance, u32, T) -> Result<(), Error>,
     set: impl Fn(&mut Instance, u32, T) -> Result<(), Error>,
-) -> Result<Status, Error> {
+) -> Result<(), Error> {
+    // SAFETY: by this function's contract.
+    let (references, values) = unsafe {
+        (
+            slice(references, count, "the references")?,
+            slice(values, count, "the values")?,
+        )
+    };
     for (reference, value) in references.iter().zip(values) {
-        check(instance, *reference, *value)?;
+        check(&component.instance, *reference, *value)?;
     }
     for (reference, value) in references.iter().zip(values) {
-        set(instance, *reference, *value)?;
+        set(&mut component.instance, *reference, *value)?;
     }
-    Ok(OK)
+    Ok(())
+}
+
+/// Refuses a call.
+pub(crate) fn refuse(why: &str) -> Result<(), Error> {
+    Err(Error::new(why))
 }
 
 /// No variable has a type: only no references at all are right.
-pub(crate) fn none_of(count: usize, what: &str) -> Result<Status, Error> {
+pub(crate) fn none_of(count: usize, what: &str) -> Result<(), Error> {
     if count == 0 {
-        return Ok(OK);
+        return Ok(());
     }
     Err(Error::new(format!(
         "the FMU has no variables of the type {what}: modelDescription.xml lists all there are"
@@ -399,7 +463,10 @@ mod tests {
             let instance = instantiate("fmiMake", logger, c"wedge".as_ptr(), false, make);
             assert_eq!(call("fmiDo", instance, |_| Ok(OK)), OK);
             assert!(said().is_empty());
-            assert_eq!(call("fmiDo", instance, |_| panic!("{} purpose", "on")), ERROR);
+            assert_eq!(
+                call::<Status>("fmiDo", instance, |_| panic!("{} purpose", "on")),
+                ERROR
+            );
             let [(ERROR, text)] = &said()[..] else {
                 panic!("no message")
             };

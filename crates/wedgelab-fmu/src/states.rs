@@ -5,7 +5,7 @@ use std::ffi::c_void;
 use fmi::Error;
 use fmi::instance::Saved;
 
-use crate::component::{Component, OK, Status};
+use crate::component::Component;
 use crate::handles::{HandleKind, hand_out, is_alive, take_back};
 use crate::pointers::{missing, put, slice, slice_mut};
 
@@ -24,7 +24,7 @@ fn no_state(what: &str) -> Error {
 ///
 /// # Safety
 /// `target` is null or points to a pointer that nobody else uses at the same time, nor the state it leads to.
-pub(crate) unsafe fn save(component: &Component, target: *mut *mut c_void) -> Result<Status, Error> {
+pub(crate) unsafe fn save(component: &Component, target: *mut *mut c_void) -> Result<(), Error> {
     // SAFETY: by this function's contract.
     let [place] = (unsafe { slice_mut(target, 1, "the state") })? else {
         return Err(missing("the state"));
@@ -38,7 +38,7 @@ pub(crate) unsafe fn save(component: &Component, target: *mut *mut c_void) -> Re
     } else {
         return Err(no_state("the state to be written over"));
     }
-    Ok(OK)
+    Ok(())
 }
 
 /// Returns the saved state behind a pointer.
@@ -60,9 +60,9 @@ pub(crate) unsafe fn saved<'a>(pointer: *mut c_void) -> Result<&'a SavedState, E
 ///
 /// # Safety
 /// As [`save`].
-pub(crate) unsafe fn free_saved(target: *mut *mut c_void) -> Result<Status, Error> {
+pub(crate) unsafe fn free_saved(target: *mut *mut c_void) -> Result<(), Error> {
     if target.is_null() {
-        return Ok(OK);
+        return Ok(());
     }
     // SAFETY: by this function's contract.
     let [place] = (unsafe { slice_mut(target, 1, "the state") })? else {
@@ -73,14 +73,14 @@ pub(crate) unsafe fn free_saved(target: *mut *mut c_void) -> Result<Status, Erro
         return Err(no_state("the state to be freed"));
     }
     *place = std::ptr::null_mut();
-    Ok(OK)
+    Ok(())
 }
 
 /// Writes a saved state as bytes.
 ///
 /// # Safety
 /// As [`saved`] and [`slice_mut`].
-pub(crate) unsafe fn serialize(state: *mut c_void, target: *mut u8, size: usize) -> Result<Status, Error> {
+pub(crate) unsafe fn serialize(state: *mut c_void, target: *mut u8, size: usize) -> Result<(), Error> {
     // SAFETY: by this function's contract.
     let bytes = unsafe { saved(state) }?.to_bytes()?;
     if size < bytes.len() {
@@ -96,7 +96,7 @@ pub(crate) unsafe fn serialize(state: *mut c_void, target: *mut u8, size: usize)
     head.copy_from_slice(&bytes);
     // Blanks after JSON mean nothing.
     tail.fill(b' ');
-    Ok(OK)
+    Ok(())
 }
 
 /// Reads a saved state from bytes.
@@ -107,7 +107,7 @@ pub(crate) unsafe fn deserialize(
     bytes: *const u8,
     size: usize,
     target: *mut *mut c_void,
-) -> Result<Status, Error> {
+) -> Result<(), Error> {
     // SAFETY: by this function's contract.
     let bytes = unsafe { slice(bytes, size, "the bytes") }?;
     let state = SavedState::from_bytes(bytes)?;
@@ -116,5 +116,5 @@ pub(crate) unsafe fn deserialize(
         put(target, std::ptr::null_mut(), "the state")?;
         put(target, hand_out(state, HandleKind::State), "the state")?;
     }
-    Ok(OK)
+    Ok(())
 }

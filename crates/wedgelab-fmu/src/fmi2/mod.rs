@@ -17,7 +17,7 @@ use fmi::element::Interface;
 use fmi::instance::Instance;
 use fmi::{Error, resources};
 
-use crate::component::{Logger, Logger2, OK, Status, call, free, instantiate, none_of, read, write};
+use crate::component::{Logger, Logger2, Status, free, functions, get, instantiate, none_of, set};
 use crate::pointers::{put, slice, slice_mut, string, strings};
 use crate::states::{deserialize, free_saved, save, saved, serialize};
 
@@ -52,21 +52,12 @@ pub extern "C" fn fmi2GetVersion() -> *const c_char {
     c"2.0".as_ptr()
 }
 
-/// Switches the log.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetDebugLogging(
-    c: *mut c_void,
-    on: c_int,
-    count: usize,
-    categories: *const *const c_char,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi2SetDebugLogging", c, |component| {
-            component.set_logging(on != 0, &strings(categories, count, "the log categories")?)?;
-            Ok(OK)
-        })
-    }
+functions! {
+    /// Switches the log.
+    fn fmi2SetDebugLogging(on: c_int, count: usize, categories: *const *const c_char) |component| {
+        component.set_logging(on != 0, &strings(categories, count, "the log categories")?)?;
+        Ok(())
+    };
 }
 
 /// Makes an instance; null, with a message, if it cannot be made.
@@ -120,306 +111,121 @@ pub unsafe extern "C" fn fmi2FreeInstance(c: *mut c_void) {
     unsafe { free(c) };
 }
 
-/// Sets tolerance, start and stop time.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetupExperiment(
-    c: *mut c_void,
-    tolerance_defined: c_int,
-    tolerance: f64,
-    start: f64,
-    stop_defined: c_int,
-    stop: f64,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi2SetupExperiment", c, |component| {
-            let stop = (stop_defined != 0).then_some(stop);
-            let tolerance = (tolerance_defined != 0).then_some(tolerance);
-            component.instance.set_experiment(start, stop, tolerance)?;
-            Ok(OK)
-        })
-    }
-}
+functions! {
+    /// Sets tolerance, start and stop time.
+    fn fmi2SetupExperiment(
+        tolerance_defined: c_int,
+        tolerance: f64,
+        start: f64,
+        stop_defined: c_int,
+        stop: f64,
+    ) |component| {
+        let stop = (stop_defined != 0).then_some(stop);
+        let tolerance = (tolerance_defined != 0).then_some(tolerance);
+        component.instance.set_experiment(start, stop, tolerance)?;
+        Ok(())
+    };
 
-/// Runs a call without results.
-unsafe fn simple(
-    function: &'static str,
-    c: *mut c_void,
-    run: impl FnOnce(&mut Instance) -> Result<(), Error>,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { call(function, c, |component| run(&mut component.instance).map(|()| OK)) }
-}
+    /// Begins the initialization.
+    fn fmi2EnterInitializationMode() |component| component.instance.enter_initialization();
 
-/// Begins the initialization.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2EnterInitializationMode(c: *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { simple("fmi2EnterInitializationMode", c, Instance::enter_initialization) }
-}
+    /// Ends the initialization.
+    fn fmi2ExitInitializationMode() |component| component.instance.exit_initialization();
 
-/// Ends the initialization.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2ExitInitializationMode(c: *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { simple("fmi2ExitInitializationMode", c, Instance::exit_initialization) }
-}
+    /// Ends the simulation.
+    fn fmi2Terminate() |component| component.instance.terminate();
 
-/// Ends the simulation.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2Terminate(c: *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { simple("fmi2Terminate", c, Instance::terminate) }
-}
+    /// Goes back to the state after instantiation.
+    fn fmi2Reset() |component| {
+        component.instance.reset();
+        Ok(())
+    };
 
-/// Goes back to the state after instantiation.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2Reset(c: *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        simple("fmi2Reset", c, |instance| {
-            instance.reset();
-            Ok(())
-        })
-    }
-}
+    /// Reads real variables.
+    fn fmi2GetReal(vr: References, n: usize, value: *mut f64) |component| {
+        get(component, (vr, n), value, Instance::get_float)
+    };
 
-/// Reads real variables.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetReal(c: *mut c_void, vr: References, n: usize, value: *mut f64) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi2GetReal", c, |component| {
-            let (vr, value) = (
-                slice(vr, n, "the references")?,
-                slice_mut(value, n, "the values")?,
-            );
-            read(vr, value, |vr| component.instance.get_float(vr))
-        })
-    }
-}
+    /// Reads integer variables.
+    fn fmi2GetInteger(vr: References, n: usize, value: *mut c_int) |component| {
+        get(component, (vr, n), value, Instance::get_integer)
+    };
 
-/// Reads integer variables.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetInteger(
-    c: *mut c_void,
-    vr: References,
-    n: usize,
-    value: *mut c_int,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi2GetInteger", c, |component| {
-            let (vr, value) = (
-                slice(vr, n, "the references")?,
-                slice_mut(value, n, "the values")?,
-            );
-            read(vr, value, |vr| component.instance.get_integer(vr))
-        })
-    }
-}
+    /// Reads Boolean variables.
+    fn fmi2GetBoolean(vr: References, n: usize, value: *mut c_int) |component| {
+        get(component, (vr, n), value, |instance, vr| instance.get_boolean(vr).map(c_int::from))
+    };
 
-/// Reads Boolean variables.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetBoolean(
-    c: *mut c_void,
-    vr: References,
-    n: usize,
-    value: *mut c_int,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi2GetBoolean", c, |component| {
-            let (vr, value) = (
-                slice(vr, n, "the references")?,
-                slice_mut(value, n, "the values")?,
-            );
-            read(vr, value, |vr| {
-                component.instance.get_boolean(vr).map(c_int::from)
-            })
-        })
-    }
-}
+    /// Reads strings: there are none.
+    fn fmi2GetString(_vr: References, n: usize, _value: *mut *const c_char) |_| none_of(n, "string");
 
-/// Reads strings: there are none.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetString(
-    c: *mut c_void,
-    _vr: References,
-    n: usize,
-    _value: *mut *const c_char,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { call("fmi2GetString", c, |_| none_of(n, "string")) }
-}
+    /// Sets real variables.
+    fn fmi2SetReal(vr: References, n: usize, value: *const f64) |component| {
+        set(component, (vr, n), value, Instance::may_set_float, Instance::set_float)
+    };
 
-/// Sets real variables.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetReal(c: *mut c_void, vr: References, n: usize, value: *const f64) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi2SetReal", c, |component| {
-            let (vr, value) = (slice(vr, n, "the references")?, slice(value, n, "the values")?);
-            let instance = &mut component.instance;
-            write(instance, vr, value, Instance::may_set_float, Instance::set_float)
-        })
-    }
-}
+    /// Sets integer variables.
+    fn fmi2SetInteger(vr: References, n: usize, value: *const c_int) |component| {
+        set(component, (vr, n), value, Instance::may_set_integer, Instance::set_integer)
+    };
 
-/// Sets integer variables.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetInteger(
-    c: *mut c_void,
-    vr: References,
-    n: usize,
-    value: *const c_int,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi2SetInteger", c, |component| {
-            let (vr, value) = (slice(vr, n, "the references")?, slice(value, n, "the values")?);
-            let instance = &mut component.instance;
-            write(
-                instance,
-                vr,
-                value,
-                Instance::may_set_integer,
-                Instance::set_integer,
-            )
-        })
-    }
-}
+    /// Sets Boolean variables.
+    fn fmi2SetBoolean(vr: References, n: usize, value: *const c_int) |component| {
+        set(
+            component,
+            (vr, n),
+            value,
+            |instance, vr, value| instance.may_set_boolean(vr, value != 0),
+            |instance, vr, value| instance.set_boolean(vr, value != 0),
+        )
+    };
 
-/// Sets Boolean variables.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetBoolean(
-    c: *mut c_void,
-    vr: References,
-    n: usize,
-    value: *const c_int,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi2SetBoolean", c, |component| {
-            let (vr, value) = (slice(vr, n, "the references")?, slice(value, n, "the values")?);
-            write(
-                &mut component.instance,
-                vr,
-                value,
-                |instance, vr, value| instance.may_set_boolean(vr, value != 0),
-                |instance, vr, value| instance.set_boolean(vr, value != 0),
-            )
-        })
-    }
-}
+    /// Sets strings: there are none.
+    fn fmi2SetString(_vr: References, n: usize, _value: *const *const c_char) |_| none_of(n, "string");
 
-/// Sets strings: there are none.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetString(
-    c: *mut c_void,
-    _vr: References,
-    n: usize,
-    _value: *const *const c_char,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { call("fmi2SetString", c, |_| none_of(n, "string")) }
-}
+    /// Saves the state.
+    fn fmi2GetFMUstate(state: *mut *mut c_void) |component| save(component, state);
 
-/// Saves the state.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetFMUstate(c: *mut c_void, state: *mut *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { call("fmi2GetFMUstate", c, |component| save(component, state)) }
-}
+    /// Goes back to a saved state.
+    fn fmi2SetFMUstate(state: *mut c_void) |component| {
+        component.instance.restore(saved(state)?)
+    };
 
-/// Goes back to a saved state.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetFMUstate(c: *mut c_void, state: *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi2SetFMUstate", c, |component| {
-            component.instance.restore(saved(state)?).map(|()| OK)
-        })
-    }
-}
+    /// Frees a saved state.
+    fn fmi2FreeFMUstate(state: *mut *mut c_void) |_| free_saved(state);
 
-/// Frees a saved state.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeFMUstate(c: *mut c_void, state: *mut *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { call("fmi2FreeFMUstate", c, |_| free_saved(state)) }
-}
+    /// Gives the size of a saved state, bytes.
+    fn fmi2SerializedFMUstateSize(state: *mut c_void, size: *mut usize) |_| {
+        put(size, saved(state)?.to_bytes()?.len(), "the size")?;
+        Ok(())
+    };
 
-/// Gives the size of a saved state, bytes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
-    c: *mut c_void,
-    state: *mut c_void,
-    size: *mut usize,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi2SerializedFMUstateSize", c, |_| {
-            put(size, saved(state)?.to_bytes()?.len(), "the size")?;
-            Ok(OK)
-        })
-    }
-}
+    /// Writes a saved state as bytes.
+    fn fmi2SerializeFMUstate(state: *mut c_void, bytes: *mut c_char, size: usize) |_| {
+        serialize(state, bytes.cast(), size)
+    };
 
-/// Writes a saved state as bytes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SerializeFMUstate(
-    c: *mut c_void,
-    state: *mut c_void,
-    bytes: *mut c_char,
-    size: usize,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi2SerializeFMUstate", c, |_| {
-            serialize(state, bytes.cast(), size)
-        })
-    }
-}
+    /// Reads a saved state from bytes.
+    fn fmi2DeSerializeFMUstate(bytes: *const c_char, size: usize, state: *mut *mut c_void) |_| {
+        deserialize(bytes.cast(), size, state)
+    };
 
-/// Reads a saved state from bytes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
-    c: *mut c_void,
-    bytes: *const c_char,
-    size: usize,
-    state: *mut *mut c_void,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi2DeSerializeFMUstate", c, |_| {
-            deserialize(bytes.cast(), size, state)
-        })
-    }
-}
-
-/// Derivatives along a direction.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
-    c: *mut c_void,
-    unknowns: References,
-    unknown_count: usize,
-    knowns: References,
-    known_count: usize,
-    seed: *const f64,
-    out: *mut f64,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi2GetDirectionalDerivative", c, |component| {
-            let unknowns = slice(unknowns, unknown_count, "the unknowns")?;
-            let knowns = slice(knowns, known_count, "the knowns")?;
-            let seed = slice(seed, known_count, "the seed")?;
-            let out = slice_mut(out, unknown_count, "the derivatives")?;
-            component
-                .instance
-                .directional_derivative(unknowns, knowns, seed, out)?;
-            Ok(OK)
-        })
-    }
+    /// Derivatives along a direction.
+    fn fmi2GetDirectionalDerivative(
+        unknowns: References,
+        unknown_count: usize,
+        knowns: References,
+        known_count: usize,
+        seed: *const f64,
+        out: *mut f64,
+    ) |component| {
+        let unknowns = slice(unknowns, unknown_count, "the unknowns")?;
+        let knowns = slice(knowns, known_count, "the knowns")?;
+        let seed = slice(seed, known_count, "the seed")?;
+        let out = slice_mut(out, unknown_count, "the derivatives")?;
+        component
+            .instance
+            .directional_derivative(unknowns, knowns, seed, out)?;
+        Ok(())
+    };
 }

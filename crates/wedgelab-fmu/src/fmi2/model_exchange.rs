@@ -3,10 +3,9 @@
 
 use std::ffi::{c_int, c_void};
 
-use fmi::instance::{EventUpdate, Instance};
+use fmi::instance::EventUpdate;
 
-use super::simple;
-use crate::component::{OK, Status, call};
+use crate::component::{Status, functions};
 use crate::pointers::{put, slice, slice_mut};
 
 /// The outcome of event handling: `fmi2EventInfo`.
@@ -26,130 +25,67 @@ pub struct EventInfo {
     pub next_event_time: f64,
 }
 
-/// Begins event mode.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2EnterEventMode(c: *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module above.
-    unsafe { simple("fmi2EnterEventMode", c, Instance::enter_event_mode) }
-}
+functions! {
+    /// Begins event mode.
+    fn fmi2EnterEventMode() |component| component.instance.enter_event_mode();
 
-/// Handles events.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2NewDiscreteStates(c: *mut c_void, info: *mut EventInfo) -> Status {
-    // SAFETY: the standard's contract, see the module above.
-    unsafe {
-        call("fmi2NewDiscreteStates", c, |component| {
-            let found = |update: EventUpdate| EventInfo {
-                new_discrete_states_needed: c_int::from(update.again),
-                terminate_simulation: 0,
-                nominals_of_continuous_states_changed: 0,
-                values_of_continuous_states_changed: 0,
-                next_event_time_defined: c_int::from(update.next_time.is_some()),
-                next_event_time: update.next_time.unwrap_or(0.0),
-            };
-            // Before anything changes: a null pointer is refused as a whole.
-            put(info, found(EventUpdate::default()), "the event info")?;
-            let update = component.instance.update_discrete_states()?;
-            put(info, found(update), "the event info")?;
-            Ok(OK)
-        })
-    }
-}
+    /// Handles events.
+    fn fmi2NewDiscreteStates(info: *mut EventInfo) |component| {
+        let found = |update: EventUpdate| EventInfo {
+            new_discrete_states_needed: c_int::from(update.again),
+            terminate_simulation: 0,
+            nominals_of_continuous_states_changed: 0,
+            values_of_continuous_states_changed: 0,
+            next_event_time_defined: c_int::from(update.next_time.is_some()),
+            next_event_time: update.next_time.unwrap_or(0.0),
+        };
+        // Before anything changes: a null pointer is refused as a whole.
+        put(info, found(EventUpdate::default()), "the event info")?;
+        let update = component.instance.update_discrete_states()?;
+        put(info, found(update), "the event info")?;
+        Ok(())
+    };
 
-/// Begins continuous-time mode.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(c: *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module above.
-    unsafe {
-        simple(
-            "fmi2EnterContinuousTimeMode",
-            c,
-            Instance::enter_continuous_time_mode,
-        )
-    }
-}
+    /// Begins continuous-time mode.
+    fn fmi2EnterContinuousTimeMode() |component| component.instance.enter_continuous_time_mode();
 
-/// Completes an integrator step.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
-    c: *mut c_void,
-    _no_set_state_prior: c_int,
-    enter_event_mode: *mut c_int,
-    terminate: *mut c_int,
-) -> Status {
-    // SAFETY: the standard's contract, see the module above.
-    unsafe {
-        call("fmi2CompletedIntegratorStep", c, |component| {
-            component.instance.completed_integrator_step()?;
-            put(enter_event_mode, 0, "enterEventMode")?;
-            put(terminate, 0, "terminateSimulation")?;
-            Ok(OK)
-        })
-    }
-}
+    /// Completes an integrator step.
+    fn fmi2CompletedIntegratorStep(
+        _no_set_state_prior: c_int,
+        enter_event_mode: *mut c_int,
+        terminate: *mut c_int,
+    ) |component| {
+        component.instance.completed_integrator_step()?;
+        put(enter_event_mode, 0, "enterEventMode")?;
+        put(terminate, 0, "terminateSimulation")?;
+        Ok(())
+    };
 
-/// Sets time.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetTime(c: *mut c_void, time: f64) -> Status {
-    // SAFETY: the standard's contract, see the module above.
-    unsafe { simple("fmi2SetTime", c, |instance| instance.set_time(time)) }
-}
+    /// Sets time.
+    fn fmi2SetTime(time: f64) |component| component.instance.set_time(time);
 
-/// Sets the states.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetContinuousStates(c: *mut c_void, x: *const f64, n: usize) -> Status {
-    // SAFETY: the standard's contract, see the module above.
-    unsafe {
-        simple("fmi2SetContinuousStates", c, |instance| {
-            instance.set_states(slice(x, n, "the states")?)
-        })
-    }
-}
+    /// Sets the states.
+    fn fmi2SetContinuousStates(x: *const f64, n: usize) |component| {
+        component.instance.set_states(slice(x, n, "the states")?)
+    };
 
-/// Reads the rates of the states.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetDerivatives(c: *mut c_void, out: *mut f64, n: usize) -> Status {
-    // SAFETY: the standard's contract, see the module above.
-    unsafe {
-        simple("fmi2GetDerivatives", c, |instance| {
-            instance.rates(slice_mut(out, n, "the derivatives")?)
-        })
-    }
-}
+    /// Reads the rates of the states.
+    fn fmi2GetDerivatives(out: *mut f64, n: usize) |component| {
+        component.instance.rates(slice_mut(out, n, "the derivatives")?)
+    };
 
-/// Reads the event indicators.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetEventIndicators(c: *mut c_void, out: *mut f64, n: usize) -> Status {
-    // SAFETY: the standard's contract, see the module above.
-    unsafe {
-        simple("fmi2GetEventIndicators", c, |instance| {
-            instance.indicators(slice_mut(out, n, "the event indicators")?)
-        })
-    }
-}
+    /// Reads the event indicators.
+    fn fmi2GetEventIndicators(out: *mut f64, n: usize) |component| {
+        component.instance.indicators(slice_mut(out, n, "the event indicators")?)
+    };
 
-/// Reads the states.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetContinuousStates(c: *mut c_void, out: *mut f64, n: usize) -> Status {
-    // SAFETY: the standard's contract, see the module above.
-    unsafe {
-        simple("fmi2GetContinuousStates", c, |instance| {
-            instance.states(slice_mut(out, n, "the states")?)
-        })
-    }
-}
+    /// Reads the states.
+    fn fmi2GetContinuousStates(out: *mut f64, n: usize) |component| {
+        component.instance.states(slice_mut(out, n, "the states")?)
+    };
 
-/// Reads the nominal values of the states.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(
-    c: *mut c_void,
-    out: *mut f64,
-    n: usize,
-) -> Status {
-    // SAFETY: the standard's contract, see the module above.
-    unsafe {
-        simple("fmi2GetNominalsOfContinuousStates", c, |instance| {
-            instance.nominals(slice_mut(out, n, "the nominal values")?)
-        })
-    }
+    /// Reads the nominal values of the states.
+    fn fmi2GetNominalsOfContinuousStates(out: *mut f64, n: usize) |component| {
+        component.instance.nominals(slice_mut(out, n, "the nominal values")?)
+    };
 }

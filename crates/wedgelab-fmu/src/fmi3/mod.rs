@@ -20,7 +20,7 @@ use fmi::description::Version;
 use fmi::element::Interface;
 use fmi::instance::Instance;
 
-use crate::component::{Logger, Logger3, OK, Status, call, free, instantiate, read, write};
+use crate::component::{Logger, Logger3, Status, free, functions, get, instantiate, set};
 use crate::pointers::{put, slice, slice_mut, string, strings};
 use crate::states::{deserialize, free_saved, save, saved, serialize};
 
@@ -37,21 +37,12 @@ pub extern "C" fn fmi3GetVersion() -> *const c_char {
     c"3.0".as_ptr()
 }
 
-/// Switches the log.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetDebugLogging(
-    instance: *mut c_void,
-    on: bool,
-    count: usize,
-    categories: *const *const c_char,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi3SetDebugLogging", instance, |component| {
-            component.set_logging(on, &strings(categories, count, "the log categories")?)?;
-            Ok(OK)
-        })
-    }
+functions! {
+    /// Switches the log.
+    fn fmi3SetDebugLogging(on: bool, count: usize, categories: *const *const c_char) |component| {
+        component.set_logging(on, &strings(categories, count, "the log categories")?)?;
+        Ok(())
+    };
 }
 
 /// Makes an instance of one kind; `check` looks at what else was asked for.
@@ -189,214 +180,76 @@ pub unsafe extern "C" fn fmi3FreeInstance(instance: *mut c_void) {
     unsafe { free(instance) };
 }
 
-/// Runs a call without results.
-unsafe fn simple(
-    function: &'static str,
-    instance: *mut c_void,
-    run: impl FnOnce(&mut Instance) -> Result<(), Error>,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call(function, instance, |component| {
-            run(&mut component.instance).map(|()| OK)
-        })
-    }
-}
+functions! {
+    /// Begins the initialization.
+    fn fmi3EnterInitializationMode(
+        tolerance_defined: bool,
+        tolerance: f64,
+        start: f64,
+        stop_defined: bool,
+        stop: f64,
+    ) |component| {
+        let tolerance = tolerance_defined.then_some(tolerance);
+        component.instance.set_experiment(start, stop_defined.then_some(stop), tolerance)?;
+        component.instance.enter_initialization()
+    };
 
-/// Begins the initialization.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3EnterInitializationMode(
-    instance: *mut c_void,
-    tolerance_defined: bool,
-    tolerance: f64,
-    start: f64,
-    stop_defined: bool,
-    stop: f64,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        simple("fmi3EnterInitializationMode", instance, |instance| {
-            let tolerance = tolerance_defined.then_some(tolerance);
-            instance.set_experiment(start, stop_defined.then_some(stop), tolerance)?;
-            instance.enter_initialization()
-        })
-    }
-}
+    /// Ends the initialization.
+    fn fmi3ExitInitializationMode() |component| component.instance.exit_initialization();
 
-/// Ends the initialization.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3ExitInitializationMode(instance: *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        simple(
-            "fmi3ExitInitializationMode",
-            instance,
-            Instance::exit_initialization,
+    /// Begins event mode.
+    fn fmi3EnterEventMode() |component| component.instance.enter_event_mode();
+
+    /// Ends the simulation.
+    fn fmi3Terminate() |component| component.instance.terminate();
+
+    /// Goes back to the state after instantiation.
+    fn fmi3Reset() |component| {
+        component.instance.reset();
+        Ok(())
+    };
+
+    /// Reads variables of the type Float64.
+    fn fmi3GetFloat64(vr: References, n: usize, values: *mut f64, count: usize) |component| {
+        same(n, count)?;
+        get(component, (vr, n), values, Instance::get_float)
+    };
+
+    /// Sets variables of the type Float64.
+    fn fmi3SetFloat64(vr: References, n: usize, values: *const f64, count: usize) |component| {
+        same(n, count)?;
+        set(component, (vr, n), values, Instance::may_set_float, Instance::set_float)
+    };
+
+    /// Reads variables of the type Int32.
+    fn fmi3GetInt32(vr: References, n: usize, values: *mut i32, count: usize) |component| {
+        same(n, count)?;
+        get(component, (vr, n), values, Instance::get_integer)
+    };
+
+    /// Sets variables of the type Int32.
+    fn fmi3SetInt32(vr: References, n: usize, values: *const i32, count: usize) |component| {
+        same(n, count)?;
+        set(component, (vr, n), values, Instance::may_set_integer, Instance::set_integer)
+    };
+
+    /// Reads variables of the type Boolean.
+    fn fmi3GetBoolean(vr: References, n: usize, values: *mut bool, count: usize) |component| {
+        same(n, count)?;
+        get(component, (vr, n), values, Instance::get_boolean)
+    };
+
+    /// Sets variables of the type Boolean.
+    fn fmi3SetBoolean(vr: References, n: usize, values: *const u8, count: usize) |component| {
+        same(n, count)?;
+        set(
+            component,
+            (vr, n),
+            values,
+            |instance, vr, value| instance.may_set_boolean(vr, value != 0),
+            |instance, vr, value| instance.set_boolean(vr, value != 0),
         )
-    }
-}
-
-/// Begins event mode.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3EnterEventMode(instance: *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { simple("fmi3EnterEventMode", instance, Instance::enter_event_mode) }
-}
-
-/// Ends the simulation.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3Terminate(instance: *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { simple("fmi3Terminate", instance, Instance::terminate) }
-}
-
-/// Goes back to the state after instantiation.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3Reset(instance: *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        simple("fmi3Reset", instance, |instance| {
-            instance.reset();
-            Ok(())
-        })
-    }
-}
-
-/// Reads variables of the type Float64.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetFloat64(
-    instance: *mut c_void,
-    vr: References,
-    n: usize,
-    values: *mut f64,
-    count: usize,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi3GetFloat64", instance, |component| {
-            same(n, count)?;
-            let (vr, values) = (
-                slice(vr, n, "the references")?,
-                slice_mut(values, n, "the values")?,
-            );
-            read(vr, values, |vr| component.instance.get_float(vr))
-        })
-    }
-}
-
-/// Sets variables of the type Float64.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetFloat64(
-    instance: *mut c_void,
-    vr: References,
-    n: usize,
-    values: *const f64,
-    count: usize,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi3SetFloat64", instance, |component| {
-            same(n, count)?;
-            let (vr, values) = (slice(vr, n, "the references")?, slice(values, n, "the values")?);
-            let instance = &mut component.instance;
-            write(instance, vr, values, Instance::may_set_float, Instance::set_float)
-        })
-    }
-}
-
-/// Reads variables of the type Int32.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetInt32(
-    instance: *mut c_void,
-    vr: References,
-    n: usize,
-    values: *mut i32,
-    count: usize,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi3GetInt32", instance, |component| {
-            same(n, count)?;
-            let (vr, values) = (
-                slice(vr, n, "the references")?,
-                slice_mut(values, n, "the values")?,
-            );
-            read(vr, values, |vr| component.instance.get_integer(vr))
-        })
-    }
-}
-
-/// Sets variables of the type Int32.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetInt32(
-    instance: *mut c_void,
-    vr: References,
-    n: usize,
-    values: *const i32,
-    count: usize,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi3SetInt32", instance, |component| {
-            same(n, count)?;
-            let (vr, values) = (slice(vr, n, "the references")?, slice(values, n, "the values")?);
-            let instance = &mut component.instance;
-            write(
-                instance,
-                vr,
-                values,
-                Instance::may_set_integer,
-                Instance::set_integer,
-            )
-        })
-    }
-}
-
-/// Reads variables of the type Boolean.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetBoolean(
-    instance: *mut c_void,
-    vr: References,
-    n: usize,
-    values: *mut bool,
-    count: usize,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi3GetBoolean", instance, |component| {
-            same(n, count)?;
-            let (vr, values) = (
-                slice(vr, n, "the references")?,
-                slice_mut(values, n, "the values")?,
-            );
-            read(vr, values, |vr| component.instance.get_boolean(vr))
-        })
-    }
-}
-
-/// Sets variables of the type Boolean.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetBoolean(
-    instance: *mut c_void,
-    vr: References,
-    n: usize,
-    values: *const u8,
-    count: usize,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi3SetBoolean", instance, |component| {
-            same(n, count)?;
-            let (vr, values) = (slice(vr, n, "the references")?, slice(values, n, "the values")?);
-            write(
-                &mut component.instance,
-                vr,
-                values,
-                |instance, vr, value| instance.may_set_boolean(vr, value != 0),
-                |instance, vr, value| instance.set_boolean(vr, value != 0),
-            )
-        })
-    }
+    };
 }
 
 /// Checks the counts. All variables are scalars: there is one value a reference.
@@ -410,137 +263,79 @@ fn same(references: usize, values: usize) -> Result<(), Error> {
     )))
 }
 
-/// Saves the state.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetFMUState(instance: *mut c_void, state: *mut *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { call("fmi3GetFMUState", instance, |component| save(component, state)) }
-}
+functions! {
+    /// Saves the state.
+    fn fmi3GetFMUState(state: *mut *mut c_void) |component| save(component, state);
 
-/// Goes back to a saved state.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetFMUState(instance: *mut c_void, state: *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi3SetFMUState", instance, |component| {
-            component.instance.restore(saved(state)?).map(|()| OK)
-        })
-    }
-}
+    /// Goes back to a saved state.
+    fn fmi3SetFMUState(state: *mut c_void) |component| {
+        component.instance.restore(saved(state)?)
+    };
 
-/// Frees a saved state.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3FreeFMUState(instance: *mut c_void, state: *mut *mut c_void) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe { call("fmi3FreeFMUState", instance, |_| free_saved(state)) }
-}
+    /// Frees a saved state.
+    fn fmi3FreeFMUState(state: *mut *mut c_void) |_| free_saved(state);
 
-/// Gives the size of a saved state, bytes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SerializedFMUStateSize(
-    instance: *mut c_void,
-    state: *mut c_void,
-    size: *mut usize,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi3SerializedFMUStateSize", instance, |_| {
-            put(size, saved(state)?.to_bytes()?.len(), "the size")?;
-            Ok(OK)
-        })
-    }
-}
+    /// Gives the size of a saved state, bytes.
+    fn fmi3SerializedFMUStateSize(state: *mut c_void, size: *mut usize) |_| {
+        put(size, saved(state)?.to_bytes()?.len(), "the size")?;
+        Ok(())
+    };
 
-/// Writes a saved state as bytes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SerializeFMUState(
-    instance: *mut c_void,
-    state: *mut c_void,
-    bytes: *mut u8,
-    size: usize,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi3SerializeFMUState", instance, |_| {
-            serialize(state, bytes, size)
-        })
-    }
-}
+    /// Writes a saved state as bytes.
+    fn fmi3SerializeFMUState(state: *mut c_void, bytes: *mut u8, size: usize) |_| {
+        serialize(state, bytes, size)
+    };
 
-/// Reads a saved state from bytes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3DeserializeFMUState(
-    instance: *mut c_void,
-    bytes: *const u8,
-    size: usize,
-    state: *mut *mut c_void,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi3DeserializeFMUState", instance, |_| {
-            deserialize(bytes, size, state)
-        })
-    }
-}
+    /// Reads a saved state from bytes.
+    fn fmi3DeserializeFMUState(bytes: *const u8, size: usize, state: *mut *mut c_void) |_| {
+        deserialize(bytes, size, state)
+    };
 
-/// Derivatives along a direction.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetDirectionalDerivative(
-    instance: *mut c_void,
-    unknowns: References,
-    unknown_count: usize,
-    knowns: References,
-    known_count: usize,
-    seed: *const f64,
-    seed_count: usize,
-    out: *mut f64,
-    out_count: usize,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi3GetDirectionalDerivative", instance, |component| {
-            let unknowns = slice(unknowns, unknown_count, "the unknowns")?;
-            let knowns = slice(knowns, known_count, "the knowns")?;
-            let seed = slice(seed, seed_count, "the seed")?;
-            let out = slice_mut(out, out_count, "the sensitivities")?;
-            component
-                .instance
-                .directional_derivative(unknowns, knowns, seed, out)?;
-            Ok(OK)
-        })
-    }
-}
+    /// Derivatives along a direction.
+    fn fmi3GetDirectionalDerivative(
+        unknowns: References,
+        unknown_count: usize,
+        knowns: References,
+        known_count: usize,
+        seed: *const f64,
+        seed_count: usize,
+        out: *mut f64,
+        out_count: usize,
+    ) |component| {
+        let unknowns = slice(unknowns, unknown_count, "the unknowns")?;
+        let knowns = slice(knowns, known_count, "the knowns")?;
+        let seed = slice(seed, seed_count, "the seed")?;
+        let out = slice_mut(out, out_count, "the sensitivities")?;
+        component
+            .instance
+            .directional_derivative(unknowns, knowns, seed, out)?;
+        Ok(())
+    };
 
-/// Makes a step. It is always made whole: no early return, no events to be handled.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3DoStep(
-    instance: *mut c_void,
-    time: f64,
-    step: f64,
-    _no_set_state_prior: bool,
-    event_handling_needed: *mut bool,
-    terminate: *mut bool,
-    early_return: *mut bool,
-    last_successful_time: *mut f64,
-) -> Status {
-    // SAFETY: the standard's contract, see the module.
-    unsafe {
-        call("fmi3DoStep", instance, |component| {
-            put(event_handling_needed, false, "eventHandlingNeeded")?;
-            put(terminate, false, "terminateSimulation")?;
-            put(early_return, false, "earlyReturn")?;
-            put(
-                last_successful_time,
-                component.instance.time(),
-                "lastSuccessfulTime",
-            )?;
-            component.instance.do_step(time, step)?;
-            put(
-                last_successful_time,
-                component.instance.time(),
-                "lastSuccessfulTime",
-            )?;
-            Ok(OK)
-        })
-    }
+    /// Makes a step. It is always made whole: no early return, no events to be handled.
+    fn fmi3DoStep(
+        time: f64,
+        step: f64,
+        _no_set_state_prior: bool,
+        event_handling_needed: *mut bool,
+        terminate: *mut bool,
+        early_return: *mut bool,
+        last_successful_time: *mut f64,
+    ) |component| {
+        put(event_handling_needed, false, "eventHandlingNeeded")?;
+        put(terminate, false, "terminateSimulation")?;
+        put(early_return, false, "earlyReturn")?;
+        put(
+            last_successful_time,
+            component.instance.time(),
+            "lastSuccessfulTime",
+        )?;
+        component.instance.do_step(time, step)?;
+        put(
+            last_successful_time,
+            component.instance.time(),
+            "lastSuccessfulTime",
+        )?;
+        Ok(())
+    };
 }
