@@ -19,189 +19,158 @@ struct Access {
     tunable: bool,
 }
 
-const fn fixed(
-    name: &'static str,
-    kind: Kind,
-    text: &'static str,
-    get: fn(&Parameters) -> Option<f64>,
-    set: fn(&mut Parameters, f64),
-) -> Access {
-    Access {
-        name,
-        kind,
-        text,
-        get,
-        set,
-        tunable: false,
-    }
+/// A parameter that stands at one place of [`Parameters`].
+macro_rules! at {
+    ($name:literal, $kind:ident, $text:literal, $($place:tt)+) => {
+        Access {
+            name: $name,
+            kind: Kind::$kind,
+            text: $text,
+            get: |p| Some(p.$($place)+),
+            set: |p, v| p.$($place)+ = v,
+            tunable: false,
+        }
+    };
+}
+
+/// A coefficient of friction, which may change while the simulation runs.
+macro_rules! friction {
+    ($name:literal, $text:literal, $face:ident) => {
+        Access {
+            tunable: true,
+            ..at!($name, Dimensionless, $text, $face.coefficient)
+        }
+    };
+}
+
+/// The reference speed of a face whose law of friction has one.
+macro_rules! reference_speed {
+    ($name:literal, $text:literal, $face:ident) => {
+        Access {
+            name: $name,
+            kind: Kind::Speed,
+            text: $text,
+            get: |p| reference_speed(&p.$face),
+            set: |p, v| set_reference_speed(&mut p.$face, v),
+            tunable: false,
+        }
+    };
 }
 
 const ALL: &[Access] = &[
-    fixed(
+    at!(
         "wedge_angle",
-        Kind::Angle,
+        Angle,
         "wedge angle between the vertical and the slope",
-        |p| Some(p.wedge.angle),
-        |p, v| p.wedge.angle = v,
+        wedge.angle
     ),
-    fixed(
+    at!(
         "wedge_height",
-        Kind::Length,
+        Length,
         "height of the vertical face",
-        |p| Some(p.wedge.height),
-        |p, v| p.wedge.height = v,
+        wedge.height
     ),
-    fixed(
-        "wedge_width",
-        Kind::Length,
-        "lateral width",
-        |p| Some(p.wedge.width),
-        |p, v| {
-            p.wedge.width = v;
-        },
-    ),
-    fixed(
-        "wedge_mass",
-        Kind::Mass,
-        "mass of the wedge",
-        |p| Some(p.wedge.mass),
-        |p, v| {
-            p.wedge.mass = v;
-        },
-    ),
-    fixed(
+    at!("wedge_width", Length, "lateral width", wedge.width),
+    at!("wedge_mass", Mass, "mass of the wedge", wedge.mass),
+    at!(
         "wedge_inertia_roll",
-        Kind::Inertia,
+        Inertia,
         "moment of inertia about the center of gravity, longitudinal axis",
-        |p| Some(p.wedge.inertia[0]),
-        |p, v| p.wedge.inertia[0] = v,
+        wedge.inertia[0]
     ),
-    fixed(
+    at!(
         "wedge_inertia_pitch",
-        Kind::Inertia,
+        Inertia,
         "moment of inertia about the center of gravity, lateral axis",
-        |p| Some(p.wedge.inertia[1]),
-        |p, v| p.wedge.inertia[1] = v,
+        wedge.inertia[1]
     ),
-    fixed(
+    at!(
         "wedge_inertia_yaw",
-        Kind::Inertia,
+        Inertia,
         "moment of inertia about the center of gravity, vertical axis",
-        |p| Some(p.wedge.inertia[2]),
-        |p, v| p.wedge.inertia[2] = v,
+        wedge.inertia[2]
     ),
-    fixed(
+    at!(
         "column_wear",
-        Kind::Length,
+        Length,
         "depth of wear of the column and the wedge's vertical face together",
-        |p| Some(p.wear.column),
-        |p, v| p.wear.column = v,
+        wear.column
     ),
-    fixed(
+    at!(
         "slope_wear",
-        Kind::Length,
+        Length,
         "depth of wear of the pocket's slope and the wedge's slope face together",
-        |p| Some(p.wear.slope),
-        |p, v| p.wear.slope = v,
+        wear.slope
     ),
-    fixed(
-        "coil_stiffness",
-        Kind::Stiffness,
-        "stiffness of the control coil (coil_mode = 0)",
-        |p| match p.coil.law {
+    Access {
+        name: "coil_stiffness",
+        kind: Kind::Stiffness,
+        text: "stiffness of the control coil (coil_mode = 0)",
+        get: |p| match p.coil.law {
             CoilLaw::Linear { stiffness } => Some(stiffness),
             _ => None,
         },
-        |p, v| p.coil.law = CoilLaw::Linear { stiffness: v },
-    ),
-    fixed(
+        set: |p, v| p.coil.law = CoilLaw::Linear { stiffness: v },
+        tunable: false,
+    },
+    at!(
         "coil_free_length",
-        Kind::Length,
+        Length,
         "free length of the control coil",
-        |p| Some(p.coil.free_length),
-        |p, v| p.coil.free_length = v,
+        coil.free_length
     ),
-    fixed(
+    at!(
         "coil_nominal_length",
-        Kind::Length,
+        Length,
         "length of the control coil in the nominal position",
-        |p| Some(p.coil.nominal_length),
-        |p, v| p.coil.nominal_length = v,
+        coil.nominal_length
     ),
-    fixed(
+    at!(
         "coil_damping",
-        Kind::Damping,
+        Damping,
         "damping of the control coil, in all modes of the coil",
-        |p| Some(p.coil.damping),
-        |p, v| p.coil.damping = v,
+        coil.damping
     ),
-    fixed(
+    at!(
         "coil_rotational_damping",
-        Kind::RotationalDamping,
+        RotationalDamping,
         "damping of rotations by the control coil",
-        |p| Some(p.coil.rotational_damping),
-        |p, v| p.coil.rotational_damping = v,
+        coil.rotational_damping
     ),
-    fixed(
+    at!(
         "contact_stiffness",
-        Kind::Stiffness,
+        Stiffness,
         "normal stiffness of each corner",
-        |p| Some(p.contact.stiffness),
-        |p, v| p.contact.stiffness = v,
+        contact.stiffness
     ),
-    fixed(
+    at!(
         "contact_damping",
-        Kind::Damping,
+        Damping,
         "normal damping of each corner",
-        |p| Some(p.contact.damping),
-        |p, v| p.contact.damping = v,
+        contact.damping
     ),
-    Access {
-        name: "column_friction",
-        kind: Kind::Dimensionless,
-        text: "coefficient of friction of the column",
-        get: |p| Some(p.column_friction.coefficient),
-        set: |p, v| p.column_friction.coefficient = v,
-        tunable: true,
-    },
-    Access {
-        name: "slope_friction",
-        kind: Kind::Dimensionless,
-        text: "coefficient of friction of the slope",
-        get: |p| Some(p.slope_friction.coefficient),
-        set: |p, v| p.slope_friction.coefficient = v,
-        tunable: true,
-    },
-    fixed(
+    friction!(
+        "column_friction",
+        "coefficient of friction of the column",
+        column_friction
+    ),
+    friction!(
+        "slope_friction",
+        "coefficient of friction of the slope",
+        slope_friction
+    ),
+    reference_speed!(
         "column_reference_speed",
-        Kind::Speed,
         "reference speed of the tanh law of friction at the column",
-        |p| reference_speed(&p.column_friction),
-        |p, v| set_reference_speed(&mut p.column_friction, v),
+        column_friction
     ),
-    fixed(
+    reference_speed!(
         "slope_reference_speed",
-        Kind::Speed,
         "reference speed of the tanh law of friction at the slope",
-        |p| reference_speed(&p.slope_friction),
-        |p, v| set_reference_speed(&mut p.slope_friction, v),
+        slope_friction
     ),
-    fixed(
-        "toe",
-        Kind::Angle,
-        "toe angle of the column, positive is toe out",
-        |p| Some(p.toe),
-        |p, v| p.toe = v,
-    ),
-    fixed(
-        "gravity",
-        Kind::Acceleration,
-        "gravity, downwards",
-        |p| Some(p.gravity),
-        |p, v| {
-            p.gravity = v;
-        },
-    ),
+    at!("toe", Angle, "toe angle of the column, positive is toe out", toe),
+    at!("gravity", Acceleration, "gravity, downwards", gravity),
 ];
 
 fn reference_speed(face: &FaceFriction) -> Option<f64> {
