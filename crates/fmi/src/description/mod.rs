@@ -1,6 +1,7 @@
 //! The description that an importer reads: variables in their order, structure, identity; and as
 //! `modelDescription.xml`.
 
+mod document;
 mod fmi2;
 mod fmi3;
 pub(crate) mod xml;
