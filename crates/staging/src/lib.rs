@@ -6,6 +6,19 @@
 //! side by side, but never half a file.
 //!
 //! A program that is told to end calls [`abandon`]; [`remove_left_over`] finds what a killed one left.
+//!
+//! ```
+//! use std::fs;
+//! use staging::Folder;
+//!
+//! let base = tempfile::tempdir()?;
+//! let folder = Folder::check(base.path().join("run"), &["summary.txt"], false)?;
+//! folder.write(|files| files.add("summary.txt", |out| out.write_all(b"loss: 12 J\n")))?;
+//! assert_eq!(fs::read_to_string(base.path().join("run/summary.txt"))?, "loss: 12 J\n");
+//! // Results are not overwritten unless that is asked for.
+//! assert!(Folder::check(base.path().join("run"), &["summary.txt"], false).is_err());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};

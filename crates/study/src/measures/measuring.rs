@@ -41,7 +41,7 @@ pub enum Unmeasured {
 pub struct Judged {
     /// The measures; of a run that derailed, of the part until then.
     pub measures: Measures,
-    /// The run's outcome, which is no stop; a run that is nonsense ([`findings::nonsense`]) has failed.
+    /// The run's outcome, which is no stop; a run whose numbers are not to be used has failed.
     pub outcome: Outcome,
 }
 
