@@ -20,6 +20,7 @@ PAGE = ROOT / "docs" / "python-api.md"
 MODULES = {
     "case": "wl.",
     "sections": "wl.",
+    "_motions": "wl.",
     "truck": "wl.",
     "car": "wl.",
     "nucars": "wl.nucars.",

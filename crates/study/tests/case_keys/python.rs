@@ -24,7 +24,7 @@ const CLASSES: [(&str, &str, &str); 9] = [
     ("simulation", "SimulationSection", "``[simulation]``"),
 ];
 
-const HEAD: &str = "\"\"\"The sections of a case and the motions of its neighbours, as typed objects.
+const HEAD: &str = "\"\"\"The sections of a case, as typed objects.
 
 Every dimensional value is a text with a unit (``\"32 deg\"``), a `Quantity`, or a number in SI units: m, N,
 s, rad, rad/s, N/m, N s/m, N m s/rad, kg m^2, m/s^2. What is ``None`` is left out, and takes the value of the
@@ -40,42 +40,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ._motions import (
-    Constant,
-    MotionLike,
-    Points,
-    QuantityLike,
-    Ramp,
-    Section,
-    Sine,
-    SweptSine,
-    Table,
-    Triangle,
-    Triple,
-)
+from ._motions import MotionLike, Points, QuantityLike, Section, Triple
 ";
-
-/// The names of motions, which stand beside the sections.
-const MOTIONS: [&str; 9] = [
-    "Constant",
-    "MotionLike",
-    "QuantityLike",
-    "Ramp",
-    "Section",
-    "Sine",
-    "SweptSine",
-    "Table",
-    "Triangle",
-];
 
 /// Returns the module of Python.
 pub fn sections() -> String {
     let schema = MODELS[0].schema();
     let keys = keys(MODELS[0].cases);
-    let mut names: Vec<&str> = MOTIONS
-        .into_iter()
-        .chain(CLASSES.map(|(_, class, _)| class))
-        .collect();
+    let mut names = CLASSES.map(|(_, class, _)| class);
     names.sort_unstable();
     let names: String = names.iter().map(|name| format!("    \"{name}\",\n")).collect();
     let mut page = format!("{HEAD}\n__all__ = [\n{names}]\n");
@@ -109,11 +81,14 @@ fn one<'k>(
             _ => words.push(name),
         }
         let help = key.help.split_whitespace().collect::<Vec<_>>().join(" ");
-        let help = if help.is_empty() {
-            "A motion.".to_owned()
-        } else {
-            sentence(&help)
-        };
+        // The name of a motion's definition says what it is of.
+        let of = schema[name]["allOf"][0]["$ref"]
+            .as_str()
+            .and_then(|of| of.rsplit('/').next());
+        let help = sentence(match of {
+            Some(of) if help.is_empty() => of,
+            _ => &help,
+        });
         let _ = write!(page, "    {name}: {hint} | None = None\n    \"\"\"{help}\"\"\"\n");
     }
     for (kind, names) in [("_words", words), ("_motions", motions)] {

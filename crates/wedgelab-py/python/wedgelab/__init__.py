@@ -4,6 +4,7 @@ Units: a text carries its unit (``"32 deg"``), a bare number is in SI units. ``d
 """
 
 from . import cluster, nucars, wheelrail
+from ._motions import Constant, Ramp, Sine, SweptSine, Table, Triangle
 from ._wedgelab import Quantity, __version__
 from .car import CarCase
 from .case import Case, Group, built_in
@@ -43,19 +44,13 @@ from .result import (
 )
 from .sections import (
     BolsterSection,
-    Constant,
     ContactSection,
     ControlCoilSection,
     EnvironmentSection,
     FaceSection,
     FrictionSection,
-    Ramp,
     SideFrameSection,
     SimulationSection,
-    Sine,
-    SweptSine,
-    Table,
-    Triangle,
     WedgeSection,
 )
 from .step import COORDINATES, Forces, Motion, Wedge

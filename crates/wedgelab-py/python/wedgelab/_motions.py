@@ -11,6 +11,18 @@ import numpy.typing as npt
 
 from ._wedgelab import Quantity
 
+__all__ = [
+    "Constant",
+    "MotionLike",
+    "QuantityLike",
+    "Ramp",
+    "Section",
+    "Sine",
+    "SweptSine",
+    "Table",
+    "Triangle",
+]
+
 QuantityLike = Union[str, float, Quantity]
 """A text with a unit, a number in SI units, or a quantity."""
 Triple = Sequence[QuantityLike]

@@ -43,6 +43,7 @@ __all__ = [
     "run_many",
     "slide",
     "to_si",
+    "wedge_assumptions",
 ]
 __version__: str
 

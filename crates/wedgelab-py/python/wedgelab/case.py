@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, ClassVar, TypeVar, Union
 
 from . import _html
+from ._motions import Section
 from ._wedgelab import (
     NativeCarCase,
     NativeCase,
@@ -27,7 +28,6 @@ from .sections import (
     EnvironmentSection,
     FaceSection,
     FrictionSection,
-    Section,
     SideFrameSection,
     SimulationSection,
     WedgeSection,

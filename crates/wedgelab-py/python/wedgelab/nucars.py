@@ -15,7 +15,7 @@ from ._wedgelab import NativeHalfTruckCase, built_in_half_trucks, check_files, r
 from .case import _names
 from .errors import Finding, NucarsError
 from .result import HalfTruckResult, checked
-from .sections import QuantityLike
+from ._motions import QuantityLike
 
 __all__ = ["Checked", "NucarsFile", "ShownTable", "HalfTruckCase", "built_in", "check", "read"]
 

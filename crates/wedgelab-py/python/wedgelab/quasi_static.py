@@ -13,7 +13,7 @@ from ._points import tell, unmet
 from ._units import si
 from ._wedgelab import Quantity, slide
 from .errors import WedgelabError
-from .sections import QuantityLike
+from ._motions import QuantityLike
 
 __all__ = ["Sliding", "quasi_static"]
 

@@ -13,7 +13,7 @@ from ._units import si
 from ._wedgelab import NativeWedge
 from .case import Case
 from .errors import StepError
-from .sections import QuantityLike
+from ._motions import QuantityLike
 
 __all__ = ["COORDINATES", "Forces", "Motion", "Place", "Wedge"]
 

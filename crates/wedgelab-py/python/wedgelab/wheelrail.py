@@ -19,7 +19,7 @@ from ._points import Failed, tell, unmet
 from ._units import si
 from .errors import WheelRailError
 from .quasi_static import Floats, Values, _values
-from .sections import QuantityLike
+from ._motions import QuantityLike
 
 __all__ = [
     "Contact",
