@@ -1,4 +1,4 @@
-"""The sections of a case and the motions of its neighbours, as typed objects.
+"""The sections of a case, as typed objects.
 
 Every dimensional value is a text with a unit (``"32 deg"``), a `Quantity`, or a number in SI units: m, N,
 s, rad, rad/s, N/m, N s/m, N m s/rad, kg m^2, m/s^2. What is ``None`` is left out, and takes the value of the
@@ -14,38 +14,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ._motions import (
-    Constant,
-    MotionLike,
-    Points,
-    QuantityLike,
-    Ramp,
-    Section,
-    Sine,
-    SweptSine,
-    Table,
-    Triangle,
-    Triple,
-)
+from ._motions import MotionLike, Points, QuantityLike, Section, Triple
 
 __all__ = [
     "BolsterSection",
-    "Constant",
     "ContactSection",
     "ControlCoilSection",
     "EnvironmentSection",
     "FaceSection",
     "FrictionSection",
-    "MotionLike",
-    "QuantityLike",
-    "Ramp",
-    "Section",
     "SideFrameSection",
     "SimulationSection",
-    "Sine",
-    "SweptSine",
-    "Table",
-    "Triangle",
     "WedgeSection",
 ]
 
@@ -177,17 +156,17 @@ class SideFrameSection(Section):
     center: Triple | None = None
     """The point it turns about; left out, the centre of the column."""
     longitudinal: MotionLike | None = None
-    """A motion."""
+    """Motion of a length."""
     lateral: MotionLike | None = None
-    """A motion."""
+    """Motion of a length."""
     vertical: MotionLike | None = None
-    """A motion."""
+    """Motion of a length."""
     roll: MotionLike | None = None
-    """A motion."""
+    """Motion of an angle."""
     pitch: MotionLike | None = None
-    """A motion."""
+    """Motion of an angle."""
     yaw: MotionLike | None = None
-    """A motion."""
+    """Motion of an angle."""
 
     _words = frozenset({"toe"})
 
@@ -201,17 +180,17 @@ class BolsterSection(Section):
     center: Triple | None = None
     """The point it turns about; left out, the pocket's centre: about the truck's, one wedge could not follow a yaw."""
     longitudinal: MotionLike | None = None
-    """A motion."""
+    """Motion of a length."""
     lateral: MotionLike | None = None
-    """A motion."""
+    """Motion of a length."""
     vertical: MotionLike | None = None
-    """A motion."""
+    """Motion of a length."""
     roll: MotionLike | None = None
-    """A motion."""
+    """Motion of an angle."""
     pitch: MotionLike | None = None
-    """A motion."""
+    """Motion of an angle."""
     yaw: MotionLike | None = None
-    """A motion."""
+    """Motion of an angle."""
 
     _motions = frozenset({"longitudinal", "lateral", "vertical", "roll", "pitch", "yaw"})
 
@@ -229,7 +208,7 @@ class SimulationSection(Section):
     """``[simulation]``"""
 
     duration: QuantityLike | None = None
-    """A motion."""
+    """."""
     output_interval: QuantityLike | None = None
     """Time between two rows of the result; steps are chosen freely."""
     relative_tolerance: float | None = None
