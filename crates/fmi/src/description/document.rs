@@ -70,10 +70,8 @@ pub(super) fn write(description: &Description, own: &Dialect) -> Result<String, 
         ];
         xml.empty("DefaultExperiment", &experiment)?;
         xml.element("ModelVariables", &[], |xml| {
-            let variables = description.variables.iter();
-            variables
-                .map(|variable| write_variable(xml, description, own, variable))
-                .collect()
+            let mut variables = description.variables.iter();
+            variables.try_for_each(|variable| write_variable(xml, description, own, variable))
         })?;
         xml.element("ModelStructure", &[], |xml| (own.structure)(xml, description))
     })?;
