@@ -19,6 +19,18 @@
 //! - [`certificate_work`], [`certificate_files`]: a certificate of a car, made and written.
 //! - [`fit_files`]: the files of an identification.
 //! - [`comparison`]: results beside each other; [`plot`]: any column over any other.
+//!
+//! ```
+//! use quantity::{Kind, System};
+//! use report::output_table::OutputTable;
+//!
+//! let mut table = OutputTable::new([[0.5, 2.0], [1.0, 3.0]], System::Si);
+//! table.number("travel", Kind::Length, |row: &[f64; 2]| row[0]);
+//! let mut out = Vec::new();
+//! table.write_csv(&mut out)?;
+//! assert!(out.starts_with(b"travel"));
+//! # Ok::<(), std::io::Error>(())
+//! ```
 
 pub mod certificate_files;
 pub mod certificate_work;
