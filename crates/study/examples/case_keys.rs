@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use study::models::every_key::MODELS;
+use study::models::case_keys;
 
 #[path = "../tests/case_keys/page.rs"]
 mod page;
@@ -18,10 +18,10 @@ fn main() -> std::io::Result<()> {
     let python = docs.join("../crates/wedgelab-py/python/wedgelab/sections.py");
     fs::write(python, python::sections())?;
     fs::create_dir_all(docs.join("schema"))?;
-    for model in MODELS {
+    for (model, keys) in case_keys() {
         fs::write(
-            docs.join("schema").join(format!("{}.json", model.name)),
-            page::schema(&model),
+            docs.join("schema").join(format!("{model}.json")),
+            page::schema(model, keys),
         )?;
     }
     Ok(())

@@ -71,6 +71,11 @@ pub(crate) fn write_points(page: &mut Page, path: &str, table: &QuantityTable, k
     }
 }
 
+/// Returns a comment of several lines without the signs that begin them.
+pub(crate) fn uncommented(comment: &str) -> String {
+    comment.replace("\n# ", "\n")
+}
+
 /// The text and the fields so far.
 #[derive(Default)]
 pub(crate) struct Page {
@@ -95,7 +100,7 @@ impl Page {
         let _ = writeln!(self.text, "[{name}]");
         self.sections.push(FieldSection {
             name: name.to_owned(),
-            about: about.replace("\n# ", "\n"),
+            about: uncommented(about),
             fields: Vec::new(),
         });
     }

@@ -1,6 +1,7 @@
 //! The sections of a single wedge's case, key by key.
 
 use quantity::Kind;
+use wedge::face::FaceProperties;
 use wedge::parameters::{Contact, Damping, Parameters, WedgeBody};
 
 use super::coil::thesis_coil;
@@ -12,7 +13,7 @@ use super::motion;
 use super::names::{DAMPINGS, DIRECTIONS, Law, STARTS};
 use super::page::ANGLES;
 use super::problem::{Problem, Problems, TomlSource};
-use super::rise::RiseSection;
+use super::rise::{RiseSection, check_thickness};
 use super::section::Range;
 use super::toe::Toe;
 use super::tree::{self, TableNode};
@@ -167,7 +168,7 @@ fn body(r: &mut CaseReader<'_>, own: &mut Parameters, rise: &mut RiseSection) {
     r.triple("center_of_gravity", PLACE, center_of_gravity, comment);
     let angles = [*angle, 0.0, 0.0];
     rise.read(r, &mut own.wear, angles);
-    rise.check_thickness(r, [*height, *angle], &rise.wear(angles).unwrap_or(own.wear));
+    check_thickness(r, [*height, *angle], &rise.wear(angles).unwrap_or(own.wear));
     let comment = "of x, y, z, roll, pitch, yaw; the others are held";
     r.free_coordinates(free, Some("the wedge could not move"), comment);
 }
@@ -209,15 +210,18 @@ fn faces(r: &mut CaseReader<'_>, own: &mut Parameters) {
         r.section(name, about);
         let mut section = FaceSection::default();
         r.face(&mut section);
-        let directions = face.friction_directions;
         match section.resolve() {
-            Ok(resolved) => *face = resolved,
+            Ok(resolved) => {
+                *face = FaceProperties {
+                    friction_directions: face.friction_directions,
+                    ..resolved
+                };
+            }
             Err((key, error)) => {
                 let path = r.path(key);
                 r.problem_at(&path, Problem::new(format!("`{path}`: {error}")));
             }
         }
-        face.friction_directions = directions;
     }
 }
 

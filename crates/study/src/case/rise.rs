@@ -88,16 +88,6 @@ impl RiseSection {
         );
     }
 
-    /// Notes wear by which nothing is left of a wedge of this height (m) and angle (rad).
-    pub(crate) fn check_thickness(&self, r: &mut CaseReader<'_>, [height, angle]: [f64; 2], wear: &Wear) {
-        if let Some(reason) = geometry::worn_away(height, angle, wear) {
-            let key = [RISE, DEPTHS[0], DEPTHS[1]].into_iter().find(|key| r.gives(key));
-            let path = r.path(key.unwrap_or("height"));
-            let help = "look at the unit: wear is a fraction of an inch";
-            r.problem_at(&path, Problem::new(reason).label("beyond the wedge").help(help));
-        }
-    }
-
     /// Notes a rise beyond what the pocket holds, m.
     pub(crate) fn check_limit(&self, r: &mut CaseReader<'_>, limit: f64) {
         let Some(rise) = self.rise.as_ref().filter(|rise| rise.to_si() > limit) else {
@@ -110,6 +100,16 @@ impl RiseSection {
         ));
         let help = "write a smaller rise, or the rise that your pocket holds as rise_limit";
         r.problem_at(&path, problem.label("out of its pocket").help(help));
+    }
+}
+
+/// Notes wear by which nothing is left of a wedge of this height (m) and angle (rad).
+pub(crate) fn check_thickness(r: &mut CaseReader<'_>, [height, angle]: [f64; 2], wear: &Wear) {
+    if let Some(reason) = geometry::worn_away(height, angle, wear) {
+        let key = [RISE, DEPTHS[0], DEPTHS[1]].into_iter().find(|key| r.gives(key));
+        let path = r.path(key.unwrap_or("height"));
+        let help = "look at the unit: wear is a fraction of an inch";
+        r.problem_at(&path, Problem::new(reason).label("beyond the wedge").help(help));
     }
 }
 

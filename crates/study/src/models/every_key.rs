@@ -15,82 +15,82 @@ use crate::truck::TruckCase;
 /// A built-in case and `--set` overrides of it.
 pub type Variant = (&'static str, &'static [&'static str]);
 
-/// A model, as `model` of a case names it.
-#[derive(Clone, Copy, Debug)]
+/// All keys of a model's cases.
+#[derive(Debug)]
 pub struct ModelKeys {
-    /// Its name.
-    pub name: &'static str,
     /// Cases that together have all keys.
     pub cases: &'static [Variant],
+    /// Tables with the keys of another one.
+    alike: &'static [[&'static str; 2]],
     known: fn(&str, &[String]) -> Vec<KnownSection>,
 }
 
-/// The models of cases.
-pub const MODELS: [ModelKeys; 3] = [
-    ModelKeys {
-        name: "wedge",
-        cases: &[
-            ("vdrun_toe_0_psi_0", &[]),
-            ("cdrun_toe_0_psi_0", &[]),
-            ("cdrun_toe_0_psi_0", &["friction.law=bristle"]),
-            (
-                "cdrun_toe_0_psi_0",
-                &[r#"control_coil.table=[["0 in", "0 lbf"], ["1 in", "3000 lbf"]]"#],
-            ),
-        ],
-        known: Case::known_keys,
-    },
-    ModelKeys {
-        name: "truck",
-        cases: &[
-            ("truck_vertical_variable", &[]),
-            ("truck_vertical_constant", &[]),
-            ("truck_warp_axles_variable_rising", &[]),
-            ("truck_roll_variable", &[]),
-            ("truck_vertical_variable", &["load.kind=car_body"]),
-            ("truck_warp_axles_variable_rising", &["adapter.kind=pad"]),
-            ("truck_vertical_variable", &["wedge.kind=massless"]),
-            ("truck_vertical_split", &[]),
-            (
-                "truck_vertical_variable",
-                &[
-                    "control_coil.kind=B-353",
-                    "load_springs.kind=D5",
-                    "load_springs.outer=7",
-                    "load_springs.inner=7",
-                    "load_springs.height=9 in",
-                ],
-            ),
-            (
-                "truck_vertical_variable",
-                &[
-                    "control_coil.kind=thesis",
-                    r#"control_coil.table=[["0 in", "0 lbf"], ["1 in", "3000 lbf"]]"#,
-                ],
-            ),
-        ],
-        known: TruckCase::known_keys,
-    },
-    ModelKeys {
-        name: "car",
-        cases: &[
-            ("car_tangent_loaded", &[]),
-            ("car_tangent_empty", &[]),
-            ("car_constant_curve_loaded", &[]),
-            ("car_hunting_empty", &[]),
-            ("car_hunting_roller_empty", &[]),
-            ("car_twist_and_roll_loaded", &[]),
-            ("car_286k_loaded", &[]),
-            ("car_286k_loaded", &["truck.load_springs.height=9 in"]),
-        ],
-        known: CarCase::known_keys,
-    },
-];
+pub(super) const WEDGE: ModelKeys = ModelKeys {
+    cases: &[
+        ("vdrun_toe_0_psi_0", &[]),
+        ("cdrun_toe_0_psi_0", &[]),
+        ("cdrun_toe_0_psi_0", &["friction.law=bristle"]),
+        (
+            "cdrun_toe_0_psi_0",
+            &[r#"control_coil.table=[["0 in", "0 lbf"], ["1 in", "3000 lbf"]]"#],
+        ),
+    ],
+    alike: &[],
+    known: Case::known_keys,
+};
+
+pub(super) const TRUCK: ModelKeys = ModelKeys {
+    cases: &[
+        ("truck_vertical_variable", &[]),
+        ("truck_vertical_constant", &[]),
+        ("truck_warp_axles_variable_rising", &[]),
+        ("truck_roll_variable", &[]),
+        ("truck_vertical_variable", &["load.kind=car_body"]),
+        ("truck_warp_axles_variable_rising", &["adapter.kind=pad"]),
+        ("truck_vertical_variable", &["wedge.kind=massless"]),
+        ("truck_vertical_split", &[]),
+        (
+            "truck_vertical_variable",
+            &[
+                "control_coil.kind=B-353",
+                "load_springs.kind=D5",
+                "load_springs.outer=7",
+                "load_springs.inner=7",
+                "load_springs.height=9 in",
+            ],
+        ),
+        (
+            "truck_vertical_variable",
+            &[
+                "control_coil.kind=thesis",
+                r#"control_coil.table=[["0 in", "0 lbf"], ["1 in", "3000 lbf"]]"#,
+            ],
+        ),
+    ],
+    alike: &[],
+    known: TruckCase::known_keys,
+};
+
+pub(super) const CAR: ModelKeys = ModelKeys {
+    cases: &[
+        ("car_tangent_loaded", &[]),
+        ("car_tangent_empty", &[]),
+        ("car_constant_curve_loaded", &[]),
+        ("car_hunting_empty", &[]),
+        ("car_hunting_roller_empty", &[]),
+        ("car_twist_and_roll_loaded", &[]),
+        ("car_286k_loaded", &[]),
+        ("car_286k_loaded", &["truck.load_springs.height=9 in"]),
+    ],
+    // Each truck of a car takes the keys of both.
+    alike: &[["front_truck", "truck"], ["rear_truck", "truck"]],
+    known: CarCase::known_keys,
+};
 
 impl ModelKeys {
-    /// Returns the schema of its cases (JSON Schema, draft 7).
+    /// Returns the schema of the cases of the model with this name (JSON Schema, draft 7).
     #[must_use]
-    pub fn schema(&self) -> Value {
+    pub fn schema(&self, model: &str) -> Value {
         let text = |name: &str| built_in(name).map_or("", BuiltIn::text);
         // What is said first stands: the built-in cases before their variants.
         let (mut sections, mut variants) = (Vec::new(), Vec::new());
@@ -108,7 +108,7 @@ impl ModelKeys {
             sections.extend(known);
         }
         sections.extend(variants);
-        let title = format!("A case of Wedgelab, model \"{}\"", self.name);
-        joined(&address(self.name), &title, &sections)
+        let title = format!("A case of Wedgelab, model \"{model}\"");
+        joined(&address(model), &title, &sections, self.alike)
     }
 }

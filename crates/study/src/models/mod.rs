@@ -2,7 +2,7 @@
 //! summaries of whatever model.
 
 mod case;
-pub mod every_key;
+mod every_key;
 mod source;
 mod summary;
 
@@ -17,6 +17,7 @@ use crate::truck::{self, TruckCase};
 use crate::{summary as wedge, wheelset};
 
 pub use case::AnyCase;
+pub use every_key::{ModelKeys, Variant};
 pub use source::CaseSource;
 pub use summary::AnySummary;
 
@@ -46,6 +47,7 @@ struct CaseFiles {
     model: Model,
     /// The built-in ones.
     groups: fn() -> &'static [CaseGroup],
+    keys: ModelKeys,
     /// Reads one: its tree, its name, the folder of its tables, the mistakes found so far.
     read: fn(TableNode, &str, Tables<'_>, Problems) -> Result<AnyCase, CaseError>,
 }
@@ -62,6 +64,7 @@ pub static MODELS: [ModelEntry; 5] = [
         case_files: Some(CaseFiles {
             model: Model::Wedge,
             groups: builtin::groups,
+            keys: every_key::WEDGE,
             read: |tree, source, tables, problems| Ok(Case::of_tree(tree, source, tables, problems)?.into()),
         }),
     },
@@ -84,6 +87,7 @@ pub static MODELS: [ModelEntry; 5] = [
         case_files: Some(CaseFiles {
             model: Model::Truck,
             groups: truck::builtin::groups,
+            keys: every_key::TRUCK,
             read: |tree, source, tables, problems| {
                 Ok(TruckCase::of_tree(tree, source, tables, problems)?.into())
             },
@@ -99,6 +103,7 @@ pub static MODELS: [ModelEntry; 5] = [
         case_files: Some(CaseFiles {
             model: Model::Car,
             groups: car::builtin::groups,
+            keys: every_key::CAR,
             read: |tree, source, tables, problems| {
                 Ok(CarCase::of_tree(tree, source, tables, problems)?.into())
             },
@@ -119,6 +124,12 @@ pub static MODELS: [ModelEntry; 5] = [
 #[must_use]
 pub fn of_schema(schema: &str) -> Option<&'static ModelEntry> {
     MODELS.iter().find(|model| model.schema == schema)
+}
+
+/// Returns the names of the models that have case files, with all keys of these.
+pub fn case_keys() -> impl Iterator<Item = (&'static str, &'static ModelKeys)> {
+    let files = |model: &'static ModelEntry| Some((model.name, &model.case_files.as_ref()?.keys));
+    MODELS.iter().filter_map(files)
 }
 
 /// Returns the groups of built-in cases of all models.

@@ -150,12 +150,7 @@ impl<'r> CaseReader<'r> {
     /// Says that a section holds keys that are read elsewhere.
     pub fn expect(&mut self, section: &str, keys: &[&'static str]) {
         let section = self.full(section);
-        let keys = keys.iter().map(|name| KnownKey {
-            name,
-            form: Form::Unsaid,
-            help: String::new(),
-            value: String::new(),
-        });
+        let keys = keys.iter().map(|name| KnownKey::new(name, Form::Unsaid));
         match self.known.iter_mut().find(|known| known.path == section) {
             Some(known) => known.keys.extend(keys),
             None => self.known.push(KnownSection {
@@ -238,20 +233,17 @@ impl<'r> CaseReader<'r> {
 
     /// Takes note of a key. Returns the node there.
     fn node(&mut self, name: &'static str, form: Form) -> Option<&'r TreeNode> {
-        let key = KnownKey {
-            name,
-            form,
-            help: String::new(),
-            value: String::new(),
-        };
         if let Some(section) = self.known.last_mut() {
-            section.keys.push(key);
+            section.keys.push(KnownKey::new(name, form));
         }
         self.table_at(&self.section)?.get(name)
     }
 
-    /// Takes note of what a key means, and of its value (TOML).
+    /// Takes note of what a key means, and of its value (TOML), where all keys are asked for.
     fn explain(&mut self, key: &str, help: &str, value: &str) {
+        if !self.complete {
+            return;
+        }
         let keys = self.known.last_mut().map(|section| &mut section.keys);
         if let Some(known) = keys.and_then(|keys| keys.iter_mut().rfind(|known| known.name == key)) {
             (known.help, known.value) = (help.to_owned(), value.to_owned());

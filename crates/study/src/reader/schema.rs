@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use quantity::Kind;
 use serde_json::{Map, Value, json};
 
+use crate::case::page::uncommented;
 use crate::case::section::{Names, Range, example};
 
 /// Returns the address of the schema of a model's cases.
@@ -63,6 +64,18 @@ pub(crate) struct KnownKey {
     pub value: String,
 }
 
+impl KnownKey {
+    /// Returns a key of which nothing is said yet.
+    pub fn new(name: &'static str, form: Form) -> Self {
+        Self {
+            name,
+            form,
+            help: String::new(),
+            value: String::new(),
+        }
+    }
+}
+
 /// A section that a case may have.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct KnownSection {
@@ -78,9 +91,7 @@ impl KnownSection {
     pub fn names(&self) -> Vec<&'static str> {
         self.keys.iter().map(|key| key.name).collect()
     }
-}
 
-impl KnownSection {
     /// Returns every choice of every key, as `--set` takes it.
     pub fn choices(&self) -> impl Iterator<Item = String> {
         let path = |key: &KnownKey| format!("{}.{}", self.path, key.name);
@@ -248,7 +259,7 @@ impl TableSchema {
             own.insert("additionalProperties".to_owned(), json!(false));
         }
         if !self.about.is_empty() {
-            own.insert("description".to_owned(), json!(plain(&self.about)));
+            own.insert("description".to_owned(), json!(uncommented(&self.about)));
         }
         Value::Object(own)
     }
@@ -267,7 +278,7 @@ impl KeySchema {
             }
         };
         if !self.help.is_empty() {
-            own.insert("description".to_owned(), json!(plain(&self.help)));
+            own.insert("description".to_owned(), json!(uncommented(&self.help)));
         }
         if let Some(value) = default(&self.value) {
             own.insert("default".to_owned(), value);
@@ -282,16 +293,13 @@ fn default(toml: &str) -> Option<Value> {
     serde_json::to_value(table.get("value")?).ok()
 }
 
-/// Returns a comment of a case on one line.
-fn plain(comment: &str) -> String {
-    comment.replace("\n# ", "\n")
-}
-
-/// Returns the schema of a model's cases; `title` names it, `sections` are those of several readings.
+/// Returns the schema of a model's cases; `title` names it, `sections` are those of several readings. Each of
+/// the `alike` tables takes the keys of the table beside it.
 pub(crate) fn schema<'s>(
     id: &str,
     title: &str,
     sections: impl IntoIterator<Item = &'s KnownSection>,
+    alike: &[[&str; 2]],
 ) -> Value {
     let mut top = TableSchema::default();
     for section in sections {
@@ -310,13 +318,10 @@ pub(crate) fn schema<'s>(
             "definitions".to_owned(),
             Value::Object(motions.into_iter().collect()),
         );
-        // Each truck of a car takes the keys of both.
-        if let Some(Value::Object(keys)) = own
-            .get_mut("properties")
-            .filter(|_| top.tables.contains_key("lading"))
-        {
-            for name in ["front_truck", "rear_truck"] {
-                keys.insert(name.to_owned(), json!({"$ref": "#/properties/truck"}));
+        if let Some(Value::Object(keys)) = own.get_mut("properties") {
+            for [name, other] in alike {
+                let reference = format!("#/properties/{other}");
+                keys.insert((*name).to_owned(), json!({"$ref": reference}));
             }
         }
     }

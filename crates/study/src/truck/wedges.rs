@@ -20,7 +20,7 @@ use crate::case::names::Law;
 use crate::case::page::ANGLES;
 use crate::case::problem::Problem;
 use crate::case::read::{ANGLE, contact};
-use crate::case::rise::RiseSection;
+use crate::case::rise::{RiseSection, check_thickness};
 use crate::case::section::{Names, Range};
 use crate::case::toe::Toe;
 use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, STIFFNESS};
@@ -191,7 +191,7 @@ impl Draft {
         r.quantity("rise_limit", LENGTH, &mut wedge.rise_limit, comment);
         self.rise.check_limit(r, wedge.rise_limit);
         let wear = self.rise.wear(angles).unwrap_or(wedge.wear);
-        self.rise.check_thickness(r, [wedge.height, wedge.angle], &wear);
+        check_thickness(r, [wedge.height, wedge.angle], &wear);
         let comment = "of x, y, z, roll, pitch, yaw; the others are held";
         r.free_coordinates(&mut wedge.free, Some("the wedge could not move"), comment);
         let comment = "of the pocket's sides to each side; the thesis's wedge has none";

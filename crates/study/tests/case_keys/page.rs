@@ -3,8 +3,7 @@
 use std::fmt::Write;
 
 use study::case::{Field, Input};
-use study::models::AnyCase;
-use study::models::every_key::{MODELS, ModelKeys, Variant};
+use study::models::{AnyCase, ModelKeys, Variant, case_keys};
 
 /// The heading and introduction of a model's sections.
 const HEADINGS: [(&str, &str); 3] = [
@@ -43,7 +42,7 @@ pub fn page() -> String {
          same to editors (JSON Schema): a printed case names its schema in the first line, and \
          `wedgelab case --schema MODEL` prints it.\n",
     );
-    for (model, (title, about)) in MODELS.iter().zip(HEADINGS) {
+    for ((_, model), (title, about)) in case_keys().zip(HEADINGS) {
         let _ = write!(
             page,
             "\n## {title}\n\n{about}\n\n| key | in built-in cases | meaning |\n|---|---|---|\n"
@@ -63,8 +62,8 @@ pub fn page() -> String {
 }
 
 /// Returns the schema of a model's cases as its file.
-pub fn schema(model: &ModelKeys) -> String {
-    serde_json::to_string_pretty(&model.schema()).unwrap() + "\n"
+pub fn schema(model: &str, keys: &ModelKeys) -> String {
+    serde_json::to_string_pretty(&keys.schema(model)).unwrap() + "\n"
 }
 
 /// Returns the keys of all cases of a model, in the order in which they first appear.

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use serde_json::Value;
-use study::models::every_key::MODELS;
+use study::models::case_keys;
 
 use super::page::{Key, keys};
 
@@ -45,8 +45,8 @@ from ._motions import MotionLike, Points, QuantityLike, Section, Triple
 
 /// Returns the module of Python.
 pub fn sections() -> String {
-    let schema = MODELS[0].schema();
-    let keys = keys(MODELS[0].cases);
+    let (model, wedge) = case_keys().next().unwrap();
+    let (schema, keys) = (wedge.schema(model), keys(wedge.cases));
     let mut names = CLASSES.map(|(_, class, _)| class);
     names.sort_unstable();
     let names: String = names.iter().map(|name| format!("    \"{name}\",\n")).collect();

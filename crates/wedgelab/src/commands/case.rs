@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use study::models::every_key::{MODELS, ModelKeys};
-use study::models::{self, AnyCase};
+use clap::builder::PossibleValuesParser;
+use study::models::{self, AnyCase, case_keys};
 
 use crate::failure::{Failure, Message};
 use crate::folders;
@@ -33,7 +33,8 @@ pub struct Arguments {
     ///
     /// Editors complete and check case files by it. A printed case names its schema in the first line.
     #[arg(long, value_name = "MODEL", num_args = 0..=1, default_missing_value = "wedge")]
-    #[arg(value_parser = MODELS.map(|own| own.name), conflicts_with_all = ["name", "out"])]
+    #[arg(value_parser = PossibleValuesParser::new(case_keys().map(|(name, _)| name)))]
+    #[arg(conflicts_with_all = ["name", "out"])]
     schema: Option<String>,
     /// Write it into this folder, as NAME.toml, instead of printing it
     #[arg(long, value_name = "DIR", requires = "name")]
@@ -47,7 +48,8 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut out = io::stdout().lock();
     if let Some(name) = &arguments.schema {
-        let schema = MODELS.iter().find(|own| own.name == name).map(ModelKeys::schema);
+        let schema = case_keys().find(|(own, _)| own == name);
+        let schema = schema.map(|(name, keys)| keys.schema(name));
         serde_json::to_writer_pretty(&mut out, &schema).map_err(io::Error::from)?;
         writeln!(out)?;
         return Ok(ExitCode::SUCCESS);
