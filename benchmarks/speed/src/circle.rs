@@ -231,6 +231,7 @@ impl Carried {
             stored_change,
             residual: work - stored_change - losses,
             admissible: 0.0,
+            exchanged: 0.0,
         }
     }
 

@@ -125,6 +125,7 @@ pub fn ledger(observation: &Observation, start: f64) -> Entries {
         stored_change,
         residual: work - stored_change - losses,
         admissible: 0.0,
+        exchanged: 0.0,
     }
 }
 

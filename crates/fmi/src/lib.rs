@@ -7,7 +7,7 @@
 //! - [`element`]: the elements whose quantities the variables show: the wedge ([`wedge`]), the quasi-static
 //!   wedge ([`quasi_static`]), and any system with named ports ([`system`]): the truck without wedges
 //!   ([`truck`]), the half-truck ([`half_truck`]), the three-piece truck ([`three_piece`]), the car
-//!   ([`car`]).
+//!   ([`car`]), the vehicle of bodies and elements ([`vehicle`](mod@vehicle)).
 //! - [`instance`]: one instance, with the states of the standard's state machine, for both versions and both
 //!   kinds of interface.
 //! - [`package`], [`resources`]: writing a whole FMU, and finding the case again in an unpacked one;
@@ -46,6 +46,7 @@ pub mod three_piece;
 pub mod truck;
 pub mod unit;
 pub mod variable;
+pub mod vehicle;
 mod watch;
 pub mod wedge;
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use study::car::CarCase;
 use study::case::{Case, CaseError, Tables};
 use study::truck::TruckCase;
+use study::vehicle::VehicleCase;
 
 use crate::half_truck::{self, HalfTruck};
 use crate::source::{CASE, FmuModel, Source};
@@ -47,6 +48,10 @@ pub fn read(folder: &Path) -> Result<Source, Error> {
     if model == FmuModel::Car {
         let case = CarCase::parse(CASE, &text, Tables::below(folder), &[]).map_err(damaged)?;
         return Ok(Source::Car(Box::new(case)));
+    }
+    if model == FmuModel::Vehicle {
+        let case = VehicleCase::parse(CASE, &text, folder, &[]).map_err(damaged)?;
+        return Ok(Source::Vehicle(Box::new(case)));
     }
     let case = Case::parse(CASE, &text, folder, &[]).map_err(damaged)?;
     Source::of_case(model, case).ok_or_else(unknown)

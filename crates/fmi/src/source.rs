@@ -3,13 +3,14 @@
 use study::car::CarCase;
 use study::case::Case;
 use study::truck::TruckCase;
+use study::vehicle::VehicleCase;
 
 use crate::Error;
 use crate::element::{Element, Entries, Setting};
 use crate::half_truck::{self, HalfTruck};
 use crate::quasi_static::QuasiStaticElement;
 use crate::wedge::WedgeElement;
-use crate::{car, limits, quasi_static, three_piece, truck, wedge};
+use crate::{car, limits, quasi_static, three_piece, truck, vehicle, wedge};
 
 /// The file with the case.
 pub const CASE: &str = "case.toml";
@@ -29,6 +30,8 @@ pub enum FmuModel {
     ThreePieceTruck,
     /// A freight car on its track.
     Car,
+    /// A vehicle of bodies and elements.
+    Vehicle,
 }
 
 impl FmuModel {
@@ -42,6 +45,7 @@ impl FmuModel {
             Self::HalfTruck => "HalfTruck",
             Self::ThreePieceTruck => "ThreePieceTruck",
             Self::Car => "FreightCar",
+            Self::Vehicle => "Vehicle",
         }
     }
 
@@ -74,6 +78,7 @@ impl FmuModel {
                 "Freight car on its track: body and lading on two three-piece trucks with friction wedges, \
                  whose wheelsets roll on rails"
             }
+            Self::Vehicle => "Vehicle of rigid bodies and force elements that its case names",
             Self::HalfTruck => {
                 "Loaded half of a three-piece truck from files of NUCARS: half a car on a bolster, friction \
                  wedges, side frames, springs"
@@ -105,6 +110,11 @@ impl FmuModel {
                  the rail, positive down; lateral ones are positive where they spread the gauge. Places of \
                  axles are those against the track's center line, positive to the left."
             }
+            Self::Vehicle => {
+                "Fixed axes: x forward, y left, z up; displacements of centers of gravity from the nominal \
+                 layout. Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). Forces of elements act on the body \
+                 with end a; pushes are positive."
+            }
             Self::HalfTruck => {
                 "Axes: x forward, y left, z up; displacements of centers of gravity from the drawn \
                  position, small angles. Bodies, wedges and connections have the numbers of the files; \
@@ -123,6 +133,7 @@ impl FmuModel {
             Self::HalfTruck,
             Self::ThreePieceTruck,
             Self::Car,
+            Self::Vehicle,
         ];
         all.into_iter().find(|model| model.name() == name)
     }
@@ -143,6 +154,8 @@ pub enum Source {
     ThreePieceTruck(Box<TruckCase>),
     /// A freight car on its track.
     Car(Box<CarCase>),
+    /// A vehicle of bodies and elements.
+    Vehicle(Box<VehicleCase>),
 }
 
 impl Source {
@@ -154,7 +167,7 @@ impl Source {
             FmuModel::Wedge => Some(Self::Wedge(case)),
             FmuModel::QuasiStatic => Some(Self::QuasiStatic(case)),
             FmuModel::Truck => Some(Self::Truck(case)),
-            FmuModel::HalfTruck | FmuModel::ThreePieceTruck | FmuModel::Car => None,
+            FmuModel::HalfTruck | FmuModel::ThreePieceTruck | FmuModel::Car | FmuModel::Vehicle => None,
         }
     }
 
@@ -168,6 +181,7 @@ impl Source {
             Self::HalfTruck(_) => FmuModel::HalfTruck,
             Self::ThreePieceTruck(_) => FmuModel::ThreePieceTruck,
             Self::Car(_) => FmuModel::Car,
+            Self::Vehicle(_) => FmuModel::Vehicle,
         }
     }
 
@@ -179,6 +193,7 @@ impl Source {
             Self::HalfTruck(own) => [&own.case().name, &own.case().title],
             Self::ThreePieceTruck(case) => [&case.name, &case.title],
             Self::Car(case) => [&case.name, &case.title],
+            Self::Vehicle(case) => [&case.name, &case.title],
         }
     }
 
@@ -192,6 +207,7 @@ impl Source {
             Self::HalfTruck(own) => [own.case().duration, own.case().relative_tolerance],
             Self::ThreePieceTruck(case) => [case.simulation.duration, case.simulation.relative_tolerance],
             Self::Car(case) => [case.simulation.duration, case.simulation.relative_tolerance],
+            Self::Vehicle(case) => [case.simulation.duration, case.simulation.relative_tolerance],
         }
     }
 
@@ -208,6 +224,7 @@ impl Source {
             }
             Self::HalfTruck(own) => (half_truck::RESOURCE, own.text().to_owned()),
             Self::ThreePieceTruck(case) => (CASE, case.to_toml_embedded().to_owned()),
+            Self::Vehicle(case) => (CASE, case.to_toml_embedded().to_owned()),
             Self::Car(case) => {
                 let (text, files) = case.packed();
                 named = files;
@@ -233,6 +250,7 @@ impl Source {
             Self::HalfTruck(own) => Ok(own.plant()?.entries),
             Self::ThreePieceTruck(case) => Ok(three_piece::plant(case, true)?.entries),
             Self::Car(case) => Ok(car::plant(case)?.entries),
+            Self::Vehicle(case) => Ok(vehicle::plant(case, true)?.entries),
         }
     }
 
@@ -248,6 +266,7 @@ impl Source {
             Self::HalfTruck(own) => Box::new(own.element(setting)?),
             Self::ThreePieceTruck(case) => Box::new(three_piece::element(case, setting)?),
             Self::Car(case) => Box::new(car::element(case, setting)?),
+            Self::Vehicle(case) => Box::new(vehicle::element(case, setting)?),
         })
     }
 }

@@ -15,6 +15,7 @@ use numerics::scalar::Number;
 use serde::{Deserialize, Serialize};
 
 use crate::frame::{Frame, FrameMotion};
+use crate::link::Marker;
 use crate::motion::Motion;
 use crate::orientation::Orientation;
 use crate::vector::{Matrix, Vector};
@@ -112,6 +113,22 @@ impl Body {
     #[must_use]
     pub fn ground() -> Self {
         Self::linearized("ground", [0.0; 3], [false; 6], 0.0, [0.0; 3])
+    }
+
+    /// Returns the marker at a place (m) of the nominal layout, in which the body's frame stands at its origin,
+    /// turned by roll, pitch, yaw (rad), both along the fixed axes. The frame may be turned.
+    #[must_use]
+    pub fn marker(&self, place: [f64; 3], angles: [f64; 3]) -> Marker {
+        let origin = self.frame.origin;
+        let along = Marker::new(std::array::from_fn(|k| place[k] - origin[k]), angles);
+        if self.frame.orientation == [0.0; 3] {
+            return along;
+        }
+        let axes = crate::orientation::fixed(self.frame.orientation).transpose();
+        Marker {
+            origin: axes.apply(along.origin),
+            rotation: axes.times(along.rotation),
+        }
     }
 
     /// Returns whether no coordinate is free.

@@ -97,6 +97,9 @@ pub struct Entries {
     /// The residual that the error of one step may leave: the tolerance, at most [`LOOSEST`], times
     /// [`crate::system::System::energy_of_speed_errors`].
     pub admissible: f64,
+    /// Change of the kinetic energy alone, of models that may swing freely: nothing is put in or lost then,
+    /// and the stored energy does not change, but kinetic energy goes to and fro. Zero of others.
+    pub exchanged: f64,
 }
 
 impl Entries {
@@ -104,7 +107,7 @@ impl Entries {
     /// history: an importer of an FMU may go back in time.
     #[must_use]
     pub fn relative_residual(&self) -> f64 {
-        let scale = turnover(self.work, self.losses, self.stored_change);
+        let scale = turnover(self.work, self.losses, self.stored_change).max(self.exchanged.abs());
         over(self.residual, scale.max(floor(self.admissible)))
     }
 }
@@ -126,6 +129,9 @@ pub struct EnergyBalance {
     pub largest_residual_time: f64,
     /// Largest admissible residual at any output time, J.
     pub admissible: f64,
+    /// Largest change of the kinetic energy at any output time, J: see [`Entries::exchanged`].
+    #[serde(default)]
+    pub largest_exchange: f64,
     /// What happened since two earlier output times: the first is a quarter to a half of the time back, the
     /// second a half to all of it.
     pub since: [Since; 2],
@@ -163,6 +169,7 @@ impl EnergyBalance {
         }
         self.largest_stored_change = self.largest_stored_change.max(entries.stored_change.abs());
         self.admissible = self.admissible.max(entries.admissible);
+        self.largest_exchange = self.largest_exchange.max(entries.exchanged.abs());
         let Entries {
             work,
             losses,
@@ -189,10 +196,11 @@ impl EnergyBalance {
         (self.work, self.losses) = (entries.work, entries.losses);
     }
 
-    /// Returns the largest of work, losses (both by the last output time) and change of the stored energy, J.
+    /// Returns the largest of work, losses (both by the last output time), change of the stored energy and
+    /// exchange, J.
     #[must_use]
     pub fn turnover(&self) -> f64 {
-        turnover(self.work, self.losses, self.largest_stored_change)
+        turnover(self.work, self.losses, self.largest_stored_change).max(self.largest_exchange)
     }
 
     /// Returns whether the residual goes on growing: since a half to three quarters of the run ago by more
@@ -275,6 +283,7 @@ mod tests {
             stored_change,
             residual: work - losses - stored_change,
             admissible: 0.0,
+            exchanged: 0.0,
         }
     }
 
@@ -284,6 +293,7 @@ mod tests {
         // A blow at the start of a car that rolls: 50 J of 1000 J, where one step may err by 60 J.
         let mut blow = Entries {
             admissible: 60.0,
+            exchanged: 0.0,
             ..entries(0.0, 1000.0, -950.0)
         };
         balance.note(0.1, &blow);
@@ -307,6 +317,7 @@ mod tests {
                 let blow = if row > 0 { 50.0 } else { 0.0 };
                 let own = Entries {
                     admissible: 600.0,
+                    exchanged: 0.0,
                     ..entries(0.0, 1000.0 * time, -1000.0 * (1.0 - share) * time - blow)
                 };
                 balance.note(time, &own);

@@ -17,6 +17,7 @@ use study::run::{RunCase, RunError};
 use study::summary::RunSummary;
 use study::truck::TruckCase;
 use study::truck::columns::TruckTable;
+use study::vehicle::VehicleCase;
 use study::wheelset::WheelsetCase;
 use wedge::face::Grid;
 use wedge::outputs::Outputs;
@@ -232,6 +233,22 @@ impl RunFiles for CarCase {
 
     fn columns(&self) -> Result<Vec<Column>, RunError> {
         car::run::columns(self)
+    }
+
+    fn case_file(&self) -> Option<&str> {
+        Some(self.to_toml_embedded())
+    }
+}
+
+impl RunFiles for VehicleCase {
+    type Summary = study::vehicle::summary::VehicleSummary;
+
+    fn output_files(&self) -> OutputFiles {
+        self.output_files.clone()
+    }
+
+    fn columns(&self) -> Result<Vec<Column>, RunError> {
+        VehicleCase::columns(self)
     }
 
     fn case_file(&self) -> Option<&str> {

@@ -53,6 +53,7 @@ pub mod summary;
 mod summary_value;
 pub mod track;
 pub mod truck;
+pub mod vehicle;
 pub mod wear;
 mod wedge_faces;
 pub mod wedge_rise;

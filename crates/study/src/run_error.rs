@@ -24,6 +24,9 @@ pub enum RunError {
     /// The parameters make no car.
     #[error(transparent)]
     Car(#[from] car::BuildError),
+    /// The description makes no vehicle.
+    #[error(transparent)]
+    Vehicle(#[from] vehicle::VehicleError),
     /// A wheel has left its rail: the run ends there, with its results.
     #[error("{what}")]
     Derailed {

@@ -1,6 +1,6 @@
 //! The elements between the bodies of a truck.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
 use mechanics::elements::{RadialStop, ShearSpring, Stop, TableSpring};
@@ -8,17 +8,15 @@ use mechanics::link::Marker;
 use mechanics::motion::Motion;
 use mechanics::orientation::fixed;
 use mechanics::system::{AppliedLoad, Model};
-use wedge::parameters::{Contact, FaceFriction};
 
 use crate::assemble::{BOLSTER, CAR_BODY, INBOARD_HALVES, NUMBERS, SIDE_FRAMES, WEDGES, WHEELSETS};
 use crate::bodies::numbers;
-use crate::massless::{Joint, massless_wedge, warp_spring};
+use crate::joints::{Joining, Joint};
+use crate::massless::{Seat, massless_wedge, warp_spring};
 use crate::mounted::MountedTruck;
-use crate::parameters::{
-    Adapter, AdapterPad, CarBody, Clearance, FrictionAdapter, Parameters, SideBearing, Spring, WedgeKind,
-};
+use crate::parameters::{CarBody, Parameters, WedgeKind};
 use crate::split::{self, SplitMount};
-use crate::wedge_mount::{WedgeMount, attach, marker_on, plane, point};
+use crate::wedge_mount::{WedgeMount, attach};
 use crate::{PLACES, WEDGE_NAMES};
 
 /// The role of an element of the suspension.
@@ -52,6 +50,16 @@ impl Law {
             Self::Table(law) => &mut law.name,
             Self::Stop(law) => &mut law.name,
             Self::Rim(law) => &mut law.name,
+        }
+    }
+
+    /// Adds the element to a model.
+    pub fn add(self, model: &mut Model, a: (usize, Marker), b: (usize, Marker)) {
+        match self {
+            Self::Spring(law) => model.add(law, a, b),
+            Self::Table(law) => model.add(law, a, b),
+            Self::Stop(law) => model.add(law, a, b),
+            Self::Rim(law) => model.add(law, a, b),
         }
     }
 }
@@ -201,12 +209,7 @@ pub(crate) fn join(model: &mut Model, suspension: &[Suspended]) {
         if a.0 == b.0 || (model.bodies[a.0].is_prescribed() && model.bodies[b.0].is_prescribed()) {
             continue;
         }
-        match &element.law {
-            Law::Spring(spring) => model.add(spring.clone(), a, b),
-            Law::Table(spring) => model.add(spring.clone(), a, b),
-            Law::Stop(stop) => model.add(stop.clone(), a, b),
-            Law::Rim(rim) => model.add(rim.clone(), a, b),
-        }
+        element.law.clone().add(model, a, b);
     }
 }
 
@@ -278,59 +281,30 @@ impl Builder<'_> {
         }
     }
 
-    /// Returns the marker of a body at a place (m), turned about z (rad).
-    fn marker(&self, body: usize, at: [f64; 3], yaw: f64) -> (usize, Marker) {
-        self.turned_marker(body, at, [0.0, 0.0, yaw])
-    }
-
-    /// Returns the marker of a body at a place (m), turned by roll, pitch, yaw (rad).
-    fn turned_marker(&self, body: usize, at: [f64; 3], angles: [f64; 3]) -> (usize, Marker) {
-        let number = self.mount.bodies[body];
-        let place = std::array::from_fn(|k| at[k] + self.mount.center[k]);
-        (number, marker_on(&self.model.bodies[number], place, angles))
-    }
-
-    /// Returns the joint of a connection of two bodies (their numbers in the model) at a place (m).
-    fn joint(&self, bodies: [usize; 2], at: [f64; 3]) -> Joint {
-        let point = std::array::from_fn(|k| at[k] + self.mount.center[k]);
-        let bodies = bodies.map(|body| &self.model.bodies[body]);
-        let turned = bodies.iter().any(|body| body.frame.orientation != [0.0; 3]);
+    /// Returns the joint of two bodies of the truck.
+    fn between(&mut self, bodies: [usize; 2]) -> Joint<'_> {
         Joint {
-            point,
-            markers: turned.then(|| bodies.map(|body| marker_on(body, point, [0.0; 3]))),
+            bodies: bodies.map(|body| self.mount.bodies[body]),
+            from: self.mount.center,
+            model: &mut *self.model,
         }
     }
 
-    /// Adds a spring that carries body `a` on the seat of body `b`.
-    fn spring(&mut self, role: Role, name: String, [a, b]: [usize; 2], at: [f64; 3], spring: &Spring) {
-        self.added.suspension.push(Suspended {
-            role,
-            law: Law::Spring(spring.law(name)),
-            ends: [self.marker(a, at, 0.0), self.marker(b, at, 0.0)],
-        });
+    /// Takes elements of the suspension.
+    fn take(&mut self, role: Role, all: impl IntoIterator<Item = Joining>) {
+        let suspended = |(law, ends)| Suspended { role, law, ends };
+        self.added.suspension.extend(all.into_iter().map(suspended));
     }
 
-    /// Adds a stop between bodies `a` and `b`, along x of `b` or, with a quarter turn, along its y.
-    fn stop(
-        &mut self,
-        role: Role,
-        name: String,
-        [a, b]: [usize; 2],
-        at: [f64; 3],
-        yaw: f64,
-        clearance: &Clearance,
-    ) {
-        let law = Stop {
-            name,
-            clearances: [clearance.clearance; 2],
-            stiffness: clearance.stiffness,
-            damping: clearance.damping,
-        };
-        self.added.suspension.push(Suspended {
-            role,
-            law: Law::Stop(law),
-            ends: [self.marker(a, at, 0.0), self.marker(b, at, yaw)],
-        });
+    /// Returns the seat of a connection of two bodies (their numbers in the model) at a place (m).
+    fn seat(&self, bodies: [usize; 2], at: [f64; 3]) -> Seat {
+        let point = std::array::from_fn(|k| at[k] + self.mount.center[k]);
+        let bodies = bodies.map(|body| &self.model.bodies[body]);
+        let turned = bodies.iter().any(|body| body.frame.orientation != [0.0; 3]);
+        Seat {
+            point,
+            markers: turned.then(|| bodies.map(|body| body.marker(point, [0.0; 3]))),
+        }
     }
 
     /// A wedge's two faces, its control coil and the sides of its pocket.
@@ -343,7 +317,7 @@ impl Builder<'_> {
         let [bolster, side_frame] = [BOLSTER, SIDE_FRAMES + usize::from(way < 0.0)].map(|body| bodies[body]);
         if wedge.kind == WedgeKind::Massless {
             let wedge = (wedge, parameters.damping, end);
-            let at = self.joint([bolster, side_frame], center);
+            let at = self.seat([bolster, side_frame], center);
             let connection = massless_wedge(WEDGE_NAMES[number], [bolster, side_frame], at, wedge);
             self.model.connections.push(connection);
             return;
@@ -382,11 +356,12 @@ impl Builder<'_> {
         for (i, coil) in parameters.load_coils[number].iter().enumerate() {
             let at = [coil.place[0], y + coil.place[1], geometry.seat_height];
             let name = format!("{side}_load_coil_{}", i + 1);
-            self.spring(Role::LoadCoil, name, ends, at, &coil.spring);
+            let spring = self.between(ends).spring(name, at, &coil.spring);
+            self.take(Role::LoadCoil, [spring]);
         }
         if let Some(moment) = &parameters.warp_spring {
             let [a, b] = ends.map(|body| self.mount.bodies[body]);
-            let at = self.joint([a, b], [0.0, y, geometry.gib_height]);
+            let at = self.seat([a, b], [0.0, y, geometry.gib_height]);
             if ![a, b].iter().all(|body| self.model.bodies[*body].is_prescribed()) {
                 let spring = warp_spring(format!("{side}_warp_spring"), [a, b], at, moment);
                 self.model.connections.push(spring);
@@ -394,7 +369,8 @@ impl Builder<'_> {
         }
         let gib = format!("{side}_gib");
         let at = [0.0, y, geometry.gib_height];
-        self.stop(Role::Gib, gib, ends, at, FRAC_PI_2, &parameters.gib);
+        let stop = self.between(ends).stop(gib, at, FRAC_PI_2, &parameters.gib);
+        self.take(Role::Gib, [stop]);
         for (end, end_name) in [(1.0, "leading"), (-1.0, "trailing")] {
             for (i, (across, up)) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
                 .into_iter()
@@ -407,103 +383,25 @@ impl Builder<'_> {
                     geometry.land_height + up * high,
                 ];
                 let name = format!("{end_name}_{side}_land_{}", i + 1);
-                self.stop(Role::Land, name, ends, at, 0.0, &parameters.lands);
+                let stop = self.between(ends).stop(name, at, 0.0, &parameters.lands);
+                self.take(Role::Land, [stop]);
             }
         }
-    }
-
-    /// Adds a face whose points (m, truck's axes) on the car body touch a plane of the bolster, with a
-    /// penetration of `depth` (m) in the nominal layout.
-    fn car_face(
-        &mut self,
-        name: String,
-        places: &[[f64; 3]],
-        depth: f64,
-        contact: &Contact,
-        friction: &FaceFriction,
-    ) {
-        let share = 1.0 / places.len() as f64;
-        let points = places.iter().map(|place| {
-            let (_, marker) = self.marker(CAR_BODY, *place, 0.0);
-            point(marker.origin.0, contact, share)
-        });
-        let points = points.collect();
-        let [.., height] = places[0];
-        let (bolster, marker) =
-            self.turned_marker(BOLSTER, [0.0, 0.0, height + depth], [0.0, -FRAC_PI_2, 0.0]);
-        let face = plane(name, points, friction);
-        self.model
-            .faces
-            .push((self.mount.bodies[CAR_BODY], bolster, marker, face));
     }
 
     fn center_plate(&mut self, car: &CarBody) {
-        let plate = &car.center_plate;
-        let mut places = Vec::new();
-        for radius in &plate.rings {
-            for i in 0..plate.points {
-                let (sine, cosine) = libm::sincos(2.0 * PI * i as f64 / plate.points as f64);
-                places.push([radius * cosine, radius * sine, plate.height]);
-            }
-        }
         let weight = car.body.mass * self.parameters.gravity;
-        let depth = (weight - car.side_bearings.preload()) / (places.len() as f64 * plate.contact.stiffness);
-        self.car_face(
-            "center_plate".to_owned(),
-            &places,
-            depth,
-            &plate.contact,
-            &plate.friction,
-        );
-        let rim = RadialStop {
-            name: "center_plate_rim".to_owned(),
-            clearance: plate.rim.clearance,
-            stiffness: plate.rim.stiffness,
-            damping: plate.rim.damping,
-        };
-        let at = [0.0, 0.0, plate.height];
-        self.added.suspension.push(Suspended {
-            role: Role::CarBody,
-            law: Law::Rim(rim),
-            ends: [self.marker(CAR_BODY, at, 0.0), self.marker(BOLSTER, at, 0.0)],
-        });
+        let load = weight - car.side_bearings.preload();
+        let mut joint = self.between([CAR_BODY, BOLSTER]);
+        let rim = joint.plate("center_plate", [0.0; 2], &car.center_plate, load);
+        self.take(Role::CarBody, [rim]);
     }
 
     fn side_bearing(&mut self, car: &CarBody, y: f64, side: &str) {
         let (name, at) = (format!("{side}_side_bearing"), [0.0, y, car.center_plate.height]);
-        match &car.side_bearings.kind {
-            SideBearing::Roller(clearance) => {
-                let law = Stop {
-                    name,
-                    clearances: [clearance.clearance, f64::INFINITY],
-                    stiffness: clearance.stiffness,
-                    damping: clearance.damping,
-                };
-                // The x axis of the marker is the bolster's z axis.
-                let upright = self.turned_marker(BOLSTER, at, [0.0, -FRAC_PI_2, 0.0]);
-                self.added.suspension.push(Suspended {
-                    role: Role::CarBody,
-                    law: Law::Stop(law),
-                    ends: [self.marker(CAR_BODY, at, 0.0), upright],
-                });
-            }
-            SideBearing::ConstantContact {
-                preload,
-                contact,
-                travel,
-                solid,
-                friction,
-            } => {
-                self.car_face(
-                    name.clone(),
-                    &[at],
-                    preload / contact.stiffness,
-                    contact,
-                    friction,
-                );
-                self.car_face(format!("{name}_solid"), &[at], -travel, solid, friction);
-            }
-        }
+        let mut joint = self.between([CAR_BODY, BOLSTER]);
+        let stop = joint.bearing(name, at, &car.side_bearings.kind, [0.0; 2]);
+        self.take(Role::CarBody, stop);
     }
 
     /// Adds the adapters of a side frame on both axles.
@@ -523,66 +421,9 @@ impl Builder<'_> {
             if ends.iter().all(|body| self.model.bodies[*body].is_prescribed()) {
                 continue;
             }
-            match &wheelsets.adapter {
-                Adapter::Friction(adapter) => self.friction_adapter(&name, [number, axle], place, adapter),
-                Adapter::Pad(pad) => self.adapter_pad(&name, [number, axle], place, pad),
-            }
-        }
-    }
-
-    fn friction_adapter(
-        &mut self,
-        name: &str,
-        [side, axle]: [usize; 2],
-        [x, y, height]: [f64; 3],
-        adapter: &FrictionAdapter,
-    ) {
-        let side_frame = SIDE_FRAMES + side;
-        let [points, stops] = self.parameters.geometry.adapter;
-        let points = [points, -points].map(|y_point| {
-            let (_, place) = self.marker(side_frame, [x, y + y_point, height], 0.0);
-            point(place.origin.0, &adapter.contact, 0.5)
-        });
-        let top = height + adapter.preload / adapter.contact.stiffness;
-        let (number, marker) = self.turned_marker(WHEELSETS + axle, [x, y, top], [0.0, -FRAC_PI_2, 0.0]);
-        let face = plane(name.to_owned(), points.to_vec(), &adapter.friction);
-        self.model
-            .faces
-            .push((self.mount.bodies[side_frame], number, marker, face));
-        let (role, ends) = (Role::Adapter(axle), [side_frame, WHEELSETS + axle]);
-        for across in [stops, -stops] {
-            let at = [x, y + across, height];
-            let name = format!("{name}_longitudinal_stop");
-            self.stop(role, name, ends, at, 0.0, &adapter.longitudinal);
-        }
-        let (name, at) = (format!("{name}_lateral_stop"), [x, y, height]);
-        self.stop(role, name, ends, at, FRAC_PI_2, &adapter.lateral);
-    }
-
-    fn adapter_pad(
-        &mut self,
-        name: &str,
-        [side, axle]: [usize; 2],
-        [x, y, height]: [f64; 3],
-        pad: &AdapterPad,
-    ) {
-        let half = Spring {
-            preload: 0.5 * pad.preload,
-            stiffness: 0.5 * pad.stiffness,
-            shear_stiffness: 0.5 * pad.shear_stiffness,
-            damping: 0.5 * pad.damping,
-            solid: None,
-        };
-        for (across, half_name) in [(pad.half_distance, "left"), (-pad.half_distance, "right")] {
-            let at = [x, y + across, height];
-            let ends = [SIDE_FRAMES + side, WHEELSETS + axle];
-            self.spring(
-                Role::Adapter(axle),
-                format!("{name}_pad_{half_name}"),
-                ends,
-                at,
-                &half,
-            );
+            let mut joint = self.between([SIDE_FRAMES + number, WHEELSETS + axle]);
+            let all = joint.adapter(&name, place, &wheelsets.adapter, geometry.adapter);
+            self.take(Role::Adapter(axle), all);
         }
     }
 }

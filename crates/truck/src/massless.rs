@@ -24,7 +24,7 @@ const WARP_STOP_STIFFNESS: f64 = 6.4e7 * POUND_FORCE * INCH;
 
 /// The joint of two bodies by a connection.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Joint {
+pub(crate) struct Seat {
     /// Its point in the nominal layout, m.
     pub point: [f64; 3],
     /// Markers there, of bodies whose reference frames do not stand along the fixed axes.
@@ -44,7 +44,7 @@ pub fn empirical_warp(moment: f64) -> Result<Curve, CurveError> {
 }
 
 /// Returns the connection that stands for an empirical warp spring between bolster `a` and side frame `b`.
-pub(crate) fn warp_spring(name: String, [a, b]: [usize; 2], at: Joint, moment: &Curve) -> Connection {
+pub(crate) fn warp_spring(name: String, [a, b]: [usize; 2], at: Seat, moment: &Curve) -> Connection {
     Connection {
         name,
         account: String::new(),
@@ -61,7 +61,7 @@ pub(crate) fn warp_spring(name: String, [a, b]: [usize; 2], at: Joint, moment: &
 pub(crate) fn massless_wedge(
     name: &str,
     [a, b]: [usize; 2],
-    at: Joint,
+    at: Seat,
     (wedge, damping, end): (&Wedge, Damping, f64),
 ) -> Connection {
     // A worn column lies deeper along its normal, a worn slope too: the wedge rises.

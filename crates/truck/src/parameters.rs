@@ -357,7 +357,8 @@ impl Bolster {
 
 impl Spring {
     /// Returns the law of the spring, with its name in results.
-    pub(crate) fn law(&self, name: String) -> ShearSpring {
+    #[must_use]
+    pub fn law(&self, name: String) -> ShearSpring {
         ShearSpring {
             name,
             preload: self.preload,

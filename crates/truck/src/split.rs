@@ -30,7 +30,7 @@ use wedge::parameters::{Contact, FaceFriction};
 use crate::assemble::{INBOARD_HALVES, WEDGES};
 use crate::elements::Suspended;
 use crate::parameters::{ControlCoil, Parameters, Spring, Wedge, WedgeKind};
-use crate::wedge_mount::{Lies, WedgeMount, attach_lying, in_axes_of, marker_on, outboard, plane, point};
+use crate::wedge_mount::{Lies, WedgeMount, attach_lying, in_axes_of, outboard, plane, point};
 use crate::{PLACES, WEDGE_NAMES};
 
 /// The halves in the order of all arrays of two.
@@ -277,7 +277,7 @@ fn between(
     let place = [x, y - way * gap * cosine, middle - gap * sine];
     let place = std::array::from_fn(|k| place[k] + at.whole.from[k]);
     let angles = [0.0, -FRAC_PI_2, way * (FRAC_PI_2 - wedge.split.angle)];
-    let marker = marker_on(&model.bodies[on], place, angles);
+    let marker = model.bodies[on].marker(place, angles);
     let name = format!("{}_split", at.whole.name);
     let friction = half_friction(&wedge.split.friction);
     (carried, on, marker, plane(name, points.to_vec(), &friction))

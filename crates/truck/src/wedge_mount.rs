@@ -165,7 +165,7 @@ pub(crate) fn attach_lying(
             middle + gap * (sine * level),
         ];
         let place = std::array::from_fn(|k| surface[k] + at.from[k]);
-        let marker = marker_on(&model.bodies[on], place, [0.0, pitch, across]);
+        let marker = model.bodies[on].marker(place, [0.0, pitch, across]);
         // The marker's z axis points down where it is pitched beyond a right angle; a wedge that is turned by
         // half a turn has its left on the right.
         let reversed = [cosine < 0.0, end > 0.0];
@@ -218,22 +218,7 @@ impl WedgeMount<'_> {
     /// Returns the marker of a body at a place (m), turned about z (rad).
     pub(crate) fn marker(&self, model: &Model, body: usize, at: [f64; 3], yaw: f64) -> (usize, Marker) {
         let place = std::array::from_fn(|k| at[k] + self.from[k]);
-        (body, marker_on(&model.bodies[body], place, [0.0, 0.0, yaw]))
-    }
-}
-
-/// Returns the marker of a body in its nominal place at a point (m), turned by roll, pitch, yaw (rad), both
-/// along the fixed axes, in the axes of the body, which may have a reference frame that is turned.
-pub(crate) fn marker_on(body: &Body, place: [f64; 3], angles: [f64; 3]) -> Marker {
-    let origin = body.frame.origin;
-    let along = Marker::new(std::array::from_fn(|k| place[k] - origin[k]), angles);
-    if body.frame.orientation == [0.0; 3] {
-        return along;
-    }
-    let axes = fixed(body.frame.orientation).transpose();
-    Marker {
-        origin: axes.apply(along.origin),
-        rotation: axes.times(along.rotation),
+        (body, model.bodies[body].marker(place, [0.0, 0.0, yaw]))
     }
 }
 

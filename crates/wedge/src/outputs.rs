@@ -137,6 +137,7 @@ impl Ledger {
             stored_change: self.stored,
             residual: self.residual,
             admissible: 0.0,
+            exchanged: 0.0,
         }
     }
 }

@@ -41,7 +41,9 @@ mod _wedgelab {
     #[pymodule_export]
     use crate::many::run_many;
     #[pymodule_export]
-    use crate::model_case::{NativeCarCase, NativeCase, NativeTruckCase, built_in_groups, wedge_assumptions};
+    use crate::model_case::{
+        NativeCarCase, NativeCase, NativeTruckCase, NativeVehicleCase, built_in_groups, wedge_assumptions,
+    };
     #[pymodule_export]
     use crate::nucars::{NativeFile, check_files, read_file};
     #[pymodule_export]

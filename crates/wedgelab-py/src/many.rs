@@ -11,9 +11,9 @@ use study::models::{AnyCase, AnySummary};
 use study::result::RunResult;
 
 use crate::half_truck::NativeHalfTruckCase;
-use crate::model_case::NativeCarCase;
 use crate::model_case::NativeCase;
 use crate::model_case::NativeTruckCase;
+use crate::model_case::{NativeCarCase, NativeVehicleCase};
 use crate::outcome::NativeResult;
 use crate::run::{Failure, table};
 
@@ -43,6 +43,9 @@ pub fn run_many(
         }
         if let Ok(case) = case.cast::<NativeCarCase>() {
             return Ok(AnyCase::Car(Arc::clone(&case.get().case)));
+        }
+        if let Ok(case) = case.cast::<NativeVehicleCase>() {
+            return Ok(AnyCase::Vehicle(Arc::clone(&case.get().case)));
         }
         let case = case.cast::<NativeHalfTruckCase>()?;
         Ok(AnyCase::HalfTruck(Arc::clone(&case.get().case)))

@@ -10,6 +10,7 @@ use study::car::{CarCase, builtin as cars};
 use study::case::{Case, CaseError, builtin as wedges, text_of};
 use study::models::{AnyCase, no_built_in};
 use study::truck::{TruckCase, builtin as trucks};
+use study::vehicle::{VehicleCase, builtin as vehicles};
 use toml::Table;
 use wedge::Wedge;
 
@@ -183,6 +184,14 @@ model_case!(
     cars,
     Car,
     "A car's case, completed and checked."
+);
+model_case!(
+    NativeVehicleCase,
+    "NativeVehicleCase",
+    VehicleCase,
+    vehicles,
+    Vehicle,
+    "A vehicle's case, completed and checked."
 );
 
 /// Returns the assumptions of a run of a wedge.

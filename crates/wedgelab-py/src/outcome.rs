@@ -19,9 +19,9 @@ use study::result::RunResult;
 use study::summary::RunSummary;
 
 use crate::errors::{guarded, simple};
-use crate::model_case::NativeCarCase;
 use crate::model_case::NativeCase;
 use crate::model_case::NativeTruckCase;
+use crate::model_case::{NativeCarCase, NativeVehicleCase};
 use crate::values;
 
 /// The parts of a result besides its values.
@@ -218,7 +218,17 @@ impl NativeResult {
         Some(NativeCarCase { case })
     }
 
-    /// Returns the model that was run: `wedge`, `half_truck`, `truck` or `car`.
+    /// Returns the case of a vehicle's run.
+    #[getter]
+    fn vehicle_case(&self) -> Option<NativeVehicleCase> {
+        let Some(AnyCase::Vehicle(case)) = &self.case else {
+            return None;
+        };
+        let case = Arc::clone(case);
+        Some(NativeVehicleCase { case })
+    }
+
+    /// Returns the model that was run: `wedge`, `half_truck`, `truck`, `car` or `vehicle`.
     #[getter]
     fn model(&self) -> &'static str {
         match self.case.as_ref().map(AnyCase::model) {
@@ -330,6 +340,9 @@ impl NativeResult {
                     write_run(&**case, folder, &self.with(&**summary), force).map_err(failed)
                 }
                 (Some(AnyCase::Car(case)), AnySummary::Car(summary)) => {
+                    write_run(&**case, folder, &self.with(&**summary), force).map_err(failed)
+                }
+                (Some(AnyCase::Vehicle(case)), AnySummary::Vehicle(summary)) => {
                     write_run(&**case, folder, &self.with(&**summary), force).map_err(failed)
                 }
                 _ => Err(refused()),

@@ -18,9 +18,9 @@ use report::study_work;
 
 use crate::errors::{case_error, guarded, internal, panic_text, raise, shown, simple};
 use crate::half_truck;
-use crate::model_case::NativeCarCase;
 use crate::model_case::NativeCase;
 use crate::model_case::NativeTruckCase;
+use crate::model_case::{NativeCarCase, NativeVehicleCase};
 use crate::outcome::from_saved;
 
 /// The interval of asking Python for signals and of reporting progress.
@@ -149,6 +149,7 @@ impl NativeStudy {
                 AnyCase::Wedge(case) => Ok(Py::new(py, NativeCase::new(case))?.into_any()),
                 AnyCase::Truck(case) => Ok(Py::new(py, NativeTruckCase::new(case))?.into_any()),
                 AnyCase::Car(case) => Ok(Py::new(py, NativeCarCase::new(case))?.into_any()),
+                AnyCase::Vehicle(case) => Ok(Py::new(py, NativeVehicleCase::new(case))?.into_any()),
                 AnyCase::HalfTruck(_) => {
                     let set = self.study.overrides(number);
                     let case = half_truck::of_source(py, &self.study.source().case, set)?;

@@ -22,7 +22,7 @@ pub const LAYERS: &[(&str, &[&str])] = &[
     ("mechanics", &["mechanics"]),
     ("systems", &["wedge", "nucars", "rolling"]),
     ("trucks", &["truck"]),
-    ("vehicles", &["car"]),
+    ("vehicles", &["car", "vehicle"]),
     ("analysis", &["study"]),
     ("output", &["report", "fmi"]),
     ("reproduction", &["reproduction"]),

@@ -6,7 +6,10 @@
 //! (see [`crate::friction::bristle`]). Forces in the direction of the extension: the normal one is `-N`.
 //! Units: N, m, s.
 //!
-//! Energy: the integral of K, the accumulator's `K_a e²/2`, its losses, and those of the damper.
+//! A clamped surface lies between two others that press from both sides: their normal forces cancel, and
+//! friction alone acts.
+//!
+//! Energy: the integral of K (not of a clamped one), the accumulator's `K_a e²/2`, its losses, and those of the damper.
 //!
 //! Source: the form is read from published input files, the accumulator's name and numbers from the wedge
 //! elements beside it. Defect: under a held load it deflects by F/K_a. Limit: the limit of friction is taken
@@ -31,6 +34,8 @@ pub struct SurfaceFriction {
     pub coefficient: f64,
     /// The force accumulator.
     pub accumulator: Accumulator,
+    /// True if the surface is clamped between two others, whose normal forces cancel: friction alone acts.
+    pub clamped: bool,
 }
 
 /// The law, prepared.
@@ -40,6 +45,7 @@ pub(crate) struct Surface {
     damper: Option<Curve>,
     coefficient: f64,
     pub accumulator: Accumulator,
+    clamped: bool,
 }
 
 impl Surface {
@@ -49,11 +55,12 @@ impl Surface {
             damper: law.damper.clone().filter(|curve| !curve.is_zero()),
             coefficient: law.coefficient,
             accumulator: law.accumulator.with_damping(damping),
+            clamped: law.clamped,
         }
     }
 
     pub fn damps(&self) -> bool {
-        self.damper.is_some()
+        self.damper.is_some() && !self.clamped
     }
 
     /// Returns the friction at extensions and rates (normal, first, second) and deflections.
@@ -82,10 +89,14 @@ impl Surface {
             [rates[1], rates[2]],
             deflection,
         );
+        let (across, lost) = match self.clamped {
+            true => (S::zero(), S::zero()),
+            false => (-push, (normal - push) * rates[0]),
+        };
         SpatialForce {
-            force: [-push, -slip.force[0], -slip.force[1]],
+            force: [across, -slip.force[0], -slip.force[1]],
             rate: slip.rate,
-            powers: [slip.loss, (normal - push) * rates[0], S::zero()],
+            powers: [slip.loss, lost, S::zero()],
             friction: Friction {
                 normal: normal.value(),
                 load: slip.load,
@@ -96,6 +107,9 @@ impl Surface {
 
     /// Returns the energy of the normal spring, J; zero at zero extension.
     pub fn energy(&self, extension: f64) -> f64 {
-        -self.normal.integral(extension)
+        match self.clamped {
+            true => 0.0,
+            false => -self.normal.integral(extension),
+        }
     }
 }

@@ -1,13 +1,17 @@
 //! Force elements of suspensions, one law a file. Each implements [`Element`](crate::element::Element).
 
+mod bushing;
 mod radial_stop;
 mod shear_spring;
 mod stop;
+mod strut;
 mod table_spring;
 
+pub use bushing::Bushing;
 pub use radial_stop::RadialStop;
 pub use shear_spring::{ShearSpring, Solid};
 pub use stop::Stop;
+pub use strut::Strut;
 pub use table_spring::TableSpring;
 
 use numerics::scalar::Real;

@@ -156,6 +156,7 @@ impl System {
             stored_change: seen.energies.total() - start,
             residual: -seen.residual(start),
             admissible: 0.0,
+            exchanged: 0.0,
         };
         for (energy_term, value) in self.energy_terms.iter().zip(&seen.quadratures) {
             match energy_term.kind {

@@ -172,6 +172,7 @@ pub fn model(constant: bool, spatial: bool) -> Model {
         for x in [0.0, -70.0] {
             for y in [42.5, 36.5] {
                 let law = SurfaceFriction {
+                    clamped: false,
                     coordinates: [2, 0, 1],
                     spring: curve(&[[0.0, -15691.0], [0.031382, 0.0], [1.0, 0.0]]),
                     damper: None,

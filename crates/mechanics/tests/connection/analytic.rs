@@ -184,6 +184,7 @@ fn strokes_follow_the_levers() {
 #[test]
 fn surface_friction_holds_and_slips_on_one_circle() {
     let law = SurfaceFriction {
+        clamped: false,
         coordinates: [2, 0, 1],
         spring: Curve::new(vec![[0.0, -100.0], [0.5, 0.0], [1.0, 0.0]]).unwrap(),
         damper: None,

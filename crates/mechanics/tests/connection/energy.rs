@@ -57,6 +57,7 @@ fn body_on_wedges(constant: bool, toe: f64, options: Options) -> Model {
         extension_limit: 0.0,
     };
     let bearing = SurfaceFriction {
+        clamped: false,
         coordinates: [2, 0, 1],
         spring: curve(&[[0.0, -2000.0], [0.03, 0.0], [1.0, 0.0]]),
         damper: Some(curve(&[[0.0, 0.0], [1.0, 100.0]])),

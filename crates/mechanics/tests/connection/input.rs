@@ -60,6 +60,7 @@ fn wrong_models_are_refused() {
         ModelError::Connection(ConnectionError::Coordinate { coordinate: 6, .. })
     ));
     let twice = SurfaceFriction {
+        clamped: false,
         coordinates: [2, 1, 1],
         spring: Curve::linear(1.0),
         damper: None,

@@ -54,6 +54,7 @@ fn everything(options: Options, accumulator: Accumulator) -> Model {
         high: 0.1,
     };
     let surface = SurfaceFriction {
+        clamped: false,
         coordinates: [2, 0, 1],
         spring: curve(&[[-1.0, -150.0], [0.0, -60.0], [0.2, 0.0], [1.0, 0.0]]),
         damper: Some(curve(&[[0.0, 0.0], [1.0, 4.0]])),

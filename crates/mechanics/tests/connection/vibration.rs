@@ -61,6 +61,7 @@ fn a_body_on_four_springs() {
     }
     let (held, coupled) = (4e4, 2.0);
     let surface = SurfaceFriction {
+        clamped: false,
         coordinates: [2, 0, 1],
         spring: Curve::new(vec![[-1.0, -100.0], [1.0, -100.0]]).unwrap(),
         damper: None,

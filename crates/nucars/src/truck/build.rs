@@ -354,6 +354,7 @@ impl Laws<'_> {
         }
         let both = (INCH, POUND);
         Ok(Law::Surface(SurfaceFriction {
+            clamped: false,
             coordinates,
             spring: self
                 .curve(**normal, both)?

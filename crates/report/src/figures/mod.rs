@@ -3,6 +3,7 @@
 //! - [`run`]: what the thesis lacks, run by run; `pressure`: over faces with grids of points.
 //! - [`power_flow`]: where the energy of a cycle goes, of any run.
 //! - [`truck`]: a run of a three-piece truck; [`car`]: of a car on track, over the distance.
+//! - [`vehicle`]: of a vehicle of bodies and elements, over time.
 //! - [`certificate`]: of a car in regimes, over the speed.
 //! - [`side_by_side`]: runs over each other, read back from their folders.
 //! - [`study`]: main effects and contours of studies; [`jam`]: their jam map.
@@ -16,6 +17,7 @@ pub mod run;
 pub mod side_by_side;
 pub mod study;
 pub mod truck;
+pub mod vehicle;
 pub mod wheelset;
 
 use ::study::case::Case;

@@ -4,7 +4,7 @@
 //! of its panel, and the caption says so.
 
 use ::study::truck::WEDGE_NAMES;
-use quantity::System as Units;
+use quantity::{Kind, System as Units};
 
 use super::{Exhibit, axis};
 use crate::overlay::{self, words};
@@ -134,8 +134,38 @@ fn of_model(run: &RunFolder) -> Vec<Wanted> {
         AnySummary::Truck(_) => of_truck(),
         AnySummary::Car(_) => of_car(),
         AnySummary::HalfTruck(own) => of_half_truck(own.wedges.keys().map(String::as_str)),
+        AnySummary::Vehicle(_) => of_vehicle(run),
         AnySummary::Wheelset(_) => of_wheelset(),
     }
+}
+
+/// The displacements of a vehicle's bodies, and the forces of its elements.
+fn of_vehicle(run: &RunFolder) -> Vec<Wanted> {
+    let of = |kind: Kind, ending: &str| -> Vec<(String, String)> {
+        let own = run.table.columns().iter();
+        let own = own.filter(|column| column.kind == kind && column.name.ends_with(ending));
+        own.map(|column| (column.name.clone(), words(&column.name)))
+            .take(6)
+            .collect()
+    };
+    let wanted = |name: &str, title: &str, caption: &str, own: Vec<(String, String)>| {
+        let own: Vec<(&str, &str)> = own.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect();
+        Wanted::new(name, title, caption, "time", &own)
+    };
+    vec![
+        wanted(
+            "vehicle_motion",
+            "Vertical motion over time",
+            "Displacements of bodies upwards, the first six.",
+            of(Kind::Length, "_z"),
+        ),
+        wanted(
+            "vehicle_forces",
+            "Forces over time",
+            "Forces of elements, the first six.",
+            of(Kind::Force, "_force"),
+        ),
+    ]
 }
 
 fn of_wedge() -> Vec<Wanted> {

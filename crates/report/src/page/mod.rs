@@ -12,6 +12,7 @@ pub mod stability;
 mod statics;
 pub mod study;
 pub mod truck_run;
+pub mod vehicle_run;
 mod viewer;
 pub mod wedge_run;
 pub mod wheelset;

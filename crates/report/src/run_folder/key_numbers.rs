@@ -10,6 +10,7 @@ use study::models::{AnyCase, AnySummary};
 use study::summary::{Summary, SummaryValue};
 use study::truck::WEDGE_NAMES;
 use study::truck::summary::TruckSummary;
+use study::vehicle::summary::VehicleSummary;
 use study::wedge_rise::RiseSummary;
 use study::wheelset::summary::WheelsetSummary;
 use wedge::parameters::Damping;
@@ -96,6 +97,7 @@ impl RunFolder {
             AnySummary::HalfTruck(own) => of_half_truck(own),
             AnySummary::Truck(own) => of_truck(own),
             AnySummary::Car(own) => of_car(own),
+            AnySummary::Vehicle(own) => of_vehicle(own),
             AnySummary::Wheelset(own) => of_wheelset(own),
         }
     }
@@ -385,6 +387,22 @@ fn of_car(own: &CarSummary) -> Vec<KeyNumber> {
         ));
     }
     numbers.extend(of_rise(&own.wedge_rise));
+    numbers
+}
+
+fn of_vehicle(own: &VehicleSummary) -> Vec<KeyNumber> {
+    let mut numbers = Vec::new();
+    for (number, vibration) in (1..).zip(&own.vibrations).take(8) {
+        let window = "about the rest";
+        let what = format!("natural frequency {number}");
+        numbers.push(KeyNumber::plain(what, window, vibration.frequency_hz, "Hz"));
+        let what = format!("damping ratio {number}");
+        numbers.push(KeyNumber::plain(what, window, vibration.damping_ratio, ""));
+    }
+    for (name, force) in &own.forces_at_start {
+        let what = name.replace('_', " ");
+        numbers.push(KeyNumber::new(what, "at the start", force, Kind::Force));
+    }
     numbers
 }
 

@@ -159,6 +159,9 @@ impl RunFolder {
                 let run = self.car()?;
                 Recording::of_car(&run.case, &run.result, None, Detail::Thinned)
             }
+            (AnySummary::Vehicle(summary), AnyCase::Vehicle(case)) => {
+                Recording::of_vehicle(case, &self.result((**summary).clone()), Detail::Thinned)
+            }
             _ => return None,
         };
         Some(Seen::Made(Box::new(made.named(&self.label))))

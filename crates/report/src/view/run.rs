@@ -12,6 +12,8 @@ use study::contacts::ContactTable;
 use study::half_truck::{HalfTruckCase, HalfTruckResult};
 use study::truck::run::TruckResult;
 use study::truck::{TruckCase, WEDGE_NAMES};
+use study::vehicle::VehicleCase;
+use study::vehicle::run::VehicleResult;
 use study::wheelset::WheelsetCase;
 use study::wheelset::run::WheelsetResult;
 use wedge::outputs::{CORNERS, FACES};
@@ -19,7 +21,7 @@ use wedge::outputs::{CORNERS, FACES};
 use super::data::{Data, Precision};
 use super::scene::Scene;
 use super::stand_alone;
-use super::{car, half_truck, kind_name, mode_shape, truck, wheelset};
+use super::{car, half_truck, kind_name, mode_shape, truck, vehicle, wheelset};
 use crate::figures::CaseOutcome;
 use crate::overlay::moves;
 
@@ -156,6 +158,15 @@ impl Recording {
         let scene = wheelset::scene(case, result);
         let (name, title) = (case.wheelset.name.as_str(), "A wheelset on a track");
         Self::new((name, title), &table, wheelset::plots(), Some(scene), detail)
+    }
+
+    /// Makes the view of a vehicle of bodies and elements.
+    #[must_use]
+    pub fn of_vehicle(case: &VehicleCase, result: &VehicleResult, detail: Detail) -> Self {
+        let all = table(&result.columns, &result.values);
+        let scene = vehicle::scene(case, &result.columns);
+        let plots = vehicle::plots(&result.columns);
+        Self::new((&case.name, &case.title), &all, plots, scene, detail)
     }
 
     /// Makes the view of a half-truck, with the corners of its wedges if they are bodies and the run took

@@ -12,6 +12,7 @@ pub(crate) enum Model {
     Wedge,
     Truck,
     Car,
+    Vehicle,
 }
 
 /// Their names.
@@ -19,6 +20,7 @@ pub(crate) const MODELS: Names<Model> = &[
     ("wedge", Model::Wedge),
     ("truck", Model::Truck),
     ("car", Model::Car),
+    ("vehicle", Model::Vehicle),
 ];
 
 /// Returns the model of a case; a wedge if none is named.
@@ -41,6 +43,7 @@ impl Model {
             Self::Wedge => "a single wedge",
             Self::Truck => "a truck",
             Self::Car => "a car",
+            Self::Vehicle => "a vehicle",
         }
     }
 

@@ -93,6 +93,17 @@ impl TableForm {
     }
 }
 
+impl TableForm {
+    /// Rate of compression against force.
+    pub fn damper() -> Self {
+        TableForm {
+            names: ["rate", "force"],
+            kinds: [Kind::Speed, Kind::Force],
+            ..Self::coil()
+        }
+    }
+}
+
 impl TableForm<3> {
     /// Depths over two places.
     pub fn map() -> Self {

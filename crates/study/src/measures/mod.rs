@@ -27,6 +27,7 @@ mod contact_times;
 pub mod half_truck;
 mod measuring;
 pub mod truck;
+pub mod vehicle;
 
 use std::borrow::Cow;
 use std::ops::Deref;

@@ -17,6 +17,7 @@ use crate::metrics::Cycle;
 use crate::result::RunResult;
 use crate::run::{Run, RunCase, RunError};
 use crate::truck::TruckCase;
+use crate::vehicle::VehicleCase;
 
 /// Declares [`AnyCase`], made of the case of each model.
 macro_rules! any_case {
@@ -56,6 +57,8 @@ any_case! {
     Truck(TruckCase) = "truck",
     /// A car's.
     Car(CarCase) = "car",
+    /// A vehicle's.
+    Vehicle(VehicleCase) = "vehicle",
 }
 
 /// Does the same with the case of whatever model.
@@ -66,6 +69,7 @@ macro_rules! each {
             AnyCase::HalfTruck($case) => $do,
             AnyCase::Truck($case) => $do,
             AnyCase::Car($case) => $do,
+            AnyCase::Vehicle($case) => $do,
         }
     };
 }
@@ -163,7 +167,7 @@ impl AnyCase {
             Self::Wedge(case) => Cycle::of(&case.parameters),
             Self::HalfTruck(case) => crate::half_truck::run::cycle(case),
             Self::Truck(case) => Cycle::of_motion(&case.parameters.bolster.motion.coordinates[2]),
-            Self::Car(_) => None,
+            Self::Car(_) | Self::Vehicle(_) => None,
         }
     }
 
@@ -184,6 +188,7 @@ impl AnyCase {
             Self::HalfTruck(_) => Vec::new(),
             Self::Truck(case) => case.fields().to_vec(),
             Self::Car(case) => case.fields().to_vec(),
+            Self::Vehicle(case) => case.fields().to_vec(),
         }
     }
 
@@ -196,6 +201,7 @@ impl AnyCase {
             Self::HalfTruck(_) => None,
             Self::Truck(case) => Some(case.to_toml_embedded().to_owned()),
             Self::Car(case) => Some(case.to_toml_embedded().to_owned()),
+            Self::Vehicle(case) => Some(case.to_toml_embedded().to_owned()),
         }
     }
 
@@ -207,6 +213,7 @@ impl AnyCase {
             Self::HalfTruck(case) => half_truck::definitions(case),
             Self::Truck(_) => measures::truck::definitions(),
             Self::Car(_) => measures::car::definitions(),
+            Self::Vehicle(case) => measures::vehicle::definitions(case),
         }
     }
 
@@ -220,6 +227,7 @@ impl AnyCase {
             Self::HalfTruck(case) => half_truck::judge(case),
             Self::Truck(case) => measures::truck::judge(case),
             Self::Car(case) => measures::car::judge(case),
+            Self::Vehicle(case) => measures::vehicle::judge(case),
         }
     }
 }

@@ -11,6 +11,7 @@ use crate::case::Case;
 use crate::case::builtin::BuiltIn;
 use crate::reader::schema::{KnownSection, address, schema as joined};
 use crate::truck::TruckCase;
+use crate::vehicle::VehicleCase;
 
 /// A built-in case and `--set` overrides of it.
 pub type Variant = (&'static str, &'static [&'static str]);
@@ -85,6 +86,22 @@ pub(super) const CAR: ModelKeys = ModelKeys {
     // Each truck of a car takes the keys of both.
     alike: &[["front_truck", "truck"], ["rear_truck", "truck"]],
     known: CarCase::known_keys,
+};
+
+pub(super) const VEHICLE: ModelKeys = ModelKeys {
+    cases: &[
+        ("vehicle_catalog", &[]),
+        (
+            "vehicle_catalog",
+            &[r#"elements.spring.table=[["0 in", "0 lbf"], ["1 in", "3000 lbf"]]"#],
+        ),
+        (
+            "vehicle_catalog",
+            &[r#"elements.damper.table=[["0 in/s", "0 lbf"], ["1 in/s", "3000 lbf"]]"#],
+        ),
+    ],
+    alike: &[],
+    known: VehicleCase::known_keys,
 };
 
 impl ModelKeys {

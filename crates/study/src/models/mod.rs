@@ -14,6 +14,7 @@ use crate::case::tree::TableNode;
 use crate::case::{Case, CaseError, Problem, Tables};
 use crate::half_truck::{self, catalog};
 use crate::truck::{self, TruckCase};
+use crate::vehicle::{self, VehicleCase};
 use crate::{summary as wedge, wheelset};
 
 pub use case::AnyCase;
@@ -53,7 +54,7 @@ struct CaseFiles {
 }
 
 /// The models, those with case files in the order in which their built-in cases are listed.
-pub static MODELS: [ModelEntry; 5] = [
+pub static MODELS: [ModelEntry; 6] = [
     ModelEntry {
         name: "wedge",
         what: "a friction wedge",
@@ -106,6 +107,22 @@ pub static MODELS: [ModelEntry; 5] = [
             keys: every_key::CAR,
             read: |tree, source, tables, problems| {
                 Ok(CarCase::of_tree(tree, source, tables, problems)?.into())
+            },
+        }),
+    },
+    ModelEntry {
+        name: "vehicle",
+        what: "a vehicle",
+        schema: vehicle::summary::SCHEMA,
+        command: "run",
+        class: "VehicleCase",
+        summary: |json| Ok(AnySummary::Vehicle(serde_json::from_slice(json)?)),
+        case_files: Some(CaseFiles {
+            model: Model::Vehicle,
+            groups: vehicle::builtin::groups,
+            keys: every_key::VEHICLE,
+            read: |tree, source, tables, problems| {
+                Ok(VehicleCase::of_tree(tree, source, tables, problems)?.into())
             },
         }),
     },

@@ -6,6 +6,7 @@ use crate::car::summary::CarSummary;
 use crate::half_truck::HalfTruckSummary;
 use crate::summary::{RunSummary, Summary};
 use crate::truck::summary::TruckSummary;
+use crate::vehicle::summary::VehicleSummary;
 use crate::wheelset::summary::WheelsetSummary;
 
 /// Declares [`AnySummary`], made of the summary of each model.
@@ -56,6 +57,8 @@ any_summary! {
     Truck(TruckSummary),
     /// Of a car.
     Car(CarSummary),
+    /// Of a vehicle.
+    Vehicle(VehicleSummary),
     /// Of a wheelset.
     Wheelset(WheelsetSummary),
 }

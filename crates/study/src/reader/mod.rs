@@ -5,6 +5,7 @@
 
 mod keys;
 mod motions;
+mod named;
 pub(crate) mod schema;
 mod simulation;
 mod text;
@@ -50,8 +51,10 @@ pub(crate) struct CaseReader<'r> {
     pub problems: &'r mut Problems,
     /// As typed, and with the points of tables in files.
     pages: [Page; 2],
-    /// The table that sections are in: empty, or a truck of a car.
-    within: &'static str,
+    /// The table that sections are in: empty, or a truck of a car, an element of a vehicle.
+    within: String,
+    /// Tables whose tables have names of the user's: bodies of a vehicle.
+    named: Vec<&'static str>,
     /// The full path of the current section.
     section: String,
     /// True if only given values are written down, and no defaults.
@@ -75,7 +78,8 @@ impl<'r> CaseReader<'r> {
             tables,
             problems,
             pages: [Page::default(), Page::default()],
-            within: "",
+            within: String::new(),
+            named: Vec::new(),
             section: String::new(),
             overlay: false,
             known: vec![known(String::new(), "")],
@@ -88,13 +92,13 @@ impl<'r> CaseReader<'r> {
 
     /// Takes the sections that follow from a table of the case; from the case itself where that is empty.
     /// Paths of sections are relative to it.
-    pub fn within(&mut self, table: &'static str) {
-        self.within = table;
+    pub fn within(&mut self, table: &str) {
+        table.clone_into(&mut self.within);
     }
 
     /// Returns the full path of what stands at a path within the table that sections are taken from.
     fn full(&self, path: &str) -> String {
-        match (self.within, path) {
+        match (self.within.as_str(), path) {
             ("", path) => path.to_owned(),
             (within, "") => within.to_owned(),
             (within, path) => format!("{within}.{path}"),
@@ -143,7 +147,18 @@ impl<'r> CaseReader<'r> {
     }
 
     /// Returns the sections and keys that were met.
-    pub fn into_known(self) -> Vec<KnownSection> {
+    pub fn into_known(mut self) -> Vec<KnownSection> {
+        for section in &mut self.known {
+            for table in &self.named {
+                if let Some(rest) = section.path.strip_prefix(&format!("{table}.")) {
+                    let inner = rest.split_once('.').map_or("", |(_, inner)| inner);
+                    section.general = match inner {
+                        "" => format!("{table}.*"),
+                        inner => format!("{table}.*.{inner}"),
+                    };
+                }
+            }
+        }
         self.known
     }
 
@@ -394,6 +409,7 @@ impl<'r> CaseReader<'r> {
 /// A section of which no key is known yet.
 fn known(path: String, about: &str) -> KnownSection {
     KnownSection {
+        general: path.clone(),
         path,
         about: about.to_owned(),
         keys: Vec::new(),

@@ -69,7 +69,8 @@ impl CaseReader<'_> {
         }
     }
 
-    fn motion(&mut self, key: &'static str, kind: Kind, most: f64, value: &mut Motion, free: bool) {
+    /// A motion or a load, suggested up to `most`; `free` says that its body must not be moved.
+    pub fn motion(&mut self, key: &'static str, kind: Kind, most: f64, value: &mut Motion, free: bool) {
         let path = self.path(key);
         let Some(node) = self.node(key, Form::Motion(kind)) else {
             if let (false, Motion::Constant(held)) = (self.overlay, &*value)

@@ -80,6 +80,8 @@ impl KnownKey {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct KnownSection {
     pub path: String,
+    /// The same with `*` in place of a name of the user's.
+    pub general: String,
     pub about: String,
     pub keys: Vec<KnownKey>,
     /// True if another reader knows its keys.
@@ -216,7 +218,7 @@ impl TableSchema {
     }
 
     fn join(&mut self, section: &KnownSection) {
-        let table = self.at(&section.path);
+        let table = self.at(&section.general);
         if table.about.is_empty() {
             table.about.clone_from(&section.about);
         }
@@ -240,7 +242,7 @@ impl TableSchema {
             .keys
             .iter()
             .map(|(name, key)| ((*name).to_owned(), key.schema()));
-        let tables = self.tables.iter();
+        let tables = self.tables.iter().filter(|(name, _)| *name != "*");
         let tables = tables.map(|(name, table)| {
             let own = table.schema();
             // A key may be a table too, as a law of friction is.
@@ -255,7 +257,9 @@ impl TableSchema {
             ("type".to_owned(), json!("object")),
             ("properties".to_owned(), Value::Object(properties)),
         ]);
-        if !self.open {
+        if let Some(named) = self.tables.get("*") {
+            own.insert("additionalProperties".to_owned(), named.schema());
+        } else if !self.open {
             own.insert("additionalProperties".to_owned(), json!(false));
         }
         if !self.about.is_empty() {

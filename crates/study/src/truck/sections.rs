@@ -12,15 +12,15 @@ use truck::{Bolster, Clearance, Geometry, Lading, Parameters, RigidBody, WedgeKi
 use wedge::parameters::{Damping, FaceFriction};
 
 pub(super) use car_body::car_body;
-pub(crate) use car_body::{center_plate, side_bearings};
+pub(crate) use car_body::{bearing_keys, center_plate, plate_keys, side_bearings};
 pub(crate) use coils::{
     coils, counts as coil_counts, height as coil_height, kind as coil_kind, together as coils_together,
 };
 pub(crate) use geometry::{columns, truck_places, wedge_places};
 pub(crate) use load_springs::load_springs;
 pub(super) use load_springs::spring_stiffnesses;
-pub(crate) use wheelsets::adapter;
 pub(super) use wheelsets::wheelsets;
+pub(crate) use wheelsets::{adapter, adapter_keys};
 
 use crate::case::field::Reach;
 use crate::case::friction::COEFFICIENT;

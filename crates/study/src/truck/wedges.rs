@@ -10,7 +10,7 @@ use wedge::face::{FaceDirection, Rectangle};
 use wedge::parameters::{ControlCoil as ThesisCoil, Damping};
 
 use super::control_coils::{CoilKind, Named, thesis_coil};
-use super::sections::{columns, wedge_places};
+use super::sections::{Condition, columns, wedge_places};
 use super::wedge_kinds::ACROSS;
 use crate::case::face::{self, FaceSection};
 use crate::case::face_values::Surface;
@@ -280,6 +280,32 @@ pub(crate) fn all(
     draft.check_across(r, "wedge.");
     draft.check_split(r, "wedge.");
     draft
+}
+
+/// Reads the sections of a wedge that stands for itself.
+pub(crate) fn alone(r: &mut CaseReader<'_>, damping: Damping, known: &[coils::CoilKind]) -> Wedge {
+    let mut draft = Draft::new(&Parameters::new(damping), Condition::New.friction(), known);
+    r.section("wedge", "The wedge: a right triangular prism.");
+    draft.body(r);
+    draft.toe(r);
+    r.section("control_coil", "Its control coil.");
+    draft.coil(r, "control_coil");
+    r.section("contact", "Contact of its corners with column and slope.");
+    contact(r, &mut draft.wedge.contact, "per corner");
+    r.section("friction", "Friction at its column and slope.");
+    draft.friction(r);
+    for (number, (name, about)) in face::SECTIONS.into_iter().zip(face::ABOUT).enumerate() {
+        r.section(name, about);
+        r.face(&mut draft.faces[number]);
+    }
+    draft.check_faces(r, "");
+    draft.check_across(r, "wedge.");
+    if draft.wedge.kind != WedgeKind::Body {
+        let problem = Problem::new("a wedge of a vehicle is one rigid body");
+        let help = "leave wedge.kind out";
+        r.problem("wedge.kind", problem.label("not here").help(help));
+    }
+    draft.finished()
 }
 
 /// Reads toe and distance of the columns.

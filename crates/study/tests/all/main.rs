@@ -5,6 +5,7 @@ mod fit;
 mod issue_029_states_behaviour;
 mod parts;
 mod signal;
+mod vehicle;
 mod wheelset;
 #[path = "../common/wheelsets.rs"]
 mod wheelsets;

@@ -6,7 +6,7 @@ use study::case::{Field, Input};
 use study::models::{AnyCase, ModelKeys, Variant, case_keys};
 
 /// The heading and introduction of a model's sections.
-const HEADINGS: [(&str, &str); 3] = [
+const HEADINGS: [(&str, &str); 4] = [
     (
         "A wedge",
         "`model = \"wedge\"`, or a case without `model`. Defaults are those of the thesis; where they depend \
@@ -20,6 +20,11 @@ const HEADINGS: [(&str, &str); 3] = [
         "A car on track",
         "`model = \"car\"`. The keys of trucks are those of a truck, below `truck.` for both, `front_truck.` \
          and `rear_truck.` for one, without its motions, loads and rigs.",
+    ),
+    (
+        "A vehicle",
+        "`model = \"vehicle\"`: see [vehicles](vehicle.md). Bodies and elements have names of your own: here \
+         `NAME` stands for a body's, and the name of an element is that of its kind.",
     ),
 ];
 
@@ -76,7 +81,8 @@ pub fn keys(cases: &[Variant]) -> Vec<Key> {
         let fields = case.fields().into_iter().flat_map(|section| section.fields);
         // A car's trucks have the keys of trucks.
         let is_of_truck = |path: &str| matches!(case, AnyCase::Car(_)) && path.starts_with("truck.");
-        for field in fields.filter(|field| !is_of_truck(&field.path)) {
+        for mut field in fields.filter(|field| !is_of_truck(&field.path)) {
+            field.path = general(&field.path);
             let value = shown(&field);
             if let Some(place) = keys.iter().position(|key| key.path == field.path) {
                 last = place + 1;
@@ -103,6 +109,20 @@ pub fn keys(cases: &[Variant]) -> Vec<Key> {
         }
     }
     keys
+}
+
+/// Returns the path of a key with `NAME` for the name of a body, and without numbers after those of elements.
+fn general(path: &str) -> String {
+    let parts: Vec<&str> = path.split('.').collect();
+    match parts.as_slice() {
+        ["bodies", _, rest @ ..] => format!("bodies.NAME.{}", rest.join(".")),
+        ["elements", name, rest @ ..] => {
+            let kind = name.trim_end_matches(|sign: char| sign.is_ascii_digit() || sign == '_');
+            let kind = if kind == "traction" { "bushing" } else { kind };
+            format!("elements.{kind}.{}", rest.join("."))
+        }
+        _ => path.to_owned(),
+    }
 }
 
 /// Returns a value on one line, cut where it is long.

@@ -345,6 +345,7 @@ fn linearized(parameters: &Parameters) -> System {
             }
             for across in [3.0 * INCH, -3.0 * INCH] {
                 let law = SurfaceFriction {
+                    clamped: false,
                     coordinates: [2, 0, 1],
                     spring: Curve::linear(adapter.contact.stiffness).scaled(1.0, -adapter.preload),
                     damper: Some(Curve::linear(adapter.contact.damping)),

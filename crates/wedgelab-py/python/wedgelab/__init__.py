@@ -40,6 +40,7 @@ from .result import (
     Record,
     Result,
     TruckResult,
+    VehicleResult,
     UnknownColumn,
 )
 from .sections import (
@@ -56,6 +57,7 @@ from .sections import (
 from .step import COORDINATES, Forces, Motion, Wedge
 from .study import Study, StudyColumn, StudyOutcome
 from .truck import TruckCase
+from .vehicle import VehicleCase
 
 __all__ = [
     "COORDINATES",
@@ -111,7 +113,9 @@ __all__ = [
     "Table",
     "Triangle",
     "TruckCase",
+    "VehicleCase",
     "TruckResult",
+    "VehicleResult",
     "UnitError",
     "UnknownColumn",
     "Verdict",

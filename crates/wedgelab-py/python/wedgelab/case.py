@@ -16,6 +16,7 @@ from ._wedgelab import (
     NativeCase,
     NativeResult,
     NativeTruckCase,
+    NativeVehicleCase,
     built_in_groups,
     wedge_assumptions,
 )
@@ -85,7 +86,7 @@ class CompleteCase:
 
     __slots__ = ("_native",)
 
-    _native: NativeCase | NativeTruckCase | NativeCarCase
+    _native: NativeCase | NativeTruckCase | NativeCarCase | NativeVehicleCase
 
     @property
     def name(self) -> str:
@@ -135,14 +136,14 @@ _Own = TypeVar("_Own", bound="ModelCase")
 
 
 class ModelCase(CompleteCase):
-    """What cases of trucks and cars have in common: values are laid over a base by their paths."""
+    """What cases of trucks, cars and vehicles have in common: values are laid over a base by their paths."""
 
     __slots__ = ()
 
-    _NATIVE: ClassVar[type[NativeTruckCase] | type[NativeCarCase]]
+    _NATIVE: ClassVar[type[NativeTruckCase] | type[NativeCarCase] | type[NativeVehicleCase]]
     _MODEL: ClassVar[str]
 
-    _native: NativeTruckCase | NativeCarCase
+    _native: NativeTruckCase | NativeCarCase | NativeVehicleCase
 
     def __init__(
         self: _Own, base: str | os.PathLike[str] | _Own, values: Mapping[str, Any] | None = None, /
@@ -162,7 +163,7 @@ class ModelCase(CompleteCase):
             raise CaseError(f"{message}: the name of a built-in {self._MODEL}, a path or a case is expected")
 
     @classmethod
-    def _of(cls: type[_Own], native: NativeTruckCase | NativeCarCase) -> _Own:
+    def _of(cls: type[_Own], native: NativeTruckCase | NativeCarCase | NativeVehicleCase) -> _Own:
         case = cls.__new__(cls)
         case._native = native
         return case

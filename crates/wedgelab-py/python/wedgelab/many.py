@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Iterable
 from typing import Any, TextIO, Union, overload
 
-from ._wedgelab import NativeCarCase, NativeCase, NativeHalfTruckCase, NativeTruckCase
+from ._wedgelab import NativeCarCase, NativeCase, NativeHalfTruckCase, NativeTruckCase, NativeVehicleCase
 from ._wedgelab import run_many as _run_many
 from .car import CarCase
 from .case import Case, _names
@@ -19,11 +19,13 @@ from .result import (
     HalfTruckResult,
     Result,
     TruckResult,
+    VehicleResult,
     result_of,
     unsound_error,
     warn,
 )
 from .truck import TruckCase
+from .vehicle import VehicleCase
 
 __all__ = ["run_many"]
 
@@ -66,8 +68,17 @@ def run_many(
     progress: Progress = False,
     errors: str = "raise",
 ) -> list[CarResult]: ...
+@overload
 def run_many(
-    cases: Iterable[Case] | Iterable[HalfTruckCase] | Iterable[TruckCase] | Iterable[CarCase],
+    cases: Iterable[VehicleCase],
+    *,
+    workers: int | None = None,
+    columns: Iterable[str] | None = None,
+    progress: Progress = False,
+    errors: str = "raise",
+) -> list[VehicleResult]: ...
+def run_many(
+    cases: Iterable[Case] | Iterable[HalfTruckCase] | Iterable[TruckCase] | Iterable[CarCase] | Iterable[VehicleCase],
     *,
     workers: int | None = None,
     columns: Iterable[str] | None = None,
@@ -84,10 +95,10 @@ def run_many(
     Runs that are not complete: with ``errors="raise"`` all others are finished, then the first of them is raised, with everything
     that came out as its ``results``; with ``errors="keep"`` the list has the exceptions in their places.
     """
-    natives: list[NativeCase | NativeHalfTruckCase | NativeTruckCase | NativeCarCase] = []
+    natives: list[NativeCase | NativeHalfTruckCase | NativeTruckCase | NativeCarCase | NativeVehicleCase] = []
     for place, case in enumerate(cases):
-        if not isinstance(case, (Case, HalfTruckCase, TruckCase, CarCase)):
-            kinds = "a Case, HalfTruckCase, TruckCase or CarCase"
+        if not isinstance(case, (Case, HalfTruckCase, TruckCase, CarCase, VehicleCase)):
+            kinds = "a Case, HalfTruckCase, TruckCase, CarCase or VehicleCase"
             raise WedgelabError(f"cases[{place}] is a {type(case).__name__}; {kinds} is expected")
         natives.append(case._native)
     count = _workers(workers)

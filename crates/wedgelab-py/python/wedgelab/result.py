@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from . import _html
 from ._optional import need
-from ._wedgelab import NativeCarCase, NativeCase, NativeResult, NativeTruckCase, Quantity
+from ._wedgelab import NativeCarCase, NativeCase, NativeResult, NativeTruckCase, NativeVehicleCase, Quantity
 from .errors import EnergyWarning, PlausibilityWarning, RunError, UnitError, WedgelabError
 from .figures import Figure, _figures
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from .case import Case
 
-__all__ = ["AnyResult", "CarResult", "Column", "DataTable", "HalfTruckResult", "Measure", "Record", "Result", "TruckResult"]
+__all__ = ["AnyResult", "CarResult", "Column", "DataTable", "HalfTruckResult", "Measure", "Record", "Result", "TruckResult", "VehicleResult"]
 
 Floats = npt.NDArray[np.float64]
 
@@ -407,7 +407,7 @@ class _Base:
 
 
 class _OfCase(_Base):
-    """What results of wedges, trucks and cars share: a case file that makes them again."""
+    """What results of wedges, trucks, cars and vehicles share: a case file that makes them again."""
 
     __slots__ = ()
 
@@ -420,7 +420,8 @@ class _OfCase(_Base):
         return self._native.write(folder, force)
 
     def _case_text(self) -> str | None:
-        native = self._native.case or self._native.truck_case or self._native.car_case
+        own = self._native
+        native = own.case or own.truck_case or own.car_case or own.vehicle_case
         return None if native is None else native.to_toml()
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -558,7 +559,18 @@ class CarResult(_OfCase):
         return self._loop(ax, "distance", column, options)
 
 
-AnyResult = Union[Result, HalfTruckResult, TruckResult, CarResult]
+class VehicleResult(_OfCase):
+    """What came out of a vehicle's run; columns and their units as in `Result`."""
+
+    __slots__ = ()
+
+    @property
+    def ledger(self) -> DataTable:
+        """The energy ledger at the end, in the summary's units: entry, value, unit."""
+        return _ledger_table(self.summary.ledger.entries)
+
+
+AnyResult = Union[Result, HalfTruckResult, TruckResult, CarResult, VehicleResult]
 
 
 def result_of(native: NativeResult) -> AnyResult:
@@ -568,14 +580,18 @@ def result_of(native: NativeResult) -> AnyResult:
         "half_truck": HalfTruckResult,
         "truck": TruckResult,
         "car": CarResult,
+        "vehicle": VehicleResult,
     }
     return kinds[native.model](native)
 
 
-_CASES: dict[str, type[NativeCase] | type[NativeTruckCase] | type[NativeCarCase]] = {
+_CASES: dict[
+    str, type[NativeCase] | type[NativeTruckCase] | type[NativeCarCase] | type[NativeVehicleCase]
+] = {
     "wedge": NativeCase,
     "truck": NativeTruckCase,
     "car": NativeCarCase,
+    "vehicle": NativeVehicleCase,
 }
 
 

@@ -10,13 +10,21 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Union
 
-from ._wedgelab import NativeCarCase, NativeHalfTruckCase, NativeStudy, NativeStudyFolder, NativeTruckCase
+from ._wedgelab import (
+    NativeCarCase,
+    NativeHalfTruckCase,
+    NativeStudy,
+    NativeStudyFolder,
+    NativeTruckCase,
+    NativeVehicleCase,
+)
 from .car import CarCase
 from .case import Case
 from .errors import StudyError
 from .many import Progress, _teller, _workers
 from .nucars import HalfTruckCase
 from .truck import TruckCase
+from .vehicle import VehicleCase
 
 __all__ = ["Study", "StudyColumn", "StudyOutcome"]
 
@@ -121,13 +129,15 @@ class Study:
         """What is varied in a variant, by path, as a case file shows it."""
         return dict(self._native.values(self._number(number)))
 
-    def case(self, number: int) -> Case | HalfTruckCase | TruckCase | CarCase:
+    def case(self, number: int) -> Case | HalfTruckCase | TruckCase | CarCase | VehicleCase:
         """The case of a variant, for example to run it with its time series: ``study.case(17).run()``."""
         native = self._native.case(self._number(number))
         if isinstance(native, NativeHalfTruckCase):
             return HalfTruckCase._of(native)
         if isinstance(native, NativeCarCase):
             return CarCase._of(native)
+        if isinstance(native, NativeVehicleCase):
+            return VehicleCase._of(native)
         return TruckCase._of(native) if isinstance(native, NativeTruckCase) else Case._of(native)
 
     def run(

@@ -82,7 +82,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         AnyCase::Wedge(case) => energy_of(&**case, arguments.quiet, |summary| summary.energy.clone())?,
         AnyCase::Truck(case) => energy_of(&**case, arguments.quiet, |summary| summary.energy.clone())?,
         AnyCase::Car(case) => energy_of(&**case, arguments.quiet, |summary| summary.energy.clone())?,
-        AnyCase::HalfTruck(_) => {
+        AnyCase::HalfTruck(_) | AnyCase::Vehicle(_) => {
             let message = format!("{} is neither a wedge, nor a truck, nor a car", case.name());
             let advice =
                 "energies are given for wedges and trucks whose motion or load is periodic, and for cars";

@@ -26,6 +26,8 @@ use study::output_files::{OutputFiles, TableFormat};
 use study::summary::RunSummary;
 use study::truck::run::TruckResult;
 use study::truck::{TruckCase, WEDGE_NAMES};
+use study::vehicle::VehicleCase;
+use study::vehicle::summary::VehicleSummary;
 
 use super::energy;
 use crate::execute::{
@@ -42,9 +44,9 @@ use crate::select::built_in_elsewhere;
 use crate::start;
 use crate::table::TerminalTable;
 
-/// Run one case: a wedge, a truck or a car
+/// Run one case: a wedge, a truck, a car or a vehicle of your own
 ///
-/// Runs a case file, of a wedge, of a truck or of a car on track, and writes its time histories, case.toml
+/// Runs a case file, of a wedge, of a truck, of a car on track or of a vehicle of bodies and elements, and writes its time histories, case.toml
 /// (the case, completed) and summary.json (averages, extremes, events, energy ledger, solver statistics,
 /// assumptions) into a folder named as the case; and index.html: a wedge moving in 3D with its loops and key
 /// numbers; a truck, its loops and wedges; a car on its track, limits, statistics and figures over the
@@ -161,6 +163,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         AnyCase::Wedge(case) => run_wedge(Arc::unwrap_or_clone(case), arguments),
         AnyCase::Truck(case) => run_truck(&case, arguments),
         AnyCase::Car(case) => run_car(&case, arguments),
+        AnyCase::Vehicle(case) => run_vehicle(&case, arguments),
         AnyCase::HalfTruck(case) => Err(not_here(&case.name)),
     }
 }
@@ -226,6 +229,13 @@ fn execute_in_parts(case: &AnyCase, arguments: &Arguments) -> Result<ExitCode, F
             (truck_table(&done.result), TRUCK_NOTE.to_owned())
         }),
         AnyCase::Car(case) => run_in_parts(&**case, arguments, |done| limits_of_car(&done.result.summary)),
+        AnyCase::Vehicle(case) => run_in_parts(&**case, arguments, |done| {
+            let units = done.result.summary.units;
+            (
+                vehicle_table(&done.result.summary, units),
+                VEHICLE_NOTE.to_owned(),
+            )
+        }),
         AnyCase::HalfTruck(case) => Err(not_here(&case.name)),
     }
 }
@@ -335,6 +345,55 @@ fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),
     }
+}
+
+/// Runs a vehicle, and writes its page besides.
+fn run_vehicle(case: &VehicleCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let place = begin(case, &[page::FILE_NAME], arguments)?;
+    let (folder, progress) = (&place.folder, &place.progress);
+    let done = compute(case, progress).and_then(|done| {
+        write_as(&done, case, folder, &place.output, progress)?;
+        Ok(done)
+    });
+    progress.finish();
+    let result = done?.result;
+    write_page(folder, || page::vehicle_run::render(case, &result))?;
+    let summary = &result.summary;
+    print_run(arguments, &place, summary, || {
+        (vehicle_table(summary, summary.units), VEHICLE_NOTE.to_owned())
+    })?;
+    match unsound::<VehicleCase>(summary, folder.path()) {
+        Some(failure) => Err(failure),
+        None => Ok(ExitCode::SUCCESS),
+    }
+}
+
+const VEHICLE_NOTE: &str = "\
+Forces at the start and extremes over all output times. Natural vibrations, extremes of all columns and the
+energy ledger stand in summary.json.";
+
+/// Returns the table of the forces of a vehicle's elements.
+fn vehicle_table(summary: &VehicleSummary, units: quantity::System) -> TerminalTable {
+    let unit = Kind::Force.label(units);
+    let head = [
+        ("force", ""),
+        ("at the start", unit),
+        ("least", unit),
+        ("largest", unit),
+    ];
+    let mut table = TerminalTable::new(1, &head);
+    for (name, own) in &summary.forces_at_start {
+        let column = format!("{name}_{}", Kind::Force.suffix(units));
+        let found = summary.extremes.get(&column);
+        let cell = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1}"));
+        table.row([
+            name.replace('_', " "),
+            cell(Some(own.value)),
+            cell(found.map(|found| found.minimum)),
+            cell(found.map(|found| found.maximum)),
+        ]);
+    }
+    table
 }
 
 /// Tells what came out and where it lies: in words, a table and what its columns are, or as JSON.

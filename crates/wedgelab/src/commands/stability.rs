@@ -15,10 +15,13 @@ use study::car::onset::onset;
 use study::car::stability::{BEYOND, Branch, BranchKind, Stability, left_out, stability};
 use study::models::AnyCase;
 use study::outcome::Outcome;
+use study::vehicle::VehicleCase;
+use study::vehicle::summary::VibrationSummary;
 
 use super::run::read_any;
 use super::stability_locus::{Around, VaryArguments};
 use crate::drawn::Drawn;
+use crate::execute::started_with;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -26,6 +29,9 @@ use crate::progress::Progress;
 use crate::table::TerminalTable;
 
 /// Stability of a car over speed: growth and frequency of its vibrations, critical speeds, hunting
+///
+/// Of a vehicle of bodies and elements (model = "vehicle") it prints the natural vibrations about its rest.
+/// Of a car:
 ///
 /// Linearizes the car about steady running on straight track without irregularities, at each speed: with all
 /// friction of wedges, center plates, adapters and side bearings stuck (bristles are springs), without it,
@@ -143,11 +149,36 @@ fn threshold(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Prints the natural vibrations of a vehicle about its rest.
+fn vibrations(case: &VehicleCase) -> Result<ExitCode, Failure> {
+    let mut vehicle = started_with(case, case.vehicle())?;
+    let found = vehicle.vibrations().map_err(|error| {
+        let message = format!("{} has no natural vibrations: {error}", case.name);
+        Message::new(message, "look for values that are out of proportion")
+    })?;
+    let mut table = TerminalTable::new(0, &[("frequency", "Hz"), ("damping ratio", "")]);
+    for own in found.into_iter().map(VibrationSummary::of) {
+        table.row([
+            format!("{:.6}", own.frequency_hz),
+            format!("{:.6}", own.damping_ratio),
+        ]);
+    }
+    let mut out = io::stdout().lock();
+    table.write(&mut out)?;
+    writeln!(
+        out,
+        "\nNatural vibrations of {} about its rest; what is open or slips there does not hold.",
+        case.name
+    )?;
+    Ok(ExitCode::SUCCESS)
+}
+
 /// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let case = match read_any(&arguments.case, &arguments.set)? {
         AnyCase::Car(case) => case,
+        AnyCase::Vehicle(case) => return vibrations(&case),
         other => {
             let message = format!("{} is no car: hunting is what a car on track does", other.name());
             let advice = "take car_hunting_empty, or a case with model = \"car\"";

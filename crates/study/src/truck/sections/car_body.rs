@@ -66,16 +66,21 @@ pub(crate) fn center_plate(r: &mut CaseReader<'_>, plate: &mut CenterPlate) {
         &mut plate.height,
         "of its surface above the top of rail",
     );
+    plate_keys(r, "center_plate", plate);
+}
+
+/// The keys of a center plate in the current section, which has this path.
+pub(crate) fn plate_keys(r: &mut CaseReader<'_>, path: &str, plate: &mut CenterPlate) {
     if let [outer, inner] = plate.rings.as_mut_slice() {
-        let [diameter, radius] = ["diameter", "radius"].map(|key| r.has(&format!("center_plate.{key}")));
+        let [diameter, radius] = ["diameter", "radius"].map(|key| r.has(&format!("{path}.{key}")));
         if radius {
             // An older key, which is read.
             r.quantity("radius", LENGTH, outer, "half of the diameter");
             if diameter {
                 let message = "`center_plate.radius` is given, and `center_plate.diameter` too";
                 let problem = Problem::new(message).label("one of two");
-                r.problem("center_plate.radius", problem.help("leave out the radius"));
-                r.expect("center_plate", &["diameter"]);
+                r.problem(&format!("{path}.radius"), problem.help("leave out the radius"));
+                r.expect(path, &["diameter"]);
             }
         } else {
             let mut diameter = 2.0 * *outer;
@@ -115,7 +120,13 @@ pub(crate) fn side_bearings(r: &mut CaseReader<'_>, bearings: &mut SideBearings)
         SideBearings::constant_contact()
     };
     r.quantity("distance", LENGTH, &mut own.distance, "from the truck's center");
-    match &mut own.kind {
+    bearing_keys(r, &mut own.kind);
+    *bearings = own;
+}
+
+/// The keys of a side bearing of its kind in the current section.
+pub(crate) fn bearing_keys(r: &mut CaseReader<'_>, bearing: &mut SideBearing) {
+    match bearing {
         SideBearing::Roller(stop) => clearance(r, stop),
         SideBearing::ConstantContact {
             preload,
@@ -132,5 +143,4 @@ pub(crate) fn side_bearings(r: &mut CaseReader<'_>, bearings: &mut SideBearings)
             friction(r, law);
         }
     }
-    *bearings = own;
 }

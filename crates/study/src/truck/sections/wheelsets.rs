@@ -91,7 +91,13 @@ fn read_adapter(
         AdapterKind::Nothing => return None,
     };
     super::geometry::adapter(r, geometry, matches!(own, Adapter::Friction(_)));
-    match &mut own {
+    adapter_keys(r, &mut own);
+    Some(own)
+}
+
+/// The keys of an adapter of its kind in the current section.
+pub(crate) fn adapter_keys(r: &mut CaseReader<'_>, adapter: &mut Adapter) {
+    match adapter {
         Adapter::Friction(adapter) => friction_adapter(r, adapter),
         Adapter::Pad(pad) => {
             r.quantity(
@@ -118,7 +124,6 @@ fn read_adapter(
             );
         }
     }
-    Some(own)
 }
 
 fn friction_adapter(r: &mut CaseReader<'_>, adapter: &mut FrictionAdapter) {

@@ -22,6 +22,8 @@ use study::run::{Run, RunCase};
 use study::summary::RunSummary;
 use study::truck::run::TruckResult;
 use study::truck::{TruckCase, WEDGE_NAMES};
+use study::vehicle::VehicleCase;
+use study::vehicle::run::VehicleResult;
 
 use super::api::Refused;
 
@@ -34,13 +36,24 @@ pub enum Outcome {
     Truck(Box<(TruckCase, TruckResult, Option<ContactTable>)>),
     /// A car, with the motions of its bodies.
     Car(Box<(CarCase, CarResult, Option<MotionTable>)>),
+    /// A vehicle.
+    Vehicle(Box<(VehicleCase, VehicleResult)>),
 }
 
 /// An axis of the loop: a column of the run, and in words.
 #[derive(Debug, Serialize)]
 pub struct LoopAxis {
-    column: &'static str,
-    name: &'static str,
+    column: String,
+    name: String,
+}
+
+impl LoopAxis {
+    fn new(column: &str, name: &str) -> Self {
+        Self {
+            column: column.to_owned(),
+            name: name.to_owned(),
+        }
+    }
 }
 
 /// The loop that is shown over earlier ones.
@@ -88,6 +101,10 @@ pub fn compute(case: AnyCase, wanted: impl Fn() -> bool) -> Result<Outcome, Refu
             let (result, motions) = run.finish_with_motions(&mut goes_on);
             Outcome::Car(Box::new((Arc::unwrap_or_clone(case), result, motions)))
         }
+        AnyCase::Vehicle(case) => {
+            let result = started(Run::new(&*case))?.finish_while(&mut goes_on);
+            Outcome::Vehicle(Box::new((Arc::unwrap_or_clone(case), result)))
+        }
     };
     if replaced {
         return Err(Refused::Replaced);
@@ -98,7 +115,7 @@ pub fn compute(case: AnyCase, wanted: impl Fn() -> bool) -> Result<Outcome, Refu
 
 /// The reason for refusing half-trucks.
 pub const NO_HALF_TRUCK: &str =
-    "the explorer takes wedges, trucks and cars, not the half-trucks of NUCARS's files";
+    "the explorer takes wedges, trucks, cars and vehicles, not the half-trucks of NUCARS's files";
 
 fn started<C: RunCase>(run: Result<Run<C>, study::run::RunError>) -> Result<Run<C>, Refused> {
     run.map_err(|error| Refused::mistake("", format!("the run cannot begin: {error}"), OUT_OF_PROPORTION))
@@ -113,6 +130,7 @@ impl Outcome {
             (Self::Wedge(own), AnyCase::Wedge(case)) => own.0 == **case,
             (Self::Truck(own), AnyCase::Truck(case)) => own.0 == **case,
             (Self::Car(own), AnyCase::Car(case)) => own.0 == **case,
+            (Self::Vehicle(own), AnyCase::Vehicle(case)) => own.0 == **case,
             _ => false,
         }
     }
@@ -123,6 +141,7 @@ impl Outcome {
             Self::Wedge(own) => &own.0.name,
             Self::Truck(own) => &own.0.name,
             Self::Car(own) => &own.0.name,
+            Self::Vehicle(own) => &own.0.name,
         }
     }
 
@@ -132,6 +151,7 @@ impl Outcome {
             Self::Wedge(own) => own.0.fields().to_vec(),
             Self::Truck(own) => own.0.fields().to_vec(),
             Self::Car(own) => own.0.fields().to_vec(),
+            Self::Vehicle(own) => own.0.fields().to_vec(),
         }
     }
 
@@ -139,8 +159,8 @@ impl Outcome {
     pub fn finite(&self) -> Result<(), Refused> {
         let found = match self {
             Self::Wedge(own) => own.1.summary.not_finite(),
-            // Runs of trucks and cars stop where a number is none.
-            Self::Truck(_) | Self::Car(_) => None,
+            // Runs of the others stop where a number is none.
+            Self::Truck(_) | Self::Car(_) | Self::Vehicle(_) => None,
         };
         match found {
             Some(what) => Err(Refused::mistake(
@@ -170,6 +190,11 @@ impl Outcome {
                 let recording = Recording::of_car(case, result, motions.as_ref(), Detail::Thinned);
                 View::new(result.summary.units(), [recording], [])
             }
+            Self::Vehicle(own) => {
+                let (case, result) = &**own;
+                let recording = Recording::of_vehicle(case, result, Detail::Thinned);
+                View::new(result.summary.units, [recording], [])
+            }
         }
     }
 
@@ -183,6 +208,7 @@ impl Outcome {
             }
             Self::Truck(own) => own.1.summary.clone().into(),
             Self::Car(own) => own.1.summary.clone().into(),
+            Self::Vehicle(own) => own.1.summary.clone().into(),
         }
     }
 
@@ -192,6 +218,7 @@ impl Outcome {
             Self::Wedge(own) => loop_of_wedge(&own.1),
             Self::Truck(own) => loop_of_truck(&own.1),
             Self::Car(own) => loop_of_car(&own.0, &own.1),
+            Self::Vehicle(own) => loop_of_vehicle(&own.1),
         }
     }
 
@@ -202,6 +229,7 @@ impl Outcome {
                 Self::Wedge(own) => summary::write_json(&own.1.summary, out)?,
                 Self::Truck(own) => summary::write_json(&own.1.summary, out)?,
                 Self::Car(own) => summary::write_json(&own.1.summary, out)?,
+                Self::Vehicle(own) => summary::write_json(&own.1.summary, out)?,
             }
             return Ok("application/json");
         };
@@ -211,12 +239,31 @@ impl Outcome {
             Self::Wedge(own) => own.0.write_table(&own.1, format, &all, out)?,
             Self::Truck(own) => own.0.write_table(&own.1, format, &all, out)?,
             Self::Car(own) => own.0.write_table(&own.1, format, &all, out)?,
+            Self::Vehicle(own) => own.0.write_table(&own.1, format, &all, out)?,
         }
         Ok(match format {
             TableFormat::Csv => "text/csv",
             TableFormat::Mat => "application/octet-stream",
             TableFormat::Parquet => "application/vnd.apache.parquet",
         })
+    }
+}
+
+/// Returns the vertical motion of the first body that moves, or its first column.
+fn loop_of_vehicle(result: &VehicleResult) -> Loop {
+    let columns = result.columns.iter().skip(1);
+    let up = columns.clone().find(|own| own.name.ends_with("_z"));
+    let shown = up.or_else(|| columns.clone().next());
+    let (column, name) = shown.map_or(("time", "time"), |own| (own.name.as_str(), own.text.as_str()));
+    let losses = result.column("losses").and_then(<[f64]>::last);
+    Loop {
+        title: "Motion over time",
+        x: LoopAxis::new("time", "time"),
+        y: LoopAxis::new(column, name),
+        energy_of: "Energy lost in all elements",
+        energy_per: "run",
+        energy: losses.copied(),
+        missing: String::new(),
     }
 }
 
@@ -232,14 +279,8 @@ fn loop_of_wedge(result: &RunResult) -> Loop {
     let energy = averages.energy_per_cycle.get("side_frame");
     Loop {
         title: "Vertical wedge force over the bolster's travel",
-        x: LoopAxis {
-            column: "bolster_vertical",
-            name: "bolster, vertical",
-        },
-        y: LoopAxis {
-            column: "vertical_wedge_force",
-            name: "vertical force on the side frame",
-        },
+        x: LoopAxis::new("bolster_vertical", "bolster, vertical"),
+        y: LoopAxis::new("vertical_wedge_force", "vertical force on the side frame"),
         energy_of: "Energy lost in friction at the side frame",
         energy_per: CYCLE,
         energy: energy.map(|energy| joules(energy.value, result.summary.units)),
@@ -278,14 +319,8 @@ fn loop_of_truck(result: &TruckResult) -> Loop {
     let sum: f64 = losses.map(|(_, loss)| loss.value).sum();
     Loop {
         title,
-        x: LoopAxis {
-            column: x.0,
-            name: x.1,
-        },
-        y: LoopAxis {
-            column: y.0,
-            name: y.1,
-        },
+        x: LoopAxis::new(x.0, x.1),
+        y: LoopAxis::new(y.0, y.1),
         energy_of: "Energy lost at the four wedges",
         energy_per: CYCLE,
         energy: (cycles.count > 0).then(|| joules(sum, result.summary.units())),
@@ -337,11 +372,8 @@ fn loop_of_car(case: &CarCase, result: &CarResult) -> Loop {
     let losses: f64 = result.summary.wedge_losses.values().map(|loss| loss.value).sum();
     Loop {
         title,
-        x: LoopAxis {
-            column: "distance",
-            name: "distance along the track",
-        },
-        y: LoopAxis { column, name },
+        x: LoopAxis::new("distance", "distance along the track"),
+        y: LoopAxis::new(column, name),
         energy_of: "Energy lost in friction at the eight wedges",
         energy_per: "run",
         energy: Some(joules(losses, result.summary.units)),

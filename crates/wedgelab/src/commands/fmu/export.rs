@@ -11,6 +11,7 @@ use fmi::source::{FmuModel, Source};
 use study::car::CarCase;
 use study::models::AnyCase;
 use study::truck::TruckCase;
+use study::vehicle::VehicleCase;
 
 use super::half_truck::Choice;
 use super::write;
@@ -121,6 +122,7 @@ impl Arguments {
                 Some((Source::ThreePieceTruck(Box::new(TruckCase::clone(case))), "truck"))
             }
             AnyCase::Car(case) => Some((Source::Car(Box::new(CarCase::clone(case))), "car")),
+            AnyCase::Vehicle(case) => Some((Source::Vehicle(Box::new(VehicleCase::clone(case))), "vehicle")),
             _ => None,
         };
         if let Some((source, what)) = whole {

@@ -30,6 +30,7 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
         AnyCase::HalfTruck(ref own) => own.names(&own.output_files()),
         AnyCase::Truck(ref own) => own.names(&own.output_files()),
         AnyCase::Car(ref own) => own.names(&own.output_files()),
+        AnyCase::Vehicle(ref own) => own.names(&own.output_files()),
     };
     let (mut written, mut failures) = (Vec::new(), Vec::new());
     for number in numbers {
@@ -46,6 +47,7 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
             }
             AnyCase::Truck(case) => one(&case.named(&name), &folder, &progress)?,
             AnyCase::Car(case) => one(&case.named(&name), &folder, &progress)?,
+            AnyCase::Vehicle(case) => one(&case.named(&name), &folder, &progress)?,
         };
         let Some(failure) = whole else {
             progress.finish();

@@ -1,0 +1,111 @@
+//! The page of one run of a vehicle.
+
+use maud::{Markup, html};
+use study::vehicle::VehicleCase;
+use study::vehicle::run::VehicleResult;
+use study::vehicle::summary::VehicleSummary;
+
+use super::{data_of, doubts, moving, run_page, shown_in};
+use crate::figures::digits;
+use crate::figures::vehicle::exhibits;
+use crate::view::run::{Detail, Recording};
+
+/// Returns the page as HTML; it needs nothing else to be shown.
+///
+/// # Errors
+/// Errors of the JSON writer.
+pub fn render(case: &VehicleCase, result: &VehicleResult) -> Result<String, serde_json::Error> {
+    let summary = &result.summary;
+    let exhibits = exhibits(result);
+    let recording = Recording::of_vehicle(case, result, Detail::Thinned);
+    let data = data_of(summary.units, recording, &exhibits)?;
+    let main = html! {
+        (doubts(summary))
+        (moving(&summary.name))
+        section { h2 { "Natural vibrations" } (vibrations(summary)) }
+        section { h2 { "At the start" } (start(summary)) }
+        section { h2 { "Energy" } (energy(summary)) }
+        section {
+            h2 { "Figures" }
+            @for exhibit in &exhibits { (shown_in(exhibit, &exhibit.figure.to_svg(), None)) }
+        }
+        section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
+    };
+    Ok(run_page(
+        summary,
+        (&summary.title, &summary.program),
+        "a vehicle of bodies and elements",
+        &main,
+        &data,
+    ))
+}
+
+fn vibrations(summary: &VehicleSummary) -> Markup {
+    html! {
+        @if summary.vibrations.is_empty() {
+            p { "Nothing vibrates about the rest." }
+        } @else {
+            p {
+                "Of the equations linearized about the rest, or the nominal layout if the run starts there; what is open or slips there does not hold. A \
+                 negative damping ratio grows."
+            }
+            table {
+                thead {
+                    tr {
+                        th.number scope="col" { "frequency" br; span.unit { "Hz" } }
+                        th.number scope="col" { "damping ratio" }
+                    }
+                }
+                tbody {
+                    @for own in &summary.vibrations {
+                        tr {
+                            td.number { (digits(own.frequency_hz)) }
+                            td.number { (format!("{:.4}", own.damping_ratio)) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn start(summary: &VehicleSummary) -> Markup {
+    html! {
+        @if summary.forces_at_start.is_empty() {
+            p { "No element carries a force." }
+        } @else {
+            table {
+                thead { tr { th scope="col" { "force" } th.number scope="col" { "at the start" } } }
+                tbody {
+                    @for (name, own) in &summary.forces_at_start {
+                        tr {
+                            th scope="row" { (name.replace('_', " ")) }
+                            td.number { (digits(own.value)) " " (own.unit) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn energy(summary: &VehicleSummary) -> Markup {
+    html! {
+        table {
+            tbody {
+                @for (name, own) in &summary.ledger.entries {
+                    tr {
+                        th scope="row" { (name.replace('_', " ")) }
+                        td.number { (digits(own.value)) " " (own.unit) }
+                    }
+                }
+            }
+        }
+        p {
+            "Energy ledger at the end: its largest residual at any output time is "
+            (format!("{:.1e}", summary.ledger.largest_relative_residual))
+            " of the largest of work, losses and change of stored energy. \
+             " (summary.statistics.steps) " steps."
+        }
+    }
+}

@@ -1,0 +1,291 @@
+//! Running a vehicle.
+
+use std::collections::BTreeMap;
+
+use integrate::{Integrator, Problem};
+use mechanics::energy_balance::Entries;
+use mechanics::output::Column;
+use mechanics::plausibility::PlausibilityFinding;
+use mechanics::system::{ContactState, System};
+use quantity::{Kind, System as Units};
+use vehicle::{Vehicle, View};
+
+use super::VehicleCase;
+use super::summary::{SCHEMA, VehicleSummary, VibrationSummary};
+use crate::energy;
+use crate::finite::{find, is_finite};
+use crate::plausibility;
+use crate::progress;
+use crate::result::RunResult;
+use crate::run::{
+    Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
+};
+use crate::summary::{Stopped, SummaryValue};
+
+/// The result of a run.
+pub type VehicleResult = RunResult<VehicleSummary>;
+
+/// The columns of the energy ledger, after the channels.
+const LEDGER: [(&str, &str); 4] = [
+    (
+        "work",
+        "work of prescribed motions, loads and drives since the start",
+    ),
+    ("losses", "lost since the start"),
+    ("stored_energy_change", "energy stored since the start"),
+    ("energy_residual", "work less losses less stored energy"),
+];
+
+/// Records a vehicle's run.
+#[derive(Debug)]
+pub struct VehicleRecorder {
+    vehicle: Vehicle,
+    columns: Vec<Column>,
+    rows: RowTable,
+    row: Vec<f64>,
+    rates: Vec<f64>,
+    /// The values of the channels at the start.
+    start: Vec<f64>,
+    /// Kinetic energy at the start, J.
+    kinetic_at_start: f64,
+}
+
+impl VehicleRecorder {
+    fn new(vehicle: Vehicle) -> Self {
+        let columns = columns_of(&vehicle);
+        let mut own = Self {
+            rows: RowTable::new(&columns, |_| false),
+            row: Vec::with_capacity(columns.len()),
+            rates: vec![0.0; vehicle.initial_state.len()],
+            start: Vec::new(),
+            kinetic_at_start: 0.0,
+            vehicle,
+            columns,
+        };
+        let (mut system, x) = (own.vehicle.system.clone(), own.vehicle.initial_state.clone());
+        own.kinetic_at_start = own.read(&mut system, 0.0, &x).energies.kinetic;
+        own.start = own.row[1..].to_vec();
+        own
+    }
+
+    /// Reads time and channels into the row; returns the observation.
+    fn read(&mut self, system: &mut System, time: f64, x: &[f64]) -> mechanics::system::Observation {
+        let seen = system.observe(time, x);
+        system.derivative(time, x, &mut self.rates);
+        let view = View {
+            seen: &seen,
+            rates: &self.rates,
+            system,
+        };
+        self.row.clear();
+        self.row.push(time);
+        self.row
+            .extend(self.vehicle.channels.iter().map(|channel| channel.value(&view)));
+        seen
+    }
+}
+
+/// Returns the columns of a vehicle's run: time, its channels, the energy ledger.
+fn columns_of(vehicle: &Vehicle) -> Vec<Column> {
+    let plain = |name: &str, kind: Kind, text: &str| Column {
+        name: name.to_owned(),
+        kind,
+        frame: "".into(),
+        reference: "".into(),
+        text: text.to_owned(),
+    };
+    let mut columns = vec![plain("time", Kind::Time, "time")];
+    columns.extend(vehicle.channels.iter().map(|channel| channel.column.clone()));
+    columns.extend(LEDGER.map(|(name, text)| plain(name, Kind::Energy, text)));
+    columns
+}
+
+impl VehicleCase {
+    /// Returns the vehicle at its start.
+    ///
+    /// # Errors
+    /// Bodies and elements make no system, or there is no rest to start from.
+    pub fn vehicle(&self) -> Result<Vehicle, RunError> {
+        Ok(Vehicle::new(&self.description)?)
+    }
+
+    /// Returns the columns of its result.
+    ///
+    /// # Errors
+    /// As [`VehicleCase::vehicle`].
+    pub fn columns(&self) -> Result<Vec<Column>, RunError> {
+        Ok(columns_of(&self.vehicle()?))
+    }
+}
+
+impl RunCase for VehicleCase {
+    type Recorder = VehicleRecorder;
+    type Output = VehicleResult;
+
+    const WHERE_TO_LOOK: &'static str =
+        "look for values that are out of proportion; `wedgelab case` has vehicles that run";
+    const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
+
+    fn settings(&self) -> RunSettings<'_> {
+        RunSettings::of(&self.name, &self.simulation)
+    }
+
+    fn begin(&self) -> Result<Beginning<VehicleRecorder>, RunError> {
+        let vehicle = self.vehicle()?;
+        Ok(Beginning {
+            system: vehicle.system.clone(),
+            x: vehicle.initial_state.clone(),
+            start_warning: vehicle.start_warning.clone(),
+            recorder: VehicleRecorder::new(vehicle),
+        })
+    }
+
+    fn output(run: Run<Self>, stopped: Option<Stopped>) -> VehicleResult {
+        output(run, stopped)
+    }
+}
+
+impl Recorder for VehicleRecorder {
+    type Counts = SavedRows;
+
+    fn counts(&self) -> SavedRows {
+        self.rows.saved()
+    }
+
+    fn restore(&mut self, rows: SavedRows, _time: f64, times: &[f64]) -> Result<(), RunError> {
+        self.rows.restore(rows, times)
+    }
+
+    fn step(&mut self, _: &Integrator<System>, _: &mut System, _: &mut [f64]) {}
+
+    fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
+        let seen = self.read(system, row.time, row.x);
+        let mut entries = system.ledger_entries(&seen, row.start_energy);
+        entries.exchanged = seen.energies.kinetic - self.kinetic_at_start;
+        let Entries {
+            work,
+            losses,
+            stored_change,
+            residual,
+            ..
+        } = entries;
+        self.row.extend([work, losses, stored_change, residual]);
+        self.rows.append(&self.columns, &self.row, row.time)?;
+        Ok(entries)
+    }
+
+    fn describe(&self, system: &System, finding: &PlausibilityFinding, units: Units) -> String {
+        plausibility::in_truck(system, finding, [&[], &[]], units)
+    }
+
+    fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
+        contacts_in_words(&self.vehicle.system, contact_states)
+    }
+}
+
+/// Returns of each face how many of its points are open, stick and slip.
+pub(crate) fn contacts_in_words(system: &System, contact_states: &[u8]) -> BTreeMap<String, String> {
+    let mut states = contact_states
+        .iter()
+        .map(|state| ContactState::from_number(*state));
+    let faces = system.faces().iter();
+    faces
+        .map(|mounted| {
+            let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+            for state in states.by_ref().take(mounted.element.points.len()) {
+                *counts.entry(state.name()).or_default() += 1;
+            }
+            let words: Vec<String> = counts
+                .iter()
+                .map(|(name, count)| format!("{count} {name}"))
+                .collect();
+            (mounted.element.name.clone(), words.join(", "))
+        })
+        .collect()
+}
+
+fn output(mut run: Run<VehicleCase>, stopped: Option<Stopped>) -> VehicleResult {
+    let units = run.case.simulation.output_units;
+    let columns = run.recorder.columns.clone();
+    let table = std::mem::take(&mut run.recorder.rows);
+    let balance = run.energy_balance;
+    let mut warnings: Vec<String> = energy::warning(&balance, energy::WHAT_TO_DO)
+        .into_iter()
+        .collect();
+    warnings.extend(run.start_warning.clone());
+    warnings.extend(run.case.doubts.iter().cloned());
+    warnings.extend(findings::warnings_by_kind(&run));
+    let vibrations = run.recorder.vehicle.vibrations();
+    if vibrations.is_err() {
+        warnings.push("there are no natural vibrations: the rest cannot be linearized".to_owned());
+    }
+    let vibrations = vibrations.unwrap_or_default();
+    let mut forces_at_start = BTreeMap::new();
+    for (column, value) in columns[1..].iter().zip(&run.recorder.start) {
+        if column.kind == Kind::Force {
+            let value = SummaryValue::new(*value, column.kind, units);
+            forces_at_start.insert(column.name.clone(), value);
+        }
+    }
+    let mut summary = VehicleSummary {
+        schema: SCHEMA.to_owned(),
+        program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
+        name: run.case.name.clone(),
+        title: run.case.title.clone(),
+        units,
+        complete: run.is_complete(stopped.as_ref()),
+        stopped,
+        failed: energy::failure(&balance, energy::WHAT_TO_DO),
+        warnings,
+        rows: table.column("time").len() - table.before(),
+        vibrations: vibrations.into_iter().map(VibrationSummary::of).collect(),
+        forces_at_start,
+        extremes: table.summary_extremes(&columns, units),
+        ledger: run.ledger(units),
+        method: run.case.simulation.method.to_string(),
+        relative_tolerance: run.case.simulation.relative_tolerance,
+        statistics: run.integrator.statistics().clone(),
+        assumptions: assumptions(&run.case),
+    };
+    let energies = find(&summary.ledger.entries);
+    let residual = !is_finite(summary.ledger.largest_relative_residual);
+    let wrong = energies.map(|name| format!("`{name}`"));
+    if let Some(what) = wrong.or(residual.then(|| "the ledger's relative residual".to_owned()))
+        && summary.stopped.is_none()
+    {
+        summary.complete = false;
+        summary.stopped = Some(run.stopped(format!("{what} is not a finite number")));
+    }
+    VehicleResult {
+        columns,
+        values: table.into_values(),
+        summary,
+    }
+}
+
+/// Returns the assumptions of a vehicle's numbers.
+fn assumptions(case: &VehicleCase) -> Vec<String> {
+    let description = &case.description;
+    let mut words = vec![
+        "Bodies are rigid; all that gives way is an element of the case.".to_owned(),
+        "Angles are those of R = Ry(pitch) Rz(yaw) Rx(roll); rates of angles are angular velocities about \
+         the fixed axes."
+            .to_owned(),
+    ];
+    words.push(match description.start {
+        vehicle::StartKind::Equilibrium => {
+            "The run starts at rest with motions and loads held as at time zero, wedges and dry friction \
+             without friction: what friction would hold depends on how the rest was reached."
+                .to_owned()
+        }
+        vehicle::StartKind::Nominal => "The run starts in the nominal layout.".to_owned(),
+    });
+    if description.bodies.iter().any(|own| own.free.contains(&true)) {
+        words.push(
+            "Natural vibrations are those of the equations linearized about the rest, or about the nominal \
+             layout if the run starts there: what is open or has clearance there does not count."
+                .to_owned(),
+        );
+    }
+    words
+}

@@ -1,0 +1,83 @@
+//! The summary of a vehicle's run.
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use integrate::Statistics;
+use quantity::System as Units;
+use serde::{Deserialize, Serialize};
+use vehicle::Vibration;
+
+use crate::metrics::Extremes;
+use crate::summary::{LedgerSummary, Stopped, SummaryValue, ledger, run_summary};
+
+/// The schema's name and version.
+pub const SCHEMA: &str = "wedgelab.vehicle/1";
+
+/// The numbers of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VehicleSummary {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// Version of the program that wrote it.
+    pub program: String,
+    /// The case's name.
+    pub name: String,
+    /// The case's title.
+    pub title: String,
+    /// Units of the numbers.
+    pub units: Units,
+    /// True if the run came to its end and its energy ledger closes to 1e-2.
+    pub complete: bool,
+    /// Reason and time of the stop, if it is incomplete.
+    pub stopped: Option<Stopped>,
+    /// The reason for not using its numbers, which are kept: its energy ledger does not close to 1e-2.
+    pub failed: Option<String>,
+    /// Warnings about the numbers; empty for a sound run.
+    pub warnings: Vec<String>,
+    /// Number of rows.
+    pub rows: usize,
+    /// Natural vibrations about the rest, the slowest first.
+    pub vibrations: Vec<VibrationSummary>,
+    /// Forces of the elements at the start, by the names of their columns.
+    pub forces_at_start: BTreeMap<String, SummaryValue>,
+    /// Least and greatest values of all columns, by their names with units.
+    pub extremes: BTreeMap<String, Extremes>,
+    /// The energy ledger at the end; losses by element.
+    pub ledger: LedgerSummary,
+    /// The integration method.
+    pub method: String,
+    /// Its relative tolerance.
+    pub relative_tolerance: f64,
+    /// Counters of the integrator.
+    pub statistics: Statistics,
+    /// The assumptions of the numbers.
+    pub assumptions: Vec<String>,
+}
+
+run_summary!(
+    VehicleSummary,
+    |own| title: &own.title,
+    ledger: ledger!(own.ledger, own.ledger.entries),
+    solver: (own.statistics.steps, own.relative_tolerance)
+);
+
+/// A natural vibration.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VibrationSummary {
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+    /// Damping ratio: negative if it grows.
+    pub damping_ratio: f64,
+}
+
+impl VibrationSummary {
+    /// Returns a vibration as a summary has it.
+    #[must_use]
+    pub fn of(own: Vibration) -> Self {
+        Self {
+            frequency_hz: own.frequency / (2.0 * PI),
+            damping_ratio: own.damping_ratio(),
+        }
+    }
+}

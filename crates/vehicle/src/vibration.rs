@@ -1,0 +1,46 @@
+//! Linear vibrations of a vehicle about its rest.
+
+use mechanics::linear::NoVibration;
+
+use crate::assemble::Vehicle;
+
+/// A vibration: an eigenvalue of the linearized equations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vibration {
+    /// Growth of its amplitude, 1/s: negative if it dies out.
+    pub growth: f64,
+    /// Angular frequency, rad/s.
+    pub frequency: f64,
+}
+
+impl Vibration {
+    /// Returns the damping ratio: negative if it grows.
+    #[must_use]
+    pub fn damping_ratio(&self) -> f64 {
+        -self.growth / libm::hypot(self.growth, self.frequency)
+    }
+}
+
+/// A number of the size of the frequencies that matter, 1/s.
+const SHIFT: f64 = 20.0;
+/// Frequencies below this are none, rad/s.
+const SLOWEST: f64 = 1e-6;
+
+impl Vehicle {
+    /// Returns its vibrations about its rest, or about the nominal layout if it starts there, the slowest
+    /// first: those of all eigenvalues that have a frequency. Elements act as they do there: what is open or
+    /// has clearance does not count. What bodies say of their start has no part in it.
+    ///
+    /// # Errors
+    /// The equations cannot be linearized there.
+    pub fn vibrations(&mut self) -> Result<Vec<Vibration>, NoVibration> {
+        let state = self.rest.clone();
+        let found = self.system.eigenvalues(0.0, &state, SHIFT)?;
+        let own = found.into_iter().filter(|[_, frequency]| *frequency > SLOWEST);
+        let mut own: Vec<Vibration> = own
+            .map(|[growth, frequency]| Vibration { growth, frequency })
+            .collect();
+        own.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
+        Ok(own)
+    }
+}
