@@ -23,7 +23,7 @@ pub enum FileType {
     Results,
     /// A measured track (CSV with a column of distances).
     MeasuredTrack,
-    /// A profile of a wheel or a rail (CSV with y and z, or Simpack's format).
+    /// A profile of a wheel or a rail (CSV with y and z, Simpack, MiniProf, VAMPIRE).
     Profile,
     /// A certificate (JSON).
     Certificate,
@@ -122,7 +122,13 @@ impl FileType {
         if let Some(found) = toml_type(lines()) {
             return Some(found);
         }
-        if lines().any(|line| ["spline.begin", "point.begin"].contains(&line.trim())) {
+        let of_profile = |line: &str| {
+            ["spline.begin", "point.begin", "WHEELPROFILE", "RAILPROFILE"].contains(&line.trim())
+                || ["XYPoints=", "ProgramName=MiniProf"]
+                    .iter()
+                    .any(|key| line.starts_with(key))
+        };
+        if lines().any(of_profile) {
             return Some(Self::Profile);
         }
         let mut rows = lines().filter(|line| !line.is_empty() && !line.starts_with('#'));

@@ -48,12 +48,13 @@ pub fn write(positions: &[RigidPosition], out: &mut dyn Write) -> io::Result<()>
     table.write_csv(out)
 }
 
-/// Returns the figure: profiles, rolling radius difference, contact angles, places, and equivalent conicity
+/// Returns the figure, of wheels and rails (left, right): profiles, rolling radius difference, contact
+/// angles, places, and equivalent conicity
 /// over the amplitude (m).
 #[must_use]
 pub fn figure(
-    wheel: &Profile,
-    rail: &Profile,
+    wheels: &[Profile; 2],
+    rails: &[Profile; 2],
     positions: &[RigidPosition],
     conicity: &[(f64, f64)],
 ) -> Figure {
@@ -76,22 +77,34 @@ pub fn figure(
         Panel::new(title, x_label, y_label, curves)
     };
     let (blue, red) = (Colour::Blue, Colour::Vermillion);
+    let mut outlines = Vec::new();
+    for (what, profiles, line) in [("wheel", wheels, Line::Solid), ("rail", rails, Line::Dashed)] {
+        let [left, right] = profiles;
+        let colour = if what == "wheel" { blue } else { red };
+        if left == right {
+            outlines.push(curve(what, colour, line, outline(left)));
+        } else {
+            outlines.push(curve(&format!("left {what}"), colour, line, outline(left)));
+            let other = if what == "wheel" {
+                Colour::Sky
+            } else {
+                Colour::Orange
+            };
+            outlines.push(curve(&format!("right {what}"), other, line, outline(right)));
+        }
+    }
+    let names = |profiles: &[Profile; 2]| match profiles[0] == profiles[1] {
+        true => profiles[0].name().to_owned(),
+        false => format!("{} and {}", profiles[0].name(), profiles[1].name()),
+    };
     Figure {
         columns: 3,
         ..Figure::new(
-            format!("{} on {}", wheel.name(), rail.name()),
+            format!("{} on {}", names(wheels), names(rails)),
             "A rigid wheelset on rigid rails: both wheels touch at each lateral shift. Profiles are \
                   shown in their own axes. Equivalent conicity after EN 15302.",
             [
-                panel(
-                    "(a) profiles",
-                    "y, field side positive (in)",
-                    "z (in)",
-                    vec![
-                        curve("wheel", blue, Line::Solid, outline(wheel)),
-                        curve("rail", red, Line::Dashed, outline(rail)),
-                    ],
-                ),
+                panel("(a) profiles", "y, field side positive (in)", "z (in)", outlines),
                 panel(
                     "(b) rolling radius difference",
                     shift,

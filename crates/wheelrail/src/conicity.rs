@@ -147,6 +147,23 @@ impl RollingRadiusDifference {
         self.at(shift)[0]
     }
 
+    /// Returns the shift (m) nearest to zero at which the rolling radii are equal and from which the wheelset
+    /// is led back, about which the kinematic motion of small amplitudes swings: `(r2 - r1) / (2 λ)` for
+    /// cones
+    /// of slope λ and radii r1 on the left, r2 on the right. None if there is no such shift.
+    #[must_use]
+    pub fn equilibrium(&self) -> Option<f64> {
+        let count = self.shifts.len() - 1;
+        let zeros = (0..count).filter_map(|i| {
+            let [from, to] = [self.values[i], self.values[i + 1]];
+            (from <= 0.0 && to > 0.0).then(|| {
+                let share = from / (from - to);
+                self.shifts[i] + share * (self.shifts[i + 1] - self.shifts[i])
+            })
+        });
+        zeros.min_by(|a, b| a.abs().total_cmp(&b.abs()))
+    }
+
     /// Returns the equivalent conicities at an amplitude (m), for a radius r0 (m) and a distance 2 l of the
     /// contacts (m; EN 15302: 1.5 m on standard gauge).
     ///

@@ -67,11 +67,12 @@ pub fn wheelset() -> Option<&'static WheelsetCase> {
 }
 
 fn one_wheelset() -> Option<Wheelset> {
+    let rail = nominal::rail_136re().ok()?.inclined(nominal::INCLINATION);
     Some(Wheelset {
         name: "wheelset".to_owned(),
-        wheel: nominal::aar_1b().ok()?,
-        rail: nominal::rail_136re().ok()?.inclined(nominal::INCLINATION),
-        radius: 0.4572,
+        wheels: [nominal::aar_1b().ok()?, nominal::aar_1b().ok()?],
+        rails: [rail.clone(), rail],
+        radii: [0.4572; 2],
         layout: Layout {
             tape_distance: nominal::TAPE_DISTANCE,
             gauge: 1.4351,

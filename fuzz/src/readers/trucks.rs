@@ -4,7 +4,7 @@ use report::track_files::Survey;
 use study::car::{self, CarCase};
 use study::track::TrackFile;
 use study::truck::{TruckCase, builtin};
-use wheelrail::profile::{Points, Profile, ProfileKind};
+use wheelrail::profile::{Points, Profile, ProfileKind, SlicedProfile};
 use wheelrail::track::Track;
 
 use super::cases::{messages, refused};
@@ -86,7 +86,7 @@ pub const MEASURED_TRACKS: Reader = Reader {
 /// Points of profiles.
 pub const PROFILES: Reader = Reader {
     name: "profiles",
-    about: "points of wheel and rail profiles, CSV and Simpack's",
+    about: "points of wheel and rail profiles: CSV, Simpack, MiniProf, VAMPIRE; lists of slices",
     corpus: profile_corpus,
     dictionary: &[
         b"y [mm],z [mm]",
@@ -95,6 +95,17 @@ pub const PROFILES: Reader = Reader {
         b"point.begin",
         b"point.end",
         b"units.len",
+        b"y_from_back [mm]",
+        b"ProgramName=MiniProf",
+        b"ColumnDef=X,Y",
+        b"XOffset=",
+        b"DiameterTaperline=",
+        b"WHEELPROFILE",
+        b"TREADDATUM US1",
+        b"GAUGEPOINT CUSTOM 14",
+        b"FLANGEBACK 1360",
+        b"0 1000\n2\n0 0\n1\n",
+        b"'a.prr'",
         b"-1e308",
         b"nan",
     ],
@@ -296,9 +307,23 @@ fn profile_corpus() -> Vec<Vec<u8>> {
         let y = f64::from(i);
         csv += &format!("{y},{}\n", (300.0 * 300.0 - y * y).sqrt() - 300.0);
     }
+    // The same head as MiniProf and VAMPIRE have it, and a list of slices.
+    let rows: Vec<(i32, f64)> = (-30..=30)
+        .map(|i| (i, (300.0 * 300.0 - f64::from(i * i)).sqrt() - 300.0))
+        .collect();
+    let mut mini = "ProgramName=MiniProf for Windows\nColumnDef=X,Y\nXOffset=0\n\n".to_owned();
+    let mut vampire = "RAILPROFILE\na title\nGAUGEPOINT US\nGAUGE 1435.1\n".to_owned();
+    for (y, z) in rows {
+        mini += &format!("{y} {z}\n");
+        vampire += &format!("{} {z} {} {z}\n", -750 - y, 750 + y);
+    }
+    let list = "% slices\n0 1000\n2\n0 0 0\n1\n0.0 'a.prr'\n1.0 'b.prr'\n";
     vec![
         csv.into_bytes(),
         include_bytes!("../../../crates/wheelrail/tests/data/manchester/MBench_UIC60_v3.prr").to_vec(),
+        mini.into_bytes(),
+        vampire.into_bytes(),
+        list.into(),
     ]
 }
 
@@ -320,5 +345,17 @@ fn profile(input: &[u8]) -> ReadOutcome {
             Err(error) => ReadOutcome::refused_with(&format!("{error}; {}", error.remedy())),
         }
     };
-    read(Points::from_csv("profile.csv", text)).or(read(Points::from_simpack("profile.prr", text)))
+    let slices = match SlicedProfile::list("rails.slcs", text, ProfileKind::Rail) {
+        Ok((slices, _)) => {
+            let grow = slices.windows(2).all(|pair| pair[0].place < pair[1].place);
+            assert!(grow, "places of slices that do not grow");
+            ReadOutcome::ACCEPTED
+        }
+        Err(error) => ReadOutcome::refused_with(&format!("{error}; {}", error.remedy())),
+    };
+    read(Points::from_csv("profile.csv", text))
+        .or(read(Points::from_simpack("profile.prr", text)))
+        .or(read(Points::from_miniprof("profile.whl", text, None)))
+        .or(read(Points::from_vampire("profile.rai", text, None)))
+        .or(slices)
 }

@@ -60,9 +60,13 @@ pub fn scene<S>(case: &CarCase, result: &RunResult<S>) -> Option<Scene> {
         scene
             .bodies
             .extend(rolling::wheelset_bodies(&id, radius, &column));
-        scene
-            .solids
-            .extend(rolling::wheelset_solids(&id, &name, &wheel, radius, tape));
+        scene.solids.extend(rolling::wheelset_solids(
+            &id,
+            &name,
+            [&wheel; 2],
+            [radius; 2],
+            tape,
+        ));
         if matches!(own.wheels, Wheels::OnRails(_)) {
             scene.patches.extend(rolling::patches(&id, &column));
         }
@@ -79,7 +83,7 @@ pub fn scene<S>(case: &CarCase, result: &RunResult<S>) -> Option<Scene> {
         let lines = RailLines::new(own.track.clone(), offsets);
         let [behind, beyond] = BEYOND;
         let range = [first - half - behind, last + half + beyond];
-        scene.track = Some(rolling::track(&lines, &rail, offsets, range));
+        scene.track = Some(rolling::track(&lines, [&rail; 2], offsets, range));
     }
     scene.round();
     Some(scene)

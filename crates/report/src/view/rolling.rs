@@ -35,13 +35,13 @@ fn outline(profile: &Profile) -> Vec<[f64; 2]> {
     sample.iter().map(|(_, point)| point.position).collect()
 }
 
-/// Returns the track between two distances (m), with rails of a profile as they stand on it.
+/// Returns the track between two distances (m), with rails of profiles (left, right) as they stand on it.
 #[must_use]
-pub fn track(lines: &RailLines, rail: &Profile, offsets: [f64; 2], [from, to]: [f64; 2]) -> SceneTrack {
+pub fn track(lines: &RailLines, rails: [&Profile; 2], offsets: [f64; 2], [from, to]: [f64; 2]) -> SceneTrack {
     let step = STEP.max((to - from) / SAMPLES);
     let count = ((to - from) / step).ceil().max(1.0) as usize + 1;
     let names = ["x", "y", "z", "heading", "grade", "roll"];
-    let rails = ["left_lateral", "left_vertical", "right_lateral", "right_vertical"];
+    let columns = ["left_lateral", "left_vertical", "right_lateral", "right_vertical"];
     let mut lists: BTreeMap<&'static str, Vec<f64>> = BTreeMap::new();
     for k in 0..count {
         let distance = from + k as f64 * step;
@@ -54,22 +54,17 @@ pub fn track(lines: &RailLines, rail: &Profile, offsets: [f64; 2], [from, to]: [
             lists.entry(name).or_default().push(value);
         }
         let beside = lines.irregularities(distance);
-        for (name, value) in rails.into_iter().zip(beside.into_iter().flatten()) {
+        for (name, value) in columns.into_iter().zip(beside.into_iter().flatten()) {
             lists.entry(name).or_default().push(value);
         }
     }
     // Perfect rails lie in their places.
     lists.retain(|name, values| names.contains(name) || values.iter().any(|value| *value != 0.0));
-    let head = outline(rail);
-    let top = rail.top()[1];
-    let left: Vec<[f64; 2]> = section(&head, top)
-        .into_iter()
-        .map(|[y, z]| [y + offsets[0], z])
-        .collect();
-    let mut right: Vec<[f64; 2]> = section(&head, top)
-        .into_iter()
-        .map(|[y, z]| [-y - offsets[1], z])
-        .collect();
+    let [left, mut right] = [0, 1].map(|side| -> Vec<[f64; 2]> {
+        let sign = if side == 0 { 1.0 } else { -1.0 };
+        let section = section(&outline(rails[side]), rails[side].top()[1]).into_iter();
+        section.map(|[y, z]| [sign * (y + offsets[side]), z]).collect()
+    });
     right.reverse();
     SceneTrack {
         from,
@@ -144,9 +139,16 @@ pub fn wheelset_bodies(id: &str, radius: f64, column: &dyn Fn(&str) -> String) -
     ]
 }
 
-/// Returns wheels and axle of a wheelset: bodies of revolution on its spinning body.
+/// Returns wheels (left, right; nominal radii in m) and axle of a wheelset: bodies of revolution on its
+/// spinning body.
 #[must_use]
-pub fn wheelset_solids(id: &str, name: &str, wheel: &Profile, radius: f64, tape_distance: f64) -> Vec<Solid> {
+pub fn wheelset_solids(
+    id: &str,
+    name: &str,
+    wheels: [&Profile; 2],
+    radii: [f64; 2],
+    tape_distance: f64,
+) -> Vec<Solid> {
     let body = format!("{id}_spin");
     let solid = |what: &str, role: SolidRole, revolved: Vec<[f64; 2]>| Solid {
         id: format!("{id}_{}", what.replace(' ', "_")),
@@ -159,9 +161,9 @@ pub fn wheelset_solids(id: &str, name: &str, wheel: &Profile, radius: f64, tape_
         revolved,
     };
     let half = 0.5 * tape_distance;
-    let own = revolved(&outline(wheel), radius);
-    let left = own.iter().map(|[y, r]| [half + y, *r]).collect();
-    let right = own.iter().rev().map(|[y, r]| [-half - y, *r]).collect();
+    let [left, right] = [0, 1].map(|side| revolved(&outline(wheels[side]), radii[side]));
+    let left = left.iter().map(|[y, r]| [half + y, *r]).collect();
+    let right = right.iter().rev().map(|[y, r]| [-half - y, *r]).collect();
     let [thick, beyond] = AXLE;
     let end = half + beyond;
     let axle = vec![[-end, 0.0], [-end, thick], [end, thick], [end, 0.0]];

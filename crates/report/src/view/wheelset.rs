@@ -24,7 +24,7 @@ pub fn scene(case: &WheelsetCase, result: &WheelsetResult) -> Scene {
     let first = distances.iter().copied().fold(f64::INFINITY, f64::min);
     let last = distances.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let [behind, beyond] = BEYOND;
-    let radius = own.radius;
+    let radius = own.nominal_radius();
     let half = 0.5 * own.layout.tape_distance;
     let near = |name: &str, from: [f64; 3], at: [f64; 3], reach: f64| Look {
         at: Some((at, reach)),
@@ -32,15 +32,20 @@ pub fn scene(case: &WheelsetCase, result: &WheelsetResult) -> Scene {
         ..Look::all(name, from)
     };
     let rails = RigidWheelset::new(
-        [&own.wheel; 2],
-        [radius; 2],
-        [&own.rail; 2],
+        own.wheels.each_ref(),
+        own.radii,
+        own.rails.each_ref(),
         own.layout,
         own.material,
     );
     let track = rails.ok().filter(|_| first.is_finite()).map(|rails| {
         let range = [first - behind, last + beyond];
-        rolling::track(&case.setup.lines, &own.rail, rails.rail_origins(), range)
+        rolling::track(
+            &case.setup.lines,
+            own.rails.each_ref(),
+            rails.rail_origins(),
+            range,
+        )
     });
     let mut scene = Scene {
         factor: 1.0,
@@ -55,7 +60,13 @@ pub fn scene(case: &WheelsetCase, result: &WheelsetResult) -> Scene {
             near("Right contact", [-1.0, 0.0, 0.12], [0.0, -half, 0.0], 0.09),
         ],
         bodies: rolling::wheelset_bodies(ID, radius, &column).to_vec(),
-        solids: rolling::wheelset_solids(ID, "wheelset", &own.wheel, radius, own.layout.tape_distance),
+        solids: rolling::wheelset_solids(
+            ID,
+            "wheelset",
+            own.wheels.each_ref(),
+            own.radii,
+            own.layout.tape_distance,
+        ),
         patches: rolling::patches(ID, &column),
         track,
         follow: Some(ID.to_owned()),

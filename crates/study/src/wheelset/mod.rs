@@ -52,12 +52,12 @@ pub enum SearchMode {
 pub struct Wheelset {
     /// Name of the run.
     pub name: String,
-    /// Profile of both wheels.
-    pub wheel: Profile,
-    /// Profile of both rails.
-    pub rail: Profile,
-    /// Nominal radius of the wheels, m.
-    pub radius: f64,
+    /// Profiles of the left and the right wheel.
+    pub wheels: [Profile; 2],
+    /// Profiles of the left and the right rail.
+    pub rails: [Profile; 2],
+    /// Nominal radii of the left and the right wheel, m.
+    pub radii: [f64; 2],
     /// Distances of wheels and rails.
     pub layout: Layout,
     /// Material of wheels and rails.
@@ -169,6 +169,14 @@ impl WheelsetError {
     }
 }
 
+impl Wheelset {
+    /// Returns the mean of the nominal radii, m.
+    #[must_use]
+    pub fn nominal_radius(&self) -> f64 {
+        0.5 * (self.radii[0] + self.radii[1])
+    }
+}
+
 impl WheelsetCase {
     /// Returns the run of a wheelset.
     ///
@@ -209,9 +217,16 @@ impl WheelsetCase {
     pub fn assumptions(&self) -> Vec<String> {
         let own = &self.wheelset;
         let mut words = Vec::new();
-        for (what, profile) in [("wheel", &own.wheel), ("rail", &own.rail)] {
-            let typed = own.given.get(what).map_or(profile.name(), String::as_str);
-            words.push(of_profile(&format!("the {what}s"), typed, profile));
+        for (what, profiles) in [("wheel", &own.wheels), ("rail", &own.rails)] {
+            let [left, right] = profiles;
+            if left == right {
+                let typed = own.given.get(what).map_or(left.name(), String::as_str);
+                words.push(of_profile(&format!("the {what}s"), typed, left));
+            } else {
+                for (side, profile) in [("left", left), ("right", right)] {
+                    words.push(of_profile(&format!("the {side} {what}"), profile.name(), profile));
+                }
+            }
         }
         words.push(
             "One wheelset under a carriage that follows the track: its springs are lateral and yaw springs \
@@ -290,11 +305,10 @@ fn check(wheelset: &Wheelset) -> Result<(), WheelsetError> {
 
 /// Returns the rig of a wheelset on a track.
 fn setup(wheelset: &Wheelset, track: Track) -> Result<Setup, WheelsetError> {
-    let Wheelset { wheel, rail, .. } = wheelset;
     let rigid = RigidWheelset::new(
-        [wheel; 2],
-        [wheelset.radius; 2],
-        [rail; 2],
+        wheelset.wheels.each_ref(),
+        wheelset.radii,
+        wheelset.rails.each_ref(),
         wheelset.layout,
         wheelset.material,
     )?;

@@ -80,7 +80,7 @@ impl RunCase for WheelsetCase {
             recorder: WheelsetRecorder {
                 rows: RowTable::new(&columns, |_| false),
                 row: Vec::with_capacity(columns.len()),
-                reader: RigReader::new(rig, self.setup.clone(), self.wheelset.radius),
+                reader: RigReader::new(rig, self.setup.clone(), self.wheelset.nominal_radius()),
                 columns,
                 derailed: None,
             },

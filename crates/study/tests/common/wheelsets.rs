@@ -20,9 +20,9 @@ const INCH: f64 = 0.0254;
 pub fn wheelset(track: &str, speed: f64) -> Wheelset {
     Wheelset {
         name: "test".to_owned(),
-        wheel: nominal::aar_1b().unwrap(),
-        rail: nominal::rail_136re().unwrap().inclined(nominal::INCLINATION),
-        radius: 18.0 * INCH,
+        wheels: [nominal::aar_1b().unwrap(), nominal::aar_1b().unwrap()],
+        rails: std::array::from_fn(|_| nominal::rail_136re().unwrap().inclined(nominal::INCLINATION)),
+        radii: [18.0 * INCH; 2],
         layout: Layout {
             tape_distance: nominal::TAPE_DISTANCE,
             gauge: 56.5 * INCH,

@@ -26,6 +26,7 @@ pub mod warp;
 pub mod wear;
 pub mod wheelrail;
 mod wheelrail_contact;
+mod wheelrail_pair;
 mod wheelrail_run;
 mod wheelrail_stability;
 mod wheelrail_suspended;

@@ -12,10 +12,9 @@ use wheelrail::contact::{ContactLaw, CreepLaw, Side};
 use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
 use wheelrail::hertz::Material;
-use wheelrail::loaded::{Attitude, LoadError};
-use wheelrail::wheelset::RigidWheelset;
+use wheelrail::loaded::{Attitude, LoadError, LoadedPatch};
 
-use super::wheelrail::{WheelRailPair, wrong};
+use super::wheelrail_pair::{ProfiledPair, WheelRailPair, word};
 use crate::failure::{Failure, Message};
 use crate::json;
 use crate::units::OutputUnits;
@@ -192,14 +191,14 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         return Err(Message::new(message, "steel has 0.28").into());
     }
     // Other programs pass through the points of a file.
-    let (wheel, rail) = (pair.wheel(0.0)?, pair.rail(0.0)?);
-    let (layout, radius) = (pair.layout(), pair.radius());
+    let read = pair.read(0.0)?;
+    let layout = read.layout;
     let material = Material {
         youngs_modulus: 2.0 * arguments.shear_modulus * (1.0 + arguments.poisson),
         poisson: arguments.poisson,
     };
-    let wheelset = RigidWheelset::new([&wheel; 2], [radius; 2], [&rail; 2], layout, material)
-        .map_err(|error| wrong(&error))?;
+    let wheelset = read.rigid(material)?;
+    let radius = wheelset.nominal_radius();
     let cells = usize::from(arguments.cells);
     let law = ContactLaw {
         friction: arguments.friction,
@@ -227,18 +226,36 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     let of_side = |side| wheelset.loaded(side, &attitude, load, &law).map_err(failed);
     let wheels = [of_side(Side::Left)?, of_side(Side::Right)?];
+    let along = [0, 1].map(|side| Along::of(&read, side, wheels[side].patches.first()));
     let given = arguments.units.map(OutputUnits::system);
     let units = AnswerUnits::of(given.or(arguments.load.system()).unwrap_or(Units::Si));
     let mut out = io::stdout().lock();
     if arguments.json {
         let creep = arguments.creep.to_possible_value();
         let mut given = Entries::default();
-        given.put("wheel", wheel.name());
-        given.put("rail", rail.name());
+        for (what, profiles) in [("wheel", &read.wheels), ("rail", &read.rails)] {
+            if profiles[0] == profiles[1] {
+                given.put(what, profiles[0].name());
+            } else {
+                for side in 0..2 {
+                    given.put(&format!("{}_{what}", word(side)), profiles[side].name());
+                }
+            }
+        }
         given.add("gauge", layout.gauge, units.length);
         given.add("gauge_depth", layout.gauge_depth, units.length);
         given.add("tape_distance", layout.tape_distance, units.length);
-        given.add("nominal_radius", radius, units.length);
+        if read.radii[0] == read.radii[1] {
+            given.add("nominal_radius", radius, units.length);
+        } else {
+            for side in 0..2 {
+                given.add(
+                    &format!("{}_nominal_radius", word(side)),
+                    read.radii[side],
+                    units.length,
+                );
+            }
+        }
         given.add("lateral", attitude.lateral, units.length);
         given.put("yaw_rad", attitude.yaw);
         given.put("roll_rad", attitude.roll);
@@ -255,7 +272,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             let patches = wheels[side].patches.iter();
             patches.map(|patch| units.patch(patch)).collect::<Vec<_>>()
         };
-        let answer = json!({
+        let mut answer = json!({
             "frame": FRAME,
             "units": units.system.name(),
             "given": given.value(),
@@ -264,9 +281,31 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             "left_wheel": units.wheel(&wheels[0]),
             "right_wheel": units.wheel(&wheels[1]),
         });
+        for (side, own) in along.iter().enumerate() {
+            let Some(own) = own else { continue };
+            let mut entries = Entries::default();
+            entries.add("top", own.top, units.length);
+            entries.put("rise", own.rise);
+            entries.add("contact_ahead", own.ahead, units.length);
+            answer[format!("{}_rail_along", word(side))] = entries.value();
+        }
         json::print(&answer)?;
     } else {
         units.write(&wheels, &mut out)?;
+        for (side, own) in along.iter().enumerate() {
+            let Some(own) = own else { continue };
+            let unit = units.length.label();
+            writeln!(
+                out,
+                "The {} rail's top lies {:.4} {unit} above z = 0 of its slices there and rises by {:.3} mm \
+                 a meter: \
+                 the contact lies {:.3} {unit} before the axle.",
+                word(side),
+                units.length.of(own.top),
+                1e3 * own.rise,
+                units.length.of(own.ahead)
+            )?;
+        }
         writeln!(
             out,
             "{}: pitch rate {:.5} rad/s; its speed over the nominal radius is {:.5} rad/s.",
@@ -284,4 +323,32 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         )?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// A rail whose section changes, where a wheel stands on it.
+struct Along {
+    /// Height of its highest point above z = 0 of its slices, m.
+    top: f64,
+    /// Its rise along the track under the patch, m/m.
+    rise: f64,
+    /// Distance of the contact before the axle, m: the wheel touches a surface that rises before its lowest
+    /// point, at the radius times the rise.
+    ahead: f64,
+}
+
+impl Along {
+    /// Returns the rail of a side under a patch; none if it is the same everywhere.
+    fn of(read: &ProfiledPair, side: usize, patch: Option<&LoadedPatch>) -> Option<Self> {
+        let (sliced, place) = read.sliced[side].as_ref()?;
+        let top = read.rails[side].top();
+        // Its place on the rail: patches are placed from the middle of the track.
+        let origin = 0.5 * read.layout.gauge - read.rails[side].gauge_point(read.layout.gauge_depth);
+        let y = patch.map_or(top[0], |patch| patch.y.abs() - origin);
+        let rise = sliced.rise(*place, y).ok()??;
+        Some(Self {
+            top: top[1],
+            rise,
+            ahead: read.radii[side] * rise,
+        })
+    }
 }

@@ -14,8 +14,8 @@ use study::track::TrackFile;
 use study::wheelset::summary::WheelsetSummary;
 use study::wheelset::{Wheelset, WheelsetCase};
 
-use super::wheelrail::WheelRailPair;
 use super::wheelrail_contact::{of_angle, of_length, of_speed};
+use super::wheelrail_pair::WheelRailPair;
 use super::wheelrail_suspended::SuspendedArguments;
 use crate::execute::{compute, unsound, write, write_outcome};
 use crate::failure::{Failure, Message};

@@ -12,7 +12,7 @@ use study::track::TrackFile;
 use study::wheelset::stability::{WheelsetStability, stability};
 
 use super::stability::{range, spaced};
-use super::wheelrail::WheelRailPair;
+use super::wheelrail_pair::WheelRailPair;
 use super::wheelrail_suspended::SuspendedArguments;
 use crate::drawn::Drawn;
 use crate::failure::{Failure, Message};

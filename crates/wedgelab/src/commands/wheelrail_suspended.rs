@@ -13,8 +13,8 @@ use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
 use wheelrail::hertz::Material;
 
-use super::wheelrail::{DEVIATION, WheelRailPair};
 use super::wheelrail_contact::Creep;
+use super::wheelrail_pair::{DEVIATION, ProfiledPair, WheelRailPair, word};
 use crate::failure::Failure;
 
 /// Steel.
@@ -138,14 +138,15 @@ impl SuspendedArguments {
         name: String,
     ) -> Result<Wheelset, Failure> {
         let cells = usize::from(self.cells);
+        let read = pair.read(DEVIATION)?;
         Ok(Wheelset {
             name,
-            wheel: pair.wheel(DEVIATION)?,
-            rail: pair.rail(DEVIATION)?,
-            radius: pair.radius(),
-            layout: pair.layout(),
+            given: self.given(pair, &read, &track),
+            wheels: read.wheels,
+            rails: read.rails,
+            radii: read.radii,
+            layout: read.layout,
             material: STEEL,
-            given: self.given(pair, &track),
             track,
             body: WheelsetBody {
                 mass: self.mass.to_si(),
@@ -176,21 +177,35 @@ impl SuspendedArguments {
     }
 
     /// Returns the given values, in words.
-    fn given(&self, pair: &WheelRailPair, track: &TrackFile) -> BTreeMap<String, String> {
+    fn given(
+        &self,
+        pair: &WheelRailPair,
+        read: &ProfiledPair,
+        track: &TrackFile,
+    ) -> BTreeMap<String, String> {
         let creep = match (self.creep, self.creep.to_possible_value()) {
             (Creep::Fastsim, _) => format!("fastsim, {0} x {0} cells", self.cells),
             (_, value) => value.map_or(String::new(), |value| value.get_name().to_owned()),
         };
         let search = self.search.to_possible_value();
-        let layout = pair.layout();
+        let layout = read.layout;
         let millimeters = |length: f64| format!("{:.3} mm", 1e3 * length);
+        let [wheel, rail] = pair.names();
+        let radii = match read.radii[0] == read.radii[1] {
+            true => millimeters(read.radii[0]),
+            false => {
+                let [left, right] =
+                    [0, 1].map(|side| format!("{} ({})", millimeters(read.radii[side]), word(side)));
+                format!("{left}, {right}")
+            }
+        };
         [
-            ("wheel", pair.names()[0].to_owned()),
-            ("rail", pair.names()[1].to_owned()),
+            ("wheel", wheel),
+            ("rail", rail),
             ("gauge", millimeters(layout.gauge)),
             ("gauge depth", millimeters(layout.gauge_depth)),
             ("tape distance", millimeters(layout.tape_distance)),
-            ("nominal radius", millimeters(pair.radius())),
+            ("nominal radius", radii),
             ("track", track.name.clone()),
             (
                 "rails",

@@ -474,3 +474,85 @@ fn issue_048_a_gauge_too_wide_for_the_wheels_is_told() {
         }
     }
 }
+
+/// Files of other programs, sections along a rail, sides that are not alike: said on the command line.
+#[test]
+fn input_files_and_sides_of_their_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    for (name, fall) in [("a.csv", 0.0), ("b.csv", -2.0)] {
+        let mut text = "y [mm], z [mm]\n".to_owned();
+        for i in -60..=60 {
+            let y = 0.5 * f64::from(i);
+            text += &format!("{y}, {:.6}\n", (9e4 - y * y).sqrt() - 300.0 + fall);
+        }
+        write(name, &text);
+    }
+    write("rails.slcs", "0 1000\n2\n0 0\n1\n0 'a.csv'\n1 'b.csv'\n");
+    // A cone of 1:20 from the back of the flange, 70 mm before the taper line: MiniProf without its flange.
+    let mut mini = "ProgramName=MiniProf for Windows\nDiameterTaperline=840\n\n".to_owned();
+    for i in 0..=180 {
+        let x = 40.0 + 0.5 * f64::from(i);
+        mini += &format!("{x} {:.6}\n", 0.05 * (70.0 - x));
+    }
+    write("cone.WHL", &mini);
+    let run = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_wedgelab"))
+            .current_dir(folder.path())
+            .arg("wheelrail")
+            .args(arguments)
+            .env_remove("FORCE_COLOR")
+            .output()
+            .unwrap();
+        let [out, err] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+        (output.status.code(), out, err)
+    };
+    let placed = [
+        "--load", "100 kN", "--at", "0.5 m", "--radius", "460 mm", "--json",
+    ];
+    let (code, out, err) = run(&[&["contact", "cone_1:20", "rails.slcs"][..], &placed].concat());
+    assert_eq!(code, Some(0), "{err}");
+    let found: Value = serde_json::from_str(&out).unwrap();
+    for side in ["left_rail_along", "right_rail_along"] {
+        let [top, ahead] = ["top_mm", "contact_ahead_mm"].map(|key| found[side][key].as_f64().unwrap());
+        assert!((top + 1.0).abs() < 1e-4, "{top}");
+        assert!((ahead + 0.92).abs() < 1e-3, "{ahead}");
+    }
+    let (code, _, err) = run(&["check", "cone_1:20", "rails.slcs"]);
+    assert_eq!(code, Some(2));
+    assert!(
+        err.contains("2 sections, from 0 to 1 m") && err.contains("--at"),
+        "{err}"
+    );
+    let (code, out, err) = run(&["check", "cone_1:20", "136re", "--left-wheel", "cone.WHL"]);
+    assert_eq!(code, Some(0), "{err}");
+    for part in [
+        "left wheel: cone.WHL",
+        "left radius 420.000 mm",
+        "right wheel: cone",
+    ] {
+        assert!(out.contains(part), "{part}: {out}");
+    }
+    let unlike = ["--left-wheel", "cylinder"];
+    let (_, out, _) = run(&[&["check", "cone_1:20", "136re"][..], &unlike].concat());
+    let rows: Vec<f64> = out
+        .lines()
+        .filter_map(|line| {
+            let cells: Vec<&str> = line.split_whitespace().collect();
+            (cells.len() == 5).then(|| cells[4].parse().ok()).flatten()
+        })
+        .collect();
+    // Half of that of two cones, up to 0.5 in.
+    assert_eq!(rows.len(), 10, "{out}");
+    assert!(rows.iter().all(|own| (own - 0.025).abs() < 5e-4), "{rows:?}");
+    for (name, parts) in [
+        ("aar_2a", ["AAR-2A", "name a file"]),
+        ("AAR-2A", ["AAR-2A", "name a file"]),
+        ("aar_7", ["neither a file nor a nominal wheel", "aar_1b"]),
+        ("cone_x", ["`cone_x` names no profile", "cone_1:20"]),
+    ] {
+        let (code, _, err) = run(&["check", name, "136re"]);
+        assert_eq!(code, Some(2));
+        assert!(parts.iter().all(|part| err.contains(part)), "{err}");
+    }
+}

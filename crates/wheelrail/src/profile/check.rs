@@ -2,7 +2,7 @@
 
 use super::error::{ProfileError, ProfilePlace};
 use super::points::Points;
-use super::{ProfileKind, SMALLEST_SPACING, shape};
+use super::{ProfileKind, ProfileNotice, SMALLEST_SPACING, datum, shape};
 
 /// A flange or a rail's side reaches at least this far from the tread, m.
 pub(super) const FLANGE: f64 = 0.015;
@@ -15,8 +15,10 @@ fn widths(kind: ProfileKind) -> ([f64; 2], &'static str) {
     }
 }
 
-/// Orders points from the gauge side to the field side, takes away those closer than [`SMALLEST_SPACING`] to
-/// their neighbor, and checks number, size, kind, orientation and crossings.
+/// Puts the datum in its place, orders points from the gauge side to the field side, takes away those closer
+/// than [`SMALLEST_SPACING`] to their neighbor and loops smaller than [`LOOP`], and checks number, size,
+/// kind,
+/// orientation and crossings.
 pub(super) fn checked(points: &Points, kind: ProfileKind) -> Result<Points, ProfileError> {
     let name = &points.name;
     if let Some(found) = points.kind
@@ -28,7 +30,7 @@ pub(super) fn checked(points: &Points, kind: ProfileKind) -> Result<Points, Prof
             expected: kind.word(),
         });
     }
-    let kept = ordered(points);
+    let mut kept = ordered(&datum::placed(points, kind)?);
     if kept.points.len() < 5 {
         return Err(ProfileError::TooFew {
             place: ProfilePlace::whole(name),
@@ -39,7 +41,13 @@ pub(super) fn checked(points: &Points, kind: ProfileKind) -> Result<Points, Prof
     height(&kept)?;
     shape::check(&kept, kind)?;
     orientation(&kept, kind)?;
-    crossings(&kept)?;
+    without_loops(&mut kept)?;
+    if kind == ProfileKind::Wheel
+        && let Some([tip, bottom]) = kept.points.iter().copied().min_by(|a, b| a[1].total_cmp(&b[1]))
+        && bottom < -FLANGE
+    {
+        kept.notices.extend(datum::doubt(&kept, tip));
+    }
     Ok(kept)
 }
 
@@ -138,35 +146,30 @@ fn orientation(points: &Points, kind: ProfileKind) -> Result<(), ProfileError> {
         })
     };
     if !(low < 0.0 && high > 0.0) {
-        return refused(
-            "y = 0, the datum, lies outside of the points",
-            match kind {
-                ProfileKind::Wheel => {
-                    "shift y so that y = 0 is the tape circle, where the nominal radius is measured"
-                }
-                ProfileKind::Rail => "shift y so that y = 0 lies in the rail head",
-            },
-        );
+        return Err(datum::outside(points, kind));
     }
-    let at_zero = points.points.windows(2).find_map(|pair| {
-        let [[y0, z0], [y1, z1]] = [pair[0], pair[1]];
-        (y0 <= 0.0 && y1 > 0.0).then(|| z0 - y0 * (z1 - z0) / (y1 - y0))
-    });
-    let datum = at_zero.unwrap_or(0.0);
+    let datum = datum::height_at_zero(&points.points).unwrap_or(0.0);
     let [bottom, top] = extent(points, 1);
     let upside_down = "z must point up: name its column z_down (CSV) or set mirror.z (Simpack)";
     match kind {
         ProfileKind::Wheel => {
+            let lowest = points.points.iter().min_by(|a, b| a[1].total_cmp(&b[1]));
+            let outside = lowest.is_some_and(|point| point[0] > 0.0);
+            if outside && shape::flange_side(&points.points) == Some(1.0) {
+                return refused(
+                    "y = 0 lies behind the tip of the flange: it is not the tape circle",
+                    "if y is measured from the back of the flange, say so (--datum flange_back, with \
+                     --tape-from-back \"70 mm\", or a column y_from_back in CSV)",
+                );
+            }
             if top - datum > FLANGE && datum - bottom < FLANGE {
                 return refused("the flange points up", upside_down);
             }
-            let lowest = points.points.iter().min_by(|a, b| a[1].total_cmp(&b[1]));
-            if lowest.is_some_and(|point| point[0] > 0.0 && datum - point[1] > FLANGE) {
+            if outside && datum - bottom > FLANGE {
                 return refused(
                     "the flange lies at positive y, on the field side",
-                    "y must grow from the flange to the field side: name its column y_gauge (CSV) or \
-                     set mirror.y \
-                     (Simpack)",
+                    "y must grow from the flange to the field side: name its column y_gauge (CSV) or set \
+                     mirror.y (Simpack)",
                 );
             }
         }
@@ -180,17 +183,103 @@ fn orientation(points: &Points, kind: ProfileKind) -> Result<(), ProfileError> {
     Ok(())
 }
 
-/// Looks for crossing chords: sorted by their smallest y, each is compared with those that begin before it
-/// ends.
+/// Loops of a measured profile smaller than this are noise, m.
+const LOOP: f64 = 1e-4;
+/// Times that points are looked through for loops.
+const ROUNDS: usize = 20;
+/// Most crossings that are looked for at once.
+const MOST: usize = 10_000;
+
+/// Takes away loops that are smaller than [`LOOP`], and tells how many.
+///
+/// # Errors
+/// [`ProfileError::SelfCrossing`].
+fn without_loops(points: &mut Points) -> Result<(), ProfileError> {
+    let mut removed = 0;
+    let mut first = None;
+    for _ in 0..ROUNDS {
+        let found = all_crossings(&points.points);
+        // Of the loops that overlap the first one goes; the next round finds what is left.
+        let mut loops: Vec<Crossing> = Vec::new();
+        for own in found {
+            let size = points.points[own.chords[0] + 1..=own.chords[1]]
+                .iter()
+                .map(|[y, z]| libm::hypot(y - own.at[0], z - own.at[1]))
+                .fold(0.0, f64::max);
+            if size >= LOOP {
+                return Err(own.refused(points));
+            }
+            if loops.last().is_none_or(|last| last.chords[1] < own.chords[0]) {
+                loops.push(own);
+            }
+        }
+        if loops.is_empty() {
+            if let Some(place) = first {
+                points.notices.push(ProfileNotice {
+                    text: format!(
+                        "{place}: {removed} {} smaller than {:.1} mm taken away, the first one here",
+                        if removed == 1 { "loop" } else { "loops" },
+                        1e3 * LOOP
+                    ),
+                    advice: "measure again if this is more than the noise of the device".into(),
+                });
+            }
+            return Ok(());
+        }
+        removed += loops.len();
+        first.get_or_insert_with(|| points.place(loops[0].chords[0]));
+        let mut keep = vec![true; points.points.len()];
+        for own in &loops {
+            keep[own.chords[0] + 1..=own.chords[1]].fill(false);
+        }
+        let mut kept = keep.iter();
+        points.points.retain(|_| kept.next() == Some(&true));
+        let mut kept = keep.iter();
+        points.lines.retain(|_| kept.next() == Some(&true));
+    }
+    crossings(points)
+}
+
+/// Two chords that cross, by number, the smaller one first.
+struct Crossing {
+    chords: [usize; 2],
+    at: [f64; 2],
+}
+
+impl Crossing {
+    fn refused(&self, points: &Points) -> ProfileError {
+        ProfileError::SelfCrossing {
+            place: points.place(self.chords[0]),
+            other: points.place(self.chords[1]),
+            at: self.at,
+        }
+    }
+}
+
+/// Refuses points whose chords cross.
+///
+/// # Errors
+/// [`ProfileError::SelfCrossing`].
 pub(super) fn crossings(points: &Points) -> Result<(), ProfileError> {
-    let chords: Vec<_> = points.points.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    match all_crossings(&points.points).first() {
+        Some(first) => Err(first.refused(points)),
+        None => Ok(()),
+    }
+}
+
+/// Returns crossing chords by the smaller number: sorted by their smallest y, each is compared with those
+/// that
+/// begin before it ends. No more than [`MOST`] are looked for.
+fn all_crossings(points: &[[f64; 2]]) -> Vec<Crossing> {
+    let mut found = Vec::new();
+    let chords: Vec<_> = points.windows(2).map(|pair| [pair[0], pair[1]]).collect();
     let span = |chord: usize, axis: usize| {
         let [a, b] = chords[chord].map(|point| point[axis]);
         [a.min(b), a.max(b)]
     };
     let mut order: Vec<usize> = (0..chords.len()).collect();
     order.sort_by(|a, b| span(*a, 0)[0].total_cmp(&span(*b, 0)[0]).then(a.cmp(b)));
-    for (rank, &chord) in order.iter().enumerate() {
+    'all: for (rank, &chord) in order.iter().enumerate() {
         for &other in &order[rank + 1..] {
             if span(other, 0)[0] > span(chord, 0)[1] {
                 break;
@@ -203,15 +292,18 @@ pub(super) fn crossings(points: &Points) -> Result<(), ProfileError> {
                 continue;
             }
             if let Some(at) = crossing(chords[chord], chords[other]) {
-                return Err(ProfileError::SelfCrossing {
-                    place: points.place(chord.min(other)),
-                    other: points.place(chord.max(other)),
+                found.push(Crossing {
+                    chords: [chord.min(other), chord.max(other)],
                     at,
                 });
+                if found.len() == MOST {
+                    break 'all;
+                }
             }
         }
     }
-    Ok(())
+    found.sort_by_key(|own| own.chords);
+    found
 }
 
 /// Returns the point at which two chords cross.

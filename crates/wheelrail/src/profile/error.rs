@@ -59,6 +59,32 @@ pub enum ProfileError {
         /// The file as named.
         path: PathBuf,
     },
+    /// Neither a file nor a profile that is built in.
+    #[error("there is neither a file nor a nominal {kind} `{name}`")]
+    NoSuchProfile {
+        /// The name.
+        name: String,
+        /// Wheel or rail.
+        kind: &'static str,
+        /// Names that are built in.
+        names: &'static str,
+    },
+    /// A profile that has a name but no drawing here.
+    #[error("the profile {name} is not built in: {why}")]
+    NotBuiltIn {
+        /// The name.
+        name: &'static str,
+        /// The reason.
+        why: &'static str,
+    },
+    /// The name of a built-in profile with a number that is none.
+    #[error("`{name}` names no profile")]
+    Name {
+        /// The name.
+        name: String,
+        /// The advice.
+        remedy: String,
+    },
     /// A line is not what it should be.
     #[error("{place}: {found}")]
     Line {
@@ -183,6 +209,21 @@ pub enum ProfileError {
         /// The largest gauge at which they stand on both treads, m; none if there is none.
         largest: Option<f64>,
     },
+    /// There is no slice on both sides of a place.
+    #[error(
+        "{name}: the slices reach from {} to {} {}; there is none on both sides of {place}",
+        range[0], range[1], if *of_wheel { "rad" } else { "m" }
+    )]
+    NoSlice {
+        /// The list.
+        name: String,
+        /// The place, m or rad.
+        place: f64,
+        /// The first and the last slice, m or rad.
+        range: [f64; 2],
+        /// Whether places are angles.
+        of_wheel: bool,
+    },
     /// Lines and arcs do not join.
     #[error("{place}: element {element} (from 1) {found}")]
     Joint {
@@ -232,9 +273,13 @@ impl ProfileError {
             | Self::Joint { place, .. } => place.line,
             Self::Read(_)
             | Self::UnknownFile { .. }
+            | Self::NoSuchProfile { .. }
+            | Self::NotBuiltIn { .. }
+            | Self::Name { .. }
             | Self::Datum { .. }
             | Self::WiderThanGauge { .. }
             | Self::ShortOfRails { .. }
+            | Self::NoSlice { .. }
             | Self::Length { .. }
             | Self::Number { .. } => None,
         }
@@ -246,8 +291,16 @@ impl ProfileError {
         match self {
             Self::Read(error) => error.help().unwrap_or_else(|| "name another file".into()),
             Self::UnknownFile { .. } => {
-                "name it .csv (points with a header of units), .prw or .prr (Simpack, wheel or rail)".into()
+                "name it .csv (points with a header of units), .prw or .prr (Simpack, wheel or rail), .whl \
+                 or .ban (MiniProf), .whe or .rai \
+                 (VAMPIRE)"
+                    .into()
             }
+            Self::NoSuchProfile { names, .. } => format!("name a file of points, or {names}"),
+            Self::NotBuiltIn { .. } => {
+                "name a file of its points, as measured or from the drawing (.csv, .prw, .whl, .whe)".into()
+            }
+            Self::Name { remedy, .. } => remedy.clone(),
             Self::Line { remedy, .. } | Self::Units { remedy, .. } | Self::Orientation { remedy, .. } => {
                 remedy.clone()
             }
@@ -291,6 +344,7 @@ impl ProfileError {
                 ),
                 None => "look at gauge, distance of the tape circles and the units of both profiles".into(),
             },
+            Self::NoSlice { range, .. } => format!("name a place between {} and {}", range[0], range[1]),
             Self::Joint { remedy, .. } => (*remedy).into(),
             Self::Length { what, value, range } => length_hint(*value, *range)
                 .unwrap_or_else(|| format!("give a {what} between {} and {} m", range[0], range[1])),

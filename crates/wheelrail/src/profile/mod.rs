@@ -10,24 +10,33 @@
 //! |---|---|
 //! | [`nominal`] | cone, cylinder; wheel AAR-1B and rail 136RE from memory, to be checked against drawings |
 //! | [`chain`](mod@chain) | lines and arcs that join tangentially |
-//! | [`Points`] | CSV with units, Simpack's `.prr` and `.prw`; a spline along them with a stated deviation |
+//! | [`Points`] | files: CSV with units, Simpack, MiniProf, VAMPIRE; a spline along them with a stated
+//! deviation |
+//! | [`SlicedProfile`] | CONTACT's lists of files over distance or angle, linear between them |
 
 pub mod chain;
 mod check;
 pub mod curve;
+mod datum;
 pub mod error;
+pub mod names;
 pub mod nominal;
 pub mod points;
 mod shape;
+mod slices;
 mod spline;
 
 use std::path::Path;
 
 pub use chain::ChainElement;
 pub use curve::{CurvePoint, ProfileCurve};
+pub use datum::{TAPE_FROM_BACK, WheelDatum};
 pub use error::{ProfileError, ProfilePlace};
 pub use points::Points;
+pub use slices::{NamedSlice, SlicedProfile};
 pub use spline::Deviation;
+
+use crate::contact::Side;
 
 /// Points closer than this to the one before them are left out, m: measured profiles repeat points, and the
 /// direction between two such points is noise.
@@ -66,6 +75,40 @@ impl ProfileKind {
     }
 }
 
+/// How a file is read.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ReadOptions {
+    /// Largest distance of splines from the points, m; zero: through them.
+    pub deviation: f64,
+    /// Where y = 0 of a wheel's points lies; none: as the format says, the tape circle if it says nothing.
+    pub datum: Option<WheelDatum>,
+    /// Distance of the tape circle from the back of the flange, m; none: that of the file, or
+    /// [`TAPE_FROM_BACK`].
+    pub tape_from_back: Option<f64>,
+    /// The side of the track, for files that have both; none: the right one.
+    pub side: Option<Side>,
+}
+
+/// Lengths that a file states, m.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StatedLengths {
+    /// Nominal radius of the wheel.
+    pub radius: Option<f64>,
+    /// Distance of the tape circles of the wheelset.
+    pub tape_distance: Option<f64>,
+    /// Depth below the datum of the rail at which gauge is measured.
+    pub gauge_depth: Option<f64>,
+}
+
+/// A doubt about a profile that was made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProfileNotice {
+    /// What is doubtful: where, and how much.
+    pub text: String,
+    /// What to do.
+    pub advice: String,
+}
+
 /// A profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
@@ -74,6 +117,10 @@ pub struct Profile {
     curve: ProfileCurve,
     deviation: Deviation,
     note: &'static str,
+    stated: StatedLengths,
+    notices: Vec<ProfileNotice>,
+    /// y of the back of a wheel's flange, m, where it is known.
+    back: Option<f64>,
     /// Depth of a rail's datum below its highest point, m; 0 for wheels.
     datum_depth: f64,
 }
@@ -89,6 +136,9 @@ impl Profile {
             curve,
             deviation: Deviation::default(),
             note: "",
+            stated: StatedLengths::default(),
+            notices: Vec::new(),
+            back: None,
             datum_depth: 0.0,
         };
         if kind == ProfileKind::Rail {
@@ -141,19 +191,42 @@ impl Profile {
         }
         let checked = check::checked(points, kind)?;
         let (curve, deviation) = spline::fit(&checked.points, deviation);
+        let of_wheel = kind == ProfileKind::Wheel;
+        let from_back = match checked.datum {
+            Some(WheelDatum::FlangeBack) => Some(checked.tape_from_back.unwrap_or(TAPE_FROM_BACK)),
+            _ => checked.tape_from_back,
+        };
         Ok(Self {
             deviation,
+            stated: checked.stated,
+            notices: checked.notices,
+            back: from_back.filter(|_| of_wheel).map(|length| -length),
             ..Self::of_curve(&checked.name, kind, curve)
         })
     }
 
-    /// Reads a profile from a file of points; see [`points`] for formats and [`Profile::of_points`] for
-    /// `deviation` (m).
+    /// Reads a profile from a file of points as its format says; see [`points`] for formats and
+    /// [`Profile::of_points`] for `deviation` (m).
     ///
     /// # Errors
     /// The file is not read, or there are no good points in it.
     pub fn read(path: &Path, kind: ProfileKind, deviation: f64) -> Result<Self, ProfileError> {
-        Self::of_points(&Points::read(path)?, kind, deviation)
+        let options = ReadOptions {
+            deviation,
+            ..ReadOptions::default()
+        };
+        Self::read_with(path, kind, &options)
+    }
+
+    /// Reads a profile from a file of points; see [`points`] for formats.
+    ///
+    /// # Errors
+    /// The file is not read, or there are no good points in it.
+    pub fn read_with(path: &Path, kind: ProfileKind, options: &ReadOptions) -> Result<Self, ProfileError> {
+        let mut points = Points::read(path, options.side)?;
+        points.datum = options.datum.or(points.datum);
+        points.tape_from_back = options.tape_from_back.or(points.tape_from_back);
+        Self::of_points(&points, kind, options.deviation)
     }
 
     /// Returns its name: the file, or that of a nominal profile.
@@ -178,6 +251,24 @@ impl Profile {
     #[must_use]
     pub fn deviation(&self) -> Deviation {
         self.deviation
+    }
+
+    /// Returns the lengths that its file states.
+    #[must_use]
+    pub fn stated(&self) -> StatedLengths {
+        self.stated
+    }
+
+    /// Returns the doubts about it.
+    #[must_use]
+    pub fn notices(&self) -> &[ProfileNotice] {
+        &self.notices
+    }
+
+    /// Returns y (m) of the back of a wheel's flange; none where it is not known.
+    #[must_use]
+    pub fn flange_back(&self) -> Option<f64> {
+        self.back
     }
 
     /// Returns its curve.

@@ -175,6 +175,7 @@ pub fn aar_1b_with_tread(run: f64) -> Result<Profile, ProfileError> {
     )?;
     Ok(Profile {
         note: REMEMBERED,
+        back: Some(back),
         ..Profile::of_curve("AAR-1B (nominal)", ProfileKind::Wheel, curve)
     })
 }

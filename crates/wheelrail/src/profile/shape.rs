@@ -85,8 +85,17 @@ pub(super) fn check(points: &Points, kind: ProfileKind) -> Result<(), ProfileErr
     })
 }
 
+/// Returns on which side of its flange the tread of a wheel lies: 1 for larger y, -1 for smaller y; none if
+/// there is no flange.
+pub(super) fn flange_side(points: &[[f64; 2]]) -> Option<f64> {
+    let curve = evenly(points)?;
+    [1.0, -1.0]
+        .into_iter()
+        .find(|side| flange(&curve, [*side, 1.0]).is_some())
+}
+
 /// Returns points along a chain of chords, [`SPACING`] apart along it; none if it is no section but noise.
-fn evenly(points: &[[f64; 2]]) -> Option<Vec<[f64; 2]>> {
+pub(super) fn evenly(points: &[[f64; 2]]) -> Option<Vec<[f64; 2]>> {
     let mut even = Vec::new();
     let mut rest = 0.0;
     for chord in points.windows(2) {

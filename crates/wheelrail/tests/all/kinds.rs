@@ -14,7 +14,7 @@ fn file(name: &str) -> Points {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
     Points {
         kind: None,
-        ..Points::read(&folder.join(name)).unwrap()
+        ..Points::read(&folder.join(name), None).unwrap()
     }
 }
 

@@ -392,9 +392,9 @@ fn input_mistakes_in_files_are_reported_with_place_and_remedy() {
         let error = Points::from_simpack("a.prr", text).unwrap_err();
         assert!(error.to_string().contains(found), "{error}");
     }
-    let unknown = Points::read(Path::new("wheel.xyz")).unwrap_err();
+    let unknown = Points::read(Path::new("wheel.xyz"), None).unwrap_err();
     assert!(unknown.to_string().contains("wheel.xyz") && unknown.remedy().contains(".prw"));
-    let none = Points::read(Path::new("no such file.csv")).unwrap_err();
+    let none = Points::read(Path::new("no such file.csv"), None).unwrap_err();
     assert!(none.to_string().contains("there is no profile"), "{none}");
 }
 

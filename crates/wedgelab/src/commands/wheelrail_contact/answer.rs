@@ -184,6 +184,11 @@ impl AnswerUnits {
 }
 
 impl Shown {
+    /// Returns its name in a table.
+    pub fn label(&self) -> &'static str {
+        self.label
+    }
+
     /// Returns a value (SI) in this unit.
     pub fn of(&self, si: f64) -> f64 {
         self.factor * si
