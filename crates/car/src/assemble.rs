@@ -203,7 +203,10 @@ impl Car {
 }
 
 /// Returns the searches for patches at the left and the right wheel; none of linear wheels.
-pub(crate) fn searches(wheels: &Wheels) -> Result<Vec<Search>, BuildError> {
+///
+/// # Errors
+/// A table of contacts cannot be made.
+pub fn searches(wheels: &Wheels) -> Result<Vec<Search>, BuildError> {
     let Wheels::OnRails(wheels) = wheels else {
         return Ok(Vec::new());
     };
@@ -217,8 +220,10 @@ pub(crate) fn searches(wheels: &Wheels) -> Result<Vec<Search>, BuildError> {
     searches.collect()
 }
 
-/// Turns the reference frame of a body that does not spin.
-fn upright(mut body: Body) -> Body {
+/// Returns a body that does not spin with its reference frame turned, so that its angles are heading, pitch,
+/// roll: see [`rolling::wheelset`].
+#[must_use]
+pub fn upright(mut body: Body) -> Body {
     let [x, y, z] = body.inertia;
     body.inertia = [x, z, y];
     let axes = fixed(UPRIGHT);
@@ -243,11 +248,11 @@ impl Nominal {
         let (half, mut groups) = (0.5 * parameters.truck_distance, vec![(body, 2)]);
         let centers = [half, -half].map(|x| [x, 0.0, 0.0]);
         let parts = [0, 1].map(|t| free(&parameters.trucks[t]));
-        let mut mounts = [Mount::ALONE; 2];
+        let mut mounts = [Mount::ALONE, Mount::ALONE];
         let mut wheelsets = [0; 4];
         for (t, mount) in mounts.iter_mut().enumerate() {
             mount.center = centers[t];
-            mount.prefix = ["truck_1_", "truck_2_"][t];
+            mount.prefix = ["truck_1_", "truck_2_"][t].into();
             let prefix = ["front", "rear"][t];
             let own = truck::bodies(&parts[t], centers[t]);
             for (number, own) in truck::numbers(&parts[t]).into_iter().zip(own) {
@@ -377,7 +382,8 @@ impl Nominal {
 ///
 /// By the toe, as in half-trucks from files, slope friction of a wedge without toe follows the column's: it
 /// then makes the bolster swing along the track.
-fn massless_options() -> Options {
+#[must_use]
+pub fn massless_options() -> Options {
     Options {
         slope: SlopeDirection::OwnSlip {
             reference_speed: SLOPE_SLIP,
@@ -388,7 +394,8 @@ fn massless_options() -> Options {
 }
 
 /// Returns a truck with all of its bodies free.
-fn free(own: &truck::Parameters) -> truck::Parameters {
+#[must_use]
+pub fn free(own: &truck::Parameters) -> truck::Parameters {
     let mut own = truck::held(own);
     own.bolster = Bolster {
         free: [true; 6],

@@ -17,7 +17,8 @@ use wheelrail::track::{Line, RailLines};
 
 /// A controller of speed.
 #[derive(Clone, Debug)]
-pub(crate) struct SpeedControl {
+pub struct SpeedControl {
+    /// The rails.
     pub lines: Arc<RailLines>,
     /// Force by speed, N·s/m.
     pub gain: f64,
@@ -29,7 +30,7 @@ pub(crate) struct SpeedControl {
 
 /// The quantity that is linear in the distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Between {
+pub enum Between {
     /// The speed.
     Speed,
     /// Its square: the acceleration is constant.
@@ -38,7 +39,8 @@ pub(crate) enum Between {
 
 /// Returns a history, pairs of time (s, from zero on, rising) and positive speed (m/s), as pairs of distance
 /// (m) and speed of a car that follows it from a distance (m) at time zero.
-pub(crate) fn over_distance(history: &[[f64; 2]], start: f64) -> Vec<[f64; 2]> {
+#[must_use]
+pub fn over_distance(history: &[[f64; 2]], start: f64) -> Vec<[f64; 2]> {
     let mut distance = start;
     let mut before = history.first().map_or([0.0; 2], |[_, speed]| [0.0, *speed]);
     let pairs = history.iter().map(|&[time, speed]| {

@@ -44,7 +44,7 @@ mod benchmark;
 mod body;
 mod defaults;
 mod derailment;
-mod drive;
+pub mod drive;
 mod error;
 mod linearize;
 mod loads;
@@ -58,7 +58,7 @@ mod tipping;
 mod wheels_over_amplitude;
 
 pub use amplitude::{Neutral, OverAmplitude};
-pub use assemble::{Car, Numbers};
+pub use assemble::{Car, Numbers, free as free_truck, massless_options, searches, upright};
 pub use benchmark::NoWarp;
 pub use derailment::Derailment;
 pub use error::{BuildError, InvalidParameter};

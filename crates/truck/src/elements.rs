@@ -1,5 +1,6 @@
 //! The elements between the bodies of a truck.
 
+use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
@@ -107,7 +108,7 @@ impl Default for WedgePlace {
 }
 
 /// The place of a truck in a model.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Mount {
     /// The numbers of its bodies there, in the order of [`WHEELSETS`] to [`CAR_BODY`] and the inboard halves
     /// of split wedges ([`numbers`](crate::numbers)). Two may be one: the bolster and a car that is rigid
@@ -116,7 +117,7 @@ pub struct Mount {
     /// Its center, m.
     pub center: [f64; 3],
     /// The prefix of the names of its elements.
-    pub prefix: &'static str,
+    pub prefix: Cow<'static, str>,
 }
 
 impl Mount {
@@ -124,7 +125,7 @@ impl Mount {
     pub const ALONE: Self = Self {
         bodies: [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0, 0, 0, 0],
         center: [0.0; 3],
-        prefix: "",
+        prefix: Cow::Borrowed(""),
     };
 
     /// Returns a truck alone, its center at the origin, whose bodies are in the order of
@@ -170,7 +171,7 @@ pub fn mounted(model: &mut Model, parameters: &Parameters, mount: &Mount) -> Mou
         None => fixed([0.0; 3]),
     });
     let added = add(model, parameters, mount, [[0.0; 2]; 4]);
-    MountedTruck::new(parameters, *mount, added, axes)
+    MountedTruck::new(parameters, mount.clone(), added, axes)
 }
 
 /// Adds them, and returns what was added; `gaps` (m) are how far column and slope of each wedge are moved
@@ -186,7 +187,7 @@ pub(crate) fn add(model: &mut Model, parameters: &Parameters, mount: &Mount, gap
     };
     let mut added = builder.build();
     added.coils = first.2..model.coils.len();
-    let prefix = mount.prefix;
+    let prefix = mount.prefix.as_ref();
     if !prefix.is_empty() {
         let (faces, connections) = (&mut model.faces[first.0..], &mut model.connections[first.1..]);
         let names = faces.iter_mut().map(|(.., face)| &mut face.name);

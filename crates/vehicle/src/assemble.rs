@@ -1,14 +1,22 @@
 //! A vehicle from its description, and its start.
 
-use std::borrow::Cow;
 use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use car::drive::{Between, SpeedControl, over_distance};
+use car::{Drive, Wheels, free_truck, massless_options, searches, upright};
+use mechanics::connection::Law as ConnectionLaw;
+use mechanics::friction::FrictionLaw;
+use mechanics::link::Marker;
+use rolling::wheelset::{coordinate, leave_spin_uncontrolled};
+use truck::{CAR_BODY, Mount, MountedTruck, SIDE_FRAMES, WHEELSETS};
+use wheelrail::track::RailLines;
 
 use mechanics::body::Body;
-use mechanics::connection::Options;
 use mechanics::frame::Frame;
 use mechanics::system::{Model, Observation, StaticFriction, System};
-use mechanics::vector::{Matrix, Vector};
-use quantity::{Kind, STANDARD_GRAVITY};
+use mechanics::vector::Vector;
+use quantity::STANDARD_GRAVITY;
 
 use crate::GROUND;
 use crate::body::RigidBody;
@@ -16,6 +24,8 @@ use crate::catalog::{Element, Place};
 use crate::channel::Channel;
 use crate::drawing::{Drawing, DrawnBody, DrawnElement, Solid};
 use crate::error::VehicleError;
+use crate::on_track::{Axle, OnTrack, add_wheels, wheelset_body};
+use crate::seen;
 
 /// The start of a vehicle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -39,6 +49,8 @@ pub struct Description {
     pub gravity: f64,
     /// How it starts; what bodies say of their start comes on top.
     pub start: StartKind,
+    /// Wheelsets, trucks and the track that they run on; none: it runs on none.
+    pub on_track: Option<OnTrack>,
 }
 
 impl Default for Description {
@@ -48,6 +60,7 @@ impl Default for Description {
             elements: Vec::new(),
             gravity: STANDARD_GRAVITY,
             start: StartKind::Nominal,
+            on_track: None,
         }
     }
 }
@@ -67,12 +80,23 @@ pub struct Vehicle {
     pub drawing: Drawing,
     /// The warning of a start at rest that is nearly at rest.
     pub start_warning: Option<String>,
+    /// Its wheelsets.
+    pub axles: Vec<Axle>,
 }
 
 /// A model in the nominal layout, with what is seen of it.
 struct Nominal {
     model: Model,
     channels: Vec<Channel>,
+    axles: Vec<Axle>,
+    /// The bodies that run along, with the number of the coordinate that is forward.
+    running: Vec<(usize, usize)>,
+}
+
+/// The body of each wedge, bolster and so on of a truck in a model.
+struct Mounting {
+    mount: Mount,
+    wedges: Vec<usize>,
 }
 
 impl Vehicle {
@@ -81,41 +105,62 @@ impl Vehicle {
     /// # Errors
     /// Bodies and elements make no system, or there is no rest to start from.
     pub fn new(description: &Description) -> Result<Self, VehicleError> {
-        let Nominal { model, channels } = Nominal::new(&description.bodies, description, false)?;
+        let bodies = &description.bodies;
+        if let Some(on) = &description.on_track {
+            if let Some(body) = bodies.iter().find(|own| own.free != [true; 6]) {
+                let body = body.name.clone();
+                return Err(VehicleError::Held { body });
+            }
+            if let Some(reason) = on.misplaced() {
+                let distance = on.distance;
+                return Err(VehicleError::Misplaced { distance, reason });
+            }
+        }
+        let nominal = Nominal::new(bodies, description, description.on_track.as_ref(), false)?;
+        let channels = nominal.channels;
         let mut names = BTreeSet::new();
         if let Some(channel) = channels.iter().find(|own| !names.insert(&own.column.name)) {
             let name = channel.column.name.clone();
             return Err(VehicleError::SameColumn { name });
         }
-        let system = System::new(model)?;
+        let mut system = System::new(nominal.model)?;
+        for axle in &nominal.axles {
+            leave_spin_uncontrolled(&mut system, axle.body);
+        }
         let mut initial_state = system.initial_state();
         let mut start_warning = None;
+        let speeds = system.layout().speeds;
         if description.start == StartKind::Equilibrium {
-            let held: Vec<RigidBody> = description.bodies.iter().map(RigidBody::held).collect();
-            let mut still = System::new(Nominal::new(&held, description, true)?.model)?;
-            let start = still.initial_state();
-            let rest = still.start_at_rest(0.0, &start, StaticFriction::Following)?;
-            start_warning = rest.warning;
-            let speeds = system.layout().speeds;
-            initial_state[..speeds].copy_from_slice(&rest.state[..speeds]);
+            let held: Vec<RigidBody> = bodies.iter().map(RigidBody::held).collect();
+            let (positions, warning) = at_rest(&held, description)?;
+            start_warning = warning;
+            initial_state[..speeds].copy_from_slice(&positions);
         }
         let rest = initial_state.clone();
-        let speeds = system.layout().speeds;
-        for (number, body) in (1..).zip(&description.bodies) {
+        let on_track = description.on_track.is_some();
+        for (number, body) in (1..).zip(bodies) {
+            let [displacement, rates] = body.start_in_frame(on_track);
             for k in 0..6 {
                 if let Some(place) = system.position_of(number, k) {
-                    initial_state[place] += body.start.displacement[k];
-                    initial_state[speeds + place] += body.start.rates[k];
+                    initial_state[place] += displacement[k];
+                    initial_state[speeds + place] += rates[k];
                 }
+            }
+        }
+        let mut rolling = rest.clone();
+        if let Some(on) = &description.on_track {
+            for state in [&mut initial_state, &mut rolling] {
+                roll(state, &system, &nominal.running, &nominal.axles, on);
             }
         }
         Ok(Self {
             drawing: drawing(description, &system),
             system,
             initial_state,
-            rest,
+            rest: rolling,
             channels,
             start_warning,
+            axles: nominal.axles,
         })
     }
 
@@ -125,42 +170,212 @@ impl Vehicle {
     }
 }
 
+/// Puts a state along the track, on its actual rails, all of it at the speed of the start; wheels roll.
+fn roll(state: &mut [f64], system: &System, running: &[(usize, usize)], axles: &[Axle], on: &OnTrack) {
+    let speeds = system.layout().speeds;
+    let levels = on.levels();
+    for (body, forward) in running {
+        if let Some(place) = system.position_of(*body, *forward) {
+            state[place] += on.distance;
+            state[speeds + place] += on.speed;
+        }
+        let is_wheelset = *forward == coordinate::FORWARD;
+        let center = nominal_center(&system.bodies()[*body]);
+        for (k, moved) in on_rails(&levels, center, is_wheelset) {
+            if let Some(place) = system.position_of(*body, k) {
+                state[place] += moved;
+            }
+        }
+    }
+    for axle in axles {
+        if let Some(place) = system.position_of(axle.body, coordinate::SPIN) {
+            state[speeds + place] += on.speed / on.radius();
+        }
+    }
+}
+
+/// Returns how the coordinates of a body at a place of the nominal layout (m) follow the actual rails: straight
+/// between the levels under the wheelsets.
+fn on_rails(levels: &[(f64, [f64; 3])], [x, y, z]: [f64; 3], is_wheelset: bool) -> [(usize, f64); 5] {
+    let after = levels.partition_point(|(at, _)| *at < x);
+    let (level, slope) = match (after.checked_sub(1).map(|i| levels[i]), levels.get(after)) {
+        (Some((from, a)), Some(&(to, b))) => {
+            let slope = [0, 1, 2].map(|k| (b[k] - a[k]) / (to - from));
+            ([0, 1, 2].map(|k| a[k] + slope[k] * (x - from)), slope)
+        }
+        (Some((_, only)), None) | (None, Some(&(_, only))) => (only, [0.0; 3]),
+        (None, None) => ([0.0; 3], [0.0; 3]),
+    };
+    let [lateral, vertical, roll] = level;
+    let (lateral, vertical) = (lateral - roll * z, vertical + roll * y);
+    match is_wheelset {
+        true => [
+            (coordinate::LATERAL, lateral),
+            (coordinate::VERTICAL, vertical),
+            (coordinate::ROLL, roll),
+            (coordinate::HEADING, 0.0),
+            (coordinate::SPIN, 0.0),
+        ],
+        // Frames of bodies that do not spin have their axes along x, z, -y.
+        false => [
+            (2, -lateral),
+            (1, vertical),
+            (3, roll),
+            (4, slope[0]),
+            (5, slope[1]),
+        ],
+    }
+}
+
+/// Returns the positions of a vehicle at rest, on straight perfect track if it runs on one, with the warning of
+/// a state that is nearly at rest.
+fn at_rest(
+    bodies: &[RigidBody],
+    description: &Description,
+) -> Result<(Vec<f64>, Option<String>), VehicleError> {
+    let standing = description.on_track.as_ref().map(OnTrack::standing).transpose()?;
+    let on = standing.as_ref().map(|(on, _)| on);
+    let mut nominal = Nominal::new(bodies, description, on, true)?;
+    if let Some((_, middle)) = &standing {
+        for (body, _) in &nominal.running {
+            nominal.model.bodies[*body].frame.origin[0] += middle;
+        }
+        carry(&mut nominal.model);
+    }
+    let mut still = System::new(nominal.model)?;
+    let start = still.initial_state();
+    let rest = still.start_at_rest(0.0, &start, StaticFriction::Following)?;
+    let speeds = still.layout().speeds;
+    let mut positions = rest.state[..speeds].to_vec();
+    if !nominal.axles.is_empty() {
+        // Nothing holds it along the track.
+        let rolled = |axle: &Axle| {
+            still
+                .position_of(axle.body, coordinate::FORWARD)
+                .map(|place| positions[place])
+        };
+        let all: Vec<f64> = nominal.axles.iter().filter_map(rolled).collect();
+        let mean = all.iter().sum::<f64>() / all.len() as f64;
+        for (body, forward) in &nominal.running {
+            if let Some(place) = still.position_of(*body, *forward) {
+                positions[place] -= mean;
+            }
+        }
+    }
+    Ok((positions, rest.warning))
+}
+
+/// Lets carriers stand where their wheelsets do.
+fn carry(model: &mut Model) {
+    for [carrier, of] in model.carriers.clone() {
+        let frame = model.bodies[of].frame.clone();
+        model.bodies[carrier].frame = frame;
+    }
+}
+
 impl Nominal {
-    /// Returns the model of these bodies and of a description's elements, as they are or without the friction
-    /// that a rest may not depend on.
+    /// Returns the model of these bodies, of a description's elements, and of what runs on a track, as they are
+    /// or without the friction that a rest may not depend on.
     fn new(
         bodies: &[RigidBody],
         description: &Description,
+        on: Option<&OnTrack>,
         without_friction: bool,
     ) -> Result<Self, VehicleError> {
+        let on_track = on.is_some();
+        let turned = |body: Body| match on_track {
+            true => upright(body),
+            false => body,
+        };
+        let lines = on.map(OnTrack::lines);
         let mut all = vec![Body::prescribed(GROUND, Frame::fixed([0.0; 3], [0.0; 3]))];
-        all.extend(bodies.iter().map(RigidBody::body));
+        all.extend(bodies.iter().map(|own| turned(own.body())));
+        let mut running: Vec<(usize, usize)> = (1..all.len()).map(|number| (number, 0)).collect();
         let mut channels: Vec<Channel> = Vec::new();
         for (number, body) in (1..).zip(bodies) {
-            channels.extend(body_channels(number, body));
+            channels.extend(match &lines {
+                Some(lines) => seen::on_track(number, &body.name, body.place, lines),
+                None => seen::body_channels(number, body),
+            });
         }
-        let mut own = Vec::with_capacity(description.elements.len());
+        let mut mountings = Vec::new();
+        let mut wheelsets: Vec<(String, usize)> = Vec::new();
+        if let (Some(on), Some(lines)) = (on, &lines) {
+            for own in &on.trucks {
+                let first = all.len();
+                mountings.push(truck_bodies(own, on, &mut all, &mut running, &mut wheelsets));
+                for (number, body) in all.iter().enumerate().skip(first + 2) {
+                    channels.extend(seen::on_track(number, &body.name, nominal_center(body), lines));
+                }
+            }
+            for own in &on.wheelsets {
+                running.push((all.len(), coordinate::FORWARD));
+                wheelsets.push((own.name.clone(), all.len()));
+                all.push(wheelset_body(on, &own.name, own.x));
+            }
+        }
+        let mut own_bodies = Vec::with_capacity(description.elements.len());
         for element in &description.elements {
             let first = all.len();
             let places = element.ends.map(|end| end.at);
-            all.extend(element.law.bodies(&element.name, places));
-            own.push((first..all.len()).collect::<Vec<usize>>());
-            for number in first..all.len() {
-                channels.extend(own_channels(number, &all[number]));
+            for body in element.law.bodies(&element.name, places) {
+                let (number, place) = (all.len(), seen::center_of(&body));
+                channels.extend(match &lines {
+                    Some(lines) => seen::on_track(number, &body.name, place, lines),
+                    None => seen::own_channels(number, &body),
+                });
+                running.push((number, 0));
+                all.push(turned(body));
             }
+            own_bodies.push((first..all.len()).collect::<Vec<usize>>());
         }
         let mut model = Model::new(all, [0.0, 0.0, -description.gravity]);
-        model.options = Options::default();
-        for body in (1..).zip(bodies) {
-            add_loads(&mut model, body);
+        model.options = massless_options();
+        for (number, body) in (1..).zip(bodies) {
+            add_loads(&mut model, number, body, on_track);
         }
-        for (element, own) in description.elements.iter().zip(&own) {
+        // What elements call a body, and its number in the model.
+        let mut numbers: Vec<usize> = (0..=bodies.len()).collect();
+        let mut axles = Vec::new();
+        if let (Some(on), Some(lines)) = (on, &lines) {
+            let found = searches(&Wheels::OnRails(on.wheels.clone()))?;
+            axles = add_wheels(&mut model, on, &found, lines, &wheelsets);
+            let carriers: Vec<usize> = wheelsets
+                .iter()
+                .map(|(name, body)| model.add_carrier(&format!("{name}_bearings"), *body))
+                .collect();
+            numbers.extend(&carriers[2 * on.trucks.len()..]);
+            for (number, (own, mounting)) in on.trucks.iter().zip(&mut mountings).enumerate() {
+                for axle in 0..2 {
+                    mounting.mount.bodies[WHEELSETS + axle] = carriers[2 * number + axle];
+                }
+                let parameters = under(own, description, on);
+                let first = (model.faces.len(), model.connections.len());
+                let mounted: MountedTruck = truck::mounted(&mut model, &parameters, &mounting.mount);
+                if without_friction {
+                    free_wedges(&mut model, first, &mounting.wedges);
+                }
+                let bolster = mounting.mount.bodies[truck::BOLSTER];
+                channels.extend(seen::of_truck(&own.name, bolster, &mounted, lines));
+                numbers.extend([
+                    bolster,
+                    mounting.mount.bodies[SIDE_FRAMES],
+                    mounting.mount.bodies[SIDE_FRAMES + 1],
+                ]);
+            }
+            for axle in &axles {
+                axle.add(&mut model);
+                channels.extend(seen::of_axle(axle));
+            }
+            drive(&mut model, on, lines);
+        }
+        for (element, own) in description.elements.iter().zip(&own_bodies) {
             let still = element.law.without_friction().filter(|_| without_friction);
             let law = still.as_ref().unwrap_or(&element.law);
             let mut place = Place {
                 name: &element.name,
                 model: &mut model,
-                ends: element.ends.map(|end| (end.body, end.at)),
+                ends: element.ends.map(|end| (numbers[end.body], end.at)),
                 own,
                 channels: &mut channels,
             };
@@ -169,149 +384,153 @@ impl Nominal {
                 reason,
             })?;
         }
-        Ok(Self { model, channels })
+        Ok(Self {
+            model,
+            channels,
+            axles,
+            running,
+        })
     }
 }
 
-fn add_loads(model: &mut Model, (number, body): (usize, &RigidBody)) {
-    for (coordinate, course) in body.applied.iter().enumerate() {
+/// Adds the bodies of a truck.
+fn truck_bodies(
+    own: &crate::TruckPart,
+    on: &OnTrack,
+    all: &mut Vec<Body>,
+    running: &mut Vec<(usize, usize)>,
+    wheelsets: &mut Vec<(String, usize)>,
+) -> Mounting {
+    let parameters = free_truck(&own.parameters);
+    let center = [own.x, 0.0, 0.0];
+    let mut mount = Mount {
+        center,
+        prefix: format!("{}_", own.name).into(),
+        ..Mount::ALONE
+    };
+    let bodies = truck::bodies(&parameters, center);
+    for (number, body) in truck::numbers(&parameters).into_iter().zip(bodies) {
+        if number == CAR_BODY {
+            mount.bodies[number] = own.body;
+            continue;
+        }
+        let place = all.len();
+        if number < truck::BOLSTER {
+            let name = format!("{}_wheelset_{}", own.name, number + 1);
+            let mut wheelset = wheelset_body(on, &name, 0.0);
+            wheelset.frame.origin = body.frame.origin;
+            running.push((place, coordinate::FORWARD));
+            wheelsets.push((name, place));
+            all.push(wheelset);
+            continue;
+        }
+        mount.bodies[number] = place;
+        running.push((place, 0));
+        let mut body = upright(body);
+        body.name = format!("{}_{}", own.name, body.name);
+        all.push(body);
+    }
+    let wedges = parameters.wedge_parts().into_iter();
+    let wedges = wedges.map(|part| mount.bodies[part.number]).collect();
+    Mounting { mount, wedges }
+}
+
+/// Returns a truck under its share of a body: its center plate carries that in the nominal layout.
+fn under(own: &crate::TruckPart, description: &Description, on: &OnTrack) -> truck::Parameters {
+    let mut parameters = free_truck(&own.parameters);
+    let share = on.trucks.iter().filter(|other| other.body == own.body).count();
+    if let (Some(car), Some(body)) = (&mut parameters.car_body, description.bodies.get(own.body - 1)) {
+        car.body.mass = body.mass / share as f64;
+    }
+    parameters.gravity = description.gravity;
+    parameters
+}
+
+/// Takes the friction of a truck's wedges, whose faces and connections come from these numbers on.
+fn free_wedges(model: &mut Model, (faces, connections): (usize, usize), wedges: &[usize]) {
+    for (carried, .., face) in &mut model.faces[faces..] {
+        if wedges.contains(carried) {
+            face.coefficient = 0.0;
+            face.law = FrictionLaw::Tanh { reference_speed: 1.0 };
+        }
+    }
+    for connection in &mut model.connections[connections..] {
+        if let ConnectionLaw::Wedge(wedge) = &mut connection.law {
+            (wedge.column_friction, wedge.slope_friction) = (0.0, 0.0);
+        }
+    }
+}
+
+/// Adds what keeps a vehicle moving.
+fn drive(model: &mut Model, on: &OnTrack, lines: &Arc<RailLines>) {
+    let (gain, speeds, between) = match &on.drive {
+        Drive::Coasting => return,
+        Drive::Held { gain } => (*gain, vec![[0.0, on.speed]], Between::Speed),
+        Drive::Over { gain, speeds } => (*gain, speeds.clone(), Between::Speed),
+        Drive::History { gain, speeds } => (*gain, over_distance(speeds, on.distance), Between::Square),
+    };
+    let control = SpeedControl {
+        lines: lines.clone(),
+        gain,
+        speeds,
+        between,
+    };
+    let (body, height) = on.driven;
+    let at = model.bodies[body].marker([0.0, 0.0, height], [0.0; 3]);
+    let track = Marker::new([0.0; 3], [0.0; 3]);
+    model.add(control, (body, at), (0, track));
+}
+
+fn add_loads(model: &mut Model, number: usize, body: &RigidBody, on_track: bool) {
+    for (coordinate, course) in body.loads_in_frame(on_track).into_iter().enumerate() {
         let nothing = course.is_constant() && course.evaluate(0.0, 0.0)[0] == 0.0;
-        if body.free[coordinate] && !nothing {
+        if model.bodies[number].free[coordinate] && !nothing {
             model.loads.push(mechanics::system::AppliedLoad {
                 body: number,
                 coordinate,
-                course: course.clone(),
+                course,
             });
         }
     }
 }
 
-/// Names of coordinates in columns, with what they measure.
-const COORDINATES: [(&str, &str); 6] = [
-    ("x", "forward"),
-    ("y", "to the left"),
-    ("z", "up"),
-    ("roll", "roll"),
-    ("pitch", "pitch"),
-    ("yaw", "yaw"),
-];
-
-/// Returns what is seen of a body: displacements of its center of gravity and rotations from the nominal
-/// layout, their rates, accelerations.
-fn body_channels(number: usize, body: &RigidBody) -> Vec<Channel> {
-    let moves = std::array::from_fn(|k| body.moves(k));
-    channels_of(number, &body.name, body.place, moves, !body.is_prescribed())
-}
-
-/// Returns the same of a body of an element's own.
-fn own_channels(number: usize, body: &Body) -> Vec<Channel> {
-    channels_of(number, &body.name, center_of(body), body.free, false)
-}
-
-/// Returns the center of gravity of a body in the nominal layout.
-fn center_of(body: &Body) -> [f64; 3] {
-    std::array::from_fn(|k| body.frame.origin[k] + body.center_of_gravity[k])
-}
-
-fn channels_of(number: usize, name: &str, place: [f64; 3], moves: [bool; 6], is_free: bool) -> Vec<Channel> {
-    let mut all = Vec::new();
-    let mut add = |suffix: &str, kind: Kind, text: String, read: Read| {
-        let mut channel = Channel::new(format!("{name}_{suffix}"), kind, format!("{name}: {text}"), read);
-        channel.column.reference = Cow::Borrowed("center of gravity");
-        all.push(channel);
-    };
-    for (k, (suffix, along)) in COORDINATES.into_iter().enumerate().filter(|(k, _)| moves[*k]) {
-        let (kind, text) = match k {
-            0..3 => (
-                Kind::Length,
-                format!("displacement of the center of gravity {along}"),
-            ),
-            _ => (Kind::Angle, format!("{along} from the nominal layout")),
-        };
-        add(suffix, kind, text, displacement(number, k, place));
-    }
-    for (k, (suffix, along)) in COORDINATES.into_iter().enumerate().filter(|(k, _)| moves[*k]) {
-        let (kind, text) = match k {
-            0..3 => (Kind::Speed, format!("velocity of the center of gravity {along}")),
-            _ => (
-                Kind::AngularSpeed,
-                format!("angular velocity about the axis of {along}"),
-            ),
-        };
-        add(&format!("{suffix}_rate"), kind, text, rate(number, k));
-    }
-    let accelerated = COORDINATES.into_iter().enumerate().take(3);
-    for (k, (suffix, along)) in accelerated.filter(|(k, _)| moves[*k] && is_free) {
-        let text = format!("acceleration {along}");
-        add(
-            &format!("{suffix}_acceleration"),
-            Kind::RideAcceleration,
-            text,
-            Box::new(move |view| view.acceleration(number, k)),
-        );
-    }
-    all
-}
-
-type Read = Box<dyn Fn(&crate::View<'_>) -> f64 + Send + Sync>;
-
-fn displacement(number: usize, k: usize, place: [f64; 3]) -> Read {
-    match k {
-        0..3 => Box::new(move |view| view.seen.bodies[number].center_of_gravity.0[k] - place[k]),
-        _ => Box::new(move |view| {
-            let own = &view.seen.bodies[number];
-            match view.system.bodies()[number].is_prescribed() {
-                true => angle(&own.rotation, k),
-                false => own.coordinates[k],
-            }
-        }),
-    }
-}
-
-/// Returns roll, pitch or yaw (3, 4, 5) of a rotation `Ry(pitch) Rz(yaw) Rx(roll)`, rad; yaw beyond a quarter
-/// turn where it is the only one.
-fn angle(rotation: &Matrix<f64>, k: usize) -> f64 {
-    let Matrix(r) = rotation;
-    match k {
-        3 => libm::atan2(-r[1][2], r[1][1]),
-        4 => libm::atan2(-r[2][0], r[0][0]),
-        _ if r[2][2] == 1.0 => libm::atan2(r[1][0], r[0][0]),
-        _ => libm::asin(r[1][0].clamp(-1.0, 1.0)),
-    }
-}
-
-fn rate(number: usize, k: usize) -> Read {
-    match k {
-        0..3 => Box::new(move |view| {
-            let own = &view.seen.bodies[number];
-            let arm = own.center_of_gravity - own.origin;
-            let swing: Vector<f64> = own.angular_velocity.cross(arm);
-            (own.velocity + swing).0[k]
-        }),
-        _ => Box::new(move |view| view.seen.bodies[number].angular_velocity.0[k - 3]),
-    }
-}
-
-/// Returns the drawing: a box for each body, the elements, and solids of their own bodies.
+/// Returns the drawing: a box for each body, the elements.
 fn drawing(description: &Description, system: &System) -> Drawing {
     let mut drawing = Drawing::default();
-    for (number, body) in (1..).zip(&description.bodies) {
-        drawing.bodies.push(DrawnBody {
-            name: body.name.clone(),
-            number,
-            place: body.place,
-            solid: Solid::Box(body.box_size()),
-        });
-    }
-    let rest = system.bodies().iter().enumerate();
-    for (number, body) in rest.skip(1 + description.bodies.len()) {
-        let own = RigidBody::new(&body.name, body.mass, body.inertia, [0.0; 3]);
-        drawing.bodies.push(DrawnBody {
-            name: body.name.clone(),
-            number,
-            place: center_of(body),
-            solid: Solid::Box(own.box_size()),
-        });
+    for (number, body) in system.bodies().iter().enumerate().skip(1) {
+        if !description
+            .on_track
+            .as_ref()
+            .is_none_or(|_| body.free == [true; 6])
+            && body.mass > 0.0
+        {
+            continue;
+        }
+        let own = description.bodies.get(number - 1);
+        let place = match own {
+            Some(own) => own.place,
+            None => nominal_center(body),
+        };
+        let size = match own {
+            Some(own) => own.box_size(),
+            None => {
+                let [x, y, z] = body.inertia;
+                let inertia = if description.on_track.is_some() {
+                    [x, z, y]
+                } else {
+                    [x, y, z]
+                };
+                RigidBody::new(&body.name, body.mass, inertia, [0.0; 3]).box_size()
+            }
+        };
+        if own.is_some() || body.mass > 0.0 {
+            drawing.bodies.push(DrawnBody {
+                name: body.name.clone(),
+                number,
+                place,
+                solid: Solid::Box(size),
+            });
+        }
     }
     for element in &description.elements {
         let between = element.law.drawn_between(element.ends.map(|end| end.at));
@@ -322,4 +541,11 @@ fn drawing(description: &Description, system: &System) -> Drawing {
         });
     }
     drawing
+}
+
+/// Returns the center of gravity of a body in the nominal layout, whose frame may be turned.
+fn nominal_center(body: &Body) -> [f64; 3] {
+    let axes = mechanics::orientation::fixed(body.frame.orientation);
+    let arm: Vector<f64> = axes.apply(Vector(body.center_of_gravity));
+    (Vector(body.frame.origin) + arm).0
 }

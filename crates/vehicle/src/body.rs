@@ -79,6 +79,28 @@ impl RigidBody {
         }
     }
 
+    /// Returns its start by the coordinates of its reference frame, which is turned on a track
+    /// ([`car::upright`]): displacements and rates.
+    pub(crate) fn start_in_frame(&self, on_track: bool) -> [[f64; 6]; 2] {
+        let own = [self.start.displacement, self.start.rates];
+        match on_track {
+            false => own,
+            true => own.map(|[x, y, z, roll, pitch, yaw]| [x, z, -y, roll, yaw, -pitch]),
+        }
+    }
+
+    /// Returns its loads over time by these coordinates.
+    pub(crate) fn loads_in_frame(&self, on_track: bool) -> Applied {
+        let own = self.applied.clone();
+        match on_track {
+            false => own,
+            true => {
+                let [x, y, z, roll, pitch, yaw] = own;
+                [x, z, y.scaled(-1.0), roll, yaw, pitch.scaled(-1.0)]
+            }
+        }
+    }
+
     /// Returns the body as the core knows it, in the nominal layout.
     pub(crate) fn body(&self) -> Body {
         if self.is_prescribed() {

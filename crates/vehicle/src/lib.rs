@@ -39,6 +39,8 @@ pub mod catalog;
 mod channel;
 mod drawing;
 mod error;
+mod on_track;
+mod seen;
 mod vibration;
 
 pub use assemble::{Description, StartKind, Vehicle};
@@ -46,6 +48,7 @@ pub use body::{BodyStart, RigidBody};
 pub use channel::{Channel, View};
 pub use drawing::{Drawing, Drawn, DrawnBody, DrawnElement, Solid};
 pub use error::VehicleError;
+pub use on_track::{Axle, AxleState, OnTrack, TruckPart, WheelsetPart};
 pub use vibration::Vibration;
 
 /// The name of the body that stands still: number 0.

@@ -132,7 +132,7 @@ fn stability(r: &mut CaseReader<'_>) -> StabilityKeys {
 }
 
 /// Returns the springs under the rails.
-fn rail_support(support: &Support, gravity: f64) -> Option<RailSupport> {
+pub(crate) fn rail_support(support: &Support, gravity: f64) -> Option<RailSupport> {
     support.rail().map(|rail| RailSupport {
         preload: rail.mass * gravity,
         ..rail.clone()
@@ -140,7 +140,7 @@ fn rail_support(support: &Support, gravity: f64) -> Option<RailSupport> {
 }
 
 /// Reads `[speed]`.
-fn speed(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
+pub(crate) fn speed(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
     r.section("speed", "How fast it goes.");
     let mut kind = DriveKind::Held;
     let comment = "\"held\": a force on the body along the track holds the value; \"over_distance\", \

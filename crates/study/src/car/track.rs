@@ -16,12 +16,12 @@ use crate::track::{Notes, ReadTrack, Support, TrackFile, of_section, text_of};
 const USUAL: f64 = 5000.0;
 
 /// Returns a straight track without irregularities of a length (m).
-pub(super) fn tangent(length: f64) -> Option<Track> {
+pub(crate) fn tangent(length: f64) -> Option<Track> {
     Some(TrackFile::straight(length).ok()?.track)
 }
 
 /// Reads the track.
-pub(super) fn track(r: &mut CaseReader<'_>) -> Option<ReadTrack> {
+pub(crate) fn track(r: &mut CaseReader<'_>) -> Option<ReadTrack> {
     r.section(
         "track",
         "The track: the keys of a track file, or file = \"my_track.toml\". Rails are at rest; what they lie \

@@ -85,29 +85,27 @@ fn unused(shared: &TableNode, path: &str, [front, rear]: [&TableNode; 2], proble
 pub(super) fn trucks(r: &mut CaseReader<'_>, lading: Lading) -> [Parameters; 2] {
     let coils = sections::coils(r);
     if EACH.iter().all(|name| !r.has(name)) {
-        let own = truck(
-            r,
-            BOTH,
-            "Both trucks; [front_truck] and [rear_truck] take the same keys.",
-            (lading, &coils),
-        );
+        let about = "Both trucks; [front_truck] and [rear_truck] take the same keys.";
+        let own = truck(r, BOTH, about, (lading, &coils), |_| {});
         return [own.clone(), own];
     }
     [
-        truck(r, EACH[0], "The front truck.", (lading, &coils)),
-        truck(r, EACH[1], "The rear truck.", (lading, &coils)),
+        truck(r, EACH[0], "The front truck.", (lading, &coils), |_| {}),
+        truck(r, EACH[1], "The rear truck.", (lading, &coils), |_| {}),
     ]
 }
 
-/// Reads one truck, or both.
-fn truck(
+/// Reads one truck, or both; `first` reads keys of its table before the truck's own.
+pub(crate) fn truck(
     r: &mut CaseReader<'_>,
-    name: &'static str,
+    name: &str,
     about: &str,
     (lading, coils): (Lading, &[CoilKind]),
+    first: impl FnOnce(&mut CaseReader<'_>),
 ) -> Parameters {
     r.within(name);
     r.section("", about);
+    first(r);
     let (condition, damping) = sections::condition_and_damping(r, "Its [friction]");
     let mut own = Parameters::new(damping);
     own.bolster.free = [true; 6];

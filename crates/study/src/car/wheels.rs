@@ -49,14 +49,14 @@ const CREEPS: Names<Creep> = &[
 ];
 
 /// Rails as read: profile, gauge, its depth.
-pub(super) struct Rails {
+pub(crate) struct Rails {
     profile: Option<Profile>,
     gauge: f64,
     gauge_depth: f64,
 }
 
 /// Reads `[rails]`.
-pub(super) fn rails(r: &mut CaseReader<'_>) -> Rails {
+pub(crate) fn rails(r: &mut CaseReader<'_>) -> Rails {
     r.section("rails", "The rails: one profile, the same on both sides.");
     let name = text(
         r,
@@ -91,7 +91,7 @@ pub(super) fn rails(r: &mut CaseReader<'_>) -> Rails {
 }
 
 /// Reads `[wheels]`; `sprung` tells whether rails give way.
-pub(super) fn wheels(r: &mut CaseReader<'_>, parameters: &mut Parameters, rails: Rails, sprung: bool) {
+pub(crate) fn wheels(r: &mut CaseReader<'_>, parameters: &mut Parameters, rails: Rails, sprung: bool) {
     r.section(
         "wheels",
         "The wheelsets, their wheels, and what happens where they touch the rails.",

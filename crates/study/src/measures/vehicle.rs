@@ -7,7 +7,7 @@ use quantity::{Kind, System as Units};
 
 use super::measuring::run_whole;
 use super::{Definitions, Judged, Measure, Measures, Unmeasured};
-use crate::run::findings;
+use crate::run::{Run, findings};
 use crate::vehicle::VehicleCase;
 use crate::vehicle::run::VehicleResult;
 
@@ -76,7 +76,11 @@ pub fn judge(case: &VehicleCase) -> Result<Judged, Unmeasured> {
     // The summary's numbers are in the units of the results.
     let mut case = case.clone();
     case.simulation.output_units = Units::Si;
-    let (result, outcome) = run_whole(&case, findings::nonsense_in_truck)?;
+    let nonsense: fn(&Run<VehicleCase>) -> Option<String> = match case.description.on_track {
+        Some(_) => findings::nonsense_in_car,
+        None => findings::nonsense_in_truck,
+    };
+    let (result, outcome) = run_whole(&case, nonsense)?;
     Ok(Judged {
         measures: measures(&result),
         outcome,

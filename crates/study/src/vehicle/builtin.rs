@@ -15,7 +15,7 @@ macro_rules! file {
 static GROUPS: LazyLock<Vec<CaseGroup>> = LazyLock::new(|| {
     let case =
         |(name, title, body): (&str, &str, &str)| BuiltIn::new(name.to_owned(), title.to_owned(), body);
-    vec![mechanisms(case), suspensions(case)]
+    vec![mechanisms(case), suspensions(case), wagons(case)]
 });
 
 type Made = fn((&str, &str, &str)) -> BuiltIn;
@@ -36,6 +36,19 @@ fn mechanisms(case: Made) -> CaseGroup {
         ]
         .map(case)
         .into(),
+    }
+}
+
+fn wagons(case: Made) -> CaseGroup {
+    CaseGroup {
+        name: "wagons",
+        title: "Vehicles on a track: axles where you like",
+        look_at: "Wheel loads and accelerations on tangent track. Its numbers are guesses: it shows the keys of \
+                  wheelsets, wheels, rails and track.",
+        cases: vec![case(file!(
+            "vehicle_two_axles",
+            "A wagon on two axles over tangent track of FRA class 4 at 40 mph"
+        ))],
     }
 }
 

@@ -8,7 +8,7 @@ use crate::case::tree::{NodeValue, TableNode};
 
 /// Completes bodies and elements that are like others.
 pub(super) fn complete(tree: &mut TableNode, problems: &mut Problems) {
-    for name in ["bodies", "elements"] {
+    for name in ["bodies", "elements", "wheelsets", "trucks"] {
         let Some(own) = tree.table(name).cloned() else {
             continue;
         };

@@ -8,6 +8,7 @@ mod bodies;
 pub mod builtin;
 mod elements;
 mod like;
+mod on_track;
 pub mod run;
 pub mod summary;
 
@@ -20,6 +21,7 @@ use crate::case::field::Reach;
 use crate::case::model::{Model, model_case, read_case};
 use crate::case::problem::Problem;
 use crate::case::section::{Names, Range};
+use crate::case::tables::NamedFile;
 use crate::case::{CaseError, Simulation, Tables, tree_with_overrides};
 use crate::output_files::OutputFiles;
 use crate::reader::{CaseReader, CaseText, check_motions};
@@ -39,6 +41,8 @@ pub struct VehicleCase {
     pub simulation: Simulation,
     /// Warnings of reading.
     pub doubts: Vec<String>,
+    /// Profiles and measured tables that were read.
+    files: Vec<NamedFile>,
     text: CaseText,
 }
 
@@ -52,6 +56,12 @@ impl PartialEq for VehicleCase {
 model_case!(VehicleCase, Model::Vehicle, like::complete, read);
 
 impl VehicleCase {
+    /// Returns profiles and measured tables that were read, by their keys.
+    #[must_use]
+    pub fn has_files(&self) -> bool {
+        !self.files.is_empty()
+    }
+
     /// As [`VehicleCase::parse`], with kinds of elements of one's own beside those of the catalog.
     ///
     /// # Errors
@@ -94,15 +104,19 @@ fn read_with(r: &mut CaseReader<'_>, default_name: &str, own: &'static [OwnEleme
     let comment = "standard gravity, along -z";
     r.quantity("gravity", gravity, &mut description.gravity, comment);
     description.bodies = bodies::all(r);
+    let mut parts = on_track::parts(r, &description.bodies);
     let names: Vec<&str> = std::iter::once(vehicle::GROUND)
         .chain(description.bodies.iter().map(|own| own.name.as_str()))
+        .chain(parts.names.iter().map(String::as_str))
         .collect();
-    let read = elements::all(r, &names, own);
-    description.elements = read;
+    description.elements = elements::all(r, &names, own);
+    let (on_track, files, mut doubts) = on_track::track(r, &mut parts, &description.bodies);
+    description.on_track = on_track;
     r.section("start", "How the run starts.");
     let comment = "\"equilibrium\": at rest, motions and loads held as at time zero, wedges and dry friction \
                    without friction; \"nominal\": in the nominal layout. Offsets of bodies come on top";
     r.choice("kind", STARTS, &mut description.start, comment);
+    on_track::start(r, &mut description);
     let mut output_files = OutputFiles::default();
     r.section("output", "What is written.");
     output_files.read(r);
@@ -112,7 +126,9 @@ fn read_with(r: &mut CaseReader<'_>, default_name: &str, own: &'static [OwnEleme
     if let Some(duration) = &duration {
         check_motions(r, duration);
     }
-    let doubts = doubts(r, &description);
+    doubts.extend(self::doubts(r, &description));
+    r.files.extend(files);
+    let files = std::mem::take(&mut r.files);
     let text = r.finish("a vehicle's case");
     Some(VehicleCase {
         name,
@@ -121,6 +137,7 @@ fn read_with(r: &mut CaseReader<'_>, default_name: &str, own: &'static [OwnEleme
         output_files,
         simulation,
         doubts,
+        files,
         text,
     })
 }
@@ -137,7 +154,8 @@ fn doubts(r: &mut CaseReader<'_>, description: &Description) -> Vec<String> {
     let mut doubts = Vec::new();
     let held = |number: usize| {
         let ends = |own: &vehicle::catalog::Element| own.ends.iter().any(|end| end.body == number);
-        elements.iter().any(ends)
+        let on = description.on_track.iter().flat_map(|own| &own.trucks);
+        elements.iter().any(ends) || on.into_iter().any(|own| own.body == number)
     };
     for (number, body) in (1..).zip(bodies) {
         if held(number) {

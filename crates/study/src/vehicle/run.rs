@@ -8,10 +8,10 @@ use mechanics::output::Column;
 use mechanics::plausibility::PlausibilityFinding;
 use mechanics::system::{ContactState, System};
 use quantity::{Kind, System as Units};
-use vehicle::{Vehicle, View};
+use vehicle::{Axle, Vehicle, View};
 
 use super::VehicleCase;
-use super::summary::{SCHEMA, VehicleSummary, VibrationSummary};
+use super::summary::{SCHEMA, VehicleDerailed, VehicleSummary, VibrationSummary};
 use crate::energy;
 use crate::finite::{find, is_finite};
 use crate::plausibility;
@@ -46,6 +46,8 @@ pub struct VehicleRecorder {
     rates: Vec<f64>,
     /// The values of the channels at the start.
     start: Vec<f64>,
+    /// Time (s), distance (m) and words of a wheel that left its rail.
+    derailed: Option<(f64, f64, String)>,
     /// Kinetic energy at the start, J.
     kinetic_at_start: f64,
 }
@@ -59,6 +61,7 @@ impl VehicleRecorder {
             rates: vec![0.0; vehicle.initial_state.len()],
             start: Vec::new(),
             kinetic_at_start: 0.0,
+            derailed: None,
             vehicle,
             columns,
         };
@@ -171,6 +174,15 @@ impl Recorder for VehicleRecorder {
         } = entries;
         self.row.extend([work, losses, stored_change, residual]);
         self.rows.append(&self.columns, &self.row, row.time)?;
+        let left = |axle: &Axle| Some((axle.clone(), axle.left_rail(&seen)?));
+        if let Some((axle, (side, _))) = self.vehicle.axles.iter().find_map(left) {
+            let at = axle.state(&seen).distance;
+            let side = ["left", "right"][side];
+            let name = axle.name.replace('_', " ");
+            let what = format!("the {side} wheel of {name} left its rail at {at:.1} m along the track");
+            self.derailed = Some((row.time, at, what.clone()));
+            return Err(RunError::Derailed { what });
+        }
         Ok(entries)
     }
 
@@ -214,7 +226,26 @@ fn output(mut run: Run<VehicleCase>, stopped: Option<Stopped>) -> VehicleResult 
         .collect();
     warnings.extend(run.start_warning.clone());
     warnings.extend(run.case.doubts.iter().cloned());
-    warnings.extend(findings::warnings_by_kind(&run));
+    warnings.extend(match run.case.description.on_track {
+        Some(_) => findings::warnings_of_rolling(&run),
+        None => findings::warnings_by_kind(&run),
+    });
+    let complete = run.is_complete(stopped.as_ref());
+    let derailed = run
+        .recorder
+        .derailed
+        .take()
+        .map(|(time, at, what)| VehicleDerailed {
+            time,
+            distance: SummaryValue::new(at, Kind::Distance, units),
+            what,
+        });
+    // A derailment is a result, though not of a complete run.
+    let stopped = stopped.filter(|_| derailed.is_none());
+    let reached = run.recorder.vehicle.axles.first().map(|axle| {
+        let seen = run.system.observe(run.integrator.time(), run.integrator.x());
+        SummaryValue::new(axle.state(&seen).distance, Kind::Distance, units)
+    });
     let vibrations = run.recorder.vehicle.vibrations();
     if vibrations.is_err() {
         warnings.push("there are no natural vibrations: the rest cannot be linearized".to_owned());
@@ -233,13 +264,15 @@ fn output(mut run: Run<VehicleCase>, stopped: Option<Stopped>) -> VehicleResult 
         name: run.case.name.clone(),
         title: run.case.title.clone(),
         units,
-        complete: run.is_complete(stopped.as_ref()),
+        complete,
         stopped,
+        derailed,
         failed: energy::failure(&balance, energy::WHAT_TO_DO),
         warnings,
         rows: table.column("time").len() - table.before(),
         vibrations: vibrations.into_iter().map(VibrationSummary::of).collect(),
         forces_at_start,
+        reached,
         extremes: table.summary_extremes(&columns, units),
         ledger: run.ledger(units),
         method: run.case.simulation.method.to_string(),

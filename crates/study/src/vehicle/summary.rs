@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use vehicle::Vibration;
 
 use crate::metrics::Extremes;
+use crate::outcome::RunEnd;
 use crate::summary::{LedgerSummary, Stopped, SummaryValue, ledger, run_summary};
 
 /// The schema's name and version.
@@ -31,6 +32,9 @@ pub struct VehicleSummary {
     pub complete: bool,
     /// Reason and time of the stop, if it is incomplete.
     pub stopped: Option<Stopped>,
+    /// The wheel that left its rail, if one did: the run ends there.
+    #[serde(default)]
+    pub derailed: Option<VehicleDerailed>,
     /// The reason for not using its numbers, which are kept: its energy ledger does not close to 1e-2.
     pub failed: Option<String>,
     /// Warnings about the numbers; empty for a sound run.
@@ -41,6 +45,9 @@ pub struct VehicleSummary {
     pub vibrations: Vec<VibrationSummary>,
     /// Forces of the elements at the start, by the names of their columns.
     pub forces_at_start: BTreeMap<String, SummaryValue>,
+    /// Distance along the track of the first wheelset at the end, if it runs on one.
+    #[serde(default)]
+    pub reached: Option<SummaryValue>,
     /// Least and greatest values of all columns, by their names with units.
     pub extremes: BTreeMap<String, Extremes>,
     /// The energy ledger at the end; losses by element.
@@ -59,8 +66,25 @@ run_summary!(
     VehicleSummary,
     |own| title: &own.title,
     ledger: ledger!(own.ledger, own.ledger.entries),
-    solver: (own.statistics.steps, own.relative_tolerance)
+    solver: (own.statistics.steps, own.relative_tolerance),
+    derailed: own.derailed.as_ref().map(|own| RunEnd {
+        time: own.time,
+        reason: own.what.clone(),
+        distance: Some(own.distance.clone()),
+    }),
+    reached: own.reached.clone()
 );
+
+/// A wheel that left its rail.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VehicleDerailed {
+    /// The output time, s.
+    pub time: f64,
+    /// Distance along the track.
+    pub distance: SummaryValue,
+    /// The wheel and the place, in words.
+    pub what: String,
+}
 
 /// A natural vibration.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

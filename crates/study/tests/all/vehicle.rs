@@ -369,7 +369,7 @@ fn reproduction_wedges_of_a_half_bogie_carry_different_forces() {
                 .fold(0.0_f64, |most, own| most.max(*own))
         };
         let normals = ["leading", "trailing"].map(|end| largest(&format!("{end}_wedge_column_normal_force")));
-        assert!((normals[0] / normals[1] - 1.0).abs() > 0.01, "{set}: {normals:?}");
+        assert!((normals[0] / normals[1] - 1.0).abs() > 1e-3, "{set}: {normals:?}");
         let lost = |face: &str| {
             ["leading", "trailing"].map(|end| {
                 let entry = format!("{end}_wedge_{face}_friction_loss");
@@ -377,8 +377,8 @@ fn reproduction_wedges_of_a_half_bogie_carry_different_forces() {
             })
         };
         let (columns, slopes) = (lost("column"), lost("slope"));
+        assert!((columns[0] / columns[1] - 1.0).abs() > 0.2, "{set}: {columns:?}");
         assert!(columns.iter().all(|own| *own > 0.0), "{set}: {columns:?}");
-        assert!((columns[0] / columns[1] - 1.0).abs() > 0.02, "{set}: {columns:?}");
         assert_eq!(
             slopes == [0.0; 2],
             set.ends_with("frictionless_slope"),
@@ -416,5 +416,99 @@ fn analytic_the_example_of_ones_own_vehicle() {
     assert!(
         found.iter().any(|own| (own / pitch - 1.0).abs() < 2e-3),
         "{found:?} {pitch}"
+    );
+}
+
+/// The text of a car's completed case as a vehicle: a body and two trucks.
+fn written_out(car: &str) -> String {
+    let mut text = String::from(
+        "model = \"vehicle\"\n[bodies.car_body]\nweight = \"43060 lbf\"\n\
+         inertia = [\"375000 lbf in s^2\", \"3610000 lbf in s^2\", \"3610000 lbf in s^2\"]\n\
+         at = [\"0 in\", \"0 in\", \"65 in\"]\n",
+    );
+    let (mut section, mut of_truck) = (String::new(), String::new());
+    for line in car.lines() {
+        if line.starts_with('[') {
+            section = line.trim_matches(['[', ']']).to_owned();
+            if let Some(rest) = section.strip_prefix("truck") {
+                of_truck += &format!("[trucks.front{rest}]\n");
+                if rest.is_empty() {
+                    of_truck += "at = \"243 in\"\nunder = \"car_body\"\n";
+                }
+                continue;
+            }
+        }
+        let own = ["rails", "wheels", "track", "speed", "simulation"].contains(&section.as_str());
+        match section.starts_with("truck") {
+            true if !line.starts_with('[') => of_truck += &format!("{line}\n"),
+            false if own => text += &format!("{line}\n"),
+            _ => {}
+        }
+    }
+    let speed = text.replace("[speed]\n", "[drive]\nheight = \"34.5 in\"\n[speed]\n");
+    format!("{speed}{of_truck}[trucks.rear]\nlike = \"front\"\nat = \"-243 in\"\n")
+}
+
+/// The empty car of `model = "car"`, and the same car written out as bodies and trucks, over a dip of both rails:
+/// the same wheel forces, motions and wedge forces, to rounding.
+#[test]
+fn cross_code_a_car_written_out_equals_the_built_in_one() {
+    let overrides = [
+        "track.segments=[{tangent=\"400 ft\"}]",
+        "track.irregularities=[{shape=\"dip\",start=\"60 ft\",length=\"20 ft\",depth=\"0.3 in\",rails=\"both\",direction=\"vertical\"}]",
+        "simulation.duration=2 s",
+    ]
+    .map(str::to_owned);
+    let car = study::models::built_in("car_tangent_empty").unwrap().text();
+    let car = study::car::CarCase::parse("car.toml", car, Path::new(""), &overrides)
+        .unwrap_or_else(|error| panic!("{:?}", miette::Report::new(error)));
+    let own = VehicleCase::parse("own.toml", &written_out(car.to_toml()), Path::new(""), &[])
+        .unwrap_or_else(|error| panic!("{:?}", miette::Report::new(error)));
+    let (built_in, own) = (
+        Run::new(&car).unwrap().finish(|_| ()),
+        Run::new(&own).unwrap().finish(|_| ()),
+    );
+    assert!(own.summary.complete, "{:?}", own.summary.stopped);
+    for (theirs, ours) in [
+        ("axle_1_left_vertical", "front_wheelset_1_left_vertical_force"),
+        ("axle_2_right_lateral", "front_wheelset_2_right_lateral_force"),
+        ("axle_4_right_vertical", "rear_wheelset_2_right_vertical_force"),
+        ("body_roll", "car_body_roll"),
+        ("speed", "car_body_speed"),
+        (
+            "truck_1_leading_left_column_normal",
+            "front_leading_left_column_normal",
+        ),
+        (
+            "truck_2_left_nest_vertical_force",
+            "rear_left_nest_vertical_force",
+        ),
+    ] {
+        let [a, b] = [built_in.column(theirs), own.column(ours)]
+            .map(|own| own.unwrap_or_else(|| panic!("{theirs} {ours}")));
+        assert_eq!(a.len(), b.len());
+        let scale = a.iter().fold(1e-3_f64, |most, own| most.max(own.abs()));
+        let worst = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(worst <= 1e-9 * scale, "{theirs}: {worst:.2e} of {scale:.3e}");
+    }
+}
+
+/// A wagon on two axles: its wheels carry its weight at the start, and its ledger closes.
+#[test]
+fn analytic_a_wagon_on_two_axles_stands_on_its_wheels() {
+    let result = run(study::models::built_in("vehicle_two_axles").unwrap().text());
+    let load = |name: &str| result.summary.forces_at_start[name].value;
+    let mut sum = 0.0;
+    for axle in ["leading", "trailing"] {
+        let both = ["left", "right"].map(|side| load(&format!("{axle}_{side}_vertical_force")));
+        assert!((both[0] / both[1] - 1.0).abs() < 0.2, "{both:?}");
+        sum += both[0] + both[1];
+    }
+    let wheelsets = 2.0 * 3135.0;
+    assert!((sum / (60000.0 + wheelsets) - 1.0).abs() < 0.05, "{sum}");
+    let reached = result.summary.reached.unwrap();
+    assert!(
+        (reached.value - (118.0 / 12.0 + 3.28 + 118.0 / 12.0 + 40.0 * 1.46667 * 6.0)).abs() < 5.0,
+        "{reached:?}"
     );
 }

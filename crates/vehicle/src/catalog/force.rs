@@ -6,7 +6,9 @@
 //! it. The other end has nothing of it: such a force comes from outside.
 
 use mechanics::motion::Motion;
+use mechanics::orientation::fixed;
 use mechanics::system::AppliedLoad;
+use mechanics::vector::Vector;
 
 use super::{CatalogElement, Place};
 use crate::drawing::Drawn;
@@ -38,7 +40,13 @@ impl CatalogElement for AppliedForce {
             arm[0] * y - arm[1] * x,
         ];
         let free = own.free;
-        for (coordinate, factor) in [x, y, z].into_iter().chain(moment).enumerate() {
+        // Coordinates are those of its reference frame, which is turned on a track.
+        let axes = fixed(own.frame.orientation);
+        let [force, moment] = [[x, y, z], moment].map(|own| {
+            let turned: Vector<f64> = axes.apply_transposed(Vector(own));
+            turned.0
+        });
+        for (coordinate, factor) in force.into_iter().chain(moment).enumerate() {
             if factor != 0.0 && free[coordinate] {
                 place.model.loads.push(AppliedLoad {
                     body,

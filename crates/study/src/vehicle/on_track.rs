@@ -1,0 +1,198 @@
+//! Wheelsets, trucks and the track of a vehicle's case.
+
+use ::car::{Drive, Parameters, Wheels};
+use quantity::Kind;
+use truck::Lading;
+use vehicle::{Description, OnTrack, RigidBody, TruckPart, WheelsetPart};
+
+use super::bodies::LIKE;
+use crate::car::{sections, track as car_track, trucks, wheels};
+use crate::case::field::Reach;
+use crate::case::problem::Problem;
+use crate::case::section::Range;
+use crate::case::tables::NamedFile;
+use crate::reader::{CaseReader, QuantityForm};
+use crate::track::{Notes, Support};
+
+/// Height of the couplers above the top of rail, at which a drive pushes: 34.5 in, m.
+const COUPLERS: f64 = 34.5 * 0.0254;
+const MILE_PER_HOUR: f64 = 0.447_04;
+const PLACE: QuantityForm = (Kind::Length, Range::Any, Reach::Signed(2.54));
+
+/// Wheelsets and trucks as read, with the names that elements may have as ends.
+pub(super) struct Parts {
+    wheelsets: Vec<WheelsetPart>,
+    trucks: Vec<TruckPart>,
+    pub names: Vec<String>,
+}
+
+/// Reads `[wheelsets.NAME]` and `[trucks.NAME]`.
+pub(super) fn parts(r: &mut CaseReader<'_>, bodies: &[RigidBody]) -> Parts {
+    let mut parts = Parts {
+        wheelsets: Vec::new(),
+        trucks: Vec::new(),
+        names: Vec::new(),
+    };
+    for name in r.names("wheelsets") {
+        r.section(
+            &format!("wheelsets.{name}"),
+            "A wheelset; [wheels] has its numbers.",
+        );
+        r.also_known(LIKE);
+        let mut x = 0.0;
+        r.needed(
+            "at",
+            PLACE,
+            &mut x,
+            "along the track in the nominal layout, forward",
+        );
+        parts.names.push(name.to_owned());
+        parts.wheelsets.push(WheelsetPart {
+            name: name.to_owned(),
+            x,
+        });
+    }
+    let coils = truck::coils::catalog();
+    let bodies: Vec<&str> = bodies.iter().map(|own| own.name.as_str()).collect();
+    for name in r.names("trucks") {
+        let (mut x, mut body) = (0.0, None);
+        let path = format!("trucks.{name}");
+        let about = "A three-piece truck, with the keys of a car's.";
+        let parameters = trucks::truck(r, &path, about, (Lading::Loaded, &coils), |r| {
+            r.also_known(LIKE);
+            r.needed(
+                "at",
+                PLACE,
+                &mut x,
+                "its center along the track in the nominal layout, forward",
+            );
+            body = r.name_among("under", &bodies, "the body that stands on it");
+        });
+        for part in ["bolster", "left_side_frame", "right_side_frame"] {
+            parts.names.push(format!("{name}_{part}"));
+        }
+        if let Some(body) = body {
+            parts.trucks.push(TruckPart {
+                name: name.to_owned(),
+                x,
+                body: body + 1,
+                parameters: Box::new(parameters),
+            });
+        }
+    }
+    for (at, name) in parts.names.iter().enumerate() {
+        if bodies.contains(&name.as_str()) || parts.names[..at].contains(name) {
+            let problem = Problem::new(format!("two parts of the vehicle are named `{name}`"));
+            let help = "give each body, wheelset and truck a name of its own";
+            r.problems.push(problem.help(help));
+        }
+    }
+    parts
+}
+
+/// Reads `[rails]`, `[wheels]`, `[track]`, `[speed]`, `[drive]` of a vehicle that has wheelsets or trucks; returns
+/// files that were read, and what is doubtful.
+pub(super) fn track(
+    r: &mut CaseReader<'_>,
+    parts: &mut Parts,
+    bodies: &[RigidBody],
+) -> (Option<OnTrack>, Vec<NamedFile>, Vec<String>) {
+    let sections = ["rails", "wheels", "track", "speed", "drive"];
+    if parts.wheelsets.is_empty() && parts.trucks.is_empty() && !r.has("wheelsets") && !r.has("trucks") {
+        for section in sections {
+            if !r.has(section) {
+                continue;
+            }
+            let problem = Problem::new(format!("[{section}] has no effect: the vehicle has no wheelsets"));
+            let help = "write [wheelsets.NAME] or [trucks.NAME], or leave it out";
+            r.problem(section, problem.label("no effect").help(help));
+            r.expect("", &["rails", "wheels", "track", "speed", "drive"]);
+        }
+        return (None, Vec::new(), Vec::new());
+    }
+    let nothing = (None, Vec::new(), Vec::new());
+    let Some(straight) = car_track::tangent(1000.0) else {
+        return nothing;
+    };
+    let Ok(mut scratch) = Parameters::new(Lading::Loaded, straight, 40.0 * MILE_PER_HOUR) else {
+        return nothing;
+    };
+    let line = car_track::track(r);
+    let sprung = !matches!(&line, Some(read) if read.support == Support::Rigid);
+    let rails = wheels::rails(r);
+    wheels::wheels(r, &mut scratch, rails, sprung);
+    sections::speed(r, &mut scratch);
+    r.section("drive", "What a held speed pushes: the body, at this height.");
+    let names: Vec<&str> = bodies.iter().map(|own| own.name.as_str()).collect();
+    let mut driven = 1;
+    if r.gives("body") {
+        driven = r
+            .name_among("body", &names, "of the vehicle")
+            .map_or(1, |place| place + 1);
+    } else {
+        r.also_known("body");
+    }
+    let mut height = COUPLERS;
+    r.quantity(
+        "height",
+        PLACE,
+        &mut height,
+        "above the top of rail: that of couplers",
+    );
+    let Some(read) = line else { return nothing };
+    let Notes { doubts, files } = read.notes;
+    let Wheels::OnRails(own) = scratch.wheels else {
+        let problem = Problem::new("a vehicle of one's own rolls on wheels with profiles");
+        let help = "leave wheels.geometry out";
+        r.problem("wheels.geometry", problem.label("not here").help(help));
+        return (None, files, doubts);
+    };
+    if bodies.is_empty() && scratch.drive != Drive::Coasting {
+        let problem = Problem::new("there is no body that a held speed could push");
+        let help = "write [bodies.NAME], or speed.kind = \"coasting\"";
+        r.problem("speed", problem.help(help));
+    }
+    let on = OnTrack {
+        support: sections::rail_support(&read.support, scratch.gravity),
+        track: read.track,
+        wheels: own,
+        wheelset: scratch.wheelset,
+        wheelsets: std::mem::take(&mut parts.wheelsets),
+        trucks: std::mem::take(&mut parts.trucks),
+        drive: scratch.drive,
+        driven: (driven, height),
+        distance: 0.0,
+        speed: scratch.start.speed,
+    };
+    (Some(on), files, doubts)
+}
+
+/// Reads where a vehicle on a track starts, in the section `[start]`.
+pub(super) fn start(r: &mut CaseReader<'_>, description: &mut Description) {
+    let Some(on) = &mut description.on_track else {
+        r.also_known("distance");
+        if r.gives("distance") {
+            let problem = Problem::new("`start.distance` has no effect: the vehicle has no wheelsets");
+            r.problem("start.distance", problem.label("no effect").help("leave it out"));
+        }
+        return;
+    };
+    on.distance = on.reach() + 1.0;
+    let form: QuantityForm = (Kind::Distance, Range::NotNegative, Reach::Positive);
+    let comment = "of the layout's origin along the track, which is straight so far";
+    r.quantity("distance", form, &mut on.distance, comment);
+    if let Some(reason) = on.misplaced() {
+        let problem = Problem::new(format!("the vehicle cannot start there: {reason}"));
+        let help = "begin the track with a tangent that is longer than the vehicle, and start on it";
+        r.problem("start.distance", problem.label("not here").help(help));
+    }
+    if let Some(body) = description.bodies.iter().find(|own| own.free != [true; 6]) {
+        let path = format!("bodies.{}.free_coordinates", body.name);
+        let problem = Problem::new(format!(
+            "{} runs along a track, but is not free in all coordinates",
+            body.name
+        ));
+        let help = "leave free_coordinates out, and hold it by stiff bushings";
+        r.problem(&path, problem.label("held").help(help));
+    }
+}

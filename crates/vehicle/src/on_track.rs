@@ -1,0 +1,300 @@
+//! Wheelsets and trucks of a description, and the track that they run on.
+//!
+//! The vehicle begins on straight track: until beyond its last axle the center line must not curve. There it is
+//! put as it rests on straight perfect track, and all of it moves at the speed of the start; wheels roll.
+
+use std::sync::Arc;
+
+use car::{Drive, ProfiledWheels};
+use mechanics::body::Body;
+use mechanics::link::Marker;
+use mechanics::system::{BodyState, Model, Observation};
+use mechanics::vector::{Matrix, Vector};
+use rolling::track::{RailSupport, rail_body};
+use rolling::wheel::{Search, WheelOnRail, motion_of};
+use rolling::wheelset::{WheelsetBody, WheelsetPlace, marker};
+use wheelrail::contact::Side;
+use wheelrail::loaded::Seat;
+use wheelrail::track::{CenterLine, Line, RailLines, Segment, Track, TrackError, TrackSection};
+
+/// Length of straight track before and behind a vehicle that comes to rest, m.
+const ROOM: f64 = 10.0;
+
+/// What runs on a track.
+#[derive(Clone, Debug)]
+pub struct OnTrack {
+    /// The track.
+    pub track: Track,
+    /// Profiles, gauge, creep.
+    pub wheels: ProfiledWheels,
+    /// Mass properties of each wheelset.
+    pub wheelset: WheelsetBody,
+    /// Springs under each rail; none: rails do not give way.
+    pub support: Option<RailSupport>,
+    /// Wheelsets outside of trucks.
+    pub wheelsets: Vec<WheelsetPart>,
+    /// Trucks.
+    pub trucks: Vec<TruckPart>,
+    /// What keeps the vehicle moving.
+    pub drive: Drive,
+    /// The body that the drive pushes (1: the first of the description), and the height at which, m.
+    pub driven: (usize, f64),
+    /// Distance along the track of the layout's origin at the start, m.
+    pub distance: f64,
+    /// Speed at the start, m/s.
+    pub speed: f64,
+}
+
+/// A wheelset.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WheelsetPart {
+    /// Its name.
+    pub name: String,
+    /// Its place along the track in the nominal layout, m.
+    pub x: f64,
+}
+
+/// A three-piece truck under a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TruckPart {
+    /// Its name, with which those of its bodies, elements and columns begin.
+    pub name: String,
+    /// The place of its center along the track in the nominal layout, m.
+    pub x: f64,
+    /// The body that stands on it (1: the first of the description).
+    pub body: usize,
+    /// Its parameters, with wheelsets, center plate and side bearings.
+    pub parameters: Box<truck::Parameters>,
+}
+
+impl OnTrack {
+    /// Returns the names of all wheelsets with their places along the track, m: those of trucks first.
+    pub(crate) fn all_wheelsets(&self) -> Vec<(String, f64)> {
+        let of_trucks = self.trucks.iter().flat_map(|own| {
+            let axle = own.parameters.geometry.axle();
+            [(1, axle), (2, -axle)]
+                .map(|(number, at)| (format!("{}_wheelset_{number}", own.name), own.x + at))
+        });
+        let single = self.wheelsets.iter().map(|own| (own.name.clone(), own.x));
+        of_trucks.chain(single).collect()
+    }
+
+    /// Returns the largest distance of a wheelset from the layout's origin, m.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        let places = self.all_wheelsets().into_iter();
+        places.map(|(_, x)| x.abs()).fold(0.0, f64::max)
+    }
+
+    /// Returns the nominal radius of the wheels, m.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.wheels.geometry.pairs()[0].nominal_radius()
+    }
+
+    /// Returns the rails of the track.
+    pub(crate) fn lines(&self) -> Arc<RailLines> {
+        let offsets = self.wheels.geometry.rail_origins();
+        Arc::new(RailLines::new(self.track.clone(), offsets))
+    }
+
+    /// Returns the same on straight perfect track without a drive, and the place on it where the layout's
+    /// origin then is, m.
+    pub(crate) fn standing(&self) -> Result<(Self, f64), TrackError> {
+        let middle = self.reach() + ROOM;
+        let distance = self.track.center_line.rail_distance();
+        let center_line = CenterLine::new(&[Segment::Tangent(2.0 * middle)], distance, &[])?;
+        let standing = Self {
+            track: Track {
+                center_line,
+                irregularities: Vec::new(),
+            },
+            drive: Drive::Coasting,
+            distance: middle,
+            speed: 0.0,
+            ..self.clone()
+        };
+        Ok((standing, middle))
+    }
+
+    /// Returns the places of the wheelsets in the nominal layout (m, rising) with the level of the actual rails
+    /// there at the start: to the left, up (m), and roll (rad).
+    pub(crate) fn levels(&self) -> Vec<(f64, [f64; 3])> {
+        let lines = self.lines();
+        let apart = self.track.center_line.rail_distance();
+        let mut levels: Vec<(f64, [f64; 3])> = self
+            .all_wheelsets()
+            .into_iter()
+            .map(|(_, x)| {
+                let [left, right] = lines.irregularities(self.distance + x);
+                let lateral = 0.5 * (left[0] + right[0]);
+                let vertical = 0.5 * (left[1] + right[1]);
+                (x, [lateral, vertical, (left[1] - right[1]) / apart])
+            })
+            .collect();
+        levels.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        levels
+    }
+
+    /// Returns why the vehicle cannot start where it is to; `None` if it can.
+    #[must_use]
+    pub fn misplaced(&self) -> Option<String> {
+        let (reach, length) = (self.reach(), self.track.center_line.length());
+        let [first, last] = [self.distance - reach, self.distance + reach];
+        if first < 0.0 || last > length {
+            return Some(format!(
+                "its axles would be from {first:.2} to {last:.2} m on a track of {length:.2} m"
+            ));
+        }
+        let steps = 200;
+        let curves = (0..=steps).any(|step| {
+            let at = last * f64::from(step) / f64::from(steps);
+            self.track.center_line.at(at).curvature[0] != 0.0
+        });
+        curves.then(|| {
+            format!(
+                "the track curves before {last:.2} m, but a vehicle of one's own starts on straight track"
+            )
+        })
+    }
+}
+
+/// A wheelset of a vehicle in its system.
+#[derive(Clone, Debug)]
+pub struct Axle {
+    /// Its name.
+    pub name: String,
+    /// The number of its body.
+    pub body: usize,
+    /// The bodies under its left and right wheel.
+    under: [usize; 2],
+    wheels: [WheelOnRail; 2],
+    half: f64,
+    lines: Arc<RailLines>,
+}
+
+/// A wheelset against the track, and the forces of its wheels on the rails, as [`car::AxleLoads`] and
+/// [`car::WheelLoads`] have them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AxleState {
+    /// Distance along the track, m.
+    pub distance: f64,
+    /// To the left of the center line, m.
+    pub lateral: f64,
+    /// Yaw to the track, positive to the left, rad.
+    pub yaw: f64,
+    /// Vertical force on the left and the right rail, down, N.
+    pub vertical: [f64; 2],
+    /// Lateral force in the plane of the track, positive where it spreads the gauge, N.
+    pub spreading: [f64; 2],
+}
+
+impl Axle {
+    /// Returns its state at an observation.
+    #[must_use]
+    pub fn state(&self, seen: &Observation) -> AxleState {
+        let own = &seen.bodies[self.body];
+        let section = section(&self.lines, own);
+        let axle = section.of(own.rotation.column(0).0);
+        let [_, lateral, _] = section.of((own.origin - Vector(section.origin)).0);
+        let mut state = AxleState {
+            distance: section.distance,
+            lateral,
+            yaw: -libm::asin(axle[0].clamp(-1.0, 1.0)),
+            ..AxleState::default()
+        };
+        for i in 0..2 {
+            use mechanics::element::Element;
+            let wrench = self.wheels[i].evaluate::<f64>(&self.motion(seen, i));
+            let [_, y, z] = section.of(wrench.force.0);
+            state.vertical[i] = z;
+            state.spreading[i] = [-y, y][i];
+        }
+        state
+    }
+
+    fn motion(&self, seen: &Observation, side: usize) -> mechanics::link::RelativeMotion<f64> {
+        let left = [self.half, -self.half][side];
+        let under = &seen.bodies[self.under[side]];
+        motion_of(&seen.bodies[self.body], left, under, Matrix::identity())
+    }
+
+    /// Returns the side (0 left, 1 right) and the seat of a wheel that has left its rail.
+    #[must_use]
+    pub fn left_rail(&self, seen: &Observation) -> Option<(usize, Seat)> {
+        let seats = [0, 1].map(|side| (side, self.wheels[side].seat(&self.motion(seen, side))));
+        seats.into_iter().find(|(_, seat)| *seat != Seat::OnRail)
+    }
+}
+
+/// Returns the section of the track's center line at a body.
+pub(crate) fn section(lines: &RailLines, body: &BodyState) -> TrackSection<f64> {
+    lines.section(Line::Center, body.center_of_gravity.0)
+}
+
+/// Returns the body of a wheelset at a place of the nominal layout.
+pub(crate) fn wheelset_body(on: &OnTrack, name: &str, x: f64) -> Body {
+    let mut body = on.wheelset.body(name, &WheelsetPlace::default());
+    body.frame.origin = [x, 0.0, on.radius()];
+    body
+}
+
+/// Adds rails and wheels of these wheelsets (names and numbers) to a model.
+pub(crate) fn add_wheels(
+    model: &mut Model,
+    on: &OnTrack,
+    searches: &[Search],
+    lines: &Arc<RailLines>,
+    wheelsets: &[(String, usize)],
+) -> Vec<Axle> {
+    let track = Marker::new([0.0; 3], [0.0; 3]);
+    let sides = ["left", "right"];
+    let under: Vec<[usize; 2]> = wheelsets
+        .iter()
+        .map(|(name, _)| {
+            let Some(support) = &on.support else { return [0; 2] };
+            sides.map(|side| {
+                let number = model.bodies.len();
+                let mut rail = rail_body(support);
+                rail.name = format!("{name}_{side}_rail");
+                model.bodies.push(rail);
+                let own = RailSupport {
+                    name: format!("{name}_{side}_rail_support"),
+                    ..support.clone()
+                };
+                model.add(own, (number, track), (0, track));
+                number
+            })
+        })
+        .collect();
+    let half = 0.5 * on.wheels.tape_distance;
+    let axles = wheelsets.iter().zip(under);
+    axles
+        .map(|((name, body), under)| Axle {
+            name: name.clone(),
+            body: *body,
+            under,
+            wheels: [0, 1].map(|i| WheelOnRail {
+                name: format!("{name}_{}_wheel", sides[i]),
+                lines: lines.clone(),
+                side: [Side::Left, Side::Right][i],
+                search: searches[i].clone(),
+                law: on.wheels.law,
+            }),
+            half,
+            lines: lines.clone(),
+        })
+        .collect()
+}
+
+impl Axle {
+    /// Adds the elements of its wheels.
+    pub(crate) fn add(&self, model: &mut Model) {
+        let track = Marker::new([0.0; 3], [0.0; 3]);
+        for i in 0..2 {
+            let left = [self.half, -self.half][i];
+            let at = (self.body, marker(left));
+            model.add(self.wheels[i].clone(), at, (self.under[i], track));
+        }
+    }
+}

@@ -1,0 +1,310 @@
+//! What is seen of the bodies of a vehicle: by its fixed axes or, on a track, by those of the track.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use mechanics::body::Body;
+use mechanics::orientation::fixed;
+use mechanics::vector::{Matrix, Vector};
+use quantity::Kind;
+use truck::{MountedTruck, TruckFrame, WEDGE_NAMES};
+use wheelrail::track::{Line, RailLines, TrackSection};
+
+use crate::body::RigidBody;
+use crate::channel::{Channel, View};
+use crate::on_track::{Axle, section};
+
+/// Names of coordinates in columns, with what they measure.
+const COORDINATES: [(&str, &str); 6] = [
+    ("x", "forward"),
+    ("y", "to the left"),
+    ("z", "up"),
+    ("roll", "roll"),
+    ("pitch", "pitch"),
+    ("yaw", "yaw"),
+];
+
+/// Returns what is seen of a body: displacements of its center of gravity and rotations from the nominal
+/// layout, their rates, accelerations.
+pub(crate) fn body_channels(number: usize, body: &RigidBody) -> Vec<Channel> {
+    let moves = std::array::from_fn(|k| body.moves(k));
+    channels_of(number, &body.name, body.place, moves, !body.is_prescribed())
+}
+
+/// Returns the same of a body of an element's own.
+pub(crate) fn own_channels(number: usize, body: &Body) -> Vec<Channel> {
+    channels_of(number, &body.name, center_of(body), body.free, false)
+}
+
+/// Returns the center of gravity of a body in the nominal layout.
+pub(crate) fn center_of(body: &Body) -> [f64; 3] {
+    std::array::from_fn(|k| body.frame.origin[k] + body.center_of_gravity[k])
+}
+
+fn channels_of(number: usize, name: &str, place: [f64; 3], moves: [bool; 6], is_free: bool) -> Vec<Channel> {
+    let mut all = Vec::new();
+    let mut add = |suffix: &str, kind: Kind, text: String, read: Read| {
+        let mut channel = Channel::new(format!("{name}_{suffix}"), kind, format!("{name}: {text}"), read);
+        channel.column.reference = Cow::Borrowed("center of gravity");
+        all.push(channel);
+    };
+    for (k, (suffix, along)) in COORDINATES.into_iter().enumerate().filter(|(k, _)| moves[*k]) {
+        let (kind, text) = match k {
+            0..3 => (
+                Kind::Length,
+                format!("displacement of the center of gravity {along}"),
+            ),
+            _ => (Kind::Angle, format!("{along} from the nominal layout")),
+        };
+        add(suffix, kind, text, displacement(number, k, place));
+    }
+    for (k, (suffix, along)) in COORDINATES.into_iter().enumerate().filter(|(k, _)| moves[*k]) {
+        let (kind, text) = match k {
+            0..3 => (Kind::Speed, format!("velocity of the center of gravity {along}")),
+            _ => (
+                Kind::AngularSpeed,
+                format!("angular velocity about the axis of {along}"),
+            ),
+        };
+        add(&format!("{suffix}_rate"), kind, text, rate(number, k));
+    }
+    let accelerated = COORDINATES.into_iter().enumerate().take(3);
+    for (k, (suffix, along)) in accelerated.filter(|(k, _)| moves[*k] && is_free) {
+        let text = format!("acceleration {along}");
+        add(
+            &format!("{suffix}_acceleration"),
+            Kind::RideAcceleration,
+            text,
+            Box::new(move |view| view.acceleration(number, k)),
+        );
+    }
+    all
+}
+
+type Read = Box<dyn Fn(&View<'_>) -> f64 + Send + Sync>;
+
+fn displacement(number: usize, k: usize, place: [f64; 3]) -> Read {
+    match k {
+        0..3 => Box::new(move |view| view.seen.bodies[number].center_of_gravity.0[k] - place[k]),
+        _ => Box::new(move |view| {
+            let own = &view.seen.bodies[number];
+            match view.system.bodies()[number].is_prescribed() {
+                true => angle(&own.rotation, k),
+                false => own.coordinates[k],
+            }
+        }),
+    }
+}
+
+/// Returns roll, pitch or yaw (3, 4, 5) of a rotation `Ry(pitch) Rz(yaw) Rx(roll)`, rad; yaw beyond a quarter
+/// turn where it is the only one.
+fn angle(rotation: &Matrix<f64>, k: usize) -> f64 {
+    let Matrix(r) = rotation;
+    match k {
+        3 => libm::atan2(-r[1][2], r[1][1]),
+        4 => libm::atan2(-r[2][0], r[0][0]),
+        _ if r[2][2] == 1.0 => libm::atan2(r[1][0], r[0][0]),
+        _ => libm::asin(r[1][0].clamp(-1.0, 1.0)),
+    }
+}
+
+fn rate(number: usize, k: usize) -> Read {
+    match k {
+        0..3 => Box::new(move |view| {
+            let own = &view.seen.bodies[number];
+            let arm = own.center_of_gravity - own.origin;
+            let swing: Vector<f64> = own.angular_velocity.cross(arm);
+            (own.velocity + swing).0[k]
+        }),
+        _ => Box::new(move |view| view.seen.bodies[number].angular_velocity.0[k - 3]),
+    }
+}
+
+/// Columns of a body on a track.
+const ON_TRACK: [(&str, Kind, &str); 10] = [
+    (
+        "distance",
+        Kind::Distance,
+        "distance of the center of gravity along the track",
+    ),
+    (
+        "speed",
+        Kind::TravelSpeed,
+        "speed of the center of gravity along the track",
+    ),
+    (
+        "y",
+        Kind::Length,
+        "center of gravity to the left of the center line",
+    ),
+    (
+        "z",
+        Kind::Length,
+        "center of gravity above its nominal height, square to the plane of the track",
+    ),
+    ("roll", Kind::Angle, "roll to the track, left side up"),
+    ("pitch", Kind::Angle, "pitch to the track, nose down"),
+    ("yaw", Kind::Angle, "yaw to the track, to the left"),
+    (
+        "x_acceleration",
+        Kind::RideAcceleration,
+        "acceleration of the center of gravity along the track",
+    ),
+    (
+        "y_acceleration",
+        Kind::RideAcceleration,
+        "acceleration of the center of gravity to the left",
+    ),
+    (
+        "z_acceleration",
+        Kind::RideAcceleration,
+        "acceleration of the center of gravity up",
+    ),
+];
+
+/// Returns what is seen of a body on a track; `place` is its center of gravity in the nominal layout, m.
+pub(crate) fn on_track(number: usize, name: &str, place: [f64; 3], lines: &Arc<RailLines>) -> Vec<Channel> {
+    let height = place[2];
+    let channel = |(k, (ending, kind, text)): (usize, (&str, Kind, &str))| {
+        let lines = lines.clone();
+        let mut own = Channel::new(
+            format!("{name}_{ending}"),
+            kind,
+            format!("{name}: {text}"),
+            move |view| seen_on_track(view, number, height, &lines, k),
+        );
+        own.column.frame = Cow::Borrowed("track: along, to the left, up, at the body");
+        own.column.reference = Cow::Borrowed("center of gravity");
+        own
+    };
+    ON_TRACK.into_iter().enumerate().map(channel).collect()
+}
+
+fn seen_on_track(view: &View<'_>, number: usize, height: f64, lines: &RailLines, k: usize) -> f64 {
+    let own = &view.seen.bodies[number];
+    let at = section(lines, own);
+    let of = |vector: Vector<f64>| at.of(vector.0);
+    match k {
+        0 => at.distance,
+        1 => of(own.velocity)[0],
+        2 => of(own.center_of_gravity - Vector(at.origin))[1],
+        3 => of(own.center_of_gravity - Vector(at.origin))[2] - height,
+        4..7 => {
+            let frame = fixed(view.system.bodies()[number].frame.orientation);
+            let turned: Matrix<f64> = own.rotation.times(frame.transpose());
+            let axes = [0, 1, 2].map(|axis| of(turned.column(axis)));
+            match k {
+                4 => libm::atan2(axes[1][2], axes[2][2]),
+                5 => libm::asin((-axes[0][2]).clamp(-1.0, 1.0)),
+                _ => libm::atan2(axes[0][1], axes[0][0]),
+            }
+        }
+        _ => {
+            let frame = fixed(view.system.bodies()[number].frame.orientation);
+            let own = [0, 1, 2].map(|axis| view.acceleration(number, axis));
+            of(frame.apply(Vector(own)))[k - 7]
+        }
+    }
+}
+
+/// Returns what is seen of a wheelset.
+pub(crate) fn of_axle(axle: &Axle) -> Vec<Channel> {
+    let mut all = Vec::new();
+    let mut add = |ending: &str, kind: Kind, text: &str, read: fn(&crate::AxleState) -> f64| {
+        let own = axle.clone();
+        let (name, text) = (
+            format!("{}_{ending}", axle.name),
+            format!("{}: {text}", axle.name),
+        );
+        let mut channel = Channel::new(name, kind, text, move |view| read(&own.state(view.seen)));
+        channel.column.frame = Cow::Borrowed("track: along, to the left, up, at the wheelset");
+        all.push(channel);
+    };
+    add("distance", Kind::Distance, "distance along the track", |own| {
+        own.distance
+    });
+    add("y", Kind::Length, "to the left of the center line", |own| {
+        own.lateral
+    });
+    add("yaw", Kind::Angle, "yaw to the track, to the left", |own| own.yaw);
+    let ratio = |spreading: f64, vertical: f64| match vertical > 0.0 {
+        true => spreading / vertical,
+        false => 0.0,
+    };
+    let vertical = "vertical force of the wheel on its rail, square to the track, down";
+    let lateral = "lateral force of the wheel on its rail, positive where it spreads the gauge";
+    let over = "lateral over vertical force; 0 where the wheel carries nothing";
+    add("left_vertical_force", Kind::Force, vertical, |own| {
+        own.vertical[0]
+    });
+    add("right_vertical_force", Kind::Force, vertical, |own| {
+        own.vertical[1]
+    });
+    add("left_lateral_force", Kind::Force, lateral, |own| own.spreading[0]);
+    add("right_lateral_force", Kind::Force, lateral, |own| {
+        own.spreading[1]
+    });
+    let _ = ratio;
+    add("left_l_over_v", Kind::Dimensionless, over, |own| l_over_v(own, 0));
+    add("right_l_over_v", Kind::Dimensionless, over, |own| {
+        l_over_v(own, 1)
+    });
+    all
+}
+
+fn l_over_v(own: &crate::AxleState, side: usize) -> f64 {
+    match own.vertical[side] > 0.0 {
+        true => own.spreading[side] / own.vertical[side],
+        false => 0.0,
+    }
+}
+
+/// Returns what is seen of a truck, whose bolster has this number.
+pub(crate) fn of_truck(
+    name: &str,
+    bolster: usize,
+    mounted: &MountedTruck,
+    lines: &Arc<RailLines>,
+) -> Vec<Channel> {
+    let mut all = Vec::new();
+    let mut add =
+        |ending: &str, kind: Kind, text: &str, read: Box<dyn Fn(&truck::Loads) -> f64 + Send + Sync>| {
+            let (mounted, lines) = (mounted.clone(), lines.clone());
+            let (name, text) = (format!("{name}_{ending}"), format!("{name}: {text}"));
+            all.push(Channel::new(name, kind, text, move |view| {
+                let place = view.seen.bodies[bolster].center_of_gravity;
+                let at: TrackSection<f64> = lines.section(Line::Center, place.0);
+                let frame = TruckFrame {
+                    origin: Vector(at.origin),
+                    axes: Matrix(at.axes).transpose(),
+                };
+                read(&mounted.loads(view.seen, &frame))
+            }));
+        };
+    add(
+        "warp_angle",
+        Kind::Angle,
+        "mean yaw of the side frames less that of the bolster",
+        Box::new(|own| own.warp_angle),
+    );
+    for (i, side) in ["left", "right"].into_iter().enumerate() {
+        let ending = format!("{side}_nest_vertical_force");
+        add(
+            &ending,
+            Kind::Force,
+            "load of a nest with its wedges",
+            Box::new(move |own| own.nest_vertical[i]),
+        );
+    }
+    for (i, wedge) in WEDGE_NAMES.into_iter().enumerate() {
+        let ending = format!("{wedge}_column_normal");
+        let text = format!("normal force of the column, {} wedge", wedge.replace('_', " "));
+        add(
+            &ending,
+            Kind::Force,
+            &text,
+            Box::new(move |own| own.wedges[i].column_normal),
+        );
+    }
+    all
+}
