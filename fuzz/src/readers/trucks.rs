@@ -58,6 +58,13 @@ pub const TRACKS: Reader = Reader {
         b"spectrum = \"fra_vertical\"",
         b"class = 6",
         b"rails = \"against\"",
+        b"[columns]",
+        b"milepost = { name = \"Milepost\" }",
+        b"direction = \"falling\"",
+        b"sides = \"running\"",
+        b"station_equations = [{ back = \"MP 7\", ahead = \"MP 8 + 3 ft\" }]",
+        b"form = \"bloss\"",
+        b"band = \"D1\"",
     ],
     read: track,
 };
@@ -79,6 +86,7 @@ pub const MEASURED_TRACKS: Reader = Reader {
         b"_offset_62_ft_in",
         b"right_high",
         b"wide",
+        b"MP 101 + 3 ft",
     ],
     read: measured,
 };
@@ -253,11 +261,16 @@ fn measured_corpus() -> Vec<Vec<u8>> {
         rails += &format!("{k},0.{k},-0.1,56.{k}\n");
         line += &format!("{};{k};0.1;0.01\n", 10 * k);
     }
-    vec![rails.into_bytes(), line.into_bytes()]
+    // As a measuring car of North America writes it, toward falling mileposts.
+    let mut car = "MP,Foot,Gage,Left Prof 62\n".to_owned();
+    for k in (0..80).rev() {
+        car += &format!("{},{},56.5,0.{k}\n", 100 + k / 40, 5240 * (k / 40) + k % 40);
+    }
+    vec![rails.into_bytes(), line.into_bytes(), car.into_bytes()]
 }
 
 /// Track files that take a table beside them, of which each table is one or the other.
-const WITH_TABLES: [&str; 4] = [
+const WITH_TABLES: [&str; 5] = [
     "segments = [{ tangent = \"30 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\n\
      form = \"space_curve\"\ntaper = \"10 ft\"\nbeyond = \"level\"\n",
     "segments = [{ tangent = \"30 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\n\
@@ -265,6 +278,12 @@ const WITH_TABLES: [&str; 4] = [
     "segments = [{ tangent = \"100 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\nform = \"mid_chord\"\n\
      chord = \"62 ft\"\nshortest = \"36 ft\"\nlongest = \"70 ft\"\ntaper = \"10 ft\"\nbeyond = \"level\"\n",
     "[center_line]\ntable = \"table.csv\"\nsigns = \"usual\"\n",
+    "direction = \"falling\"\nsegments = [{ tangent = \"30 ft\" }]\n\
+     station_equations = [{ back = \"MP 100 + 40 ft\", ahead = \"MP 101 + 5240 ft\" }]\n\
+     [columns]\nmilepost = { name = \"MP\" }\nmilepost_offset = { name = \"Foot\", unit = \"ft\" }\n\
+     left_profile = { name = \"Left Prof 62\", unit = \"in\", sign = \"down\" }\n[[irregularities]]\n\
+     table = \"table.csv\"\nform = \"space_curve\"\nband = \"D1\"\ntaper = \"3 ft\"\n\
+     beyond = \"level\"\n",
 ];
 
 fn measured(input: &[u8]) -> ReadOutcome {

@@ -19,10 +19,15 @@
 //! [[irregularities]]
 //! table = "measured.csv"      # foot by foot, see wheelrail::track::measured
 //! form = "space_curve"
+//! [columns]                   # if its titles are others
+//! milepost = { name = "Milepost" }
+//! left_profile = { name = "Left Prof 62", unit = "in" }
 //! [support]
 //! kind = "sprung"             # or rigid
 //! ```
 
+pub mod bands;
+mod columns;
 mod irregularity;
 mod measured;
 mod spectrum;
@@ -42,6 +47,7 @@ use crate::case::{CASE_TABLES, CaseError, STUDY_KEYS, Tables, name, text_of_file
 
 use crate::case::tables::NamedFile;
 
+use columns::RecordingKeys;
 use irregularity::irregularity;
 pub use support::Support;
 
@@ -60,7 +66,7 @@ pub struct TrackFile {
     pub doubts: Vec<String>,
 }
 
-const KEYS: [&str; 8] = [
+const KEYS: [&str; 12] = [
     "name",
     "title",
     "rail_distance",
@@ -69,6 +75,10 @@ const KEYS: [&str; 8] = [
     "segments",
     "grades",
     "irregularities",
+    "columns",
+    "direction",
+    "sides",
+    "station_equations",
 ];
 const TURNS: Names<f64> = &[("left", 1.0), ("right", -1.0)];
 const SPIRALS: Names<bool> = &[("linear", false), ("cubic", true)];
@@ -204,6 +214,7 @@ pub(crate) fn of_section(
             .and_then(|section| support::support(&section, problems)),
         None => Some(Support::usual()),
     };
+    let recordings = RecordingKeys::read(top, &RecordingKeys::default(), problems)?;
     let measured = match (
         tree.get("center_line"),
         tree.entry("segments").or(tree.entry("grades")),
@@ -223,6 +234,7 @@ pub(crate) fn of_section(
             Some(measured::center_line(
                 &section,
                 tables,
+                &recordings,
                 rail_distance?,
                 &mut notes,
                 problems,
@@ -268,10 +280,25 @@ pub(crate) fn of_section(
         .tables("irregularities", problems)
         .iter()
         .map(|section| match section.table.get("table") {
-            Some(_) => measured::irregularities(section, tables, end, &mut notes, problems),
+            Some(_) => measured::irregularities(section, tables, &recordings, end, &mut notes, problems),
             None => irregularity(section, end, problems).map(|placed| vec![placed]),
         })
         .collect();
+    if let (true, Some(unused)) = (
+        notes.files.is_empty() && problems.is_empty(),
+        columns::KEYS.iter().find_map(|key| tree.entry(key)),
+    ) {
+        let problem = Problem::new(format!(
+            "`{}` has no effect: this track reads no table",
+            unused.key
+        ));
+        problems.push(
+            problem
+                .at(&unused.key_place)
+                .label("not used")
+                .help("leave it out"),
+        );
+    }
     let irregularities: Vec<Vec<Placed>> = irregularities.into_iter().collect::<Option<_>>()?;
     let track = Track {
         center_line: center_line?,

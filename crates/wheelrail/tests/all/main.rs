@@ -17,6 +17,7 @@ mod measured;
 mod profile;
 mod profile_limits;
 mod rails;
+mod recordings;
 mod shape;
 mod spectrum;
 mod track;
