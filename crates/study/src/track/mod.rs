@@ -38,7 +38,9 @@ use std::path::Path;
 use input::file::Expected;
 use input::{FileType, limits};
 use quantity::{Kind, Quantity};
-use wheelrail::track::{CLEARANCE, CenterLine, CurveElements, Placed, Segment, Track, TrackError};
+use wheelrail::track::{
+    CLEARANCE, CenterLine, CurveElements, Placed, Segment, SpiralForm, Track, TrackError,
+};
 
 use crate::case::problem::{Problem, Problems, TomlSource};
 use crate::case::section::{CaseSection, Names, Range};
@@ -81,7 +83,17 @@ const KEYS: [&str; 12] = [
     "station_equations",
 ];
 const TURNS: Names<f64> = &[("left", 1.0), ("right", -1.0)];
-const SPIRALS: Names<bool> = &[("linear", false), ("cubic", true)];
+const SPIRALS: Names<SpiralForm> = &[
+    ("clothoid", SpiralForm::Clothoid),
+    ("bloss", SpiralForm::Bloss),
+    ("cubic_parabola", SpiralForm::CubicParabola),
+    ("sine", SpiralForm::Sine),
+    ("cosine", SpiralForm::Cosine),
+    ("helmert", SpiralForm::Helmert),
+    // Older names, which elsewhere mean other spirals.
+    ("linear", SpiralForm::Clothoid),
+    ("cubic", SpiralForm::Bloss),
+];
 const FOOT: f64 = 0.3048;
 /// The longest track, m.
 const LONGEST: f64 = 1e6;
@@ -437,14 +449,10 @@ fn segment(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Segment
     match *kind {
         "tangent" => return Some(Segment::Tangent(along?)),
         "spiral" => {
-            let cubic = optional(section, "form", false, |section| {
+            let form = optional(section, "form", SpiralForm::Clothoid, |section| {
                 section.choice("form", SPIRALS, problems)
             });
-            let along = along?;
-            return Some(match cubic? {
-                true => Segment::CubicSpiral(along),
-                false => Segment::Spiral(along),
-            });
+            return Some(Segment::Spiral(along?, form?));
         }
         _ => {}
     }

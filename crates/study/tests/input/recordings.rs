@@ -189,11 +189,7 @@ form = "space_curve"
         ],
     );
     let none = track.replace("MP 8\"", "MP\"");
-    refused(
-        &none,
-        &table,
-        &["station_equations[0].ahead", "cannot be \"MP\""],
-    );
+    refused(&none, &table, &["station_equations[0].ahead", "cannot be \"MP\""]);
     let unused = "direction = \"falling\"\n[[segments]]\ntangent = \"100 ft\"\n";
     refused(unused, &table, &["direction", "reads no table"]);
 }

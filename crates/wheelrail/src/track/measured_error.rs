@@ -3,9 +3,9 @@
 use quantity::SixDigits;
 use thiserror::Error;
 
-use super::center_line::TrackError;
 use super::chord::ChordError;
 use super::gaps::Gap;
+use super::segments::TrackError;
 
 /// Reasons why a measured table is no track.
 #[derive(Debug, Error)]

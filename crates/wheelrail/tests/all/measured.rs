@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use wheelrail::track::chord::{self, ChordError};
 use wheelrail::track::{
     CenterLine, CurveElements, Form, Irregularity, MeasuredError, MeasuredTable, RailPlace, Reading, Samples,
-    Segment, Track,
+    Segment, SpiralForm, Track,
 };
 
 const FOOT: f64 = 0.3048;
@@ -283,7 +283,7 @@ fn analytic_a_center_line_by_a_table_is_that_of_its_segments() {
     let elements = CurveElements::of_degree(6f64.to_radians(), 3.0 * INCH);
     let segments = [
         Segment::Tangent(100.0 * FOOT),
-        Segment::Spiral(200.0 * FOOT),
+        Segment::Spiral(200.0 * FOOT, SpiralForm::Clothoid),
         Segment::Curve(300.0 * FOOT, elements),
     ];
     let expected = CenterLine::new(&segments, 59.5 * INCH, &[[0.0, 0.0], [50.0, 0.01]]).unwrap();
@@ -317,7 +317,7 @@ fn analytic_cubic_spirals() {
     let (length, elements) = (61.0, CurveElements::of_degree(8f64.to_radians(), 4.0 * INCH));
     let segments = [
         Segment::Tangent(30.0),
-        Segment::CubicSpiral(length),
+        Segment::Spiral(length, SpiralForm::Bloss),
         Segment::Curve(90.0, elements),
     ];
     let line = CenterLine::new(&segments, 59.5 * INCH, &[]).unwrap();
