@@ -3,8 +3,8 @@
 //! The band-pass has -3 dB at both ends, falls with the fourth power of the wavelength ratio, and shifts
 //! nothing: `G(λ) = 1/(1 + a (λs/λ)⁴) · 1/(1 + a (λ/λl)⁴)`, `a = √2 - 1`, for the shortest and longest
 //! wavelengths λs, λl. Bands and order of the filter are remembered from EN 13848-1, not read there; D3 ends
-//! at 150 m here (profile; alignment may go to 200 m). The filter continues a track at its ends by reflection,
-//! so that values within one wavelength of them are uncertain.
+//! at 150 m here (profile; alignment may go to 200 m). The filter continues a track at its ends by
+//! reflection, so that values within one wavelength of them are uncertain.
 
 use crate::signal::LowPass;
 

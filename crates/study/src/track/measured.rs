@@ -229,8 +229,8 @@ fn doubts_of_band(
     let band = name_of_band.map_or(String::new(), |band| format!("{}, ", band.name));
     let [short, long] = [shortest, longest].map(SixDigits);
     let mut doubts = vec![format!(
-        "{name} holds waves of {band}{short} m to {long} m; the track has no others of it: a car meets waves of \
-         {long} m {:.1} times a second at 60 mph",
+        "{name} holds waves of {band}{short} m to {long} m; the track has no others of it: a car meets \
+         waves of {long} m {:.1} times a second at 60 mph",
         26.8224 / longest
     )];
     let beyond = placed.iter().filter_map(|own| match &own.irregularity {
@@ -248,8 +248,8 @@ fn doubts_of_band(
     let most = beyond.fold(0.0, f64::max);
     if most > FILTERED {
         doubts.push(format!(
-            "{name} is said to end at {long} m, but {:.0} % of its standard deviation lies in waves longer than \
-             {} m: state the band of its filter, or leave `band` out",
+            "{name} is said to end at {long} m, but {:.0} % of its standard deviation lies in waves longer \
+             than {} m: state the band of its filter, or leave `band` out",
             100.0 * most,
             SixDigits(3.0 * longest)
         ));

@@ -38,6 +38,7 @@ use std::path::Path;
 use input::file::Expected;
 use input::{FileType, limits};
 use quantity::{Kind, Quantity};
+use wheelrail::track::class_limits::HIGHEST_COVERED;
 use wheelrail::track::{
     CLEARANCE, CenterLine, CurveElements, Placed, Segment, SpiralForm, Track, TrackError,
 };
@@ -64,13 +65,16 @@ pub struct TrackFile {
     pub track: Track,
     /// The support of its rails.
     pub support: Support,
+    /// The class (49 CFR 213) that the track is said to have, from 1.
+    pub class: Option<usize>,
     /// Warnings of reading, such as gaps of a recording that were filled.
     pub doubts: Vec<String>,
 }
 
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "name",
     "title",
+    "class",
     "rail_distance",
     "support",
     "center_line",
@@ -129,6 +133,7 @@ impl TrackFile {
                 irregularities: Vec::new(),
             },
             support: Support::Rigid,
+            class: None,
             doubts: Vec::new(),
         })
     }
@@ -182,6 +187,7 @@ fn read(tree: &TableNode, source: &str, problems: &mut Problems) -> Option<Track
     let ReadTrack {
         track,
         support,
+        class,
         notes,
     } = read?;
     Some(TrackFile {
@@ -189,6 +195,7 @@ fn read(tree: &TableNode, source: &str, problems: &mut Problems) -> Option<Track
         title: title.to_owned(),
         track,
         support,
+        class,
         doubts: notes.doubts,
     })
 }
@@ -197,6 +204,8 @@ fn read(tree: &TableNode, source: &str, problems: &mut Problems) -> Option<Track
 pub(crate) struct ReadTrack {
     pub track: Track,
     pub support: Support,
+    /// The stated class.
+    pub class: Option<usize>,
     pub notes: Notes,
 }
 
@@ -220,6 +229,10 @@ pub(crate) fn of_section(
     let tree = top.table;
     top.allow_in(&KEYS, &[], "a track", problems);
     let rail_distance = optional_length(top, "rail_distance", 59.5 * 0.0254, problems);
+    let class = match tree.get("class") {
+        Some(_) => track_class(top, problems).map(Some),
+        None => Some(None),
+    };
     let support = match tree.get("support") {
         Some(_) => top
             .section("support", problems)
@@ -319,8 +332,30 @@ pub(crate) fn of_section(
     Some(ReadTrack {
         track,
         support: support?,
+        class: class?,
         notes,
     })
+}
+
+/// Returns the class that a track is said to have.
+fn track_class(top: &CaseSection<'_>, problems: &mut Problems) -> Option<usize> {
+    let class = irregularity::whole(top, "class", 0, problems)? as usize;
+    if (1..=HIGHEST_COVERED).contains(&class) {
+        return Some(class);
+    }
+    let problem = Problem::new(format!(
+        "`{}` is {class}; a class from 1 to {HIGHEST_COVERED} is expected",
+        top.path_of("class")
+    ));
+    let problem = problem.label("no such class").help(
+        "classes are those of 49 CFR 213; of classes 6 to 9 only the alinement is known here, and `wedgelab \
+         track show` says which of them it keeps",
+    );
+    problems.push(match top.table.place_of("class") {
+        Some(place) => problem.at(place),
+        None => problem,
+    });
+    None
 }
 
 /// Returns a track that comes back near itself at two distances (m).

@@ -1,7 +1,7 @@
 //! The center line of a track: tangents, spirals and curves, with superelevation and grade.
 //!
-//! In a spiral curvature and superelevation change by one of the laws of [`super::spiral`]. Heading and position
-//! are continuous by construction. The heading is a polynomial of the distance in each piece, with a wave
+//! In a spiral curvature and superelevation change by one of the laws of [`super::spiral`]. Heading and
+//! position are continuous by construction. The heading is a polynomial of the distance in each piece, with a wave
 //! beside it in some spirals; the position is its integral, exact for tangents and curves and by Gauss's rule
 //! with 8 points on pieces of at most 20 m of a spiral. Grades change linearly between given places. Before
 //! its start and beyond its end the track goes on as it is there, without a change of curvature.
@@ -400,9 +400,9 @@ impl CenterLine {
     }
 }
 
-/// Appends a part of a segment that begins at `begin` (m) and moves heading (rad) and place (m) on to its end,
-/// which it returns (m). A spiral is kept in pieces for one application of Gauss's rule each, so that a place
-/// anywhere in it costs the same.
+/// Appends a part of a segment that begins at `begin` (m) and moves heading (rad) and place (m) on to its
+/// end, which it returns (m). A spiral is kept in pieces for one application of Gauss's rule each, so that a
+/// place anywhere in it costs the same.
 fn append(
     pieces: &mut Vec<Piece>,
     begin: f64,

@@ -254,7 +254,7 @@ impl Rows {
             let mut least = f64::INFINITY;
             for pair in seven.windows(2) {
                 let apart = pair[1].0 - pair[0].0;
-                if !(apart >= JOINTS[0] && apart <= JOINTS[1]) {
+                if !(JOINTS[0]..=JOINTS[1]).contains(&apart) {
                     return None;
                 }
                 least = least.min((pair[1].1 - pair[0].1).abs());

@@ -283,9 +283,9 @@ fn number_of(written: &mut Separated, head: &Head, cell: &str) -> Result<f64, Ce
 }
 
 const HEADER: &str = "write a header such as: distance [ft], left_profile [in], right_profile [in]; or name \
-                      the columns of the recording in the track file, such as [columns] with milepost = { name \
-                      = \"Milepost\" } and left_profile = { name = \"Left Prof 62\", unit = \"in\" }; \
-                      docs/wheelrail.md lists both";
+                      the columns of the recording in the track file, such as [columns] with milepost = \
+                      { name = \"Milepost\" } and left_profile = { name = \"Left Prof 62\", unit = \
+                      \"in\" }; docs/wheelrail.md lists both";
 const SIGNS: &str = "write under the header which way is positive: up or down for profiles, left or right \
                      for alignment and curvature, right_high or left_high for cross level, wide or tight \
                      for gauge; or say signs = \"usual\" if they are up, left, right_high, wide";

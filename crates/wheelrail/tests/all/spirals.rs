@@ -6,7 +6,8 @@ use wheelrail::track::{CenterLine, CurveElements, Segment, SpiralForm, TrackErro
 
 const LENGTH: f64 = 100.0;
 const RADIUS: f64 = 1000.0;
-const LAWS: [(SpiralForm, fn(f64) -> f64); 5] = [
+type Law = fn(f64) -> f64;
+const LAWS: [(SpiralForm, Law); 5] = [
     (SpiralForm::Clothoid, |u| u),
     (SpiralForm::Bloss, |u| u * u * (3.0 - 2.0 * u)),
     (SpiralForm::Sine, |u| u - (2.0 * PI * u).sin() / (2.0 * PI)),
