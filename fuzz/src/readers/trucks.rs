@@ -91,6 +91,25 @@ pub const MEASURED_TRACKS: Reader = Reader {
     read: measured,
 };
 
+/// Alignments of LandXML.
+pub const ALIGNMENTS: Reader = Reader {
+    name: "alignments",
+    about: "alignments and cant of LandXML",
+    corpus: alignment_corpus,
+    dictionary: &[
+        b"<Line length=\"9\"/>",
+        b"<Curve radius=\"99\" length=\"9\" rot=\"cw\"/>",
+        b"<Spiral length=\"9\" radiusStart=\"INF\" radiusEnd=\"99\" rot=\"cw\" spiType=\"cubicParabola\"/>",
+        b"<CantStation station=\"1\" appliedCant=\"9\" adverse=\"true\"/>",
+        b"<StaEquation/>",
+        b"sinusoid",
+        b"linearUnit=\"USSurveyFoot\"",
+        b"<![CDATA[",
+        b"&#0;",
+    ],
+    read: alignment,
+};
+
 /// Points of profiles.
 pub const PROFILES: Reader = Reader {
     name: "profiles",
@@ -267,6 +286,31 @@ fn measured_corpus() -> Vec<Vec<u8>> {
         car += &format!("{},{},56.5,0.{k}\n", 100 + k / 40, 5240 * (k / 40) + k % 40);
     }
     vec![rails.into_bytes(), line.into_bytes(), car.into_bytes()]
+}
+
+fn alignment_corpus() -> Vec<Vec<u8>> {
+    vec![
+        b"<LandXML><Units><Metric linearUnit=\"meter\"/></Units><Alignments><Alignment name=\"A\" \
+          staStart=\"10\"><CoordGeom><Line><Start>0 0</Start><End>0 30</End></Line><Spiral length=\"40\" \
+          radiusStart=\"INF\" radiusEnd=\"300\" rot=\"ccw\" spiType=\"bloss\"/><Curve radius=\"300\" length=\"50\" \
+          rot=\"ccw\"><End>9 99</End></Curve></CoordGeom><Cant><CantStation station=\"40\" appliedCant=\"0\"/>\
+          <CantStation station=\"80\" appliedCant=\"90\"/></Cant></Alignment></Alignments></LandXML>"
+            .to_vec(),
+    ]
+}
+
+fn alignment(input: &[u8]) -> ReadOutcome {
+    in_file("line.xml", input, |xml| {
+        let file = xml.with_file_name("track.toml");
+        let text = "[center_line]\ntable = \"line.xml\"\ncant_unit = \"mm\"\n";
+        if std::fs::write(&file, text).is_err() {
+            return ReadOutcome::NO_TEXT;
+        }
+        match TrackFile::read(&file) {
+            Ok(file) => shown(&file.track),
+            Err(error) => refused(&error),
+        }
+    })
 }
 
 /// Track files that take a table beside them, of which each table is one or the other.

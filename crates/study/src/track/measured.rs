@@ -1,5 +1,9 @@
 //! Measured tables in track files: irregularities, and the center line.
 
+use std::path::PathBuf;
+
+use input::file::Expected;
+use input::limits;
 use quantity::{Kind, Quantity, SixDigits};
 use wheelrail::track::{
     CenterLine, Form, Irregularity, LONGEST_GAP, MeasuredError, MeasuredTable, Placed, Reading,
@@ -8,6 +12,7 @@ use wheelrail::track::{
 use super::bands::{self, BANDS};
 use super::columns::{self, RecordingKeys};
 use super::irregularity::named;
+use super::landxml;
 use super::{Notes, length, optional_length};
 use crate::case::Tables;
 use crate::case::problem::{Problem, Problems};
@@ -17,6 +22,13 @@ use crate::case::tree::{NodeValue, TreeNode};
 
 const FORMS: [&str; 2] = ["space_curve", "mid_chord"];
 const SIGNS: Names<bool> = &[("row", false), ("usual", true)];
+const CANT_UNITS: Names<f64> = &[
+    ("mm", 1e-3),
+    ("cm", 1e-2),
+    ("m", 1.0),
+    ("in", 0.0254),
+    ("ft", 0.3048),
+];
 const BEYOND: Names<bool> = &[("level", true)];
 
 /// Returns a mistake in a measured table, shown where the track file names it.
@@ -34,6 +46,32 @@ fn wrong(section: &CaseSection<'_>, tables: Tables<'_>, error: &MeasuredError) -
     match section.table.place_of("table") {
         Some(place) => problem.at(place).label("this table"),
         None => problem,
+    }
+}
+
+/// Returns the place of the file that a section names as its table.
+fn located(
+    section: &CaseSection<'_>,
+    tables: Tables<'_>,
+    text: &str,
+    problems: &mut Problems,
+) -> Option<PathBuf> {
+    match tables.locate(text) {
+        Ok(path) => Some(path),
+        Err(refused) => {
+            let message = format!(
+                "`{}`: {} {}",
+                section.path_of("table"),
+                tables.shown(text),
+                refused.reason
+            );
+            let problem = Problem::new(message).help(refused.help);
+            problems.push(match section.table.place_of("table") {
+                Some(place) => problem.at(place).label("this table"),
+                None => problem,
+            });
+            None
+        }
     }
 }
 
@@ -58,23 +96,7 @@ fn table(
         None => false,
     };
     let longest_gap = optional_length(section, "gaps", LONGEST_GAP, problems)?;
-    let path = match tables.locate(text) {
-        Ok(path) => path,
-        Err(refused) => {
-            let message = format!(
-                "`{}`: {} {}",
-                section.path_of("table"),
-                tables.shown(text),
-                refused.reason
-            );
-            let problem = Problem::new(message).help(refused.help);
-            problems.push(match section.table.place_of("table") {
-                Some(place) => problem.at(place).label("this table"),
-                None => problem,
-            });
-            return None;
-        }
-    };
+    let path = located(section, tables, text, problems)?;
     let reading = Reading {
         signs_known,
         longest_gap,
@@ -266,6 +288,11 @@ pub(super) fn center_line(
     notes: &mut Notes,
     problems: &mut Problems,
 ) -> Option<CenterLine> {
+    if let Some((name, _)) = section.text("table", problems)
+        && name.to_ascii_lowercase().ends_with(".xml")
+    {
+        return alignment(section, tables, name, rail_distance, notes, problems);
+    }
     let keys = [&["table", "signs", "gaps"], &columns::KEYS[..]].concat();
     section.allow_in(&keys, &[], "a track", problems);
     let table = table(section, tables, usual, notes, problems)?;
@@ -274,4 +301,65 @@ pub(super) fn center_line(
         .center_line(rail_distance)
         .map_err(|error| problems.push(wrong(section, tables, &error)))
         .ok()
+}
+
+/// Returns the center line of an alignment in LandXML.
+fn alignment(
+    section: &CaseSection<'_>,
+    tables: Tables<'_>,
+    file: &str,
+    rail_distance: f64,
+    notes: &mut Notes,
+    problems: &mut Problems,
+) -> Option<CenterLine> {
+    const ALIGNMENT: Expected = Expected {
+        what: "alignment (LandXML)",
+        types: &[],
+        most: limits::TEXT_FILE,
+    };
+    section.allow_in(&["table", "alignment", "cant_unit"], &[], "a track", problems);
+    let name = match section.table.get("alignment") {
+        Some(_) => Some(section.text("alignment", problems)?.0),
+        None => None,
+    };
+    let unit = match section.table.get("cant_unit") {
+        Some(_) => Some(section.choice("cant_unit", CANT_UNITS, problems)?),
+        None => None,
+    };
+    let path = located(section, tables, file, problems)?;
+    let text = input::file::read_text(&path, &ALIGNMENT).map_err(|error| landxml::LandXmlError {
+        line: 0,
+        found: error.to_string(),
+        remedy: "check the path and the file",
+    });
+    notes.files.push(NamedFile {
+        key: "table",
+        typed: file.to_owned(),
+        path,
+    });
+    match text.and_then(|text| landxml::center_line(&text, name, unit, rail_distance)) {
+        Ok(read) => {
+            notes.doubts.extend(read.doubts);
+            Some(read.line)
+        }
+        Err(error) => {
+            let path = section.path_of("table");
+            let line = Some(error.line).filter(|line| *line > 0);
+            let problem = match tables.may_quote() {
+                true => {
+                    let line = line.map_or(String::new(), |line| format!(":{line}"));
+                    let file = tables.shown(file);
+                    Problem::new(format!("`{path}`: {file}{line}: {}", error.found)).help(error.remedy)
+                }
+                false => {
+                    Problem::of_unquoted(&path, "the alignment", line, "no alignment as it is read here")
+                }
+            };
+            problems.push(match section.table.place_of("table") {
+                Some(place) => problem.at(place).label("this alignment"),
+                None => problem,
+            });
+            None
+        }
+    }
 }

@@ -29,6 +29,7 @@
 pub mod bands;
 mod columns;
 mod irregularity;
+mod landxml;
 mod measured;
 mod spectrum;
 mod support;

@@ -240,3 +240,146 @@ fn input_bands_are_said_and_examined() {
         &["band` is of space curves"],
     );
 }
+
+/// An alignment of LandXML is the track of the same segments: lengths, curvature, cant and places; in feet too.
+#[test]
+fn analytic_an_alignment_of_landxml_is_its_segments() {
+    let xml = r#"<?xml version="1.0"?>
+<LandXML xmlns="http://www.landxml.org/schema/LandXML-1.2" version="1.2">
+ <Units><Metric areaUnit="squareMeter" linearUnit="meter"/></Units>
+ <Alignments>
+  <Alignment name="Side" staStart="0"><CoordGeom><Line length="10"/></CoordGeom></Alignment>
+  <Alignment name="Main" length="430" staStart="1000">
+   <CoordGeom>
+    <Line><Start>500 200</Start><End>500 250</End></Line>
+    <Spiral length="60" radiusStart="INF" radiusEnd="400" rot="cw" spiType="bloss"/>
+    <Curve radius="400" length="120" rot="cw"><Start>0 0</Start><Center>1 1</Center><End>0 0</End></Curve>
+    <Spiral length="80" radiusStart="400" radiusEnd="INF" rot="cw" spiType="clothoid"/>
+    <Line length="120"/>
+   </CoordGeom>
+   <Cant name="c" gauge="1.435" rotationPoint="insideRail">
+    <CantStation station="1050" appliedCant="0"/>
+    <CantStation station="1110" appliedCant="80" curvature="cw"/>
+    <CantStation station="1230" appliedCant="80" curvature="cw"/>
+    <CantStation station="1310" appliedCant="0"/>
+   </Cant>
+  </Alignment>
+ </Alignments>
+</LandXML>"#;
+    let segments = r#"
+[[segments]]
+tangent = "50 m"
+[[segments]]
+spiral = "60 m"
+form = "bloss"
+[[segments]]
+curve = "120 m"
+radius = "400 m"
+direction = "right"
+superelevation = "80 mm"
+[[segments]]
+spiral = "80 m"
+[[segments]]
+tangent = "120 m"
+"#;
+    let line = "[center_line]\ntable = \"car.XML\"\nalignment = \"Main\"\ncant_unit = \"mm\"\n";
+    let read = |track: &str, xml: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("car.XML"), xml).unwrap();
+        let file = folder.path().join("track.toml");
+        std::fs::write(&file, track).unwrap();
+        TrackFile::read(&file).map_err(|error| in_words(error.problems()))
+    };
+    let expected = TrackFile::parse("track.toml", segments)
+        .unwrap()
+        .track
+        .center_line;
+    let found = read(line, xml).unwrap();
+    assert_eq!(found.doubts, Vec::<String>::new());
+    assert_eq!(found.track.center_line, expected);
+    let feet = |text: &str| {
+        let mut out = xml.replace("Metric", "Imperial").replace("\"meter\"", "\"foot\"");
+        for (from, to) in [
+            ("radius=\"400\"", "radius=\"1312.33595800525\""),
+            ("\"400\"", "\"1312.33595800525\""),
+        ] {
+            out = out.replace(from, to);
+        }
+        for length in ["60", "120", "80"] {
+            let own = format!("length=\"{length}\"");
+            out = out.replace(
+                &own,
+                &format!("length=\"{}\"", length.parse::<f64>().unwrap() / FOOT),
+            );
+        }
+        out.replace("<Start>500 200</Start><End>500 250</End>", text)
+    };
+    let stations = feet("<Start>0 0</Start><End>0 164.041994750656</End>");
+    let level = stations.replace("appliedCant=\"80\"", "appliedCant=\"0\"");
+    let imperial = read(&line.replace("cant_unit = \"mm\"\n", ""), &level)
+        .unwrap()
+        .track
+        .center_line;
+    assert!((imperial.length() - 430.0).abs() < 1e-9);
+    assert!((imperial.at(170.0).position[1] - expected.at(170.0).position[1]).abs() < 1e-6);
+
+    let refused = |track: &str, xml: &str, parts: &[&str]| {
+        let message = read(track, xml).unwrap_err();
+        assert!(parts.iter().all(|part| message.contains(part)), "{message}");
+    };
+    refused(
+        &line.replace("alignment = \"Main\"\n", ""),
+        xml,
+        &["2 alignments: Side, Main", "alignment ="],
+    );
+    refused(&line.replace("Main", "Mian"), xml, &["no alignment Mian"]);
+    refused(
+        &line.replace("cant_unit = \"mm\"\n", ""),
+        xml,
+        &["car.XML:15", "unit of the cant", "cant_unit"],
+    );
+    refused(
+        line,
+        &xml.replace("bloss", "radioid"),
+        &["car.XML:9", "radioid", "sinusoid"],
+    );
+    refused(
+        line,
+        &xml.replace("radiusEnd=\"400\"", "radiusEnd=\"450\""),
+        &["car.XML:9", "450 m to the right"],
+    );
+    refused(
+        line,
+        &xml.replace("1110", "1140"),
+        &["car.XML:10", "changes within a curve"],
+    );
+    refused(
+        line,
+        &xml.replace("rot=\"cw\" spiType=\"cl", "rot=\"ccw\" spiType=\"cl"),
+        &["car.XML:11", "beside"],
+    );
+    refused(
+        line,
+        &xml.replace("<Line length", "<Chain length"),
+        &["Chain is no line"],
+    );
+    refused(line, &xml.replace("</CoordGeom>", "</Coord>"), &["no XML"]);
+    refused(
+        line,
+        &xml.replace("linearUnit=\"meter\"", ""),
+        &["car.XML:3", "unit of lengths"],
+    );
+    refused(line, "<LandXML/>", &["no alignment with geometry"]);
+    refused(&format!("{line}signs = \"usual\"\n"), xml, &["signs"]);
+    // Ends by coordinates that the track does not reach are doubted.
+    let ends = xml.replace(
+        "<Line length=\"120\"/>",
+        "<Line length=\"120\"><End>500 600</End></Line>",
+    );
+    let found = read(line, &ends).unwrap();
+    assert!(
+        found.doubts[0].contains("by coordinates 400 m"),
+        "{:?}",
+        found.doubts
+    );
+}
