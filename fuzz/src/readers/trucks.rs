@@ -291,9 +291,10 @@ fn measured_corpus() -> Vec<Vec<u8>> {
 fn alignment_corpus() -> Vec<Vec<u8>> {
     vec![
         b"<LandXML><Units><Metric linearUnit=\"meter\"/></Units><Alignments><Alignment name=\"A\" \
-          staStart=\"10\"><CoordGeom><Line><Start>0 0</Start><End>0 30</End></Line><Spiral length=\"40\" \
-          radiusStart=\"INF\" radiusEnd=\"300\" rot=\"ccw\" spiType=\"bloss\"/><Curve radius=\"300\" length=\"50\" \
-          rot=\"ccw\"><End>9 99</End></Curve></CoordGeom><Cant><CantStation station=\"40\" appliedCant=\"0\"/>\
+          staStart=\"10\"><CoordGeom><Line><Start>0 0</Start><End>0 30</End></Line>\
+          <Spiral length=\"40\" radiusStart=\"INF\" radiusEnd=\"300\" rot=\"ccw\" spiType=\"bloss\"/>\
+          <Curve radius=\"300\" length=\"50\" rot=\"ccw\"><End>9 99</End></Curve></CoordGeom>\
+          <Cant><CantStation station=\"40\" appliedCant=\"0\"/>\
           <CantStation station=\"80\" appliedCant=\"90\"/></Cant></Alignment></Alignments></LandXML>"
             .to_vec(),
     ]

@@ -11,16 +11,16 @@
 //! </Alignment></Alignments></LandXML>
 //! ```
 //!
-//! Lengths are those of the attributes; a line without one is as long as its ends are apart. The distance from
-//! the first to the last point, where they are given, is compared with that of the track. Cant is linear
-//! between its stations. It has to be level on lines, constant in curves; in spirals it follows the spiral's law
-//! here. Its unit is the user's to say: programs write millimeters or meters. Rotation `ccw` is a curve to the
-//! left.
+//! Lengths are those of the attributes; a line without one is as long as its ends are apart. The distance
+//! from the first to the last point, where they are given, is compared with that of the track. Cant is
+//! linear between its stations. It has to be level on lines, constant in curves; in spirals it follows the
+//! spiral's law here. Its unit is the user's to say: programs write millimeters or meters. Rotation `ccw`
+//! is a curve to the left.
 //!
-//! Types of spirals are those of the format's list; `cosine` and `sineHalfWave` (an approximation of the same)
-//! are cosines, `sinusoid` is Klein's, `biquadratic` and `biquadraticParabola` are Helmert's, `cubic` and
-//! `cubicParabola` are this program's cubic parabola (remembered, but for the half wave and the biquadratic
-//! parabola, which a published converter to IFC 4.3 maps so, November 2026).
+//! Types of spirals are those of the format's list; `cosine` and `sineHalfWave` (an approximation of the
+//! same) are cosines, `sinusoid` is Klein's, `biquadratic` and `biquadraticParabola` are Helmert's, `cubic`
+//! and `cubicParabola` are this program's cubic parabola (remembered, but for the half wave and the
+//! biquadratic parabola, which a published converter to IFC 4.3 maps so, November 2026).
 //!
 //! Not read: profiles (the track is level), station equations (refused beside cant), chains and irregular
 //! lines (refused).
@@ -274,8 +274,8 @@ impl Alignment {
     }
 }
 
-const CANT: &str = "cant is constant in curves, zero on lines, and changes in spirals; correct the stations of \
-                    the cant, or write the center line as segments";
+const CANT: &str = "cant is constant in curves, zero on lines, and changes in spirals; correct the \
+                    stations of the cant, or write the center line as segments";
 
 impl Element {
     /// Returns the distance of both ends of a line, m.
@@ -531,8 +531,8 @@ impl Tag<'_> {
             "cubic" | "cubicParabola" => SpiralForm::CubicParabola,
             _ => {
                 let found = format!("a spiral of the type {}", shortened(&name));
-                let remedy = "clothoid, bloss, cosine, sineHalfWave, sinusoid, biquadratic and cubicParabola are \
-                              read";
+                let remedy = "clothoid, bloss, cosine, sineHalfWave, sinusoid, biquadratic and cubicParabola \
+                              are read";
                 return Err(wrong(self.line, found, remedy));
             }
         })

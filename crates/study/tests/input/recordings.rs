@@ -241,7 +241,7 @@ fn input_bands_are_said_and_examined() {
     );
 }
 
-/// An alignment of LandXML is the track of the same segments: lengths, curvature, cant and places; in feet too.
+/// An alignment of LandXML is the track of the same segments: lengths, curvature, cant, places; in feet too.
 #[test]
 fn analytic_an_alignment_of_landxml_is_its_segments() {
     let xml = r#"<?xml version="1.0"?>

@@ -1,10 +1,11 @@
 //! The center line of a track: tangents, spirals and curves, with superelevation and grade.
 //!
 //! In a spiral curvature and superelevation change by one of the laws of [`super::spiral`]. Heading and
-//! position are continuous by construction. The heading is a polynomial of the distance in each piece, with a wave
-//! beside it in some spirals; the position is its integral, exact for tangents and curves and by Gauss's rule
-//! with 8 points on pieces of at most 20 m of a spiral. Grades change linearly between given places. Before
-//! its start and beyond its end the track goes on as it is there, without a change of curvature.
+//! position are continuous by construction. The heading is a polynomial of the distance in each piece, with
+//! a wave beside it in some spirals; the position is its integral, exact for tangents and curves and by
+//! Gauss's rule with 8 points on pieces of at most 20 m of a spiral. Grades change linearly between given
+//! places. Before its start and beyond its end the track goes on as it is there, without a change of
+//! curvature.
 
 use super::segments::{CurveElements, Segment, TrackError};
 use super::spiral::{self, NoParabola, Part, Wave};
