@@ -60,6 +60,7 @@ pub mod study_folder;
 pub mod study_work;
 pub mod summary;
 pub mod table;
+pub mod track_class;
 pub mod track_files;
 pub mod view;
 pub mod warp_files;

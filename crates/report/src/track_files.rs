@@ -86,6 +86,7 @@ struct Row {
 /// A track over the distance.
 pub struct Survey<'t> {
     track: &'t Track,
+    interval: f64,
     rows: Vec<Row>,
 }
 
@@ -114,8 +115,23 @@ impl<'t> Survey<'t> {
         };
         Self {
             track,
+            interval,
             rows: (0..=count).map(row).collect(),
         }
+    }
+
+    /// Returns the distance between two rows, m.
+    #[must_use]
+    pub fn interval(&self) -> f64 {
+        self.interval
+    }
+
+    /// Returns a rail's profile or alignment (m) at rows at equal distances: the last one, at the track's
+    /// end, is left out.
+    #[must_use]
+    pub fn values(&self, measured: MeasuredTrack) -> Vec<f64> {
+        let rows = self.rows.iter().take(self.rows.len().saturating_sub(1));
+        rows.map(|row| measured.of(&row.rails)).collect()
     }
 
     /// Returns the largest mid-chord offsets, by what is measured and by chord.

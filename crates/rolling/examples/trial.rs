@@ -22,7 +22,7 @@ use wheelrail::hertz::Material;
 use wheelrail::profile::nominal;
 use wheelrail::track::spectrum::{Realization, Spectrum};
 use wheelrail::track::{
-    CenterLine, CurveElements, Direction, Irregularity, Placed, RailLines, Rails, Segment, Track,
+    CenterLine, CurveElements, Direction, Irregularity, Placed, RailLines, Rails, Segment, SpiralForm, Track,
 };
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
@@ -74,7 +74,7 @@ fn curve() -> Result<Track, Failure> {
     let curve = CurveElements::of_degree(10.0_f64.to_radians(), 4.0 * INCH);
     let segments = [
         Segment::Tangent(40.0),
-        Segment::Spiral(60.0),
+        Segment::Spiral(60.0, SpiralForm::Clothoid),
         Segment::Curve(300.0, curve),
     ];
     Ok(Track {

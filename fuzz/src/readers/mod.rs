@@ -37,7 +37,7 @@ pub struct Reader {
 }
 
 /// All readers.
-pub const ALL: [Reader; 38] = [
+pub const ALL: [Reader; 39] = [
     cases::CASES,
     cases::VALUES,
     cases::OVERRIDES,
@@ -45,6 +45,7 @@ pub const ALL: [Reader; 38] = [
     trucks::CARS,
     trucks::TRACKS,
     trucks::MEASURED_TRACKS,
+    trucks::ALIGNMENTS,
     trucks::PROFILES,
     studies::STUDIES,
     studies::MANIFESTS,

@@ -58,6 +58,13 @@ pub const TRACKS: Reader = Reader {
         b"spectrum = \"fra_vertical\"",
         b"class = 6",
         b"rails = \"against\"",
+        b"[columns]",
+        b"milepost = { name = \"Milepost\" }",
+        b"direction = \"falling\"",
+        b"sides = \"running\"",
+        b"station_equations = [{ back = \"MP 7\", ahead = \"MP 8 + 3 ft\" }]",
+        b"form = \"bloss\"",
+        b"band = \"D1\"",
     ],
     read: track,
 };
@@ -79,8 +86,28 @@ pub const MEASURED_TRACKS: Reader = Reader {
         b"_offset_62_ft_in",
         b"right_high",
         b"wide",
+        b"MP 101 + 3 ft",
     ],
     read: measured,
+};
+
+/// Alignments of LandXML.
+pub const ALIGNMENTS: Reader = Reader {
+    name: "alignments",
+    about: "alignments and cant of LandXML",
+    corpus: alignment_corpus,
+    dictionary: &[
+        b"<Line length=\"9\"/>",
+        b"<Curve radius=\"99\" length=\"9\" rot=\"cw\"/>",
+        b"<Spiral length=\"9\" radiusStart=\"INF\" radiusEnd=\"99\" rot=\"cw\" spiType=\"cubicParabola\"/>",
+        b"<CantStation station=\"1\" appliedCant=\"9\" adverse=\"true\"/>",
+        b"<StaEquation/>",
+        b"sinusoid",
+        b"linearUnit=\"USSurveyFoot\"",
+        b"<![CDATA[",
+        b"&#0;",
+    ],
+    read: alignment,
 };
 
 /// Points of profiles.
@@ -253,11 +280,42 @@ fn measured_corpus() -> Vec<Vec<u8>> {
         rails += &format!("{k},0.{k},-0.1,56.{k}\n");
         line += &format!("{};{k};0.1;0.01\n", 10 * k);
     }
-    vec![rails.into_bytes(), line.into_bytes()]
+    // As a measuring car of North America writes it, toward falling mileposts.
+    let mut car = "MP,Foot,Gage,Left Prof 62\n".to_owned();
+    for k in (0..80).rev() {
+        car += &format!("{},{},56.5,0.{k}\n", 100 + k / 40, 5240 * (k / 40) + k % 40);
+    }
+    vec![rails.into_bytes(), line.into_bytes(), car.into_bytes()]
+}
+
+fn alignment_corpus() -> Vec<Vec<u8>> {
+    vec![
+        b"<LandXML><Units><Metric linearUnit=\"meter\"/></Units><Alignments><Alignment name=\"A\" \
+          staStart=\"10\"><CoordGeom><Line><Start>0 0</Start><End>0 30</End></Line>\
+          <Spiral length=\"40\" radiusStart=\"INF\" radiusEnd=\"300\" rot=\"ccw\" spiType=\"bloss\"/>\
+          <Curve radius=\"300\" length=\"50\" rot=\"ccw\"><End>9 99</End></Curve></CoordGeom>\
+          <Cant><CantStation station=\"40\" appliedCant=\"0\"/>\
+          <CantStation station=\"80\" appliedCant=\"90\"/></Cant></Alignment></Alignments></LandXML>"
+            .to_vec(),
+    ]
+}
+
+fn alignment(input: &[u8]) -> ReadOutcome {
+    in_file("line.xml", input, |xml| {
+        let file = xml.with_file_name("track.toml");
+        let text = "[center_line]\ntable = \"line.xml\"\ncant_unit = \"mm\"\n";
+        if std::fs::write(&file, text).is_err() {
+            return ReadOutcome::NO_TEXT;
+        }
+        match TrackFile::read(&file) {
+            Ok(file) => shown(&file.track),
+            Err(error) => refused(&error),
+        }
+    })
 }
 
 /// Track files that take a table beside them, of which each table is one or the other.
-const WITH_TABLES: [&str; 4] = [
+const WITH_TABLES: [&str; 5] = [
     "segments = [{ tangent = \"30 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\n\
      form = \"space_curve\"\ntaper = \"10 ft\"\nbeyond = \"level\"\n",
     "segments = [{ tangent = \"30 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\n\
@@ -265,6 +323,12 @@ const WITH_TABLES: [&str; 4] = [
     "segments = [{ tangent = \"100 ft\" }]\n[[irregularities]]\ntable = \"table.csv\"\nform = \"mid_chord\"\n\
      chord = \"62 ft\"\nshortest = \"36 ft\"\nlongest = \"70 ft\"\ntaper = \"10 ft\"\nbeyond = \"level\"\n",
     "[center_line]\ntable = \"table.csv\"\nsigns = \"usual\"\n",
+    "direction = \"falling\"\nsegments = [{ tangent = \"30 ft\" }]\n\
+     station_equations = [{ back = \"MP 100 + 40 ft\", ahead = \"MP 101 + 5240 ft\" }]\n\
+     [columns]\nmilepost = { name = \"MP\" }\nmilepost_offset = { name = \"Foot\", unit = \"ft\" }\n\
+     left_profile = { name = \"Left Prof 62\", unit = \"in\", sign = \"down\" }\n[[irregularities]]\n\
+     table = \"table.csv\"\nform = \"space_curve\"\nband = \"D1\"\ntaper = \"3 ft\"\n\
+     beyond = \"level\"\n",
 ];
 
 fn measured(input: &[u8]) -> ReadOutcome {

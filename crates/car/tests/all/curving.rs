@@ -5,7 +5,7 @@ use car::{Car, Loads, Parameters};
 use common::{INCH, POUND_FORCE, Ran, at_start, curve, loaded, massless, run, run_by, track};
 use integrate::Method;
 use truck::{WedgeKind, empirical_warp};
-use wheelrail::track::{CurveElements, Segment};
+use wheelrail::track::{CurveElements, Segment, SpiralForm};
 
 /// Returns the force of all wheels on the rails along the track's plane, positive to the left, N.
 fn lateral(loads: &Loads) -> f64 {
@@ -238,9 +238,9 @@ fn limits_joined_tracks_are_one_track() {
     let joined = track(&[
         Segment::Tangent(12.0),
         Segment::Tangent(18.0),
-        Segment::Spiral(30.0),
+        Segment::Spiral(30.0, SpiralForm::Clothoid),
         Segment::Curve(1e-3, half),
-        Segment::Spiral(30.0),
+        Segment::Spiral(30.0, SpiralForm::Clothoid),
         Segment::Curve(40.0, own),
         Segment::Curve(60.0, own),
     ]);

@@ -8,7 +8,7 @@ use integrate::{Integrator, Method, Options, Problem};
 use mechanics::energy_balance::EnergyBalance;
 use truck::{Lading, WedgeKind};
 use wheelrail::hertz::Material;
-use wheelrail::track::{CenterLine, CurveElements, Segment, Track};
+use wheelrail::track::{CenterLine, CurveElements, Segment, SpiralForm, Track};
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
 pub const INCH: f64 = 0.0254;
@@ -36,7 +36,7 @@ pub fn curve(degree: f64, turn: f64, superelevation: f64, length: f64) -> Track 
     };
     track(&[
         Segment::Tangent(30.0),
-        Segment::Spiral(60.0),
+        Segment::Spiral(60.0, SpiralForm::Clothoid),
         Segment::Curve(length, own),
     ])
 }

@@ -9,7 +9,7 @@ use rolling::track::RailSupport;
 use wheelrail::contact::{ContactLaw, CreepLaw};
 use wheelrail::track::shape::Shape;
 use wheelrail::track::spectrum::{Realization, Spectrum};
-use wheelrail::track::{CurveElements, Direction, Irregularity, Placed, Rails, Segment};
+use wheelrail::track::{CurveElements, Direction, Irregularity, Placed, Rails, Segment, SpiralForm};
 
 /// Runs to a time; gives the energy at the start, observations at steps, and the rig.
 fn run(
@@ -156,7 +156,7 @@ fn energy_ledger_closes_through_a_curve() {
     let curve = CurveElements::of_degree(4.0_f64.to_radians(), 2.0 * INCH);
     let segments = [
         Segment::Tangent(20.0),
-        Segment::Spiral(40.0),
+        Segment::Spiral(40.0, SpiralForm::Clothoid),
         Segment::Curve(100.0, curve),
     ];
     let mut setup = on_rails(&freight(), track(&segments, Vec::new()), POLACH, 15.0);

@@ -34,6 +34,7 @@ pub(crate) fn track(r: &mut CaseReader<'_>) -> Option<ReadTrack> {
         return Some(ReadTrack {
             track: tangent(USUAL * 0.3048)?,
             support: Support::usual(),
+            class: None,
             notes: Notes::default(),
         });
     };
@@ -82,6 +83,7 @@ fn meaning(key: &str) -> &'static str {
         }
         "support" => "what the rails lie on: rigid or sprung",
         "name" => "of the track",
+        "class" => "the class that the track is said to have (49 CFR 213); `wedgelab track show` compares",
         _ => "as in a track file",
     }
 }

@@ -19,11 +19,17 @@
 //! [[irregularities]]
 //! table = "measured.csv"      # foot by foot, see wheelrail::track::measured
 //! form = "space_curve"
+//! [columns]                   # if its titles are others
+//! milepost = { name = "Milepost" }
+//! left_profile = { name = "Left Prof 62", unit = "in" }
 //! [support]
 //! kind = "sprung"             # or rigid
 //! ```
 
+pub mod bands;
+mod columns;
 mod irregularity;
+mod landxml;
 mod measured;
 mod spectrum;
 mod support;
@@ -33,7 +39,10 @@ use std::path::Path;
 use input::file::Expected;
 use input::{FileType, limits};
 use quantity::{Kind, Quantity};
-use wheelrail::track::{CLEARANCE, CenterLine, CurveElements, Placed, Segment, Track, TrackError};
+use wheelrail::track::class_limits::HIGHEST_COVERED;
+use wheelrail::track::{
+    CLEARANCE, CenterLine, CurveElements, Placed, Segment, SpiralForm, Track, TrackError,
+};
 
 use crate::case::problem::{Problem, Problems, TomlSource};
 use crate::case::section::{CaseSection, Names, Range};
@@ -42,6 +51,7 @@ use crate::case::{CASE_TABLES, CaseError, STUDY_KEYS, Tables, name, text_of_file
 
 use crate::case::tables::NamedFile;
 
+use columns::RecordingKeys;
 use irregularity::irregularity;
 pub use support::Support;
 
@@ -56,22 +66,39 @@ pub struct TrackFile {
     pub track: Track,
     /// The support of its rails.
     pub support: Support,
+    /// The class (49 CFR 213) that the track is said to have, from 1.
+    pub class: Option<usize>,
     /// Warnings of reading, such as gaps of a recording that were filled.
     pub doubts: Vec<String>,
 }
 
-const KEYS: [&str; 8] = [
+const KEYS: [&str; 13] = [
     "name",
     "title",
+    "class",
     "rail_distance",
     "support",
     "center_line",
     "segments",
     "grades",
     "irregularities",
+    "columns",
+    "direction",
+    "sides",
+    "station_equations",
 ];
 const TURNS: Names<f64> = &[("left", 1.0), ("right", -1.0)];
-const SPIRALS: Names<bool> = &[("linear", false), ("cubic", true)];
+const SPIRALS: Names<SpiralForm> = &[
+    ("clothoid", SpiralForm::Clothoid),
+    ("bloss", SpiralForm::Bloss),
+    ("cubic_parabola", SpiralForm::CubicParabola),
+    ("sine", SpiralForm::Sine),
+    ("cosine", SpiralForm::Cosine),
+    ("helmert", SpiralForm::Helmert),
+    // Older names, which elsewhere mean other spirals.
+    ("linear", SpiralForm::Clothoid),
+    ("cubic", SpiralForm::Bloss),
+];
 const FOOT: f64 = 0.3048;
 /// The longest track, m.
 const LONGEST: f64 = 1e6;
@@ -107,6 +134,7 @@ impl TrackFile {
                 irregularities: Vec::new(),
             },
             support: Support::Rigid,
+            class: None,
             doubts: Vec::new(),
         })
     }
@@ -160,6 +188,7 @@ fn read(tree: &TableNode, source: &str, problems: &mut Problems) -> Option<Track
     let ReadTrack {
         track,
         support,
+        class,
         notes,
     } = read?;
     Some(TrackFile {
@@ -167,6 +196,7 @@ fn read(tree: &TableNode, source: &str, problems: &mut Problems) -> Option<Track
         title: title.to_owned(),
         track,
         support,
+        class,
         doubts: notes.doubts,
     })
 }
@@ -175,6 +205,8 @@ fn read(tree: &TableNode, source: &str, problems: &mut Problems) -> Option<Track
 pub(crate) struct ReadTrack {
     pub track: Track,
     pub support: Support,
+    /// The stated class.
+    pub class: Option<usize>,
     pub notes: Notes,
 }
 
@@ -198,12 +230,17 @@ pub(crate) fn of_section(
     let tree = top.table;
     top.allow_in(&KEYS, &[], "a track", problems);
     let rail_distance = optional_length(top, "rail_distance", 59.5 * 0.0254, problems);
+    let class = match tree.get("class") {
+        Some(_) => track_class(top, problems).map(Some),
+        None => Some(None),
+    };
     let support = match tree.get("support") {
         Some(_) => top
             .section("support", problems)
             .and_then(|section| support::support(&section, problems)),
         None => Some(Support::usual()),
     };
+    let recordings = RecordingKeys::read(top, &RecordingKeys::default(), problems)?;
     let measured = match (
         tree.get("center_line"),
         tree.entry("segments").or(tree.entry("grades")),
@@ -223,6 +260,7 @@ pub(crate) fn of_section(
             Some(measured::center_line(
                 &section,
                 tables,
+                &recordings,
                 rail_distance?,
                 &mut notes,
                 problems,
@@ -268,10 +306,25 @@ pub(crate) fn of_section(
         .tables("irregularities", problems)
         .iter()
         .map(|section| match section.table.get("table") {
-            Some(_) => measured::irregularities(section, tables, end, &mut notes, problems),
+            Some(_) => measured::irregularities(section, tables, &recordings, end, &mut notes, problems),
             None => irregularity(section, end, problems).map(|placed| vec![placed]),
         })
         .collect();
+    if let (true, Some(unused)) = (
+        notes.files.is_empty() && problems.is_empty(),
+        columns::KEYS.iter().find_map(|key| tree.entry(key)),
+    ) {
+        let problem = Problem::new(format!(
+            "`{}` has no effect: this track reads no table",
+            unused.key
+        ));
+        problems.push(
+            problem
+                .at(&unused.key_place)
+                .label("not used")
+                .help("leave it out"),
+        );
+    }
     let irregularities: Vec<Vec<Placed>> = irregularities.into_iter().collect::<Option<_>>()?;
     let track = Track {
         center_line: center_line?,
@@ -280,8 +333,30 @@ pub(crate) fn of_section(
     Some(ReadTrack {
         track,
         support: support?,
+        class: class?,
         notes,
     })
+}
+
+/// Returns the class that a track is said to have.
+fn track_class(top: &CaseSection<'_>, problems: &mut Problems) -> Option<usize> {
+    let class = irregularity::whole(top, "class", 0, problems)? as usize;
+    if (1..=HIGHEST_COVERED).contains(&class) {
+        return Some(class);
+    }
+    let problem = Problem::new(format!(
+        "`{}` is {class}; a class from 1 to {HIGHEST_COVERED} is expected",
+        top.path_of("class")
+    ));
+    let problem = problem.label("no such class").help(
+        "classes are those of 49 CFR 213; of classes 6 to 9 only the alinement is known here, and `wedgelab \
+         track show` says which of them it keeps",
+    );
+    problems.push(match top.table.place_of("class") {
+        Some(place) => problem.at(place),
+        None => problem,
+    });
+    None
 }
 
 /// Returns a track that comes back near itself at two distances (m).
@@ -410,14 +485,10 @@ fn segment(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Segment
     match *kind {
         "tangent" => return Some(Segment::Tangent(along?)),
         "spiral" => {
-            let cubic = optional(section, "form", false, |section| {
+            let form = optional(section, "form", SpiralForm::Clothoid, |section| {
                 section.choice("form", SPIRALS, problems)
             });
-            let along = along?;
-            return Some(match cubic? {
-                true => Segment::CubicSpiral(along),
-                false => Segment::Spiral(along),
-            });
+            return Some(Segment::Spiral(along?, form?));
         }
         _ => {}
     }

@@ -16,5 +16,6 @@ mod issue_029_tables;
 mod messages;
 mod motions;
 mod overrides;
+mod recordings;
 mod track;
 mod values;

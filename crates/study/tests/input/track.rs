@@ -239,6 +239,37 @@ fn analytic_measured_tables_are_part_of_a_track() {
     assert!((rail.preload - 200.0 * 9.806_65).abs() < 1e-9);
 }
 
+/// Spirals by their names: lateral offset at the end of 100 m into 1000 m; the older names are the first two.
+#[test]
+fn analytic_spirals_by_their_names() {
+    let offset = |form: &str| {
+        let text = format!(
+            "[[segments]]\ntangent = \"30 m\"\n[[segments]]\nspiral = \"100 m\"\nform = \"{form}\"\n\
+             [[segments]]\ncurve = \"50 m\"\nradius = \"1000 m\"\nsuperelevation = \"0.1 m\"\n"
+        );
+        let file = TrackFile::parse("spiral.toml", &text);
+        file.map(|file| file.track.center_line.at(130.0).position[1])
+    };
+    for (form, expected) in [
+        ("clothoid", 1.6667),
+        ("bloss", 1.5),
+        ("cosine", 1.4868),
+        ("sine", 1.4134),
+        ("helmert", 1.4583),
+        ("cubic_parabola", 1.6721),
+        ("linear", 1.6667),
+        ("cubic", 1.5),
+    ] {
+        let found = offset(form).unwrap();
+        assert!((found / expected - 1.0).abs() < 2e-3, "{form}: {found}");
+    }
+    let message = in_words(offset("euler").unwrap_err().problems());
+    assert!(
+        message.contains("clothoid") && message.contains("helmert"),
+        "{message}"
+    );
+}
+
 /// FRA's class 4 written by its coefficients, in units of several sources, gives the same rails; without
 /// units, with a negative density or with unknown units it is refused.
 #[test]

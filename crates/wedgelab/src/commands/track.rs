@@ -6,8 +6,11 @@ use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
 use quantity::{Kind, Quantity};
+use report::track_class;
 use report::track_files::{self, NAMES, Survey, degree};
 use study::track::TrackFile;
+use study::track::bands::BANDS;
+use wheelrail::track::TrackClass;
 
 use crate::drawn::Drawn;
 use crate::failure::{Failure, Message, say};
@@ -27,7 +30,9 @@ enum Command {
     ///
     /// Reads a track file (docs/wheelrail.md) and writes track.csv (curvature, superelevation, grade, profile
     /// and alignment of both rails, cross level, gauge, mid-chord offsets of 31, 62 and 124 ft), track.svg
-    /// and track.png.
+    /// and track.png. Prints the largest offsets, the worst values of 49 CFR 213 beside the limits of the
+    /// track's class (`class = 4` in the file) with the class that the geometry gets, and the standard
+    /// deviations of waves by bands.
     ///
     /// The `start` of joints is the distance of the first joint's lowest point: the rail falls towards it
     /// from half a spacing before. The `start` of a sine, dip or jog is that of its beginning.
@@ -72,6 +77,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         name,
         title,
         track,
+        class,
         doubts,
         ..
     } = TrackFile::read(path)?;
@@ -137,6 +143,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         table.row(std::iter::once(measured.name().replace('_', " ")).chain(cells));
     }
     table.write(&mut out)?;
+    by_class(&mut out, &TrackClass::of(&track, interval), class)?;
+    by_bands(&mut out, &survey)?;
     writeln!(
         out,
         "\nProfile: up; alignment: to the left; beside the curve of the track.\n\nWritten into {}: {}.",
@@ -144,4 +152,75 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         NAMES.join(", ")
     )?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Writes the worst values beside the limits of a class, and the class that the geometry gets.
+fn by_class(out: &mut impl Write, found: &TrackClass, stated: Option<usize>) -> io::Result<()> {
+    let compared = stated.unwrap_or(found.class().max(1));
+    let limit = format!("limit of class {compared}");
+    let mut table = TerminalTable::new(
+        1,
+        &[
+            ("worst value, in", ""),
+            ("value", "in"),
+            (&limit, "in"),
+            ("at", "ft"),
+            ("keeps class", ""),
+            ("limits", ""),
+        ],
+    );
+    for row in track_class::rows(found, compared) {
+        table.row([
+            row.name,
+            row.value,
+            row.limit,
+            row.at,
+            row.class,
+            row.mark.to_owned(),
+        ]);
+    }
+    writeln!(out)?;
+    table.write(out)?;
+    writeln!(out, "\n{}", track_class::verdict(found, stated))?;
+    writeln!(
+        out,
+        "Speeds, curves and what else a class asks for are not examined; docs/wheelrail.md lists what is."
+    )
+}
+
+/// Writes standard deviations by bands of wavelengths, of tracks with irregularities.
+fn by_bands(out: &mut impl Write, survey: &Survey<'_>) -> io::Result<()> {
+    let found = survey.bands();
+    let some = found
+        .iter()
+        .flat_map(|(_, bands)| bands)
+        .flatten()
+        .any(|own| own.whole > 0.0);
+    if !some {
+        return Ok(());
+    }
+    let titles = BANDS.map(|band| {
+        format!(
+            "{}, {} to {} m",
+            band.name, band.wavelengths[0], band.wavelengths[1]
+        )
+    });
+    let mut columns = vec![("standard deviation, in", "")];
+    for title in &titles {
+        columns.extend([(title.as_str(), "in"), ("worst 200 m", "in"), ("at", "ft")]);
+    }
+    let mut table = TerminalTable::new(1, &columns);
+    for (measured, bands) in found {
+        let cells = bands.iter().flat_map(|own| match own {
+            Some(own) => [
+                format!("{:.4}", own.whole / INCH),
+                format!("{:.4}", own.worst[0] / INCH),
+                format!("{:.0}", own.worst[1] / FOOT),
+            ],
+            None => ["rows too far apart".to_owned(), String::new(), String::new()],
+        });
+        table.row(std::iter::once(measured.name().replace('_', " ")).chain(cells));
+    }
+    writeln!(out)?;
+    table.write(out)
 }

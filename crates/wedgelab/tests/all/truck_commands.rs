@@ -326,6 +326,64 @@ fn track_show_tells_chord_offsets() {
     assert_eq!(refused.code, Some(2), "{}", refused.err);
 }
 
+/// Offsets of 1.9 in keep class 4 of 49 CFR 213, which is told with the place, beside a stated class; the
+/// standard deviation of the wave is in its band.
+#[test]
+fn analytic_track_show_tells_the_class() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let track = "class = 5\n[[segments]]\ntangent = \"3000 ft\"\n[[irregularities]]\nshape = \"sine\"\n\
+                 direction = \"vertical\"\namplitude = \"0.95 in\"\nwavelength = \"62 ft\"\ncycles = 40\n\
+                 start = \"200 ft\"\n";
+    fs::write(at.join("wave.toml"), track).unwrap();
+    let out = done(at, &["track", "show", "wave.toml", "--interval", "0.5 ft"]);
+    let line = |begin: &str| {
+        out.lines()
+            .find(|line| line.starts_with(begin))
+            .unwrap_or_default()
+    };
+    for (begin, parts) in [
+        ("worst value, in", &["limit of class 5", "keeps class"][..]),
+        ("profile 62 ft (213.63)", &["1.900", "1.25", " 4 ", "read"]),
+        (
+            "alinement 31 ft (213.327)",
+            &["0.5 (class 6)", " 9 ", "remembered"],
+        ),
+        (
+            "The geometry is that of class 4",
+            &[
+                "up to 60 mph",
+                "profile 62 ft is above the limit of class 5",
+                "said to be class 5 (80 mph)",
+            ],
+        ),
+    ] {
+        let line = line(begin);
+        assert!(
+            parts.iter().all(|part| line.contains(part)),
+            "{begin}: {line}\n{out}"
+        );
+    }
+    // 0.95/√2 in within 200 m, by the gain of D1 at 62 ft.
+    let gain = 1.0 / (1.0 + (2.0_f64.sqrt() - 1.0) * (62.0 * 0.3048 / 25.0_f64).powi(4));
+    let deviations = out.split("standard deviation, in").nth(1).unwrap();
+    let row = deviations
+        .lines()
+        .find(|line| line.starts_with("left profile"))
+        .unwrap();
+    let worst: f64 = row.split_whitespace().nth(3).unwrap().parse().unwrap();
+    let expected = 0.95 / 2.0_f64.sqrt() * gain;
+    assert!((worst / expected - 1.0).abs() < 0.02, "{row}: {expected}");
+    let wrong = track.replace("class = 5", "class = 7");
+    fs::write(at.join("wrong.toml"), wrong).unwrap();
+    let refused = wedgelab(at, &["track", "show", "wrong.toml"]);
+    assert!(
+        refused.code == Some(2) && refused.err.contains("from 1 to 5"),
+        "{}",
+        refused.err
+    );
+}
+
 /// A run that is saved on its way and goes on has the rows of the whole run, digit by digit; a state of
 /// another case is refused.
 #[test]

@@ -1,16 +1,15 @@
 //! The center line of a track: tangents, spirals and curves, with superelevation and grade.
 //!
-//! In a spiral curvature and superelevation change linearly with the distance (a clothoid, as in AREMA's
-//! recommendation), or as `3u² - 2u³` of the share u of the length (a cubic spiral), so that their rates are
-//! continuous too. Heading and position are continuous by construction. The heading is a polynomial of the
-//! distance in each segment; the position is its integral, exact for tangents and curves and by Gauss's rule
-//! with 8 points on pieces of at most 20 m of a spiral. Grades change linearly between given places. Before
-//! its start and beyond its end the track goes on as it is there, without a change of curvature.
+//! In a spiral curvature and superelevation change by one of the laws of [`super::spiral`]. Heading and
+//! position are continuous by construction. The heading is a polynomial of the distance in each piece, with
+//! a wave beside it in some spirals; the position is its integral, exact for tangents and curves and by
+//! Gauss's rule with 8 points on pieces of at most 20 m of a spiral. Grades change linearly between given
+//! places. Before its start and beyond its end the track goes on as it is there, without a change of
+//! curvature.
 
-use thiserror::Error;
+use super::segments::{CurveElements, Segment, TrackError};
+use super::spiral::{self, NoParabola, Part, Wave};
 
-/// 100 ft, m: the chord of the degree of curve.
-const DEGREE_CHORD: f64 = 30.48;
 /// Longest piece of a spiral for one application of Gauss's rule, m.
 const LONGEST_PIECE: f64 = 20.0;
 /// Largest curvature of a table, 1/m.
@@ -23,116 +22,14 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.960_289_856_497_536_2, 0.101_228_536_290_376_3],
 ];
 
-/// Curvature and superelevation of a curve.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct CurveElements {
-    /// Curvature, 1/m: positive to the left.
-    pub curvature: f64,
-    /// Height of the right rail above the left one, m.
-    pub superelevation: f64,
-}
-
-impl CurveElements {
-    /// Returns a curve of a degree of curve (rad: the angle of a chord of 100 ft, positive to the left) and a
-    /// superelevation (m).
-    #[must_use]
-    pub fn of_degree(degree: f64, superelevation: f64) -> Self {
-        Self {
-            curvature: 2.0 * libm::sin(0.5 * degree) / DEGREE_CHORD,
-            superelevation,
-        }
-    }
-}
-
-/// A segment of a center line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Segment {
-    /// A straight piece of a length (m).
-    Tangent(f64),
-    /// From the curvature before it to that of the segment after it, within a length (m).
-    Spiral(f64),
-    /// The same with curvature and superelevation as cubics, whose rates are zero at both ends.
-    CubicSpiral(f64),
-    /// A curve of a length (m).
-    Curve(f64, CurveElements),
-}
-
-/// Reasons why a track cannot be.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum TrackError {
-    /// There is no segment.
-    #[error("a track needs at least one segment, such as a tangent")]
-    Empty,
-    /// A length is not positive.
-    #[error("segment {segment} (from 1) is {length} m long; its length must be positive")]
-    Length {
-        /// The segment, from 1.
-        segment: usize,
-        /// Its length, m.
-        length: f64,
-    },
-    /// Curvature or superelevation would jump.
-    #[error(
-        "curvature or superelevation jumps from {before:?} to {after:?} at the start of segment {segment} \
-         (from 1): put a spiral between"
-    )]
-    Jump {
-        /// The segment, from 1.
-        segment: usize,
-        /// Before it.
-        before: CurveElements,
-        /// In it.
-        after: CurveElements,
-    },
-    /// A spiral has no segment beside it.
-    #[error("segment {segment} (from 1) is a spiral {place}: it needs a tangent or a curve on both sides")]
-    LooseSpiral {
-        /// The segment, from 1.
-        segment: usize,
-        /// Its place among the segments, in words.
-        place: &'static str,
-    },
-    /// Superelevation as large as the distance of the rails.
-    #[error(
-        "segment {segment} (from 1) has a superelevation of {superelevation} m, but its rails are \
-         {distance} m apart"
-    )]
-    Superelevation {
-        /// The segment, from 1.
-        segment: usize,
-        /// Its superelevation, m.
-        superelevation: f64,
-        /// The distance of the rails' centers, m.
-        distance: f64,
-    },
-    /// A table of curvature and superelevation is none.
-    #[error(
-        "row {row} (from 1) of the center line's table is at {distance} m: rows begin at 0 m, rise, and \
-         have curvatures of at most 1/m"
-    )]
-    Row {
-        /// The row, from 1.
-        row: usize,
-        /// Its distance, m.
-        distance: f64,
-    },
-    /// Places of grades do not rise, or a number is not finite.
-    #[error("grade {number} (from 1) lies at {place} m, which is not beyond the one before it")]
-    Grade {
-        /// The grade, from 1.
-        number: usize,
-        /// Its place, m.
-        place: f64,
-    },
-}
-
-/// A piece on which curvature and superelevation are polynomials of the distance from its start.
+/// A piece on which curvature and superelevation are polynomials of the distance from its start, and a wave.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Piece {
     start: f64,
     /// Coefficients, from the constant on.
     curvature: [f64; 4],
     superelevation: [f64; 4],
+    wave: Option<Wave>,
     heading: f64,
     place: [f64; 2],
 }
@@ -187,22 +84,47 @@ impl Piece {
             start,
             curvature: at(self.curvature),
             superelevation: at(self.superelevation),
+            wave: self.wave.map(|wave| Wave {
+                phase: wave.phase + wave.rate * t,
+                ..wave
+            }),
             ..*self
         }
+    }
+
+    /// Returns curvature (1/m) and superelevation (m) at a distance (m) from the start of the piece, with
+    /// their rates.
+    fn elements(&self, t: f64) -> [[f64; 2]; 2] {
+        let mut found = [&self.curvature, &self.superelevation].map(|cubic| value_and_rate(cubic, t));
+        if let Some(wave) = &self.wave {
+            let (sine, cosine) = libm::sincos(wave.rate * t + wave.phase);
+            for (own, amplitude) in found.iter_mut().zip([wave.curvature, wave.superelevation]) {
+                own[0] += amplitude * cosine;
+                own[1] -= amplitude * wave.rate * sine;
+            }
+        }
+        found
     }
 
     /// Returns heading at a distance (m) from the start of the track.
     fn heading(&self, distance: f64) -> f64 {
         let t = distance - self.start;
         let [c0, c1, c2, c3] = self.curvature;
-        self.heading + t * (c0 + t * (0.5 * c1 + t * (c2 / 3.0 + t * 0.25 * c3)))
+        let polynomial = self.heading + t * (c0 + t * (0.5 * c1 + t * (c2 / 3.0 + t * 0.25 * c3)));
+        match &self.wave {
+            None => polynomial,
+            Some(wave) => {
+                let change = libm::sin(wave.rate * t + wave.phase) - libm::sin(wave.phase);
+                polynomial + wave.curvature / wave.rate * change
+            }
+        }
     }
 
     /// Returns the place in plan, m.
     fn place(&self, distance: f64) -> [f64; 2] {
         let t = distance - self.start;
         let [x, y] = self.place;
-        if self.curvature[1..] == [0.0; 3] {
+        if self.curvature[1..] == [0.0; 3] && self.wave.is_none() {
             // Chord and direction of an arc.
             let half = 0.5 * t * self.curvature[0];
             let chord = if half.abs() < 1e-4 {
@@ -244,17 +166,15 @@ impl CenterLine {
         let own = |index: usize| match segments.get(index)? {
             Segment::Tangent(_) => Some(CurveElements::default()),
             Segment::Curve(_, elements) => Some(*elements),
-            Segment::Spiral(_) | Segment::CubicSpiral(_) => None,
+            Segment::Spiral(..) => None,
         };
         let mut pieces = Vec::new();
         let (mut start, mut heading, mut place) = (0.0, 0.0, [0.0; 2]);
         let mut before = own(0);
         for (index, segment) in segments.iter().enumerate() {
             let number = index + 1;
-            let (Segment::Tangent(length)
-            | Segment::Spiral(length)
-            | Segment::CubicSpiral(length)
-            | Segment::Curve(length, _)) = *segment;
+            let (Segment::Tangent(length) | Segment::Spiral(length, _) | Segment::Curve(length, _)) =
+                *segment;
             if !(length > 0.0 && length.is_finite()) {
                 return Err(TrackError::Length {
                     segment: number,
@@ -275,8 +195,11 @@ impl CenterLine {
                     ]
                 }
             };
-            let spiral = matches!(segment, Segment::Spiral(_) | Segment::CubicSpiral(_));
-            if !spiral && from != to {
+            let form = match segment {
+                Segment::Spiral(_, form) => Some(*form),
+                Segment::Tangent(_) | Segment::Curve(..) => None,
+            };
+            if form.is_none() && from != to {
                 return Err(TrackError::Jump {
                     segment: number,
                     before: from,
@@ -291,42 +214,27 @@ impl CenterLine {
                     distance: rail_distance,
                 });
             }
-            let cubic = matches!(segment, Segment::CubicSpiral(_));
-            let change = |from: f64, to: f64| {
-                let rate = (to - from) / length;
-                match cubic {
-                    true => [from, 0.0, 3.0 * rate / length, -2.0 * rate / (length * length)],
-                    false => [from, rate, 0.0, 0.0],
-                }
-            };
-            let piece = Piece {
-                start,
-                curvature: change(from.curvature, to.curvature),
-                superelevation: change(from.superelevation, superelevation),
-                heading,
-                place,
-            };
-            // A spiral is kept in pieces for one application of Gauss's rule each, so that a place anywhere
-            // in it costs the same.
-            let count = match spiral {
-                true => (length / LONGEST_PIECE).ceil().max(1.0) as usize,
-                false => 1,
-            };
+            let curvature = [from.curvature, to.curvature];
+            let raised = [from.superelevation, superelevation];
+            let parts = spiral::parts(form.unwrap_or_default(), length, curvature, raised);
+            let parts = parts.map_err(|reason| TrackError::CubicParabola {
+                segment: number,
+                reason: match reason {
+                    NoParabola::TwoCurves => "it needs a tangent on one side".to_owned(),
+                    NoParabola::Longest(longest) => {
+                        format!("it would turn back; to this curve it is at most {longest:.1} m long")
+                    }
+                },
+            })?;
             let begin = start;
-            for part in 0..count {
-                let own = piece.from(if part == 0 {
-                    begin
-                } else {
-                    begin + length * part as f64 / count as f64
-                });
-                pieces.push(Piece {
-                    heading,
-                    place,
-                    ..own
-                });
-                start = begin + length * (part + 1) as f64 / count as f64;
-                let last = pieces[pieces.len() - 1];
-                (heading, place) = (last.heading(start), last.place(start));
+            for part in parts {
+                start = append(
+                    &mut pieces,
+                    begin,
+                    &part,
+                    form.is_some(),
+                    (&mut heading, &mut place),
+                );
             }
             before = Some(to);
         }
@@ -381,6 +289,7 @@ impl CenterLine {
                 start: distances[k],
                 curvature: linear(curvature),
                 superelevation: linear(superelevation),
+                wave: None,
                 heading,
                 place,
             };
@@ -410,7 +319,11 @@ impl CenterLine {
     /// Returns whether there is no superelevation anywhere.
     #[must_use]
     pub fn is_level_across(&self) -> bool {
-        self.pieces.iter().all(|piece| piece.superelevation == [0.0; 4])
+        let level = |piece: &Piece| {
+            let wave = piece.wave.map_or(0.0, |wave| wave.superelevation);
+            piece.superelevation == [0.0; 4] && wave == 0.0
+        };
+        self.pieces.iter().all(level)
     }
 
     /// Returns the center line at a distance (m).
@@ -425,23 +338,24 @@ impl CenterLine {
         if distance < 0.0 || distance > self.length {
             // As at the end, without a change.
             let end = distance.clamp(0.0, self.length);
-            let t = end - piece.start;
+            let [curvature, superelevation] = piece.elements(end - piece.start);
             piece = Piece {
                 start: end,
-                curvature: [value_and_rate(&piece.curvature, t)[0], 0.0, 0.0, 0.0],
-                superelevation: [value_and_rate(&piece.superelevation, t)[0], 0.0, 0.0, 0.0],
+                curvature: [curvature[0], 0.0, 0.0, 0.0],
+                superelevation: [superelevation[0], 0.0, 0.0, 0.0],
+                wave: None,
                 heading: piece.heading(end),
                 place: piece.place(end),
             };
         }
         let t = distance - piece.start;
-        let superelevation = value_and_rate(&piece.superelevation, t);
+        let [curvature, superelevation] = piece.elements(t);
         let [x, y] = piece.place(distance);
         let [grade, grade_rate, z] = self.grade_and_height(distance);
         Station {
             position: [x, y, z],
             heading: piece.heading(distance),
-            curvature: value_and_rate(&piece.curvature, t),
+            curvature,
             superelevation,
             grade,
             grade_rate,
@@ -485,6 +399,50 @@ impl CenterLine {
         }
         distance
     }
+}
+
+/// Appends a part of a segment that begins at `begin` (m) and moves heading (rad) and place (m) on to its
+/// end, which it returns (m). A spiral is kept in pieces for one application of Gauss's rule each, so that a
+/// place anywhere in it costs the same.
+fn append(
+    pieces: &mut Vec<Piece>,
+    begin: f64,
+    part: &Part,
+    spiral: bool,
+    (heading, place): (&mut f64, &mut [f64; 2]),
+) -> f64 {
+    let [from, to] = part.reach;
+    let length = to - from;
+    let count = match spiral {
+        true => (length / LONGEST_PIECE).ceil().max(1.0) as usize,
+        false => 1,
+    };
+    let begin = begin + from;
+    let whole = Piece {
+        start: begin,
+        curvature: part.curvature,
+        superelevation: part.superelevation,
+        wave: part.wave,
+        heading: *heading,
+        place: *place,
+    };
+    let mut end = begin;
+    for number in 0..count {
+        let own = whole.from(if number == 0 {
+            begin
+        } else {
+            begin + length * number as f64 / count as f64
+        });
+        let own = Piece {
+            heading: *heading,
+            place: *place,
+            ..own
+        };
+        end = begin + length * (number + 1) as f64 / count as f64;
+        (*heading, *place) = (own.heading(end), own.place(end));
+        pieces.push(own);
+    }
+    end
 }
 
 /// Returns places, grades and heights of a profile whose height is zero at distance zero or, if it begins

@@ -27,6 +27,8 @@ pub struct Gap {
     pub rows: usize,
     /// The distances of the rows beside it, m.
     pub between: [f64; 2],
+    /// The lines of these rows in the file, from 1, in its order.
+    pub lines: [usize; 2],
 }
 
 impl Gap {
@@ -45,40 +47,48 @@ impl fmt::Display for Gap {
             "distance" => "not there".to_owned(),
             column => format!("without {column}"),
         };
-        write!(f, "{} {rows} {missing} between {from} m and {to} m", self.rows)
+        write!(f, "{} {rows} {missing} between {from} m and {to} m", self.rows)?;
+        write!(f, " (lines {} and {})", self.lines[0], self.lines[1])
     }
 }
 
-/// Returns where rows of a regular recording are not there.
-pub(super) fn missing_rows(distances: &[f64]) -> Vec<Gap> {
+fn in_order([one, other]: [usize; 2]) -> [usize; 2] {
+    [one.min(other), one.max(other)]
+}
+
+/// Returns the usual distance from row to row (m) of a regular recording.
+pub(super) fn usual_step(distances: &[f64]) -> Option<f64> {
     let steps: Vec<f64> = distances.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let mut sorted = steps.clone();
     sorted.sort_by(f64::total_cmp);
-    let Some(usual) = sorted.get(sorted.len() / 2) else {
-        return Vec::new();
-    };
+    let usual = *sorted.get(sorted.len() / 2)?;
     let [tolerance, part] = REGULAR;
     let regular = steps
         .iter()
         .filter(|step| (*step / usual - 1.0).abs() < tolerance);
-    if (regular.count() as f64) < part * steps.len() as f64 {
+    (regular.count() as f64 >= part * steps.len() as f64).then_some(usual)
+}
+
+/// Returns where rows of a regular recording are not there.
+pub(super) fn missing_rows(distances: &[f64], lines: &[usize]) -> Vec<Gap> {
+    let Some(usual) = usual_step(distances) else {
         return Vec::new();
-    }
-    let jumps = distances
-        .windows(2)
-        .filter(|pair| pair[1] - pair[0] > JUMP * usual);
+    };
+    let pairs = distances.windows(2).zip(lines.windows(2));
+    let jumps = pairs.filter(|(pair, _)| pair[1] - pair[0] > JUMP * usual);
     jumps
-        .map(|pair| Gap {
+        .map(|(pair, lines)| Gap {
             column: "distance",
             rows: ((pair[1] - pair[0]) / usual).round() as usize - 1,
             between: [pair[0], pair[1]],
+            lines: in_order([lines[0], lines[1]]),
         })
         .collect()
 }
 
 /// Fills the rows of a column that are NaN and returns where they were. Rows before the first number and
 /// after the last one stay NaN.
-pub(super) fn fill(column: &'static str, distances: &[f64], values: &mut [f64]) -> Vec<Gap> {
+pub(super) fn fill(column: &'static str, distances: &[f64], lines: &[usize], values: &mut [f64]) -> Vec<Gap> {
     if values.iter().all(|value| value.is_finite()) {
         return Vec::new();
     }
@@ -100,6 +110,7 @@ pub(super) fn fill(column: &'static str, distances: &[f64], values: &mut [f64]) 
                 column,
                 rows: pair[1] - pair[0] - 1,
                 between: [x[k], x[k + 1]],
+                lines: in_order([lines[pair[0]], lines[pair[1]]]),
             });
         }
     }

@@ -6,21 +6,35 @@
 
 pub mod center_line;
 pub mod chord;
+pub mod class;
+pub mod class_limits;
 mod columns;
 pub mod gaps;
 pub mod layout;
 pub mod measured;
+mod measured_error;
 mod near_itself;
 pub mod rails;
 pub mod rational;
+mod recording;
 pub mod samples;
+mod segments;
 pub mod shape;
 pub mod spectrum;
+pub mod spiral;
+pub mod stations;
 
-pub use center_line::{CenterLine, CurveElements, Segment, Station, TrackError};
+pub use center_line::{CenterLine, Station};
+pub use class::{ClassValue, TrackClass};
+pub use columns::{ColumnKind, NamedColumn};
 pub use gaps::{Gap, LONGEST_GAP};
 pub use layout::{Direction, Irregularity, Placed, RailPlace, Rails, Track};
-pub use measured::{Form, MeasuredError, MeasuredTable, Reading};
+pub use measured::{Form, MeasuredTable};
+pub use measured_error::MeasuredError;
 pub use near_itself::CLEARANCE;
 pub use rails::{Foot, Line, RailLines, TrackSection};
+pub use recording::Reading;
 pub use samples::Samples;
+pub use segments::{CurveElements, Segment, TrackError};
+pub use spiral::SpiralForm;
+pub use stations::{Running, StationEquation};

@@ -5,7 +5,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::measured::MeasuredError;
+use super::measured_error::MeasuredError;
 
 /// Values over the distance.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,7 @@
 //! Tests of `wheelrail`, one program: what is linked once is not linked thirty times.
 #![allow(clippy::expect_used, clippy::unwrap_used, missing_docs)]
 
+mod class;
 #[path = "../common/mod.rs"]
 mod common;
 mod contact;
@@ -17,8 +18,10 @@ mod measured;
 mod profile;
 mod profile_limits;
 mod rails;
+mod recordings;
 mod shape;
 mod spectrum;
+mod spirals;
 mod track;
 mod validation_page;
 mod wheelset;

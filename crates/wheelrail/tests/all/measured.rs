@@ -5,16 +5,18 @@ use std::f64::consts::{PI, TAU};
 
 use wheelrail::track::chord::{self, ChordError};
 use wheelrail::track::{
-    CenterLine, CurveElements, Form, Irregularity, LONGEST_GAP, MeasuredError, MeasuredTable, RailPlace,
-    Reading, Samples, Segment, Track,
+    CenterLine, CurveElements, Form, Irregularity, MeasuredError, MeasuredTable, RailPlace, Reading, Samples,
+    Segment, SpiralForm, Track,
 };
 
 const FOOT: f64 = 0.3048;
 const INCH: f64 = 0.0254;
-const SIGNS_KNOWN: Reading = Reading {
-    signs_known: true,
-    longest_gap: LONGEST_GAP,
-};
+fn signs_known() -> Reading {
+    Reading {
+        signs_known: true,
+        ..Reading::default()
+    }
+}
 
 fn line(length: f64) -> CenterLine {
     CenterLine::new(&[Segment::Tangent(length)], 59.5 * INCH, &[]).unwrap()
@@ -76,7 +78,7 @@ fn analytic_sign_row_and_units() {
     for k in 0..400 {
         text += &format!("{k}; 10; 0.5; 0.25; 57; 40\n");
     }
-    let table = MeasuredTable::parse("car.csv", &text, Reading::default()).unwrap();
+    let table = MeasuredTable::parse("car.csv", &text, &Reading::default()).unwrap();
     assert!((table.range()[1] - 399.0 * FOOT).abs() < 1e-9);
     let [left, right] = rails(&table, Form::SpaceCurve, 60.0);
     assert!((left.vertical[0] + 0.01).abs() < 1e-12 && (right.vertical[0] - 0.5 * INCH).abs() < 1e-12);
@@ -99,7 +101,7 @@ fn analytic_cross_level_less_superelevation() {
     for k in 0..400 {
         text += &format!("{k},0.1,4.2,4\n");
     }
-    let table = MeasuredTable::parse("car.csv", &text, SIGNS_KNOWN).unwrap();
+    let table = MeasuredTable::parse("car.csv", &text, &signs_known()).unwrap();
     let [left, right] = rails(&table, Form::SpaceCurve, 60.0);
     assert!((right.vertical[0] - left.vertical[0] - 0.2 * INCH).abs() < 1e-12);
     assert!((0.5 * (right.vertical[0] + left.vertical[0]) - 0.1 * INCH).abs() < 1e-12);
@@ -162,7 +164,7 @@ fn issue_048_gaps_are_filled_by_the_spline_and_counted() {
         value.to_string()
     });
     let told = |text: &str| {
-        let table = MeasuredTable::parse("car.csv", text, SIGNS_KNOWN).unwrap();
+        let table = MeasuredTable::parse("car.csv", text, &signs_known()).unwrap();
         let places = [75.0, 75.25, 75.4, 75.9, 175.0, 210.0].map(|at| rails(&table, Form::SpaceCurve, at));
         (table.filled(), places)
     };
@@ -197,7 +199,7 @@ fn issue_048_long_gaps_and_open_ends_are_refused() {
         _ => value.to_string(),
     });
     let refused = |text: &str| {
-        let table = MeasuredTable::parse("car.csv", text, SIGNS_KNOWN).unwrap();
+        let table = MeasuredTable::parse("car.csv", text, &signs_known()).unwrap();
         let error = table.irregularities(Form::SpaceCurve, 0.0, 10.0).unwrap_err();
         (error.to_string(), error.remedy())
     };
@@ -212,9 +214,9 @@ fn issue_048_long_gaps_and_open_ends_are_refused() {
     );
     let reading = Reading {
         longest_gap: 3.0,
-        ..SIGNS_KNOWN
+        ..signs_known()
     };
-    let table = MeasuredTable::parse("car.csv", &text, reading).unwrap();
+    let table = MeasuredTable::parse("car.csv", &text, &reading).unwrap();
     assert!(table.irregularities(Form::SpaceCurve, 0.0, 10.0).is_ok());
     assert!(table.filled().is_some());
 
@@ -234,7 +236,7 @@ fn issue_048_long_gaps_and_open_ends_are_refused() {
     let table = MeasuredTable::parse(
         "car.csv",
         &format!("distance_m,profile_in\n{uneven}"),
-        SIGNS_KNOWN,
+        &signs_known(),
     )
     .unwrap();
     assert!(table.irregularities(Form::SpaceCurve, 0.0, 10.0).is_ok());
@@ -250,7 +252,7 @@ fn input_mid_chord_offsets_are_no_profiles() {
     for k in 0..2000 {
         text += &format!("{k},{},{}\n", 2.0 * wave(f64::from(k)), -2.0 * wave(f64::from(k)));
     }
-    let table = MeasuredTable::parse("car.csv", &text, SIGNS_KNOWN).unwrap();
+    let table = MeasuredTable::parse("car.csv", &text, &signs_known()).unwrap();
     let error = table.irregularities(Form::SpaceCurve, 0.0, 30.0).unwrap_err();
     assert!(matches!(error, MeasuredError::MidChord { .. }), "{error}");
     assert!(
@@ -281,7 +283,7 @@ fn analytic_a_center_line_by_a_table_is_that_of_its_segments() {
     let elements = CurveElements::of_degree(6f64.to_radians(), 3.0 * INCH);
     let segments = [
         Segment::Tangent(100.0 * FOOT),
-        Segment::Spiral(200.0 * FOOT),
+        Segment::Spiral(200.0 * FOOT, SpiralForm::Clothoid),
         Segment::Curve(300.0 * FOOT, elements),
     ];
     let expected = CenterLine::new(&segments, 59.5 * INCH, &[[0.0, 0.0], [50.0, 0.01]]).unwrap();
@@ -291,7 +293,7 @@ fn analytic_a_center_line_by_a_table_is_that_of_its_segments() {
         let degree = (2.0 * (0.5 * at.curvature[0] * 30.48).asin()).to_degrees();
         text += &format!("{k},{degree},{},{}\n", at.superelevation[0] / INCH, at.grade);
     }
-    let found = MeasuredTable::parse("line.csv", &text, SIGNS_KNOWN)
+    let found = MeasuredTable::parse("line.csv", &text, &signs_known())
         .unwrap()
         .center_line(59.5 * INCH)
         .unwrap();
@@ -315,7 +317,7 @@ fn analytic_cubic_spirals() {
     let (length, elements) = (61.0, CurveElements::of_degree(8f64.to_radians(), 4.0 * INCH));
     let segments = [
         Segment::Tangent(30.0),
-        Segment::CubicSpiral(length),
+        Segment::Spiral(length, SpiralForm::Bloss),
         Segment::Curve(90.0, elements),
     ];
     let line = CenterLine::new(&segments, 59.5 * INCH, &[]).unwrap();
@@ -411,9 +413,9 @@ fn input_tables_that_are_wrong_are_refused_with_places() {
     ] {
         let reading = Reading {
             signs_known,
-            ..SIGNS_KNOWN
+            ..Reading::default()
         };
-        let message = MeasuredTable::parse("t.csv", &text, reading)
+        let message = MeasuredTable::parse("t.csv", &text, &reading)
             .unwrap_err()
             .to_string();
         assert!(
@@ -421,7 +423,7 @@ fn input_tables_that_are_wrong_are_refused_with_places() {
             "{text}: {message}"
         );
     }
-    let table = MeasuredTable::parse("t.csv", &format!("distance_ft,speed\n{rows}"), SIGNS_KNOWN).unwrap();
+    let table = MeasuredTable::parse("t.csv", &format!("distance_ft,speed\n{rows}"), &signs_known()).unwrap();
     let error = table.irregularities(Form::SpaceCurve, 0.0, 0.1).unwrap_err();
     assert!(error.to_string().contains("left_profile"), "{error}");
     assert!(
@@ -434,7 +436,7 @@ fn input_tables_that_are_wrong_are_refused_with_places() {
     let table = MeasuredTable::parse(
         "t.csv",
         &format!("distance_ft,left_profile_in\n{rows}"),
-        SIGNS_KNOWN,
+        &signs_known(),
     )
     .unwrap();
     let error = table.irregularities(Form::SpaceCurve, 0.0, 30.0).unwrap_err();
@@ -442,7 +444,7 @@ fn input_tables_that_are_wrong_are_refused_with_places() {
     let placed = table.irregularities(Form::SpaceCurve, 0.0, 0.2).unwrap();
     assert!(matches!(placed[0].irregularity, Irregularity::Samples(_)));
     let late = "distance_ft,curvature [1/ft]\n5,0\n6,0\n";
-    let error = MeasuredTable::parse("t.csv", late, SIGNS_KNOWN)
+    let error = MeasuredTable::parse("t.csv", late, &signs_known())
         .unwrap()
         .center_line(1.5)
         .unwrap_err();

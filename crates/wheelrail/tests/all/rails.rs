@@ -3,8 +3,8 @@
 use numerics::scalar::{Dual, Real};
 use wheelrail::track::spectrum::{Realization, Spectrum};
 use wheelrail::track::{
-    CenterLine, CurveElements, Direction, Irregularity, Line, Placed, RailLines, Rails, Segment, Track,
-    TrackSection,
+    CenterLine, CurveElements, Direction, Irregularity, Line, Placed, RailLines, Rails, Segment, SpiralForm,
+    Track, TrackSection,
 };
 
 const DISTANCE: f64 = 1.51;
@@ -17,7 +17,7 @@ fn irregular() -> RailLines {
     };
     let segments = [
         Segment::Tangent(50.0),
-        Segment::Spiral(60.0),
+        Segment::Spiral(60.0, SpiralForm::Clothoid),
         Segment::Curve(400.0, curve),
     ];
     let center_line = CenterLine::new(&segments, DISTANCE, &[[20.0, 0.0], [60.0, 0.01]]).unwrap();

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use wheelrail::track::chord::{CHORDS, offset, transfer};
-use wheelrail::track::{CenterLine, CurveElements, Segment, TrackError};
+use wheelrail::track::{CenterLine, CurveElements, Segment, SpiralForm, TrackError};
 
 const RAILS: f64 = 59.5 * 0.0254;
 
@@ -20,11 +20,11 @@ fn line() -> CenterLine {
     CenterLine::new(
         &[
             Segment::Tangent(50.0),
-            Segment::Spiral(60.0),
+            Segment::Spiral(60.0, SpiralForm::Clothoid),
             Segment::Curve(150.0, left),
-            Segment::Spiral(90.0),
+            Segment::Spiral(90.0, SpiralForm::Clothoid),
             Segment::Curve(100.0, right),
-            Segment::Spiral(40.0),
+            Segment::Spiral(40.0, SpiralForm::Clothoid),
             Segment::Tangent(30.0),
         ],
         RAILS,
@@ -64,7 +64,7 @@ fn analytic_a_spiral_is_a_clothoid() {
     let (length, radius) = (120.0, 150.0);
     let segments = [
         Segment::Tangent(10.0),
-        Segment::Spiral(length),
+        Segment::Spiral(length, SpiralForm::Clothoid),
         Segment::Curve(10.0, curve(radius, 0.1)),
     ];
     let track = CenterLine::new(&segments, RAILS, &[]).unwrap();
@@ -160,11 +160,17 @@ fn input_tracks_that_cannot_be_are_refused_with_the_segment() {
             "put a spiral between",
         ),
         (
-            vec![Segment::Spiral(10.0), Segment::Tangent(10.0)],
+            vec![
+                Segment::Spiral(10.0, SpiralForm::Clothoid),
+                Segment::Tangent(10.0),
+            ],
             "at the start",
         ),
         (
-            vec![Segment::Tangent(10.0), Segment::Spiral(10.0)],
+            vec![
+                Segment::Tangent(10.0),
+                Segment::Spiral(10.0, SpiralForm::Clothoid),
+            ],
             "before the end",
         ),
         (vec![Segment::Curve(10.0, curve(300.0, 2.0))], "rails are"),
