@@ -19,8 +19,13 @@ use crate::system::{
 /// Returns the vehicle of a case; its prescribed bodies move as the case says, or are `driven`.
 ///
 /// # Errors
-/// The case makes no vehicle.
+/// The case makes no vehicle, or one on a track.
 pub fn plant(case: &VehicleCase, driven: bool) -> Result<Plant, Error> {
+    if case.description.on_track.is_some() {
+        return Err(Error::new(
+            "FMUs are made of vehicles without a track; a car on a track is one with model = \"car\"",
+        ));
+    }
     let moved = if driven { drivable(case) } else { case.clone() };
     let vehicle = moved.vehicle().map_err(|error| Error::new(error.to_string()))?;
     let (entries, ports) = all(case, &vehicle);

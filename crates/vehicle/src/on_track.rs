@@ -12,7 +12,7 @@ use mechanics::system::{BodyState, Model, Observation};
 use mechanics::vector::{Matrix, Vector};
 use rolling::track::{RailSupport, rail_body};
 use rolling::wheel::{Search, WheelOnRail, motion_of};
-use rolling::wheelset::{WheelsetBody, WheelsetPlace, marker};
+use rolling::wheelset::{WheelsetBody, WheelsetPlace, coordinate, marker};
 use wheelrail::contact::Side;
 use wheelrail::loaded::Seat;
 use wheelrail::track::{CenterLine, Line, RailLines, Segment, Track, TrackError, TrackSection};
@@ -170,6 +170,7 @@ pub struct Axle {
     under: [usize; 2],
     wheels: [WheelOnRail; 2],
     half: f64,
+    radius: f64,
     lines: Arc<RailLines>,
 }
 
@@ -181,8 +182,14 @@ pub struct AxleState {
     pub distance: f64,
     /// To the left of the center line, m.
     pub lateral: f64,
+    /// Center above the nominal radius, square to the plane of the rails, m.
+    pub vertical_place: f64,
+    /// Roll to the plane of the track, left side up, rad.
+    pub roll: f64,
     /// Yaw to the track, positive to the left, rad.
     pub yaw: f64,
+    /// Angle of the spin, rad.
+    pub spin: f64,
     /// Vertical force on the left and the right rail, down, N.
     pub vertical: [f64; 2],
     /// Lateral force in the plane of the track, positive where it spreads the gauge, N.
@@ -196,10 +203,13 @@ impl Axle {
         let own = &seen.bodies[self.body];
         let section = section(&self.lines, own);
         let axle = section.of(own.rotation.column(0).0);
-        let [_, lateral, _] = section.of((own.origin - Vector(section.origin)).0);
+        let [_, lateral, height] = section.of((own.origin - Vector(section.origin)).0);
         let mut state = AxleState {
             distance: section.distance,
             lateral,
+            vertical_place: height - self.radius,
+            roll: libm::asin(axle[2].clamp(-1.0, 1.0)),
+            spin: own.coordinates[coordinate::SPIN],
             yaw: -libm::asin(axle[0].clamp(-1.0, 1.0)),
             ..AxleState::default()
         };
@@ -282,6 +292,7 @@ pub(crate) fn add_wheels(
                 law: on.wheels.law,
             }),
             half,
+            radius: on.radius(),
             lines: lines.clone(),
         })
         .collect()

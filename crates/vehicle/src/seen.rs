@@ -226,11 +226,12 @@ pub(crate) fn of_axle(axle: &Axle) -> Vec<Channel> {
     add("y", Kind::Length, "to the left of the center line", |own| {
         own.lateral
     });
+    let text = "center above the nominal radius";
+    add("z", Kind::Length, text, |own| own.vertical_place);
+    let text = "roll of the axle to the plane of the track, left side up";
+    add("roll", Kind::Angle, text, |own| own.roll);
+    add("spin", Kind::Angle, "angle of the spin", |own| own.spin);
     add("yaw", Kind::Angle, "yaw to the track, to the left", |own| own.yaw);
-    let ratio = |spreading: f64, vertical: f64| match vertical > 0.0 {
-        true => spreading / vertical,
-        false => 0.0,
-    };
     let vertical = "vertical force of the wheel on its rail, square to the track, down";
     let lateral = "lateral force of the wheel on its rail, positive where it spreads the gauge";
     let over = "lateral over vertical force; 0 where the wheel carries nothing";
@@ -244,7 +245,6 @@ pub(crate) fn of_axle(axle: &Axle) -> Vec<Channel> {
     add("right_lateral_force", Kind::Force, lateral, |own| {
         own.spreading[1]
     });
-    let _ = ratio;
     add("left_l_over_v", Kind::Dimensionless, over, |own| l_over_v(own, 0));
     add("right_l_over_v", Kind::Dimensionless, over, |own| {
         l_over_v(own, 1)

@@ -37,12 +37,13 @@ pub struct Reader {
 }
 
 /// All readers.
-pub const ALL: [Reader; 39] = [
+pub const ALL: [Reader; 40] = [
     cases::CASES,
     cases::VALUES,
     cases::OVERRIDES,
     trucks::TRUCKS,
     trucks::CARS,
+    trucks::VEHICLES,
     trucks::TRACKS,
     trucks::MEASURED_TRACKS,
     trucks::ALIGNMENTS,

@@ -1,9 +1,10 @@
-//! Trucks, cars, tracks and profiles of wheels and rails.
+//! Trucks, cars, vehicles, tracks and profiles of wheels and rails.
 
 use report::track_files::Survey;
 use study::car::{self, CarCase};
 use study::track::TrackFile;
 use study::truck::{TruckCase, builtin};
+use study::vehicle::{self, VehicleCase};
 use wheelrail::profile::{Points, Profile, ProfileKind, SlicedProfile};
 use wheelrail::track::Track;
 
@@ -214,6 +215,50 @@ fn car_corpus() -> Vec<Vec<u8>> {
             .to_vec(),
     );
     corpus
+}
+
+/// Cases of vehicles of bodies and elements.
+pub const VEHICLES: Reader = Reader {
+    name: "vehicles",
+    about: "case files of vehicles of bodies and elements",
+    corpus: vehicle_corpus,
+    dictionary: &[
+        b"model = \"vehicle\"",
+        b"[bodies.frame]",
+        b"[elements.spring]",
+        b"[wheelsets.leading]",
+        b"[trucks.front]",
+        b"like = \"frame\"",
+        b"kind = \"bushing\"",
+        b"kind = \"wedge\"",
+        b"a = \"frame\"",
+        b"b = \"ground\"",
+        b"at = [\"0 in\", \"0 in\", \"20 in\"]",
+        b"free_coordinates = []",
+    ],
+    read: vehicle,
+};
+
+fn vehicle_corpus() -> Vec<Vec<u8>> {
+    let names = ["vehicle_catalog", "vehicle_two_axles", "vehicle_two_masses"];
+    let texts = names.iter().filter_map(|name| vehicle::builtin::text(name).ok());
+    texts.map(|text| text.as_bytes().to_vec()).collect()
+}
+
+fn vehicle(input: &[u8]) -> ReadOutcome {
+    let Ok(text) = std::str::from_utf8(input) else {
+        return ReadOutcome::NO_TEXT;
+    };
+    match VehicleCase::parse("vehicle.toml", text, nowhere(), &[]) {
+        Ok(case) => {
+            match VehicleCase::parse("again.toml", case.to_toml(), nowhere(), &[]) {
+                Ok(again) => assert!(again == case, "another case: {}", case.name),
+                Err(error) => refused_as_written(&messages(&error)),
+            }
+            ReadOutcome::ACCEPTED
+        }
+        Err(error) => refused(&error),
+    }
 }
 
 fn car(input: &[u8]) -> ReadOutcome {

@@ -5,3 +5,4 @@ mod car;
 mod issue_029_behaviour;
 mod issue_047_inputs;
 mod three_piece;
+mod vehicle;

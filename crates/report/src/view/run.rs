@@ -164,7 +164,12 @@ impl Recording {
     #[must_use]
     pub fn of_vehicle(case: &VehicleCase, result: &VehicleResult, detail: Detail) -> Self {
         let all = table(&result.columns, &result.values);
-        let scene = vehicle::scene(case, &result.columns);
+        let distances = result
+            .columns
+            .iter()
+            .position(|own| own.kind == quantity::Kind::Distance);
+        let distances = distances.map_or(&[][..], |place| &result.values[place]);
+        let scene = vehicle::scene(case, &result.columns, distances);
         let plots = vehicle::plots(&result.columns);
         Self::new((&case.name, &case.title), &all, plots, scene, detail)
     }

@@ -3,20 +3,24 @@
 use mechanics::output::Column;
 use quantity::Kind;
 use study::vehicle::VehicleCase;
-use vehicle::{Drawing, Drawn, Solid as Shape};
+use vehicle::{Axle, Drawing, Drawn, GROUND, OnTrack, Solid as Shape};
+use wheelrail::track::RailLines;
 
+use super::rolling;
 use super::run::Plot;
 use super::scene::{CoilEnd, Look, Scene, SceneBody, SceneCoil, Solid, SolidRole, extruded};
-use vehicle::GROUND;
 
 /// Names of coordinates in columns.
 const COORDINATES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
+/// Length of the track drawn behind and beyond the run, m.
+const BEYOND: f64 = 30.0;
 /// The exaggerated size (m) beyond which displacements grow to scale.
 const LIMIT: f64 = 0.5;
 
 /// Returns the scene of a vehicle whose run has these columns; none where the case makes no vehicle.
+/// `distances` (m) are those of its first wheelset along the track, if it runs on one.
 #[must_use]
-pub fn scene(case: &VehicleCase, columns: &[Column]) -> Option<Scene> {
+pub fn scene(case: &VehicleCase, columns: &[Column], distances: &[f64]) -> Option<Scene> {
     let vehicle = case.vehicle().ok()?;
     let drawing = &vehicle.drawing;
     let has = |name: &String| columns.iter().any(|own| own.name == *name);
@@ -41,14 +45,23 @@ pub fn scene(case: &VehicleCase, columns: &[Column]) -> Option<Scene> {
         }],
         ..Scene::default()
     };
+    let on_track = case.description.on_track.as_ref();
     for body in &drawing.bodies {
         let column = |name: &str| Some(format!("{}_{name}", body.name)).filter(|name| has(name));
+        let along = column("distance").filter(|_| on_track.is_some());
+        if on_track.is_some() && along.is_none() {
+            continue;
+        }
         scene.bodies.push(SceneBody {
             id: body.name.clone(),
             on: None,
-            along: None,
             spin: None,
-            position: body.place,
+            // On a track places are counted from the center line, where the body is.
+            position: match along {
+                Some(_) => [0.0, 0.0, body.place[2]],
+                None => body.place,
+            },
+            along,
             coordinates: COORDINATES.map(column),
             steady: Default::default(),
         });
@@ -59,7 +72,12 @@ pub fn scene(case: &VehicleCase, columns: &[Column]) -> Option<Scene> {
         let body = drawing.bodies.iter().find(|own| own.number == number);
         body.map_or((GROUND.to_owned(), [0.0; 3]), |own| (own.name.clone(), own.place))
     };
+    let count = case.description.bodies.len();
     for element in &drawing.elements {
+        // Bearings of wheelsets are no bodies of the picture.
+        if element.ends.iter().any(|(number, _)| *number > count) {
+            continue;
+        }
         let turns = match element.form {
             Drawn::Coil => 6.0,
             Drawn::Line => 0.0,
@@ -90,8 +108,52 @@ pub fn scene(case: &VehicleCase, columns: &[Column]) -> Option<Scene> {
             length: None,
         });
     }
+    if let Some(on) = on_track {
+        add_track(&mut scene, on, &vehicle.axles, distances);
+    }
     scene.round();
     Some(scene)
+}
+
+/// Adds wheelsets and the track under them; `distances` (m) are those of the first wheelset.
+fn add_track(scene: &mut Scene, on: &OnTrack, axles: &[Axle], distances: &[f64]) {
+    let [wheel, rail] = &*on.wheels.profiles;
+    for axle in axles {
+        let column = |name: &str| {
+            let own = match name {
+                "lateral" => "y",
+                "vertical" => "z",
+                own => own,
+            };
+            format!("{}_{own}", axle.name)
+        };
+        let radius = on.radius();
+        let bodies = rolling::wheelset_bodies(&axle.name, radius, &column);
+        scene.bodies.extend(bodies);
+        let shown = axle.name.replace('_', " ");
+        scene.solids.extend(rolling::wheelset_solids(
+            &axle.name,
+            &shown,
+            [wheel; 2],
+            [radius; 2],
+            on.wheels.tape_distance,
+        ));
+    }
+    let first = distances.iter().copied().fold(f64::INFINITY, f64::min);
+    let last = distances.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if first.is_finite() {
+        let offsets = on.wheels.geometry.rail_origins();
+        let lines = RailLines::new(on.track.clone(), offsets);
+        let reach = 2.0 * on.reach() + BEYOND;
+        scene.track = Some(rolling::track(
+            &lines,
+            [rail; 2],
+            offsets,
+            [first - reach, last + reach],
+        ));
+    }
+    scene.follow = scene.bodies.get(1).map(|body| body.id.clone());
+    scene.limit = 0.1;
 }
 
 /// Returns the size of a drawing, m.

@@ -91,6 +91,8 @@ pub(super) const CAR: ModelKeys = ModelKeys {
 pub(super) const VEHICLE: ModelKeys = ModelKeys {
     cases: &[
         ("vehicle_catalog", &[]),
+        ("vehicle_two_axles", &[]),
+        ("vehicle_car_empty", &[]),
         (
             "vehicle_catalog",
             &[r#"elements.spring.table=[["0 in", "0 lbf"], ["1 in", "3000 lbf"]]"#],

@@ -45,10 +45,18 @@ fn wagons(case: Made) -> CaseGroup {
         title: "Vehicles on a track: axles where you like",
         look_at: "Wheel loads and accelerations on tangent track. Its numbers are guesses: it shows the keys of \
                   wheelsets, wheels, rails and track.",
-        cases: vec![case(file!(
-            "vehicle_two_axles",
-            "A wagon on two axles over tangent track of FRA class 4 at 40 mph"
-        ))],
+        cases: [
+            file!(
+                "vehicle_two_axles",
+                "A wagon on two axles over tangent track of FRA class 4 at 40 mph"
+            ),
+            file!(
+                "vehicle_car_empty",
+                "The empty car, written out as a body and two trucks, over a dip of the left rail"
+            ),
+        ]
+        .map(case)
+        .into(),
     }
 }
 

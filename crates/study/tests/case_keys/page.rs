@@ -24,7 +24,8 @@ const HEADINGS: [(&str, &str); 4] = [
     (
         "A vehicle",
         "`model = \"vehicle\"`: see [vehicles](vehicle.md). Bodies and elements have names of your own: here \
-         `NAME` stands for a body's, and the name of an element is that of its kind.",
+         `NAME` stands for one of these, and the name of an element is that of its kind. The other keys \
+         of `trucks.NAME` are those of a car's truck.",
     ),
 ];
 
@@ -80,7 +81,13 @@ pub fn keys(cases: &[Variant]) -> Vec<Key> {
         let mut last = 0;
         let fields = case.fields().into_iter().flat_map(|section| section.fields);
         // A car's trucks have the keys of trucks.
-        let is_of_truck = |path: &str| matches!(case, AnyCase::Car(_)) && path.starts_with("truck.");
+        let is_of_truck = |path: &str| match case {
+            AnyCase::Car(_) => path.starts_with("truck."),
+            AnyCase::Vehicle(_) => {
+                path.starts_with("trucks.") && !path.ends_with(".at") && !path.ends_with(".under")
+            }
+            _ => false,
+        };
         for mut field in fields.filter(|field| !is_of_truck(&field.path)) {
             field.path = general(&field.path);
             let value = shown(&field);
@@ -115,7 +122,9 @@ pub fn keys(cases: &[Variant]) -> Vec<Key> {
 fn general(path: &str) -> String {
     let parts: Vec<&str> = path.split('.').collect();
     match parts.as_slice() {
-        ["bodies", _, rest @ ..] => format!("bodies.NAME.{}", rest.join(".")),
+        [table @ ("bodies" | "wheelsets" | "trucks"), _, rest @ ..] => {
+            format!("{table}.NAME.{}", rest.join("."))
+        }
         ["elements", name, rest @ ..] => {
             let kind = name.trim_end_matches(|sign: char| sign.is_ascii_digit() || sign == '_');
             let kind = if kind == "traction" { "bushing" } else { kind };

@@ -39,6 +39,7 @@ pub fn vehicle(bodies: Vec<RigidBody>, elements: Vec<Element>, gravity: f64, sta
         elements,
         gravity,
         start,
+        ..Description::default()
     })
     .unwrap()
 }
