@@ -191,6 +191,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
          EN 15302, at an amplitude of that size; - where the wheelset does not swing or the amplitude is \
          not covered."
     )?;
+    if let Some((_, words)) = off_tread(&wheelset, &positions) {
+        writeln!(out, "{}.", words.replacen("from", "From", 1))?;
+    }
     let middle = of_motion.equilibrium().filter(|middle| middle.abs() > NOTHING);
     if let Some(middle) = middle.filter(|_| !read.is_symmetric()) {
         writeln!(
@@ -256,25 +259,39 @@ fn doubt(read: &ProfiledPair, wheelset: &RigidWheelset, positions: &[RigidPositi
             1e3 * LEAST_CLEARANCE
         ));
     }
-    let smallest = |a: &&RigidPosition, b: &&RigidPosition| a.shift.abs().total_cmp(&b.shift.abs());
-    let off = |position: &&RigidPosition| wheelset.seats(position).iter().any(|seat| *seat != Seat::OnRail);
-    if let Some(position) = positions.iter().filter(off).min_by(smallest) {
-        let seats = wheelset.seats(position);
-        let side = usize::from(seats[0] == Seat::OnRail);
-        let part = match seats[side] {
-            Seat::RimEdge => "the edge of its rim",
-            _ => "the tip of its flange",
-        };
+    if let Some((shift, words)) = off_tread(wheelset, positions)
+        && read
+            .flangeway_clearance()
+            .is_none_or(|clearance| shift < clearance)
+    {
         say(&format!(
-            "warning: at a shift of {:.3} mm ({:.3} in) the {} wheel stands on {part}; rolling radii and \
-             conicity from \
-             there on mean nothing: give a smaller --shift, or look at gauge, tape distance and the datum \
-             of the wheels",
-            1e3 * position.shift,
-            position.shift / INCH,
-            word(side)
+            "warning: {words}, although its flange has not reached the rail: look at gauge, tape distance \
+             and the \
+             datum of the wheels"
         ));
     }
+}
+
+/// Returns the smallest shift (m) at which a wheel does not stand on its tread, and a sentence on it.
+fn off_tread(wheelset: &RigidWheelset, positions: &[RigidPosition]) -> Option<(f64, String)> {
+    let smallest = |a: &&RigidPosition, b: &&RigidPosition| a.shift.abs().total_cmp(&b.shift.abs());
+    let off = |position: &&RigidPosition| wheelset.seats(position).iter().any(|seat| *seat != Seat::OnRail);
+    let position = positions.iter().filter(off).min_by(smallest)?;
+    let seats = wheelset.seats(position);
+    let side = usize::from(seats[0] == Seat::OnRail);
+    let part = match seats[side] {
+        Seat::RimEdge => "the edge of its rim",
+        _ => "the tip of its flange",
+    };
+    let words = format!(
+        "from a shift of {:.3} mm ({:.3} in) on the {} wheel stands on {part}; rolling radii and conicity \
+         mean \
+         nothing there",
+        1e3 * position.shift,
+        position.shift / INCH,
+        word(side)
+    );
+    Some((position.shift.abs(), words))
 }
 
 /// Writes a profile's name, remark and deviation.

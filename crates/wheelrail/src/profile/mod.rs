@@ -11,6 +11,7 @@
 //! | [`nominal`] | cone, cylinder; wheels AAR-1B and AAR 1:20, rail 136RE from memory, to be checked against
 //! drawings |
 //! | [`european`] | wheel S1002, rail 60E1 |
+//! | [`worn`] | the AAR-1B with a hollow tread, a guess |
 //! | [`names`] | all of these by name |
 //! | [`chain`](mod@chain) | lines and arcs that join tangentially |
 //! | [`Points`] | files: CSV with units, Simpack, MiniProf, VAMPIRE; a spline along them with a stated
@@ -30,6 +31,7 @@ pub mod points;
 mod shape;
 mod slices;
 mod spline;
+pub mod worn;
 
 use std::path::Path;
 

@@ -2,13 +2,13 @@
 
 use quantity::INCH;
 
-use super::{Profile, ProfileError, ProfileKind, european, nominal};
+use super::{Profile, ProfileError, ProfileKind, european, nominal, worn};
 
 /// Half width of the tread of cones and cylinders, m.
 const TREAD: f64 = 2.0 * INCH;
 /// Names of wheels that are built in, for messages.
 pub const WHEELS: &str = "aar_1b, aar_1b_1:10 (its flange, another tread), aar_1:20 (before 1990), s1002, \
-                          cylinder, cone_1:20 (any slope)";
+                          hollow_2mm, hollow_4mm (AAR-1B, worn by guess), cylinder, cone_1:20 (any slope)";
 /// Names of rails that are built in, for messages.
 pub const RAILS: &str = "136re (crown 10 in, 136re_10in too), 136re_8in, 60e1";
 
@@ -43,6 +43,8 @@ pub fn wheel(name: &str) -> Result<Option<Profile>, ProfileError> {
         "aar_1b" => nominal::aar_1b().map(Some),
         "aar_1:20" => nominal::aar_1_20().map(Some),
         "s1002" => european::s1002().map(Some),
+        "hollow_2mm" => worn::hollow(2e-3).map(Some),
+        "hollow_4mm" => worn::hollow(4e-3).map(Some),
         "cylinder" => nominal::cone(0.0, TREAD).map(Some),
         _ => refused(name, ProfileKind::Wheel),
     }
