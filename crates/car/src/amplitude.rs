@@ -23,6 +23,7 @@
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use mechanics::linear::{Equivalent, LinearModel, SecondOrder};
 use nalgebra::{Complex, DMatrix, DVector};
@@ -102,7 +103,8 @@ struct Models {
 pub struct OverAmplitude {
     car: SteadyCar,
     without_creep: Option<SteadyCar>,
-    wheels: Option<WheelsOverAmplitude>,
+    /// Of each wheelset; none of linear wheels.
+    wheels: Option<[Arc<WheelsOverAmplitude>; 4]>,
     saturation: Saturation,
     /// Of each wheelset: places of its lateral displacement and of its heading, and of all coordinates that
     /// its creep acts on.
@@ -144,9 +146,22 @@ impl OverAmplitude {
             Wheels::Linear { wheelset, .. } => own.half_distance = wheelset.geometry.half_distance,
             Wheels::OnRails(wheels) => {
                 own.saturation = Saturation::of(wheels.law.creep);
-                own.wheels = Some(WheelsOverAmplitude::new(&wheels.geometry));
+                let mut tables = wheels.geometry.each_ref().map(|_| None);
+                for (w, geometry) in wheels.geometry.iter().enumerate() {
+                    let same = wheels.geometry[..w]
+                        .iter()
+                        .position(|other| Arc::ptr_eq(geometry, other));
+                    tables[w] = match same {
+                        Some(same) => tables[same].clone(),
+                        None => Some(Arc::new(WheelsOverAmplitude::new(geometry))),
+                    };
+                }
+                let [Some(a), Some(b), Some(c), Some(d)] = tables else {
+                    unreachable!("all are made")
+                };
+                own.wheels = Some([a, b, c, d]);
                 own.limit = 0.5 * axle_load * wheels.law.friction;
-                if let Ok(middle) = LinearGeometry::of(&wheels.geometry, MIDDLE) {
+                if let Ok(middle) = LinearGeometry::of(&wheels.geometry[0], MIDDLE) {
                     own.half_distance = middle.half_distance;
                 }
                 let mut bare = parameters.clone();
@@ -168,9 +183,10 @@ impl OverAmplitude {
     /// Returns the largest amplitude at which no flange bears, m; of linear wheels 0.4 in.
     #[must_use]
     pub fn clearance(&self) -> f64 {
-        self.wheels
-            .as_ref()
-            .map_or(WITHOUT_FLANGES, WheelsOverAmplitude::clearance)
+        self.wheels.as_ref().map_or(WITHOUT_FLANGES, |wheels| {
+            let clearances = wheels.iter().map(|own| own.clearance());
+            clearances.fold(f64::INFINITY, f64::min)
+        })
     }
 
     /// Returns the slowest neutral motion of each amplitude (m, falling). `go_on` receives the share that is
@@ -344,7 +360,7 @@ impl OverAmplitude {
             return matrices;
         };
         let scale = amplitude / self.largest(&own.shape);
-        for ([lateral, heading], _) in &self.places {
+        for (([lateral, heading], _), wheels) in self.places.iter().zip(wheels) {
             let [conicity, stiffness] = wheels.beyond_middle(own.shape[*lateral].norm() * scale);
             // Of the damping of the heading, 2 f11 l²/V, follows the moment by the shift, 2 f11 l λ/r.
             let turning = matrices.damping[(*heading, *heading)] * own.speed / self.half_distance;

@@ -22,7 +22,7 @@ use rolling::track::{RailSupport, rail_body};
 use rolling::wheel::{Search, WheelOnRail};
 use rolling::wheelset::{WheelsetPlace, leave_spin_uncontrolled, marker};
 use truck::{Bolster, Mount, MountedTruck, WedgeKind, WedgeLoads};
-use wheelrail::contact::{ContactTable, Side};
+use wheelrail::contact::{ContactPair, ContactTable, Side};
 use wheelrail::track::RailLines;
 
 use crate::body::{Carried, Pose, angles};
@@ -138,8 +138,11 @@ impl Car {
     pub fn new(parameters: &Parameters) -> Result<Self, BuildError> {
         parameters.check()?;
         if let Wheels::OnRails(wheels) = &parameters.wheels {
-            let reaches = wheels.geometry.check_reach();
-            reaches.map_err(|reason| BuildError::Reach { reason })?;
+            for wheelset in distinct(&wheels.geometry) {
+                wheelset
+                    .check_reach()
+                    .map_err(|reason| BuildError::Reach { reason })?;
+            }
         }
         let carried = Carried::new(parameters);
         let offsets = parameters.rail_offsets();
@@ -202,22 +205,39 @@ impl Car {
     }
 }
 
-/// Returns the searches for patches at the left and the right wheel; none of linear wheels.
+/// Returns those of four values that are not the same as one before them.
+pub(crate) fn distinct<T>(all: &[Arc<T>; 4]) -> impl Iterator<Item = &Arc<T>> {
+    let own = all.iter().enumerate();
+    own.filter(|(k, one)| !all[..*k].iter().any(|other| Arc::ptr_eq(one, other)))
+        .map(|(_, one)| one)
+}
+
+/// Returns the searches for patches at the left and the right wheel of each wheelset; none of linear wheels.
 ///
 /// # Errors
 /// A table of contacts cannot be made.
-pub fn searches(wheels: &Wheels) -> Result<Vec<Search>, BuildError> {
+pub fn searches(wheels: &Wheels) -> Result<Vec<[Search; 2]>, BuildError> {
     let Wheels::OnRails(wheels) = wheels else {
         return Ok(Vec::new());
     };
-    let pairs = wheels.geometry.pairs().iter();
-    let searches = pairs.map(|pair| {
+    let search = |pair: &ContactPair| -> Result<Search, BuildError> {
         Ok(match wheels.tables {
             false => Search::Exact(Arc::new(pair.clone())),
             true => Search::Table(Arc::new(ContactTable::new(pair.clone(), OVERLAP)?)),
         })
-    });
-    searches.collect()
+    };
+    let mut searches: Vec<[Search; 2]> = Vec::with_capacity(wheels.geometry.len());
+    for (w, own) in wheels.geometry.iter().enumerate() {
+        let same = wheels.geometry[..w]
+            .iter()
+            .position(|other| Arc::ptr_eq(own, other));
+        let [left, right] = own.pairs();
+        searches.push(match same {
+            Some(same) => searches[same].clone(),
+            None => [search(left)?, search(right)?],
+        });
+    }
+    Ok(searches)
 }
 
 /// Returns a body that does not spin with its reference frame turned, so that its angles are heading, pitch,
@@ -238,7 +258,7 @@ impl Nominal {
     pub fn new(
         parameters: &Parameters,
         carried: &Carried,
-        searches: &[Search],
+        searches: &[[Search; 2]],
         lines: &Arc<RailLines>,
         heading: f64,
     ) -> Self {
@@ -462,7 +482,7 @@ fn beds(model: &mut Model) -> [[usize; 2]; 4] {
 fn wheels(
     model: &mut Model,
     parameters: &Parameters,
-    searches: &[Search],
+    searches: &[[Search; 2]],
     lines: &Arc<RailLines>,
     (wheelsets, rails, track): ([usize; 4], Option<[[usize; 2]; 4]>, Marker),
 ) -> WheelElements {
@@ -475,7 +495,7 @@ fn wheels(
                         name: format!("wheel_{}_{}", w + 1, ["left", "right"][i]),
                         lines: lines.clone(),
                         side: [Side::Left, Side::Right][i],
-                        search: searches[i].clone(),
+                        search: searches[w][i].clone(),
                         law: own.law,
                     };
                     let on = rails.map_or(0, |rails| rails[w][i]);

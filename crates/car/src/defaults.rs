@@ -53,8 +53,10 @@ impl Mass {
     }
 }
 
-/// The geometry of new wheels on new rails, and both profiles. Each car begins with it; it takes 25 ms.
-type NewWheels = (Arc<RigidWheelset>, Arc<[Profile; 2]>);
+/// The geometry of new wheels on new rails, and the profiles of a wheel and a rail. Each car begins with it;
+/// it
+/// takes 25 ms.
+type NewWheels = (Arc<RigidWheelset>, [Arc<Profile>; 2]);
 static NEW: OnceLock<NewWheels> = OnceLock::new();
 
 fn new_wheels() -> Result<NewWheels, ProfileError> {
@@ -73,7 +75,7 @@ fn new_wheels() -> Result<NewWheels, ProfileError> {
         poisson: 0.28,
     };
     let geometry = RigidWheelset::new([&wheel; 2], [18.0 * INCH; 2], [&rail; 2], layout, steel)?;
-    let own = (Arc::new(geometry), Arc::new([wheel, rail]));
+    let own = (Arc::new(geometry), [Arc::new(wheel), Arc::new(rail)]);
     Ok(NEW.get_or_init(|| own).clone())
 }
 
@@ -85,10 +87,11 @@ impl ProfiledWheels {
     /// # Errors
     /// None of these values is at fault; the profiles' checks can only fail for others.
     pub fn usual(sprung: bool) -> Result<Self, ProfileError> {
-        let (geometry, profiles) = new_wheels()?;
+        let (geometry, [wheel, rail]) = new_wheels()?;
         Ok(Self {
-            geometry,
-            profiles,
+            geometry: [0; 4].map(|_| geometry.clone()),
+            wheels: [[0; 2]; 4].map(|sides| sides.map(|_| wheel.clone())),
+            rails: [0; 2].map(|_| rail.clone()),
             tape_distance: nominal::TAPE_DISTANCE,
             tables: false,
             law: ContactLaw {

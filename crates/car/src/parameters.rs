@@ -50,10 +50,14 @@ pub enum Wheels {
 /// Wheels on rails.
 #[derive(Clone, Debug)]
 pub struct ProfiledWheels {
-    /// Profiles of both wheels and both rails, gauge and distance of the tape circles.
-    pub geometry: Arc<RigidWheelset>,
-    /// The profile of a wheel and that of a rail.
-    pub profiles: Arc<[Profile; 2]>,
+    /// Of each wheelset: profiles of both wheels and both rails, gauge and distance of the tape circles.
+    /// Alike
+    /// wheelsets share one.
+    pub geometry: [Arc<RigidWheelset>; 4],
+    /// Profiles of the left and the right wheel of each wheelset.
+    pub wheels: [[Arc<Profile>; 2]; 4],
+    /// Profiles of the left and the right rail.
+    pub rails: [Arc<Profile>; 2],
     /// Distance of the tape circles, m.
     pub tape_distance: f64,
     /// True if patches come from tables: faster, for motion on treads only.
@@ -414,16 +418,24 @@ impl Parameters {
     #[must_use]
     pub fn rail_offsets(&self) -> [f64; 2] {
         match &self.wheels {
-            Wheels::OnRails(wheels) => wheels.geometry.rail_origins(),
+            Wheels::OnRails(wheels) => wheels.geometry[0].rail_origins(),
             Wheels::Linear { wheelset, .. } => [wheelset.geometry.half_distance; 2],
         }
     }
 
-    /// Returns the nominal radius of the wheels, m.
+    /// Returns the mean of the nominal radii of all wheels, m.
     #[must_use]
     pub fn wheel_radius(&self) -> f64 {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|w| self.axle_radius(w));
+        // Exactly the radius where all are alike.
+        0.5 * (0.5 * (a + b) + 0.5 * (c + d))
+    }
+
+    /// Returns the mean of the nominal radii of a wheelset, m.
+    #[must_use]
+    pub fn axle_radius(&self, wheelset: usize) -> f64 {
         match &self.wheels {
-            Wheels::OnRails(wheels) => wheels.geometry.pairs()[0].nominal_radius(),
+            Wheels::OnRails(wheels) => wheels.geometry[wheelset].nominal_radius(),
             Wheels::Linear { wheelset, .. } => wheelset.geometry.radius,
         }
     }

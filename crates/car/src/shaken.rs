@@ -146,7 +146,7 @@ fn irregularities(start: f64) -> Result<Vec<Placed>, BuildError> {
 
 fn compute(own: &Parameters) -> Result<Shaken, BuildError> {
     let carried = Carried::new(own);
-    let searches: Vec<Search> = searches(&own.wheels)?;
+    let searches: Vec<[Search; 2]> = searches(&own.wheels)?;
     let offsets = own.rail_offsets();
     let before = at_rest(own, &carried, &searches, offsets)?;
     let (car, mut poses, internal) = run(own)?;

@@ -48,7 +48,7 @@ impl Standing {
     fn new(
         parameters: &Parameters,
         carried: &Carried,
-        searches: &[Search],
+        searches: &[[Search; 2]],
         offsets: [f64; 2],
     ) -> Result<Self, BuildError> {
         let middle = parameters.reach() + 10.0;
@@ -135,7 +135,7 @@ pub(crate) fn internal_states(system: &System) -> Range<usize> {
 pub(crate) fn at_rest(
     parameters: &Parameters,
     carried: &Carried,
-    searches: &[Search],
+    searches: &[[Search; 2]],
     offsets: [f64; 2],
 ) -> Result<Resting, BuildError> {
     // Tipped over, bodies may come to rest too.
@@ -168,7 +168,7 @@ pub(crate) fn at_rest(
 /// Returns what the car rests in from these poses and internal states, with all friction. Wheelsets that
 /// are held neither move aside nor turn.
 pub(crate) fn at_rest_from(
-    (parameters, carried, searches, offsets): (&Parameters, &Carried, &[Search], [f64; 2]),
+    (parameters, carried, searches, offsets): (&Parameters, &Carried, &[[Search; 2]], [f64; 2]),
     poses: &[Pose],
     internal: &[f64],
     holds: bool,
@@ -282,7 +282,6 @@ impl Placement {
         poses: &[Pose],
         parameters: &Parameters,
     ) -> Vec<(usize, [f64; 6])> {
-        let radius = parameters.wheel_radius();
         let half = 0.5 * parameters.truck_distance;
         let mut speeds = Vec::new();
         for &(number, group) in &nominal.groups {
@@ -308,8 +307,8 @@ impl Placement {
             let mut rates = [velocity.0[0], velocity.0[1], velocity.0[2], 0.0, 0.0, 0.0];
             // Both kinds of bodies have the heading as their first angle.
             rates[4] = self.angular_velocities[group].0[2];
-            if wheelset.is_some() {
-                rates[3] = parameters.start.speed / radius;
+            if let Some(w) = wheelset {
+                rates[3] = parameters.start.speed / parameters.axle_radius(w);
             }
             speeds.push((number, rates));
         }

@@ -4,8 +4,9 @@
 use std::io::{self, Write};
 
 use quantity::{Kind, System as Units};
+use wheelrail::contact::Side;
 use wheelrail::profile::Profile;
-use wheelrail::wheelset::RigidPosition;
+use wheelrail::wheelset::{RigidPosition, RigidWheelset};
 
 use crate::output_table::OutputTable;
 use drawing::{Colour, Figure, Line, Panel, PlotCurve};
@@ -55,6 +56,7 @@ pub fn write(positions: &[RigidPosition], out: &mut dyn Write) -> io::Result<()>
 pub fn figure(
     wheels: &[Profile; 2],
     rails: &[Profile; 2],
+    wheelset: &RigidWheelset,
     positions: &[RigidPosition],
     conicity: &[(f64, f64)],
 ) -> Figure {
@@ -97,7 +99,37 @@ pub fn figure(
         true => profiles[0].name().to_owned(),
         false => format!("{} and {}", profiles[0].name(), profiles[1].name()),
     };
-    Figure {
+    let middle = positions
+        .iter()
+        .min_by(|a, b| a.shift.abs().total_cmp(&b.shift.abs()));
+    let sides = if wheels[0] == wheels[1] && rails[0] == rails[1] {
+        1
+    } else {
+        2
+    };
+    let placed: Vec<Panel> = middle.map_or_else(Vec::new, |position| {
+        (0..sides)
+            .map(|side| {
+                let [wheel, rail] = placed(wheelset, [&wheels[side], &rails[side]], position, side);
+                let title = format!(
+                    "({}) {} wheel on its rail, {:.2} in from the middle",
+                    ["f", "g"][side],
+                    ["left", "right"][side],
+                    position.shift.abs() / INCH
+                );
+                panel(
+                    &title,
+                    "from the middle of the track (in)",
+                    "above the top of the rail (in)",
+                    vec![
+                        curve("wheel", blue, Line::Solid, wheel),
+                        curve("rail", red, Line::Dashed, rail),
+                    ],
+                )
+            })
+            .collect()
+    });
+    let mut figure = Figure {
         columns: 3,
         ..Figure::new(
             format!("{} on {}", names(wheels), names(rails)),
@@ -170,5 +202,45 @@ pub fn figure(
                 ),
             ],
         )
-    }
+    };
+    figure.panels.extend(placed);
+    figure
+}
+
+/// Returns the outlines of a wheel and its rail where they stand in a position: distance from the middle of
+/// the track and height above the top of the rail, in.
+fn placed(
+    wheelset: &RigidWheelset,
+    [wheel, rail]: [&Profile; 2],
+    position: &RigidPosition,
+    side: usize,
+) -> [Vec<(f64, f64)>; 2] {
+    let sides = [Side::Left, Side::Right];
+    let pair = &wheelset.pairs()[side];
+    let radius = pair.nominal_radius();
+    // The center of the wheel's tape circle, from the origin of the rail's profile.
+    let pose = wheelset.pose(
+        sides[side],
+        [position.center, position.height],
+        0.0,
+        position.roll,
+    );
+    let [y0, z0] = [pose.center[0], pose.center[1]];
+    let origin = wheelset.rail_origins()[side];
+    let turn = if side == 0 { position.roll } else { -position.roll };
+    let (sine, cosine) = libm::sincos(turn);
+    let top = rail.top()[1];
+    let sample = |profile: &Profile| profile.curve().sample(2e-4);
+    let wheel = sample(wheel).into_iter().map(|(_, point)| {
+        let [y, z] = [point.position[0], point.position[1] - radius];
+        let (y, z) = (y0 + y * cosine - z * sine, z0 + y * sine + z * cosine);
+        ((origin + y) / INCH, z / INCH)
+    });
+    let rail = sample(rail).into_iter().map(|(_, point)| {
+        (
+            (origin + point.position[0]) / INCH,
+            (point.position[1] - top) / INCH,
+        )
+    });
+    [wheel.collect(), rail.collect()]
 }

@@ -339,7 +339,9 @@ impl Nominal {
         let mut axles = Vec::new();
         if let (Some(on), Some(lines)) = (on, &lines) {
             let found = searches(&Wheels::OnRails(on.wheels.clone()))?;
-            axles = add_wheels(&mut model, on, &found, lines, &wheelsets);
+            if let Some(found) = found.first() {
+                axles = add_wheels(&mut model, on, found, lines, &wheelsets);
+            }
             let carriers: Vec<usize> = wheelsets
                 .iter()
                 .map(|(name, body)| model.add_carrier(&format!("{name}_bearings"), *body))

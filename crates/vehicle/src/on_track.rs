@@ -25,7 +25,7 @@ const ROOM: f64 = 10.0;
 pub struct OnTrack {
     /// The track.
     pub track: Track,
-    /// Profiles, gauge, creep.
+    /// Profiles, gauge, creep; all wheelsets are as the first one of these.
     pub wheels: ProfiledWheels,
     /// Mass properties of each wheelset.
     pub wheelset: WheelsetBody,
@@ -89,12 +89,12 @@ impl OnTrack {
     /// Returns the nominal radius of the wheels, m.
     #[must_use]
     pub fn radius(&self) -> f64 {
-        self.wheels.geometry.pairs()[0].nominal_radius()
+        self.wheels.geometry[0].pairs()[0].nominal_radius()
     }
 
     /// Returns the rails of the track.
     pub(crate) fn lines(&self) -> Arc<RailLines> {
-        let offsets = self.wheels.geometry.rail_origins();
+        let offsets = self.wheels.geometry[0].rail_origins();
         Arc::new(RailLines::new(self.track.clone(), offsets))
     }
 
@@ -253,7 +253,7 @@ pub(crate) fn wheelset_body(on: &OnTrack, name: &str, x: f64) -> Body {
 pub(crate) fn add_wheels(
     model: &mut Model,
     on: &OnTrack,
-    searches: &[Search],
+    searches: &[Search; 2],
     lines: &Arc<RailLines>,
     wheelsets: &[(String, usize)],
 ) -> Vec<Axle> {

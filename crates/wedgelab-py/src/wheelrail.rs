@@ -10,7 +10,9 @@ use ::wheelrail::creep::fastsim::StripGrid;
 use ::wheelrail::creep::{Coefficients, Creepage, Patch, fastsim, linear, polach, shen_hedrick_elkins};
 use ::wheelrail::hertz::Material;
 use ::wheelrail::loaded::{Attitude, LoadError, LoadedPatch, LoadedWheel};
-use ::wheelrail::profile::{Points, Profile, ProfileError, ProfileKind, nominal};
+use ::wheelrail::profile::{
+    Points, Profile, ProfileError, ProfileKind, ReadOptions, WheelDatum, names, nominal,
+};
 use ::wheelrail::wheelset::{Layout, RigidWheelset};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
@@ -68,8 +70,26 @@ fn kind(wheel: bool) -> ProfileKind {
 #[pymethods]
 impl NativeProfile {
     #[staticmethod]
-    fn read(py: Python<'_>, path: PathBuf, wheel: bool, deviation: f64) -> PyResult<Self> {
-        guarded(py, || Self::of(py, Profile::read(&path, kind(wheel), deviation)))
+    fn read(
+        py: Python<'_>,
+        path: PathBuf,
+        wheel: bool,
+        deviation: f64,
+        flange_back: Option<bool>,
+        tape_from_back: Option<f64>,
+    ) -> PyResult<Self> {
+        let options = ReadOptions {
+            deviation,
+            datum: flange_back.map(|back| match back {
+                true => WheelDatum::FlangeBack,
+                false => WheelDatum::Tape,
+            }),
+            tape_from_back,
+            side: None,
+        };
+        guarded(py, || {
+            Self::of(py, Profile::read_with(&path, kind(wheel), &options))
+        })
     }
 
     #[staticmethod]
@@ -87,14 +107,21 @@ impl NativeProfile {
 
     #[staticmethod]
     fn nominal(py: Python<'_>, name: &str) -> PyResult<Self> {
-        guarded(py, || match name {
-            "aar_1b" => Self::of(py, nominal::aar_1b()),
-            "136re" => Self::of(py, nominal::rail_136re()),
-            _ => Err(refused(
-                py,
-                &format!("there is no nominal profile {name:?}"),
-                "nominal profiles are \"aar_1b\" and \"136re\"; cone(slope) is a cone",
-            )),
+        guarded(py, || {
+            let made = match names::rail(name) {
+                Ok(Some((rail, _))) => return Self::of(py, Ok(rail)),
+                Err(error) => return Self::of(py, Err(error)),
+                Ok(None) => names::wheel(name),
+            };
+            match made {
+                Ok(Some(wheel)) => Self::of(py, Ok(wheel)),
+                Err(error) => Self::of(py, Err(error)),
+                Ok(None) => Err(refused(
+                    py,
+                    &format!("there is no nominal profile {name:?}"),
+                    &format!("wheels are {}; rails are {}", names::WHEELS, names::RAILS),
+                )),
+            }
         })
     }
 
@@ -122,6 +149,15 @@ impl NativeProfile {
     #[getter]
     fn note(&self) -> String {
         self.profile.note().to_owned()
+    }
+
+    /// Doubts about its file: text and advice.
+    #[getter]
+    fn notices(&self) -> Vec<(String, String)> {
+        let notices = self.profile.notices().iter();
+        notices
+            .map(|own| (own.text.clone(), own.advice.clone()))
+            .collect()
     }
 
     #[getter]
@@ -233,12 +269,12 @@ impl NativeWheelset {
     #[allow(clippy::too_many_arguments)]
     fn new(
         py: Python<'_>,
-        wheel: &NativeProfile,
-        rail: &NativeProfile,
+        wheels: [PyRef<'_, NativeProfile>; 2],
+        rails: [PyRef<'_, NativeProfile>; 2],
         gauge: f64,
         gauge_depth: f64,
         tape_distance: f64,
-        radius: f64,
+        radii: [f64; 2],
         shear_modulus: f64,
         poisson: f64,
     ) -> PyResult<Self> {
@@ -253,9 +289,9 @@ impl NativeWheelset {
         };
         guarded(py, || {
             let made = RigidWheelset::new(
-                [&*wheel.profile; 2],
-                [radius; 2],
-                [&*rail.profile; 2],
+                wheels.each_ref().map(|own| &*own.profile),
+                radii,
+                rails.each_ref().map(|own| &*own.profile),
                 layout,
                 material,
             );

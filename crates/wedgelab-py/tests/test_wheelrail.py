@@ -175,3 +175,36 @@ def test_input_others_are_explained(tmp_path: Path) -> None:
         wr.Wheelset(wr.Profile.nominal("aar_1b"), wr.Profile.nominal("136re")).equivalent_conicity("30 mm")
     with pytest.raises(wl.WheelRailError, match="Profile is expected"):
         wr.Wheelset("aar_1b", wr.Profile.nominal("136re"))  # type: ignore[arg-type]
+
+
+def test_sides_of_their_own() -> None:
+    """A cylinder on the left and a cone of 1:20 on the right: half the conicity of two cones; radii may differ."""
+    cylinder, cone = wr.Profile.cone(0.0), wr.Profile.cone(0.05)
+    rail = wr.Profile.nominal("136re").inclined(1 / 40)
+    unlike = wr.Wheelset((cylinder, cone), (rail, rail))
+    slope = np.gradient(unlike.positions(np.linspace(-2e-3, 2e-3, 5)).rolling_radius_difference, 1e-3)
+    np.testing.assert_allclose(slope, 0.05, atol=1e-3)
+    pair = wr.Wheelset(cone, rail, radius=("18 in", "17.99 in"))
+    middle = pair.positions(0.0).rolling_radius_difference
+    assert 2.5e-4 < float(middle) < 2.6e-4
+    with pytest.raises(wl.WheelRailError, match="left and a right"):
+        wr.Wheelset((cone, cone, cone), rail)  # type: ignore[arg-type]
+
+
+def test_files_of_measuring_devices(tmp_path: Path) -> None:
+    """MiniProf counts from the back of the flange; CSV does where that is said."""
+    y, z = wr.Profile.nominal("aar_1b").points()
+    rows = "".join(f"{1e3 * (a + 77.7875e-3):.5f} {-1e3 * b:.5f}\n" for a, b in zip(y, z, strict=True))
+    mini = tmp_path / "worn.whl"
+    mini.write_text(f"ProgramName=MiniProf for Windows\n\n{rows}")
+    csv = tmp_path / "worn.csv"
+    csv.write_text("y [mm]; z_down [mm]\n" + rows.replace(" ", ";"))
+    options = {"tape_from_back": "3.0625 in"}
+    for one in (
+        wr.Profile.read(mini, "wheel", **options),
+        wr.Profile.read(csv, "wheel", datum="flange_back", **options),
+    ):
+        assert abs(min(one.points()[1]) + 0.0254) < 3e-5
+        assert one.notices == []
+    with pytest.raises(wl.WheelRailError, match="not built in"):
+        wr.Profile.nominal("aar_2a")

@@ -94,8 +94,8 @@ impl RigidWheelset {
                 return Err(ProfileError::Length { what, value, range });
             }
         }
+        check_gauge(wheels, rails, tape_distance, gauge, gauge_depth)?;
         let side = |i: usize| -> Result<(ContactPair, f64), ProfileError> {
-            check_gauge(wheels[i], rails[i], tape_distance, gauge, gauge_depth)?;
             let rail = rails[i].moved([0.0, -rails[i].top()[1]]);
             let origin = 0.5 * gauge - rail.gauge_point(gauge_depth);
             Ok((ContactPair::new(wheels[i], radii[i], &rail, material)?, origin))
@@ -119,6 +119,12 @@ impl RigidWheelset {
     #[must_use]
     pub fn rail_origins(&self) -> [f64; 2] {
         self.origins
+    }
+
+    /// Returns where both wheels stand in a position: on their treads, flanges or rims.
+    #[must_use]
+    pub fn seats(&self, position: &RigidPosition) -> [Seat; 2] {
+        [0, 1].map(|side| Seat::of(&self.pairs[side], position.touches[side].profile))
     }
 
     /// Returns the mean of the nominal radii, m.

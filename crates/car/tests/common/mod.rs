@@ -126,7 +126,7 @@ pub fn put_on_gauge(parameters: &mut Parameters, gauge: f64) {
     let Wheels::OnRails(wheels) = &mut parameters.wheels else {
         panic!("profiles are expected");
     };
-    let [wheel, rail] = &*wheels.profiles;
+    let (wheel, rail) = (&*wheels.wheels[0][0], &*wheels.rails[0]);
     let layout = Layout {
         tape_distance: wheels.tape_distance,
         gauge: gauge * INCH,
@@ -137,5 +137,6 @@ pub fn put_on_gauge(parameters: &mut Parameters, gauge: f64) {
         poisson: 0.27,
     };
     let made = RigidWheelset::new([wheel; 2], [18.0 * INCH; 2], [rail; 2], layout, steel);
-    wheels.geometry = Arc::new(made.unwrap());
+    let made = Arc::new(made.unwrap());
+    wheels.geometry = [0; 4].map(|_| made.clone());
 }

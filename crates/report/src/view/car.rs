@@ -6,6 +6,8 @@
 //! of the lading is a block whose center of gravity, length and width are those of the case, the latter by
 //! its moments of inertia.
 
+use std::sync::Arc;
+
 use car::{Mass, Parameters, Wheels};
 use study::car::CarCase;
 use study::result::RunResult;
@@ -37,7 +39,7 @@ const SIDES: [&str; 2] = ["left", "right"];
 #[must_use]
 pub fn scene<S>(case: &CarCase, result: &RunResult<S>) -> Option<Scene> {
     let own = &case.parameters;
-    let [wheel, rail] = profiles(own).ok()?;
+    let (wheels, rails) = profiles(own).ok()?;
     let half = 0.5 * own.truck_distance;
     let mut scene = Scene {
         factor: 1.0,
@@ -52,8 +54,16 @@ pub fn scene<S>(case: &CarCase, result: &RunResult<S>) -> Option<Scene> {
         let prefix = format!("truck_{}_", t + 1);
         add_truck(&mut scene, parameters, &prefix);
     }
-    let (radius, tape) = (own.wheel_radius(), tape_distance(own));
-    for axle in 1..=4 {
+    let tape = tape_distance(own);
+    for (axle, sides) in (1..=4).zip(&wheels) {
+        let radius = own.axle_radius(axle - 1);
+        let radii = match &own.wheels {
+            Wheels::OnRails(wheels) => {
+                let pairs = wheels.geometry[axle - 1].pairs();
+                pairs.each_ref().map(|own| own.nominal_radius())
+            }
+            Wheels::Linear { .. } => [radius; 2],
+        };
         let id = format!("axle_{axle}");
         let column = |name: &str| format!("axle_{axle}_{name}");
         let name = format!("wheelset {axle}");
@@ -63,8 +73,8 @@ pub fn scene<S>(case: &CarCase, result: &RunResult<S>) -> Option<Scene> {
         scene.solids.extend(rolling::wheelset_solids(
             &id,
             &name,
-            [&wheel; 2],
-            [radius; 2],
+            sides.each_ref().map(|own| &**own),
+            radii,
             tape,
         ));
         if matches!(own.wheels, Wheels::OnRails(_)) {
@@ -83,17 +93,29 @@ pub fn scene<S>(case: &CarCase, result: &RunResult<S>) -> Option<Scene> {
         let lines = RailLines::new(own.track.clone(), offsets);
         let [behind, beyond] = BEYOND;
         let range = [first - half - behind, last + half + beyond];
-        scene.track = Some(rolling::track(&lines, [&rail; 2], offsets, range));
+        scene.track = Some(rolling::track(
+            &lines,
+            rails.each_ref().map(|own| &**own),
+            offsets,
+            range,
+        ));
     }
     scene.round();
     Some(scene)
 }
 
-/// Profiles of wheel and rail; nominal ones for the eye where wheels are linear.
-fn profiles(own: &Parameters) -> Result<[Profile; 2], ProfileError> {
+/// Profiles of the wheels (left, right) of four wheelsets, and of the rails.
+type Profiles = ([[Arc<Profile>; 2]; 4], [Arc<Profile>; 2]);
+
+/// Profiles of wheels and rails; nominal ones for the eye where wheels are linear.
+fn profiles(own: &Parameters) -> Result<Profiles, ProfileError> {
     match &own.wheels {
-        Wheels::OnRails(wheels) => Ok((*wheels.profiles).clone()),
-        Wheels::Linear { .. } => Ok([nominal::aar_1b()?, nominal::rail_136re()?]),
+        Wheels::OnRails(wheels) => Ok((wheels.wheels.clone(), wheels.rails.clone())),
+        Wheels::Linear { .. } => {
+            let (wheel, rail) = (Arc::new(nominal::aar_1b()?), Arc::new(nominal::rail_136re()?));
+            let wheels = [[0; 2]; 4].map(|sides| sides.map(|_| wheel.clone()));
+            Ok((wheels, [rail.clone(), rail]))
+        }
     }
 }
 

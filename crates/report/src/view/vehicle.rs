@@ -117,7 +117,7 @@ pub fn scene(case: &VehicleCase, columns: &[Column], distances: &[f64]) -> Optio
 
 /// Adds wheelsets and the track under them; `distances` (m) are those of the first wheelset.
 fn add_track(scene: &mut Scene, on: &OnTrack, axles: &[Axle], distances: &[f64]) {
-    let [wheel, rail] = &*on.wheels.profiles;
+    let ([wheels, ..], rails) = (&on.wheels.wheels, &on.wheels.rails);
     for axle in axles {
         let column = |name: &str| {
             let own = match name {
@@ -134,7 +134,7 @@ fn add_track(scene: &mut Scene, on: &OnTrack, axles: &[Axle], distances: &[f64])
         scene.solids.extend(rolling::wheelset_solids(
             &axle.name,
             &shown,
-            [wheel; 2],
+            wheels.each_ref().map(|own| &**own),
             [radius; 2],
             on.wheels.tape_distance,
         ));
@@ -142,12 +142,12 @@ fn add_track(scene: &mut Scene, on: &OnTrack, axles: &[Axle], distances: &[f64])
     let first = distances.iter().copied().fold(f64::INFINITY, f64::min);
     let last = distances.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if first.is_finite() {
-        let offsets = on.wheels.geometry.rail_origins();
+        let offsets = on.wheels.geometry[0].rail_origins();
         let lines = RailLines::new(on.track.clone(), offsets);
         let reach = 2.0 * on.reach() + BEYOND;
         scene.track = Some(rolling::track(
             &lines,
-            [rail; 2],
+            rails.each_ref().map(|own| &**own),
             offsets,
             [first - reach, last + reach],
         ));

@@ -1,7 +1,9 @@
 //! The assumptions of a car's run in words. What is said of a value holds for it, whether it is a built-in
 //! one or the case's own.
 
-use car::{Drive, Parameters, StartKind, Wheels};
+use std::sync::Arc;
+
+use car::{Drive, Parameters, ProfiledWheels, StartKind, Wheels};
 use rolling::track::RailSupport;
 use truck::{Wedge, WedgeKind};
 use wheelrail::contact::{ContactLaw, CreepLaw};
@@ -33,6 +35,52 @@ pub(crate) fn of_support(support: Option<&RailSupport>, own: &str, gravity: f64)
             format!("{own}; its values are guesses.")
         }
         Some(_) => format!("{own}, with the values of the track."),
+    }
+}
+
+/// Appends the assumptions about the profiles of wheels and rails: of all where they are alike, else of each
+/// side or
+/// each wheel.
+fn of_wheels(case: &CarCase, own: &ProfiledWheels, list: &mut Vec<String>) {
+    let typed = |paths: &[String]| {
+        let found = paths
+            .iter()
+            .map(|path| case.typed(path))
+            .find(|typed| !typed.is_empty());
+        found.unwrap_or_default().to_owned()
+    };
+    let first = &own.wheels[0];
+    let same = |a: &Arc<Profile>, b: &Arc<Profile>| Arc::ptr_eq(a, b);
+    if own.wheels.iter().flatten().all(|wheel| same(wheel, &first[0])) {
+        let paths = ["wheels.profile".to_owned()];
+        list.push(of_profile("the wheels", &typed(&paths), &first[0]));
+    } else {
+        for (w, sides) in own.wheels.iter().enumerate() {
+            for (side, wheel) in ["left", "right"].into_iter().zip(sides) {
+                let axle = w + 1;
+                let paths = [
+                    format!("wheels.axle_{axle}.{side}.profile"),
+                    format!("wheels.axle_{axle}.profile"),
+                    format!("wheels.{side}.profile"),
+                    "wheels.profile".to_owned(),
+                ];
+                list.push(of_profile(
+                    &format!("the {side} wheel of axle {axle}"),
+                    &typed(&paths),
+                    wheel,
+                ));
+            }
+        }
+    }
+    let [left, right] = &own.rails;
+    if same(left, right) {
+        let paths = ["rails.left.profile", "rails.profile"].map(str::to_owned);
+        list.push(of_profile("the rails", &typed(&paths), left));
+    } else {
+        for (side, rail) in [("left", left), ("right", right)] {
+            let paths = [format!("rails.{side}.profile"), "rails.profile".to_owned()];
+            list.push(of_profile(&format!("the {side} rail"), &typed(&paths), rail));
+        }
     }
 }
 
@@ -101,9 +149,7 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
     ];
     match &p.wheels {
         Wheels::OnRails(own) => {
-            let [wheel, rail] = &*own.profiles;
-            list.push(of_profile("the wheels", case.typed("wheels.profile"), wheel));
-            list.push(of_profile("the rails", case.typed("rails.profile"), rail));
+            of_wheels(case, own, &mut list);
             list.push(of_contacts(&own.law, own.tables));
         }
         Wheels::Linear { .. } => list.push(

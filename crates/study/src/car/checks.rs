@@ -65,9 +65,10 @@ fn reach(r: &mut CaseReader<'_>, parameters: &Parameters) -> bool {
     let Wheels::OnRails(wheels) = &parameters.wheels else {
         return true;
     };
-    match wheels.geometry.check_reach() {
-        Ok(()) => true,
-        Err(error) => {
+    let reaches = wheels.geometry.iter().map(|own| own.check_reach());
+    match reaches.into_iter().find_map(Result::err) {
+        None => true,
+        Some(error) => {
             let problem = Problem::new(error.to_string()).label("too wide");
             r.problem("rails.gauge", problem.help(error.remedy()));
             false

@@ -25,19 +25,24 @@ const FACES: [&str; 2] = ["column", "slope"];
 ///
 /// | columns | what |
 /// |---|---|
-/// | `body_lateral`, `body_vertical`, `body_turn_roll`, `_pitch`, `_yaw` | of body and lading in the axes of the track at their center of gravity, from the nominal layout |
-/// | `chord_lateral`, `chord_vertical` | the middle between the feet of the bolsters on the center line, there |
-/// | `truck_1_distance`, `truck_1_bolster_x`, ..., `truck_1_left_side_frame_yaw` | in the axes of the track at the bolster |
-/// | `truck_1_leading_left_column_friction_on_wedge_x`, ..., `_state` | of column and slope: sums over the points, on the wedge; of a split one on each half, `truck_1_leading_left_outboard_...` |
-/// | `axle_1_distance`, `_vertical`, `_roll`, `_spin`; `axle_1_left_patch_1_x`, ... | as of a wheelset's run |
+/// | `body_lateral`, `body_vertical`, `body_turn_roll`, `_pitch`, `_yaw` | of body and lading in the axes of
+/// the track at their center of gravity, from the nominal layout |
+/// | `chord_lateral`, `chord_vertical` | the middle between the feet of the bolsters on the center line,
+/// there |
+/// | `truck_1_distance`, `truck_1_bolster_x`, ..., `truck_1_left_side_frame_yaw` | in the axes of the track
+/// at the bolster |
+/// | `truck_1_leading_left_column_friction_on_wedge_x`, ..., `_state` | of column and slope: sums over the
+/// points, on the wedge; of a split one on each half, `truck_1_leading_left_outboard_...` |
+/// | `axle_1_distance`, `_vertical`, `_roll`, `_spin`; `axle_1_left_patch_1_x`, ... | as of a wheelset's run
+/// |
 #[derive(Clone, Debug)]
 pub struct MotionTable {
     /// The columns.
     pub columns: Vec<Column>,
     /// Their values, one vector a column.
     pub values: Vec<Vec<f64>>,
-    /// Nominal radius of the wheels, m.
-    radius: f64,
+    /// Nominal radius of each wheelset, m.
+    radii: [f64; 4],
     row: Vec<f64>,
 }
 
@@ -112,7 +117,7 @@ impl MotionTable {
             values: vec![Vec::new(); columns.len()],
             row: Vec::with_capacity(columns.len()),
             columns,
-            radius: car.wheel_radius(),
+            radii: [0, 1, 2, 3].map(|w| car.axle_radius(w)),
         }
     }
 
@@ -142,13 +147,13 @@ impl MotionTable {
             let axes = unspun(own.axle, &own.section);
             wheels[w][i].take(&patch, [Side::Left, Side::Right][i], axes, own.center - rail);
         });
-        for (own, pair) in axles.iter().zip(&mut wheels) {
+        for ((own, pair), radius) in axles.iter().zip(&mut wheels).zip(&self.radii) {
             let section = &own.section;
             let arm = own.center - Vector(section.origin);
             let [_, _, height] = section.of(arm.0);
             let [_, _, rise] = section.of(own.axle.0);
             let roll = libm::asin(rise.clamp(-1.0, 1.0));
-            row.extend([section.distance, height - self.radius, roll, own.spin]);
+            row.extend([section.distance, height - radius, roll, own.spin]);
             for wheel in pair {
                 wheel.merge();
                 row.extend(wheel.values());

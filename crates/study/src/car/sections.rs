@@ -76,7 +76,7 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
         parameters.support = rail_support(&read.support, parameters.gravity);
     }
     let rails = wheels::rails(r);
-    wheels::wheels(r, &mut parameters, rails, sprung);
+    let of_wheels = wheels::wheels(r, &mut parameters, rails, sprung);
     let nothing_to_raise = raised.and_then(|height| lading::raise(r, &mut parameters, height));
     speed(r, &mut parameters);
     start(r, &mut parameters);
@@ -89,6 +89,7 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     // Without a track there is no place to look at.
     let Notes { mut doubts, files } = line?.notes;
     r.files.extend(files);
+    doubts.extend(of_wheels);
     doubts.extend(nothing_to_raise);
     doubts.extend(checks::all(r, &parameters, &simulation, carried));
     Some(CarSections {

@@ -6,11 +6,14 @@ use std::sync::Arc;
 use car::{Parameters, ProfiledWheels, Wheels};
 use quantity::Kind as Measure;
 use wheelrail::conicity::LinearGeometry;
-use wheelrail::contact::{ContactLaw, CreepCoefficients, CreepLaw, LinearWheelset};
+use wheelrail::contact::{ContactLaw, CreepCoefficients, CreepLaw, LinearWheelset, Side};
 use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
 use wheelrail::hertz::Material;
-use wheelrail::profile::{Profile, ProfileError, ProfileKind, nominal};
+use wheelrail::profile::figures::LEAST_CLEARANCE;
+use wheelrail::profile::{
+    Profile, ProfileError, ProfileKind, ReadOptions, WheelDatum, flangeway_clearance, names, nominal,
+};
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
 use crate::case::field::{Reach, Written};
@@ -23,8 +26,6 @@ use crate::reader::{CaseReader, LENGTH, QuantityForm};
 const INCH: f64 = 0.0254;
 /// Largest distance of splines from the points of a file, m.
 const DEVIATION: f64 = 0.0008 * INCH;
-/// Half width of a conical tread, m.
-const TREAD: f64 = 2.0 * INCH;
 const STEEL: Material = Material {
     youngs_modulus: 207e9,
     poisson: 0.28,
@@ -48,28 +49,44 @@ const CREEPS: Names<Creep> = &[
     ("frictionless", Creep::Frictionless),
 ];
 
-/// Rails as read: profile, gauge, its depth.
+/// Rails as read: profiles (left, right), gauge, its depth; what is doubtful about them.
 pub(crate) struct Rails {
-    profile: Option<Profile>,
+    profiles: Option<[Arc<Profile>; 2]>,
     gauge: f64,
     gauge_depth: f64,
+    doubts: Vec<String>,
 }
+
+/// A profile as named, with the full path of the key that names it.
+#[derive(Clone, Debug, PartialEq)]
+struct NamedProfile {
+    path: String,
+    name: String,
+}
+
+/// Sides in paths.
+const SIDES: [&str; 2] = ["left", "right"];
 
 /// Reads `[rails]`.
 pub(crate) fn rails(r: &mut CaseReader<'_>) -> Rails {
-    r.section("rails", "The rails: one profile, the same on both sides.");
-    let name = text(
-        r,
-        "profile",
-        "136re",
-        "\"136re\" (nominal, from memory) or a file: CSV with units, Simpack's .prr",
+    r.section(
+        "rails",
+        "The rails. [rails.left] and [rails.right] take profile and inclination of one.",
     );
-    let from_file = name != "136re";
-    let mut inclination = if from_file { 0.0 } else { nominal::INCLINATION };
+    let comment = "\"136re\" (nominal, from memory), \"136re_8in\", \"60e1\", or a file: CSV with units, \
+                   Simpack, \
+                   MiniProf, VAMPIRE";
+    let both = named(r, "rails", "136re", comment);
     let range = Range::Between(-0.5, 0.5, "between -0.5 and 0.5: a slope");
     let reach = Reach::Between(0.0, 0.05);
     let comment = "towards the track's center, 1:40; 0 for profiles from files, which mostly have it";
+    let usual = |name: &str| match names::rail(name) {
+        Ok(Some((_, usual))) => usual,
+        _ => 0.0,
+    };
+    let mut inclination = usual(&both.name);
     r.number("inclination", range, reach, &mut inclination, comment);
+    let own_inclination = r.gives("inclination");
     let mut gauge = 56.5 * INCH;
     r.quantity("gauge", LENGTH, &mut gauge, "between the gauge sides");
     let mut gauge_depth = nominal::GAUGE_DEPTH;
@@ -79,22 +96,67 @@ pub(crate) fn rails(r: &mut CaseReader<'_>) -> Rails {
     let form: QuantityForm = (Measure::Length, Range::NotNegative, Reach::FromZero(1e-4));
     let comment = "how far a spline may lie from the points of a file";
     r.quantity("deviation", form, &mut deviation, comment);
-    let profile = profile(r, "rails.profile", &name, ProfileKind::Rail, deviation);
+    let sides = SIDES.map(|side| {
+        let path = format!("rails.{side}");
+        if !r.overlay(&path, "One rail: what is not given is as in [rails].") {
+            return (both.clone(), inclination);
+        }
+        let own = named_or(r, &path, &both);
+        let mut slope = match own == both || own_inclination {
+            true => inclination,
+            false => usual(&own.name),
+        };
+        r.number("inclination", range, reach, &mut slope, "as for both rails");
+        (own, slope)
+    });
+    let mut doubts = Vec::new();
+    let mut made: Vec<(usize, Arc<Profile>)> = Vec::new();
+    let alike = sides[0] == sides[1];
+    for (i, (own, slope)) in sides.iter().enumerate() {
+        if i == 1 && alike {
+            let first = made.first().map(|(_, profile)| (1, profile.clone()));
+            made.extend(first);
+            continue;
+        }
+        let options = ReadOptions {
+            deviation,
+            side: (!alike).then_some([Side::Left, Side::Right][i]),
+            ..ReadOptions::default()
+        };
+        if let Some(profile) = profile(r, own, ProfileKind::Rail, &options, &mut doubts) {
+            let placed = if *slope == 0.0 {
+                profile
+            } else {
+                profile.inclined(*slope)
+            };
+            made.push((i, Arc::new(placed)));
+        }
+    }
+    let profiles = match <[(usize, Arc<Profile>); 2]>::try_from(made) {
+        Ok([(_, left), (_, right)]) => Some([left, right]),
+        Err(_) => None,
+    };
     Rails {
-        profile: profile.map(|own| match inclination {
-            0.0 => own,
-            slope => own.inclined(slope),
-        }),
+        profiles,
         gauge,
         gauge_depth,
+        doubts,
     }
 }
 
-/// Reads `[wheels]`; `sprung` tells whether rails give way.
-pub(crate) fn wheels(r: &mut CaseReader<'_>, parameters: &mut Parameters, rails: Rails, sprung: bool) {
+/// Reads `[wheels]`; `sprung` tells whether rails give way. Returns what is doubtful.
+pub(crate) fn wheels(
+    r: &mut CaseReader<'_>,
+    parameters: &mut Parameters,
+    rails: Rails,
+    sprung: bool,
+) -> Vec<String> {
     r.section(
         "wheels",
-        "The wheelsets, their wheels, and what happens where they touch the rails.",
+        "The wheelsets, their wheels, and what happens where they touch the rails. Some wheels may have a \
+         profile \
+         and a\n# radius of their own: [wheels.left], [wheels.right], [wheels.axle_1] to [wheels.axle_4], \
+         [wheels.axle_1.left] and so on.",
     );
     let own = &mut parameters.wheelset;
     r.weight(&mut own.mass, "of a wheelset with its bearings and adapters");
@@ -125,13 +187,35 @@ pub(crate) fn wheels(r: &mut CaseReader<'_>, parameters: &mut Parameters, rails:
         }
         let static_load = parameters.weight() / 4.0;
         parameters.wheels = linear_wheels(r, radius, static_load);
-        return;
+        return rails.doubts;
     }
     let comment = "\"aar_1b\" (nominal, from memory), \"aar_1b_1:10\" (its flange, another tread), \
-                   \"cone_1:20\" of any slope, or a file: CSV with units, Simpack's .prw";
-    let name = text(r, "profile", "aar_1b", comment);
+                   \"aar_1:20\", \
+                   \"s1002\", \"hollow_2mm\", \"cone_1:20\" of any slope, or a file: CSV with units, \
+                   Simpack, MiniProf, \
+                   VAMPIRE";
+    let all = named(r, "wheels", "aar_1b", comment);
     let mut tape_distance = nominal::TAPE_DISTANCE;
     r.quantity("tape_distance", LENGTH, &mut tape_distance, "of the tape circles");
+    const DATUMS: Names<Option<WheelDatum>> = &[
+        ("file", None),
+        ("tape", Some(WheelDatum::Tape)),
+        ("flange_back", Some(WheelDatum::FlangeBack)),
+    ];
+    let mut datum = None;
+    let comment = "where y = 0 of files lies: \"file\" (as they say, else the tape circle), \"tape\", \
+                   \"flange_back\"";
+    r.choice("datum", DATUMS, &mut datum, comment);
+    let mut tape_from_back = None;
+    let comment = "distance of the tape circle from the back of the flange in files; left out: what they \
+                   say, or 70 mm";
+    r.optional(
+        "tape_from_back",
+        LENGTH,
+        &mut tape_from_back,
+        "\"70 mm\"",
+        comment,
+    );
     let mut deviation = DEVIATION;
     let form: QuantityForm = (Measure::Length, Range::NotNegative, Reach::FromZero(1e-4));
     let comment = "how far a spline may lie from the points of a file";
@@ -140,39 +224,172 @@ pub(crate) fn wheels(r: &mut CaseReader<'_>, parameters: &mut Parameters, rails:
     let comment = "true: patches from tables over lateral shift, faster, for motion on treads only";
     r.truth("tables", &mut tables, comment);
     let law = contact_law(r, sprung);
-    let Some((wheel, rail)) =
-        profile(r, "wheels.profile", &name, ProfileKind::Wheel, deviation).zip(rails.profile)
-    else {
-        return;
+    let each = each_wheel(r, (all, radius));
+    let mut doubts = rails.doubts;
+    let options = ReadOptions {
+        deviation,
+        datum,
+        tape_from_back,
+        side: None,
+    };
+    let Some((each, rail_profiles)) = profiles_of(r, each, options, &mut doubts).zip(rails.profiles) else {
+        return doubts;
     };
     let layout = Layout {
         tape_distance,
         gauge: rails.gauge,
         gauge_depth: rails.gauge_depth,
     };
-    match RigidWheelset::new([&wheel; 2], [radius; 2], [&rail; 2], layout, STEEL) {
-        Ok(geometry) => {
-            parameters.wheels = Wheels::OnRails(ProfiledWheels {
-                geometry: Arc::new(geometry),
-                profiles: Arc::new([wheel, rail]),
-                tape_distance,
-                tables,
-                law,
-            });
-        }
-        Err(error) => {
-            let of_rail = matches!(error, ProfileError::Datum { .. });
-            wrong(
-                r,
-                if of_rail {
-                    "rails.profile"
-                } else {
-                    "wheels.profile"
-                },
-                &error,
+    for [(own, profile, radius), _] in &each {
+        let stated = profile.stated();
+        for (key, stated, used) in [
+            ("wheels.radius", stated.radius, *radius),
+            ("wheels.tape_distance", stated.tape_distance, tape_distance),
+        ] {
+            let Some(stated) = stated.filter(|stated| (stated - used).abs() > 1e-4) else {
+                continue;
+            };
+            let words = format!(
+                "the file of {} states {:.2} mm for {key}, and {:.2} mm is used: set {key} = \"{:.2} mm\" \
+                 if the file \
+                 is right",
+                own.path,
+                1e3 * stated,
+                1e3 * used,
+                1e3 * stated
             );
+            if !doubts.contains(&words) {
+                doubts.push(words);
+            }
         }
     }
+    let mut geometry: Vec<Arc<RigidWheelset>> = Vec::with_capacity(4);
+    for (w, own) in each.iter().enumerate() {
+        let alike = |other: &[EachWheel; 2]| {
+            let same = |i: usize| Arc::ptr_eq(&other[i].1, &own[i].1) && other[i].2 == own[i].2;
+            same(0) && same(1)
+        };
+        if let Some(known) = each[..w].iter().position(alike) {
+            geometry.push(geometry[known].clone());
+            continue;
+        }
+        let wheels = own.each_ref().map(|(_, profile, _)| &**profile);
+        let radii = own.each_ref().map(|(_, _, radius)| *radius);
+        let on = rail_profiles.each_ref().map(|own| &**own);
+        match RigidWheelset::new(wheels, radii, on, layout, STEEL) {
+            Ok(made) => geometry.push(Arc::new(made)),
+            Err(error) => {
+                let of_rail = matches!(error, ProfileError::Datum { .. });
+                let path = if of_rail {
+                    "rails.profile"
+                } else {
+                    own[0].0.path.as_str()
+                };
+                wrong(r, path, &error);
+                return doubts;
+            }
+        }
+        let clearance = flangeway_clearance(wheels, on, tape_distance, layout.gauge, layout.gauge_depth);
+        if let Some(clearance) = clearance.filter(|own| *own < LEAST_CLEARANCE) {
+            doubts.push(format!(
+                "the flangeway clearance of wheelset {} is {:.3} mm to each side: below {:.0} mm its \
+                 flanges touch all \
+                 the time; look at rails.gauge, wheels.tape_distance and the datum of the profiles",
+                w + 1,
+                1e3 * clearance,
+                1e3 * LEAST_CLEARANCE
+            ));
+        }
+    }
+    if let Ok(geometry) = <[Arc<RigidWheelset>; 4]>::try_from(geometry) {
+        parameters.wheels = Wheels::OnRails(ProfiledWheels {
+            geometry,
+            wheels: each.map(|sides| sides.map(|(_, profile, _)| profile)),
+            rails: rail_profiles,
+            tape_distance,
+            tables,
+            law,
+        });
+    }
+    doubts
+}
+
+/// A wheel: what names its profile, the profile, its nominal radius (m).
+type EachWheel = (NamedProfile, Arc<Profile>, f64);
+
+/// Reads what is said of some wheels: names of profiles and nominal radii (m), left and right of each
+/// wheelset.
+fn each_wheel(r: &mut CaseReader<'_>, all: (NamedProfile, f64)) -> [[(NamedProfile, f64); 2]; 4] {
+    let mut read = |path: &str, about: &str, mut own: (NamedProfile, f64)| {
+        if r.overlay(path, about) {
+            own.0 = named_or(r, path, &own.0);
+            r.quantity("radius", LENGTH, &mut own.1, "nominal, at the tape circle");
+        }
+        own
+    };
+    let about = "All wheels of a side: what is not given is as in [wheels].";
+    let sides = SIDES.map(|side| {
+        let path = format!("wheels.{side}");
+        let own = read(&path, about, all.clone());
+        let said = own != all;
+        (own, said)
+    });
+    [1, 2, 3, 4].map(|axle| {
+        let path = format!("wheels.axle_{axle}");
+        let about = "One wheelset: what is not given is as in [wheels.left], [wheels.right] or [wheels].";
+        let wheelset = read(&path, about, all.clone());
+        [0, 1].map(|i| {
+            let (side, _) = &sides[i];
+            // What the wheelset says goes before what its side says.
+            let base = (
+                if wheelset.0 == all.0 {
+                    side.0.clone()
+                } else {
+                    wheelset.0.clone()
+                },
+                if wheelset.1 == all.1 { side.1 } else { wheelset.1 },
+            );
+            let path = format!("wheels.axle_{axle}.{}", SIDES[i]);
+            read(
+                &path,
+                "One wheel: what is not given is as for its wheelset.",
+                base,
+            )
+        })
+    })
+}
+
+/// Reads the profiles of all wheels, each file once. None if one is not made.
+fn profiles_of(
+    r: &mut CaseReader<'_>,
+    each: [[(NamedProfile, f64); 2]; 4],
+    options: ReadOptions,
+    doubts: &mut Vec<String>,
+) -> Option<[[EachWheel; 2]; 4]> {
+    let alike = each.iter().all(|[left, right]| left.0.name == right.0.name);
+    let mut known: Vec<(String, Option<Side>, Option<Arc<Profile>>)> = Vec::new();
+    let made = each.map(|sides| {
+        let mut i = 0;
+        sides.map(|(named, radius)| {
+            let side = (!alike).then_some([Side::Left, Side::Right][i]);
+            i += 1;
+            let found = known
+                .iter()
+                .find(|(name, of, _)| *name == named.name && *of == side);
+            let made = match found {
+                Some((_, _, made)) => made.clone(),
+                None => {
+                    let options = ReadOptions { side, ..options };
+                    let made = profile(r, &named, ProfileKind::Wheel, &options, doubts).map(Arc::new);
+                    known.push((named.name.clone(), side, made.clone()));
+                    made
+                }
+            };
+            made.map(|made| (named, made, radius))
+        })
+    });
+    let [a, b, c, d] = made.map(|[left, right]| left.zip(right).map(|(left, right)| [left, right]));
+    Some([a?, b?, c?, d?])
 }
 
 fn contact_law(r: &mut CaseReader<'_>, sprung: bool) -> ContactLaw {
@@ -324,79 +541,89 @@ fn text(r: &mut CaseReader<'_>, key: &'static str, default: &str, comment: &str)
     })
 }
 
+/// Reads the name of a profile.
+fn named(r: &mut CaseReader<'_>, section: &str, default: &str, comment: &str) -> NamedProfile {
+    NamedProfile {
+        path: format!("{section}.profile"),
+        name: text(r, "profile", default, comment),
+    }
+}
+
+/// Reads the name of a profile that stands for another one, if it is given.
+fn named_or(r: &mut CaseReader<'_>, section: &str, base: &NamedProfile) -> NamedProfile {
+    let given = r.gives("profile");
+    let own = named(r, section, &base.name, "as for all");
+    if given { own } else { base.clone() }
+}
+
 /// Returns a nominal profile, or one from a file.
 fn profile(
     r: &mut CaseReader<'_>,
-    path: &str,
-    name: &str,
+    named: &NamedProfile,
     kind: ProfileKind,
-    deviation: f64,
+    options: &ReadOptions,
+    doubts: &mut Vec<String>,
 ) -> Option<Profile> {
-    let nominal = match (kind, name) {
-        (ProfileKind::Wheel, "aar_1b") => Some(nominal::aar_1b()),
-        (ProfileKind::Rail, "136re") => Some(nominal::rail_136re()),
-        (ProfileKind::Wheel, name) if name.starts_with("aar_1b_1:") => {
-            let run = name.trim_start_matches("aar_1b_1:").trim().parse::<f64>();
-            Some(nominal::aar_1b_with_tread(run.unwrap_or(f64::NAN)))
-        }
-        (ProfileKind::Wheel, name) => match name.strip_prefix("cone_") {
-            Some(text) => {
-                let Some(slope) = slope(text) else {
-                    let problem = Problem::new(format!("`{path}` is \"{name}\", which is no cone"));
-                    r.problem(
-                        path,
-                        problem
-                            .label("which slope?")
-                            .help("write for example \"cone_1:20\""),
-                    );
-                    return None;
-                };
-                Some(nominal::cone(slope, TREAD))
-            }
-            None => None,
-        },
-        (ProfileKind::Rail, _) => None,
+    let NamedProfile { path, name } = named;
+    let nominal = match kind {
+        ProfileKind::Wheel => names::wheel(name),
+        ProfileKind::Rail => names::rail(name).map(|found| found.map(|(rail, _)| rail)),
     };
-    let made = match nominal {
-        Some(made) => made,
-        None => {
-            let tables = r.tables();
-            let file = match tables.locate(name) {
-                Ok(file) if file.exists() => file,
-                Ok(_) => {
-                    let shown = tables.shown(name);
-                    let problem = Problem::new(format!("`{path}`: there is no file {shown}"));
-                    let names = match kind {
-                        ProfileKind::Wheel => "\"aar_1b\", \"aar_1b_1:10\", \"cone_1:20\"",
-                        ProfileKind::Rail => "\"136re\"",
-                    };
-                    let help = format!("name a file of points from the folder of the case file, or {names}");
-                    r.problem(
-                        path,
-                        problem.label("neither a file nor a nominal profile").help(help),
-                    );
-                    return None;
-                }
-                Err(refused) => {
-                    let problem =
-                        Problem::new(format!("`{path}`: {} {}", tables.shown(name), refused.reason));
-                    r.problem(path, problem.label("this file").help(refused.help));
-                    return None;
-                }
+    let tables = r.tables();
+    let located = tables.locate(name);
+    let is_file = located.as_ref().is_ok_and(|file| file.exists());
+    match nominal {
+        Ok(Some(made)) => return Some(made),
+        // A file may have any name.
+        Err(error) if !is_file => {
+            wrong(r, path, &error);
+            return None;
+        }
+        _ => {}
+    }
+    let file = match located {
+        Ok(file) if is_file => file,
+        Ok(_) => {
+            let shown = tables.shown(name);
+            let problem = Problem::new(format!("`{path}`: there is no file {shown}"));
+            let names = match kind {
+                ProfileKind::Wheel => names::WHEELS,
+                ProfileKind::Rail => names::RAILS,
             };
-            let made = Profile::read(&file, kind, deviation);
-            r.files.push(NamedFile {
-                key: match kind {
-                    ProfileKind::Wheel => "wheels.profile",
-                    ProfileKind::Rail => "rails.profile",
-                },
-                typed: name.to_owned(),
-                path: file,
-            });
-            made
+            let help = format!("name a file of points from the folder of the case file, or {names}");
+            r.problem(
+                path,
+                problem.label("neither a file nor a nominal profile").help(help),
+            );
+            return None;
+        }
+        Err(refused) => {
+            let problem = Problem::new(format!("`{path}`: {} {}", tables.shown(name), refused.reason));
+            r.problem(path, problem.label("this file").help(refused.help));
+            return None;
         }
     };
-    made.map_err(|error| wrong(r, path, &error)).ok()
+    let made = Profile::read_with(&file, kind, options);
+    r.files.push(NamedFile {
+        key: match kind {
+            ProfileKind::Wheel => "wheels.profile",
+            ProfileKind::Rail => "rails.profile",
+        },
+        typed: name.to_owned(),
+        path: file,
+    });
+    let made = made.map_err(|error| wrong(r, path, &error)).ok()?;
+    for notice in made.notices() {
+        let words = match tables.may_quote() {
+            true => format!("`{path}`: {}; {}", notice.text, notice.advice),
+            false => format!(
+                "`{path}`: the points of this file are doubtful; {}",
+                notice.advice
+            ),
+        };
+        doubts.push(words);
+    }
+    Some(made)
 }
 
 fn wrong(r: &mut CaseReader<'_>, path: &str, error: &ProfileError) {
@@ -413,14 +640,4 @@ fn wrong(r: &mut CaseReader<'_>, path: &str, error: &ProfileError) {
         _ => Problem::new(format!("`{path}`: {error}")).help(error.remedy()),
     };
     r.problem(path, problem.label("this profile"));
-}
-
-/// Returns a slope as a ratio (`1:20`) or a number.
-fn slope(text: &str) -> Option<f64> {
-    let number = |text: &str| text.trim().parse::<f64>().ok();
-    let value = match text.split_once(':') {
-        Some((rise, run)) => number(rise)? / number(run)?,
-        None => number(text)?,
-    };
-    (-0.5..=0.5).contains(&value).then_some(value)
 }

@@ -120,7 +120,15 @@ pub(super) fn track(
     let line = car_track::track(r);
     let sprung = !matches!(&line, Some(read) if read.support == Support::Rigid);
     let rails = wheels::rails(r);
-    wheels::wheels(r, &mut scratch, rails, sprung);
+    let of_wheels = wheels::wheels(r, &mut scratch, rails, sprung);
+    for axle in ["axle_1", "axle_2", "axle_3", "axle_4"] {
+        let path = format!("wheels.{axle}");
+        if r.has(&path) {
+            let problem = Problem::new(format!("[{path}] is for cars: wheelsets of a vehicle have names"));
+            let help = "leave it out: all wheelsets of a vehicle have the wheels of [wheels.left] and [wheels.right]";
+            r.problem(&path, problem.label("not here").help(help));
+        }
+    }
     sections::speed(r, &mut scratch);
     r.section("drive", "What a held speed pushes: the body, at this height.");
     let names: Vec<&str> = bodies.iter().map(|own| own.name.as_str()).collect();
@@ -140,7 +148,8 @@ pub(super) fn track(
         "above the top of rail: that of couplers",
     );
     let Some(read) = line else { return nothing };
-    let Notes { doubts, files } = read.notes;
+    let Notes { mut doubts, files } = read.notes;
+    doubts.extend(of_wheels);
     let Wheels::OnRails(own) = scratch.wheels else {
         let problem = Problem::new("a vehicle of one's own rolls on wheels with profiles");
         let help = "leave wheels.geometry out";

@@ -191,3 +191,41 @@ fn input_what_cannot_be_run_is_refused() {
         assert!(error.remedy().contains(remedy), "{}", error.remedy());
     }
 }
+
+/// Cones of unlike radii without springs stay where the rolling radii are equal, at (r2 - r1)/(2 γ) to the
+/// left,
+/// and swing about that place from elsewhere, with the wavelength of their conicity.
+#[test]
+fn analytic_unlike_radii_roll_beside_the_middle() {
+    let slope = 0.05;
+    let cone = wheelrail::profile::nominal::cone(slope, 0.05).unwrap();
+    let radii = [0.4572, 0.4570];
+    let offset = (radii[1] - radii[0]) / (2.0 * slope);
+    let run_from = |lateral: f64| {
+        let mut own = wheelset(
+            "[[segments]]\ntangent = \"60 m\"\n[support]\nkind = \"rigid\"\n",
+            3.0,
+        );
+        own.wheels = [cone.clone(), cone.clone()];
+        own.radii = radii;
+        own.stiffness = [0.0; 2];
+        own.damping = [0.0; 2];
+        own.start.lateral = lateral;
+        own.duration = Some(17.0);
+        run(own).column("lateral").unwrap().to_vec()
+    };
+    let still = run_from(offset);
+    let largest = still.iter().map(|y| (y - offset).abs()).fold(0.0, f64::max);
+    assert!(largest < 0.01 * offset.abs(), "{largest} of {offset}");
+    let swinging = run_from(0.0);
+    let [low, high] = swinging
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| {
+            [low.min(*y), high.max(*y)]
+        });
+    let middle = 0.5 * (low + high);
+    assert!(
+        (middle / offset - 1.0).abs() < 0.03,
+        "{low} to {high}, about {offset}"
+    );
+}

@@ -196,7 +196,7 @@ fn input_messages_say_what_is_wrong_and_what_to_write() {
             "wheels.profile = \"aar_1b_1:5\"",
             &["the run of the tread is 5", "at least 10"],
         ),
-        ("wheels.profile = \"cone_x\"", &["which is no cone", "cone_1:20"]),
+        ("wheels.profile = \"cone_x\"", &["names no profile", "cone_1:20"]),
         ("wheels.profile = \"worn.prw\"", &["`wheels.profile`", "worn.prw"]),
         ("rails.gauge = \"50 in\"", &["gauge"]),
         ("model_car = 3", &["there is no key `model_car`"]),

@@ -17,3 +17,4 @@ mod stability;
 mod start;
 mod statics;
 mod statistics;
+mod wheels;

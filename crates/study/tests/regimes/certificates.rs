@@ -64,6 +64,8 @@ fn input_all_that_is_built_in_can_be_read() {
         "rise_1.0",
         "flat",
         "crown_60",
+        "hollow_2mm",
+        "hollow_4mm",
         "low_preload_side_bearing",
         "broken_control_coil",
         "missing_load_coil",

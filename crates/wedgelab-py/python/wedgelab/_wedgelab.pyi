@@ -370,7 +370,9 @@ class NativeCertificate:
 @final
 class NativeProfile:
     @staticmethod
-    def read(path: _Path, wheel: bool, deviation: float) -> NativeProfile: ...
+    def read(
+        path: _Path, wheel: bool, deviation: float, flange_back: bool | None, tape_from_back: float | None
+    ) -> NativeProfile: ...
     @staticmethod
     def of_points(y: _Floats, z: _Floats, wheel: bool, deviation: float) -> NativeProfile: ...
     @staticmethod
@@ -386,18 +388,20 @@ class NativeProfile:
     @property
     def note(self) -> str: ...
     @property
+    def notices(self) -> list[tuple[str, str]]: ...
+    @property
     def deviation(self) -> float: ...
 
 @final
 class NativeWheelset:
     def __new__(
         cls,
-        wheel: NativeProfile,
-        rail: NativeProfile,
+        wheels: list[NativeProfile],
+        rails: list[NativeProfile],
         gauge: float,
         gauge_depth: float,
         tape_distance: float,
-        radius: float,
+        radii: list[float],
         shear_modulus: float,
         poisson: float,
     ) -> NativeWheelset: ...

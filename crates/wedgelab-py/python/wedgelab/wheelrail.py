@@ -64,6 +64,17 @@ def _law(creep: Any) -> str:
     return creep
 
 
+def _sides(given: Profile | tuple[Profile, Profile], what: str) -> tuple[Profile, Profile]:
+    """The left and the right one."""
+    both = given if isinstance(given, tuple) else (given, given)
+    for one in both:
+        if not isinstance(one, Profile):
+            raise WheelRailError(f"{what} is a {type(one).__name__}; a Profile is expected, such as Profile.read(...)")
+    if len(both) != 2:
+        raise WheelRailError(f"{what} has {len(both)} profiles; a left and a right one are expected")
+    return both
+
+
 class Profile:
     """A profile of a wheel or a rail: y to the field side, z up, m. A wheel's origin lies in its tape circle."""
 
@@ -72,11 +83,24 @@ class Profile:
 
     @classmethod
     def read(
-        cls, path: str | os.PathLike[str], kind: Literal["wheel", "rail"], *, deviation: QuantityLike = "0.02 mm"
+        cls,
+        path: str | os.PathLike[str],
+        kind: Literal["wheel", "rail"],
+        *,
+        deviation: QuantityLike = "0.02 mm",
+        datum: Literal["tape", "flange_back"] | None = None,
+        tape_from_back: QuantityLike | None = None,
     ) -> Profile:
-        """Reads CSV with units in its header, or Simpack's ``.prw`` and ``.prr``; the spline lies at most ``deviation`` from
-        the points."""
-        return cls(_native.NativeProfile.read(path, _is_wheel(kind), si(deviation, "length", "deviation")))
+        """Reads CSV with units in its header, Simpack (``.prw``, ``.prr``), MiniProf (``.whl``, ``.ban``, ``.mpt``) or VAMPIRE
+        (``.whe``, ``.rai``); the spline lies at most ``deviation`` from the points. ``datum`` says where y = 0 of a wheel lies, if
+        the file does not; the tape circle is ``tape_from_back`` from the back of the flange (that of the file, or 70 mm). What
+        is doubtful about the file is in ``notices``."""
+        if datum not in (None, "tape", "flange_back"):
+            raise WheelRailError(f'the datum is {datum!r}; write "tape" or "flange_back"')
+        back = None if tape_from_back is None else si(tape_from_back, "length", "tape_from_back")
+        from_back = None if datum is None else datum == "flange_back"
+        deviates = si(deviation, "length", "deviation")
+        return cls(_native.NativeProfile.read(path, _is_wheel(kind), deviates, from_back, back))
 
     @classmethod
     def from_points(
@@ -90,7 +114,8 @@ class Profile:
 
     @classmethod
     def nominal(cls, name: str) -> Profile:
-        """``"aar_1b"`` (a wheel) or ``"136re"`` (a rail, upright). From memory, not from drawings: see ``note``."""
+        """A profile by its name, rails upright: ``"aar_1b"``, ``"s1002"``, ``"hollow_2mm"``, ``"136re"``, ``"60e1"`` and others
+        (docs/wheelrail.md). Most are from memory, not from drawings: see ``note``."""
         return cls(_native.NativeProfile.nominal(name))
 
     @classmethod
@@ -120,6 +145,11 @@ class Profile:
     def note(self) -> str:
         """What must be known of its source; empty if nothing."""
         return self._native.note
+
+    @property
+    def notices(self) -> list[tuple[str, str]]:
+        """What is doubtful about its file, and what to do."""
+        return self._native.notices
 
     @property
     def deviation(self) -> float:
@@ -214,29 +244,29 @@ class Wheelset:
 
     def __init__(
         self,
-        wheel: Profile,
-        rail: Profile,
+        wheel: Profile | tuple[Profile, Profile],
+        rail: Profile | tuple[Profile, Profile],
         *,
         gauge: QuantityLike = "56.5 in",
         gauge_depth: QuantityLike = "0.625 in",
         tape_distance: QuantityLike = "59.5 in",
-        radius: QuantityLike = "18 in",
+        radius: QuantityLike | tuple[QuantityLike, QuantityLike] = "18 in",
         shear_modulus: float = _STEEL,
         poisson: float = _POISSON,
     ) -> None:
         """Gauge is measured ``gauge_depth`` below the datum of the rail, z = 0 of its points (its top, for nominal ones); the
         tape circles of the wheels, of the nominal ``radius``, are ``tape_distance`` apart; ``shear_modulus`` in Pa. Rails stand
-        as their profile is: incline nominal ones (``Profile.nominal("136re").inclined(1 / 40)``)."""
-        for given, what in ((wheel, "wheel"), (rail, "rail")):
-            if not isinstance(given, Profile):
-                raise WheelRailError(f"{what} is a {type(given).__name__}; a Profile is expected, such as Profile.read(...)")
+        as their profile is: incline nominal ones (``Profile.nominal("136re").inclined(1 / 40)``). ``wheel``, ``rail`` and ``radius`` may
+        be pairs: left, right."""
+        wheels, rails = _sides(wheel, "wheel"), _sides(rail, "rail")
+        left, right = radius if isinstance(radius, tuple) else (radius, radius)
         self._native = _native.NativeWheelset(
-            wheel._native,
-            rail._native,
+            [own._native for own in wheels],
+            [own._native for own in rails],
             si(gauge, "length", "gauge"),
             si(gauge_depth, "length", "gauge_depth"),
             si(tape_distance, "length", "tape_distance"),
-            si(radius, "length", "radius"),
+            [si(left, "length", "radius"), si(right, "length", "radius")],
             si(shear_modulus, "pressure", "shear_modulus"),
             si(poisson, "dimensionless", "poisson"),
         )

@@ -8,22 +8,28 @@ use clap::{Args, Subcommand};
 use report::wheelrail_files::{self, NAMES};
 use wheelrail::conicity::RollingRadiusDifference;
 use wheelrail::hertz::Material;
+use wheelrail::loaded::Seat;
 use wheelrail::profile::Profile;
-use wheelrail::wheelset::RigidPosition;
+use wheelrail::profile::figures::{LEAST_CLEARANCE, WheelFigures};
+use wheelrail::wheelset::{RigidPosition, RigidWheelset};
 
-use super::wheelrail_pair::{DEVIATION, WheelRailPair, word, wrong};
+use super::wheelrail_pair::{DEVIATION, ProfiledPair, WheelRailPair, word, wrong};
 use super::{wheelrail_contact, wheelrail_run, wheelrail_stability};
 use crate::drawn::Drawn;
-use crate::failure::{Failure, Message};
+use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::table::TerminalTable;
 
 /// Profiles of wheels and rails: checks, rolling radius difference, contact angles, equivalent conicity,
 /// contact; a wheelset that runs
 ///
-/// WHEEL is aar_1b, cylinder, cone_1:20 (any slope), or a file; RAIL is 136re, or a file: CSV with units in
-/// its header, Simpack (.prw, .prr), MiniProf (.whl, .ban, .mpt), VAMPIRE (.whe, .rai), CONTACT's slices
-/// (.slcs, .slcw). Each wheel and each rail may have its own. The nominal profiles are from memory, not from
+/// WHEEL is aar_1b, aar_1b_1:10 (any tread of at least 1:10), aar_1:20 (of before 1990), s1002, cylinder,
+/// cone_1:20 (any
+/// slope), or a file; RAIL is 136re (crown 10 in), 136re_8in, 60e1, or a file: CSV with units in its header,
+/// Simpack
+/// (.prw, .prr), MiniProf (.whl, .ban, .mpt), VAMPIRE (.whe, .rai), CONTACT's slices (.slcs, .slcw). Each
+/// wheel and
+/// each rail may have its own. The nominal profiles are from memory or from published functions, not from
 /// drawings.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
@@ -133,6 +139,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         let alike = what[0] == what[1];
         for (side, profile) in what.iter().enumerate().take(if alike { 1 } else { 2 }) {
             describe(out, if alike { "" } else { word(side) }, profile)?;
+            if let Some(figures) = profile.wheel_figures() {
+                writeln!(out, "  {}", inspected(&figures))?;
+            }
         }
         Ok(alike)
     };
@@ -164,7 +173,16 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             break;
         }
     }
+    if let Some(clearance) = read.flangeway_clearance() {
+        writeln!(
+            out,
+            "flangeway clearance {:.3} mm ({:.4} in) to each side, where gauge is measured",
+            1e3 * clearance,
+            clearance / INCH
+        )?;
+    }
     writeln!(out)?;
+    doubt(&read, &wheelset, &positions);
     table(&positions, &conicity, largest).write(&mut out)?;
     writeln!(
         out,
@@ -173,6 +191,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
          EN 15302, at an amplitude of that size; - where the wheelset does not swing or the amplitude is \
          not covered."
     )?;
+    if let Some((_, words)) = off_tread(&wheelset, &positions) {
+        writeln!(out, "{}.", words.replacen("from", "From", 1))?;
+    }
     let middle = of_motion.equilibrium().filter(|middle| middle.abs() > NOTHING);
     if let Some(middle) = middle.filter(|_| !read.is_symmetric()) {
         writeln!(
@@ -187,6 +208,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         let figure = Drawn::of(&wheelrail_files::figure(
             &read.wheels,
             &read.rails,
+            &wheelset,
             &positions,
             &conicity,
         ))?;
@@ -204,6 +226,72 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         )?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Returns the figures of a wheel in words.
+fn inspected(figures: &WheelFigures) -> String {
+    let millimeters = |length: Option<f64>| match length {
+        Some(length) => format!("{:.2} mm", 1e3 * length),
+        None => "unknown (the back of the flange is; --tape-from-back)".to_owned(),
+    };
+    let slope = figures
+        .slope
+        .map_or("none".to_owned(), |slope| format!("{:.2} mm", 1e3 * slope));
+    format!(
+        "flange height Sh {}, thickness Sd {}, qR {slope}, angle {:.1} deg; hollow depth {:.2} mm",
+        millimeters(Some(figures.height)),
+        millimeters(figures.thickness),
+        figures.angle.to_degrees(),
+        1e3 * figures.hollow
+    )
+}
+
+/// Warns where rolling radii and conicity mean nothing: flanges that have no room, wheels on their flanges'
+/// tips or
+/// on the edges of their rims.
+fn doubt(read: &ProfiledPair, wheelset: &RigidWheelset, positions: &[RigidPosition]) {
+    if let Some(clearance) = read.flangeway_clearance().filter(|own| *own < LEAST_CLEARANCE) {
+        say(&format!(
+            "warning: the flangeway clearance is {:.3} mm to each side; below {:.0} mm the flanges touch \
+             all the time \
+             and the conicity means nothing: look at gauge, tape distance and the datum of the wheels",
+            1e3 * clearance,
+            1e3 * LEAST_CLEARANCE
+        ));
+    }
+    if let Some((shift, words)) = off_tread(wheelset, positions)
+        && read
+            .flangeway_clearance()
+            .is_none_or(|clearance| shift < clearance)
+    {
+        say(&format!(
+            "warning: {words}, although its flange has not reached the rail: look at gauge, tape distance \
+             and the \
+             datum of the wheels"
+        ));
+    }
+}
+
+/// Returns the smallest shift (m) at which a wheel does not stand on its tread, and a sentence on it.
+fn off_tread(wheelset: &RigidWheelset, positions: &[RigidPosition]) -> Option<(f64, String)> {
+    let smallest = |a: &&RigidPosition, b: &&RigidPosition| a.shift.abs().total_cmp(&b.shift.abs());
+    let off = |position: &&RigidPosition| wheelset.seats(position).iter().any(|seat| *seat != Seat::OnRail);
+    let position = positions.iter().filter(off).min_by(smallest)?;
+    let seats = wheelset.seats(position);
+    let side = usize::from(seats[0] == Seat::OnRail);
+    let part = match seats[side] {
+        Seat::RimEdge => "the edge of its rim",
+        _ => "the tip of its flange",
+    };
+    let words = format!(
+        "from a shift of {:.3} mm ({:.3} in) on the {} wheel stands on {part}; rolling radii and conicity \
+         mean \
+         nothing there",
+        1e3 * position.shift,
+        position.shift / INCH,
+        word(side)
+    );
+    Some((position.shift.abs(), words))
 }
 
 /// Writes a profile's name, remark and deviation.

@@ -9,7 +9,7 @@ use wheelrail::contact::Side;
 use wheelrail::hertz::Material;
 use wheelrail::profile::{
     Profile, ProfileError, ProfileKind, ProfileNotice, ReadOptions, SlicedProfile, TAPE_FROM_BACK,
-    WheelDatum, names, nominal,
+    WheelDatum, flangeway_clearance, names, nominal,
 };
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
@@ -112,6 +112,22 @@ impl ProfiledPair {
     pub(super) fn is_symmetric(&self) -> bool {
         let [left, right] = self.radii;
         self.wheels[0] == self.wheels[1] && self.rails[0] == self.rails[1] && left == right
+    }
+
+    /// Returns the flangeway clearance to each side, m; none without flanges.
+    pub(super) fn flangeway_clearance(&self) -> Option<f64> {
+        let Layout {
+            tape_distance,
+            gauge,
+            gauge_depth,
+        } = self.layout;
+        flangeway_clearance(
+            self.wheels.each_ref(),
+            self.rails.each_ref(),
+            tape_distance,
+            gauge,
+            gauge_depth,
+        )
     }
 
     /// Returns the rigid wheelset on its rails.

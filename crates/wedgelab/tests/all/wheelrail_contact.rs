@@ -556,3 +556,36 @@ fn input_files_and_sides_of_their_own() {
         assert!(parts.iter().all(|part| err.contains(part)), "{err}");
     }
 }
+
+/// Figures of inspectors and the flangeway clearance are printed; only what is doubtful is warned of.
+#[test]
+fn input_figures_and_clearance_are_told() {
+    let run = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_wedgelab"))
+            .args(["wheelrail", "check"])
+            .args(arguments)
+            .env_remove("FORCE_COLOR")
+            .output()
+            .unwrap();
+        let [out, err] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+        assert_eq!(output.status.code(), Some(0), "{err}");
+        (out, err)
+    };
+    let (out, err) = run(&["aar_1b", "136re"]);
+    for part in [
+        "flange height Sh 25.40 mm, thickness Sd 3",
+        "angle 75.0 deg; hollow depth 0.00 mm",
+        "flangeway clearance 10.319 mm (0.4063 in) to each side",
+        "stands on the tip of its flange",
+    ] {
+        assert!(out.contains(part), "{part}: {out}");
+    }
+    assert!(err.is_empty(), "{err}");
+    let (out, err) = run(&["s1002", "60e1", "--gauge", "1435 mm", "--gauge-depth", "14 mm"]);
+    let figures = "flange height Sh 28.00 mm, thickness Sd 32.50 mm, qR 10.79 mm";
+    assert!(out.contains(figures) && err.is_empty(), "{out}{err}");
+    let (out, _) = run(&["hollow_4mm", "136re_8in"]);
+    assert!(out.contains("hollow depth 4.00 mm"), "{out}");
+    let (_, err) = run(&["aar_1b", "136re", "--gauge", "55.8 in"]);
+    assert!(err.contains("warning: the flangeway clearance is 1.4"), "{err}");
+}

@@ -158,8 +158,9 @@ fn orientation(points: &Points, kind: ProfileKind) -> Result<(), ProfileError> {
             if outside && shape::flange_side(&points.points) == Some(1.0) {
                 return refused(
                     "y = 0 lies behind the tip of the flange: it is not the tape circle",
-                    "if y is measured from the back of the flange, say so (--datum flange_back, with \
-                     --tape-from-back \"70 mm\", or a column y_from_back in CSV)",
+                    "if y is measured from the back of the flange, say so (--datum flange_back, in a case \
+                     wheels.datum = \"flange_back\", with --tape-from-back \"70 mm\", or a column \
+                     y_from_back in CSV)",
                 );
             }
             if top - datum > FLANGE && datum - bottom < FLANGE {

@@ -78,8 +78,8 @@ pub(super) fn outside(points: &Points, kind: ProfileKind) -> ProfileError {
                 "y = 0, the datum, lies outside of the points, which reach from {low:.3} to {high:.3} mm"
             ),
             "y = 0 must be the tape circle, where the nominal radius is measured: if the points are \
-             measured from the back of the flange, say so (--datum flange_back, with --tape-from-back \"70 \
-             mm\", or a column y_from_back in CSV), else shift y",
+             measured from the back of the flange, say so (--datum flange_back, in a case wheels.datum = \
+             \"flange_back\", with --tape-from-back \"70 mm\", or a column y_from_back in CSV), else shift y",
         ),
         (ProfileKind::Rail, _) => (
             format!(

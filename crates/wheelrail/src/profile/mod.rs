@@ -8,7 +8,11 @@
 //!
 //! | profile | from |
 //! |---|---|
-//! | [`nominal`] | cone, cylinder; wheel AAR-1B and rail 136RE from memory, to be checked against drawings |
+//! | [`nominal`] | cone, cylinder; wheels AAR-1B and AAR 1:20, rail 136RE from memory, to be checked against
+//! drawings |
+//! | [`european`] | wheel S1002, rail 60E1 |
+//! | [`worn`] | the AAR-1B with a hollow tread, a guess |
+//! | [`names`] | all of these by name |
 //! | [`chain`](mod@chain) | lines and arcs that join tangentially |
 //! | [`Points`] | files: CSV with units, Simpack, MiniProf, VAMPIRE; a spline along them with a stated
 //! deviation |
@@ -19,12 +23,15 @@ mod check;
 pub mod curve;
 mod datum;
 pub mod error;
+pub mod european;
+pub mod figures;
 pub mod names;
 pub mod nominal;
 pub mod points;
 mod shape;
 mod slices;
 mod spline;
+pub mod worn;
 
 use std::path::Path;
 
@@ -32,6 +39,7 @@ pub use chain::ChainElement;
 pub use curve::{CurvePoint, ProfileCurve};
 pub use datum::{TAPE_FROM_BACK, WheelDatum};
 pub use error::{ProfileError, ProfilePlace};
+pub use figures::{WheelFigures, flangeway_clearance};
 pub use points::Points;
 pub use slices::{NamedSlice, SlicedProfile};
 pub use spline::Deviation;
@@ -378,38 +386,39 @@ impl Profile {
     }
 }
 
-/// Checks that the gauge can be measured on a rail, and that a wheelset fits between its rails: the active
-/// faces of its flanges, at the depth where gauge is measured, must be closer than the gauge.
+/// Checks that the gauge can be measured on rails (left, right), and that a wheelset fits between them: the
+/// active faces of its flanges, at the depth where gauge is measured, must be closer than the gauge.
 ///
-/// `tape_distance` is the distance of the tape circles; `gauge` is measured `depth` below the datum of the
-/// rail. All in m.
+/// `tape_distance` is the distance of the tape circles; `gauge` is measured `depth` below the datums of the
+/// rails. All in m.
 ///
 /// # Errors
-/// The wheelset is wider than the gauge, or the datum of the rail is not its top.
+/// The wheelset is wider than the gauge, or the datum of a rail is not its top.
 pub fn check_gauge(
-    wheel: &Profile,
-    rail: &Profile,
+    wheels: [&Profile; 2],
+    rails: [&Profile; 2],
     tape_distance: f64,
     gauge: f64,
     depth: f64,
 ) -> Result<(), ProfileError> {
-    let below_top = depth + rail.datum_depth;
-    if rail.datum_depth.abs() > NEAR_TOP && !(DEPTHS[0]..=DEPTHS[1]).contains(&below_top) {
-        return Err(ProfileError::Datum {
-            rail: rail.name.clone(),
-            top: rail.datum_depth,
-            depth,
-        });
+    for rail in rails {
+        let below_top = depth + rail.datum_depth;
+        if rail.datum_depth.abs() > NEAR_TOP && !(DEPTHS[0]..=DEPTHS[1]).contains(&below_top) {
+            return Err(ProfileError::Datum {
+                rail: rail.name.clone(),
+                top: rail.datum_depth,
+                depth,
+            });
+        }
     }
     // Wheels without flanges fit everywhere.
-    let face = wheel.flange_face(below_top).unwrap_or(f64::NEG_INFINITY);
-    let span = tape_distance + 2.0 * face;
-    match span < gauge {
+    let clearance = flangeway_clearance(wheels, rails, tape_distance, gauge, depth);
+    match clearance.is_none_or(|clearance| clearance > 0.0) {
         true => Ok(()),
         false => Err(ProfileError::WiderThanGauge {
-            wheel: wheel.name.clone(),
-            rail: rail.name.clone(),
-            span,
+            wheel: wheels[0].name.clone(),
+            rail: rails[0].name.clone(),
+            span: gauge - 2.0 * clearance.unwrap_or_default(),
             gauge,
         }),
     }

@@ -2,14 +2,15 @@
 
 use quantity::INCH;
 
-use super::{Profile, ProfileError, ProfileKind, nominal};
+use super::{Profile, ProfileError, ProfileKind, european, nominal, worn};
 
 /// Half width of the tread of cones and cylinders, m.
 const TREAD: f64 = 2.0 * INCH;
 /// Names of wheels that are built in, for messages.
-pub const WHEELS: &str = "aar_1b, aar_1b_1:10 (its flange, another tread), cylinder, cone_1:20 (any slope)";
+pub const WHEELS: &str = "aar_1b, aar_1b_1:10 (its flange, another tread), aar_1:20 (before 1990), s1002, \
+                          hollow_2mm, hollow_4mm (AAR-1B, worn by guess), cylinder, cone_1:20 (any slope)";
 /// Names of rails that are built in, for messages.
-pub const RAILS: &str = "136re";
+pub const RAILS: &str = "136re (crown 10 in, 136re_10in too), 136re_8in, 60e1";
 
 /// Profiles that have a name but no drawing here: name, what it is, why it is not built in.
 const NOT_BUILT_IN: [(&str, ProfileKind, &str); 1] = [(
@@ -40,6 +41,10 @@ pub fn wheel(name: &str) -> Result<Option<Profile>, ProfileError> {
     }
     match lower.as_str() {
         "aar_1b" => nominal::aar_1b().map(Some),
+        "aar_1:20" => nominal::aar_1_20().map(Some),
+        "s1002" => european::s1002().map(Some),
+        "hollow_2mm" => worn::hollow(2e-3).map(Some),
+        "hollow_4mm" => worn::hollow(4e-3).map(Some),
         "cylinder" => nominal::cone(0.0, TREAD).map(Some),
         _ => refused(name, ProfileKind::Wheel),
     }
@@ -51,7 +56,9 @@ pub fn wheel(name: &str) -> Result<Option<Profile>, ProfileError> {
 /// The name is that of a profile that is not built in.
 pub fn rail(name: &str) -> Result<Option<(Profile, f64)>, ProfileError> {
     match name.to_ascii_lowercase().as_str() {
-        "136re" => Ok(Some((nominal::rail_136re()?, nominal::INCLINATION))),
+        "136re" | "136re_10in" => Ok(Some((nominal::rail_136re()?, nominal::INCLINATION))),
+        "136re_8in" => Ok(Some((nominal::rail_136re_8in()?, nominal::INCLINATION))),
+        "60e1" => Ok(Some((european::rail_60e1()?, nominal::INCLINATION))),
         _ => Ok(refused(name, ProfileKind::Rail)?.map(|profile| (profile, 0.0))),
     }
 }

@@ -15,10 +15,17 @@
 //! | where the two throat radii meet | at a slope of 20° | guess |
 //! | tip of the flange | radius 1/2 in, then an arc to the vertical back | guess |
 //!
+//! | wheel AAR 1:20 of before 1990 | value | source |
+//! |---|---|---|
+//! | flange angle | 70° | published |
+//! | throat | one radius of 3/4 in | published |
+//! | all else | as AAR-1B | remembered |
+//!
 //! | rail 136RE | value | source |
 //! |---|---|---|
 //! | head | 2 15/16 in wide | manufacturer's table |
-//! | crown, shoulders, corners | radius 10, 1 1/4, 9/16 in | remembered (crowns of 14 and 8 in exist too) |
+//! | crown, shoulders, corners | radius 10 or 8, 1 1/4, 9/16 in | remembered; both crowns exist, one of 14
+//! in too |
 //! | sides | inclined by 1:40, the width measured 5/8 in below the top | remembered, guess |
 //! | where crown and shoulders meet | 3/4 in from the middle | guess |
 //!
@@ -180,13 +187,71 @@ pub fn aar_1b_with_tread(run: f64) -> Result<Profile, ProfileError> {
     })
 }
 
+/// Returns the nominal AAR wheel 1:20 of before 1990, with narrow flange: a face of 70° and one throat
+/// radius of
+/// 3/4 in; see the head of this module for the source of each number.
+///
+/// # Errors
+/// None that a user can cause.
+pub fn aar_1_20() -> Result<Profile, ProfileError> {
+    let back = -(3.0 + 1.0 / 16.0) * INCH;
+    let rim = (5.0 + 23.0 / 32.0) * INCH + back;
+    let run = 20.0;
+    let face_angle = 70f64.to_radians();
+    let face_point = [back + (1.0 + 5.0 / 32.0) * INCH, -0.625 * INCH];
+    let (tip_radius, bottom) = (0.5 * INCH, -INCH);
+    let (sine, cosine) = libm::sincos(face_angle);
+    let height = bottom + tip_radius;
+    let along = (tip_radius - (height - face_point[1]) * cosine) / sine;
+    let tip = [face_point[0] - along, height];
+    let back_radius = tip[0] - back;
+    let elements = [
+        ChainElement::Circle {
+            center: [tip[0], bottom + back_radius],
+            radius: back_radius,
+        },
+        ChainElement::Circle {
+            center: tip,
+            radius: tip_radius,
+        },
+        ChainElement::Line {
+            point: face_point,
+            angle: face_angle,
+        },
+        ChainElement::Fillet { radius: -0.75 * INCH },
+        ChainElement::Line {
+            point: [0.0, 0.0],
+            angle: libm::atan(1.0 / run),
+        },
+    ];
+    let name = "AAR 1:20 of before 1990 (nominal)";
+    let curve = chain(name, [back, bottom + back_radius], &elements, [rim, rim / run])?;
+    Ok(Profile {
+        note: REMEMBERED,
+        back: Some(back),
+        ..Profile::of_curve(name, ProfileKind::Wheel, curve)
+    })
+}
+
 /// Returns the nominal head of the rail 136RE with a crown of 10 in, upright, its top at the origin; see the
 /// head of this module for the source of each number.
 ///
 /// # Errors
 /// None that a user can cause.
 pub fn rail_136re() -> Result<Profile, ProfileError> {
-    let (crown, shoulder, corner) = (10.0 * INCH, 1.25 * INCH, 9.0 / 16.0 * INCH);
+    rail_136re_with_crown("136RE (nominal)", 10.0 * INCH)
+}
+
+/// Returns the same rail with a crown of 8 in.
+///
+/// # Errors
+/// None that a user can cause.
+pub fn rail_136re_8in() -> Result<Profile, ProfileError> {
+    rail_136re_with_crown("136RE, crown 8 in (nominal)", 8.0 * INCH)
+}
+
+fn rail_136re_with_crown(name: &str, crown: f64) -> Result<Profile, ProfileError> {
+    let (shoulder, corner) = (1.25 * INCH, 9.0 / 16.0 * INCH);
     let half_width = 0.5 * (2.0 + 15.0 / 16.0) * INCH;
     let (side_depth, end_depth) = (0.625 * INCH, 1.25 * INCH);
     // Where crown and shoulders meet, as a direction from the crown's center.
@@ -219,14 +284,9 @@ pub fn rail_136re() -> Result<Profile, ProfileError> {
             angle: -steep,
         },
     ];
-    let curve = chain(
-        "136RE (nominal)",
-        [-side, -end_depth],
-        &elements,
-        [side, -end_depth],
-    )?;
+    let curve = chain(name, [-side, -end_depth], &elements, [side, -end_depth])?;
     Ok(Profile {
         note: REMEMBERED,
-        ..Profile::of_curve("136RE (nominal)", ProfileKind::Rail, curve)
+        ..Profile::of_curve(name, ProfileKind::Rail, curve)
     })
 }

@@ -278,7 +278,7 @@ fn issue_047_a_wheel_is_no_rail() {
         let upside_down: Vec<[f64; 2]> = points.iter().map(|[y, z]| [*y, -z]).collect();
         let wheel = nominal::cone(0.05, 0.05).unwrap();
         let error = made(&upside_down, ProfileKind::Rail)
-            .and_then(|rail| check_gauge(&wheel, &rail, 1.5, 1.435, 0.014))
+            .and_then(|rail| check_gauge([&wheel; 2], [&rail; 2], 1.5, 1.435, 0.014))
             .unwrap_err();
         assert!(
             matches!(

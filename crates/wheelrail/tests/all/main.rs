@@ -9,6 +9,7 @@ mod contact_benchmark;
 mod contact_limits;
 mod contact_table;
 mod creep;
+mod figures;
 mod formats;
 mod free_rolling;
 mod hertz;

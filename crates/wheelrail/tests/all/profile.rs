@@ -290,8 +290,8 @@ fn input_simpack_profiles_of_the_manchester_benchmark() {
     // Between the points (-43.0502, 14.1520) and (-43.0081, 13.8106) of the file.
     assert!((gauge + 0.043_032).abs() < 3e-6, "{gauge}");
     // Tape circles 1500 mm apart fit the gauge, 1520 mm apart do not.
-    check_gauge(&wheel, &rail, 1.5, 1.435, 0.014).unwrap();
-    let error = check_gauge(&wheel, &rail, 1.52, 1.435, 0.014).unwrap_err();
+    check_gauge([&wheel; 2], [&rail; 2], 1.5, 1.435, 0.014).unwrap();
+    let error = check_gauge([&wheel; 2], [&rail; 2], 1.52, 1.435, 0.014).unwrap_err();
     assert!(
         matches!(error, ProfileError::WiderThanGauge { .. }) && error.to_string().contains("1435.0 mm"),
         "{error}"
