@@ -115,8 +115,8 @@ impl Body {
         Self::linearized("ground", [0.0; 3], [false; 6], 0.0, [0.0; 3])
     }
 
-    /// Returns the marker at a place (m) of the nominal layout, in which the body's frame stands at its origin,
-    /// turned by roll, pitch, yaw (rad), both along the fixed axes. The frame may be turned.
+    /// Returns the marker at a place (m) of the nominal layout, in which the body's frame stands at its
+    /// origin, turned by roll, pitch, yaw (rad), both along the fixed axes. The frame may be turned.
     #[must_use]
     pub fn marker(&self, place: [f64; 3], angles: [f64; 3]) -> Marker {
         let origin = self.frame.origin;

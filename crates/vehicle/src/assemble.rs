@@ -194,8 +194,8 @@ fn roll(state: &mut [f64], system: &System, running: &[(usize, usize)], axles: &
     }
 }
 
-/// Returns how the coordinates of a body at a place of the nominal layout (m) follow the actual rails: straight
-/// between the levels under the wheelsets.
+/// Returns how the coordinates of a body at a place of the nominal layout (m) follow the actual rails:
+/// straight between the levels under the wheelsets.
 fn on_rails(levels: &[(f64, [f64; 3])], [x, y, z]: [f64; 3], is_wheelset: bool) -> [(usize, f64); 5] {
     let after = levels.partition_point(|(at, _)| *at < x);
     let (level, slope) = match (after.checked_sub(1).map(|i| levels[i]), levels.get(after)) {
@@ -227,8 +227,8 @@ fn on_rails(levels: &[(f64, [f64; 3])], [x, y, z]: [f64; 3], is_wheelset: bool) 
     }
 }
 
-/// Returns the positions of a vehicle at rest, on straight perfect track if it runs on one, with the warning of
-/// a state that is nearly at rest.
+/// Returns the positions of a vehicle at rest, on straight perfect track if it runs on one, with the
+/// warning of a state that is nearly at rest.
 fn at_rest(
     bodies: &[RigidBody],
     description: &Description,
@@ -274,8 +274,8 @@ fn carry(model: &mut Model) {
 }
 
 impl Nominal {
-    /// Returns the model of these bodies, of a description's elements, and of what runs on a track, as they are
-    /// or without the friction that a rest may not depend on.
+    /// Returns the model of these bodies, of a description's elements, and of what runs on a track, as they
+    /// are or without the friction that a rest may not depend on.
     fn new(
         bodies: &[RigidBody],
         description: &Description,

@@ -5,8 +5,8 @@
 //! ([`Drawing`]). Tables, pages, pictures and studies ask for these and know no kind of vehicle. An element
 //! of one's own is one [`catalog::CatalogElement`]; everything else follows.
 //!
-//! Axes: x forward, y left, z up, in the nominal layout, where bodies stand along the fixed axes and both ends
-//! of an element that has one place coincide. SI units.
+//! Axes: x forward, y left, z up, in the nominal layout, where bodies stand along the fixed axes and both
+//! ends of an element that has one place coincide. SI units.
 //!
 //! ```
 //! use std::sync::Arc;

@@ -1,7 +1,8 @@
 //! Wheelsets and trucks of a description, and the track that they run on.
 //!
-//! The vehicle begins on straight track: until beyond its last axle the center line must not curve. There it is
-//! put as it rests on straight perfect track, and all of it moves at the speed of the start; wheels roll.
+//! The vehicle begins on straight track: until beyond its last axle the center line must not curve. There
+//! it is put as it rests on straight perfect track, and all of it moves at the speed of the start; wheels
+//! roll.
 
 use std::sync::Arc;
 
@@ -117,8 +118,8 @@ impl OnTrack {
         Ok((standing, middle))
     }
 
-    /// Returns the places of the wheelsets in the nominal layout (m, rising) with the level of the actual rails
-    /// there at the start: to the left, up (m), and roll (rad).
+    /// Returns the places of the wheelsets in the nominal layout (m, rising) with the level of the actual
+    /// rails there at the start: to the left, up (m), and roll (rad).
     pub(crate) fn levels(&self) -> Vec<(f64, [f64; 3])> {
         let lines = self.lines();
         let apart = self.track.center_line.rail_distance();

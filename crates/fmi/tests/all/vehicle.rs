@@ -18,8 +18,8 @@ fn case() -> VehicleCase {
     VehicleCase::read(&path, &set).unwrap()
 }
 
-/// Co-simulation gives the columns of the run: with the rail moved by the case, and by inputs that are the same
-/// sine.
+/// Co-simulation gives the columns of the run: with the rail moved by the case, and by inputs that are the
+/// same sine.
 #[test]
 fn cross_code_a_vehicle_moves_as_its_run() {
     let result = Run::new(&case()).unwrap().finish(|_| ());

@@ -9,7 +9,8 @@
 //! A clamped surface lies between two others that press from both sides: their normal forces cancel, and
 //! friction alone acts.
 //!
-//! Energy: the integral of K (not of a clamped one), the accumulator's `K_a e²/2`, its losses, and those of the damper.
+//! Energy: the integral of K (not of a clamped one), the accumulator's `K_a e²/2`, its losses, and those of
+//! the damper.
 //!
 //! Source: the form is read from published input files, the accumulator's name and numbers from the wedge
 //! elements beside it. Defect: under a held load it deflects by F/K_a. Limit: the limit of friction is taken

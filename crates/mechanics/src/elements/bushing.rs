@@ -9,8 +9,8 @@
 //! ```
 //!
 //! with (i, j, k) cyclic: θ are the small rotations (`sin` of the angle times its axis), `g_i · ω` their
-//! rates. The elastic part is the gradient of `½ Σ (k_i d_i² + κ_i θ_i²) - Σ P_i d_i` at any pose, so that the
-//! ledger closes; the powers lost are `c_i v_i²` and `γ_i ω_i²`. Units: m, N, s, rad.
+//! rates. The elastic part is the gradient of `½ Σ (k_i d_i² + κ_i θ_i²) - Σ P_i d_i` at any pose, so that
+//! the ledger closes; the powers lost are `c_i v_i²` and `γ_i ω_i²`. Units: m, N, s, rad.
 //!
 //! Defects: the moment about one axis is `κ sin φ cos φ`, 2 % less than κφ at 10°, and falls beyond 45°; axes
 //! do not couple. Remedy for long ways: a [`Strut`](super::Strut), for large angles none.

@@ -43,7 +43,8 @@ pub fn exhibits(result: &VehicleResult) -> Vec<Exhibit> {
             result,
             "forces",
             "forces of the elements",
-            "Forces over time: of springs, dampers and stops positive in compression, of others along the axes \
+            "Forces over time: of springs, dampers and stops positive in compression, of others along the \
+             axes \
              of their end b.",
             &forces,
         ),

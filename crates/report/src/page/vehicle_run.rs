@@ -46,7 +46,8 @@ fn vibrations(summary: &VehicleSummary) -> Markup {
             p { "Nothing vibrates about the rest." }
         } @else {
             p {
-                "Of the equations linearized about the rest, or the nominal layout if the run starts there; what is open or slips there does not hold. A \
+                "Of the equations linearized about the rest, or the nominal layout if the run starts \
+                 there; what is open or slips there does not hold. A \
                  negative damping ratio grows."
             }
             table {

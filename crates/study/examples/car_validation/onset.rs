@@ -51,7 +51,7 @@ fn conicity(case: &CarCase) -> Result<f64, Failure> {
     let Wheels::OnRails(wheels) = &case.parameters.wheels else {
         return Err("its wheels have no profiles".into());
     };
-    let table = RollingRadiusDifference::of_positions(&wheels.geometry.sweep(8e-3, 200, true))?;
+    let table = RollingRadiusDifference::of_positions(&wheels.geometry[0].sweep(8e-3, 200, true))?;
     let found = table.equivalent_conicity(3e-3, 18.0 * INCH, wheels.tape_distance)?;
     Ok(found.by_wavelength)
 }

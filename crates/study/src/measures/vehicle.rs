@@ -1,5 +1,5 @@
-//! The metrics of a vehicle's run in a study: of each of its columns the least, the greatest, the mean and the
-//! root mean square over all output times; its slowest natural vibration; what its run lost.
+//! The metrics of a vehicle's run in a study: of each of its columns the least, the greatest, the mean and
+//! the root mean square over all output times; its slowest natural vibration; what its run lost.
 
 use std::borrow::Cow;
 

@@ -12,8 +12,8 @@ use crate::case::tree::NodeValue;
 const LONGEST: usize = 60;
 
 impl<'r> CaseReader<'r> {
-    /// Returns the names of the tables in a table, in the order of the text. Notes what is no table, and names
-    /// that cannot begin those of columns.
+    /// Returns the names of the tables in a table, in the order of the text. Notes what is no table, and
+    /// names that cannot begin those of columns.
     pub fn names(&mut self, table: &'static str) -> Vec<&'r str> {
         self.named.push(table);
         let mut own = known(table.to_owned(), "");
@@ -33,7 +33,8 @@ impl<'r> CaseReader<'r> {
                 Some((format!("`{table}.{name}` is {found}; a table is expected"), help))
             } else if !(begins && name.chars().all(plain) && name.len() <= LONGEST) {
                 let help = format!(
-                    "its columns begin with it: write a letter, then letters, digits and _, at most {LONGEST} \
+                    "its columns begin with it: write a letter, then letters, digits and _, at most \
+                     {LONGEST} \
                      in all"
                 );
                 Some((

@@ -43,7 +43,8 @@ fn wagons(case: Made) -> CaseGroup {
     CaseGroup {
         name: "wagons",
         title: "Vehicles on a track: axles where you like",
-        look_at: "Wheel loads and accelerations on tangent track. Its numbers are guesses: it shows the keys of \
+        look_at: "Wheel loads and accelerations on tangent track. Its numbers are guesses: it shows the \
+                  keys of \
                   wheelsets, wheels, rails and track.",
         cases: [
             file!(
@@ -111,8 +112,10 @@ fn suspensions(case: Made) -> CaseGroup {
     CaseGroup {
         name: "suspensions",
         title: "Two suspensions of the literature under a sine of the track",
-        look_at: "Below the natural frequency, at small amplitudes, the car goes with the side frame: friction \
-                  locks it. In the half-bogie the wedges carry different forces, and lose different energies.",
+        look_at: "Below the natural frequency, at small amplitudes, the car goes with the side frame: \
+                  friction \
+                  locks it. In the half-bogie the wedges carry different forces, and lose different \
+                      energies.",
         cases,
     }
 }

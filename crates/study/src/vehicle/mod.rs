@@ -147,7 +147,8 @@ fn doubts(r: &mut CaseReader<'_>, description: &Description) -> Vec<String> {
     let (bodies, elements) = (&description.bodies, &description.elements);
     if bodies.is_empty() && !r.has("bodies") {
         let problem = Problem::new("the vehicle has no bodies");
-        let help = "write [bodies.NAME] with weight, inertia and place, and [elements.NAME] between bodies and \
+        let help = "write [bodies.NAME] with weight, inertia and place, and [elements.NAME] between \
+                    bodies and \
                     the ground";
         r.problems.push(problem.help(help));
     }
@@ -169,7 +170,8 @@ fn doubts(r: &mut CaseReader<'_>, description: &Description) -> Vec<String> {
             ));
         } else if body.free[2] && description.gravity > 0.0 {
             doubts.push(format!(
-                "nothing holds {}: it falls freely; put an element between it and another body, or hold its z",
+                "nothing holds {}: it falls freely; put an element between it and another body, or hold \
+                 its z",
                 body.name
             ));
         } else {

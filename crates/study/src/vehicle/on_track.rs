@@ -90,8 +90,8 @@ pub(super) fn parts(r: &mut CaseReader<'_>, bodies: &[RigidBody]) -> Parts {
     parts
 }
 
-/// Reads `[rails]`, `[wheels]`, `[track]`, `[speed]`, `[drive]` of a vehicle that has wheelsets or trucks; returns
-/// files that were read, and what is doubtful.
+/// Reads `[rails]`, `[wheels]`, `[track]`, `[speed]`, `[drive]` of a vehicle that has wheelsets or trucks;
+/// returns files that were read, and what is doubtful.
 pub(super) fn track(
     r: &mut CaseReader<'_>,
     parts: &mut Parts,
@@ -125,7 +125,8 @@ pub(super) fn track(
         let path = format!("wheels.{axle}");
         if r.has(&path) {
             let problem = Problem::new(format!("[{path}] is for cars: wheelsets of a vehicle have names"));
-            let help = "leave it out: all wheelsets of a vehicle have the wheels of [wheels.left] and [wheels.right]";
+            let help = "leave it out: all wheelsets of a vehicle have the wheels of [wheels.left] and \
+                        [wheels.right]";
             r.problem(&path, problem.label("not here").help(help));
         }
     }

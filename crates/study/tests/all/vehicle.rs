@@ -56,7 +56,8 @@ fn analytic_two_masses_on_springs() {
     }
 }
 
-/// A double pendulum of two rods on bushings: its frequencies come to those with rigid joints as these harden.
+/// A double pendulum of two rods on bushings: its frequencies come to those with rigid joints as these
+/// harden.
 #[test]
 fn convergence_a_double_pendulum_on_bushings() {
     let text = study::models::built_in("vehicle_double_pendulum").unwrap().text();
@@ -82,8 +83,8 @@ fn convergence_a_double_pendulum_on_bushings() {
     }
 }
 
-/// The angle of a four-bar's rocker over that of its crank (rad), by Freudenstein's closure: pivots `d` apart,
-/// crank `a`, coupler `b`, rocker `c`, the coupler above the line of pivots.
+/// The angle of a four-bar's rocker over that of its crank (rad), by Freudenstein's closure: pivots `d`
+/// apart, crank `a`, coupler `b`, rocker `c`, the coupler above the line of pivots.
 fn rocker(crank: f64, [a, b, c, d]: [f64; 4]) -> f64 {
     let (x, y) = (d - a * crank.cos(), -a * crank.sin());
     let diagonal = x.hypot(y);
@@ -92,7 +93,8 @@ fn rocker(crank: f64, [a, b, c, d]: [f64; 4]) -> f64 {
     (-y).atan2(-x) - cosine.clamp(-1.0, 1.0).acos()
 }
 
-/// The text of a four-bar in the plane of x and z, driven by its crank, with a stop under the rocker's middle.
+/// The text of a four-bar in the plane of x and z, driven by its crank, with a stop under the rocker's
+/// middle.
 fn four_bar(clearance: f64, duration: f64) -> (String, [f64; 4]) {
     let sizes = [0.2, 0.5, 0.4, 0.6];
     let [a, _, c, d] = sizes;
@@ -103,11 +105,13 @@ fn four_bar(clearance: f64, duration: f64) -> (String, [f64; 4]) {
     let m = |[x, z]: [f64; 2]| format!("[\"{x:.17} m\", \"0 m\", \"{z:.17} m\"]");
     let middle = |a: [f64; 2], b: [f64; 2]| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
     let (pin, end, far) = ([pin_x, pin_z], [end_x, end_z], [d, 0.0]);
-    let free = "weight = \"10 N\"\ninertia = [\"0.01 kg m^2\", \"0.01 kg m^2\", \"0.01 kg m^2\"]\nfree_coordinates = [\"x\", \"z\", \"pitch\"]";
+    let free = "weight = \"10 N\"\ninertia = [\"0.01 kg m^2\", \"0.01 kg m^2\", \"0.01 kg \
+                m^2\"]\nfree_coordinates = [\"x\", \"z\", \"pitch\"]";
     let joint = |name: &str, a: &str, b: &str, at: [f64; 2]| {
         format!(
             "[elements.{name}]\nkind = \"bushing\"\na = \"{a}\"\nb = \"{b}\"\nat = {}\n\
-             stiffness = [\"1e9 N/m\", \"0 N/m\", \"1e9 N/m\"]\ndamping = [\"1e5 N s/m\", \"0 N s/m\", \"1e5 N s/m\"]\n",
+             stiffness = [\"1e9 N/m\", \"0 N/m\", \"1e9 N/m\"]\ndamping = [\"1e5 N s/m\", \"0 N s/m\", \
+                            \"1e5 N s/m\"]\n",
             m(at)
         )
     };
@@ -131,8 +135,8 @@ fn four_bar(clearance: f64, duration: f64) -> (String, [f64; 4]) {
     (text, sizes)
 }
 
-/// A four-bar on hard bushings, driven by its crank: the rocker's angle is that of the closure equation; a stop
-/// presses with its stiffness times what the closure says that the rocker goes beyond the clearance.
+/// A four-bar on hard bushings, driven by its crank: the rocker's angle is that of the closure equation; a
+/// stop presses with its stiffness times what the closure says that the rocker goes beyond the clearance.
 #[test]
 fn analytic_a_four_bar_with_a_stop() {
     let clearance = 0.02;
@@ -182,8 +186,10 @@ fn input_a_completed_case_reads_back() {
 }
 
 const BLOCK: &str = "model = \"vehicle\"\n[bodies.block]\nweight = \"10 lbf\"\n\
-                     inertia = [\"1 lbf in s^2\", \"1 lbf in s^2\", \"1 lbf in s^2\"]\nat = [\"0 in\", \"0 in\", \"9 in\"]\n";
-const SPRING: &str = "[elements.spring]\nkind = \"spring\"\na = \"block\"\nb = \"ground\"\nstiffness = \"100 lbf/in\"\n\
+                     inertia = [\"1 lbf in s^2\", \"1 lbf in s^2\", \"1 lbf in s^2\"]\nat = [\"0 in\", \
+                                  \"0 in\", \"9 in\"]\n";
+const SPRING: &str = "[elements.spring]\nkind = \"spring\"\na = \"block\"\nb = \"ground\"\nstiffness = \
+                      \"100 lbf/in\"\n\
                       at_a = [\"0 in\", \"0 in\", \"9 in\"]\nat_b = [\"0 in\", \"0 in\", \"0 in\"]\n";
 
 /// Each mistake with its place and what to write instead.
@@ -325,8 +331,9 @@ fn travel(amplitude: &str, frequency: &str) -> f64 {
     ends[1] - ends[0]
 }
 
-/// Berghuvud and Stensson's finding: the suspension is locked below the natural frequency at small amplitudes.
-/// It locks while `m ω² A < F`: at 0.1 in up to 2.48 Hz, which is above the natural frequency of 2.03 Hz; at
+/// Berghuvud and Stensson's finding: the suspension is locked below the natural frequency at small
+/// amplitudes. It locks while `m ω² A < F`: at 0.1 in up to 2.48 Hz, which is above the natural frequency
+/// of 2.03 Hz; at
 /// 0.3 in up to 1.43 Hz.
 #[test]
 fn reproduction_a_suspension_locks_below_its_natural_frequency() {
@@ -449,13 +456,14 @@ fn written_out(car: &str) -> String {
     format!("{speed}{of_truck}[trucks.rear]\nlike = \"front\"\nat = \"-243 in\"\n")
 }
 
-/// The empty car of `model = "car"`, and the same car written out as bodies and trucks, over a dip of both rails:
-/// the same wheel forces, motions and wedge forces, to rounding.
+/// The empty car of `model = "car"`, and the same car written out as bodies and trucks, over a dip of both
+/// rails: the same wheel forces, motions and wedge forces, to rounding.
 #[test]
 fn cross_code_a_car_written_out_equals_the_built_in_one() {
     let overrides = [
         "track.segments=[{tangent=\"400 ft\"}]",
-        "track.irregularities=[{shape=\"dip\",start=\"60 ft\",length=\"20 ft\",depth=\"0.3 in\",rails=\"both\",direction=\"vertical\"}]",
+        "track.irregularities=[{shape=\"dip\",start=\"60 ft\",length=\"20 ft\",depth=\"0.3 \
+         in\",rails=\"both\",direction=\"vertical\"}]",
         "simulation.duration=2 s",
     ]
     .map(str::to_owned);

@@ -25,7 +25,8 @@ pub struct DryFriction {
     pub bristle_stiffness: f64,
     /// Damping of the bristle, N·s/m.
     pub bristle_damping: f64,
-    /// True if the normal force acts on the bodies; false where it is that of a clamp, whose two sides cancel.
+    /// True if the normal force acts on the bodies; false where it is that of a clamp, whose two sides
+    /// cancel.
     pub pushes: bool,
 }
 

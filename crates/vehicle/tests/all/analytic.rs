@@ -234,7 +234,8 @@ fn analytic_dry_friction_holds_and_takes_its_loop() {
         let x = seen.bodies[1].origin.0[0];
         assert!((x - held).abs() < 2e-3 * limit / bristle, "{time}: {x} {held}");
     });
-    // Slipping: the block is driven by x = A sin ωt; between its ends it slips by 2A less the two deflections.
+    // Slipping: the block is driven by x = A sin ωt; between its ends it slips by 2A less the two
+    // deflections.
     let amplitude = 0.01;
     let mut driven = body("block", 20.0, 1.0, [0.0; 3], &[]);
     driven.motion.coordinates[0] = Motion::Sine {

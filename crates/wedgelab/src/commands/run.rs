@@ -46,11 +46,11 @@ use crate::table::TerminalTable;
 
 /// Run one case: a wedge, a truck, a car or a vehicle of your own
 ///
-/// Runs a case file, of a wedge, of a truck, of a car on track or of a vehicle of bodies and elements, and writes its time histories, case.toml
-/// (the case, completed) and summary.json (averages, extremes, events, energy ledger, solver statistics,
-/// assumptions) into a folder named as the case; and index.html: a wedge moving in 3D with its loops and key
-/// numbers; a truck, its loops and wedges; a car on its track, limits, statistics and figures over the
-/// distance.
+/// Runs a case file, of a wedge, of a truck, of a car on track or of a vehicle of bodies and elements, and
+/// writes its time histories, case.toml (the case, completed) and summary.json (averages, extremes, events,
+/// energy ledger, solver statistics, assumptions) into a folder named as the case; and index.html: a wedge
+/// moving in 3D with its loops and key numbers; a truck, its loops and wedges; a car on its track, limits,
+/// statistics and figures over the distance.
 ///
 /// Time histories are result.csv and result.mat (of a wedge under the thesis's names). Those of a car, which
 /// has most columns, are result.parquet, and a result.csv with its time, distance, speed and roll; --tables
