@@ -531,7 +531,7 @@ pub fn is_built_in(path: &Path) -> bool {
     (!path.exists() || path.is_dir()) && path.to_str().and_then(built_in).is_some()
 }
 
-/// Returns the case that a user names, of a wedge, a truck or a car, with `--set` overrides.
+/// Returns the case that a user names, of whatever model, with `--set` overrides.
 pub fn read_any(path: &Path, set: &[String]) -> Result<AnyCase, Failure> {
     let name = path.to_str().unwrap_or("");
     if is_built_in(path)
@@ -576,7 +576,7 @@ pub fn wedge_of(case: AnyCase) -> Result<Case, Failure> {
                 other.name(),
                 other.model()
             ),
-            "`wedgelab run`, `study`, `fit`, `plot` and `compare` take trucks and cars",
+            "`wedgelab run`, `study`, `fit`, `plot` and `compare` take trucks, cars and vehicles",
         )
         .into()),
     }

@@ -14,7 +14,7 @@ use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
 
-/// Write wedges, half-trucks, trucks and cars as functional mock-up units (FMI 2.0 and 3.0)
+/// Write wedges, half-trucks, trucks, cars and vehicles as functional mock-up units (FMI 2.0 and 3.0)
 ///
 /// A functional mock-up unit is a file that a vehicle dynamics program loads as an element of its own:
 /// bolster and side frame move there, forces and moments come from the wedge; or loads on a half-truck come
