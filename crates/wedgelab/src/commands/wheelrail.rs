@@ -48,11 +48,11 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Reads and checks both profiles, and prints the rolling properties of a wheelset on them
-    Check(WheelRailPair),
+    Check(Box<WheelRailPair>),
     /// Does the same, and writes wheelrail.csv, wheelrail.svg and wheelrail.png
     Plot {
         #[command(flatten)]
-        pair: WheelRailPair,
+        pair: Box<WheelRailPair>,
         /// Folder to write into
         #[arg(long, value_name = "DIR", default_value = "wheelrail")]
         out: PathBuf,
@@ -146,9 +146,12 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Ok(alike)
     };
     let alike = profiles(&mut out, &read.wheels)?;
-    for (side, radius) in read.radii.iter().enumerate() {
-        if !alike || read.radii[0] != read.radii[1] {
-            writeln!(out, "  {} radius {:.3} mm", word(side), 1e3 * radius)?;
+    let [left, right] = read.radii;
+    if alike && left == right {
+        writeln!(out, "  nominal radius {:.3} mm", 1e3 * left)?;
+    } else {
+        for (side, radius) in read.radii.iter().enumerate() {
+            writeln!(out, "  {} nominal radius {:.3} mm", word(side), 1e3 * radius)?;
         }
     }
     let alike = profiles(&mut out, &read.rails)?;

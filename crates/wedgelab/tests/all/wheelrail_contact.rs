@@ -528,7 +528,7 @@ fn input_files_and_sides_of_their_own() {
     assert_eq!(code, Some(0), "{err}");
     for part in [
         "left wheel: cone.WHL",
-        "left radius 420.000 mm",
+        "left nominal radius 420.000 mm",
         "right wheel: cone",
     ] {
         assert!(out.contains(part), "{part}: {out}");
@@ -574,6 +574,7 @@ fn input_figures_and_clearance_are_told() {
     let (out, err) = run(&["aar_1b", "136re"]);
     for part in [
         "flange height Sh 25.40 mm, thickness Sd 3",
+        "nominal radius 457.200 mm",
         "angle 75.0 deg; hollow depth 0.00 mm",
         "flangeway clearance 10.319 mm (0.4063 in) to each side",
         "stands on the tip of its flange",

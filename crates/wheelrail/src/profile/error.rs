@@ -59,6 +59,13 @@ pub enum ProfileError {
         /// The file as named.
         path: PathBuf,
     },
+    /// A list of sections where one section is expected.
+    #[error("{}: this is a list of sections along a rail or around a wheel, where one section is \
+             expected", path.display())]
+    ListOfSlices {
+        /// The file as named.
+        path: PathBuf,
+    },
     /// Neither a file nor a profile that is built in.
     #[error("there is neither a file nor a nominal {kind} `{name}`")]
     NoSuchProfile {
@@ -273,6 +280,7 @@ impl ProfileError {
             | Self::Joint { place, .. } => place.line,
             Self::Read(_)
             | Self::UnknownFile { .. }
+            | Self::ListOfSlices { .. }
             | Self::NoSuchProfile { .. }
             | Self::NotBuiltIn { .. }
             | Self::Name { .. }
@@ -294,6 +302,11 @@ impl ProfileError {
                 "name it .csv (points with a header of units), .prw or .prr (Simpack, wheel or rail), .whl \
                  or .ban (MiniProf), .whe or .rai \
                  (VAMPIRE)"
+                    .into()
+            }
+            Self::ListOfSlices { .. } => {
+                "name one of the files that it lists; `wedgelab wheelrail` takes rails from .slcs (--at) and \
+                 wheels from .slcw (--wheel-angle)"
                     .into()
             }
             Self::NoSuchProfile { names, .. } => format!("name a file of points, or {names}"),

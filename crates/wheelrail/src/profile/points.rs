@@ -108,6 +108,11 @@ impl Points {
                 Some("ban") => |name, text, _| Self::from_miniprof(name, text, Some(ProfileKind::Rail)),
                 Some("mpt") => |name, text, _| Self::from_miniprof(name, text, None),
                 Some("whe" | "rai" | "ral") => Self::from_vampire,
+                Some("slcs" | "slcw") => {
+                    return Err(ProfileError::ListOfSlices {
+                        path: path.to_owned(),
+                    });
+                }
                 _ => {
                     // What it is tells more than that its name tells nothing.
                     input::file::read(path, &expected).map_err(|error| match error.reason {

@@ -157,10 +157,10 @@ impl SlicedProfile {
                 return Err(wrong(line, format!("{} names no file in quotes", shortened(row))));
             };
             let place = scaling[1] * (number_of(&mut Separated::of(""), name, line, place)? + scaling[0]);
-            if slices
+            let apart = slices
                 .last()
-                .is_some_and(|last| !(place - last.place / unit >= SMALLEST))
-            {
+                .map_or(f64::INFINITY, |last| place - last.place / unit);
+            if apart.is_nan() || apart < SMALLEST {
                 return Err(wrong(line, "the places of slices must grow".into()));
             }
             slices.push(NamedSlice {

@@ -420,6 +420,9 @@ fn analytic_slices_are_linear_between_files() {
         let rise = sliced.rise(place, 1e-3).unwrap().unwrap();
         assert!((rise + 2e-3).abs() < 1e-9, "{rise}");
     }
+    let error = Profile::read(&path, ProfileKind::Rail, 0.0).unwrap_err();
+    assert!(error.to_string().contains("a list of sections"), "{error}");
+    assert!(error.remedy().contains("--at"), "{}", error.remedy());
     let error = sliced.at(1.5).unwrap_err();
     assert!(error.to_string().contains("reach from 0 to 1 m"), "{error}");
     for (text, found) in [
