@@ -182,7 +182,8 @@ impl FileType {
             Self::Results => format!("`wedgelab compare` and `wedgelab plot {path}` take it"),
             Self::MeasuredTrack => format!(
                 "write a track file with [[irregularities]], table = \"{path}\" and form = \"space_curve\" \
-                 or \"mid_chord\"; `wedgelab track show` takes that file"
+                 or \"mid_chord\", and [columns] if its titles are its own; `wedgelab track show` \
+                 takes that file"
             ),
             Self::Profile => format!(
                 "`wedgelab wheelrail check` takes it; in a case, write wheels.profile = \"{path}\" or \
@@ -222,12 +223,15 @@ fn is_nucars_keyword(line: &str) -> bool {
 
 /// Returns results, a measured track or a profile, by the titles of columns.
 fn table_type(titles: &str) -> Option<FileType> {
-    const TRACK: [&str; 7] = [
-        "profile",
-        "alignment",
+    // Also as measuring cars of North America abbreviate them.
+    const TRACK: [&str; 9] = [
+        "prof",
+        "align",
         "cross_level",
+        "crosslevel",
         "superelevation",
         "gauge",
+        "gage",
         "curvature",
         "degree_of_curve",
     ];
@@ -241,7 +245,9 @@ fn table_type(titles: &str) -> Option<FileType> {
         return Some(FileType::Results);
     }
     let is_track = |cell: &str| TRACK.iter().any(|name| cell.contains(name));
-    if any(&|cell| cell.starts_with("distance")) && any(&is_track) {
+    let is_place =
+        |cell: &str| cell == "mp" || ["distance", "milepost"].iter().any(|name| cell.starts_with(name));
+    if any(&is_place) && any(&is_track) {
         return Some(FileType::MeasuredTrack);
     }
     let axis = |name: &'static str| {
@@ -305,7 +311,7 @@ mod tests {
     #[test]
     fn input_files_are_recognized_by_their_beginning() {
         let page = format!("\u{feff}<!DOCTYPE html>{}", "x".repeat(1000));
-        let files: [(&[u8], Option<FileType>); 32] = [
+        let files: [(&[u8], Option<FileType>); 34] = [
             (b"[wedge]\ndamping = \"constant\"", Some(FileType::Case)),
             (b"wedge.angle = \"32 deg\"", Some(FileType::Case)),
             (b"# a [vary] study?\n[bolster]\n", Some(FileType::Case)),
@@ -337,6 +343,11 @@ mod tests {
                 b"distance [m]; left_profile [mm]\n ; up\n",
                 Some(FileType::MeasuredTrack),
             ),
+            (
+                b"Milepost,Gage,Left Prof 62\n100.0,56.5,0\n",
+                Some(FileType::MeasuredTrack),
+            ),
+            (b"MP,Speed\n1,2\n", None),
             (b"distance_ft,time_s,speed_mph\n0,0,1\n", Some(FileType::Results)),
             (b"distance_ft,speed_mph\n0,1\n", None),
             (b"# wheel\ny_gauge (in); z_down (in)\n", Some(FileType::Profile)),

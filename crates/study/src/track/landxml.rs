@@ -31,6 +31,8 @@ use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use wheelrail::track::{CenterLine, CurveElements, Segment, SpiralForm};
 
+use super::LONGEST;
+
 /// Most elements of an alignment, and most stations of cant.
 const MOST: usize = limits::TABLE_ROWS;
 /// Cant that counts as none, and as the same, m.
@@ -156,6 +158,14 @@ impl Alignment {
                 )
             })?;
             let end = at + length;
+            if end > LONGEST {
+                let found = format!("the alignment is longer than {} km", LONGEST / 1000.0);
+                return Err(wrong(
+                    own.line,
+                    found,
+                    "look at the unit of lengths, or divide the alignment",
+                ));
+            }
             let inside = [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| cant(at + share * length));
             let changes = inside.iter().any(|one| (one - inside[2]).abs() > SAME_CANT);
             match own.shape {

@@ -369,6 +369,11 @@ tangent = "120 m"
         &xml.replace("linearUnit=\"meter\"", ""),
         &["car.XML:3", "unit of lengths"],
     );
+    refused(
+        line,
+        &xml.replace("length=\"80\"", "length=\"8e8\""),
+        &["car.XML:11", "longer than 1000 km"],
+    );
     refused(line, "<LandXML/>", &["no alignment with geometry"]);
     refused(&format!("{line}signs = \"usual\"\n"), xml, &["signs"]);
     // Ends by coordinates that the track does not reach are doubted.

@@ -16,7 +16,7 @@
 //! | `grade` | rise by the distance | `up`, `down` |
 //!
 //! Places may be mileposts ([`super::stations`]), in miles or with feet beyond them (`milepost`,
-//! `milepost_offset`). A recording whose titles are others is read by [`NamedColumn`]s.
+//! `milepost_offset`). A recording whose titles are others is read by [`super::NamedColumn`]s.
 //!
 //! Other columns are left aside. Numbers have decimal points, or decimal commas between semicolons and tabs.
 //! Cells without a number, and rows that a regular recording lacks, are gaps: see [`Gap`]. Irregularities are
