@@ -4,8 +4,8 @@
 //! |---|---|
 //! | `.csv` | units and senses in the header, see below |
 //! | `.prw`, `.prr` | Simpack |
-//! | `.whl`, `.ban`, `.mpt` | MiniProf, see [`miniprof`] |
-//! | `.whe`, `.rai`, `.ral` | VAMPIRE, see [`vampire`] |
+//! | `.whl`, `.ban`, `.mpt` | MiniProf: a header of keys, eight lines of text, or rows alone |
+//! | `.whe`, `.rai`, `.ral` | VAMPIRE, both sides in one file |
 //!
 //! Letters of extensions may be capitals. CONTACT's lists of such files over distance or angle are read by
 //! [`SlicedProfile`](super::SlicedProfile).
