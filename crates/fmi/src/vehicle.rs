@@ -26,9 +26,12 @@ pub fn plant(case: &VehicleCase, driven: bool) -> Result<Plant, Error> {
             "FMUs are made of vehicles without a track; a car on a track is one with model = \"car\"",
         ));
     }
-    let moved = if driven { drivable(case) } else { case.clone() };
-    let vehicle = moved.vehicle().map_err(|error| Error::new(error.to_string()))?;
+    let made = |case: &VehicleCase| case.vehicle().map_err(|error| Error::new(error.to_string()));
+    let vehicle = made(case)?;
     let (entries, ports) = all(case, &vehicle);
+    // The columns are those of the case, whoever moves its bodies: others know nothing more.
+    let channels = vehicle.channels.clone();
+    let vehicle = if driven { made(&drivable(case))? } else { vehicle };
     let (system, initial) = (vehicle.system.clone(), vehicle.initial_state.clone());
     Ok(Plant {
         entries,
@@ -40,7 +43,7 @@ pub fn plant(case: &VehicleCase, driven: bool) -> Result<Plant, Error> {
                 system: &vehicle.system,
             };
             row.push(seen.time);
-            row.extend(vehicle.channels.iter().map(|channel| channel.value(&view)));
+            row.extend(channels.iter().map(|channel| channel.value(&view)));
         })),
         table_takes_rates: true,
         derailed: None,

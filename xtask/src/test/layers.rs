@@ -244,7 +244,7 @@ mod tests {
         );
         assert_eq!(found.len(), 2);
         assert!(
-            found[0].contains("`study` (layer 7, analysis), in a higher layer"),
+            found[0].contains("`study` (layer 8, analysis), in a higher layer"),
             "{found:?}"
         );
     }

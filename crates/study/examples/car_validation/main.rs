@@ -4,6 +4,7 @@
 
 mod amplitude;
 mod explained;
+mod hollow;
 mod onset;
 mod shared;
 
@@ -39,13 +40,14 @@ linear vehicles: [validation of wheelsets](validation-rolling.md).
 type Section = fn() -> Result<String, Failure>;
 
 fn main() -> Result<(), Failure> {
-    let sections: [Section; 13] = [
+    let sections: [Section; 14] = [
         hunting_over_speed,
         hunting_held,
         onset::of_treads,
         amplitude::critical_speeds,
         flange_contact,
         sides_in_curves,
+        hollow::wheels,
         turning_moment,
         rock_and_roll,
         bounce,
@@ -59,7 +61,7 @@ fn main() -> Result<(), Failure> {
         .and_then(|word| word.parse::<usize>().ok());
     if let Some(number) = chosen {
         // One section, to look at.
-        let section = sections.get(number).ok_or("there are sections 0 to 12")?;
+        let section = sections.get(number).ok_or("there are sections 0 to 13")?;
         println!("{}", section()?);
         return Ok(());
     }

@@ -1,7 +1,6 @@
 //! Onset of hunting of the empty car by measures, on perfect track and on track of FRA class 4, with new and
 //! worn treads. A second argument has speeds (mph): `car_validation 2 40,50,60`.
 
-use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
 use std::ops::ControlFlow;
 
@@ -10,32 +9,11 @@ use study::car::CarCase;
 use study::car::builtin;
 use study::car::onset::{MEASURES, Measure, OnTrack, OnsetSpeed, onset};
 use wheelrail::conicity::RollingRadiusDifference;
-use wheelrail::profile::nominal;
 
 use crate::INCH;
 use crate::shared::{Failure, MPH};
 
 const GRAVITY: f64 = 9.806_65;
-/// A hollow that wear has left in the nominal tread: its depth, its middle from the tape circle to the field
-/// side, half of its width, m. Guesses; narrower ones of this depth touch a round crown at two points.
-const HOLLOW: [f64; 3] = [2e-3, 5e-3, 50e-3];
-
-/// Returns the nominal AAR-1B with a hollow tread as a file of points.
-fn hollow() -> Result<String, Failure> {
-    let [depth, middle, half] = HOLLOW;
-    let mut text = "# made: nominal AAR-1B, worn hollow\ny [mm], z [mm]\n".to_owned();
-    for (_, point) in nominal::aar_1b()?.curve().sample(5e-4) {
-        let [y, z] = point.position;
-        let way = (y - middle) / half;
-        let worn = match way.abs() < 1.0 {
-            true => depth * libm::pow(libm::cos(FRAC_PI_2 * way), 2.0),
-            false => 0.0,
-        };
-        let _ = writeln!(text, "{}, {}", 1e3 * y, 1e3 * (z + worn));
-    }
-    Ok(text)
-}
-
 /// Returns the empty car on roller side bearings with a profile.
 fn car(profile: &str) -> Result<CarCase, Failure> {
     let overrides = [
@@ -46,14 +24,15 @@ fn car(profile: &str) -> Result<CarCase, Failure> {
     Ok(builtin::case_with("car_hunting_empty", &overrides)?)
 }
 
-/// Returns the equivalent conicity at an amplitude of 3 mm.
-fn conicity(case: &CarCase) -> Result<f64, Failure> {
+/// Returns the difference of the rolling radii of its wheelsets and their equivalent conicity at an amplitude
+/// of 3 mm.
+pub fn rolling(case: &CarCase) -> Result<(RollingRadiusDifference, f64), Failure> {
     let Wheels::OnRails(wheels) = &case.parameters.wheels else {
         return Err("its wheels have no profiles".into());
     };
-    let table = RollingRadiusDifference::of_positions(&wheels.geometry[0].sweep(8e-3, 200, true))?;
+    let table = RollingRadiusDifference::of_positions(&wheels.geometry[0].sweep(11e-3, 220, true))?;
     let found = table.equivalent_conicity(3e-3, 18.0 * INCH, wheels.tape_distance)?;
-    Ok(found.by_wavelength)
+    Ok((table, found.by_wavelength))
 }
 
 /// Returns a speed of onset in a table, mph.
@@ -77,21 +56,15 @@ pub fn of_treads() -> Result<String, Failure> {
          2,000 ft (limit {:.2} g, AAR M-1001,\nchapter XI, remembered), rms about the mean over 2 s of the \
          lateral acceleration of a truck's axles (0.30 g, 49 CFR 213.333, remembered), \
          amplitude\nof an axle between the rails, median of windows of 1.5 s (0.38 in, a guess: the \
-         flanges have 0.41 in). `worn hollow` \
-         is a made profile (guess): the nominal one with a\nhollow of 2 mm over 100 mm of its tread. \
-         Conicity: equivalent, at 3 mm.\n\n\
+         flanges have 0.41 in). Conicity: equivalent, at 3 mm.\n\n\
          | tread | conicity | track | speed, mph | deviation, g | truck's rms, g | amplitude, in \
          |\n|---|---|---|---|---|---|---|\n",
         Measure::Deviation.limit() / GRAVITY
     );
-    let folder = tempfile::tempdir()?;
-    let file = folder.path().join("hollow.csv");
-    std::fs::write(&file, hollow()?)?;
-    let made = file.display().to_string();
     let treads: [(&str, &str, &[f64]); 3] = [
         ("1:20", "aar_1b", &[55.0, 70.0]),
         ("1:10", "aar_1b_1:10", &[45.0, 60.0]),
-        ("worn hollow", &made, &[45.0]),
+        ("hollow 2 mm", "hollow_2mm", &[45.0]),
     ];
     let mut onsets = String::new();
     for (name, profile, speeds) in treads {
@@ -100,7 +73,7 @@ pub fn of_treads() -> Result<String, Failure> {
             None => speeds.to_vec(),
         };
         let case = car(profile)?;
-        let conicity = conicity(&case)?;
+        let (_, conicity) = rolling(&case)?;
         let speeds: Vec<f64> = speeds.iter().map(|own| own * MPH).collect();
         let found = onset(&case, &speeds, |_| ControlFlow::Continue(()))?;
         if let Some((track, speed, reason)) = found.failed() {

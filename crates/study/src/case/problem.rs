@@ -90,6 +90,16 @@ impl Problem {
         self
     }
 
+    /// Returns whether it is the same mistake of the same place.
+    fn is_same_mistake(&self, other: &Problem) -> bool {
+        let at = |own: &Problem| {
+            own.place
+                .as_ref()
+                .map(|at| (Arc::as_ptr(&at.source), at.span.clone()))
+        };
+        self.place.is_some() && at(self) == at(other) && self.label == other.label && self.help == other.help
+    }
+
     /// Returns the same mistake, shown where the text that led to it was written.
     pub(crate) fn moved_to(mut self, place: &TomlLocation) -> Self {
         if self.label.is_empty() {
@@ -226,8 +236,11 @@ impl Problems {
         Self::default()
     }
 
+    /// Adds a mistake, once: a value that several tables share is told at one of them.
     pub fn push(&mut self, problem: Problem) {
-        self.push_with(|| problem);
+        if !self.kept.iter().any(|own| own.is_same_mistake(&problem)) {
+            self.push_with(|| problem);
+        }
     }
 
     /// Adds a mistake that is described only if it is kept.

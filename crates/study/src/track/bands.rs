@@ -2,9 +2,11 @@
 //!
 //! The band-pass has -3 dB at both ends, falls with the fourth power of the wavelength ratio, and shifts
 //! nothing: `G(λ) = 1/(1 + a (λs/λ)⁴) · 1/(1 + a (λ/λl)⁴)`, `a = √2 - 1`, for the shortest and longest
-//! wavelengths λs, λl. Bands and order of the filter are remembered from EN 13848-1, not read there; D3 ends
+//! wavelengths λs, λl; of rows Δ apart tan(πΔ/λ) stands for 1/λ, which is more by a tenth at six rows a
+//! wavelength. Bands and order of the filter are remembered from EN 13848-1, not read there; D3 ends
 //! at 150 m here (profile; alignment may go to 200 m). The filter continues a track at its ends by
-//! reflection, so that values within one wavelength of them are uncertain.
+//! reflection, so that values within one longest wavelength of them are uncertain: deviations leave them out
+//! where [`SECTION`] remains.
 
 use crate::signal::LowPass;
 
@@ -39,7 +41,7 @@ pub const SECTION: f64 = 200.0;
 /// The standard deviations of values in a band.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BandDeviation {
-    /// Over the whole track, in the unit of the values.
+    /// Over the track without its uncertain ends, in the unit of the values.
     pub whole: f64,
     /// The largest over [`SECTION`], and the distance of the section's middle, m; that of the whole track if
     /// it is shorter.
@@ -81,16 +83,17 @@ pub fn deviation(values: &[f64], spacing: f64, band: Band) -> Option<BandDeviati
         (square - mean * mean).max(0.0).sqrt()
     };
     let rows = ((SECTION / spacing).round() as usize).clamp(1, count.max(1));
+    let ends = ((band.wavelengths[1] / spacing).ceil() as usize).min(count.saturating_sub(rows) / 2);
     let middle = |from: usize| (from as f64 + 0.5 * rows as f64) * spacing;
     let mut worst = [0.0; 2];
-    for from in 0..=count.saturating_sub(rows) {
+    for from in ends..=count.saturating_sub(rows + ends) {
         let own = over(from, (from + rows).min(count));
         if own > worst[0] {
             worst = [own, middle(from)];
         }
     }
     Some(BandDeviation {
-        whole: over(0, count),
+        whole: over(ends, count - ends),
         worst,
     })
 }
@@ -132,8 +135,9 @@ mod tests {
                 let passed = in_band(&sine(wavelength), 0.25, wavelengths).unwrap();
                 let middle = &passed[3000..5000];
                 let found = middle.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
-                let side = |ratio: f64| 1.0 / (1.0 + a * ratio.powi(4));
-                let expected = side(short / wavelength) * side(wavelength / long);
+                let tangent = |wavelength: f64| (0.5 * TAU * 0.25 / wavelength).tan();
+                let side = |of: f64, to: f64| 1.0 / (1.0 + a * (tangent(of) / tangent(to)).powi(4));
+                let expected = side(wavelength, short) * side(long, wavelength);
                 assert!(
                     (found - expected).abs() < 0.01,
                     "{name} {wavelength}: {found} {expected}"

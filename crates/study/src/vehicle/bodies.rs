@@ -3,6 +3,7 @@
 use quantity::Kind;
 use vehicle::RigidBody;
 
+use super::like;
 use crate::case::field::Reach;
 use crate::case::motion;
 use crate::case::problem::Problem;
@@ -15,8 +16,6 @@ const ANGLES: QuantityForm = (Kind::Angle, Range::Any, Reach::Signed(0.1));
 const SPEEDS: QuantityForm = (Kind::Speed, Range::Any, Reach::Signed(0.5));
 const TURNS: QuantityForm = (Kind::AngularSpeed, Range::Any, Reach::Signed(1.0));
 const SIZE: QuantityForm = (Kind::Length, Range::Positive, Reach::Positive);
-/// Key of what another body of the case gives.
-pub(super) const LIKE: &str = "like";
 
 /// Reads `[bodies.NAME]`.
 pub(super) fn all(r: &mut CaseReader<'_>) -> Vec<RigidBody> {
@@ -39,7 +38,9 @@ fn body(r: &mut CaseReader<'_>, name: &str) -> RigidBody {
         motion::SHAPES_WRITTEN
     );
     r.section(&path, &about);
-    r.also_known(LIKE);
+    if like::is_told(r, &path) {
+        return own;
+    }
     let comment = "of the center of gravity in the nominal layout";
     r.place("at", &mut own.place, comment);
     let comment = "of x, y, z, roll, pitch, yaw; the others are held. [] prescribes the motions below";

@@ -14,7 +14,7 @@ use vehicle::catalog::{
 };
 use wedge::parameters::Damping;
 
-use super::bodies::LIKE;
+use super::like;
 use crate::case::field::{Reach, Written};
 use crate::case::names::DAMPINGS;
 use crate::case::page::FRICTION;
@@ -127,8 +127,13 @@ type Known<'k> = (&'k [&'k str], &'static [OwnElement], &'k [CoilKind]);
 fn element(r: &mut CaseReader<'_>, name: &str, (bodies, own, coils): Known<'_>) -> Option<Element> {
     let path = format!("elements.{name}");
     r.section(&path, "An element. Forces are those on the body with end a.");
-    r.also_known(LIKE);
-    let kind = kind(r, &path, own)?;
+    if like::is_told(r, &path) {
+        return None;
+    }
+    let Some(kind) = kind(r, &path, own) else {
+        r.known_elsewhere();
+        return None;
+    };
     let comment = "the body with end a";
     let a = r.name_among("a", bodies, comment);
     let b = match kind {

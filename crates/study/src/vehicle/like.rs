@@ -1,12 +1,15 @@
-//! `like`: a body or an element takes what it does not give from another one.
+//! `like`: a body, an element, a wheelset or a truck takes what it does not give from another one.
 
 use vehicle::GROUND;
 
-use super::bodies::LIKE;
 use crate::case::problem::{Problem, Problems};
 use crate::case::tree::{NodeValue, TableNode};
+use crate::reader::CaseReader;
 
-/// Completes bodies and elements that are like others.
+/// Key of what another body, element, wheelset or truck of the case gives.
+const LIKE: &str = "like";
+
+/// Completes tables that are like others.
 pub(super) fn complete(tree: &mut TableNode, problems: &mut Problems) {
     for name in ["bodies", "elements", "wheelsets", "trucks"] {
         let Some(own) = tree.table(name).cloned() else {
@@ -30,6 +33,17 @@ pub(super) fn complete(tree: &mut TableNode, problems: &mut Problems) {
     }
 }
 
+/// Reads `like` in the current section, which stands at a path. Returns whether it could not be followed,
+/// which is told: then no more is said of what the section lacks.
+pub(super) fn is_told(r: &mut CaseReader<'_>, path: &str) -> bool {
+    r.also_known(LIKE);
+    let told = r.at(&format!("{path}.{LIKE}")).is_some();
+    if told {
+        r.known_elsewhere();
+    }
+    told
+}
+
 /// Returns a table with what those that it is like give, if it is like another one.
 fn followed(all: &TableNode, name: &str, of: &str, problems: &mut Problems) -> Option<TableNode> {
     let mut whole = all.table(name)?.clone();
@@ -44,7 +58,7 @@ fn followed(all: &TableNode, name: &str, of: &str, problems: &mut Problems) -> O
                 node.value.describe()
             );
             problems.push(Problem::new(message).at(&node.place).label("not a name"));
-            break;
+            return None;
         };
         if seen.contains(other) {
             // The first of a loop tells it.
@@ -58,7 +72,7 @@ fn followed(all: &TableNode, name: &str, of: &str, problems: &mut Problems) -> O
                 let help = "one of them must give all of its own values: leave its `like` out";
                 problems.push(Problem::new(message).at(&node.place).label("a loop").help(help));
             }
-            break;
+            return None;
         }
         let Some(table) = all.table(other) else {
             let known = all.entries.iter().map(|entry| entry.key.as_str());
@@ -77,13 +91,13 @@ fn followed(all: &TableNode, name: &str, of: &str, problems: &mut Problems) -> O
                     .label("no such table")
                     .help(help),
             );
-            break;
+            return None;
         };
         whole.complete_from(table);
         seen.push(other.clone());
         next = table.get(LIKE).cloned();
     }
-    // Read by nobody else.
+    // Where it stays a mistake was told: see `is_told`.
     whole.entries.retain(|entry| entry.key != LIKE);
     Some(whole)
 }

@@ -5,7 +5,7 @@ use quantity::Kind;
 use truck::Lading;
 use vehicle::{Description, OnTrack, RigidBody, TruckPart, WheelsetPart};
 
-use super::bodies::LIKE;
+use super::like;
 use crate::car::{sections, track as car_track, trucks, wheels};
 use crate::case::field::Reach;
 use crate::case::problem::Problem;
@@ -34,11 +34,12 @@ pub(super) fn parts(r: &mut CaseReader<'_>, bodies: &[RigidBody]) -> Parts {
         names: Vec::new(),
     };
     for name in r.names("wheelsets") {
-        r.section(
-            &format!("wheelsets.{name}"),
-            "A wheelset; [wheels] has its numbers.",
-        );
-        r.also_known(LIKE);
+        let path = format!("wheelsets.{name}");
+        r.section(&path, "A wheelset; [wheels] has its numbers.");
+        parts.names.push(name.to_owned());
+        if like::is_told(r, &path) {
+            continue;
+        }
         let mut x = 0.0;
         r.needed(
             "at",
@@ -46,7 +47,6 @@ pub(super) fn parts(r: &mut CaseReader<'_>, bodies: &[RigidBody]) -> Parts {
             &mut x,
             "along the track in the nominal layout, forward",
         );
-        parts.names.push(name.to_owned());
         parts.wheelsets.push(WheelsetPart {
             name: name.to_owned(),
             x,
@@ -59,7 +59,9 @@ pub(super) fn parts(r: &mut CaseReader<'_>, bodies: &[RigidBody]) -> Parts {
         let path = format!("trucks.{name}");
         let about = "A three-piece truck, with the keys of a car's.";
         let parameters = trucks::truck(r, &path, about, (Lading::Loaded, &coils), |r| {
-            r.also_known(LIKE);
+            if like::is_told(r, &path) {
+                return;
+            }
             r.needed(
                 "at",
                 PLACE,

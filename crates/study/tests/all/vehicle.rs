@@ -289,6 +289,28 @@ fn input_mistakes_have_place_and_remedy() {
     }
 }
 
+/// A mistake is told once: not again by those that are like its table, nor by what a wrong `like` or kind
+/// leaves unknown.
+#[test]
+fn input_one_mistake_is_told_once() {
+    let twin = "[elements.twin]\nlike = \"spring\"\nat_a = [\"9 in\", \"0 in\", \"9 in\"]\n";
+    let both = format!("{BLOCK}{SPRING}{twin}");
+    let texts = [
+        both.replace("\"100 lbf/in\"", "\"-100 lbf/in\""),
+        both.replace("\"spring\"\na =", "\"sprig\"\na ="),
+        both.replace("like = \"spring\"", "like = \"twin\""),
+        both.replace("like = \"spring\"", "like = \"sprung\""),
+        both.replace("like = \"spring\"", "like = 3"),
+        format!("{BLOCK}{SPRING}[bodies.other]\nlike = \"blok\"\n"),
+    ];
+    VehicleCase::parse("own.toml", &both, Path::new(""), &[]).unwrap();
+    for text in texts {
+        let error = VehicleCase::parse("own.toml", &text, Path::new(""), &[]).unwrap_err();
+        let count = error.problems().len();
+        assert_eq!(count, 1, "{:?}", miette::Report::new(error));
+    }
+}
+
 /// What nothing holds falls: told once, as a warning; a body on a spring is not warned of.
 #[test]
 fn input_a_body_that_nothing_holds_is_told() {

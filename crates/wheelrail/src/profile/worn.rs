@@ -1,13 +1,10 @@
 //! Worn wheels by name: AAR-1B with a hollow tread.
 //!
-//! The tread of the nominal [`aar_1b`](super::nominal::aar_1b) is worn by `c cos²(π (y - y0)/w)` over a
-//! width w of 70
-//! mm about y0, 5 mm on the field side of the tape circle, the flange is new. The depth c is the one that
-//! gives the
-//! hollow depth of the name, as [`WheelFigures`](super::WheelFigures) measures it: 2 or 4 mm. Hollow depths
-//! of this
-//! size are measured on freight wheels (5 mm and more are condemned, remembered); **width, place and form are
-//! guesses**, so that the name says how deep the wheel is hollow and no more.
+//! The tread of the nominal [`aar_1b`](super::nominal::aar_1b) is worn by `c cos²(π (y - y0)/w)` over a width
+//! w of 70 mm about y0, 5 mm on the field side of the tape circle, the flange is new. The depth c is the one
+//! that gives the hollow depth of the name, as [`WheelFigures`](super::WheelFigures) measures it: 2 or 4 mm.
+//! Hollow depths of this size are measured on freight wheels (5 mm and more are condemned, remembered);
+//! **width, place and form are guesses**, so that the name says how deep the wheel is hollow and no more.
 
 use std::f64::consts::PI;
 

@@ -2,8 +2,7 @@
 //!
 //! Four lines come first: `WHEELPROFILE` or `RAILPROFILE`; a title; `TREADDATUM` or `GAUGEPOINT` with
 //! `EUROPEAN`, `US1`, `US2` (rails: `US`) or `CUSTOM` and a length; `FLANGEBACK` or `GAUGE` with a length. A
-//! row
-//! has y and z of the left and y and z of the right profile, y to the right from the middle of the track.
+//! row has y and z of the left and y and z of the right profile, y to the right from the middle of the track.
 //! Lengths are mm; commas and spaces separate; after `!`, `"` and `%` comes a comment.
 //!
 //! | | EUROPEAN | US, US1 | US2 |
