@@ -103,7 +103,12 @@ pub fn deviation(values: &[f64], spacing: f64, band: Band) -> Option<BandDeviati
 #[must_use]
 pub(super) fn share_beyond(values: &[f64], spacing: f64, longest: f64) -> Option<f64> {
     let long = LowPass::new(spacing, 1.0 / (3.0 * longest)).ok()?.apply(values);
-    let size = |values: &[f64]| values.iter().map(|own| own * own).sum::<f64>().sqrt();
+    // Without the ends, where the continuation has long waves of its own.
+    let ends = ((3.0 * longest / spacing).ceil() as usize).min(values.len() / 4);
+    let size = |values: &[f64]| {
+        let middle = &values[ends..values.len() - ends];
+        middle.iter().map(|own| own * own).sum::<f64>().sqrt()
+    };
     let whole = size(values);
     (whole > 0.0).then(|| size(&long) / whole)
 }
