@@ -26,7 +26,7 @@ pub enum RunError {
     Car(#[from] car::BuildError),
     /// The description makes no vehicle.
     #[error(transparent)]
-    Vehicle(#[from] vehicle::VehicleError),
+    Vehicle(Box<vehicle::VehicleError>),
     /// A wheel has left its rail: the run ends there, with its results.
     #[error("{what}")]
     Derailed {
@@ -152,4 +152,10 @@ pub(crate) fn check_count(member: &'static str, count: u64) -> Result<(), RunErr
         return Ok(());
     }
     damaged(member, count, format!("at most {MAXIMUM_COUNT}"))
+}
+
+impl From<vehicle::VehicleError> for RunError {
+    fn from(error: vehicle::VehicleError) -> Self {
+        Self::Vehicle(Box::new(error))
+    }
 }

@@ -500,12 +500,7 @@ fn add_loads(model: &mut Model, number: usize, body: &RigidBody, on_track: bool)
 fn drawing(description: &Description, system: &System) -> Drawing {
     let mut drawing = Drawing::default();
     for (number, body) in system.bodies().iter().enumerate().skip(1) {
-        if !description
-            .on_track
-            .as_ref()
-            .is_none_or(|_| body.free == [true; 6])
-            && body.mass > 0.0
-        {
+        if description.on_track.is_some() && body.free != [true; 6] && body.mass > 0.0 {
             continue;
         }
         let own = description.bodies.get(number - 1);

@@ -24,9 +24,8 @@ pub enum VehicleError {
     Track(#[from] wheelrail::track::TrackError),
     /// A vehicle on a track has a body that is held or moved.
     #[error(
-        "{body} is not free in all six coordinates, but a body of a vehicle on a track runs along it: \
-         hold it by \
-         stiff elements instead"
+        "{body} is not free in all six coordinates, but a body of a vehicle on a track runs along it: hold \
+         it by stiff elements instead"
     )]
     Held {
         /// The body.

@@ -6,8 +6,7 @@
 //! - [`scene`]: what a run looks like: bodies, solids, coils, contacts; [`truck`] and [`half_truck`]: that of
 //!   a truck and of a half-truck, by what both have in common; [`rolling`]: track, wheels and contact patches
 //!   of all that rolls, [`wheelset`]: one wheelset, [`vehicle`]: bodies and elements of a user, [`car`]: a
-//! car of two trucks, [`mode_shape`]: a motion
-//!   about its steady running.
+//!   car of two trucks, [`mode_shape`]: a motion about its steady running.
 //!
 //! All numbers are in SI units; how they are shown in either system stands with them.
 

@@ -22,7 +22,8 @@ pub fn wheels() -> Result<String, Failure> {
          left wheel with the wheelset shifted to the right; positive steers.\nHunting: the empty car on \
          roller side bearings on the ramps of the first table.\n\n\
          | tread | conicity | difference at 3 mm, mm | at 6 mm | at 9 mm | flange to flange down to, mph | \
-         hunting dies at, mph | begins at, mph | largest amplitude, in |\n|---|---|---|---|---|---|---|---|---|\n"
+         hunting dies at, mph | begins at, mph | largest amplitude, in \
+         |\n|---|---|---|---|---|---|---|---|---|\n"
         .to_owned();
     let hunting = each(&TREADS, |tread| {
         let overrides = [
@@ -41,9 +42,9 @@ pub fn wheels() -> Result<String, Failure> {
     out.extend(hunting);
     out += "\nThe loaded car in 7.5° to the left with 4 in of superelevation (the regime `constant_curve`): \
             means of the last two seconds; forces of the leading\naxle spread the gauge.\n\n\
-            | tread | gauge, in | speed, mph | leading axle to the outside, in | its angle of attack, mrad | lateral \
-            force outer, kip | inner, kip | L/V outer | L/V inner | truck side outer | warp, front, mrad \
-            |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+            | tread | gauge, in | speed, mph | leading axle to the outside, in | its angle of attack, mrad | \
+            lateral force outer, kip | inner, kip | L/V outer | L/V inner | truck side outer | warp, front, \
+            mrad |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
     let curves = [
         (14.0, 56.5),
         (28.0, 56.5),
