@@ -62,7 +62,7 @@ def test_input_mistakes_are_case_errors() -> None:
         wl.TruckCase("truck_vertical_varied")
     with pytest.raises(wl.CaseError, match="single wedge"):
         wl.TruckCase.parse("[wedge]\nangle = '30 deg'")
-    with pytest.raises(wl.WedgelabError, match="TruckCase or CarCase is expected"):
+    with pytest.raises(wl.WedgelabError, match="CarCase or VehicleCase is expected"):
         wl.run_many([1])  # type: ignore[list-item]
 
 

@@ -199,10 +199,10 @@ def test_files_of_measuring_devices(tmp_path: Path) -> None:
     mini.write_text(f"ProgramName=MiniProf for Windows\n\n{rows}")
     csv = tmp_path / "worn.csv"
     csv.write_text("y [mm]; z_down [mm]\n" + rows.replace(" ", ";"))
-    options = {"tape_from_back": "3.0625 in"}
+    tape = "3.0625 in"
     for one in (
-        wr.Profile.read(mini, "wheel", **options),
-        wr.Profile.read(csv, "wheel", datum="flange_back", **options),
+        wr.Profile.read(mini, "wheel", tape_from_back=tape),
+        wr.Profile.read(csv, "wheel", datum="flange_back", tape_from_back=tape),
     ):
         assert abs(min(one.points()[1]) + 0.0254) < 3e-5
         assert one.notices == []
