@@ -331,13 +331,16 @@ export class RunView {
       mark.style.background = style;
       return element("span", {}, mark, text);
     };
-    this.key.append(
-      element("span", {}, this.bar, this.barText),
-      colour("normal force", NORMAL, "wl-stroke"),
-      ...(data.contacts.length > 0 || !data.patches
-        ? [colour("friction", FRICTION, "wl-stroke"), ...STATES.map(([name, style]) => colour(name, style, "wl-dot"))]
-        : [colour("creep force", FRICTION, "wl-stroke"), colour("contact patch", ELLIPSE, "wl-dot")]),
-    );
+    // Without contacts and patches there are no arrows to explain.
+    if (data.contacts.length > 0 || data.patches) {
+      this.key.append(
+        element("span", {}, this.bar, this.barText),
+        colour("normal force", NORMAL, "wl-stroke"),
+        ...(data.contacts.length > 0
+          ? [colour("friction", FRICTION, "wl-stroke"), ...STATES.map(([name, style]) => colour(name, style, "wl-dot"))]
+          : [colour("creep force", FRICTION, "wl-stroke"), colour("contact patch", ELLIPSE, "wl-dot")]),
+      );
+    }
     if (scene.scalePressure !== undefined) {
       const colours = element("i", { class: "wl-ramp" });
       colours.style.background = RAMP_STYLE;
