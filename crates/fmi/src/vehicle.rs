@@ -5,6 +5,7 @@
 
 use mechanics::body::COORDINATES;
 use mechanics::motion::Motion;
+use mechanics::output::Column;
 use mechanics::system::System;
 use study::vehicle::VehicleCase;
 use vehicle::{Vehicle, View};
@@ -42,8 +43,9 @@ pub fn plant(case: &VehicleCase, driven: bool) -> Result<Plant, Error> {
                 rates,
                 system: &vehicle.system,
             };
-            row.push(seen.time);
-            row.extend(channels.iter().map(|channel| channel.value(&view)));
+            for channels in &channels {
+                channels.read(&view, row);
+            }
         })),
         table_takes_rates: true,
         derailed: None,
@@ -112,20 +114,9 @@ fn all(case: &VehicleCase, vehicle: &Vehicle) -> (Entries, Ports) {
         indicators,
         ..Entries::default()
     };
-    let mut columns = vec![time()];
-    columns.extend(vehicle.channels.iter().map(|channel| channel.column.clone()));
+    let columns: Vec<Column> = vehicle.columns().cloned().collect();
     add_table((&mut entries, &mut ports), &columns, |_, _| true);
     (entries, ports)
-}
-
-fn time() -> mechanics::output::Column {
-    mechanics::output::Column {
-        name: "time".to_owned(),
-        kind: quantity::Kind::Time,
-        frame: "".into(),
-        reference: "".into(),
-        text: "time".to_owned(),
-    }
 }
 
 fn states(system: &System) -> Vec<QuantityEntry> {

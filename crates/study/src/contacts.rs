@@ -1,16 +1,38 @@
 //! Contact at each corner, or each point of a grid, of the wedges that are bodies in a run: taken along only
 //! where it is asked for, since a table of all corners has twice as many columns as the result.
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use mechanics::contact::ContactPoint;
 use mechanics::output::Column;
-use mechanics::system::{Observation, System};
+use mechanics::system::{ContactState, Observation, System};
 use quantity::Kind;
 use wedge::face::Grid;
 use wedge::outputs::CORNERS;
 
 use crate::run::{Recorder, Run, RunCase, RunError};
+
+/// Returns of each face how many of its points are open, stick and slip.
+pub(crate) fn in_words(system: &System, contact_states: &[u8]) -> BTreeMap<String, String> {
+    let mut states = contact_states
+        .iter()
+        .map(|state| ContactState::from_number(*state));
+    let faces = system.faces().iter();
+    faces
+        .map(|mounted| {
+            let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+            for state in states.by_ref().take(mounted.element.points.len()) {
+                *counts.entry(state.name()).or_default() += 1;
+            }
+            let words: Vec<String> = counts
+                .iter()
+                .map(|(name, count)| format!("{count} {name}"))
+                .collect();
+            (mounted.element.name.clone(), words.join(", "))
+        })
+        .collect()
+}
 
 /// A corner of a wedge at a face, or another point of its grid.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,6 +8,7 @@ use car::{Drive, Wheels, free_truck, massless_options, searches, upright};
 use mechanics::connection::Law as ConnectionLaw;
 use mechanics::friction::FrictionLaw;
 use mechanics::link::Marker;
+use mechanics::output::Column;
 use rolling::wheelset::{coordinate, leave_spin_uncontrolled};
 use truck::{CAR_BODY, Mount, MountedTruck, SIDE_FRAMES, WHEELSETS};
 use wheelrail::track::RailLines;
@@ -21,7 +22,7 @@ use quantity::STANDARD_GRAVITY;
 use crate::GROUND;
 use crate::body::RigidBody;
 use crate::catalog::{Element, Place};
-use crate::channel::Channel;
+use crate::channel::Channels;
 use crate::drawing::{Drawing, DrawnBody, DrawnElement, Solid};
 use crate::error::VehicleError;
 use crate::on_track::{Axle, OnTrack, add_wheels, wheelset_body};
@@ -75,7 +76,7 @@ pub struct Vehicle {
     /// The same without what bodies say of their start: at rest, or in the nominal layout.
     pub rest: Vec<f64>,
     /// What is seen of it: bodies, then elements.
-    pub channels: Vec<Channel>,
+    pub channels: Vec<Channels>,
     /// How it is drawn.
     pub drawing: Drawing,
     /// The warning of a start at rest that is nearly at rest.
@@ -87,7 +88,7 @@ pub struct Vehicle {
 /// A model in the nominal layout, with what is seen of it.
 struct Nominal {
     model: Model,
-    channels: Vec<Channel>,
+    channels: Vec<Channels>,
     axles: Vec<Axle>,
     /// The bodies that run along, with the number of the coordinate that is forward.
     running: Vec<(usize, usize)>,
@@ -119,8 +120,9 @@ impl Vehicle {
         let nominal = Nominal::new(bodies, description, description.on_track.as_ref(), false)?;
         let channels = nominal.channels;
         let mut names = BTreeSet::new();
-        if let Some(channel) = channels.iter().find(|own| !names.insert(&own.column.name)) {
-            let name = channel.column.name.clone();
+        let mut columns = channels.iter().flat_map(|own| &own.columns);
+        if let Some(column) = columns.find(|own| !names.insert(&own.name)) {
+            let name = column.name.clone();
             return Err(VehicleError::SameColumn { name });
         }
         let mut system = System::new(nominal.model)?;
@@ -162,6 +164,11 @@ impl Vehicle {
             start_warning,
             axles: nominal.axles,
         })
+    }
+
+    /// Returns the columns of its channels.
+    pub fn columns(&self) -> impl Iterator<Item = &Column> {
+        self.channels.iter().flat_map(|own| &own.columns)
     }
 
     /// Returns all derived quantities of its start.
@@ -291,12 +298,12 @@ impl Nominal {
         let mut all = vec![Body::prescribed(GROUND, Frame::fixed([0.0; 3], [0.0; 3]))];
         all.extend(bodies.iter().map(|own| turned(own.body())));
         let mut running: Vec<(usize, usize)> = (1..all.len()).map(|number| (number, 0)).collect();
-        let mut channels: Vec<Channel> = Vec::new();
+        let mut channels: Vec<Channels> = Vec::new();
         for (number, body) in (1..).zip(bodies) {
-            channels.extend(match &lines {
-                Some(lines) => seen::on_track(number, &body.name, body.place, lines),
-                None => seen::body_channels(number, body),
-            });
+            match &lines {
+                Some(lines) => channels.push(seen::on_track(number, &body.name, body.place, lines)),
+                None => channels.extend(seen::body_channels(number, body)),
+            }
         }
         let mut mountings = Vec::new();
         let mut wheelsets: Vec<(String, usize)> = Vec::new();
@@ -305,7 +312,7 @@ impl Nominal {
                 let first = all.len();
                 mountings.push(truck_bodies(own, on, &mut all, &mut running, &mut wheelsets));
                 for (number, body) in all.iter().enumerate().skip(first + 2) {
-                    channels.extend(seen::on_track(number, &body.name, nominal_center(body), lines));
+                    channels.push(seen::on_track(number, &body.name, nominal_center(body), lines));
                 }
             }
             for own in &on.wheelsets {
@@ -319,11 +326,11 @@ impl Nominal {
             let first = all.len();
             let places = element.ends.map(|end| end.at);
             for body in element.law.bodies(&element.name, places) {
-                let (number, place) = (all.len(), seen::center_of(&body));
-                channels.extend(match &lines {
-                    Some(lines) => seen::on_track(number, &body.name, place, lines),
-                    None => seen::own_channels(number, &body),
-                });
+                let (number, place) = (all.len(), nominal_center(&body));
+                match &lines {
+                    Some(lines) => channels.push(seen::on_track(number, &body.name, place, lines)),
+                    None => channels.extend(seen::own_channels(number, &body)),
+                }
                 running.push((number, 0));
                 all.push(turned(body));
             }
@@ -358,7 +365,7 @@ impl Nominal {
                     free_wedges(&mut model, first, &mounting.wedges);
                 }
                 let bolster = mounting.mount.bodies[truck::BOLSTER];
-                channels.extend(seen::of_truck(&own.name, bolster, &mounted, lines));
+                channels.push(seen::of_truck(&own.name, bolster, &mounted, lines));
                 numbers.extend([
                     bolster,
                     mounting.mount.bodies[SIDE_FRAMES],
@@ -367,7 +374,7 @@ impl Nominal {
             }
             for axle in &axles {
                 axle.add(&mut model);
-                channels.extend(seen::of_axle(axle));
+                channels.push(seen::of_axle(axle));
             }
             drive(&mut model, on, lines);
         }
@@ -541,7 +548,7 @@ fn drawing(description: &Description, system: &System) -> Drawing {
 }
 
 /// Returns the center of gravity of a body in the nominal layout, whose frame may be turned.
-fn nominal_center(body: &Body) -> [f64; 3] {
+pub(crate) fn nominal_center(body: &Body) -> [f64; 3] {
     let axes = mechanics::orientation::fixed(body.frame.orientation);
     let arm: Vector<f64> = axes.apply(Vector(body.center_of_gravity));
     (Vector(body.frame.origin) + arm).0

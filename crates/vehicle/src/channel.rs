@@ -21,46 +21,56 @@ pub struct View<'v> {
     pub system: &'v System,
 }
 
-/// A channel: a column, and how its value is read, SI.
+/// Channels that are read together: their columns, and how their values are read, SI.
 #[derive(Clone)]
-pub struct Channel {
-    /// Name, kind, axes, meaning.
-    pub column: Column,
-    read: Arc<dyn Fn(&View<'_>) -> f64 + Send + Sync>,
+pub struct Channels {
+    /// Of each its name, kind, axes, meaning.
+    pub columns: Vec<Column>,
+    read: Arc<Reading>,
 }
 
-impl fmt::Debug for Channel {
+/// Appends the values of channels.
+type Reading = dyn Fn(&View<'_>, &mut Vec<f64>) + Send + Sync;
+
+impl fmt::Debug for Channels {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Channel")
-            .field("column", &self.column)
+        f.debug_struct("Channels")
+            .field("columns", &self.columns)
             .finish_non_exhaustive()
     }
 }
 
-impl Channel {
-    /// Returns a channel whose components are along the fixed axes.
+impl Channels {
+    /// Returns channels of which one reading appends the values, in the order of the columns.
     pub fn new(
-        name: String,
-        kind: Kind,
-        text: String,
-        read: impl Fn(&View<'_>) -> f64 + Send + Sync + 'static,
+        columns: Vec<Column>,
+        read: impl Fn(&View<'_>, &mut Vec<f64>) + Send + Sync + 'static,
     ) -> Self {
         Self {
-            column: Column {
-                name,
-                kind,
-                frame: Cow::Borrowed("fixed: x forward, y to the left, z up"),
-                reference: Cow::Borrowed("nominal layout"),
-                text,
-            },
+            columns,
             read: Arc::new(read),
         }
     }
 
-    /// Returns its value, SI.
-    #[must_use]
-    pub fn value(&self, view: &View<'_>) -> f64 {
-        (self.read)(view)
+    /// Returns one channel by itself.
+    pub fn single(column: Column, read: impl Fn(&View<'_>) -> f64 + Send + Sync + 'static) -> Self {
+        Self::new(vec![column], move |view, row| row.push(read(view)))
+    }
+
+    /// Appends the values, SI.
+    pub fn read(&self, view: &View<'_>, row: &mut Vec<f64>) {
+        (self.read)(view, row);
+    }
+}
+
+/// Returns a column whose components are along the fixed axes.
+pub(crate) fn column(name: String, kind: Kind, text: String) -> Column {
+    Column {
+        name,
+        kind,
+        frame: Cow::Borrowed("fixed: x forward, y to the left, z up"),
+        reference: Cow::Borrowed("nominal layout"),
+        text,
     }
 }
 

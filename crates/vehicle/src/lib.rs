@@ -1,7 +1,7 @@
 //! Vehicles as data: bodies, and elements of a catalog between them.
 //!
 //! A [`Description`] says which bodies there are, what holds them together and how they start; [`Vehicle`] is
-//! the system of equations made of it, with what is seen of it ([`Channel`]) and how it is drawn
+//! the system of equations made of it, with what is seen of it ([`Channels`]) and how it is drawn
 //! ([`Drawing`]). Tables, pages, pictures and studies ask for these and know no kind of vehicle. An element
 //! of one's own is one [`catalog::CatalogElement`]; everything else follows.
 //!
@@ -45,7 +45,7 @@ mod vibration;
 
 pub use assemble::{Description, StartKind, Vehicle};
 pub use body::{BodyStart, RigidBody};
-pub use channel::{Channel, View};
+pub use channel::{Channels, View};
 pub use drawing::{Drawing, Drawn, DrawnBody, DrawnElement, Solid};
 pub use error::VehicleError;
 pub use on_track::{Axle, AxleState, OnTrack, TruckPart, WheelsetPart};

@@ -5,14 +5,16 @@ use std::sync::Arc;
 
 use mechanics::body::Body;
 use mechanics::orientation::fixed;
+use mechanics::output::Column;
 use mechanics::vector::{Matrix, Vector};
 use quantity::Kind;
 use truck::{MountedTruck, TruckFrame, WEDGE_NAMES};
 use wheelrail::track::{Line, RailLines, TrackSection};
 
+use crate::assemble::nominal_center;
 use crate::body::RigidBody;
-use crate::channel::{Channel, View};
-use crate::on_track::{Axle, section};
+use crate::channel::{Channels, View, column};
+use crate::on_track::{Axle, AxleState, section};
 
 /// Names of coordinates in columns, with what they measure.
 const COORDINATES: [(&str, &str); 6] = [
@@ -26,27 +28,22 @@ const COORDINATES: [(&str, &str); 6] = [
 
 /// Returns what is seen of a body: displacements of its center of gravity and rotations from the nominal
 /// layout, their rates, accelerations.
-pub(crate) fn body_channels(number: usize, body: &RigidBody) -> Vec<Channel> {
+pub(crate) fn body_channels(number: usize, body: &RigidBody) -> Vec<Channels> {
     let moves = std::array::from_fn(|k| body.moves(k));
     channels_of(number, &body.name, body.place, moves, !body.is_prescribed())
 }
 
 /// Returns the same of a body of an element's own.
-pub(crate) fn own_channels(number: usize, body: &Body) -> Vec<Channel> {
-    channels_of(number, &body.name, center_of(body), body.free, false)
+pub(crate) fn own_channels(number: usize, body: &Body) -> Vec<Channels> {
+    channels_of(number, &body.name, nominal_center(body), body.free, false)
 }
 
-/// Returns the center of gravity of a body in the nominal layout.
-pub(crate) fn center_of(body: &Body) -> [f64; 3] {
-    std::array::from_fn(|k| body.frame.origin[k] + body.center_of_gravity[k])
-}
-
-fn channels_of(number: usize, name: &str, place: [f64; 3], moves: [bool; 6], is_free: bool) -> Vec<Channel> {
+fn channels_of(number: usize, name: &str, place: [f64; 3], moves: [bool; 6], is_free: bool) -> Vec<Channels> {
     let mut all = Vec::new();
     let mut add = |suffix: &str, kind: Kind, text: String, read: Read| {
-        let mut channel = Channel::new(format!("{name}_{suffix}"), kind, format!("{name}: {text}"), read);
-        channel.column.reference = Cow::Borrowed("center of gravity");
-        all.push(channel);
+        let mut column = column(format!("{name}_{suffix}"), kind, format!("{name}: {text}"));
+        column.reference = Cow::Borrowed("center of gravity");
+        all.push(Channels::single(column, read));
     };
     for (k, (suffix, along)) in COORDINATES.into_iter().enumerate().filter(|(k, _)| moves[*k]) {
         let (kind, text) = match k {
@@ -163,96 +160,103 @@ const ON_TRACK: [(&str, Kind, &str); 10] = [
 ];
 
 /// Returns what is seen of a body on a track; `place` is its center of gravity in the nominal layout, m.
-pub(crate) fn on_track(number: usize, name: &str, place: [f64; 3], lines: &Arc<RailLines>) -> Vec<Channel> {
-    let height = place[2];
-    let channel = |(k, (ending, kind, text)): (usize, (&str, Kind, &str))| {
-        let lines = lines.clone();
-        let mut own = Channel::new(
-            format!("{name}_{ending}"),
-            kind,
-            format!("{name}: {text}"),
-            move |view| seen_on_track(view, number, height, &lines, k),
-        );
-        own.column.frame = Cow::Borrowed("track: along, to the left, up, at the body");
-        own.column.reference = Cow::Borrowed("center of gravity");
-        own
-    };
-    ON_TRACK.into_iter().enumerate().map(channel).collect()
+pub(crate) fn on_track(number: usize, name: &str, place: [f64; 3], lines: &Arc<RailLines>) -> Channels {
+    let columns = ON_TRACK.into_iter().map(|(ending, kind, text)| Column {
+        frame: Cow::Borrowed("track: along, to the left, up, at the body"),
+        reference: Cow::Borrowed("center of gravity"),
+        ..column(format!("{name}_{ending}"), kind, format!("{name}: {text}"))
+    });
+    let (height, lines) = (place[2], lines.clone());
+    Channels::new(columns.collect(), move |view, row| {
+        row.extend(seen_on_track(view, number, height, &lines));
+    })
 }
 
-fn seen_on_track(view: &View<'_>, number: usize, height: f64, lines: &RailLines, k: usize) -> f64 {
+/// Returns the values of [`ON_TRACK`].
+fn seen_on_track(view: &View<'_>, number: usize, height: f64, lines: &RailLines) -> [f64; 10] {
     let own = &view.seen.bodies[number];
     let at = section(lines, own);
     let of = |vector: Vector<f64>| at.of(vector.0);
-    match k {
-        0 => at.distance,
-        1 => of(own.velocity)[0],
-        2 => of(own.center_of_gravity - Vector(at.origin))[1],
-        3 => of(own.center_of_gravity - Vector(at.origin))[2] - height,
-        4..7 => {
-            let frame = fixed(view.system.bodies()[number].frame.orientation);
-            let turned: Matrix<f64> = own.rotation.times(frame.transpose());
-            let axes = [0, 1, 2].map(|axis| of(turned.column(axis)));
-            match k {
-                4 => libm::atan2(axes[1][2], axes[2][2]),
-                5 => libm::asin((-axes[0][2]).clamp(-1.0, 1.0)),
-                _ => libm::atan2(axes[0][1], axes[0][0]),
-            }
-        }
-        _ => {
-            let frame = fixed(view.system.bodies()[number].frame.orientation);
-            let own = [0, 1, 2].map(|axis| view.acceleration(number, axis));
-            of(frame.apply(Vector(own)))[k - 7]
-        }
-    }
+    let [_, y, z] = of(own.center_of_gravity - Vector(at.origin));
+    let frame = fixed(view.system.bodies()[number].frame.orientation);
+    let turned: Matrix<f64> = own.rotation.times(frame.transpose());
+    let axes = [0, 1, 2].map(|axis| of(turned.column(axis)));
+    let along_frame = [0, 1, 2].map(|axis| view.acceleration(number, axis));
+    let acceleration = of(frame.apply(Vector(along_frame)));
+    [
+        at.distance,
+        of(own.velocity)[0],
+        y,
+        z - height,
+        libm::atan2(axes[1][2], axes[2][2]),
+        libm::asin((-axes[0][2]).clamp(-1.0, 1.0)),
+        libm::atan2(axes[0][1], axes[0][0]),
+        acceleration[0],
+        acceleration[1],
+        acceleration[2],
+    ]
 }
+
+/// How a channel of a wheelset is read.
+type ReadAxle = fn(&AxleState) -> f64;
+
+const VERTICAL: &str = "vertical force of the wheel on its rail, square to the track, down";
+const LATERAL: &str = "lateral force of the wheel on its rail, positive where it spreads the gauge";
+const OVER: &str = "lateral over vertical force; 0 where the wheel carries nothing";
+
+/// Columns of a wheelset.
+const OF_AXLE: [(&str, Kind, &str, ReadAxle); 12] = [
+    ("distance", Kind::Distance, "distance along the track", |own| {
+        own.distance
+    }),
+    ("y", Kind::Length, "to the left of the center line", |own| {
+        own.lateral
+    }),
+    ("z", Kind::Length, "center above the nominal radius", |own| {
+        own.vertical_place
+    }),
+    (
+        "roll",
+        Kind::Angle,
+        "roll of the axle to the plane of the track, left side up",
+        |own| own.roll,
+    ),
+    ("spin", Kind::Angle, "angle of the spin", |own| own.spin),
+    ("yaw", Kind::Angle, "yaw to the track, to the left", |own| own.yaw),
+    ("left_vertical_force", Kind::Force, VERTICAL, |own| {
+        own.vertical[0]
+    }),
+    ("right_vertical_force", Kind::Force, VERTICAL, |own| {
+        own.vertical[1]
+    }),
+    ("left_lateral_force", Kind::Force, LATERAL, |own| own.spreading[0]),
+    ("right_lateral_force", Kind::Force, LATERAL, |own| {
+        own.spreading[1]
+    }),
+    ("left_l_over_v", Kind::Dimensionless, OVER, |own| l_over_v(own, 0)),
+    ("right_l_over_v", Kind::Dimensionless, OVER, |own| {
+        l_over_v(own, 1)
+    }),
+];
 
 /// Returns what is seen of a wheelset.
-pub(crate) fn of_axle(axle: &Axle) -> Vec<Channel> {
-    let mut all = Vec::new();
-    let mut add = |ending: &str, kind: Kind, text: &str, read: fn(&crate::AxleState) -> f64| {
-        let own = axle.clone();
-        let (name, text) = (
+pub(crate) fn of_axle(axle: &Axle) -> Channels {
+    let columns = OF_AXLE.map(|(ending, kind, text, _)| Column {
+        frame: Cow::Borrowed("track: along, to the left, up, at the wheelset"),
+        ..column(
             format!("{}_{ending}", axle.name),
+            kind,
             format!("{}: {text}", axle.name),
-        );
-        let mut channel = Channel::new(name, kind, text, move |view| read(&own.state(view.seen)));
-        channel.column.frame = Cow::Borrowed("track: along, to the left, up, at the wheelset");
-        all.push(channel);
-    };
-    add("distance", Kind::Distance, "distance along the track", |own| {
-        own.distance
+        )
     });
-    add("y", Kind::Length, "to the left of the center line", |own| {
-        own.lateral
-    });
-    let text = "center above the nominal radius";
-    add("z", Kind::Length, text, |own| own.vertical_place);
-    let text = "roll of the axle to the plane of the track, left side up";
-    add("roll", Kind::Angle, text, |own| own.roll);
-    add("spin", Kind::Angle, "angle of the spin", |own| own.spin);
-    add("yaw", Kind::Angle, "yaw to the track, to the left", |own| own.yaw);
-    let vertical = "vertical force of the wheel on its rail, square to the track, down";
-    let lateral = "lateral force of the wheel on its rail, positive where it spreads the gauge";
-    let over = "lateral over vertical force; 0 where the wheel carries nothing";
-    add("left_vertical_force", Kind::Force, vertical, |own| {
-        own.vertical[0]
-    });
-    add("right_vertical_force", Kind::Force, vertical, |own| {
-        own.vertical[1]
-    });
-    add("left_lateral_force", Kind::Force, lateral, |own| own.spreading[0]);
-    add("right_lateral_force", Kind::Force, lateral, |own| {
-        own.spreading[1]
-    });
-    add("left_l_over_v", Kind::Dimensionless, over, |own| l_over_v(own, 0));
-    add("right_l_over_v", Kind::Dimensionless, over, |own| {
-        l_over_v(own, 1)
-    });
-    all
+    let axle = axle.clone();
+    Channels::new(columns.to_vec(), move |view, row| {
+        let state = axle.state(view.seen);
+        row.extend(OF_AXLE.map(|(.., read)| read(&state)));
+    })
 }
 
-fn l_over_v(own: &crate::AxleState, side: usize) -> f64 {
+fn l_over_v(own: &AxleState, side: usize) -> f64 {
     match own.vertical[side] > 0.0 {
         true => own.spreading[side] / own.vertical[side],
         false => 0.0,
@@ -265,46 +269,34 @@ pub(crate) fn of_truck(
     bolster: usize,
     mounted: &MountedTruck,
     lines: &Arc<RailLines>,
-) -> Vec<Channel> {
-    let mut all = Vec::new();
-    let mut add =
-        |ending: &str, kind: Kind, text: &str, read: Box<dyn Fn(&truck::Loads) -> f64 + Send + Sync>| {
-            let (mounted, lines) = (mounted.clone(), lines.clone());
-            let (name, text) = (format!("{name}_{ending}"), format!("{name}: {text}"));
-            all.push(Channel::new(name, kind, text, move |view| {
-                let place = view.seen.bodies[bolster].center_of_gravity;
-                let at: TrackSection<f64> = lines.section(Line::Center, place.0);
-                let frame = TruckFrame {
-                    origin: Vector(at.origin),
-                    axes: Matrix(at.axes).transpose(),
-                };
-                read(&mounted.loads(view.seen, &frame))
-            }));
-        };
-    add(
+) -> Channels {
+    let own = |ending: &str, kind: Kind, text: &str| {
+        column(format!("{name}_{ending}"), kind, format!("{name}: {text}"))
+    };
+    let mut columns = vec![own(
         "warp_angle",
         Kind::Angle,
         "mean yaw of the side frames less that of the bolster",
-        Box::new(|own| own.warp_angle),
-    );
-    for (i, side) in ["left", "right"].into_iter().enumerate() {
+    )];
+    columns.extend(["left", "right"].map(|side| {
         let ending = format!("{side}_nest_vertical_force");
-        add(
-            &ending,
-            Kind::Force,
-            "load of a nest with its wedges",
-            Box::new(move |own| own.nest_vertical[i]),
-        );
-    }
-    for (i, wedge) in WEDGE_NAMES.into_iter().enumerate() {
-        let ending = format!("{wedge}_column_normal");
+        own(&ending, Kind::Force, "load of a nest with its wedges")
+    }));
+    columns.extend(WEDGE_NAMES.map(|wedge| {
         let text = format!("normal force of the column, {} wedge", wedge.replace('_', " "));
-        add(
-            &ending,
-            Kind::Force,
-            &text,
-            Box::new(move |own| own.wedges[i].column_normal),
-        );
-    }
-    all
+        own(&format!("{wedge}_column_normal"), Kind::Force, &text)
+    }));
+    let (mounted, lines) = (mounted.clone(), lines.clone());
+    Channels::new(columns, move |view, row| {
+        let place = view.seen.bodies[bolster].center_of_gravity;
+        let at: TrackSection<f64> = lines.section(Line::Center, place.0);
+        let frame = TruckFrame {
+            origin: Vector(at.origin),
+            axes: Matrix(at.axes).transpose(),
+        };
+        let loads = mounted.loads(view.seen, &frame);
+        row.push(loads.warp_angle);
+        row.extend(loads.nest_vertical);
+        row.extend((0..WEDGE_NAMES.len()).map(|i| loads.wedges[i].column_normal));
+    })
 }

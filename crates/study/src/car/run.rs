@@ -21,8 +21,9 @@ use super::static_table::static_table;
 use super::statistics::{self, Histories, SIDES, Statistics};
 use super::summary::{CarSummary, Derailed, SCHEMA};
 use super::{limits, locked_in, peaks};
+use crate::contacts;
 use crate::energy;
-use crate::finite::{find, is_finite};
+use crate::finite::not_finite;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::plausibility;
@@ -239,24 +240,7 @@ impl Recorder for CarRecorder {
     }
 
     fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
-        // Of each face: how many of its points are open, stick and slip.
-        let mut states = contact_states
-            .iter()
-            .map(|state| ContactState::from_number(*state));
-        let faces = self.table.car().system.faces().iter();
-        faces
-            .map(|mounted| {
-                let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-                for state in states.by_ref().take(mounted.element.points.len()) {
-                    *counts.entry(state.name()).or_default() += 1;
-                }
-                let words: Vec<String> = counts
-                    .iter()
-                    .map(|(name, count)| format!("{count} {name}"))
-                    .collect();
-                (mounted.element.name.clone(), words.join(", "))
-            })
-            .collect()
+        contacts::in_words(&self.table.car().system, contact_states)
     }
 }
 
@@ -358,14 +342,11 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         solver: run.integrator.statistics().clone(),
         assumptions: super::assumptions::of(&run.case),
     };
-    let energies = find(&summary.ledger.entries);
-    let residual = !is_finite(summary.ledger.largest_relative_residual);
-    let wrong = energies.map(|name| format!("`{name}`"));
-    if let Some(what) = wrong.or(residual.then(|| "the ledger's relative residual".to_owned()))
-        && summary.stopped.is_none()
+    if summary.stopped.is_none()
+        && let Some(reason) = not_finite(&summary.ledger, None)
     {
         summary.complete = false;
-        summary.stopped = Some(run.stopped(format!("{what} is not a finite number")));
+        summary.stopped = Some(run.stopped(reason));
     }
     let before = table.before();
     let mut values = table.into_values();

@@ -8,7 +8,7 @@ use mechanics::motion::Motion;
 use mechanics::output::Column;
 use mechanics::plausibility::PlausibilityFinding;
 use mechanics::quasi_static::QuasiStaticWedge;
-use mechanics::system::{ContactState, EnergyTermKind, System};
+use mechanics::system::{EnergyTermKind, System};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 use truck::{ControlCoil, Mount, Parameters, Truck, WEDGE_NAMES, held};
@@ -17,9 +17,9 @@ use wedge::parameters::Start;
 use super::TruckCase;
 use super::columns::TruckTable;
 use super::summary::{Cycles, SCHEMA, TruckSummary, warp_stiffnesses};
-use crate::contacts::{ContactTable, TakesCorners};
+use crate::contacts::{self, ContactTable, TakesCorners};
 use crate::energy;
-use crate::finite::{find, is_finite};
+use crate::finite::not_finite;
 use crate::jam::{self, JamMargins};
 use crate::losses::stroke::Stroke;
 use crate::losses::{LossCounts, LossRecorder};
@@ -254,24 +254,7 @@ impl Recorder for TruckRecorder {
     }
 
     fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
-        // Of each face: how many of its points are open, stick and slip.
-        let mut states = contact_states
-            .iter()
-            .map(|state| ContactState::from_number(*state));
-        let faces = self.table.system().faces().iter();
-        faces
-            .map(|mounted| {
-                let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-                for state in states.by_ref().take(mounted.element.points.len()) {
-                    *counts.entry(state.name()).or_default() += 1;
-                }
-                let words: Vec<String> = counts
-                    .iter()
-                    .map(|(name, count)| format!("{count} {name}"))
-                    .collect();
-                (mounted.element.name.clone(), words.join(", "))
-            })
-            .collect()
+        contacts::in_words(self.table.system(), contact_states)
     }
 }
 
@@ -340,14 +323,11 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
         statistics: run.integrator.statistics().clone(),
         assumptions: super::assumptions::of(&run.case),
     };
-    let energies = find(&summary.ledger.entries).or_else(|| find(&summary.cycles.losses));
-    let residual = !is_finite(summary.ledger.largest_relative_residual);
-    let wrong = energies.map(|name| format!("`{name}`"));
-    if let Some(what) = wrong.or(residual.then(|| "the ledger's relative residual".to_owned()))
-        && summary.stopped.is_none()
+    if summary.stopped.is_none()
+        && let Some(reason) = not_finite(&summary.ledger, Some(&summary.cycles.losses))
     {
         summary.complete = false;
-        summary.stopped = Some(run.stopped(format!("{what} is not a finite number")));
+        summary.stopped = Some(run.stopped(reason));
     }
     TruckResult {
         columns,

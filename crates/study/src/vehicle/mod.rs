@@ -148,8 +148,7 @@ fn doubts(r: &mut CaseReader<'_>, description: &Description) -> Vec<String> {
     if bodies.is_empty() && !r.has("bodies") {
         let problem = Problem::new("the vehicle has no bodies");
         let help = "write [bodies.NAME] with weight, inertia and place, and [elements.NAME] between \
-                    bodies and \
-                    the ground";
+                    bodies and the ground";
         r.problems.push(problem.help(help));
     }
     let mut doubts = Vec::new();

@@ -6,14 +6,15 @@ use integrate::{Integrator, Problem};
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
 use mechanics::plausibility::PlausibilityFinding;
-use mechanics::system::{ContactState, System};
+use mechanics::system::System;
 use quantity::{Kind, System as Units};
 use vehicle::{Axle, Vehicle, View};
 
 use super::VehicleCase;
 use super::summary::{SCHEMA, VehicleDerailed, VehicleSummary, VibrationSummary};
+use crate::contacts;
 use crate::energy;
-use crate::finite::{find, is_finite};
+use crate::finite::not_finite;
 use crate::plausibility;
 use crate::progress;
 use crate::result::RunResult;
@@ -82,8 +83,9 @@ impl VehicleRecorder {
         };
         self.row.clear();
         self.row.push(time);
-        self.row
-            .extend(self.vehicle.channels.iter().map(|channel| channel.value(&view)));
+        for channels in &self.vehicle.channels {
+            channels.read(&view, &mut self.row);
+        }
         seen
     }
 }
@@ -98,7 +100,7 @@ fn columns_of(vehicle: &Vehicle) -> Vec<Column> {
         text: text.to_owned(),
     };
     let mut columns = vec![plain("time", Kind::Time, "time")];
-    columns.extend(vehicle.channels.iter().map(|channel| channel.column.clone()));
+    columns.extend(vehicle.columns().cloned());
     columns.extend(LEDGER.map(|(name, text)| plain(name, Kind::Energy, text)));
     columns
 }
@@ -191,29 +193,8 @@ impl Recorder for VehicleRecorder {
     }
 
     fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
-        contacts_in_words(&self.vehicle.system, contact_states)
+        contacts::in_words(&self.vehicle.system, contact_states)
     }
-}
-
-/// Returns of each face how many of its points are open, stick and slip.
-pub(crate) fn contacts_in_words(system: &System, contact_states: &[u8]) -> BTreeMap<String, String> {
-    let mut states = contact_states
-        .iter()
-        .map(|state| ContactState::from_number(*state));
-    let faces = system.faces().iter();
-    faces
-        .map(|mounted| {
-            let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-            for state in states.by_ref().take(mounted.element.points.len()) {
-                *counts.entry(state.name()).or_default() += 1;
-            }
-            let words: Vec<String> = counts
-                .iter()
-                .map(|(name, count)| format!("{count} {name}"))
-                .collect();
-            (mounted.element.name.clone(), words.join(", "))
-        })
-        .collect()
 }
 
 fn output(mut run: Run<VehicleCase>, stopped: Option<Stopped>) -> VehicleResult {
@@ -280,14 +261,11 @@ fn output(mut run: Run<VehicleCase>, stopped: Option<Stopped>) -> VehicleResult 
         statistics: run.integrator.statistics().clone(),
         assumptions: assumptions(&run.case),
     };
-    let energies = find(&summary.ledger.entries);
-    let residual = !is_finite(summary.ledger.largest_relative_residual);
-    let wrong = energies.map(|name| format!("`{name}`"));
-    if let Some(what) = wrong.or(residual.then(|| "the ledger's relative residual".to_owned()))
-        && summary.stopped.is_none()
+    if summary.stopped.is_none()
+        && let Some(reason) = not_finite(&summary.ledger, None)
     {
         summary.complete = false;
-        summary.stopped = Some(run.stopped(format!("{what} is not a finite number")));
+        summary.stopped = Some(run.stopped(reason));
     }
     VehicleResult {
         columns,

@@ -28,6 +28,7 @@ use std::sync::Arc;
 use mechanics::body::Body;
 use mechanics::element::Element as Law;
 use mechanics::link::Marker;
+use mechanics::output::Column;
 use mechanics::system::Model;
 use mechanics::vector::Vector;
 use quantity::Kind;
@@ -41,7 +42,7 @@ pub use plate::{AxleAdapter, Bearing, Plate};
 pub use stop::AxisStop;
 pub use wedge::FrictionWedge;
 
-use crate::channel::{Channel, View};
+use crate::channel::{self, Channels, View};
 use crate::drawing::Drawn;
 
 /// One end of an element.
@@ -105,7 +106,7 @@ pub struct Place<'p> {
     /// The numbers of the bodies of its own.
     pub own: &'p [usize],
     /// What is seen of it.
-    pub channels: &'p mut Vec<Channel>,
+    pub channels: &'p mut Vec<Channels>,
 }
 
 impl Place<'_> {
@@ -116,6 +117,15 @@ impl Place<'_> {
         (body, self.model.bodies[body].marker(at, angles))
     }
 
+    /// Returns a column, whose name begins with that of the element.
+    fn column(&self, name: &str, kind: Kind, text: &str) -> Column {
+        channel::column(
+            format!("{}_{name}", self.name),
+            kind,
+            format!("{}: {text}", self.name),
+        )
+    }
+
     /// Adds a channel, whose name begins with that of the element.
     pub fn channel(
         &mut self,
@@ -124,8 +134,8 @@ impl Place<'_> {
         text: &str,
         read: impl Fn(&View<'_>) -> f64 + Send + Sync + 'static,
     ) {
-        let (name, text) = (format!("{}_{name}", self.name), format!("{}: {text}", self.name));
-        self.channels.push(Channel::new(name, kind, text, read));
+        let column = self.column(name, kind, text);
+        self.channels.push(Channels::single(column, read));
     }
 
     /// Adds a force element between markers.
@@ -141,21 +151,23 @@ impl Place<'_> {
         [a, b]: [(usize, Marker); 2],
         (along, about): ([bool; 3], [bool; 3]),
     ) {
-        for (k, axis) in ["x", "y", "z"].into_iter().enumerate().filter(|(k, _)| along[*k]) {
-            let own = law.clone();
+        let chosen = |chosen: [bool; 3]| (0..3).filter(move |k| chosen[*k]);
+        let forces = chosen(along).map(|k| {
+            let axis = ["x", "y", "z"][k];
             let text = format!("force on end A along {axis} of end B");
-            self.channel(&format!("force_{axis}"), Kind::Force, &text, move |view| {
-                own.evaluate(&view.relative(a, b)).force.0[k]
-            });
-        }
-        let names = ["roll", "pitch", "yaw"].into_iter().enumerate();
-        for (k, axis) in names.filter(|(k, _)| about[*k]) {
-            let own = law.clone();
+            self.column(&format!("force_{axis}"), Kind::Force, &text)
+        });
+        let moments = chosen(about).map(|k| {
+            let axis = ["roll", "pitch", "yaw"][k];
             let text = format!("moment on end A about the axis of {axis} of end B");
-            self.channel(&format!("moment_{axis}"), Kind::Moment, &text, move |view| {
-                own.evaluate(&view.relative(a, b)).moment.0[k]
-            });
-        }
+            self.column(&format!("moment_{axis}"), Kind::Moment, &text)
+        });
+        let (columns, law) = (forces.chain(moments).collect(), law.clone());
+        self.channels.push(Channels::new(columns, move |view, row| {
+            let wrench = law.evaluate::<f64>(&view.relative(a, b));
+            row.extend(chosen(along).map(|k| wrench.force.0[k]));
+            row.extend(chosen(about).map(|k| wrench.moment.0[k]));
+        }));
     }
 
     /// Adds channels of a face (its number): normal force, size of the friction force, and power lost in it.

@@ -54,10 +54,12 @@ pub fn value(vehicle: &mut Vehicle, name: &str, time: f64, x: &[f64]) -> f64 {
         rates: &rates,
         system: &vehicle.system,
     };
-    let channel = vehicle.channels.iter().find(|own| own.column.name == name);
-    channel
-        .unwrap_or_else(|| panic!("no channel {name}"))
-        .value(&view)
+    let mut row = Vec::new();
+    for channels in &vehicle.channels {
+        channels.read(&view, &mut row);
+    }
+    let place = vehicle.columns().position(|own| own.name == name);
+    row[place.unwrap_or_else(|| panic!("no channel {name}"))]
 }
 
 /// Integrates to these times; `see` gets the observation and the state at each.
