@@ -54,8 +54,7 @@ impl Mass {
 }
 
 /// The geometry of new wheels on new rails, and the profiles of a wheel and a rail. Each car begins with it;
-/// it
-/// takes 25 ms.
+/// it takes 25 ms.
 type NewWheels = (Arc<RigidWheelset>, [Arc<Profile>; 2]);
 static NEW: OnceLock<NewWheels> = OnceLock::new();
 

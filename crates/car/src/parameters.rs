@@ -51,8 +51,7 @@ pub enum Wheels {
 #[derive(Clone, Debug)]
 pub struct ProfiledWheels {
     /// Of each wheelset: profiles of both wheels and both rails, gauge and distance of the tape circles.
-    /// Alike
-    /// wheelsets share one.
+    /// Alike wheelsets share one.
     pub geometry: [Arc<RigidWheelset>; 4],
     /// Profiles of the left and the right wheel of each wheelset.
     pub wheels: [[Arc<Profile>; 2]; 4],

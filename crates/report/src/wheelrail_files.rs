@@ -50,8 +50,7 @@ pub fn write(positions: &[RigidPosition], out: &mut dyn Write) -> io::Result<()>
 }
 
 /// Returns the figure, of wheels and rails (left, right): profiles, rolling radius difference, contact
-/// angles, places, and equivalent conicity
-/// over the amplitude (m).
+/// angles, places, and equivalent conicity over the amplitude (m).
 #[must_use]
 pub fn figure(
     wheels: &[Profile; 2],

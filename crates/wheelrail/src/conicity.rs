@@ -149,8 +149,7 @@ impl RollingRadiusDifference {
 
     /// Returns the shift (m) nearest to zero at which the rolling radii are equal and from which the wheelset
     /// is led back, about which the kinematic motion of small amplitudes swings: `(r2 - r1) / (2 λ)` for
-    /// cones
-    /// of slope λ and radii r1 on the left, r2 on the right. None if there is no such shift.
+    /// cones of slope λ and radii r1 on the left, r2 on the right. None if there is no such shift.
     #[must_use]
     pub fn equilibrium(&self) -> Option<f64> {
         let count = self.shifts.len() - 1;

@@ -22,7 +22,6 @@ pub fn exhibits(result: &VehicleResult) -> Vec<Exhibit> {
         ("_pitch", Kind::Angle, "pitch"),
         ("_yaw", Kind::Angle, "yaw"),
     ];
-    let motion = coordinates.map(|(ending, kind, label)| (ending, kind, label));
     let forces = [
         ("_force", Kind::Force, "force of springs, dampers, stops"),
         ("_force_x", Kind::Force, "force along x"),
@@ -37,15 +36,14 @@ pub fn exhibits(result: &VehicleResult) -> Vec<Exhibit> {
             "motion",
             "motion of the bodies",
             "Displacements of centers of gravity and rotations from the nominal layout, over time.",
-            &motion,
+            &coordinates,
         ),
         figure(
             result,
             "forces",
             "forces of the elements",
             "Forces over time: of springs, dampers and stops positive in compression, of others along the \
-             axes \
-             of their end b.",
+             axes of their end b.",
             &forces,
         ),
     ]

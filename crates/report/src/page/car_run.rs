@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use study::car::summary::CarSummary;
 use study::summary::{RunSummary, SummaryValue};
 
-use super::{data_of, moving, run_page, shown_in, statics};
+use super::{data_of, ledger_note, moving, run_page, shown_in, statics};
 use crate::figures::car::{CarRun, exhibits};
 use crate::figures::digits;
 use crate::view::run::{Detail, Recording};
@@ -160,10 +160,6 @@ fn wedges(summary: &CarSummary) -> Markup {
                 }
             }
         }
-        p {
-            "Energy ledger: its largest residual at any output time is "
-            (format!("{:.1e}", summary.ledger.largest_relative_residual))
-            " of the largest of work, losses and change of stored energy. " (summary.solver.steps) " steps."
-        }
+        (ledger_note(summary.ledger.largest_relative_residual, summary.solver.steps))
     }
 }

@@ -6,7 +6,7 @@ use study::contacts::ContactTable;
 use study::half_truck::{HalfTruckCase, HalfTruckResult, HalfTruckSummary};
 use study::summary::SummaryValue;
 
-use super::{data_of, doubts, moving, run_page, shown_in};
+use super::{data_of, doubts, ledger_note, moving, run_page, shown_in};
 use crate::figures::{Exhibit, axis, curve};
 use crate::view::run::{Detail, Recording};
 use drawing::{Figure, Panel, distinct};
@@ -119,11 +119,6 @@ fn wedges(summary: &HalfTruckSummary) -> Markup {
                 }
             }
         }
-        p {
-            "Energy ledger: its largest residual at any output time is "
-            (format!("{:.1e}", summary.largest_relative_residual))
-            " of the largest of work, losses and change of stored energy. \
-             " (summary.statistics.steps) " steps."
-        }
+        (ledger_note(summary.largest_relative_residual, summary.statistics.steps))
     }
 }

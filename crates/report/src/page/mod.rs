@@ -100,6 +100,17 @@ fn run_page(
     document(&heading, &lead, None, main, Some(data))
 }
 
+/// A sentence on the energy ledger of a run: its relative residual, and the steps of the integrator.
+fn ledger_note(largest_relative_residual: f64, steps: u64) -> Markup {
+    html! {
+        p {
+            "Energy ledger: its largest residual at any output time is "
+            (format!("{largest_relative_residual:.1e}"))
+            " of the largest of work, losses and change of stored energy. " (steps) " steps."
+        }
+    }
+}
+
 /// Returns the part of the page of one run in which it is seen moving.
 fn moving(name: &str) -> Markup {
     html! {

@@ -9,7 +9,7 @@ use study::summary::SummaryValue;
 use study::truck::WEDGE_NAMES;
 use study::truck::summary::TruckSummary;
 
-use super::{data_of, doubts, moving, run_page, shown_in, side_by_side, statics};
+use super::{data_of, doubts, ledger_note, moving, run_page, shown_in, side_by_side, statics};
 use crate::figures::truck::{TruckRun, exhibits};
 use crate::run_folder::KeyNumber;
 use crate::view::run::{Detail, Recording};
@@ -143,11 +143,6 @@ fn wedges(summary: &TruckSummary) -> Markup {
                 }
             }
         }
-        p {
-            "Energy ledger: its largest residual at any output time is "
-            (format!("{:.1e}", summary.ledger.largest_relative_residual))
-            " of the largest of work, losses and change of stored energy. \
-             " (summary.statistics.steps) " steps."
-        }
+        (ledger_note(summary.ledger.largest_relative_residual, summary.statistics.steps))
     }
 }

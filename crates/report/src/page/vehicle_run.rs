@@ -5,7 +5,7 @@ use study::vehicle::VehicleCase;
 use study::vehicle::run::VehicleResult;
 use study::vehicle::summary::VehicleSummary;
 
-use super::{data_of, doubts, moving, run_page, shown_in};
+use super::{data_of, doubts, ledger_note, moving, run_page, shown_in};
 use crate::figures::digits;
 use crate::figures::vehicle::exhibits;
 use crate::view::run::{Detail, Recording};
@@ -102,11 +102,6 @@ fn energy(summary: &VehicleSummary) -> Markup {
                 }
             }
         }
-        p {
-            "Energy ledger at the end: its largest residual at any output time is "
-            (format!("{:.1e}", summary.ledger.largest_relative_residual))
-            " of the largest of work, losses and change of stored energy. \
-             " (summary.statistics.steps) " steps."
-        }
+        (ledger_note(summary.ledger.largest_relative_residual, summary.statistics.steps))
     }
 }

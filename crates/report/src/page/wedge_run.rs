@@ -2,7 +2,7 @@
 
 use maud::html;
 
-use super::{data_of, doubts, moving, run_page, shown_in, side_by_side};
+use super::{data_of, doubts, ledger_note, moving, run_page, shown_in, side_by_side};
 use crate::figures::CaseOutcome;
 use crate::figures::run::exhibits;
 use crate::run_folder::KeyNumber;
@@ -27,12 +27,7 @@ pub fn render(run: &CaseOutcome) -> Result<String, serde_json::Error> {
         section {
             h2 { "Key numbers" }
             (side_by_side::table(&[("value", numbers)], summary.units))
-            p {
-                "Energy ledger: its largest residual at any output time is "
-                (format!("{:.1e}", summary.ledger.largest_relative_residual))
-                " of the largest of work, losses and change of stored energy. "
-                (summary.solver.statistics.steps) " steps."
-            }
+            (ledger_note(summary.ledger.largest_relative_residual, summary.solver.statistics.steps))
         }
         section {
             h2 { "Figures" }

@@ -6,7 +6,7 @@ use study::wheelset::WheelsetCase;
 use study::wheelset::run::WheelsetResult;
 use study::wheelset::summary::WheelsetSummary;
 
-use super::{data_of, document, moving, shown_in};
+use super::{data_of, document, ledger_note, moving, shown_in};
 use crate::figures::wheelset::exhibits;
 use crate::view::run::{Detail, Recording};
 
@@ -94,11 +94,6 @@ fn numbers(summary: &WheelsetSummary) -> Markup {
                 @if hunting.damping_ratio < 0.0 { ": the wheelset hunts." } @else { ": it dies out." }
             }
         }
-        p {
-            "Energy ledger: its largest residual at any output time is "
-            (format!("{:.1e}", summary.ledger.largest_relative_residual))
-            " of the largest of work, losses and change of stored energy. \
-             " (summary.statistics.steps) " steps."
-        }
+        (ledger_note(summary.ledger.largest_relative_residual, summary.statistics.steps))
     }
 }

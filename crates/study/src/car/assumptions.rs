@@ -39,8 +39,7 @@ pub(crate) fn of_support(support: Option<&RailSupport>, own: &str, gravity: f64)
 }
 
 /// Appends the assumptions about the profiles of wheels and rails: of all where they are alike, else of each
-/// side or
-/// each wheel.
+/// side or each wheel.
 fn of_wheels(case: &CarCase, own: &ProfiledWheels, list: &mut Vec<String>) {
     let typed = |paths: &[String]| {
         let found = paths

@@ -4,6 +4,7 @@ use wheelrail::track::stations::place_of;
 use wheelrail::track::{ColumnKind, NamedColumn, Running, StationEquation};
 
 use super::length;
+use super::measured::FORMS;
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Names};
 use crate::case::tree::NodeValue;
@@ -13,7 +14,6 @@ pub(super) const KEYS: [&str; 4] = ["columns", "direction", "sides", "station_eq
 
 const DIRECTIONS: Names<bool> = &[("rising", false), ("falling", true)];
 const SIDES: Names<bool> = &[("rising", false), ("running", true)];
-const KINDS: [&str; 2] = ["space_curve", "mid_chord"];
 const MILE: f64 = 1609.344;
 
 /// How recordings are read.
@@ -116,7 +116,7 @@ fn named_column(column: &CaseSection<'_>, quantity: &str, problems: &mut Problem
     let (unit, sign) = (word("unit")?, word("sign")?);
     let kind = match column.table.get("kind") {
         None => ColumnKind::Unstated,
-        Some(_) => match super::irregularity::named(column, "kind", &KINDS, problems)? {
+        Some(_) => match super::irregularity::named(column, "kind", &FORMS, problems)? {
             "mid_chord" => ColumnKind::MidChord(length(column, "chord", false, problems)?),
             _ => ColumnKind::SpaceCurve,
         },

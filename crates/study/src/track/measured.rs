@@ -20,7 +20,8 @@ use crate::case::section::{CaseSection, Names};
 use crate::case::tables::NamedFile;
 use crate::case::tree::{NodeValue, TreeNode};
 
-const FORMS: [&str; 2] = ["space_curve", "mid_chord"];
+/// What the values of a column are.
+pub(super) const FORMS: [&str; 2] = ["space_curve", "mid_chord"];
 const SIGNS: Names<bool> = &[("row", false), ("usual", true)];
 const CANT_UNITS: Names<f64> = &[
     ("mm", 1e-3),

@@ -354,9 +354,8 @@ fn travel(amplitude: &str, frequency: &str) -> f64 {
 }
 
 /// Berghuvud and Stensson's finding: the suspension is locked below the natural frequency at small
-/// amplitudes. It locks while `m ω² A < F`: at 0.1 in up to 2.48 Hz, which is above the natural frequency
-/// of 2.03 Hz; at
-/// 0.3 in up to 1.43 Hz.
+/// amplitudes. It locks while `m ω² A < F`: at 0.1 in up to 2.48 Hz, which is above the natural frequency of
+/// 2.03 Hz; at 0.3 in up to 1.43 Hz.
 #[test]
 fn reproduction_a_suspension_locks_below_its_natural_frequency() {
     let weight = 61515.0;

@@ -193,8 +193,7 @@ fn input_what_cannot_be_run_is_refused() {
 }
 
 /// Cones of unlike radii without springs stay where the rolling radii are equal, at (r2 - r1)/(2 γ) to the
-/// left,
-/// and swing about that place from elsewhere, with the wavelength of their conicity.
+/// left, and swing about that place from elsewhere, with the wavelength of their conicity.
 #[test]
 fn analytic_unlike_radii_roll_beside_the_middle() {
     let slope = 0.05;

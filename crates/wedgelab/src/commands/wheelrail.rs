@@ -24,13 +24,10 @@ use crate::table::TerminalTable;
 /// contact; a wheelset that runs
 ///
 /// WHEEL is aar_1b, aar_1b_1:10 (any tread of at least 1:10), aar_1:20 (of before 1990), s1002, cylinder,
-/// cone_1:20 (any
-/// slope), or a file; RAIL is 136re (crown 10 in), 136re_8in, 60e1, or a file: CSV with units in its header,
-/// Simpack
-/// (.prw, .prr), MiniProf (.whl, .ban, .mpt), VAMPIRE (.whe, .rai), CONTACT's slices (.slcs, .slcw). Each
-/// wheel and
-/// each rail may have its own. The nominal profiles are from memory or from published functions, not from
-/// drawings.
+/// cone_1:20 (any slope), or a file; RAIL is 136re (crown 10 in), 136re_8in, 60e1, or a file: CSV with units
+/// in its header, Simpack (.prw, .prr), MiniProf (.whl, .ban, .mpt), VAMPIRE (.whe, .rai), CONTACT's slices
+/// (.slcs, .slcw). Each wheel and each rail may have its own. The nominal profiles are from memory or from
+/// published functions, not from drawings.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
@@ -250,8 +247,7 @@ fn inspected(figures: &WheelFigures) -> String {
 }
 
 /// Warns where rolling radii and conicity mean nothing: flanges that have no room, wheels on their flanges'
-/// tips or
-/// on the edges of their rims.
+/// tips or on the edges of their rims.
 fn doubt(read: &ProfiledPair, wheelset: &RigidWheelset, positions: &[RigidPosition]) {
     if let Some(clearance) = read.flangeway_clearance().filter(|own| *own < LEAST_CLEARANCE) {
         say(&format!(

@@ -46,8 +46,7 @@ pub(super) struct WheelRailPair {
     #[arg(long, value_name = "DEPTH", value_parser = length)]
     gauge_depth: Option<Quantity>,
     /// Distance of the tape circles of the wheels [default: that of the file; 59.5 in; 1500 mm for wheels
-    /// from
-    /// .prw and those whose tape circle lies 70 mm from the back of the flange]
+    /// from .prw and those whose tape circle lies 70 mm from the back of the flange]
     #[arg(long, value_name = "DISTANCE", value_parser = length)]
     tape_distance: Option<Quantity>,
     /// Nominal radius of the wheels [default: that of the file; 18 in; 460 mm for wheels from .prw]
@@ -235,17 +234,18 @@ impl WheelRailPair {
         let given = [self.left_wheel.is_some(), self.right_wheel.is_some()];
         let own = |side: usize, given: [bool; 2]| given[side].then_some(SIDES[side]);
         let left = self.wheel(names[0], &options(own(0, given)))?;
-        let right = match names[0] == names[1] && given[0] == given[1] && !given[0] {
-            true => left.clone(),
-            false => self.wheel(names[1], &options(own(1, given)))?,
+        let right = match given {
+            [false, false] => left.clone(),
+            _ => self.wheel(names[1], &options(own(1, given)))?,
         };
         let given = [self.left_rail.is_some(), self.right_rail.is_some()];
         let left_rail = self.rail(rail_names[0], &options(own(0, given)))?;
-        let right_rail = match rail_names[0] == rail_names[1] && !given[0] && !given[1] {
-            true => left_rail.clone(),
-            false => self.rail(rail_names[1], &options(own(1, given)))?,
+        let right_rail = match given {
+            [false, false] => left_rail.clone(),
+            _ => self.rail(rail_names[1], &options(own(1, given)))?,
         };
-        let (wheels, (rails, sliced)) = ([left, right], pair(left_rail, right_rail));
+        let wheels = [left, right];
+        let (rails, sliced) = ([left_rail.0, right_rail.0], [left_rail.1, right_rail.1]);
         let usual = |given: Option<f64>, stated: Option<f64>, simpack: bool, usual: [f64; 2]| {
             given.or(stated).unwrap_or(usual[usize::from(!simpack)])
         };
@@ -333,10 +333,6 @@ impl WheelRailPair {
 
 /// A rail, and the list it comes from with the place in it (m), if it comes from slices.
 type ReadRail = (Profile, Option<(SlicedProfile, f64)>);
-
-fn pair(left: ReadRail, right: ReadRail) -> ([Profile; 2], [Option<(SlicedProfile, f64)>; 2]) {
-    ([left.0, right.0], [left.1, right.1])
-}
 
 fn sliced(path: &Path, options: &ReadOptions) -> Result<SlicedProfile, Failure> {
     let sliced = SlicedProfile::read(path, options).map_err(|error| wrong(&error))?;

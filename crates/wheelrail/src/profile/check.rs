@@ -17,8 +17,7 @@ fn widths(kind: ProfileKind) -> ([f64; 2], &'static str) {
 
 /// Puts the datum in its place, orders points from the gauge side to the field side, takes away those closer
 /// than [`SMALLEST_SPACING`] to their neighbor and loops smaller than [`LOOP`], and checks number, size,
-/// kind,
-/// orientation and crossings.
+/// kind, orientation and crossings.
 pub(super) fn checked(points: &Points, kind: ProfileKind) -> Result<Points, ProfileError> {
     let name = &points.name;
     if let Some(found) = points.kind
@@ -269,8 +268,7 @@ pub(super) fn crossings(points: &Points) -> Result<(), ProfileError> {
 }
 
 /// Returns crossing chords by the smaller number: sorted by their smallest y, each is compared with those
-/// that
-/// begin before it ends. No more than [`MOST`] are looked for.
+/// that begin before it ends. No more than [`MOST`] are looked for.
 fn all_crossings(points: &[[f64; 2]]) -> Vec<Crossing> {
     let mut found = Vec::new();
     let chords: Vec<_> = points.windows(2).map(|pair| [pair[0], pair[1]]).collect();

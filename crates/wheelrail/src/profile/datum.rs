@@ -18,8 +18,7 @@ pub enum WheelDatum {
 pub const TAPE_FROM_BACK: f64 = 70e-3;
 
 /// Distances at which the tip of a flange lies from the tape circle, m, with reserve: 55 mm for S1002, 63 mm
-/// for
-/// AAR-1B, 49 mm where a flange is thick and its tip far out.
+/// for AAR-1B, 49 mm where a flange is thick and its tip far out.
 const TIP: [f64; 2] = [35e-3, 75e-3];
 
 /// Returns the points with z up, those of a wheel with the tape circle in y = 0, with z = 0 there if they

@@ -1,16 +1,13 @@
 //! Nominal profiles of Europe: wheel S1002, rail 60E1.
 //!
 //! **S1002** (EN 13715, UIC 510-2): polynomials of the tread and the throat, lines and arcs of the flange,
-//! from
-//! 70 mm on the flange's side to 60 mm on the field side of the tape circle. Source: the function `s1002` of
-//! a
-//! public program (courtesy of H. Netter, DLR), which several repositories on GitHub have; the standard
-//! itself
-//! was not at hand. It agrees with the file of the Manchester contact benchmark within 0.01 mm.
+//! from 70 mm on the flange's side to 60 mm on the field side of the tape circle. Source: the function
+//! `s1002` of a public program (courtesy of H. Netter, DLR), which several repositories on GitHub have; the
+//! standard itself was not at hand. It agrees with the file of the Manchester contact benchmark within 0.01
+//! mm.
 //!
 //! **60E1** (EN 13674-1; before: UIC60): crown of radius 300 mm, 20.456 mm wide, shoulders of 80 mm, corners
-//! of
-//! 13 mm, sides inclined by 1:20, 72 mm apart 14 mm below the top. Remembered; with them the shoulders end
+//! of 13 mm, sides inclined by 1:20, 72 mm apart 14 mm below the top. Remembered; with them the shoulders end
 //! 52.05 mm apart, as on the drawing, and the head agrees with the file of the Manchester contact benchmark
 //! within 0.05 mm. It stands inclined by 1:40 or 1:20.
 

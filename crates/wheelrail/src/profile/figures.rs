@@ -5,8 +5,7 @@
 //! | flange height Sh | from the tape circle down to the tip of the flange |
 //! | flange thickness Sd | from the back of the flange to its face, 10 mm below the tape circle |
 //! | qR | across the track, from the face 2 mm above the tip to the face 10 mm below the tape circle |
-//! | hollow depth | how far the tread falls towards the field side from its highest point between flange and
-//! there |
+//! | hollow depth | deepest fall of the tread towards the field side, from its highest point until there |
 //!
 //! Sh, Sd and qR are those of EN 15313 for a tape circle 70 mm from the back. The hollow depth is what a
 //! straight edge on the field side of the rim shows, parallel to the axle; new treads rise all the way.
@@ -59,15 +58,8 @@ impl Profile {
             .filter(|(_, point)| on_face(point.position))
             .map(|(_, point)| point.angle())
             .fold(0.0, f64::max);
-        // The highest point so far, from the face outwards, and the deepest fall behind it.
-        let tread = sample
-            .iter()
-            .map(|(_, point)| point.position)
-            .filter(|[y, _]| *y > face);
-        let (_, hollow) = tread.fold((f64::NEG_INFINITY, 0.0_f64), |(highest, fall), [_, z]| {
-            let highest = highest.max(z);
-            (highest, fall.max(highest - z))
-        });
+        let tread = sample.iter().map(|(_, point)| point.position);
+        let hollow = hollow_depth(tread.filter(|[y, _]| *y > face));
         Some(WheelFigures {
             height,
             thickness: self.flange_back().map(|back| face - back),
@@ -76,6 +68,16 @@ impl Profile {
             hollow,
         })
     }
+}
+
+/// Returns the hollow depth of a tread (m), whose points (m) run towards the field side: the deepest fall
+/// behind the highest point so far.
+pub(super) fn hollow_depth(tread: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let (_, fall) = tread.fold((f64::NEG_INFINITY, 0.0_f64), |(highest, fall), [_, z]| {
+        let highest = highest.max(z);
+        (highest, fall.max(highest - z))
+    });
+    fall
 }
 
 /// Returns the clearance (m) by which a wheelset can move from the middle of the track to each side until its

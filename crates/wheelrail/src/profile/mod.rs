@@ -157,8 +157,7 @@ impl Profile {
     }
 
     /// Returns the profile of lines and arcs that join tangentially, from the point of the first element
-    /// nearest to
-    /// `start` (m) to the point of the last one nearest to `end`; see [`chain`](mod@chain).
+    /// nearest to `start` (m) to the point of the last one nearest to `end`; see [`chain`](mod@chain).
     ///
     /// # Errors
     /// The elements do not join, or the profile crosses itself.

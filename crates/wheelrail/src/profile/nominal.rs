@@ -187,9 +187,8 @@ pub fn aar_1b_with_tread(run: f64) -> Result<Profile, ProfileError> {
     })
 }
 
-/// Returns the nominal AAR wheel 1:20 of before 1990, with narrow flange: a face of 70° and one throat
-/// radius of
-/// 3/4 in; see the head of this module for the source of each number.
+/// Returns the nominal AAR wheel 1:20 of before 1990, with narrow flange: a face of 70° and one throat radius
+/// of 3/4 in; see the head of this module for the source of each number.
 ///
 /// # Errors
 /// None that a user can cause.

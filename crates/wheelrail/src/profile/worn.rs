@@ -8,6 +8,7 @@
 
 use std::f64::consts::PI;
 
+use super::figures::hollow_depth;
 use super::{Points, Profile, ProfileError, ProfileKind, nominal};
 
 /// Width of the worn tread and the place of its middle, m; guesses.
@@ -43,17 +44,7 @@ pub fn hollow(depth: f64) -> Result<Profile, ProfileError> {
         });
         worn.collect()
     };
-    // How far the tread falls behind its highest point grows with the wear.
-    let fall = |points: &[[f64; 2]]| {
-        let (_, fall) = points
-            .iter()
-            .fold((f64::NEG_INFINITY, 0.0_f64), |(highest, fall), [_, z]| {
-                let highest = highest.max(*z);
-                (highest, fall.max(highest - z))
-            });
-        fall
-    };
-    // Behind the tip of the flange: its back falls, too.
+    // The hollow depth grows with the wear. It counts behind the tip of the flange, whose back falls too.
     let tip = sample
         .iter()
         .enumerate()
@@ -62,7 +53,7 @@ pub fn hollow(depth: f64) -> Result<Profile, ProfileError> {
     let (mut low, mut high) = (0.0, 3.0 * depth + WIDTH / 10.0);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        *(if fall(&worn(middle)[tip..]) < depth {
+        *(if hollow_depth(worn(middle).into_iter().skip(tip)) < depth {
             &mut low
         } else {
             &mut high

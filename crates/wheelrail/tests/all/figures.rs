@@ -24,9 +24,8 @@ fn apart(from: &Profile, to: &Profile, chosen: impl Fn([f64; 2]) -> bool) -> f64
         .fold(0.0, f64::max)
 }
 
-/// The figures of the AAR-1B from its dimensions: the face of 75° goes through 1 5/32 in from the back at
-/// 5/8 in
-/// below the tape circle, the tip is 1 in below it.
+/// The figures of the AAR-1B from its dimensions: the face of 75° goes through 1 5/32 in from the back at 5/8
+/// in below the tape circle, the tip is 1 in below it.
 #[test]
 fn analytic_figures_of_the_nominal_wheel() {
     for (wheel, angle) in [
@@ -56,8 +55,7 @@ fn analytic_figures_of_the_nominal_wheel() {
 }
 
 /// S1002's flange: 28 mm high, 32.5 mm thick, qR of 10.8 mm, a face of 70° (EN 13715, EN 15313; remembered).
-/// Where
-/// the face joins its arcs, splines of points are up to 0.2° steeper.
+/// Where the face joins its arcs, splines of points are up to 0.2° steeper.
 #[test]
 fn reproduction_figures_of_s1002() {
     for wheel in [

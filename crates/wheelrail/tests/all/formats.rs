@@ -24,9 +24,8 @@ const LAYOUT: Layout = Layout {
 };
 
 /// Points (mm) of a wheel with a tread of 1:20 and a flange of 28 mm, y from the tape circle to the field
-/// side
-/// and z up, from the field side to the flange: a tread up to -38 mm, a face of 70° and a tip of radius 12
-/// mm.
+/// side and z up, from the field side to the flange: a tread up to -38 mm, a face of 70° and a tip of radius
+/// 12 mm.
 fn wheel() -> Vec<[f64; 2]> {
     let mut points: Vec<[f64; 2]> = (0..=196)
         .map(|i| 60.0 - 0.5 * f64::from(i))
@@ -520,8 +519,7 @@ fn input_mistakes_in_other_formats_are_reported_with_place() {
 }
 
 /// A cylinder on the left and a cone of 1:20 on the right: the difference of the radii is 0.05 y, half of
-/// that
-/// of two cones.
+/// that of two cones.
 #[test]
 fn analytic_conicity_of_unlike_wheels() {
     let (cylinder, cone) = (

@@ -77,8 +77,7 @@ impl Points {
 }
 
 /// Returns axis, sign and unit of a column's title, and whether it counts from the back of the flange; none
-/// if
-/// it is another column.
+/// if it is another column.
 fn column(cell: &str) -> Option<(usize, f64, Option<&str>, bool)> {
     let cell = cell.trim().trim_matches('"').trim();
     let (title, unit) = match cell.find(['[', '(']) {
