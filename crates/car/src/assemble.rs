@@ -22,7 +22,7 @@ use rolling::track::{RailSupport, rail_body};
 use rolling::wheel::{Search, WheelOnRail};
 use rolling::wheelset::{WheelsetPlace, leave_spin_uncontrolled, marker};
 use truck::{Bolster, Mount, MountedTruck, WedgeKind, WedgeLoads};
-use wheelrail::contact::{ContactPair, ContactTable, Side};
+use wheelrail::contact::{ContactPair, ContactTable, Side, VaryingRail};
 use wheelrail::track::RailLines;
 
 use crate::body::{Carried, Pose, angles};
@@ -153,7 +153,8 @@ impl Car {
         let (poses, internal, start_warning, before_shaking) = match parameters.start.kind {
             StartKind::Nominal => (nominal.poses(), Vec::new(), None, None),
             StartKind::Equilibrium => {
-                let found = at_rest(parameters, &carried, &searches, offsets)?;
+                let standing = standing_searches(&parameters.wheels, &searches)?;
+                let found = at_rest(parameters, &carried, &standing, offsets)?;
                 (found.poses, Vec::new(), found.warning, None)
             }
             StartKind::Shaken => {
@@ -220,7 +221,14 @@ pub fn searches(wheels: &Wheels) -> Result<Vec<[Search; 2]>, BuildError> {
     let Wheels::OnRails(wheels) = wheels else {
         return Ok(Vec::new());
     };
-    let search = |pair: &ContactPair| -> Result<Search, BuildError> {
+    let over = match wheels.geometry.first() {
+        Some(first) => first.rails_over(wheels.rails_over.each_ref().map(Option::as_deref))?,
+        None => [None, None],
+    };
+    let search = |pair: &ContactPair, over: &Option<Arc<VaryingRail>>| -> Result<Search, BuildError> {
+        if let Some(rail) = over {
+            return Ok(Search::Exact(Arc::new(pair.on(rail.clone()))));
+        }
         Ok(match wheels.tables {
             false => Search::Exact(Arc::new(pair.clone())),
             true => Search::Table(Arc::new(ContactTable::new(pair.clone(), OVERLAP)?)),
@@ -234,10 +242,21 @@ pub fn searches(wheels: &Wheels) -> Result<Vec<[Search; 2]>, BuildError> {
         let [left, right] = own.pairs();
         searches.push(match same {
             Some(same) => searches[same].clone(),
-            None => [search(left)?, search(right)?],
+            None => [search(left, &over[0])?, search(right, &over[1])?],
         });
     }
     Ok(searches)
+}
+
+/// Returns the searches of a car that stands: `running` are those where it runs, on rails that may change
+/// along the track.
+fn standing_searches(wheels: &Wheels, running: &[[Search; 2]]) -> Result<Vec<[Search; 2]>, BuildError> {
+    match wheels {
+        Wheels::OnRails(own) if own.rails_over.iter().any(Option::is_some) => {
+            searches(&Wheels::OnRails(own.standing()))
+        }
+        _ => Ok(running.to_vec()),
+    }
 }
 
 /// Returns a body that does not spin with its reference frame turned, so that its angles are heading, pitch,

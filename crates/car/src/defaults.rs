@@ -91,6 +91,7 @@ impl ProfiledWheels {
             geometry: [0; 4].map(|_| geometry.clone()),
             wheels: [[0; 2]; 4].map(|sides| sides.map(|_| wheel.clone())),
             rails: [0; 2].map(|_| rail.clone()),
+            rails_over: [None, None],
             tape_distance: nominal::TAPE_DISTANCE,
             tables: false,
             law: ContactLaw {

@@ -1,5 +1,6 @@
 //! When a wheel has left its rail.
 
+use wheelrail::profile::SlicedProfile;
 use wheelrail::track::Track;
 
 use crate::loads::Loads;
@@ -35,9 +36,14 @@ impl Derailment {
     }
 
     /// Returns the first wheel from the front that has left its rail; `heights` are those of the axles at the
-    /// start, m.
+    /// start, m, and `over` rails whose sections change along the track.
     #[must_use]
-    pub fn of(loads: &Loads, track: &Track, heights: [f64; 4]) -> Option<Self> {
+    pub fn of(
+        loads: &Loads,
+        track: &Track,
+        over: [Option<&SlicedProfile>; 2],
+        heights: [f64; 4],
+    ) -> Option<Self> {
         loads.axles.iter().enumerate().find_map(|(axle, own)| {
             let sunk = heights[axle] - own.height;
             // Most axles are nowhere near: where the rails lie takes a sum over the waves of their spectra.
@@ -46,7 +52,8 @@ impl Derailment {
             }
             let [left, right] = track.rails(own.distance);
             let (to_left, to_right) = (own.lateral - left.lateral[0], right.lateral[0] - own.lateral);
-            let sunk = sunk + 0.5 * (left.vertical[0] + right.vertical[0]);
+            let rise = over.map(|rail| rail.map_or(0.0, |rail| rail.top_at(own.distance)));
+            let sunk = sunk + 0.5 * (left.vertical[0] + rise[0] + right.vertical[0] + rise[1]);
             let (side, beyond) = if to_left > to_right {
                 (0, to_left)
             } else {

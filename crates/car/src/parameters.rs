@@ -11,7 +11,7 @@ use rolling::track::RailSupport;
 use rolling::wheelset::WheelsetBody;
 use truck::{RigidBody, WedgeKind};
 use wheelrail::contact::{ContactLaw, LinearWheelset};
-use wheelrail::profile::Profile;
+use wheelrail::profile::{Profile, SlicedProfile};
 use wheelrail::track::Track;
 use wheelrail::wheelset::RigidWheelset;
 
@@ -57,12 +57,26 @@ pub struct ProfiledWheels {
     pub wheels: [[Arc<Profile>; 2]; 4],
     /// Profiles of the left and the right rail.
     pub rails: [Arc<Profile>; 2],
+    /// Rails whose sections change along the track, left and right. The car comes to rest on `rails`, which
+    /// these are where it starts.
+    pub rails_over: [Option<Arc<SlicedProfile>>; 2],
     /// Distance of the tape circles, m.
     pub tape_distance: f64,
     /// True if patches come from tables: faster, for motion on treads only.
     pub tables: bool,
     /// Friction, creep law and damping of the contacts.
     pub law: ContactLaw,
+}
+
+impl ProfiledWheels {
+    /// Returns the same on rails that do not change along the track.
+    #[must_use]
+    pub fn standing(&self) -> Self {
+        Self {
+            rails_over: [None, None],
+            ..self.clone()
+        }
+    }
 }
 
 /// Speed control of a car.

@@ -109,6 +109,7 @@ fn shaking(parameters: &Parameters) -> Result<Parameters, BuildError> {
     own.start = Start::at(reach + 1.0, SPEED);
     own.drive = Drive::Held { gain: GAIN };
     if let Wheels::OnRails(wheels) = &mut own.wheels {
+        *wheels = wheels.standing();
         // Tables have no flanges.
         wheels.tables = false;
     }
@@ -201,7 +202,7 @@ fn run(own: &Parameters) -> Result<(Car, Vec<Pose>, Vec<f64>), BuildError> {
             next += LOOK;
             let seen = system.observe(integrator.time(), integrator.x());
             let loads = car.loads(&seen, &rates);
-            if let Some(left) = Derailment::of(&loads, &own.track, heights) {
+            if let Some(left) = Derailment::of(&loads, &own.track, [None; 2], heights) {
                 let words = left.words(&format!("{:.1} m", left.distance));
                 return Err(fails(integrator.time(), words));
             }

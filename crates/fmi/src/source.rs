@@ -232,8 +232,9 @@ impl Source {
             }
         };
         let mut files = vec![(name.to_owned(), text.into_bytes())];
-        for (name, path) in named {
-            files.push((name, limits::read(&path, limits::TEXT_FILE)?));
+        for file in named {
+            let bytes = limits::read(&file.path, limits::TEXT_FILE)?;
+            files.push((file.name.clone(), file.content(bytes)));
         }
         Ok(files)
     }

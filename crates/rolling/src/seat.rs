@@ -39,8 +39,9 @@ impl WheelOnRail {
             }
         });
         let Some((_, profile)) = most else {
-            let [low, high] = pair.rail_range();
-            let touch = pair.touch(&self.placed(motion).pose);
+            let pose = self.placed(motion).pose;
+            let [low, high] = pair.rail_range(pose.along);
+            let touch = pair.touch(&pose);
             return match touch {
                 Some(touch) if (low..=high).contains(&touch.place[1]) => Seat::OnRail,
                 _ => Seat::OffRail,

@@ -12,6 +12,9 @@
 //! 3. Patches, normal forces with damping and creep forces ([`ContactLaw::on_wheel`]), and their wrench about
 //!    A.
 //!
+//! Where the rail's section changes along the track, that at the distance of the foot counts, in plan along
+//! the center line.
+//!
 //! The spin enters by its rate only, since a wheel is a body of revolution.
 //!
 //! **Energy.** Stored is `Σ 2/5 k d^2.5` at the pose. What the elastic normal forces take and the energy does
@@ -116,6 +119,7 @@ fn pose_in<S: Real>(section: &TrackSection<S>, side: Side, center: [S; 3], axle:
     WheelPose {
         center: [y, z],
         axle: side.mirrored(axle),
+        along: section.distance,
     }
 }
 

@@ -110,6 +110,7 @@ impl OnTrack {
                 center_line,
                 irregularities: Vec::new(),
             },
+            wheels: self.wheels.standing(),
             drive: Drive::Coasting,
             distance: middle,
             speed: 0.0,

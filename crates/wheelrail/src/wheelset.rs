@@ -8,10 +8,12 @@
 //! positive to the left and are measured at that height, where flanges meet rails; the roll is positive with
 //! the right side down.
 
-use crate::contact::{ContactPair, RigidTouch, Side, WheelPose};
+use std::sync::Arc;
+
+use crate::contact::{ContactPair, RigidTouch, Side, VaryingRail, WheelPose};
 use crate::hertz::Material;
 use crate::loaded::Seat;
-use crate::profile::{Profile, ProfileError, check_gauge};
+use crate::profile::{Profile, ProfileError, SlicedProfile, check_gauge};
 
 /// Largest roll that is looked for, rad.
 const LARGEST_ROLL: f64 = 0.3;
@@ -37,6 +39,8 @@ pub struct RigidWheelset {
     layout: Layout,
     /// Distances of the origins of the rails' profiles from the middle of the track, m.
     origins: [f64; 2],
+    /// Heights of the rails' tops above the origins of their profiles, m.
+    tops: [f64; 2],
 }
 
 /// A position in which both wheels touch.
@@ -95,8 +99,9 @@ impl RigidWheelset {
             }
         }
         check_gauge(wheels, rails, tape_distance, gauge, gauge_depth)?;
+        let tops = rails.map(|rail| rail.top()[1]);
         let side = |i: usize| -> Result<(ContactPair, f64), ProfileError> {
-            let rail = rails[i].moved([0.0, -rails[i].top()[1]]);
+            let rail = rails[i].moved([0.0, -tops[i]]);
             let origin = 0.5 * gauge - rail.gauge_point(gauge_depth);
             Ok((ContactPair::new(wheels[i], radii[i], &rail, material)?, origin))
         };
@@ -105,7 +110,26 @@ impl RigidWheelset {
             pairs: [left, right],
             layout,
             origins: [left_origin, right_origin],
+            tops,
         })
+    }
+
+    /// Returns rails that change along the track, prepared for the search; their sections have the origins of
+    /// the rails of [`RigidWheelset::new`].
+    ///
+    /// # Errors
+    /// A section is no rail with its datum.
+    pub fn rails_over(
+        &self,
+        rails: [Option<&SlicedProfile>; 2],
+    ) -> Result<[Option<Arc<VaryingRail>>; 2], ProfileError> {
+        let over = |i: usize| -> Result<Option<Arc<VaryingRail>>, ProfileError> {
+            let placed = rails[i].map(|rail| rail.moved([0.0, -self.tops[i]]));
+            placed
+                .map(|rail| VaryingRail::new(&rail).map(Arc::new))
+                .transpose()
+        };
+        Ok([over(0)?, over(1)?])
     }
 
     /// Returns the pairs of wheel and rail, left and right.

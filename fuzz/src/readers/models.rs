@@ -71,6 +71,7 @@ fn one_wheelset() -> Option<Wheelset> {
     Some(Wheelset {
         name: "wheelset".to_owned(),
         wheels: [nominal::aar_1b().ok()?, nominal::aar_1b().ok()?],
+        rails_over: [None, None],
         rails: [rail.clone(), rail],
         radii: [0.4572; 2],
         layout: Layout {

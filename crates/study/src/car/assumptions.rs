@@ -9,8 +9,8 @@ use truck::{Wedge, WedgeKind};
 use wheelrail::contact::{ContactLaw, CreepLaw};
 use wheelrail::profile::Profile;
 
-use super::CarCase;
 use super::statistics::Rules;
+use super::{CarCase, rails};
 use crate::truck::assumptions::of_kinds;
 use crate::wedge_faces;
 
@@ -71,6 +71,7 @@ fn of_wheels(case: &CarCase, own: &ProfiledWheels, list: &mut Vec<String>) {
             }
         }
     }
+    list.extend(rails::over_in_words(&own.rails_over));
     let [left, right] = &own.rails;
     if same(left, right) {
         let paths = ["rails.left.profile", "rails.profile"].map(str::to_owned);

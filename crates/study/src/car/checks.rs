@@ -7,6 +7,7 @@ use truck::SideBearing;
 use wheelrail::track::CenterLine;
 
 use super::lading::LadingKind;
+use super::rails;
 use crate::case::Simulation;
 use crate::case::problem::Problem;
 use crate::geometry;
@@ -31,6 +32,9 @@ pub(super) fn all(
     balance(r, parameters, lading);
     overlap(r, parameters);
     way(r, parameters, simulation);
+    if let Wheels::OnRails(wheels) = &parameters.wheels {
+        rails::begin_behind(r, wheels, parameters.start.distance + parameters.reach());
+    }
     let reaches = reach(r, parameters);
     let shakes = shaking(r, parameters);
     if let (true, true, Err(error)) = (reaches, shakes, parameters.check()) {

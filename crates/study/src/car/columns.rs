@@ -1,10 +1,13 @@
 //! The columns of a car's results.
 
-use car::{BuildError, Car, Derailment, Loads, Parameters};
+use std::sync::Arc;
+
+use car::{BuildError, Car, Derailment, Loads, Parameters, Wheels};
 use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
 use quantity::Kind;
 use truck::{HALVES, WEDGE_NAMES, WedgeKind, WedgeLoads};
+use wheelrail::profile::SlicedProfile;
 use wheelrail::track::Track;
 
 use super::derailment;
@@ -17,6 +20,8 @@ pub struct CarTable {
     columns: Columns,
     static_loads: [[f64; 2]; 4],
     track: Track,
+    /// Rails whose sections change along the track.
+    over: [Option<Arc<SlicedProfile>>; 2],
     /// Heights of the axles at the start, m.
     heights: [f64; 4],
     wedges_at_start: [[WedgeLoads; 4]; 2],
@@ -38,6 +43,10 @@ impl CarTable {
             heights: loads.axles.map(|axle| axle.height),
             wedges_at_start: loads.trucks.map(|truck| truck.wedges),
             track: parameters.track.clone(),
+            over: match &parameters.wheels {
+                Wheels::OnRails(own) => own.rails_over.clone(),
+                Wheels::Linear { .. } => [None, None],
+            },
             car,
             columns,
             static_loads,
@@ -97,7 +106,8 @@ impl CarTable {
 impl CarTable {
     /// Returns the first wheel from the front that has left its rail.
     pub(super) fn left(&self, loads: &Loads) -> Option<Derailment> {
-        Derailment::of(loads, &self.track, self.heights)
+        let over = self.over.each_ref().map(Option::as_deref);
+        Derailment::of(loads, &self.track, over, self.heights)
     }
 
     /// Returns in words which wheel has left its rail at an observation, if one has.

@@ -1,20 +1,82 @@
 //! A case with the files that it names, as they lie together in one folder.
 
-use std::ops::Range;
-use std::path::{Path, PathBuf};
-
 use super::CarCase;
 use crate::case::field::quoted;
 use crate::case::problem::TomlSource;
 use crate::case::tables::NamedFile;
 use crate::case::tree::{self, NodeValue, TableEntry};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// A file that lies beside a packed case.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PackedFile {
+    /// Its name from the folder of the case.
+    pub name: String,
+    /// The place where it lies.
+    pub path: PathBuf,
+    /// The files that it names itself: as it calls them, and as they are called beside it.
+    renamed: Vec<(String, String)>,
+}
+
+impl PackedFile {
+    /// Returns what is packed of what the file holds: a list of sections names its files anew.
+    #[must_use]
+    pub fn content(&self, bytes: Vec<u8>) -> Vec<u8> {
+        if self.renamed.is_empty() {
+            return bytes;
+        }
+        let text = String::from_utf8_lossy(&bytes);
+        let lines = text.lines().map(|line| {
+            let quoted = |(old, new): &(String, String)| {
+                let forms = ['\'', '"'].map(|quote| format!("{quote}{old}{quote}"));
+                let form = forms.iter().find(|form| line.contains(form.as_str()))?;
+                Some(line.replacen(form.as_str(), &format!("'{new}'"), 1))
+            };
+            self.renamed
+                .iter()
+                .find_map(quoted)
+                .unwrap_or_else(|| line.to_owned())
+                + "\n"
+        });
+        lines.collect::<String>().into_bytes()
+    }
+}
+
+/// The files of a packed case, each once.
+#[derive(Default)]
+struct Files {
+    packed: Vec<PackedFile>,
+}
+
+impl Files {
+    /// Packs a file that is typed so under a key; returns its name.
+    fn add(&mut self, key: &str, typed: &str, path: &Path) -> String {
+        if let Some(known) = self.packed.iter().find(|own| own.path == path) {
+            return known.name.clone();
+        }
+        let ending = Path::new(typed).extension().and_then(|ending| ending.to_str());
+        let ending = ending.unwrap_or("csv").to_ascii_lowercase();
+        let name = format!(
+            "files/{}_{}.{ending}",
+            self.packed.len() + 1,
+            key.replace('.', "_")
+        );
+        self.packed.push(PackedFile {
+            name: name.clone(),
+            path: path.to_owned(),
+            renamed: Vec::new(),
+        });
+        name
+    }
+}
 
 impl CarCase {
     /// Returns the text of the case in which profiles and measured tables are named `files/...`, and these
-    /// files: their names from the folder of the case, and the places where they lie. A case that names no
-    /// files is [`CarCase::to_toml_embedded`]. What is packed once more has the same names.
+    /// files, with those that lists of sections name. A case that names no files is
+    /// [`CarCase::to_toml_embedded`]. What is packed once more has the same names.
     #[must_use]
-    pub fn packed(&self) -> (String, Vec<(String, PathBuf)>) {
+    pub fn packed(&self) -> (String, Vec<PackedFile>) {
         let mut text = self.to_toml_embedded().to_owned();
         let mut named = Vec::new();
         // The text is one that this program wrote.
@@ -24,29 +86,29 @@ impl CarCase {
             }
         }
         named.sort_by_key(|(_, _, span)| span.start);
-        let mut packed: Vec<(String, PathBuf)> = Vec::new();
+        let mut files = Files::default();
         let mut spans: Vec<(Range<usize>, String)> = Vec::new();
         for (key, typed, span) in named {
             let same = |own: &&NamedFile| own.key == key && own.typed == typed;
             let Some(file) = self.files.iter().find(same) else {
                 continue;
             };
-            let known = packed.iter().find(|(_, path)| *path == file.path);
-            let name = known.map(|(name, _)| name.clone()).unwrap_or_else(|| {
-                let ending = Path::new(&file.typed)
-                    .extension()
-                    .and_then(|ending| ending.to_str());
-                let ending = ending.unwrap_or("csv").to_ascii_lowercase();
-                let name = format!("files/{}_{}.{ending}", packed.len() + 1, key.replace('.', "_"));
-                packed.push((name.clone(), file.path.clone()));
-                name
+            let name = files.add(key, &typed, &file.path);
+            let listed = file.listed.iter().map(|(own, path)| {
+                let beside = files.add("rails.section", own, path);
+                let beside = beside.strip_prefix("files/").unwrap_or(&beside).to_owned();
+                (own.clone(), beside)
             });
+            let renamed: Vec<(String, String)> = listed.collect();
+            if let Some(packed) = files.packed.iter_mut().find(|own| own.name == name) {
+                packed.renamed = renamed;
+            }
             spans.push((span, quoted(&name)));
         }
         for (span, name) in spans.into_iter().rev() {
             text.replace_range(span, &name);
         }
-        (text, packed)
+        (text, files.packed)
     }
 }
 

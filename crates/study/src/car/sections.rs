@@ -8,7 +8,7 @@ use rolling::track::RailSupport;
 use super::checks;
 use super::lading::{self, LadingKind};
 use super::statistics::Rules;
-use super::{track, trucks, wheels};
+use super::{rails, track, trucks, wheels};
 use crate::case::field::{Reach, Written, quoted};
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Names, Range, quantity};
@@ -75,7 +75,7 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
         parameters.track = read.track.clone();
         parameters.support = rail_support(&read.support, parameters.gravity);
     }
-    let rails = wheels::rails(r);
+    let rails = rails::rails(r);
     let of_wheels = wheels::wheels(r, &mut parameters, rails, sprung);
     let nothing_to_raise = raised.and_then(|height| lading::raise(r, &mut parameters, height));
     speed(r, &mut parameters);

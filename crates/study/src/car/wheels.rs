@@ -1,4 +1,4 @@
-//! The sections `[rails]` and `[wheels]`: profiles, gauge, wheelsets, creep.
+//! The section `[wheels]`: wheelsets, profiles, creep.
 
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -12,20 +12,18 @@ use wheelrail::creep::polach;
 use wheelrail::hertz::Material;
 use wheelrail::profile::figures::LEAST_CLEARANCE;
 use wheelrail::profile::{
-    Profile, ProfileError, ProfileKind, ReadOptions, WheelDatum, flangeway_clearance, names, nominal,
+    Profile, ProfileError, ProfileKind, ReadOptions, WheelDatum, flangeway_clearance, nominal,
 };
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
-use crate::case::field::{Reach, Written};
+use super::profiles::{DEVIATION, NamedProfile, SIDES, named, named_or, profile, wrong};
+use super::rails::Rails;
+use crate::case::field::Reach;
 use crate::case::problem::Problem;
 use crate::case::section::{Names, Range};
-use crate::case::tables::NamedFile;
-use crate::reader::schema::Form;
 use crate::reader::{CaseReader, LENGTH, QuantityForm};
 
 const INCH: f64 = 0.0254;
-/// Largest distance of splines from the points of a file, m.
-const DEVIATION: f64 = 0.0008 * INCH;
 const STEEL: Material = Material {
     youngs_modulus: 207e9,
     poisson: 0.28,
@@ -48,101 +46,6 @@ const CREEPS: Names<Creep> = &[
     ("kalker", Creep::Kalker),
     ("frictionless", Creep::Frictionless),
 ];
-
-/// Rails as read: profiles (left, right), gauge, its depth; what is doubtful about them.
-pub(crate) struct Rails {
-    profiles: Option<[Arc<Profile>; 2]>,
-    gauge: f64,
-    gauge_depth: f64,
-    doubts: Vec<String>,
-}
-
-/// A profile as named, with the full path of the key that names it.
-#[derive(Clone, Debug, PartialEq)]
-struct NamedProfile {
-    path: String,
-    name: String,
-}
-
-/// Sides in paths.
-const SIDES: [&str; 2] = ["left", "right"];
-
-/// Reads `[rails]`.
-pub(crate) fn rails(r: &mut CaseReader<'_>) -> Rails {
-    r.section(
-        "rails",
-        "The rails. [rails.left] and [rails.right] take profile and inclination of one.",
-    );
-    let comment = "\"136re\" (nominal, from memory), \"136re_8in\", \"60e1\", or a file: CSV with units, \
-                   Simpack, \
-                   MiniProf, VAMPIRE";
-    let both = named(r, "rails", "136re", comment);
-    let range = Range::Between(-0.5, 0.5, "between -0.5 and 0.5: a slope");
-    let reach = Reach::Between(0.0, 0.05);
-    let comment = "towards the track's center, 1:40; 0 for profiles from files, which mostly have it";
-    let usual = |name: &str| match names::rail(name) {
-        Ok(Some((_, usual))) => usual,
-        _ => 0.0,
-    };
-    let mut inclination = usual(&both.name);
-    r.number("inclination", range, reach, &mut inclination, comment);
-    let own_inclination = r.gives("inclination");
-    let mut gauge = 56.5 * INCH;
-    r.quantity("gauge", LENGTH, &mut gauge, "between the gauge sides");
-    let mut gauge_depth = nominal::GAUGE_DEPTH;
-    let comment = "below the datum of the rail, z = 0 of its file, where gauge is measured";
-    r.quantity("gauge_depth", LENGTH, &mut gauge_depth, comment);
-    let mut deviation = DEVIATION;
-    let form: QuantityForm = (Measure::Length, Range::NotNegative, Reach::FromZero(1e-4));
-    let comment = "how far a spline may lie from the points of a file";
-    r.quantity("deviation", form, &mut deviation, comment);
-    let sides = SIDES.map(|side| {
-        let path = format!("rails.{side}");
-        if !r.overlay(&path, "One rail: what is not given is as in [rails].") {
-            return (both.clone(), inclination);
-        }
-        let own = named_or(r, &path, &both);
-        let mut slope = match own == both || own_inclination {
-            true => inclination,
-            false => usual(&own.name),
-        };
-        r.number("inclination", range, reach, &mut slope, "as for both rails");
-        (own, slope)
-    });
-    let mut doubts = Vec::new();
-    let mut made: Vec<(usize, Arc<Profile>)> = Vec::new();
-    let alike = sides[0] == sides[1];
-    for (i, (own, slope)) in sides.iter().enumerate() {
-        if i == 1 && alike {
-            let first = made.first().map(|(_, profile)| (1, profile.clone()));
-            made.extend(first);
-            continue;
-        }
-        let options = ReadOptions {
-            deviation,
-            side: (!alike).then_some([Side::Left, Side::Right][i]),
-            ..ReadOptions::default()
-        };
-        if let Some(profile) = profile(r, own, ProfileKind::Rail, &options, &mut doubts) {
-            let placed = if *slope == 0.0 {
-                profile
-            } else {
-                profile.inclined(*slope)
-            };
-            made.push((i, Arc::new(placed)));
-        }
-    }
-    let profiles = match <[(usize, Arc<Profile>); 2]>::try_from(made) {
-        Ok([(_, left), (_, right)]) => Some([left, right]),
-        Err(_) => None,
-    };
-    Rails {
-        profiles,
-        gauge,
-        gauge_depth,
-        doubts,
-    }
-}
 
 /// Reads `[wheels]`; `sprung` tells whether rails give way. Returns what is doubtful.
 pub(crate) fn wheels(
@@ -185,6 +88,11 @@ pub(crate) fn wheels(
             let help = "write track.support.kind = \"rigid\"";
             r.problem("wheels.geometry", problem.label("the track is sprung").help(help));
         }
+        if rails.varies() {
+            let problem = Problem::new("linear wheels roll on rails that do not change along the track");
+            let help = "leave out rails.over_distance, or write wheels.geometry = \"profiles\"";
+            r.problem("wheels.geometry", problem.label("the rails change").help(help));
+        }
         let static_load = parameters.weight() / 4.0;
         parameters.wheels = linear_wheels(r, radius, static_load);
         return rails.doubts;
@@ -223,6 +131,11 @@ pub(crate) fn wheels(
     let mut tables = false;
     let comment = "true: patches from tables over lateral shift, faster, for motion on treads only";
     r.truth("tables", &mut tables, comment);
+    if tables && rails.varies() {
+        let problem = Problem::new("tables of contacts are those of one section, and the rails change");
+        let help = "leave out wheels.tables, or rails.over_distance";
+        r.problem("wheels.tables", problem.label("the rails change").help(help));
+    }
     let law = contact_law(r, sprung);
     let each = each_wheel(r, (all, radius));
     let mut doubts = rails.doubts;
@@ -306,6 +219,7 @@ pub(crate) fn wheels(
             geometry,
             wheels: each.map(|sides| sides.map(|(_, profile, _)| profile)),
             rails: rail_profiles,
+            rails_over: rails.over,
             tape_distance,
             tables,
             law,
@@ -528,116 +442,4 @@ fn linear_wheels(r: &mut CaseReader<'_>, radius: f64, axle_load: f64) -> Wheels 
         },
         support,
     }
-}
-
-/// Returns a text, such as the name of a profile.
-fn text(r: &mut CaseReader<'_>, key: &'static str, default: &str, comment: &str) -> String {
-    let read = |section: &crate::case::section::CaseSection<'_>,
-                problems: &mut crate::case::problem::Problems| {
-        section.text(key, problems).map(|(text, _)| text.to_owned())
-    };
-    r.other(key, Form::Text, comment, default.to_owned(), read, |text| {
-        Written::text(text)
-    })
-}
-
-/// Reads the name of a profile.
-fn named(r: &mut CaseReader<'_>, section: &str, default: &str, comment: &str) -> NamedProfile {
-    NamedProfile {
-        path: format!("{section}.profile"),
-        name: text(r, "profile", default, comment),
-    }
-}
-
-/// Reads the name of a profile that stands for another one, if it is given.
-fn named_or(r: &mut CaseReader<'_>, section: &str, base: &NamedProfile) -> NamedProfile {
-    let given = r.gives("profile");
-    let own = named(r, section, &base.name, "as for all");
-    if given { own } else { base.clone() }
-}
-
-/// Returns a nominal profile, or one from a file.
-fn profile(
-    r: &mut CaseReader<'_>,
-    named: &NamedProfile,
-    kind: ProfileKind,
-    options: &ReadOptions,
-    doubts: &mut Vec<String>,
-) -> Option<Profile> {
-    let NamedProfile { path, name } = named;
-    let nominal = match kind {
-        ProfileKind::Wheel => names::wheel(name),
-        ProfileKind::Rail => names::rail(name).map(|found| found.map(|(rail, _)| rail)),
-    };
-    let tables = r.tables();
-    let located = tables.locate(name);
-    let is_file = located.as_ref().is_ok_and(|file| file.exists());
-    match nominal {
-        Ok(Some(made)) => return Some(made),
-        // A file may have any name.
-        Err(error) if !is_file => {
-            wrong(r, path, &error);
-            return None;
-        }
-        _ => {}
-    }
-    let file = match located {
-        Ok(file) if is_file => file,
-        Ok(_) => {
-            let shown = tables.shown(name);
-            let problem = Problem::new(format!("`{path}`: there is no file {shown}"));
-            let names = match kind {
-                ProfileKind::Wheel => names::WHEELS,
-                ProfileKind::Rail => names::RAILS,
-            };
-            let help = format!("name a file of points from the folder of the case file, or {names}");
-            r.problem(
-                path,
-                problem.label("neither a file nor a nominal profile").help(help),
-            );
-            return None;
-        }
-        Err(refused) => {
-            let problem = Problem::new(format!("`{path}`: {} {}", tables.shown(name), refused.reason));
-            r.problem(path, problem.label("this file").help(refused.help));
-            return None;
-        }
-    };
-    let made = Profile::read_with(&file, kind, options);
-    r.files.push(NamedFile {
-        key: match kind {
-            ProfileKind::Wheel => "wheels.profile",
-            ProfileKind::Rail => "rails.profile",
-        },
-        typed: name.to_owned(),
-        path: file,
-    });
-    let made = made.map_err(|error| wrong(r, path, &error)).ok()?;
-    for notice in made.notices() {
-        let words = match tables.may_quote() {
-            true => format!("`{path}`: {}; {}", notice.text, notice.advice),
-            false => format!(
-                "`{path}`: the points of this file are doubtful; {}",
-                notice.advice
-            ),
-        };
-        doubts.push(words);
-    }
-    Some(made)
-}
-
-fn wrong(r: &mut CaseReader<'_>, path: &str, error: &ProfileError) {
-    let problem = match (r.tables().may_quote(), r.files.is_empty()) {
-        (false, false) => {
-            let names: Vec<&str> = r.files.iter().map(|file| file.typed.as_str()).collect();
-            Problem::of_unquoted(
-                path,
-                &names.join(", "),
-                error.line(),
-                "no profile as it is needed here",
-            )
-        }
-        _ => Problem::new(format!("`{path}`: {error}")).help(error.remedy()),
-    };
-    r.problem(path, problem.label("this profile"));
 }

@@ -40,6 +40,8 @@ pub(crate) struct NamedFile {
     pub typed: String,
     /// The place where it was read.
     pub path: PathBuf,
+    /// The files that it names itself, as a list of sections does: their names in it, and their places.
+    pub listed: Vec<(String, PathBuf)>,
 }
 
 impl<'a> Tables<'a> {

@@ -110,6 +110,7 @@ fn table(
         key: "table",
         typed: text.to_owned(),
         path,
+        listed: Vec::new(),
     });
     table
         .map_err(|error| problems.push(wrong(section, tables, &error)))
@@ -337,6 +338,7 @@ fn alignment(
         key: "table",
         typed: file.to_owned(),
         path,
+        listed: Vec::new(),
     });
     match text.and_then(|text| landxml::center_line(&text, name, unit, rail_distance)) {
         Ok(read) => {

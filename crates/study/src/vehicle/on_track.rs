@@ -6,7 +6,7 @@ use truck::Lading;
 use vehicle::{Description, OnTrack, RigidBody, TruckPart, WheelsetPart};
 
 use super::like;
-use crate::car::{sections, track as car_track, trucks, wheels};
+use crate::car::{rails, sections, track as car_track, trucks, wheels};
 use crate::case::field::Reach;
 use crate::case::problem::Problem;
 use crate::case::section::Range;
@@ -121,7 +121,7 @@ pub(super) fn track(
     };
     let line = car_track::track(r);
     let sprung = !matches!(&line, Some(read) if read.support == Support::Rigid);
-    let rails = wheels::rails(r);
+    let rails = rails::rails(r);
     let of_wheels = wheels::wheels(r, &mut scratch, rails, sprung);
     for axle in ["axle_1", "axle_2", "axle_3", "axle_4"] {
         let path = format!("wheels.{axle}");
@@ -198,6 +198,7 @@ pub(super) fn start(r: &mut CaseReader<'_>, description: &mut Description) {
         let help = "begin the track with a tangent that is longer than the vehicle, and start on it";
         r.problem("start.distance", problem.label("not here").help(help));
     }
+    rails::begin_behind(r, &on.wheels, on.distance + on.reach());
     if let Some(body) = description.bodies.iter().find(|own| own.free != [true; 6]) {
         let path = format!("bodies.{}.free_coordinates", body.name);
         let problem = Problem::new(format!(

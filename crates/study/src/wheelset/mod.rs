@@ -20,7 +20,7 @@ use rolling::wheelset::WheelsetBody;
 use thiserror::Error;
 use wheelrail::contact::{ContactLaw, ContactTable, CreepLaw};
 use wheelrail::hertz::Material;
-use wheelrail::profile::{Profile, ProfileError};
+use wheelrail::profile::{Profile, ProfileError, SlicedProfile};
 use wheelrail::track::{RailLines, Track, TrackError};
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
@@ -56,6 +56,8 @@ pub struct Wheelset {
     pub wheels: [Profile; 2],
     /// Profiles of the left and the right rail.
     pub rails: [Profile; 2],
+    /// The left and the right rail, where their sections change along the track.
+    pub rails_over: [Option<Arc<SlicedProfile>>; 2],
     /// Nominal radii of the left and the right wheel, m.
     pub radii: [f64; 2],
     /// Distances of wheels and rails.
@@ -228,6 +230,7 @@ impl WheelsetCase {
                 }
             }
         }
+        words.extend(crate::car::rails::over_in_words(&own.rails_over));
         words.push(
             "One wheelset under a carriage that follows the track: its springs are lateral and yaw springs \
              to the track's direction, its load acts square to the track, its drive holds the speed; no car \
@@ -314,8 +317,12 @@ fn setup(wheelset: &Wheelset, track: Track) -> Result<Setup, WheelsetError> {
     )?;
     rigid.check_reach()?;
     let lines = Arc::new(RailLines::new(track, rigid.rail_origins()));
+    let over = rigid.rails_over(wheelset.rails_over.each_ref().map(Option::as_deref))?;
     let search = |index: usize| -> Result<Search, WheelsetError> {
-        let pair = rigid.pairs()[index].clone();
+        let mut pair = rigid.pairs()[index].clone();
+        if let Some(rail) = &over[index] {
+            pair = pair.on(rail.clone());
+        }
         Ok(match wheelset.search {
             SearchMode::Search => Search::Exact(Arc::new(pair)),
             SearchMode::Table => Search::Table(Arc::new(ContactTable::new(pair, TABLE_OVERLAP)?)),

@@ -12,6 +12,7 @@ mod mode_shape;
 mod onset;
 #[path = "../common/problems.rs"]
 mod problems;
+mod rails;
 mod run;
 mod stability;
 mod start;

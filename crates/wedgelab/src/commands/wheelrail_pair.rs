@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 use std::path::Path;
+use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 use quantity::{INCH, Kind as Measure, Quantity};
@@ -64,7 +65,7 @@ pub(super) struct WheelRailPair {
     /// Distance of the tape circle from the back of the flange [default: that of the file; 70 mm]
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     tape_from_back: Option<Quantity>,
-    /// Place along a rail from .slcs
+    /// Place along a rail from .slcs; left out, a run takes the whole rail, with its places along the track
     #[arg(long, value_name = "LENGTH", value_parser = any_length, allow_hyphen_values = true)]
     at: Option<Quantity>,
     /// Angle around a wheel from .slcw
@@ -104,6 +105,8 @@ pub(super) struct ProfiledPair {
     pub(super) layout: Layout,
     /// Rails whose sections change, and the place at which they are taken (m).
     pub(super) sliced: [Option<(SlicedProfile, f64)>; 2],
+    /// Rails whose sections change along the track, as runs take them.
+    pub(super) over: [Option<Arc<SlicedProfile>>; 2],
 }
 
 impl ProfiledPair {
@@ -220,6 +223,11 @@ impl WheelRailPair {
     /// Reads the profiles and tells what is doubtful about them; splines lie at most `deviation` (m) from
     /// their points if nothing is given.
     pub(super) fn read(&self, deviation: f64) -> Result<ProfiledPair, Failure> {
+        self.read_over(deviation, false)
+    }
+
+    /// The same; with `over` lists of sections of rails without a place in them go along the track.
+    pub(super) fn read_over(&self, deviation: f64, over: bool) -> Result<ProfiledPair, Failure> {
         let deviation = self.deviation.as_ref().map_or(deviation, Quantity::to_si);
         let options = |side: Option<Side>| ReadOptions {
             deviation,
@@ -239,13 +247,15 @@ impl WheelRailPair {
             _ => self.wheel(names[1], &options(own(1, given)))?,
         };
         let given = [self.left_rail.is_some(), self.right_rail.is_some()];
-        let left_rail = self.rail(rail_names[0], &options(own(0, given)))?;
+        let left_rail = self.rail(rail_names[0], &options(own(0, given)), over)?;
         let right_rail = match given {
             [false, false] => left_rail.clone(),
-            _ => self.rail(rail_names[1], &options(own(1, given)))?,
+            _ => self.rail(rail_names[1], &options(own(1, given)), over)?,
         };
         let wheels = [left, right];
-        let (rails, sliced) = ([left_rail.0, right_rail.0], [left_rail.1, right_rail.1]);
+        let over = [&left_rail, &right_rail].map(|own| own.over.clone());
+        let sliced = [left_rail.placed, right_rail.placed];
+        let rails = [left_rail.profile, right_rail.profile];
         let usual = |given: Option<f64>, stated: Option<f64>, simpack: bool, usual: [f64; 2]| {
             given.or(stated).unwrap_or(usual[usize::from(!simpack)])
         };
@@ -284,6 +294,7 @@ impl WheelRailPair {
             radii,
             layout,
             sliced,
+            over,
         })
     }
 
@@ -304,13 +315,22 @@ impl WheelRailPair {
         }
     }
 
-    fn rail(&self, name: &str, options: &ReadOptions) -> Result<ReadRail, Failure> {
+    fn rail(&self, name: &str, options: &ReadOptions, over: bool) -> Result<ReadRail, Failure> {
         let path = Path::new(name);
+        let slope = |usual: f64| self.inclination.unwrap_or(usual);
         let (rail, usual, sliced) = match names::rail(name) {
             _ if SlicedProfile::kind_of(path) == Some(ProfileKind::Rail) && path.exists() => {
                 let sliced = sliced(path, options)?;
                 let Some(at) = &self.at else {
-                    return Err(not_placed(&sliced, "--at \"0.5 m\""));
+                    let Some(first) = sliced.profiles().first().filter(|_| over) else {
+                        return Err(not_placed(&sliced, "--at \"0.5 m\""));
+                    };
+                    let slope = slope(0.0);
+                    return Ok(ReadRail {
+                        profile: first.inclined(slope),
+                        placed: None,
+                        over: Some(Arc::new(sliced.inclined(slope))),
+                    });
                 };
                 let place = at.to_si();
                 (
@@ -323,16 +343,27 @@ impl WheelRailPair {
             Err(error) if !path.exists() => return Err(wrong(&error)),
             _ => (of_file(name, ProfileKind::Rail, options)?, 0.0, None),
         };
-        let rail = match self.inclination.unwrap_or(usual) {
+        let profile = match slope(usual) {
             0.0 => rail,
             slope => rail.inclined(slope),
         };
-        Ok((rail, sliced))
+        Ok(ReadRail {
+            profile,
+            placed: sliced,
+            over: None,
+        })
     }
 }
 
-/// A rail, and the list it comes from with the place in it (m), if it comes from slices.
-type ReadRail = (Profile, Option<(SlicedProfile, f64)>);
+/// A rail as read.
+#[derive(Clone)]
+struct ReadRail {
+    profile: Profile,
+    /// The list of sections it comes from, and the place in it, m.
+    placed: Option<(SlicedProfile, f64)>,
+    /// The list of sections that go along the track.
+    over: Option<Arc<SlicedProfile>>,
+}
 
 fn sliced(path: &Path, options: &ReadOptions) -> Result<SlicedProfile, Failure> {
     let sliced = SlicedProfile::read(path, options).map_err(|error| wrong(&error))?;

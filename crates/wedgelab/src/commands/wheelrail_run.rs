@@ -147,7 +147,7 @@ fn wheelset(arguments: &Arguments, track: TrackFile, name: String) -> Result<Whe
         ("yaw at the start", arguments.yaw.to_string()),
         ("interval", arguments.interval.to_string()),
     ];
-    let mut own = arguments.suspended.wheelset(&arguments.pair, track, name)?;
+    let mut own = arguments.suspended.wheelset(&arguments.pair, track, name, true)?;
     own.given
         .extend(given.map(|(name, value)| (name.to_owned(), value)));
     if let Some(duration) = &arguments.duration {

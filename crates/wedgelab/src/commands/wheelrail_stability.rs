@@ -73,7 +73,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let track = TrackFile::straight(LENGTH).map_err(|error| Message::new(error.to_string(), ""))?;
     let wheelset = arguments
         .suspended
-        .wheelset(&arguments.pair, track, "wheelset".to_owned())?;
+        .wheelset(&arguments.pair, track, "wheelset".to_owned(), false)?;
     let folder = folders::check(&arguments.out, &NAMES, arguments.force)?;
     let progress = Progress::new(1, arguments.quiet);
     interrupt::stops_run();

@@ -130,20 +130,23 @@ fn of_yaw_stiffness(text: &str) -> Result<Named, String> {
 }
 
 impl SuspendedArguments {
-    /// Returns the wheelset on a track, at rest in its middle; the settings of a run are the usual ones.
+    /// Returns the wheelset on a track, at rest in its middle; the settings of a run are the usual ones. With
+    /// `over` rails may change along the track.
     pub fn wheelset(
         &self,
         pair: &WheelRailPair,
         track: TrackFile,
         name: String,
+        over: bool,
     ) -> Result<Wheelset, Failure> {
         let cells = usize::from(self.cells);
-        let read = pair.read(DEVIATION)?;
+        let read = pair.read_over(DEVIATION, over)?;
         Ok(Wheelset {
             name,
             given: self.given(pair, &read, &track),
             wheels: read.wheels,
             rails: read.rails,
+            rails_over: read.over,
             radii: read.radii,
             layout: read.layout,
             material: STEEL,

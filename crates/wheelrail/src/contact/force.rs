@@ -110,7 +110,10 @@ impl ContactLaw {
         let forward = motion.velocity[0];
         let reference = (forward * forward + self.slowest * self.slowest).sqrt();
         let creepage = Creepage {
-            longitudinal: velocity[0] / reference,
+            longitudinal: match patch.climb {
+                None => velocity[0],
+                Some(_) => dot(velocity, patch.along()),
+            } / reference,
             lateral: dot(velocity, patch.across()) / reference,
             spin: dot(motion.angular_velocity, normal) / reference,
         };
@@ -225,8 +228,13 @@ impl ContactLaw {
             let found = self.at_patch(pair, pose, &patch, &motion);
             let (normal, across) = (patch.normal(), patch.across());
             let [x, y, spin] = [found.creep.x, found.creep.y, found.creep.spin_moment];
+            let rolling = patch.climb.map(|_| patch.along());
             let own: [S; 3] = std::array::from_fn(|i| {
-                let along = if i == 0 { x } else { zero };
+                let along = match rolling {
+                    None if i == 0 => x,
+                    None => zero,
+                    Some(rolling) => rolling[i] * x,
+                };
                 (normal[i] * found.normal + across[i] * y + along) * patch.share
             });
             let about: [S; 3] = std::array::from_fn(|i| normal[i] * spin * patch.share);

@@ -3,6 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | a wheel and a rail prepared for the search; patches; rigid touch | [`ContactPair`], [`ContactPatch`] |
+//! | a rail whose section changes along the track | [`VaryingRail`] |
 //! | tables of patches: a fast mode of the search | [`ContactTable`] |
 //! | where a wheel is; axes, which serve both sides | [`WheelPose`], [`Side`] |
 //! | normal force with damping, creepages, creep forces, the wrench on the wheel | [`ContactLaw`] |
@@ -35,6 +36,7 @@ mod pose;
 mod search;
 mod section;
 mod table;
+mod varying;
 
 pub use ellipse::{Ellipse, Ellipses};
 pub use force::{ContactLaw, CreepLaw, PatchForces, WheelForces, WheelMotion, rolling_sense, stored_energy};
@@ -43,3 +45,4 @@ pub use patch::ContactPatch;
 pub use pose::{Side, WheelPose};
 pub use search::{AREAS, ContactPair, FindPatches, RigidTouch};
 pub use table::ContactTable;
+pub use varying::VaryingRail;

@@ -25,6 +25,7 @@ use super::ellipse::Ellipse;
 use super::pose::{Frame, ProfileNode};
 use super::search::{ContactPair, Interval, NOTHING, Scan};
 use super::section::STATIONS;
+use crate::vector::cross;
 
 /// Cells of the integrals over an interval.
 const CELLS: usize = 10;
@@ -43,6 +44,8 @@ pub struct ContactPatch<S> {
     pub slope: S,
     /// cos δ.
     pub cosine: S,
+    /// Rise of the rail along the track at the place, where its section changes along it; else none.
+    pub climb: Option<S>,
     /// y on the wheel's profile, m.
     pub profile: S,
     /// Radius of the wheel there, m.
@@ -61,7 +64,20 @@ impl<S: Real> ContactPatch<S> {
     /// Returns the unit normal from the rail into the wheel.
     #[inline(always)]
     pub fn normal(&self) -> [S; 3] {
-        [S::zero(), -(self.slope * self.cosine), self.cosine]
+        let Some(climb) = self.climb else {
+            return [S::zero(), -(self.slope * self.cosine), self.cosine];
+        };
+        let whole = (self.slope * self.slope + climb * climb + 1.0).sqrt().recip();
+        [-(climb * whole), -(self.slope * whole), whole]
+    }
+
+    /// Returns the unit vector in the plane of contact along the rail.
+    #[inline(always)]
+    pub fn along(&self) -> [S; 3] {
+        match self.climb {
+            None => [S::from(1.0), S::zero(), S::zero()],
+            Some(_) => cross(self.across(), self.normal()),
+        }
     }
 
     /// Returns the unit vector across the rolling direction, towards the field side.
@@ -79,6 +95,7 @@ impl<S: Real> ContactPatch<S> {
             place: self.place.map(lift),
             slope: lift(self.slope),
             cosine: lift(self.cosine),
+            climb: self.climb.map(lift),
             profile: lift(self.profile),
             radius: lift(self.radius),
             approach: lift(self.approach),
@@ -102,8 +119,8 @@ impl ContactPair {
     /// Gives the patches of an interval to `take`.
     pub(super) fn patches<S: Real>(
         &self,
-        frame: &Frame<S>,
-        plain: &Frame<f64>,
+        frame: &Frame<'_, S>,
+        plain: &Frame<'_, f64>,
         scan: &Scan,
         interval: &Interval,
         take: &mut impl FnMut(ContactPatch<S>),
@@ -134,8 +151,8 @@ impl ContactPair {
     /// nothing if it has no valley that divides it.
     fn division<S: Real>(
         &self,
-        frame: &Frame<S>,
-        plain: &Frame<f64>,
+        frame: &Frame<'_, S>,
+        plain: &Frame<'_, f64>,
         scan: &Scan,
         [first, last]: [usize; 2],
     ) -> Option<(S, S)> {
@@ -166,7 +183,7 @@ impl ContactPair {
             return None;
         }
         let [(low, _), (valley, turns), (high, _)] = stations.map(|k| self.turning(plain, scan, k));
-        let at = |parameter: f64| frame.node(&self.wheel, &self.rail, S::from(parameter));
+        let at = |parameter: f64| frame.node(&self.wheel, S::from(parameter));
         let (bottom, tops) = (at(valley), [low, high].map(|parameter| at(parameter).overlap));
         let smaller = if tops[0].value() < tops[1].value() {
             tops[0]
@@ -192,7 +209,7 @@ impl ContactPair {
     }
 
     /// Returns the patch of an interval of the parameter.
-    fn patch<S: Real>(&self, frame: &Frame<S>, from: S, to: S, share: S) -> Option<ContactPatch<S>> {
+    fn patch<S: Real>(&self, frame: &Frame<'_, S>, from: S, to: S, share: S) -> Option<ContactPatch<S>> {
         let zero = S::zero();
         let mut nodes = [ProfileNode {
             overlap: zero,
@@ -204,7 +221,7 @@ impl ContactPair {
         }; CELLS + 1];
         for (i, node) in nodes.iter_mut().enumerate() {
             let parameter = from + (to - from) * (i as f64 / CELLS as f64);
-            *node = frame.node(&self.wheel, &self.rail, parameter);
+            *node = frame.node(&self.wheel, parameter);
         }
         let (mut squares, mut cubes, mut weight) = (zero, zero, zero);
         let mut means = [zero; 6];
@@ -236,11 +253,15 @@ impl ContactPair {
         let cosine = (slope * slope + 1.0).sqrt().recip();
         let rolling = cosine / radius;
         let lateral = depth * cosine * cosine * cosine * 2.0 / (half_width * half_width);
+        let climb = frame.climb(y);
+        // On a rail that rises the wheel touches ahead of its axle.
+        let x = climb.map_or(x, |climb| x + radius * climb);
         Some(ContactPatch {
             share,
             place: [x, y, z],
             slope,
             cosine,
+            climb,
             profile,
             radius,
             approach: depth * cosine,

@@ -12,7 +12,8 @@
 
 use numerics::scalar::Real;
 
-use super::section::{RailSection, WheelSection};
+use super::section::WheelSection;
+use super::varying::Stretch;
 
 /// A side of the track.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +51,8 @@ pub struct WheelPose<S> {
     pub center: [S; 2],
     /// Direction of the axle towards the field side, a unit vector.
     pub axle: [S; 3],
+    /// Place of the wheel along the track, m: read where the rail's section changes along it.
+    pub along: S,
 }
 
 impl<S: Real> WheelPose<S> {
@@ -69,6 +72,7 @@ impl<S: Real> WheelPose<S> {
         Self {
             center: [y, z],
             axle: side.mirrored(axle),
+            along: S::zero(),
         }
     }
 
@@ -78,13 +82,16 @@ impl<S: Real> WheelPose<S> {
         WheelPose {
             center: self.center.map(Real::value),
             axle: self.axle.map(Real::value),
+            along: self.along.value(),
         }
     }
 }
 
 /// The frame of a pose, the same for all points of the silhouette.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Frame<S> {
+pub(super) struct Frame<'r, S> {
+    rail: &'r Stretch<'r>,
+    along_track: S,
     center: [S; 2],
     axle: [S; 3],
     /// τ.
@@ -114,14 +121,17 @@ pub(super) struct ProfileNode<S> {
     pub radius: S,
 }
 
-impl<S: Real> Frame<S> {
+impl<'r, S: Real> Frame<'r, S> {
+    /// Returns the frame of a pose over a rail, as it is at the pose.
     #[inline(always)]
-    pub fn new(pose: &WheelPose<S>) -> Self {
+    pub fn new(pose: &WheelPose<S>, rail: &'r Stretch<'r>) -> Self {
         let [x, y, z] = pose.axle;
         let square = (x * x - 1.0) * -1.0;
         let level = square.sqrt();
         let across = (y * y + z * z).sqrt();
         Self {
+            rail,
+            along_track: pose.along,
             center: pose.center,
             axle: pose.axle,
             tangent: x / level,
@@ -132,9 +142,11 @@ impl<S: Real> Frame<S> {
 
     /// Returns the same without derivatives, in another scalar.
     #[inline(always)]
-    pub fn lifted<T: Real>(&self) -> Frame<T> {
+    pub fn lifted<T: Real>(&self) -> Frame<'r, T> {
         let lift = |value: S| T::from(value.value());
         Frame {
+            rail: self.rail,
+            along_track: lift(self.along_track),
             center: self.center.map(lift),
             axle: self.axle.map(lift),
             tangent: lift(self.tangent),
@@ -145,7 +157,7 @@ impl<S: Real> Frame<S> {
 
     /// Returns the point of the silhouette at a parameter of the wheel's profile. Its sine θ is limited.
     #[inline(always)]
-    pub fn node(&self, wheel: &WheelSection, rail: &RailSection, parameter: S) -> ProfileNode<S> {
+    pub fn node(&self, wheel: &WheelSection, parameter: S) -> ProfileNode<S> {
         let point = wheel.at(parameter);
         let mut sine = self.tangent * point.slope;
         if sine.value().abs() > LARGEST_SINE {
@@ -163,7 +175,7 @@ impl<S: Real> Frame<S> {
         ];
         let y = self.center[0] + point.y * self.axle[1] + point.radius * out[0];
         let z = self.center[1] + point.y * self.axle[2] + point.radius * out[1];
-        let [height, slope] = rail.at(y);
+        let [height, slope] = self.rail.at(y, self.along_track);
         ProfileNode {
             overlap: height - z,
             overlap_slope: slope + normal[0] / normal[1],
@@ -175,7 +187,27 @@ impl<S: Real> Frame<S> {
     }
 }
 
-impl Frame<f64> {
+impl<S: Real> Frame<'_, S> {
+    /// Returns the rise of the rail along the track at y (m); none where its section does not change.
+    #[inline(always)]
+    pub fn climb(&self, y: S) -> Option<S> {
+        self.rail.climb(y, self.along_track)
+    }
+}
+
+impl Frame<'_, f64> {
+    /// Returns beginning and end of the rail's section, m.
+    #[inline(always)]
+    pub fn rail_range(&self) -> [f64; 2] {
+        self.rail.range()
+    }
+
+    /// Returns the height (m) of the rail at y (m), for a first look.
+    #[inline(always)]
+    pub fn coarse(&self, y: f64) -> f64 {
+        self.rail.coarse(y)
+    }
+
     /// Returns bounds of the profile coordinate for points whose y lies in a range (m); `radius` is the
     /// nominal one.
     #[inline(always)]

@@ -8,12 +8,15 @@
 //! Limits: a fourth area is left out; intervals end where the wheel ends; at large yaw parts of the flange's
 //! throat are hidden behind others, which is judged at stations 0.5 mm apart.
 
+use std::sync::Arc;
+
 use numerics::scalar::{Dual, Real};
 
 use super::ellipse::Ellipses;
 use super::patch::ContactPatch;
 use super::pose::{Frame, ProfileNode, WheelPose};
 use super::section::{RailSection, STATIONS, WheelSection};
+use super::varying::{Stretch, VaryingRail};
 use crate::hertz::Material;
 use crate::profile::{Profile, ProfileError};
 
@@ -34,8 +37,26 @@ pub(super) const NOTHING: f64 = 1e-12;
 #[derive(Clone, Debug)]
 pub struct ContactPair {
     pub(super) wheel: WheelSection,
-    pub(super) rail: RailSection,
+    pub(super) rail: Rail,
     pub(super) ellipses: Ellipses,
+}
+
+/// The rail of a pair.
+#[derive(Clone, Debug)]
+pub(super) enum Rail {
+    Constant(Arc<RailSection>),
+    Varying(Arc<VaryingRail>),
+}
+
+impl Rail {
+    /// Returns the rail at a place along the track, m.
+    #[inline(always)]
+    pub fn at(&self, place: f64) -> Stretch<'_> {
+        match self {
+            Self::Constant(section) => Stretch::Constant(section),
+            Self::Varying(rail) => rail.at(place),
+        }
+    }
 }
 
 /// An interval of overlap by the parameter of the wheel's profile.
@@ -106,7 +127,8 @@ pub trait FindPatches {
 impl FindPatches for ContactPair {
     /// The deepest area comes first.
     fn search<S: Real>(&self, pose: &WheelPose<S>, mut take: impl FnMut(ContactPatch<S>)) {
-        let frame = Frame::new(pose);
+        let rail = self.rail.at(pose.along.value());
+        let frame = Frame::new(pose, &rail);
         let plain = frame.lifted::<f64>();
         self.areas(&plain, |scan, interval| {
             self.patches(&frame, &plain, scan, interval, &mut take);
@@ -121,8 +143,9 @@ impl FindPatches for ContactPair {
         mut take: impl FnMut(ContactPatch<S>),
         mut also: impl FnMut(ContactPatch<T>),
     ) {
-        let frame = Frame::new(pose);
-        let beside = Frame::new(other);
+        let rail = self.rail.at(pose.along.value());
+        let frame = Frame::new(pose, &rail);
+        let beside = Frame::new(other, &rail);
         let plain = frame.lifted::<f64>();
         self.areas(&plain, |scan, interval| {
             self.patches(&frame, &plain, scan, interval, &mut take);
@@ -161,9 +184,24 @@ impl ContactPair {
         })?;
         Ok(Self {
             wheel: WheelSection::new(wheel, radius)?,
-            rail: RailSection::new(rail)?,
+            rail: Rail::Constant(Arc::new(RailSection::new(rail)?)),
             ellipses,
         })
+    }
+
+    /// Returns the same wheel on a rail whose section changes along the track.
+    #[must_use]
+    pub fn on(&self, rail: Arc<VaryingRail>) -> Self {
+        Self {
+            rail: Rail::Varying(rail),
+            ..self.clone()
+        }
+    }
+
+    /// Returns whether the section of the rail changes along the track.
+    #[must_use]
+    pub fn varies(&self) -> bool {
+        matches!(self.rail, Rail::Varying(_))
     }
 
     /// Returns the nominal radius of the wheel, m.
@@ -172,10 +210,10 @@ impl ContactPair {
         self.wheel.nominal_radius()
     }
 
-    /// Returns the range of y (m) that the rail's section covers.
+    /// Returns the range of y (m) that the rail's section covers at a place along the track, m.
     #[must_use]
-    pub fn rail_range(&self) -> [f64; 2] {
-        self.rail.range()
+    pub fn rail_range(&self, along: f64) -> [f64; 2] {
+        self.rail.at(along).range()
     }
 
     /// Returns the range of y (m) of the wheel's profile that the search covers.
@@ -206,7 +244,7 @@ impl ContactPair {
 
     /// Returns the same, none where the place is beside the rail.
     pub(crate) fn touch_over_rail(&self, pose: &WheelPose<f64>) -> Option<RigidTouch> {
-        let [low, high] = self.rail_range();
+        let [low, high] = self.rail_range(pose.along);
         self.touch(pose)
             .filter(|touch| (low..=high).contains(&touch.place[1]))
     }
@@ -215,7 +253,8 @@ impl ContactPair {
     /// the rail.
     #[must_use]
     pub fn touch(&self, pose: &WheelPose<f64>) -> Option<RigidTouch> {
-        let frame = Frame::new(pose);
+        let rail = self.rail.at(pose.along);
+        let frame = Frame::new(pose, &rail);
         let scan = self.scan(&frame)?;
         let stations = scan.first..=scan.last;
         let highest = stations
@@ -233,7 +272,7 @@ impl ContactPair {
                 continue;
             }
             let at = self.stationary(&frame, self.around(&scan, k));
-            let node = frame.node(&self.wheel, &self.rail, at);
+            let node = frame.node(&self.wheel, at);
             if best.is_none_or(|best| node.overlap > best.overlap) {
                 best = Some(RigidTouch {
                     overlap: node.overlap,
@@ -248,7 +287,7 @@ impl ContactPair {
     }
 
     /// Gives the deepest areas of overlap to `take`, with the overlap at the stations.
-    fn areas(&self, plain: &Frame<f64>, mut take: impl FnMut(&Scan, &Interval)) {
+    fn areas(&self, plain: &Frame<'_, f64>, mut take: impl FnMut(&Scan, &Interval)) {
         let Some(mut scan) = self.scan(plain) else {
             return;
         };
@@ -261,14 +300,14 @@ impl ContactPair {
 
     /// Returns the overlap at the stations that lie over the rail, by its straight lines; minus infinity
     /// where there is none. Nothing if no station does.
-    fn scan(&self, frame: &Frame<f64>) -> Option<Scan> {
+    fn scan(&self, frame: &Frame<'_, f64>) -> Option<Scan> {
         let mut scan = Scan {
             overlap: [f64::NEG_INFINITY; STATIONS],
             slope: [0.0; STATIONS],
             first: usize::MAX,
             last: 0,
         };
-        let [low, high] = self.rail.range();
+        let [low, high] = frame.rail_range();
         let mut reached = f64::NEG_INFINITY;
         let stations = self.wheel.stations();
         let [begin, end] = frame.reach([low - BEYOND, high + BEYOND], self.wheel.nominal_radius());
@@ -288,7 +327,7 @@ impl ContactPair {
             if y < low - BEYOND || y > high + BEYOND {
                 continue;
             }
-            scan.overlap[k] = self.rail.coarse(y) - z;
+            scan.overlap[k] = frame.coarse(y) - z;
             scan.first = scan.first.min(k);
             scan.last = k;
         }
@@ -296,7 +335,7 @@ impl ContactPair {
     }
 
     /// Gives the intervals with overlap to `take`; the scan becomes exact near them.
-    fn intervals(&self, frame: &Frame<f64>, scan: &mut Scan, mut take: impl FnMut(Interval)) {
+    fn intervals(&self, frame: &Frame<'_, f64>, scan: &mut Scan, mut take: impl FnMut(Interval)) {
         // Exact are stations near zero overlap, their neighbors, and those beside a change of sign.
         let near = |overlap: f64| overlap.abs() < BETWEEN_STATIONS;
         let mut before = f64::NEG_INFINITY;
@@ -305,7 +344,7 @@ impl ContactPair {
             let [_, after] = scan.neighbors(k);
             let changes = (own > 0.0) != (before > 0.0) || (own > 0.0) != (after > 0.0);
             if own > f64::NEG_INFINITY && (near(own) || near(before) || near(after) || changes) {
-                let node = frame.node(&self.wheel, &self.rail, self.wheel.parameter(k));
+                let node = frame.node(&self.wheel, self.wheel.parameter(k));
                 (scan.overlap[k], scan.slope[k]) = (node.overlap, node.overlap_slope);
             }
             before = own;
@@ -343,7 +382,7 @@ impl ContactPair {
     }
 
     /// Gives an interval of overlap between a station and the next one, neither of which overlaps.
-    fn narrow(&self, frame: &Frame<f64>, scan: &Scan, k: usize, take: &mut impl FnMut(Interval)) {
+    fn narrow(&self, frame: &Frame<'_, f64>, scan: &Scan, k: usize, take: &mut impl FnMut(Interval)) {
         let [own, next] = [scan.overlap[k], scan.overlap[k + 1]];
         let near = |overlap: f64, within: f64| overlap <= 0.0 && overlap > -within;
         if !(near(own, BETWEEN_STATIONS) && near(next, BETWEEN_STATIONS)) {
@@ -363,12 +402,12 @@ impl ContactPair {
                 true => (to, slopes[1]),
                 false => {
                     let at = from + (to - from) * piece as f64 / pieces as f64;
-                    (at, frame.node(&self.wheel, &self.rail, at).overlap_slope)
+                    (at, frame.node(&self.wheel, at).overlap_slope)
                 }
             };
             if before.1 > 0.0 && after.1 < 0.0 {
                 let at = self.stationary(frame, [before.0, after.0]);
-                let peak = frame.node(&self.wheel, &self.rail, at).overlap;
+                let peak = frame.node(&self.wheel, at).overlap;
                 if peak > NOTHING {
                     take(Interval {
                         ends: [before.0, after.0].map(|end| IntervalEnd::Root([end, at])),
@@ -393,14 +432,14 @@ impl ContactPair {
 
     /// Returns the node at a parameter with derivatives by the parameter.
     #[inline(always)]
-    pub(super) fn along(&self, frame: &Frame<f64>, parameter: f64) -> ProfileNode<Dual<1>> {
+    pub(super) fn along(&self, frame: &Frame<'_, f64>, parameter: f64) -> ProfileNode<Dual<1>> {
         let lifted = frame.lifted::<Dual<1>>();
-        lifted.node(&self.wheel, &self.rail, Dual::variable(parameter, 0))
+        lifted.node(&self.wheel, Dual::variable(parameter, 0))
     }
 
     /// Returns the parameter within an interval at which the overlap is largest or smallest: where its slope
     /// is zero.
-    pub(super) fn stationary(&self, frame: &Frame<f64>, ends: [f64; 2]) -> f64 {
+    pub(super) fn stationary(&self, frame: &Frame<'_, f64>, ends: [f64; 2]) -> f64 {
         zero(ends, |parameter| {
             let slope = self.along(frame, parameter).overlap_slope;
             [slope.value, slope.derivative[0]]
@@ -409,10 +448,10 @@ impl ContactPair {
 
     /// Returns the parameter near a station at which the slope of the overlap is zero, and true; the
     /// station's own and false if the slope does not change its sign beside it.
-    pub(super) fn turning(&self, frame: &Frame<f64>, scan: &Scan, k: usize) -> (f64, bool) {
+    pub(super) fn turning(&self, frame: &Frame<'_, f64>, scan: &Scan, k: usize) -> (f64, bool) {
         let at = |station: usize| {
             let parameter = self.wheel.parameter(station);
-            let node = frame.node(&self.wheel, &self.rail, parameter);
+            let node = frame.node(&self.wheel, parameter);
             (parameter, node.overlap_slope)
         };
         let (own, slope) = at(k);
@@ -426,7 +465,7 @@ impl ContactPair {
     }
 
     /// Returns an end of an interval.
-    pub(super) fn end<S: Real>(&self, frame: &Frame<S>, plain: &Frame<f64>, end: IntervalEnd) -> S {
+    pub(super) fn end<S: Real>(&self, frame: &Frame<'_, S>, plain: &Frame<'_, f64>, end: IntervalEnd) -> S {
         match end {
             IntervalEnd::Cut(at) => S::from(at),
             IntervalEnd::Root(ends) => {
@@ -437,7 +476,7 @@ impl ContactPair {
                 });
                 // Newton's step gives the derivatives of the root.
                 let slope = overlap(at).derivative[0];
-                let residual = frame.node(&self.wheel, &self.rail, S::from(at)).overlap;
+                let residual = frame.node(&self.wheel, S::from(at)).overlap;
                 S::from(at) - residual * slope.recip()
             }
         }

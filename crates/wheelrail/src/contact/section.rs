@@ -1,17 +1,15 @@
 //! Profiles prepared for the contact search: tables of cubics that are evaluated in constant time.
 //!
 //! The visible part of a profile is the longest one around its datum whose direction stays within
-//! [`STEEPEST`] of level. A wheel is a curve by a parameter s close to arc length, from the back of the
+//! 82° of level. A wheel is a curve by a parameter s close to arc length, from the back of the
 //! flange over its tip to the field side; a rail is a function z(y), which goes on with its end slopes beyond
 //! its ends. Both are cubics through points and tangents 0.1 mm apart: their slopes are continuous, and they
 //! lie within 0.05 μm of the profile.
 
 use numerics::scalar::Real;
 
-use crate::profile::{Profile, ProfileCurve, ProfileError, ProfileKind};
+use crate::profile::{Profile, ProfileError, ProfileKind, visible_from, zero_of};
 
-/// Steepest direction that is part of a section, rad: 82°.
-pub(super) const STEEPEST: f64 = 1.431_169_986_635_35;
 /// Shortest section, m.
 const SHORTEST: f64 = 5e-3;
 /// Spacing of the cubics, m.
@@ -22,7 +20,7 @@ pub(super) const STATIONS: usize = 512;
 const STRIDE: usize = 5;
 
 /// Returns the cubic (from its constant on) with values and slopes at 0 and at `length`.
-fn hermite(length: f64, [from, to]: [f64; 2], [slope, end_slope]: [f64; 2]) -> [f64; 4] {
+pub(super) fn hermite(length: f64, [from, to]: [f64; 2], [slope, end_slope]: [f64; 2]) -> [f64; 4] {
     let mean = (to - from) / length;
     [
         from,
@@ -32,58 +30,20 @@ fn hermite(length: f64, [from, to]: [f64; 2], [slope, end_slope]: [f64; 2]) -> [
     ]
 }
 
-fn value([a, b, c, d]: &[f64; 4], t: f64) -> f64 {
+pub(super) fn value([a, b, c, d]: &[f64; 4], t: f64) -> f64 {
     a + t * (b + t * (c + t * d))
 }
 
-fn slope([_, b, c, d]: &[f64; 4], t: f64) -> f64 {
+pub(super) fn slope([_, b, c, d]: &[f64; 4], t: f64) -> f64 {
     b + t * (2.0 * c + t * 3.0 * d)
 }
 
-fn second([_, _, c, d]: &[f64; 4], t: f64) -> f64 {
+pub(super) fn second([_, _, c, d]: &[f64; 4], t: f64) -> f64 {
     2.0 * c + 6.0 * t * d
 }
 
-/// Returns the range of parameters around `datum` in which the curve is not steeper than [`STEEPEST`].
-fn visible(curve: &ProfileCurve, datum: f64) -> [f64; 2] {
-    let [low, high] = curve.range();
-    let level = |parameter: f64| curve.at(parameter).angle().abs() <= STEEPEST;
-    let walk = |direction: f64| {
-        let end = if direction > 0.0 { high } else { low };
-        let mut at = datum;
-        loop {
-            let next = at + direction * SPACING;
-            let beyond = (next - end) * direction >= 0.0;
-            let next = if beyond { end } else { next };
-            if !level(next) {
-                // Bisect the place where it becomes too steep.
-                let (mut inside, mut outside) = (at, next);
-                for _ in 0..30 {
-                    let middle = 0.5 * (inside + outside);
-                    *(if level(middle) { &mut inside } else { &mut outside }) = middle;
-                }
-                return inside;
-            }
-            if beyond {
-                return end;
-            }
-            at = next;
-        }
-    };
-    [walk(-1.0), walk(1.0)]
-}
-
-/// Returns the parameter at which y is zero.
-fn datum(curve: &ProfileCurve) -> Option<f64> {
-    let sample = curve.sample(SPACING);
-    sample.windows(2).find_map(|pair| {
-        let ([y0, _], [y1, _]) = (pair[0].1.position, pair[1].1.position);
-        (y0 <= 0.0 && y1 > 0.0).then(|| pair[0].0 + (pair[1].0 - pair[0].0) * y0 / (y0 - y1))
-    })
-}
-
 /// Checks kind and datum of a profile; returns the range that is visible.
-fn prepared(profile: &Profile, expected: ProfileKind) -> Result<[f64; 2], ProfileError> {
+pub(super) fn prepared(profile: &Profile, expected: ProfileKind) -> Result<[f64; 2], ProfileError> {
     let place = || crate::profile::ProfilePlace::whole(profile.name());
     if profile.kind() != expected {
         return Err(ProfileError::Kind {
@@ -92,12 +52,12 @@ fn prepared(profile: &Profile, expected: ProfileKind) -> Result<[f64; 2], Profil
             expected: expected.word(),
         });
     }
-    let datum = datum(profile.curve()).ok_or_else(|| ProfileError::Orientation {
+    let datum = zero_of(profile.curve()).ok_or_else(|| ProfileError::Orientation {
         place: place(),
         found: "the profile does not pass y = 0 towards the field side".into(),
         remedy: "give it with its datum: y = 0 in a wheel's tape circle, or in a rail's head".into(),
     })?;
-    let [start, end] = visible(profile.curve(), datum);
+    let [start, end] = visible_from(profile.curve(), datum);
     if end - start < SHORTEST {
         return Err(ProfileError::Orientation {
             place: place(),
@@ -109,6 +69,11 @@ fn prepared(profile: &Profile, expected: ProfileKind) -> Result<[f64; 2], Profil
         });
     }
     Ok([start, end])
+}
+
+/// Returns the number of cubics of a visible range.
+pub(super) fn cells([start, end]: [f64; 2]) -> usize {
+    libm::ceil((end - start) / SPACING).max(1.0) as usize
 }
 
 /// A point of a wheel's profile with derivatives by the parameter.
@@ -140,7 +105,7 @@ pub(super) struct WheelSection {
 impl WheelSection {
     pub fn new(profile: &Profile, radius: f64) -> Result<Self, ProfileError> {
         let [start, end] = prepared(profile, ProfileKind::Wheel)?;
-        let count = libm::ceil((end - start) / SPACING).max(1.0) as usize;
+        let count = cells([start, end]);
         let step = (end - start) / count as f64;
         let points: Vec<_> = (0..=count)
             .map(|i| profile.curve().at(start + step * i as f64))
@@ -238,7 +203,7 @@ pub(super) struct RailSection {
 impl RailSection {
     pub fn new(profile: &Profile) -> Result<Self, ProfileError> {
         let [start, end] = prepared(profile, ProfileKind::Rail)?;
-        let count = libm::ceil((end - start) / SPACING).max(1.0) as usize;
+        let count = cells([start, end]);
         let points: Vec<_> = (0..=count)
             .map(|i| {
                 profile

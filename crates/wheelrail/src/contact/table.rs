@@ -51,8 +51,11 @@ impl ContactTable {
     /// second.
     ///
     /// # Errors
-    /// The overlap is not admissible.
+    /// The overlap is not admissible, or the rail's section changes along the track.
     pub fn new(pair: ContactPair, overlap: f64) -> Result<Self, ProfileError> {
+        if pair.varies() {
+            return Err(ProfileError::Varying);
+        }
         if !(1e-6..=1e-3).contains(&overlap) {
             return Err(ProfileError::Number {
                 what: "overlap of a contact table (m)",
@@ -156,14 +159,17 @@ fn sample(
         return ([-height, 0.0, 0.0, 0.0, height, 0.0, 0.0], 0.0);
     }
     let level = (1.0 - inclination * inclination).sqrt();
-    let frame = Frame::new(&WheelPose {
+    let rail = pair.rail.at(0.0);
+    let pose = WheelPose {
         center: [lateral - inclination * height, height],
         axle: [0.0, level, inclination],
-    });
+        along: 0.0,
+    };
+    let frame = Frame::new(&pose, &rail);
     let count = ((to - from) / SAMPLE).ceil().max(1.0) as usize;
     let at = |i: usize| -> ProfileNode<f64> {
         let parameter = from + (to - from) * i as f64 / count as f64;
-        frame.node(&pair.wheel, &pair.rail, parameter)
+        frame.node(&pair.wheel, parameter)
     };
     let highest = (0..=count)
         .map(|i| at(i).overlap)
@@ -235,6 +241,7 @@ impl FindPatches for ContactTable {
                 place: [profile * x - radius * lead, place, down],
                 slope,
                 cosine,
+                climb: None,
                 profile,
                 radius,
                 approach: depth * cosine,

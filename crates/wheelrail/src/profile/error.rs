@@ -231,6 +231,9 @@ pub enum ProfileError {
         /// Whether places are angles.
         of_wheel: bool,
     },
+    /// Tables of contacts are asked for on a rail whose section changes.
+    #[error("tables of contacts are those of one section; the rail's section changes along the track")]
+    Varying,
     /// Lines and arcs do not join.
     #[error("{place}: element {element} (from 1) {found}")]
     Joint {
@@ -288,6 +291,7 @@ impl ProfileError {
             | Self::WiderThanGauge { .. }
             | Self::ShortOfRails { .. }
             | Self::NoSlice { .. }
+            | Self::Varying
             | Self::Length { .. }
             | Self::Number { .. } => None,
         }
@@ -358,6 +362,7 @@ impl ProfileError {
                 None => "look at gauge, distance of the tape circles and the units of both profiles".into(),
             },
             Self::NoSlice { range, .. } => format!("name a place between {} and {}", range[0], range[1]),
+            Self::Varying => "search the contacts: no tables (`wheels.tables = false`)".into(),
             Self::Joint { remedy, .. } => (*remedy).into(),
             Self::Length { what, value, range } => length_hint(*value, *range)
                 .unwrap_or_else(|| format!("give a {what} between {} and {} m", range[0], range[1])),

@@ -31,6 +31,7 @@ pub mod points;
 mod shape;
 mod slices;
 mod spline;
+mod visible;
 pub mod worn;
 
 use std::path::Path;
@@ -43,6 +44,7 @@ pub use figures::{WheelFigures, flangeway_clearance};
 pub use points::Points;
 pub use slices::{NamedSlice, SlicedProfile};
 pub use spline::Deviation;
+pub(crate) use visible::{visible_from, zero_of};
 
 use crate::contact::Side;
 

@@ -6,17 +6,21 @@
 //! comes a comment. Source: the program CONTACT's reader (its open source, 2008 to 2025).
 //!
 //! Between two slices the section is linear: points at equal shares of the lengths of both curves are joined
-//! by straight lines. Features, at which CONTACT ties slices together, are not read; a list that has them is
-//! doubted.
+//! by straight lines, for the part that is not steeper than 82° and for what lies on each side of it.
+//! Features, at which CONTACT ties slices together, are not read; a list that has them is doubted.
 
 use std::f64::consts::{PI, TAU};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use input::file::Expected;
 use input::{FileType, Separated, limits, shortened};
 
 use super::points::{line_error, number_of};
-use super::{Points, Profile, ProfileError, ProfileKind, ProfileNotice, ReadOptions};
+use super::{
+    Points, Profile, ProfileCurve, ProfileError, ProfileKind, ProfileNotice, ReadOptions, visible_from,
+    zero_of,
+};
 
 /// Most slices of a list.
 const MOST: usize = 2000;
@@ -45,7 +49,7 @@ pub struct SlicedProfile {
     name: String,
     kind: ProfileKind,
     places: Vec<f64>,
-    profiles: Vec<Profile>,
+    profiles: Vec<Arc<Profile>>,
     notices: Vec<ProfileNotice>,
 }
 
@@ -61,11 +65,52 @@ impl SlicedProfile {
         }
     }
 
+    /// Returns rail profiles at places along the track (m), which must rise; `name` is what messages call it.
+    ///
+    /// # Errors
+    /// There is no profile, or the places do not rise.
+    pub fn of_rails(name: &str, slices: Vec<(f64, Arc<Profile>)>) -> Result<Self, ProfileError> {
+        let (places, profiles): (Vec<f64>, Vec<Arc<Profile>>) = slices.into_iter().unzip();
+        let rises = places
+            .windows(2)
+            .find(|pair| pair[1] <= pair[0] || pair[1].is_nan());
+        if let Some(value) = rises
+            .map(|pair| pair[1])
+            .or(places.is_empty().then_some(f64::NAN))
+        {
+            return Err(ProfileError::Number {
+                what: "place of a rail's section (m)",
+                value,
+                must: "more than that of the one before",
+            });
+        }
+        Ok(Self {
+            name: name.to_owned(),
+            kind: ProfileKind::Rail,
+            places,
+            profiles,
+            notices: Vec::new(),
+        })
+    }
+
     /// Reads a list and its files.
     ///
     /// # Errors
     /// The list or one of its files is not read, or the places do not grow.
     pub fn read(path: &Path, options: &ReadOptions) -> Result<Self, ProfileError> {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::read_with(path, options, |file| Ok(folder.join(file)))
+    }
+
+    /// The same with files that lie where `locate` says.
+    ///
+    /// # Errors
+    /// As [`SlicedProfile::read`], or those of `locate`.
+    pub fn read_with<E: From<ProfileError>>(
+        path: &Path,
+        options: &ReadOptions,
+        mut locate: impl FnMut(&str) -> Result<PathBuf, E>,
+    ) -> Result<Self, E> {
         let kind = Self::kind_of(path).ok_or_else(|| ProfileError::UnknownFile {
             path: path.to_owned(),
         })?;
@@ -74,10 +119,9 @@ impl SlicedProfile {
             types: &[FileType::Profile],
             most: limits::TEXT_FILE,
         };
-        let text = input::file::read_text(path, &expected)?;
+        let text = input::file::read_text(path, &expected).map_err(ProfileError::from)?;
         let name = path.display().to_string();
         let (slices, features) = Self::list(&name, &text, kind)?;
-        let folder = path.parent().unwrap_or(Path::new(""));
         let mut read = Self {
             name: name.clone(),
             kind,
@@ -97,10 +141,10 @@ impl SlicedProfile {
             });
         }
         for slice in slices {
-            let profile = Profile::read_with(&folder.join(&slice.file), kind, options)?;
+            let profile = Profile::read_with(&locate(&slice.file)?, kind, options)?;
             read.notices.extend(profile.notices().iter().cloned());
             read.places.push(slice.place);
-            read.profiles.push(profile);
+            read.profiles.push(Arc::new(profile));
         }
         Ok(read)
     }
@@ -198,8 +242,43 @@ impl SlicedProfile {
 
     /// Returns the profiles of its slices.
     #[must_use]
-    pub fn profiles(&self) -> &[Profile] {
+    pub fn profiles(&self) -> &[Arc<Profile>] {
         &self.profiles
+    }
+
+    /// Returns the same with all places moved, m along the rail or rad around the wheel.
+    #[must_use]
+    pub fn from(mut self, place: f64) -> Self {
+        self.places.iter_mut().for_each(|own| *own += place);
+        self
+    }
+
+    /// Returns the same with all profiles moved, m.
+    #[must_use]
+    pub fn moved(&self, shift: [f64; 2]) -> Self {
+        self.changed(|profile| profile.moved(shift))
+    }
+
+    /// Returns the same with all profiles inclined towards the track's center (a slope).
+    #[must_use]
+    pub fn inclined(&self, slope: f64) -> Self {
+        self.changed(|profile| profile.inclined(slope))
+    }
+
+    fn changed(&self, change: impl Fn(&Profile) -> Profile) -> Self {
+        let mut profiles: Vec<Arc<Profile>> = Vec::with_capacity(self.profiles.len());
+        for (i, profile) in self.profiles.iter().enumerate() {
+            // Slices that share a profile go on to share it.
+            let mut before = self.profiles[..i].iter();
+            profiles.push(match before.position(|other| Arc::ptr_eq(profile, other)) {
+                Some(known) => profiles[known].clone(),
+                None => Arc::new(change(profile)),
+            });
+        }
+        Self {
+            profiles,
+            ..self.clone()
+        }
     }
 
     /// Returns the doubts about the list and its files.
@@ -255,21 +334,23 @@ impl SlicedProfile {
     pub fn at(&self, place: f64) -> Result<Profile, ProfileError> {
         let (before, next, share) = self.around(place)?;
         if share == 0.0 || share == 1.0 {
-            return Ok(self.profiles[if share == 0.0 { before } else { next }].clone());
+            return Ok(Profile::clone(
+                &self.profiles[if share == 0.0 { before } else { next }],
+            ));
         }
         let curves = [before, next].map(|slice| self.profiles[slice].curve());
-        let length = curves.map(|curve| curve.range()[1] - curve.range()[0]);
-        let count = libm::ceil(length[0].max(length[1]) / SPACING) as usize;
-        let points: Vec<[f64; 2]> = (0..=count)
-            .map(|i| {
-                let part = i as f64 / count as f64;
-                let [a, b] = curves.map(|curve| {
-                    let [start, end] = curve.range();
-                    curve.at(start + part * (end - start)).position
-                });
+        let anchors = curves.map(anchors);
+        let mut points: Vec<[f64; 2]> = Vec::new();
+        for part in 0..3 {
+            let length = anchors.map(|own| own[part + 1] - own[part]);
+            let count = libm::ceil(length[0].max(length[1]) / SPACING) as usize;
+            let first = usize::from(!points.is_empty());
+            points.extend((first..=count).map(|i| {
+                let along = i as f64 / count.max(1) as f64;
+                let [a, b] = [0, 1].map(|k| curves[k].at(anchors[k][part] + along * length[k]).position);
                 [0, 1].map(|axis| a[axis] + share * (b[axis] - a[axis]))
-            })
-            .collect();
+            }));
+        }
         let unit = if self.kind == ProfileKind::Rail {
             "m"
         } else {
@@ -279,6 +360,18 @@ impl SlicedProfile {
         let mut points = Points::new(&name, &points);
         points.stated = self.profiles[before].stated();
         Profile::of_points(&points, self.kind, 0.0)
+    }
+
+    /// Returns the height of a rail's top at a place (m) above that of its first slice, m; beyond the ends
+    /// that of the end.
+    #[must_use]
+    pub fn top_at(&self, place: f64) -> f64 {
+        let [low, high] = [0, self.places.len() - 1].map(|k| self.places[k]);
+        let Ok((before, next, share)) = self.around(place.clamp(low, high)) else {
+            return 0.0;
+        };
+        let [first, before, next] = [0, before, next].map(|k| self.profiles[k].top()[1]);
+        before + share * (next - before) - first
     }
 
     /// Returns how fast the surface at y (m) rises along the rail (m/m), or around the wheel (m/rad), at a
@@ -299,6 +392,13 @@ impl SlicedProfile {
             _ => None,
         })
     }
+}
+
+/// Returns the parameters of a curve's beginning, of both ends of its visible part, and of its end.
+fn anchors(curve: &ProfileCurve) -> [f64; 4] {
+    let [start, end] = curve.range();
+    let [low, high] = zero_of(curve).map_or([start, end], |zero| visible_from(curve, zero));
+    [start, low, high, end]
 }
 
 /// Returns the largest z (m) of a profile at y (m).

@@ -25,4 +25,5 @@ mod spectrum;
 mod spirals;
 mod track;
 mod validation_page;
+mod varying_rail;
 mod wheelset;
