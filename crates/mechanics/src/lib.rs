@@ -80,6 +80,7 @@
 //! - `system/eigenvalues.rs`: eigenvalues of damped and steadily driven motion.
 
 pub mod body;
+pub mod channel;
 pub mod characteristic;
 pub mod coil;
 pub mod connection;

@@ -21,6 +21,18 @@ pub struct Column {
 }
 
 impl Column {
+    /// Returns a column without a point of reference; `frame` names the axes of its components.
+    #[must_use]
+    pub fn new(name: impl Into<String>, kind: Kind, frame: &'static str, text: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            kind,
+            frame: Cow::Borrowed(frame),
+            reference: Cow::Borrowed(""),
+            text: text.into(),
+        }
+    }
+
     /// Returns the column's name with its unit, as in files: `wedge_x_in`.
     #[must_use]
     pub fn full_name(&self, units: Units) -> String {

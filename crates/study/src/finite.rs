@@ -19,17 +19,15 @@ pub(crate) fn find(measures: &BTreeMap<String, SummaryValue>) -> Option<&str> {
     found.map(|(name, _)| name.as_str())
 }
 
-/// Returns what of an energy ledger, or of more measures, is not a finite number, in words.
-pub(crate) fn not_finite(
-    ledger: &LedgerSummary,
-    more: Option<&BTreeMap<String, SummaryValue>>,
-) -> Option<String> {
-    let name = find(&ledger.entries).or_else(|| find(more?));
-    let residual = !is_finite(ledger.largest_relative_residual);
-    let what = match name {
-        Some(name) => format!("`{name}`"),
-        None if residual => "the ledger's relative residual".to_owned(),
-        None => return None,
-    };
-    Some(format!("{what} is not a finite number"))
+/// Returns what of an energy ledger is not a finite number, in words.
+pub(crate) fn not_finite(ledger: &LedgerSummary) -> Option<String> {
+    match find(&ledger.entries) {
+        Some(name) => Some(format!("`{name}`")),
+        None => residual_not_finite(ledger.largest_relative_residual),
+    }
+}
+
+/// Returns the words of a relative residual of an energy ledger that is not finite.
+pub(crate) fn residual_not_finite(residual: f64) -> Option<String> {
+    (!is_finite(residual)).then(|| "the ledger's relative residual".to_owned())
 }

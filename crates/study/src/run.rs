@@ -9,8 +9,7 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use integrate::{Integrator, Options};
-use mechanics::energy_balance::{EnergyBalance, Entries, LOOSEST, Verdict};
-use mechanics::output::Column;
+use mechanics::energy_balance::{EnergyBalance, Entries, LOOSEST};
 use mechanics::plausibility::{Plausibility, PlausibilityFinding};
 use mechanics::system::System;
 use quantity::{Kind, System as Units};
@@ -18,13 +17,15 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::case::Simulation;
-use crate::finite::is_finite;
+use crate::contacts;
+use crate::plausibility;
 use crate::progress::{self, INTERVALS, Pace};
 use crate::rows::Rows;
 pub use crate::run_error::{NotFinite, RUN_STATE_VERSION, RunError};
 use crate::summary::{LedgerSummary, Stopped, SummaryValue};
 
 mod check;
+mod ended;
 pub(crate) mod findings;
 mod pressed;
 mod row_table;
@@ -37,29 +38,6 @@ pub(crate) use row_table::RowTable;
 pub use row_table::SavedRows;
 pub use state::RunState;
 pub use wedge_run::{Counts, EVENT_CAP};
-
-/// Appends a row (SI) at `time` (s) to the values of a table, one vector a column.
-///
-/// # Errors
-/// A value is not finite; nothing is appended then.
-pub(crate) fn append(
-    values: &mut [Vec<f64>],
-    columns: &[Column],
-    row: &[f64],
-    time: f64,
-) -> Result<(), NotFinite> {
-    if let Some(index) = row.iter().position(|value| !is_finite(*value)) {
-        return Err(NotFinite {
-            column: columns[index].name.clone(),
-            value: row[index],
-            time,
-        });
-    }
-    for (column, value) in values.iter_mut().zip(row) {
-        column.push(*value);
-    }
-    Ok(())
-}
 
 /// A case that can be run: a model with all that a run needs besides.
 pub trait RunCase: Clone {
@@ -168,20 +146,28 @@ pub trait Recorder {
     }
     /// Takes an accepted step. `system` has the integrator's smooth interval of time; `x` is scratch memory
     /// for a state.
-    fn step(&mut self, integrator: &Integrator<System>, system: &mut System, x: &mut [f64]);
+    fn step(&mut self, _integrator: &Integrator<System>, _system: &mut System, _x: &mut [f64]) {}
     /// Takes an output time. Returns the entries of the energy ledger.
     ///
     /// # Errors
     /// A value is not finite, or the model has been torn apart; the row has not been taken.
     fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError>;
     /// Returns the findings in words, with the places as the user knows them.
-    fn describe(&self, system: &System, finding: &PlausibilityFinding, units: Units) -> String;
+    fn describe(&self, system: &System, finding: &PlausibilityFinding, units: Units) -> String {
+        plausibility::in_truck(system, finding, self.numbers(), units)
+    }
     /// Returns these contact states in words, by contact.
-    fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String>;
+    fn contacts(&self, system: &System, contact_states: &[u8]) -> BTreeMap<String, String> {
+        contacts::in_words(system, contact_states)
+    }
     /// Returns the numbers that the user's files give to bodies and connections, for messages; empty without
     /// such files.
     fn numbers(&self) -> [&[u32]; 2] {
         [&[], &[]]
+    }
+    /// Returns whether a wheel has left its rail: such a run has ended, though not at its end.
+    fn has_derailed(&self) -> bool {
+        false
     }
 }
 
@@ -301,12 +287,6 @@ impl<C: RunCase> Run<C> {
     #[must_use]
     pub fn is_finished(&self) -> bool {
         self.time() >= self.rows.end
-    }
-
-    /// Returns whether a run that ends now is complete: nothing stopped it before its end, and its energy
-    /// ledger closes.
-    pub(crate) fn is_complete(&self, stopped: Option<&Stopped>) -> bool {
-        stopped.is_none() && self.is_finished() && self.energy_balance.verdict() != Verdict::Failed
     }
 
     /// Returns the state, to be continued by [`Run::resume`]. The results so far are those of a part if
@@ -446,7 +426,8 @@ impl<C: RunCase> Run<C> {
     /// Returns the contact states in words, by contact.
     #[must_use]
     pub fn contact_states(&self) -> BTreeMap<String, String> {
-        self.recorder.contacts(self.integrator.discrete_states())
+        self.recorder
+            .contacts(&self.system, self.integrator.discrete_states())
     }
 
     /// Takes the rows whose time has been reached, with the contact states of that time, up to one that is

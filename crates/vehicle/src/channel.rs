@@ -1,9 +1,8 @@
 //! What is seen of a vehicle: numbers with names, units and meanings, each a function of an observation.
 
 use std::borrow::Cow;
-use std::fmt;
-use std::sync::Arc;
 
+use mechanics::channel::{self, Sight};
 use mechanics::link::{Marker, RelativeMotion};
 use mechanics::output::Column;
 use mechanics::system::{Observation, System};
@@ -21,56 +20,22 @@ pub struct View<'v> {
     pub system: &'v System,
 }
 
-/// Channels that are read together: their columns, and how their values are read, SI.
-#[derive(Clone)]
-pub struct Channels {
-    /// Of each its name, kind, axes, meaning.
-    pub columns: Vec<Column>,
-    read: Arc<Reading>,
+/// The sight of vehicles: [`View`].
+#[derive(Debug)]
+pub struct Whole;
+
+impl Sight for Whole {
+    type At<'v> = View<'v>;
 }
 
-/// Appends the values of channels.
-type Reading = dyn Fn(&View<'_>, &mut Vec<f64>) + Send + Sync;
-
-impl fmt::Debug for Channels {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Channels")
-            .field("columns", &self.columns)
-            .finish_non_exhaustive()
-    }
-}
-
-impl Channels {
-    /// Returns channels of which one reading appends the values, in the order of the columns.
-    pub fn new(
-        columns: Vec<Column>,
-        read: impl Fn(&View<'_>, &mut Vec<f64>) + Send + Sync + 'static,
-    ) -> Self {
-        Self {
-            columns,
-            read: Arc::new(read),
-        }
-    }
-
-    /// Returns one channel by itself.
-    pub fn single(column: Column, read: impl Fn(&View<'_>) -> f64 + Send + Sync + 'static) -> Self {
-        Self::new(vec![column], move |view, row| row.push(read(view)))
-    }
-
-    /// Appends the values, SI.
-    pub fn read(&self, view: &View<'_>, row: &mut Vec<f64>) {
-        (self.read)(view, row);
-    }
-}
+/// Channels of a vehicle.
+pub type Channels = channel::Channels<Whole>;
 
 /// Returns a column whose components are along the fixed axes.
 pub(crate) fn column(name: String, kind: Kind, text: String) -> Column {
     Column {
-        name,
-        kind,
-        frame: Cow::Borrowed("fixed: x forward, y to the left, z up"),
         reference: Cow::Borrowed("nominal layout"),
-        text,
+        ..Column::new(name, kind, "fixed: x forward, y to the left, z up", text)
     }
 }
 

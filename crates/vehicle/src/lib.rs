@@ -45,7 +45,7 @@ mod vibration;
 
 pub use assemble::{Description, StartKind, Vehicle};
 pub use body::{BodyStart, RigidBody};
-pub use channel::{Channels, View};
+pub use channel::{Channels, View, Whole};
 pub use drawing::{Drawing, Drawn, DrawnBody, DrawnElement, Solid};
 pub use error::VehicleError;
 pub use on_track::{Axle, AxleState, OnTrack, TruckPart, WheelsetPart};

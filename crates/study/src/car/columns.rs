@@ -3,21 +3,23 @@
 use std::sync::Arc;
 
 use car::{BuildError, Car, Derailment, Loads, Parameters, Wheels};
+use mechanics::channel::{Channels, Seen, WithLoads};
 use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
 use quantity::Kind;
-use truck::{HALVES, WEDGE_NAMES, WedgeKind, WedgeLoads};
+use truck::{WEDGE_NAMES, WedgeLoads};
 use wheelrail::profile::SlicedProfile;
 use wheelrail::track::Track;
 
 use super::derailment;
 use super::statistics::{SIDES, ratio};
-use crate::truck::columns::{RISE, of_halves};
+use crate::truck::channels::{FACES, FRICTION, TruckChannels, losses_at, names_of_face, places_of};
 
 /// The table of a car's results, for any observation of its system.
 pub struct CarTable {
     car: Car,
-    columns: Columns,
+    columns: Channels<WithLoads<Loads>>,
+    fixed: usize,
     static_loads: [[f64; 2]; 4],
     track: Track,
     /// Rails whose sections change along the track.
@@ -35,7 +37,7 @@ impl CarTable {
     pub fn new(parameters: &Parameters) -> Result<Self, BuildError> {
         let car = Car::new(parameters)?;
         let static_loads = derailment::static_loads(parameters);
-        let columns = Columns::new(&car, &parameters.trucks, static_loads);
+        let Table { columns, fixed } = Table::new(&car, &parameters.trucks, static_loads);
         let x = &car.initial_state;
         let seen = car.system.clone().observe(0.0, x);
         let loads = car.loads(&seen, &vec![0.0; x.len()]);
@@ -49,6 +51,7 @@ impl CarTable {
             },
             car,
             columns,
+            fixed,
             static_loads,
         })
     }
@@ -74,7 +77,7 @@ impl CarTable {
     /// Returns the number of columns at the beginning with fixed names: all up to the wedges.
     #[must_use]
     pub fn fixed(&self) -> usize {
-        self.columns.fixed
+        self.fixed
     }
 
     /// Returns the static loads of the wheels by axle, left and right, N.
@@ -98,7 +101,7 @@ impl CarTable {
             loads: &loads,
             start_energy,
         };
-        out.extend(self.columns.values.iter().map(|value| value(&seen)));
+        self.columns.read(&seen, out);
         loads
     }
 }
@@ -120,37 +123,24 @@ impl CarTable {
     }
 }
 
-/// The source of values: an observation, its loads, and the stored energy at the start, J.
-struct Seen<'s> {
-    observation: &'s Observation,
-    loads: &'s Loads,
-    start_energy: f64,
-}
-
-type Value = Box<dyn Fn(&Seen<'_>) -> f64 + Send + Sync>;
-
-/// The table: what its columns are, and how their values are taken.
-struct Columns {
-    columns: Vec<Column>,
-    /// Number of columns at the beginning with fixed names.
-    fixed: usize,
-    values: Vec<Value>,
-}
-
 /// Axes that signs refer to, by what a column is about.
 const TRACK: &str = "of the track: forward, left, up";
 const BODY: &str = "of the car body: left, up";
 const TRUCK: &str = "of the truck: x forward, y left, z up";
 
-impl Columns {
+/// The columns on their way.
+#[derive(Default)]
+struct Table {
+    columns: Channels<WithLoads<Loads>>,
+    /// Number of columns at the beginning with fixed names.
+    fixed: usize,
+}
+
+impl Table {
     /// Returns the columns of a car on these trucks; static loads of the wheels are by axle, left and right,
     /// N.
     fn new(car: &Car, trucks: &[truck::Parameters; 2], static_loads: [[f64; 2]; 4]) -> Self {
-        let mut own = Self {
-            columns: Vec::new(),
-            fixed: 0,
-            values: Vec::new(),
-        };
+        let mut own = Self::default();
         own.add("time", Kind::Time, "", "time", |seen| seen.observation.time);
         let text = "of the center of gravity of body and lading along the track, in plan";
         own.add("distance", Kind::Distance, TRACK, text, |seen| {
@@ -189,35 +179,29 @@ impl Columns {
             }
         }
         for truck in 0..2 {
-            let text = "mean yaw of the side frames less that of the bolster";
-            own.add(
-                format!("truck_{}_warp_angle", truck + 1),
-                Kind::Angle,
-                TRUCK,
-                text,
-                move |seen| seen.loads.trucks[truck].warp_angle,
-            );
+            own.truck(truck).warp_angle();
         }
         for truck in 0..2 {
-            own.truck(truck);
+            own.truck(truck).nests();
+            own.truck(truck).wedges();
         }
-        own.fixed = own.columns.len();
+        own.fixed = own.columns.columns.len();
         for (truck, parameters) in trucks.iter().enumerate() {
-            own.more_of_truck(truck);
-            for (number, name) in WEDGE_NAMES.into_iter().enumerate() {
-                let name = format!("truck_{}_{name}_rise", truck + 1);
-                own.add(name, Kind::Length, TRUCK, RISE, move |seen| {
-                    seen.loads.trucks[truck].wedges[number].rise
-                });
-            }
-            for (number, name) in WEDGE_NAMES.into_iter().enumerate() {
-                if parameters.wedges[number].kind == WedgeKind::Split {
-                    own.halves(truck, number, name);
-                }
-            }
+            let mut own = own.truck(truck);
+            own.warp_moment();
+            own.center_plate();
+            own.rises();
+            own.halves(parameters);
         }
         own.wear();
-        own.losses_of_wedges(&car.system);
+        for truck in 1..=2 {
+            for wedge in WEDGE_NAMES {
+                let places = losses_of_wedge(&car.system, truck, wedge);
+                let name = format!("truck_{truck}_{wedge}_friction_loss");
+                let text = "energy lost in its friction at column, slope and between halves since the start";
+                own.columns.add_energy(name, "", text, places);
+            }
+        }
         own.energies(&car.system);
         own
     }
@@ -228,16 +212,19 @@ impl Columns {
         kind: Kind,
         frame: &'static str,
         text: &str,
-        value: impl Fn(&Seen<'_>) -> f64 + Send + Sync + 'static,
+        value: impl Fn(&Seen<'_, Loads>) -> f64 + Send + Sync + 'static,
     ) {
-        self.columns.push(Column {
-            name: name.into(),
-            kind,
-            frame: frame.into(),
-            reference: "".into(),
-            text: text.to_owned(),
-        });
-        self.values.push(Box::new(value));
+        self.columns.add(name, kind, frame, text, value);
+    }
+
+    /// Returns what adds the columns that a truck of its own has, too.
+    fn truck(&mut self, truck: usize) -> TruckChannels<'_, Loads> {
+        TruckChannels {
+            table: &mut self.columns,
+            prefix: format!("truck_{}_", truck + 1),
+            frame: TRUCK,
+            of: (|own, truck| &own.trucks[truck], truck),
+        }
     }
 
     fn axles(&mut self, static_loads: [[f64; 2]; 4]) {
@@ -280,97 +267,6 @@ impl Columns {
         }
     }
 
-    /// Nests and wedges of a truck.
-    fn truck(&mut self, truck: usize) {
-        let stem = format!("truck_{}", truck + 1);
-        for (side, name) in SIDES.into_iter().enumerate() {
-            let text = "load on the side frame from all that bolster, wedges and coils exert, positive down";
-            let name = format!("{stem}_{name}_nest_vertical_force");
-            self.add(name, Kind::Force, TRUCK, text, move |seen| {
-                seen.loads.trucks[truck].nest_vertical[side]
-            });
-        }
-        for (number, name) in WEDGE_NAMES.into_iter().enumerate() {
-            let stem = format!("{stem}_{name}");
-            let text = "normal force of the column";
-            self.add(
-                format!("{stem}_column_normal"),
-                Kind::Force,
-                TRUCK,
-                text,
-                move |seen| seen.loads.trucks[truck].wedges[number].column_normal,
-            );
-            let text = "friction of the column alone on the side frame, along z, positive up";
-            self.add(
-                format!("{stem}_column_friction_z"),
-                Kind::Force,
-                TRUCK,
-                text,
-                move |seen| seen.loads.trucks[truck].wedges[number].column_friction_z,
-            );
-            let text = "normal force of the slope";
-            self.add(
-                format!("{stem}_slope_normal"),
-                Kind::Force,
-                TRUCK,
-                text,
-                move |seen| seen.loads.trucks[truck].wedges[number].slope_normal,
-            );
-            for (k, coordinate) in ["x", "y", "z", "roll", "pitch", "yaw"].into_iter().enumerate() {
-                let name = format!("{stem}_{coordinate}");
-                if k < 3 {
-                    let text = "displacement of its center of gravity from its nominal place in the truck";
-                    self.add(name, Kind::Length, TRUCK, text, move |seen| {
-                        seen.loads.trucks[truck].wedges[number].displacement[k]
-                    });
-                } else {
-                    self.add(name, Kind::Angle, TRUCK, "its angle in truck axes", move |seen| {
-                        seen.loads.trucks[truck].wedges[number].angles[k - 3]
-                    });
-                }
-            }
-        }
-    }
-
-    /// Adds the columns outside the fixed names: warp moment, center plate.
-    fn more_of_truck(&mut self, truck: usize) {
-        let stem = format!("truck_{}", truck + 1);
-        let text = "moment about the truck's z axis that all elements exert on the bolster";
-        self.add(
-            format!("{stem}_warp_moment"),
-            Kind::Moment,
-            TRUCK,
-            text,
-            move |seen| seen.loads.trucks[truck].warp_moment.total(),
-        );
-        let text = "normal force of the center plate";
-        self.add(
-            format!("{stem}_center_plate_load"),
-            Kind::Force,
-            TRUCK,
-            text,
-            move |seen| seen.loads.trucks[truck].center_plate.load,
-        );
-        for (k, name) in ["roll", "pitch", "turning"].into_iter().enumerate() {
-            let text =
-                "moment of the center plate on the bolster about the truck's axes, at the plate's height";
-            let name = format!("{stem}_center_plate_{name}_moment");
-            self.add(name, Kind::Moment, TRUCK, text, move |seen| {
-                seen.loads.trucks[truck].center_plate.moment[k]
-            });
-        }
-    }
-
-    /// The halves of a split wedge.
-    fn halves(&mut self, truck: usize, number: usize, name: &str) {
-        for own in of_halves() {
-            let name = format!("truck_{}_{name}_{}", truck + 1, own.name);
-            self.add(name, own.kind, TRUCK, own.text, move |seen| {
-                (own.value)(&seen.loads.trucks[truck].wedges[number])
-            });
-        }
-    }
-
     fn wear(&mut self) {
         for axle in 0..4 {
             for (side, name) in SIDES.into_iter().enumerate() {
@@ -383,108 +279,55 @@ impl Columns {
         }
     }
 
-    fn losses_of_wedges(&mut self, system: &System) {
-        for truck in 1..=2 {
-            for wedge in WEDGE_NAMES {
-                let places = losses_of_wedge(system, truck, wedge);
-                let name = format!("truck_{truck}_{wedge}_friction_loss");
-                let text = "energy lost in its friction at column, slope and between halves since the start";
-                self.sum(&name, text, places);
-            }
-        }
-    }
-
     fn energies(&mut self, system: &System) {
-        let of = |wanted: &dyn Fn(EnergyTermKind, &str) -> bool| -> Vec<usize> {
-            let terms = system.energy_terms().iter().enumerate();
-            terms
-                .filter(|(_, term)| wanted(term.kind, &term.element))
-                .map(|(place, _)| place)
-                .collect()
-        };
         let is_wheel = |element: &str| element.starts_with("wheel_") || element.starts_with("linear_wheel");
         let entries: [(&str, &str, Vec<usize>); 6] = [
             (
                 "drive_work",
                 "work of what holds the speed, and of motions and loads, since the start",
-                of(&|kind, element| kind.is_work() && !is_wheel(element)),
+                places_of(system, |kind, element| kind.is_work() && !is_wheel(element)),
             ),
             (
                 "contact_work",
                 "work of the contacts of wheels and rails that is not stored and not lost in creep and \
                  damping: it comes from forces that no energy belongs to",
-                of(&|kind, element| kind.is_work() && is_wheel(element)),
+                places_of(system, |kind, element| kind.is_work() && is_wheel(element)),
             ),
             (
                 "creep_loss",
                 "energy lost in creep and in the damping of the contacts of wheels and rails since the start",
-                of(&|kind, element| kind == EnergyTermKind::ElementLoss && is_wheel(element)),
+                places_of(system, |kind, element| {
+                    kind == EnergyTermKind::ElementLoss && is_wheel(element)
+                }),
             ),
             (
                 "friction_loss",
                 "energy lost in the friction of wedges, adapters, center plates and side bearings since the \
                  start",
-                of(&|kind, _| {
-                    matches!(
-                        kind,
-                        EnergyTermKind::FrictionLoss
-                            | EnergyTermKind::ColumnFriction
-                            | EnergyTermKind::SlopeFriction
-                            | EnergyTermKind::WedgeKinematics
-                    )
-                }),
+                places_of(system, |kind, _| FRICTION.contains(&kind)),
             ),
             (
                 "contact_damping_loss",
                 "energy lost in the damping of faces since the start",
-                of(&|kind, _| kind == EnergyTermKind::ContactDampingLoss),
+                places_of(system, |kind, _| kind == EnergyTermKind::ContactDampingLoss),
             ),
             (
                 "element_loss",
                 "energy lost in coils, stops and rails' supports since the start",
-                of(&|kind, element| {
+                places_of(system, |kind, element| {
                     !kind.is_work()
                         && !is_wheel(element)
-                        && !matches!(
-                            kind,
-                            EnergyTermKind::FrictionLoss
-                                | EnergyTermKind::ColumnFriction
-                                | EnergyTermKind::SlopeFriction
-                                | EnergyTermKind::WedgeKinematics
-                                | EnergyTermKind::ContactDampingLoss
-                        )
+                        && !FRICTION.contains(&kind)
+                        && kind != EnergyTermKind::ContactDampingLoss
                 }),
             ),
         ];
         for (name, text, places) in entries {
-            self.sum(name, text, places);
+            self.columns.add_energy(name, "", text, places);
         }
-        let text = "energy stored, less that at the start";
-        self.add("stored_energy_change", Kind::Energy, "", text, |seen| {
-            seen.observation.energies.total() - seen.start_energy
-        });
-        let text = "work less stored energy and losses";
-        self.add("ledger_residual", Kind::Energy, "", text, |seen| {
-            -seen.observation.residual(seen.start_energy)
-        });
+        self.columns.add_stored("");
+        self.columns.add_residual("");
     }
-
-    /// A sum of quadratures.
-    fn sum(&mut self, name: &str, text: &str, places: Vec<usize>) {
-        self.add(name, Kind::Energy, "", text, move |seen| {
-            places
-                .iter()
-                .map(|place| seen.observation.quadratures[*place])
-                .sum()
-        });
-    }
-}
-
-/// Returns the names that the faces of a wedge (`truck_1_leading_left`) may have.
-fn faces_of_wedge(stem: &str) -> Vec<String> {
-    let whole = ["column", "slope", "split"].map(|face| format!("{stem}_{face}"));
-    let halves = HALVES.map(|half| ["column", "slope"].map(|face| format!("{stem}_{half}_{face}")));
-    whole.into_iter().chain(halves.into_iter().flatten()).collect()
 }
 
 /// Returns the places among the contact states of the points of a wedge's faces, by the wedge's name; none of
@@ -492,7 +335,7 @@ fn faces_of_wedge(stem: &str) -> Vec<String> {
 pub(super) fn points_of_wedges(system: &System) -> Vec<(String, Vec<usize>)> {
     let names = (1..=2).flat_map(|truck| WEDGE_NAMES.map(|wedge| format!("truck_{truck}_{wedge}")));
     let points = names.map(|stem| {
-        let faces = faces_of_wedge(&stem);
+        let faces = FACES.map(|face| names_of_face(&stem, face)).concat();
         let mut from = 0;
         let mut own = Vec::new();
         for mounted in system.faces() {
@@ -509,15 +352,5 @@ pub(super) fn points_of_wedges(system: &System) -> Vec<(String, Vec<usize>)> {
 
 /// Returns the places among the energy terms of what a wedge of a truck (1 front, 2 rear) loses in friction.
 pub(super) fn losses_of_wedge(system: &System, truck: usize, wedge: &str) -> Vec<usize> {
-    let stem = format!("truck_{truck}_{wedge}");
-    let faces = faces_of_wedge(&stem);
-    let terms = system.energy_terms().iter().enumerate();
-    terms
-        .filter(|(_, term)| match term.kind {
-            EnergyTermKind::FrictionLoss => faces.contains(&term.element),
-            EnergyTermKind::ColumnFriction | EnergyTermKind::SlopeFriction => term.element == stem,
-            _ => false,
-        })
-        .map(|(place, _)| place)
-        .collect()
+    losses_at(system, &format!("truck_{truck}_{wedge}"), &FACES)
 }

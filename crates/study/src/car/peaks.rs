@@ -121,13 +121,7 @@ mod tests {
         let columns: Vec<Column> = [("time".to_owned(), Kind::Time)]
             .into_iter()
             .chain(wheels.map(|name| (name, Kind::Force)))
-            .map(|(name, kind)| Column {
-                name,
-                kind,
-                frame: "".into(),
-                reference: "".into(),
-                text: String::new(),
-            })
+            .map(|(name, kind)| Column::new(name, kind, "", ""))
             .collect();
         let mut table = RowTable::new(&columns, |_| true);
         for (row, force) in forces.iter().enumerate() {
@@ -137,8 +131,8 @@ mod tests {
                 "axle_2_left_vertical" => force * POUND_FORCE,
                 _ => 30e3 * POUND_FORCE,
             };
-            let values: Vec<f64> = columns.iter().map(value).collect();
-            assert!(table.append(&columns, &values, time).is_ok());
+            table.begin_row().extend(columns.iter().map(value));
+            assert!(table.append(time).is_ok());
         }
         table
     }

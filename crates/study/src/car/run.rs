@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use car::Wheels;
-use integrate::{Integrator, Problem};
+use integrate::Problem;
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
-use mechanics::plausibility::PlausibilityFinding;
 use mechanics::system::{ContactState, System};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
@@ -21,12 +20,9 @@ use super::static_table::static_table;
 use super::statistics::{self, Histories, SIDES, Statistics};
 use super::summary::{CarSummary, Derailed, SCHEMA};
 use super::{limits, locked_in, peaks};
-use crate::contacts;
 use crate::energy;
-use crate::finite::not_finite;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
-use crate::plausibility;
 use crate::progress;
 use crate::result::RunResult;
 use crate::run::{
@@ -53,7 +49,6 @@ pub struct CarRecorder {
     ahead: Option<RowTable>,
     derailed: Option<Derailed>,
     units: Units,
-    row: Vec<f64>,
     /// Rates of the state.
     rates: Vec<f64>,
     /// Places of the points of each wedge among the contact states.
@@ -100,7 +95,6 @@ impl RunCase for CarCase {
             recorder: CarRecorder {
                 rows: RowTable::new(columns, |name| name == "speed" || statistics::need(name)),
                 ahead: None,
-                row: Vec::with_capacity(columns.len()),
                 rates: vec![0.0; x.len()],
                 motions: None,
                 counts: CarCounts {
@@ -189,8 +183,6 @@ impl Recorder for CarRecorder {
         self.ahead = Some(ahead.rows);
     }
 
-    fn step(&mut self, _: &Integrator<System>, _: &mut System, _: &mut [f64]) {}
-
     fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
         let observation = system.observe(row.time, row.x);
         for (face, mounted) in observation.faces.iter().zip(system.faces()) {
@@ -205,11 +197,11 @@ impl Recorder for CarRecorder {
             }
         }
         system.derivative(row.time, row.x, &mut self.rates);
-        self.row.clear();
+        let values = self.rows.begin_row();
         let loads = self
             .table
-            .read(&observation, &self.rates, row.start_energy, &mut self.row);
-        self.rows.append(self.table.columns(), &self.row, row.time)?;
+            .read(&observation, &self.rates, row.start_energy, values);
+        self.rows.append(row.time)?;
         if let Some(motions) = &mut self.motions {
             motions.take(self.table.car(), &observation);
         }
@@ -235,28 +227,17 @@ impl Recorder for CarRecorder {
         Ok(system.ledger_entries(&observation, row.start_energy))
     }
 
-    fn describe(&self, system: &System, finding: &PlausibilityFinding, units: Units) -> String {
-        plausibility::in_truck(system, finding, [&[], &[]], units)
-    }
-
-    fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
-        contacts::in_words(&self.table.car().system, contact_states)
+    fn has_derailed(&self) -> bool {
+        self.derailed.is_some()
     }
 }
 
 fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     let units = run.case.simulation.output_units;
-    let mut columns = run.recorder.table.columns().to_vec();
     let table = std::mem::take(&mut run.recorder.rows);
-    let balance = run.energy_balance;
-    let derailed = run.recorder.derailed.take();
-    let complete = run.is_complete(stopped.as_ref());
-    // A derailment is a result, though not of a complete run.
-    let stopped = stopped.filter(|_| derailed.is_none());
-    let mut warnings: Vec<String> = energy::warning(&balance, energy::WHAT_TO_DO)
-        .into_iter()
-        .collect();
-    warnings.extend(run.start_warning.clone());
+    let mut ended = run.ended(stopped, &table, energy::WHAT_TO_DO);
+    let ledger = run.last_ledger(&mut ended);
+    let mut warnings = ended.warnings;
     warnings.extend(findings::warnings_of_rolling(&run));
     warnings.extend(run.case.doubts.iter().cloned());
     let risen = wedges_at_start(&run);
@@ -274,13 +255,12 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     warnings.extend(statistics.remarks.iter().cloned());
     let column = |name: &str| table.column(name);
     let time = column("time");
-    let mut extremes = table.summary_extremes(&columns, units);
-    let mut filtered_values = Vec::new();
+    let mut extremes = table.summary_extremes(units);
+    let mut filtered_columns = Vec::new();
     if run.case.rules.filtered_columns {
-        for (column, values) in filtered(&run, &statistics, &columns, time.len()) {
+        for (column, values) in filtered(&run, &statistics, table.columns(), time.len()) {
             extremes.extend(Extremes::of(time, &values).map(|own| own.named(&column, units)));
-            columns.push(column);
-            filtered_values.push(values);
+            filtered_columns.push((column, values));
         }
     }
     let ends = |name: &str, kind: Kind| {
@@ -298,8 +278,6 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
             );
         }
     }
-    let rows = time.len() - table.before();
-    let ledger = run.ledger(units);
     let wedge_losses = losses(&mut run);
     let counts = &run.recorder.counts;
     let shares = counts.locked.iter().map(|own| *own as f64 / counts.rows as f64);
@@ -311,18 +289,18 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         warnings.push(format!("there is no static table of the start: {error}"));
         StaticTable::default()
     });
-    let mut summary = CarSummary {
+    let summary = CarSummary {
         schema: SCHEMA.to_owned(),
-        program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
+        program: ended.program,
         name: run.case.name.clone(),
         title: run.case.title.clone(),
         units,
-        complete,
-        stopped,
-        derailed,
-        failed: energy::failure(&balance, energy::WHAT_TO_DO),
+        complete: ended.complete,
+        stopped: ended.stopped,
+        derailed: run.recorder.derailed.take(),
+        failed: ended.failed,
         warnings,
-        rows,
+        rows: ended.rows,
         distance,
         speed,
         static_loads,
@@ -339,23 +317,16 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         ledger,
         method: run.case.simulation.method.to_string(),
         relative_tolerance: run.case.simulation.relative_tolerance,
-        solver: run.integrator.statistics().clone(),
+        solver: ended.statistics,
         assumptions: super::assumptions::of(&run.case),
     };
-    if summary.stopped.is_none()
-        && let Some(reason) = not_finite(&summary.ledger, None)
-    {
-        summary.complete = false;
-        summary.stopped = Some(run.stopped(reason));
-    }
     let before = table.before();
-    let mut values = table.into_values();
-    values.extend(filtered_values.into_iter().map(|mut own| own.split_off(before)));
-    CarResult {
-        columns,
-        values,
-        summary,
+    let mut result = table.into_result(summary);
+    for (column, mut values) in filtered_columns {
+        result.columns.push(column);
+        result.values.push(values.split_off(before));
     }
+    result
 }
 
 /// Returns the wedges of both trucks at the start.

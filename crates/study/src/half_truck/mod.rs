@@ -11,7 +11,6 @@ pub mod options;
 pub mod requests;
 pub mod run;
 pub mod set;
-mod table;
 pub mod wedge_bodies;
 mod wedge_seen;
 pub mod yaw;

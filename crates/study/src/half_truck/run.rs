@@ -8,21 +8,20 @@ use mechanics::body::COORDINATES;
 use mechanics::connection::Law;
 use mechanics::energy_balance::Entries;
 use mechanics::motion::Motion;
-use mechanics::plausibility::PlausibilityFinding;
 use mechanics::system::{AtRest, ContactState, NoEquilibrium, StaticFriction, System};
-use quantity::{Kind, System as Units};
+use quantity::Kind;
 use serde::{Deserialize, Serialize};
 use wedge::outputs::CORNERS;
 use wedge::parameters::Damping;
 
-use super::table::{OutputTable, input_motion, ledger_name};
+use super::columns::{Columns, input_motion, ledger_name};
 use super::wedge_seen::friction_loss;
+use super::yaw::YawSummary;
 use super::{HalfTruckCase, HalfTruckResult, HalfTruckStart, HalfTruckSummary, SCHEMA, WedgeSummary};
 use crate::contacts::{ContactTable, TakesCorners};
 use crate::energy;
-use crate::finite::{find, is_finite};
+use crate::finite::{find, is_finite, residual_not_finite};
 use crate::metrics::{Cycle, mean, window_of};
-use crate::plausibility;
 use crate::progress;
 use crate::run::{
     Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
@@ -68,7 +67,7 @@ pub fn run_while(
 
 /// Records a half-truck's run: its table, and the work of its wedges' friction.
 pub struct HalfTruckRecorder {
-    table: OutputTable,
+    table: Columns,
     rows: RowTable,
     works: Works,
     /// The corners of wedges' bodies, by their names.
@@ -76,7 +75,6 @@ pub struct HalfTruckRecorder {
     /// The connections that have contact states, by their numbers in the files.
     frictional: Vec<u32>,
     numbers: [Vec<u32>; 2],
-    row: Vec<f64>,
     /// The corners of wedges' bodies, where they are asked for.
     contacts: Option<ContactTable>,
     /// The numbers of these bodies.
@@ -113,7 +111,7 @@ impl RunCase for HalfTruckCase {
             HalfTruckStart::Equilibrium if !self.wedge_bodies.is_empty() => self.rest()?,
             other => start(&mut system, other)?,
         };
-        let table = OutputTable::new(self, &system);
+        let table = Columns::new(self, &system);
         let frictional = system.frictional_connections().iter();
         let faces = system.faces().iter().map(|face| &face.element);
         let points = faces.flat_map(|face| {
@@ -125,8 +123,7 @@ impl RunCase for HalfTruckCase {
         });
         Ok(Beginning {
             recorder: HalfTruckRecorder {
-                rows: RowTable::new(&table.columns, |_| true),
-                row: Vec::with_capacity(table.columns.len()),
+                rows: RowTable::new(table.columns(), |_| true),
                 works: Works::new(self, &system),
                 points: points.collect(),
                 frictional: frictional.map(|place| self.truck.connections[*place]).collect(),
@@ -189,20 +186,16 @@ impl Recorder for HalfTruckRecorder {
 
     fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
         let seen = system.observe(row.time, row.x);
-        self.row.clear();
-        self.table.read(&seen, row.start_energy, &mut self.row);
-        self.rows.append(&self.table.columns, &self.row, row.time)?;
+        self.table
+            .read_since(row.start_energy, &seen, self.rows.begin_row());
+        self.rows.append(row.time)?;
         if let Some(contacts) = &mut self.contacts {
             contacts.take(&seen, row.contact_states);
         }
         Ok(system.ledger_entries(&seen, row.start_energy))
     }
 
-    fn describe(&self, system: &System, finding: &PlausibilityFinding, units: Units) -> String {
-        plausibility::in_truck(system, finding, self.numbers(), units)
-    }
-
-    fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
+    fn contacts(&self, _: &System, contact_states: &[u8]) -> BTreeMap<String, String> {
         let (points, others) = contact_states.split_at(self.points.len().min(contact_states.len()));
         let words = |state: &u8| ContactState::from_number(*state).name().to_owned();
         let points = self.points.iter().cloned().zip(points.iter().map(words));
@@ -227,57 +220,60 @@ impl TakesCorners for HalfTruckRecorder {
 }
 
 fn output(mut run: Run<HalfTruckCase>, stopped: Option<Stopped>) -> HalfTruckResult {
-    let complete = run.is_complete(stopped.as_ref());
-    let case = run.case.clone();
-    let balance = run.energy_balance;
-    let joules = |value| SummaryValue::new(value, Kind::Energy, case.units);
     let table = std::mem::take(&mut run.recorder.rows);
-    let mut result = HalfTruckResult {
-        columns: run.recorder.table.columns.clone(),
-        values: table.columns().to_vec(),
-        summary: HalfTruckSummary {
-            schema: SCHEMA.to_owned(),
-            program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
-            name: case.name.clone(),
-            title: case.title.clone(),
-            units: case.units,
-            complete,
-            stopped,
-            failed: energy::failure(&balance, energy::WHAT_TO_DO_WITH_FILES),
-            warnings: energy::warning(&balance, energy::WHAT_TO_DO_WITH_FILES)
-                .into_iter()
-                .chain(run.start_warning.clone())
-                .chain(findings::warnings(&run))
-                .collect(),
-            rows: 0,
-            yaw: None,
-            wedges: BTreeMap::new(),
-            largest_displacements: BTreeMap::new(),
-            ledger: BTreeMap::new(),
-            largest_stored_change: joules(balance.largest_stored_change),
-            largest_residual: joules(balance.largest_residual),
-            largest_residual_time: balance.largest_residual_time,
-            admissible_residual: Some(joules(balance.admissible)),
-            largest_relative_residual: balance.relative_residual(),
-            statistics: run.integrator.statistics().clone(),
-            relative_tolerance: case.relative_tolerance,
-            assumptions: case.assumptions.clone(),
-        },
-    };
-    summarize(&case, &run.system, &run.recorder.works, &mut result);
-    result.summary.rows -= table.before();
-    result.values = table.into_values();
-    if let Some(what) = first_not_finite(&result.summary)
-        && result.summary.stopped.is_none()
-    {
-        result.summary.complete = false;
-        result.summary.stopped = Some(run.stopped(format!("{what} is not a finite number")));
+    let mut ended = run.ended(stopped, &table, energy::WHAT_TO_DO_WITH_FILES);
+    let (case, works, balance) = (&run.case, &run.recorder.works, &run.energy_balance);
+    let joules = |value| SummaryValue::new(value, Kind::Energy, case.units);
+    let mut wedges = BTreeMap::new();
+    for place in case.wedges() {
+        let mut own = wedge(case, &table, place);
+        if ended.stopped.is_none() {
+            own.add_work(case, works.per_cycle(place));
+        }
+        wedges.insert(case.truck.connections[place].to_string(), own);
     }
-    result
+    let largest_displacements = largest_displacements(case, &table);
+    let ledger = ledger(case, &run.system, &table);
+    run.stop(&mut ended, not_finite(&wedges, &largest_displacements, &ledger));
+    run.stop(&mut ended, residual_not_finite(balance.relative_residual()));
+    let mut warnings = ended.warnings;
+    warnings.extend(findings::warnings(&run));
+    let yaw = super::yaw::summary(&case.truck, &table, case.units);
+    warnings.extend(yaw.iter().filter(|yaw| yaw.is_missed()).map(YawSummary::warning));
+    warnings.extend(jammed(&wedges));
+    let summary = HalfTruckSummary {
+        schema: SCHEMA.to_owned(),
+        program: ended.program,
+        name: case.name.clone(),
+        title: case.title.clone(),
+        units: case.units,
+        complete: ended.complete,
+        stopped: ended.stopped,
+        failed: ended.failed,
+        warnings,
+        rows: ended.rows,
+        yaw,
+        wedges,
+        largest_displacements,
+        ledger,
+        largest_stored_change: joules(balance.largest_stored_change),
+        largest_residual: joules(balance.largest_residual),
+        largest_residual_time: balance.largest_residual_time,
+        admissible_residual: Some(joules(balance.admissible)),
+        largest_relative_residual: balance.relative_residual(),
+        statistics: ended.statistics,
+        relative_tolerance: case.relative_tolerance,
+        assumptions: case.assumptions.clone(),
+    };
+    table.into_result(summary)
 }
 
-/// Returns the first number of a summary that is not finite, in words.
-fn first_not_finite(summary: &HalfTruckSummary) -> Option<String> {
+/// Returns the first of these numbers that is not finite, in words.
+fn not_finite(
+    wedges: &BTreeMap<String, WedgeSummary>,
+    displacements: &BTreeMap<String, SummaryValue>,
+    ledger: &BTreeMap<String, SummaryValue>,
+) -> Option<String> {
     let wedge = |wedge: &WedgeSummary| {
         let measures = [
             &wedge.energy_per_cycle,
@@ -291,12 +287,10 @@ fn first_not_finite(summary: &HalfTruckSummary) -> Option<String> {
             .flatten()
             .any(|measure| !is_finite(measure.value))
     };
-    let wedges = summary.wedges.iter().find(|(_, found)| wedge(found));
+    let wedges = wedges.iter().find(|(_, found)| wedge(found));
     let wedges = wedges.map(|(number, _)| format!("an average of wedge {number}"));
-    let others = find(&summary.largest_displacements).or_else(|| find(&summary.ledger));
-    let residual = !is_finite(summary.largest_relative_residual);
-    let residual = residual.then(|| "the ledger's relative residual".to_owned());
-    wedges.or(others.map(|name| format!("`{name}`"))).or(residual)
+    let others = find(displacements).or_else(|| find(ledger));
+    wedges.or(others.map(|name| format!("`{name}`")))
 }
 
 /// Returns the cycle of the vertical input, if it is one sine.
@@ -393,14 +387,8 @@ impl Works {
     }
 }
 
-fn summarize(case: &HalfTruckCase, system: &System, works: &Works, result: &mut HalfTruckResult) {
-    let units = case.units;
-    let times = result.column("time").unwrap_or_default().to_vec();
-    let mut wedges = BTreeMap::new();
-    for place in case.wedges() {
-        let number = case.truck.connections[place];
-        wedges.insert(number.to_string(), wedge(case, result, works, place));
-    }
+/// Returns the largest displacements of the free bodies, without sign.
+fn largest_displacements(case: &HalfTruckCase, table: &RowTable) -> BTreeMap<String, SummaryValue> {
     let mut largest = BTreeMap::new();
     let bodies = case.truck.bodies.iter().enumerate();
     let bodies = bodies.map(|(place, number)| (place, format!("body_{number}")));
@@ -415,14 +403,20 @@ fn summarize(case: &HalfTruckCase, system: &System, works: &Works, result: &mut 
         let free = &case.truck.model.bodies[place].free;
         for (coordinate, name) in COORDINATES.iter().enumerate().filter(|(k, _)| free[*k]) {
             let column = format!("{body}_{name}");
-            let Some(values) = result.column(&column) else {
+            let values = table.column(&column);
+            if values.is_empty() {
                 continue;
-            };
+            }
             let most = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
             let kind = if coordinate < 3 { Kind::Length } else { Kind::Angle };
-            largest.insert(column, SummaryValue::new(most, kind, units));
+            largest.insert(column, SummaryValue::new(most, kind, case.units));
         }
     }
+    largest
+}
+
+/// Returns the entries of the energy ledger at the end.
+fn ledger(case: &HalfTruckCase, system: &System, table: &RowTable) -> BTreeMap<String, SummaryValue> {
     let mut ledger = BTreeMap::new();
     let names = [
         "kinetic_energy",
@@ -439,40 +433,34 @@ fn summarize(case: &HalfTruckCase, system: &System, works: &Works, result: &mut 
         .iter()
         .map(|energy_term| ledger_name(energy_term.kind));
     for name in names.into_iter().chain(energy_terms) {
-        if let Some(last) = result.column(name).and_then(<[f64]>::last) {
-            ledger.insert(name.to_owned(), SummaryValue::new(*last, Kind::Energy, units));
+        if let Some(last) = table.column(name).last() {
+            let last = SummaryValue::new(*last, Kind::Energy, case.units);
+            ledger.insert(name.to_owned(), last);
         }
     }
-    let yaw = super::yaw::summary(&case.truck, result, units);
-    let summary = &mut result.summary;
-    if let Some(yaw) = yaw.as_ref().filter(|yaw| yaw.is_missed()) {
-        summary.warnings.push(yaw.warning());
-    }
-    summary.yaw = yaw;
+    ledger
+}
+
+/// Returns the warning about wedges that jam.
+fn jammed(wedges: &BTreeMap<String, WedgeSummary>) -> Option<String> {
     let jams = wedges.iter().filter(|(_, wedge)| wedge.jammed > 0.0);
     let jams: Vec<String> = jams
         .map(|(number, wedge)| format!("{number} ({:.1} %)", 100.0 * wedge.jammed))
         .collect();
-    if !jams.is_empty() {
-        summary.warnings.push(format!(
+    (!jams.is_empty()).then(|| {
+        format!(
             "jammed wedges, with the share of the output times: {}; no steady sliding exists there, and \
              only the limit of the files holds the normal force",
             jams.join(", ")
-        ));
-    }
-    summary.rows = times.len();
-    summary.wedges = wedges;
-    summary.largest_displacements = largest;
-    summary.ledger = ledger;
+        )
+    })
 }
 
-fn wedge(case: &HalfTruckCase, result: &HalfTruckResult, works: &Works, place: usize) -> WedgeSummary {
+/// Returns the averages of a wedge; all but those of the work of its friction.
+fn wedge(case: &HalfTruckCase, table: &RowTable, place: usize) -> WedgeSummary {
     let (units, number) = (case.units, case.truck.connections[place]);
-    let times = result.column("time").unwrap_or_default();
-    let column = |what: &str| {
-        let values = result.column(&format!("wedge_{number}_{what}"));
-        values.unwrap_or_default()
-    };
+    let times = table.column("time");
+    let column = |what: &str| table.column(&format!("wedge_{number}_{what}"));
     let jammed = column("jammed");
     let normal = column("column_normal_force");
     let mut summary = WedgeSummary {
@@ -494,15 +482,9 @@ fn wedge(case: &HalfTruckCase, result: &HalfTruckResult, works: &Works, place: u
         return summary;
     };
     let friction = column("column_friction");
-    let energy = works
-        .per_cycle(place)
-        .filter(|_| result.summary.stopped.is_none());
-    summary.energy_per_cycle = energy.map(|energy| SummaryValue::new(energy, Kind::Energy, units));
-    let equivalent = energy.map(|energy| cycle.equivalent_damping(energy));
-    summary.equivalent_damping = equivalent.map(|value| SummaryValue::new(value, Kind::Damping, units));
     let (input, rate) = (
-        result.column("input_vertical").unwrap_or_default(),
-        result.column("input_vertical_rate").unwrap_or_default(),
+        table.column("input_vertical"),
+        table.column("input_vertical_rate"),
     );
     summary.window = window_of(damping).to_owned();
     let mut branches = [Vec::new(), Vec::new()];
@@ -516,4 +498,15 @@ fn wedge(case: &HalfTruckCase, result: &HalfTruckResult, works: &Works, place: u
     summary.down = average(&branches[0]);
     summary.up = average(&branches[1]);
     summary
+}
+
+impl WedgeSummary {
+    /// Adds the work of its friction in a cycle, J, if there are whole cycles.
+    fn add_work(&mut self, case: &HalfTruckCase, work: Option<f64>) {
+        let value = |value, kind| SummaryValue::new(value, kind, case.units);
+        if let (Some(work), Some(cycle)) = (work, cycle(case)) {
+            self.energy_per_cycle = Some(value(work, Kind::Energy));
+            self.equivalent_damping = Some(value(cycle.equivalent_damping(work), Kind::Damping));
+        }
+    }
 }

@@ -6,7 +6,7 @@ use nucars::truck::Truck;
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
-use super::HalfTruckResult;
+use crate::run::RowTable;
 use crate::summary::SummaryValue;
 
 /// The share of the commanded yaw below which it counts as not reached.
@@ -46,21 +46,18 @@ pub fn is_commanded(truck: &Truck) -> bool {
 }
 
 /// Commanded and reached yaw of a run, if one is commanded.
-pub(super) fn summary(truck: &Truck, result: &HalfTruckResult, units: Units) -> Option<YawSummary> {
+pub(super) fn summary(truck: &Truck, table: &RowTable, units: Units) -> Option<YawSummary> {
     let (input, body) = drive(&truck.model)?;
     let motions = &truck.model.bodies[input].frame.motions;
     let number = truck.bodies[body];
-    let (times, yaws) = (
-        result.column("time")?,
-        result.column(&format!("body_{number}_yaw"))?,
-    );
+    let (times, yaws) = (table.column("time"), table.column(&format!("body_{number}_yaw")));
     let late = times.len() / 2..times.len();
     let count = late.len().max(1) as f64;
     let commanded: f64 = times[late.clone()]
         .iter()
         .map(|time| motions[5].evaluate(*time, *time)[0])
         .sum();
-    let reached: f64 = yaws[late].iter().sum();
+    let reached: f64 = yaws.get(late)?.iter().sum();
     Some(YawSummary {
         body: number,
         commanded: SummaryValue::new(commanded / count, Kind::Angle, units),

@@ -1,8 +1,6 @@
 //! The metrics of a car's run in a study: the worst of its statistics ([`crate::car::statistics`]), filtered,
 //! or raw where nothing is filtered.
 
-use std::borrow::Cow;
-
 use quantity::{Kind, System as Units};
 use truck::WEDGE_NAMES;
 
@@ -55,26 +53,15 @@ const OTHERS: [(&str, Kind, &str); 10] = [
 /// Returns the measures of cars' runs.
 #[must_use]
 pub fn definitions() -> Definitions {
-    let define = |name, kind, text, always| Measure {
-        name: Cow::Borrowed(name),
-        text: Cow::Borrowed(text),
-        kind,
-        always,
-    };
     let worst = WORST
         .iter()
-        .map(|own| define(own.name, own.kind, own.text, false));
+        .map(|own| Measure::new(own.name, own.kind, own.text, false));
     let others = OTHERS
         .iter()
-        .map(|(name, kind, text)| define(name, *kind, text, true));
+        .map(|(name, kind, text)| Measure::new(*name, *kind, *text, true));
     let of_wedges = |ending: &str, kind: Kind, text: &'static str, always: bool| {
         let names = wedges().map(|wedge| format!("{wedge}_{ending}"));
-        let all = names.map(|name| Measure {
-            name: Cow::Owned(name),
-            text: Cow::Borrowed(text),
-            kind,
-            always,
-        });
+        let all = names.map(|name| Measure::new(name, kind, text, always));
         all.collect::<Vec<_>>()
     };
     let text = "share of the time after settling in which no point of its faces slips";

@@ -1,7 +1,5 @@
 //! The measures of half-trucks: those of the summary, by the numbers of wedges and bodies in the files.
 
-use std::borrow::Cow;
-
 use mechanics::body::COORDINATES;
 use quantity::{Kind, System as Units};
 
@@ -55,40 +53,32 @@ fn value(measure: Option<&summary::SummaryValue>) -> Option<f64> {
 /// Returns the measures of a half-truck's runs.
 #[must_use]
 pub fn definitions(case: &HalfTruckCase) -> Definitions {
-    let define = |name: String, kind, text: &str, always| Measure {
-        name: Cow::Owned(name),
-        text: Cow::Owned(text.to_owned()),
-        kind,
-        always,
-    };
-    let mut all = vec![define(
-        "energy_per_cycle".to_owned(),
+    let mut all = vec![Measure::new(
+        "energy_per_cycle",
         Kind::Energy,
         "lost in the friction of all columns each cycle of the vertical input",
         false,
     )];
     for place in case.wedges() {
         let number = case.truck.connections[place];
-        all.extend(
-            OF_WEDGES
-                .iter()
-                .map(|(name, kind, text, _)| define(format!("wedge_{number}_{name}"), *kind, text, false)),
-        );
+        all.extend(OF_WEDGES.iter().map(|(name, kind, text, _)| {
+            Measure::new(format!("wedge_{number}_{name}"), *kind, *text, false)
+        }));
     }
     for (name, coordinate) in displacements(case) {
         let kind = if coordinate < 3 { Kind::Length } else { Kind::Angle };
         let text = "largest displacement or angle from the drawn layout, without sign";
-        all.push(define(format!("largest_{name}"), kind, text, true));
+        all.push(Measure::new(format!("largest_{name}"), kind, text, true));
     }
-    all.push(define(
-        "ledger_residual".to_owned(),
+    all.push(Measure::new(
+        "ledger_residual",
         Kind::Dimensionless,
         "relative residual of the energy ledger: the largest residual over the largest of work, losses and \
          change of stored energy",
         true,
     ));
-    all.push(define(
-        "steps".to_owned(),
+    all.push(Measure::new(
+        "steps",
         Kind::Count,
         "accepted steps of the integrator",
         true,

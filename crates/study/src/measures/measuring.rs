@@ -231,7 +231,7 @@ impl Recorder for Measuring {
         plausibility::in_wedge(system, &self.points, finding, units)
     }
 
-    fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
+    fn contacts(&self, _: &System, contact_states: &[u8]) -> BTreeMap<String, String> {
         contact_states_in_words(&self.points, contact_states)
     }
 }

@@ -50,6 +50,22 @@ pub struct Measure {
     pub always: bool,
 }
 
+impl Measure {
+    fn new(
+        name: impl Into<Cow<'static, str>>,
+        kind: Kind,
+        text: impl Into<Cow<'static, str>>,
+        always: bool,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            text: text.into(),
+            kind,
+            always,
+        }
+    }
+}
+
 /// The measures that a study keeps, in the order of [`Measures`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Definitions(Vec<Measure>);
@@ -90,15 +106,10 @@ impl Deref for Definitions {
 pub fn of_wedges() -> &'static Definitions {
     static ALL: LazyLock<Definitions> = LazyLock::new(|| {
         let always = [place::PEAKS..place::STICK, place::WEAR..place::EVENTS];
-        let measures = WEDGE
-            .iter()
-            .enumerate()
-            .map(|(place, (name, kind, text))| Measure {
-                name: Cow::Borrowed(name),
-                text: Cow::Borrowed(text),
-                kind: *kind,
-                always: always.iter().any(|places| places.contains(&place)),
-            });
+        let measures = WEDGE.iter().enumerate().map(|(place, (name, kind, text))| {
+            let always = always.iter().any(|places| places.contains(&place));
+            Measure::new(*name, *kind, *text, always)
+        });
         Definitions(measures.collect())
     });
     &ALL

@@ -5,8 +5,6 @@
 //!
 //! [`Cycles`]: crate::truck::summary::Cycles
 
-use std::borrow::Cow;
-
 use quantity::{Kind, System as Units};
 use truck::WEDGE_NAMES;
 
@@ -119,25 +117,19 @@ const OF_WEDGES: [(&str, Kind, &str); 3] = [
 /// Returns the measures of trucks' runs.
 #[must_use]
 pub fn definitions() -> Definitions {
-    let define = |name: String, kind, text: String, always| Measure {
-        name: Cow::Owned(name),
-        text: Cow::Owned(text),
-        kind,
-        always,
-    };
     let all = OF_ALL.iter();
     let mut measures: Vec<Measure> = all
-        .map(|(name, kind, text, always)| define((*name).to_owned(), *kind, (*text).to_owned(), *always))
+        .map(|(name, kind, text, always)| Measure::new(*name, *kind, *text, *always))
         .collect();
     for angle in WARP_ANGLES {
         let name = format!("warp_moment_at_{}_mrad", angle.to_string().replace('.', "_"));
         let text = format!("growth of the warp moment until the warp angle reaches {angle} mrad first");
-        measures.push(define(name, Kind::Moment, text, false));
+        measures.push(Measure::new(name, Kind::Moment, text, false));
     }
     for wedge in WEDGE_NAMES {
         for (name, kind, text) in OF_WEDGES {
             let always = !name.ends_with("per_cycle");
-            measures.push(define(format!("{wedge}_{name}"), kind, text.to_owned(), always));
+            measures.push(Measure::new(format!("{wedge}_{name}"), kind, text, always));
         }
     }
     Definitions(measures)

@@ -1,8 +1,6 @@
 //! The metrics of a vehicle's run in a study: of each of its columns the least, the greatest, the mean and
 //! the root mean square over all output times; its slowest natural vibration; what its run lost.
 
-use std::borrow::Cow;
-
 use quantity::{Kind, System as Units};
 
 use super::measuring::run_whole;
@@ -47,21 +45,15 @@ const OF_ALL: [(&str, Kind, &str, bool); 5] = [
 /// Returns the measures of a vehicle's run; none where it makes no vehicle.
 #[must_use]
 pub fn definitions(case: &VehicleCase) -> Definitions {
-    let define = |name: String, kind, text: String, always| Measure {
-        name: Cow::Owned(name),
-        text: Cow::Owned(text),
-        kind,
-        always,
-    };
     let all = OF_ALL.iter();
     let mut measures: Vec<Measure> = all
-        .map(|(name, kind, text, always)| define((*name).to_owned(), *kind, (*text).to_owned(), *always))
+        .map(|(name, kind, text, always)| Measure::new(*name, *kind, *text, *always))
         .collect();
     for column in case.columns().unwrap_or_default().iter().skip(1) {
         for (ending, text) in OF_COLUMNS {
             let name = format!("{}_{ending}", column.name);
             let text = format!("{text}, {}", column.text);
-            measures.push(define(name, column.kind, text, true));
+            measures.push(Measure::new(name, column.kind, text, true));
         }
     }
     Definitions(measures)

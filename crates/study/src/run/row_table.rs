@@ -6,8 +6,9 @@ use mechanics::output::Column;
 use quantity::System as Units;
 use serde::{Deserialize, Serialize};
 
-use super::append;
+use crate::finite::is_finite;
 use crate::metrics::Extremes;
+use crate::result::RunResult;
 use crate::run_error::{NotFinite, RunError, check_finite, check_length, damaged};
 
 /// The rows of a run, SI, one vector a column. A run that goes on from a saved state has the rows after it;
@@ -15,9 +16,10 @@ use crate::run_error::{NotFinite, RunError, check_finite, check_length, damaged}
 /// all columns the extremes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RowTable {
-    /// Names of the columns.
-    names: Vec<String>,
+    columns: Vec<Column>,
     values: Vec<Vec<f64>>,
+    /// The row on its way.
+    row: Vec<f64>,
     /// Places of the columns that have all rows; not that of the time, which is the first column.
     kept: Vec<usize>,
     /// Number of rows before the saved state.
@@ -39,33 +41,65 @@ impl RowTable {
     /// Returns the empty table of these columns, the first of which is the time; `kept` tells by name which
     /// ones the summary reads row by row.
     pub fn new(columns: &[Column], kept: impl Fn(&str) -> bool) -> Self {
-        let names: Vec<String> = columns.iter().map(|column| column.name.clone()).collect();
+        let kept = |place: &usize| kept(&columns[*place].name);
         Self {
             values: vec![Vec::new(); columns.len()],
-            kept: (1..names.len()).filter(|place| kept(&names[*place])).collect(),
-            names,
+            kept: (1..columns.len()).filter(kept).collect(),
+            row: Vec::with_capacity(columns.len()),
+            columns: columns.to_vec(),
             ..Self::default()
         }
     }
 
-    /// Appends a row at a time, s.
+    /// Returns the descriptions of the columns.
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Returns an empty row, to be filled with the values of all columns.
+    pub fn begin_row(&mut self) -> &mut Vec<f64> {
+        self.row.clear();
+        &mut self.row
+    }
+
+    /// Returns the row that is being filled, or was filled last.
+    pub fn row(&mut self) -> &mut Vec<f64> {
+        &mut self.row
+    }
+
+    /// Appends the row that was filled, at a time, s.
     ///
     /// # Errors
     /// A value is not finite; nothing is appended then.
-    pub fn append(&mut self, columns: &[Column], row: &[f64], time: f64) -> Result<(), NotFinite> {
-        append(&mut self.values, columns, row, time)
+    pub fn append(&mut self, time: f64) -> Result<(), NotFinite> {
+        if let Some(index) = self.row.iter().position(|value| !is_finite(*value)) {
+            return Err(NotFinite {
+                column: self.columns[index].name.clone(),
+                value: self.row[index],
+                time,
+            });
+        }
+        for (column, value) in self.values.iter_mut().zip(&self.row) {
+            column.push(*value);
+        }
+        Ok(())
     }
 
     /// Returns all rows since the start of the time or of a column that the summary reads row by row; those
     /// after the saved state of another one; nothing if there is no column of this name.
     pub fn column(&self, name: &str) -> &[f64] {
-        let place = self.names.iter().position(|own| own == name);
+        let place = self.columns.iter().position(|own| own.name == name);
         place.map_or(&[][..], |place| self.values[place].as_slice())
     }
 
-    /// Returns the columns as [`RowTable::column`] does, in their order.
-    pub fn columns(&self) -> &[Vec<f64>] {
+    /// Returns the values of all columns as [`RowTable::column`] does, in their order.
+    pub fn values(&self) -> &[Vec<f64>] {
         &self.values
+    }
+
+    /// Returns the number of rows after the saved state.
+    pub fn rows(&self) -> usize {
+        self.column("time").len() - self.before
     }
 
     /// Returns the number of rows before the saved state.
@@ -86,18 +120,27 @@ impl RowTable {
     }
 
     /// Returns the extremes of all columns but the time by their names with units, in output units.
-    pub fn summary_extremes(&self, columns: &[Column], units: Units) -> BTreeMap<String, Extremes> {
-        let all = columns.iter().enumerate().skip(1);
+    pub fn summary_extremes(&self, units: Units) -> BTreeMap<String, Extremes> {
+        self.extremes_of_first(self.columns.len(), units)
+    }
+
+    /// Returns the same of this number of columns at the beginning.
+    pub fn extremes_of_first(&self, number: usize, units: Units) -> BTreeMap<String, Extremes> {
+        let all = self.columns.iter().enumerate().take(number).skip(1);
         all.filter_map(|(place, column)| Some(self.extremes(place)?.named(column, units)))
             .collect()
     }
 
-    /// Returns the rows after the saved state.
-    pub fn into_values(mut self) -> Vec<Vec<f64>> {
+    /// Returns the result of the run: the rows after the saved state, with the summary.
+    pub fn into_result<S>(mut self, summary: S) -> RunResult<S> {
         for place in self.kept.into_iter().chain([0]) {
             self.values[place].drain(..self.before);
         }
-        self.values
+        RunResult {
+            columns: self.columns,
+            values: self.values,
+            summary,
+        }
     }
 
     /// Returns what a saved state has of the rows.
@@ -105,9 +148,9 @@ impl RowTable {
         let kept = self.kept.iter();
         SavedRows {
             columns: kept
-                .map(|place| (self.names[*place].clone(), self.values[*place].clone()))
+                .map(|place| (self.columns[*place].name.clone(), self.values[*place].clone()))
                 .collect(),
-            extremes: (0..self.names.len())
+            extremes: (0..self.columns.len())
                 .filter_map(|place| self.extremes(place))
                 .collect(),
         }
@@ -121,8 +164,8 @@ impl RowTable {
         const COLUMNS: &str = "counts.table.columns";
         const EXTREMES: &str = "counts.table.extremes";
         for place in &self.kept {
-            let Some(values) = saved.columns.remove(&self.names[*place]) else {
-                let name = &self.names[*place];
+            let Some(values) = saved.columns.remove(&self.columns[*place].name) else {
+                let name = &self.columns[*place].name;
                 return damaged(COLUMNS, format!("without `{name}`"), "all that the summary needs");
             };
             check_length(COLUMNS, values.len(), times.len())?;
@@ -135,7 +178,7 @@ impl RowTable {
             let name = format!("with `{}`", input::shortened(name));
             return damaged(COLUMNS, name, "what the summary needs alone");
         }
-        check_length(EXTREMES, saved.extremes.len(), self.names.len())?;
+        check_length(EXTREMES, saved.extremes.len(), self.columns.len())?;
         let last = times.last().copied().unwrap_or_default();
         for own in &saved.extremes {
             let [least, most] = [own.minimum, own.maximum];

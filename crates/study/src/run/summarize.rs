@@ -36,25 +36,24 @@ const BRANCH_COLUMNS: [&str; 5] = [
 
 pub(super) fn summary(run: &mut Run<Case>, stopped: Option<Stopped>) -> Summary {
     let units = run.case.simulation.output_units;
-    let table = &run.recorder.rows;
-    let extremes = table.summary_extremes(&run.recorder.outputs.columns()[..FIXED_COLUMNS], units);
-    let rows = table.column("time").len() - table.before();
+    let damped = run.case.simulation.method.tableau().family == Family::DiagonallyImplicit;
+    let ended = run.ended(stopped, &run.recorder.rows, what_to_do(damped));
+    let extremes = run.recorder.rows.extremes_of_first(FIXED_COLUMNS, units);
     let ledger = ledger(run);
     let on_bolster = on_bolster(run);
-    let damped = run.case.simulation.method.tableau().family == Family::DiagonallyImplicit;
     let parameters = &run.case.parameters;
     let (massless, yaw) = (closed_form::wedge(parameters), closed_form::yaw(parameters));
     Summary {
-        warnings: warnings(run, damped),
+        warnings: warnings(run, damped, ended.warnings),
         schema: SCHEMA.to_owned(),
-        program: format!("wedgelab {}", env!("CARGO_PKG_VERSION")),
+        program: ended.program,
         name: run.case.name.clone(),
         title: run.case.title.clone(),
         units,
-        complete: run.is_complete(stopped.as_ref()),
-        stopped,
-        failed: energy::failure(&run.energy_balance, what_to_do(damped)),
-        rows,
+        complete: ended.complete,
+        stopped: ended.stopped,
+        failed: ended.failed,
+        rows: ended.rows,
         averages: averages(run, on_bolster),
         extremes,
         events: events(run),
@@ -67,7 +66,8 @@ pub(super) fn summary(run: &mut Run<Case>, stopped: Option<Stopped>) -> Summary 
     }
 }
 
-fn warnings(run: &Run<Case>, damped: bool) -> Vec<String> {
+/// Returns the warnings: first of all that about the method, then those that all runs have.
+fn warnings(run: &Run<Case>, damped: bool, common: Vec<String>) -> Vec<String> {
     let mut warnings = Vec::new();
     if damped {
         warnings.push(format!(
@@ -75,12 +75,11 @@ fn warnings(run: &Run<Case>, damped: bool) -> Vec<String> {
             run.case.simulation.method.tableau().name
         ));
     }
-    warnings.extend(energy::warning(&run.energy_balance, what_to_do(damped)));
-    warnings.extend(run.start_warning.clone());
+    warnings.extend(common);
     warnings.extend(findings::warnings(run));
     let parameters = &run.case.parameters;
     let faces = [&parameters.column_face, &parameters.slope_face];
-    let (columns, values) = (run.recorder.outputs.columns(), run.recorder.rows.columns());
+    let (columns, values) = (run.recorder.rows.columns(), run.recorder.rows.values());
     let few = faces.into_iter().enumerate();
     warnings.extend(few.filter_map(|(face, own)| pressed::warning(face, own, columns, values)));
     warnings.extend(jam::expelled(

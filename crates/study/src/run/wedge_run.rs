@@ -56,7 +56,6 @@ pub struct WedgeRecorder {
     pub(super) counts: Counts,
     /// The ends of the averaging window, s; none without one.
     probe_times: Vec<f64>,
-    row: Vec<f64>,
     speeds: Vec<f64>,
     pub(super) losses: LossRecorder,
 }
@@ -95,7 +94,6 @@ impl RunCase for Case {
                 },
                 probe_times: probe_times(self),
                 losses: LossRecorder::new(&wedge.system, loss_window(self)),
-                row: Vec::with_capacity(outputs.columns().len()),
                 speeds: vec![0.0; points],
                 outputs,
                 wedge,
@@ -111,11 +109,7 @@ impl RunCase for Case {
                 "{what} is not a finite number: look for values out of all proportion"
             )));
         }
-        RunResult {
-            columns: run.recorder.outputs.columns().to_vec(),
-            values: run.recorder.rows.into_values(),
-            summary,
-        }
+        run.recorder.rows.into_result(summary)
     }
 }
 
@@ -156,11 +150,11 @@ impl Recorder for WedgeRecorder {
 
     fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
         let seen = system.observe(row.time, row.x);
-        self.row.clear();
+        let (states, values) = (row.contact_states, self.rows.begin_row());
         let ledger = self
             .outputs
-            .values(system, &seen, row.contact_states, row.start_energy, &mut self.row);
-        self.rows.append(self.outputs.columns(), &self.row, row.time)?;
+            .values(system, &seen, states, row.start_energy, values);
+        self.rows.append(row.time)?;
         Ok(ledger.entries())
     }
 
@@ -168,7 +162,7 @@ impl Recorder for WedgeRecorder {
         plausibility::in_wedge(system, &self.points, finding, units)
     }
 
-    fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
+    fn contacts(&self, _: &System, contact_states: &[u8]) -> BTreeMap<String, String> {
         contact_states_in_words(&self.points, contact_states)
     }
 }

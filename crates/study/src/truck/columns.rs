@@ -1,28 +1,25 @@
 //! The columns of a truck's results.
 
+use mechanics::body::COORDINATES;
+use mechanics::channel::{Channels, Seen, WithLoads};
 use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
 use mechanics::vector::{Matrix, Vector};
 use quantity::{Kind, System as Units};
 use truck::{
-    BOLSTER, BuildError, CAR_BODY, HALVES, HalfLoads, Loads, Parameters, SIDE_FRAMES, Truck, TruckStatics,
-    WEDGE_NAMES, WHEELSETS, WarpMoment, WedgeKind, WedgeLoads,
+    BOLSTER, BuildError, CAR_BODY, Loads, Parameters, SIDE_FRAMES, Truck, TruckStatics, WEDGE_NAMES,
+    WHEELSETS, WarpMoment, WedgeLoads,
 };
 
 use super::TruckCase;
+use super::channels::{FACES, FRICTION, TruckChannels, losses_at, places_of};
 use crate::statics::StaticTable;
-
-/// The source of values: an observation, its loads, and the stored energy at the start, J.
-struct Seen<'s> {
-    observation: &'s Observation,
-    loads: &'s Loads,
-    start_energy: f64,
-}
 
 /// The table of a truck's results, for any observation of its system.
 pub struct TruckTable {
     truck: Truck,
-    columns: Columns,
+    columns: Channels<WithLoads<Loads>>,
+    fixed: usize,
     wedges_at_start: [WedgeLoads; 4],
     statics: TruckStatics,
 }
@@ -34,13 +31,14 @@ impl TruckTable {
     /// The case makes no truck.
     pub fn new(case: &TruckCase) -> Result<Self, BuildError> {
         let truck = Truck::new(&case.parameters)?;
-        let columns = Columns::new(&truck, &case.parameters);
+        let Table { columns, fixed, .. } = Table::new(&truck, &case.parameters);
         let seen = truck.system.clone().observe(0.0, &truck.initial_state);
         Ok(Self {
             wedges_at_start: truck.loads(&seen).wedges,
             statics: truck.statics(&seen),
             truck,
             columns,
+            fixed,
         })
     }
 
@@ -79,7 +77,7 @@ impl TruckTable {
     /// Returns the number of columns at the beginning with fixed names: time, bolster, warp, nests, wedges.
     #[must_use]
     pub fn fixed(&self) -> usize {
-        self.columns.fixed
+        self.fixed
     }
 
     /// Appends the values of all columns (SI) at an observation; `start_energy` (J) is the stored energy at
@@ -91,23 +89,10 @@ impl TruckTable {
             loads: &loads,
             start_energy,
         };
-        out.extend(self.columns.values.iter().map(|value| value(&seen)));
+        self.columns.read(&seen, out);
         loads
     }
 }
-
-type Value = Box<dyn Fn(&Seen<'_>) -> f64 + Send + Sync>;
-
-/// The table: what its columns are, and how their values are taken.
-struct Columns {
-    columns: Vec<Column>,
-    /// Number of columns at the beginning with fixed names.
-    fixed: usize,
-    values: Vec<Value>,
-}
-
-/// Names of a body's displacements and angles in columns.
-const COORDINATES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
 
 /// A part of the warp moment: the ending of its column's name, in words, and from the loads.
 type Part = (&'static str, &'static str, fn(&WarpMoment) -> f64);
@@ -125,25 +110,28 @@ pub const PARTS: [Part; 7] = [
     }),
 ];
 
-impl Columns {
-    fn new(truck: &Truck, parameters: &Parameters) -> Self {
+/// The axes of a truck on its own.
+const AXES: &str = "x forward, y left, z up";
+
+/// The columns on their way.
+struct Table<'t> {
+    truck: &'t Truck,
+    columns: Channels<WithLoads<Loads>>,
+    /// Number of columns at the beginning with fixed names.
+    fixed: usize,
+}
+
+impl<'t> Table<'t> {
+    fn new(truck: &'t Truck, parameters: &Parameters) -> Self {
         let mut own = Self {
-            columns: Vec::new(),
+            truck,
+            columns: Channels::default(),
             fixed: 0,
-            values: Vec::new(),
         };
         own.add("time", Kind::Time, "time", |seen| seen.observation.time);
-        own.body(truck, BOLSTER, "bolster", &[2]);
-        own.add(
-            "warp_angle",
-            Kind::Angle,
-            "mean yaw of the side frames less that of the bolster",
-            |seen| seen.loads.warp_angle,
-        );
-        let text = "moment about the truck's z axis that all elements exert on the bolster";
-        own.add("warp_moment", Kind::Moment, text, |seen| {
-            seen.loads.warp_moment.total()
-        });
+        own.body(BOLSTER, "bolster", &[2]);
+        own.common().warp_angle();
+        own.common().warp_moment();
         let wheelsets = parameters.wheelsets.is_some();
         if wheelsets {
             let text = "distance of the axles from the center, times the leading wheelset's lateral force \
@@ -152,31 +140,18 @@ impl Columns {
                 seen.loads.interaxle_shear_moment
             });
         }
-        for (side, name) in ["left", "right"].into_iter().enumerate() {
-            let text = "load on the side frame from all that bolster, wedges and coils exert, positive down";
-            own.add(
-                format!("{name}_nest_vertical_force"),
-                Kind::Force,
-                text,
-                move |seen| seen.loads.nest_vertical[side],
-            );
-        }
-        for (number, name) in WEDGE_NAMES.into_iter().enumerate() {
-            own.wedge(number, name);
-        }
-        own.fixed = own.columns.len();
-        for (number, name) in WEDGE_NAMES.into_iter().enumerate() {
-            if parameters.wedges[number].kind == WedgeKind::Split {
-                own.halves(number, name);
-            }
-        }
-        for (number, name) in WEDGE_NAMES.into_iter().enumerate() {
-            own.add(format!("{name}_rise"), Kind::Length, RISE, move |seen| {
-                seen.loads.wedges[number].rise
+        own.common().nests();
+        own.common().wedges();
+        own.fixed = own.columns.columns.len();
+        own.common().halves(parameters);
+        own.common().rises();
+        for (name, text, part) in PARTS {
+            let text = format!("part of the warp moment: that of the {text}");
+            own.add(format!("warp_moment_{name}"), Kind::Moment, text, move |seen| {
+                part(&seen.loads.warp_moment)
             });
         }
-        own.parts_of_warp_moment();
-        own.body(truck, BOLSTER, "bolster", &[0, 1, 3, 4, 5]);
+        own.body(BOLSTER, "bolster", &[0, 1, 3, 4, 5]);
         let text =
             "moment about x at the bolster's center of gravity that coils, slopes and stops exert on it";
         own.add("bolster_roll_moment", Kind::Moment, text, |seen| {
@@ -194,36 +169,39 @@ impl Columns {
         }
         if parameters.car_body.is_some() {
             others.push((CAR_BODY, "car_body"));
-            own.center_plate();
+            own.common().center_plate();
         }
         for (body, name) in others {
-            own.body(truck, body, name, &[0, 1, 2, 3, 4, 5]);
+            own.body(body, name, &[0, 1, 2, 3, 4, 5]);
         }
-        own.losses_of_wedges(&truck.system);
-        own.energies(&truck.system);
+        own.losses_of_wedges();
+        own.energies();
         own
+    }
+
+    /// Returns what adds the columns that a truck under a car has, too.
+    fn common(&mut self) -> TruckChannels<'_, Loads> {
+        TruckChannels {
+            table: &mut self.columns,
+            prefix: String::new(),
+            frame: AXES,
+            of: (|own, _| own, 0),
+        }
     }
 
     fn add(
         &mut self,
         name: impl Into<String>,
         kind: Kind,
-        text: &str,
-        value: impl Fn(&Seen<'_>) -> f64 + Send + Sync + 'static,
+        text: impl Into<String>,
+        value: impl Fn(&Seen<'_, Loads>) -> f64 + Send + Sync + 'static,
     ) {
-        self.columns.push(Column {
-            name: name.into(),
-            kind,
-            frame: "x forward, y left, z up".into(),
-            reference: "".into(),
-            text: text.to_owned(),
-        });
-        self.values.push(Box::new(value));
+        self.columns.add(name, kind, AXES, text, value);
     }
 
     /// Displacements of a body's center of gravity from its nominal place, and its angles.
-    fn body(&mut self, truck: &Truck, body: usize, name: &str, coordinates: &[usize]) {
-        let own = &truck.system.bodies()[body];
+    fn body(&mut self, body: usize, name: &str, coordinates: &[usize]) {
+        let own = &self.truck.system.bodies()[body];
         let nominal: [f64; 3] = std::array::from_fn(|k| own.frame.origin[k] + own.center_of_gravity[k]);
         for &k in coordinates {
             let name = format!("{name}_{}", COORDINATES[k]);
@@ -234,125 +212,28 @@ impl Columns {
                     place[k] - nominal[k]
                 });
             } else {
-                self.add(
-                    name,
-                    Kind::Angle,
-                    "angle from the nominal attitude",
-                    move |seen| angles(&seen.observation.bodies[body].rotation)[k - 3],
-                );
-            }
-        }
-    }
-
-    fn wedge(&mut self, number: usize, name: &str) {
-        let text = "normal force of the column";
-        self.add(format!("{name}_column_normal"), Kind::Force, text, move |seen| {
-            seen.loads.wedges[number].column_normal
-        });
-        let text = "friction of the column alone on the side frame, along z, positive up";
-        self.add(
-            format!("{name}_column_friction_z"),
-            Kind::Force,
-            text,
-            move |seen| seen.loads.wedges[number].column_friction_z,
-        );
-        let text = "normal force of the slope";
-        self.add(format!("{name}_slope_normal"), Kind::Force, text, move |seen| {
-            seen.loads.wedges[number].slope_normal
-        });
-        for (k, coordinate) in COORDINATES.into_iter().enumerate() {
-            let name = format!("{name}_{coordinate}");
-            if k < 3 {
-                let text = "displacement of its center of gravity from its nominal place";
-                self.add(name, Kind::Length, text, move |seen| {
-                    seen.loads.wedges[number].displacement[k]
-                });
-            } else {
-                let text = "its angle in truck axes";
+                let text = "angle from the nominal attitude";
                 self.add(name, Kind::Angle, text, move |seen| {
-                    seen.loads.wedges[number].angles[k - 3]
+                    angles(&seen.observation.bodies[body].rotation)[k - 3]
                 });
             }
         }
     }
 
-    /// The halves of a split wedge.
-    fn halves(&mut self, number: usize, name: &str) {
-        for own in of_halves() {
-            self.add(format!("{name}_{}", own.name), own.kind, own.text, move |seen| {
-                (own.value)(&seen.loads.wedges[number])
-            });
-        }
-    }
-
-    fn parts_of_warp_moment(&mut self) {
-        for (name, text, part) in PARTS {
-            let text = format!("part of the warp moment: that of the {text}");
-            self.add(format!("warp_moment_{name}"), Kind::Moment, &text, move |seen| {
-                part(&seen.loads.warp_moment)
-            });
-        }
-    }
-
-    fn center_plate(&mut self) {
-        let text = "normal force of the center plate";
-        self.add("center_plate_load", Kind::Force, text, |seen| {
-            seen.loads.center_plate.load
-        });
-        for (k, name) in ["roll", "pitch", "turning"].into_iter().enumerate() {
-            let text =
-                "moment of the center plate on the bolster about the truck's axes, at the plate's height";
-            self.add(
-                format!("center_plate_{name}_moment"),
-                Kind::Moment,
-                text,
-                move |seen| seen.loads.center_plate.moment[k],
-            );
-        }
-    }
-
-    fn losses_of_wedges(&mut self, system: &System) {
-        for name in WEDGE_NAMES {
-            for (face, massless) in [
-                ("column", Some(EnergyTermKind::ColumnFriction)),
-                ("slope", Some(EnergyTermKind::SlopeFriction)),
-                ("split", None),
-            ] {
-                let element = format!("{name}_{face}");
-                let [outboard, inboard] = HALVES.map(|half| format!("{name}_{half}_{face}"));
-                let faces = [&element, &outboard, &inboard];
-                let terms = system.energy_terms().iter().enumerate();
-                let own = terms.filter(|(_, term)| match term.kind {
-                    EnergyTermKind::FrictionLoss => faces.contains(&&term.element),
-                    kind => Some(kind) == massless && term.element == name,
-                });
-                let places: Vec<usize> = own.map(|(place, _)| place).collect();
+    fn losses_of_wedges(&mut self) {
+        for wedge in WEDGE_NAMES {
+            for face in FACES {
+                let places = losses_at(&self.truck.system, wedge, &[face]);
                 if !places.is_empty() {
                     let text = "energy lost in its friction since the start";
-                    self.add(
-                        format!("{element}_friction_loss"),
-                        Kind::Energy,
-                        text,
-                        move |seen| {
-                            places
-                                .iter()
-                                .map(|place| seen.observation.quadratures[*place])
-                                .sum()
-                        },
-                    );
+                    let name = format!("{wedge}_{face}_friction_loss");
+                    self.columns.add_energy(name, AXES, text, places);
                 }
             }
         }
     }
 
-    fn energies(&mut self, system: &System) {
-        let of_kinds = |kinds: &[EnergyTermKind]| -> Vec<usize> {
-            let terms = system.energy_terms().iter().enumerate();
-            terms
-                .filter(|(_, term)| kinds.contains(&term.kind))
-                .map(|(place, _)| place)
-                .collect()
-        };
+    fn energies(&mut self) {
         for (name, kinds, text) in [
             (
                 "motion_work",
@@ -361,12 +242,7 @@ impl Columns {
             ),
             (
                 "friction_loss",
-                &[
-                    EnergyTermKind::FrictionLoss,
-                    EnergyTermKind::ColumnFriction,
-                    EnergyTermKind::SlopeFriction,
-                    EnergyTermKind::WedgeKinematics,
-                ],
+                &FRICTION,
                 "energy lost in friction since the start, with the kinematics of massless wedges",
             ),
             (
@@ -380,22 +256,11 @@ impl Columns {
                 "energy lost in coils and stops since the start",
             ),
         ] {
-            let places = of_kinds(kinds);
-            self.add(name, Kind::Energy, text, move |seen| {
-                places
-                    .iter()
-                    .map(|place| seen.observation.quadratures[*place])
-                    .sum()
-            });
+            let places = places_of(&self.truck.system, |kind, _| kinds.contains(&kind));
+            self.columns.add_energy(name, AXES, text, places);
         }
-        let text = "energy stored, less that at the start";
-        self.add("stored_energy_change", Kind::Energy, text, |seen| {
-            seen.observation.energies.total() - seen.start_energy
-        });
-        let text = "work less stored energy and losses";
-        self.add("ledger_residual", Kind::Energy, text, |seen| {
-            -seen.observation.residual(seen.start_energy)
-        });
+        self.columns.add_stored(AXES);
+        self.columns.add_residual(AXES);
     }
 }
 
@@ -407,71 +272,4 @@ fn angles(rotation: &Matrix<f64>) -> [f64; 3] {
         libm::atan2(-r[2][0], r[0][0]),
         libm::asin(r[1][0].clamp(-1.0, 1.0)),
     ]
-}
-
-/// The text of the columns of wedges' rises, of trucks and of trucks under cars.
-pub(crate) const RISE: &str =
-    "height in its pocket above that of an unworn wedge in the nominal layout, as a gauge shows it";
-
-/// A column of a split wedge's halves.
-pub(crate) struct HalfColumn {
-    /// Its name after that of the wedge.
-    pub name: String,
-    pub kind: Kind,
-    pub text: &'static str,
-    /// Its value by the loads of the wedge, SI.
-    pub value: Box<dyn Fn(&WedgeLoads) -> f64 + Send + Sync>,
-}
-
-/// Returns the columns of a split wedge's halves, of trucks and of trucks under cars.
-pub(crate) fn of_halves() -> Vec<HalfColumn> {
-    type Take = fn(&HalfLoads) -> f64;
-    let forces: [(&str, &str, Take); 2] = [
-        (
-            "column_normal",
-            "normal force of the half's part of the column",
-            |half| half.column_normal,
-        ),
-        (
-            "slope_normal",
-            "normal force of the half's part of the slope",
-            |half| half.slope_normal,
-        ),
-    ];
-    let mut columns = Vec::new();
-    for (half, half_name) in HALVES.into_iter().enumerate() {
-        for (name, text, value) in forces {
-            columns.push(HalfColumn {
-                name: format!("{half_name}_{name}"),
-                kind: Kind::Force,
-                text,
-                value: Box::new(move |wedge| value(&wedge.halves[half])),
-            });
-        }
-        for (k, coordinate) in COORDINATES.into_iter().enumerate() {
-            let name = format!("{half_name}_{coordinate}");
-            columns.push(if k < 3 {
-                HalfColumn {
-                    name,
-                    kind: Kind::Length,
-                    text: "displacement of the half's center of gravity from its nominal place",
-                    value: Box::new(move |wedge| wedge.halves[half].displacement[k]),
-                }
-            } else {
-                HalfColumn {
-                    name,
-                    kind: Kind::Angle,
-                    text: "the half's angle in truck axes",
-                    value: Box::new(move |wedge| wedge.halves[half].angles[k - 3]),
-                }
-            });
-        }
-    }
-    columns.push(HalfColumn {
-        name: "split_normal".to_owned(),
-        kind: Kind::Force,
-        text: "normal force between the halves",
-        value: Box::new(|wedge| wedge.split_normal),
-    });
-    columns
 }

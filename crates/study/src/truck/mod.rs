@@ -4,6 +4,7 @@
 
 pub(crate) mod assumptions;
 pub mod builtin;
+pub(crate) mod channels;
 pub mod columns;
 mod control_coils;
 mod energies;

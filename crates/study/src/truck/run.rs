@@ -1,12 +1,9 @@
 //! Running a truck.
 
-use std::collections::BTreeMap;
-
 use integrate::Integrator;
 use mechanics::energy_balance::Entries;
 use mechanics::motion::Motion;
 use mechanics::output::Column;
-use mechanics::plausibility::PlausibilityFinding;
 use mechanics::quasi_static::QuasiStaticWedge;
 use mechanics::system::{EnergyTermKind, System};
 use quantity::{Kind, System as Units};
@@ -17,13 +14,12 @@ use wedge::parameters::Start;
 use super::TruckCase;
 use super::columns::TruckTable;
 use super::summary::{Cycles, SCHEMA, TruckSummary, warp_stiffnesses};
-use crate::contacts::{self, ContactTable, TakesCorners};
+use crate::contacts::{ContactTable, TakesCorners};
 use crate::energy;
-use crate::finite::not_finite;
+use crate::finite::find;
 use crate::jam::{self, JamMargins};
 use crate::losses::stroke::Stroke;
 use crate::losses::{LossCounts, LossRecorder};
-use crate::plausibility;
 use crate::progress::{self, ADVANCE, Pace};
 use crate::result::RunResult;
 use crate::run::{
@@ -59,7 +55,6 @@ pub struct TruckRecorder {
     /// The ends of the whole cycles, s, and their number.
     window: Option<([f64; 2], u32)>,
     counts: TruckCounts,
-    row: Vec<f64>,
     /// The corners of the wedges, where they are asked for.
     contacts: Option<ContactTable>,
     /// The bodies of the wedges, and of their halves, with the areas of column and slope, m².
@@ -119,7 +114,6 @@ impl RunCase for TruckCase {
             start_warning: table.truck().start_warning.clone(),
             recorder: TruckRecorder {
                 rows: RowTable::new(table.columns(), |name| KEPT.contains(&name)),
-                row: Vec::with_capacity(table.columns().len()),
                 window: window(self),
                 counts: TruckCounts::default(),
                 contacts: None,
@@ -224,8 +218,8 @@ impl Recorder for TruckRecorder {
 
     fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
         let observation = system.observe(row.time, row.x);
-        self.row.clear();
-        let loads = self.table.read(&observation, row.start_energy, &mut self.row);
+        let values = self.rows.begin_row();
+        let loads = self.table.read(&observation, row.start_energy, values);
         let (number, force) = loads.largest;
         let mut largest = (self.table.truck().suspension_name(number), force);
         for (face, mounted) in observation.faces.iter().zip(system.faces()) {
@@ -242,19 +236,11 @@ impl Recorder for TruckRecorder {
                 time: row.time,
             });
         }
-        self.rows.append(self.table.columns(), &self.row, row.time)?;
+        self.rows.append(row.time)?;
         if let Some(contacts) = &mut self.contacts {
             contacts.take(&observation, row.contact_states);
         }
         Ok(system.ledger_entries(&observation, row.start_energy))
-    }
-
-    fn describe(&self, system: &System, finding: &PlausibilityFinding, units: Units) -> String {
-        plausibility::in_truck(system, finding, [&[], &[]], units)
-    }
-
-    fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
-        contacts::in_words(self.table.system(), contact_states)
     }
 }
 
@@ -274,13 +260,11 @@ impl TakesCorners for TruckRecorder {
 
 fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
     let units = run.case.simulation.output_units;
-    let columns = run.recorder.table.columns().to_vec();
     let table = std::mem::take(&mut run.recorder.rows);
-    let balance = run.energy_balance;
-    let mut warnings: Vec<String> = energy::warning(&balance, energy::WHAT_TO_DO)
-        .into_iter()
-        .collect();
-    warnings.extend(run.start_warning.clone());
+    let mut ended = run.ended(stopped, &table, energy::WHAT_TO_DO);
+    let (ledger, cycles) = (run.last_ledger(&mut ended), cycles(&run));
+    run.stop(&mut ended, find(&cycles.losses).map(|name| format!("`{name}`")));
+    let mut warnings = ended.warnings;
     warnings.extend(findings::warnings_by_kind(&run));
     warnings.extend(surplus(&run.case, units));
     warnings.extend(without_coil(&run.case));
@@ -297,43 +281,33 @@ fn output(mut run: Run<TruckCase>, stopped: Option<Stopped>) -> TruckResult {
     let named = wedge_faces::named(&[("", &run.case.parameters.wedges)]);
     warnings.extend(wedge_faces::warnings(&named));
     let column = |name: &str| table.column(name);
-    let mut summary = TruckSummary {
+    let summary = TruckSummary {
         schema: SCHEMA.to_owned(),
-        program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
+        program: ended.program,
         name: run.case.name.clone(),
         title: run.case.title.clone(),
         units,
-        complete: run.is_complete(stopped.as_ref()),
-        stopped,
-        failed: energy::failure(&balance, energy::WHAT_TO_DO),
+        complete: ended.complete,
+        stopped: ended.stopped,
+        failed: ended.failed,
         warnings,
-        rows: column("time").len() - table.before(),
-        cycles: cycles(&run),
+        rows: ended.rows,
+        cycles,
         warp_stiffness: warp_stiffnesses(column("warp_angle"), column("warp_moment"), units),
         jam: quasi_static(&run.case.parameters)
             .map(|(name, own)| (name.to_owned(), JamMargins::new(&own, 0.0, units)))
             .collect(),
         wedge_rise,
         statics: run.recorder.table.static_table(units),
-        extremes: table.summary_extremes(&columns, units),
+        extremes: table.summary_extremes(units),
         energy: super::energies::of(&run, &column),
-        ledger: run.ledger(units),
+        ledger,
         method: run.case.simulation.method.to_string(),
         relative_tolerance: run.case.simulation.relative_tolerance,
-        statistics: run.integrator.statistics().clone(),
+        statistics: ended.statistics,
         assumptions: super::assumptions::of(&run.case),
     };
-    if summary.stopped.is_none()
-        && let Some(reason) = not_finite(&summary.ledger, Some(&summary.cycles.losses))
-    {
-        summary.complete = false;
-        summary.stopped = Some(run.stopped(reason));
-    }
-    TruckResult {
-        columns,
-        values: table.into_values(),
-        summary,
-    }
+    table.into_result(summary)
 }
 
 /// Returns the quasi-static wedges, with their names.

@@ -2,20 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use integrate::{Integrator, Problem};
+use integrate::Problem;
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
-use mechanics::plausibility::PlausibilityFinding;
-use mechanics::system::System;
-use quantity::{Kind, System as Units};
+use mechanics::system::{Observation, System};
+use quantity::Kind;
 use vehicle::{Axle, Vehicle, View};
 
 use super::VehicleCase;
 use super::summary::{SCHEMA, VehicleDerailed, VehicleSummary, VibrationSummary};
-use crate::contacts;
 use crate::energy;
-use crate::finite::not_finite;
-use crate::plausibility;
 use crate::progress;
 use crate::result::RunResult;
 use crate::run::{
@@ -41,9 +37,7 @@ const LEDGER: [(&str, &str); 4] = [
 #[derive(Debug)]
 pub struct VehicleRecorder {
     vehicle: Vehicle,
-    columns: Vec<Column>,
     rows: RowTable,
-    row: Vec<f64>,
     rates: Vec<f64>,
     /// The values of the channels at the start.
     start: Vec<f64>,
@@ -55,25 +49,22 @@ pub struct VehicleRecorder {
 
 impl VehicleRecorder {
     fn new(vehicle: Vehicle) -> Self {
-        let columns = columns_of(&vehicle);
         let mut own = Self {
-            rows: RowTable::new(&columns, |_| false),
-            row: Vec::with_capacity(columns.len()),
+            rows: RowTable::new(&columns_of(&vehicle), |_| false),
             rates: vec![0.0; vehicle.initial_state.len()],
             start: Vec::new(),
             kinetic_at_start: 0.0,
             derailed: None,
             vehicle,
-            columns,
         };
         let (mut system, x) = (own.vehicle.system.clone(), own.vehicle.initial_state.clone());
         own.kinetic_at_start = own.read(&mut system, 0.0, &x).energies.kinetic;
-        own.start = own.row[1..].to_vec();
+        own.start = own.rows.row()[1..].to_vec();
         own
     }
 
-    /// Reads time and channels into the row; returns the observation.
-    fn read(&mut self, system: &mut System, time: f64, x: &[f64]) -> mechanics::system::Observation {
+    /// Begins a row with time and channels; returns the observation.
+    fn read(&mut self, system: &mut System, time: f64, x: &[f64]) -> Observation {
         let seen = system.observe(time, x);
         system.derivative(time, x, &mut self.rates);
         let view = View {
@@ -81,10 +72,10 @@ impl VehicleRecorder {
             rates: &self.rates,
             system,
         };
-        self.row.clear();
-        self.row.push(time);
+        let row = self.rows.begin_row();
+        row.push(time);
         for channels in &self.vehicle.channels {
-            channels.read(&view, &mut self.row);
+            channels.read(&view, row);
         }
         seen
     }
@@ -92,13 +83,7 @@ impl VehicleRecorder {
 
 /// Returns the columns of a vehicle's run: time, its channels, the energy ledger.
 fn columns_of(vehicle: &Vehicle) -> Vec<Column> {
-    let plain = |name: &str, kind: Kind, text: &str| Column {
-        name: name.to_owned(),
-        kind,
-        frame: "".into(),
-        reference: "".into(),
-        text: text.to_owned(),
-    };
+    let plain = |name: &str, kind: Kind, text: &str| Column::new(name, kind, "", text);
     let mut columns = vec![plain("time", Kind::Time, "time")];
     columns.extend(vehicle.columns().cloned());
     columns.extend(LEDGER.map(|(name, text)| plain(name, Kind::Energy, text)));
@@ -161,21 +146,14 @@ impl Recorder for VehicleRecorder {
         self.rows.restore(rows, times)
     }
 
-    fn step(&mut self, _: &Integrator<System>, _: &mut System, _: &mut [f64]) {}
-
     fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
         let seen = self.read(system, row.time, row.x);
         let mut entries = system.ledger_entries(&seen, row.start_energy);
         entries.exchanged = seen.energies.kinetic - self.kinetic_at_start;
-        let Entries {
-            work,
-            losses,
-            stored_change,
-            residual,
-            ..
-        } = entries;
-        self.row.extend([work, losses, stored_change, residual]);
-        self.rows.append(&self.columns, &self.row, row.time)?;
+        let own = &entries;
+        let values = [own.work, own.losses, own.stored_change, own.residual];
+        self.rows.row().extend(values);
+        self.rows.append(row.time)?;
         let left = |axle: &Axle| Some((axle.clone(), axle.left_rail(&seen)?));
         if let Some((axle, (side, _))) = self.vehicle.axles.iter().find_map(left) {
             let at = axle.state(&seen).distance;
@@ -188,30 +166,22 @@ impl Recorder for VehicleRecorder {
         Ok(entries)
     }
 
-    fn describe(&self, system: &System, finding: &PlausibilityFinding, units: Units) -> String {
-        plausibility::in_truck(system, finding, [&[], &[]], units)
-    }
-
-    fn contacts(&self, contact_states: &[u8]) -> BTreeMap<String, String> {
-        contacts::in_words(&self.vehicle.system, contact_states)
+    fn has_derailed(&self) -> bool {
+        self.derailed.is_some()
     }
 }
 
 fn output(mut run: Run<VehicleCase>, stopped: Option<Stopped>) -> VehicleResult {
     let units = run.case.simulation.output_units;
-    let columns = run.recorder.columns.clone();
     let table = std::mem::take(&mut run.recorder.rows);
-    let balance = run.energy_balance;
-    let mut warnings: Vec<String> = energy::warning(&balance, energy::WHAT_TO_DO)
-        .into_iter()
-        .collect();
-    warnings.extend(run.start_warning.clone());
+    let mut ended = run.ended(stopped, &table, energy::WHAT_TO_DO);
+    let ledger = run.last_ledger(&mut ended);
+    let mut warnings = ended.warnings;
     warnings.extend(run.case.doubts.iter().cloned());
     warnings.extend(match run.case.description.on_track {
         Some(_) => findings::warnings_of_rolling(&run),
         None => findings::warnings_by_kind(&run),
     });
-    let complete = run.is_complete(stopped.as_ref());
     let derailed = run
         .recorder
         .derailed
@@ -221,8 +191,6 @@ fn output(mut run: Run<VehicleCase>, stopped: Option<Stopped>) -> VehicleResult 
             distance: SummaryValue::new(at, Kind::Distance, units),
             what,
         });
-    // A derailment is a result, though not of a complete run.
-    let stopped = stopped.filter(|_| derailed.is_none());
     let reached = run.recorder.vehicle.axles.first().map(|axle| {
         let seen = run.system.observe(run.integrator.time(), run.integrator.x());
         SummaryValue::new(axle.state(&seen).distance, Kind::Distance, units)
@@ -233,45 +201,35 @@ fn output(mut run: Run<VehicleCase>, stopped: Option<Stopped>) -> VehicleResult 
     }
     let vibrations = vibrations.unwrap_or_default();
     let mut forces_at_start = BTreeMap::new();
-    for (column, value) in columns[1..].iter().zip(&run.recorder.start) {
+    for (column, value) in table.columns()[1..].iter().zip(&run.recorder.start) {
         if column.kind == Kind::Force {
             let value = SummaryValue::new(*value, column.kind, units);
             forces_at_start.insert(column.name.clone(), value);
         }
     }
-    let mut summary = VehicleSummary {
+    let summary = VehicleSummary {
         schema: SCHEMA.to_owned(),
-        program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
+        program: ended.program,
         name: run.case.name.clone(),
         title: run.case.title.clone(),
         units,
-        complete,
-        stopped,
+        complete: ended.complete,
+        stopped: ended.stopped,
         derailed,
-        failed: energy::failure(&balance, energy::WHAT_TO_DO),
+        failed: ended.failed,
         warnings,
-        rows: table.column("time").len() - table.before(),
+        rows: ended.rows,
         vibrations: vibrations.into_iter().map(VibrationSummary::of).collect(),
         forces_at_start,
         reached,
-        extremes: table.summary_extremes(&columns, units),
-        ledger: run.ledger(units),
+        extremes: table.summary_extremes(units),
+        ledger,
         method: run.case.simulation.method.to_string(),
         relative_tolerance: run.case.simulation.relative_tolerance,
-        statistics: run.integrator.statistics().clone(),
+        statistics: ended.statistics,
         assumptions: assumptions(&run.case),
     };
-    if summary.stopped.is_none()
-        && let Some(reason) = not_finite(&summary.ledger, None)
-    {
-        summary.complete = false;
-        summary.stopped = Some(run.stopped(reason));
-    }
-    VehicleResult {
-        columns,
-        values: table.into_values(),
-        summary,
-    }
+    table.into_result(summary)
 }
 
 /// Returns the assumptions of a vehicle's numbers.

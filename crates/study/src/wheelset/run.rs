@@ -3,14 +3,10 @@
 //! At each output time the seats of the wheels are checked. A wheel on the tip of its flange, on the edge of
 //! its rim or off its rail has derailed: the run ends there, and this is its result.
 
-use std::collections::BTreeMap;
-
-use integrate::{Integrator, Options};
+use integrate::Options;
 use mechanics::energy_balance::Entries;
-use mechanics::output::Column;
-use mechanics::plausibility::PlausibilityFinding;
 use mechanics::system::System;
-use quantity::{Kind, SixDigits, System as Units};
+use quantity::{Kind, SixDigits};
 use rolling::rig::Rig;
 use wheelrail::loaded::Seat;
 
@@ -18,8 +14,6 @@ use super::WheelsetCase;
 use super::columns::{RigReader, SIDES, columns};
 use super::stability;
 use super::summary::{Derailment, SCHEMA, WheelsetSummary};
-use crate::energy;
-use crate::plausibility;
 use crate::result::RunResult;
 use crate::run::{
     Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
@@ -44,9 +38,7 @@ struct Derailed {
 /// Records a wheelset's run: its table, and where it derails.
 pub struct WheelsetRecorder {
     reader: RigReader,
-    columns: Vec<Column>,
     rows: RowTable,
-    row: Vec<f64>,
     derailed: Option<Derailed>,
 }
 
@@ -72,16 +64,13 @@ impl RunCase for WheelsetCase {
 
     fn begin(&self) -> Result<Beginning<WheelsetRecorder>, RunError> {
         let rig = Rig::new(&self.setup, self.wheelset.start)?;
-        let columns = columns();
         Ok(Beginning {
             system: rig.system.clone(),
             x: rig.start.clone(),
             start_warning: None,
             recorder: WheelsetRecorder {
-                rows: RowTable::new(&columns, |_| false),
-                row: Vec::with_capacity(columns.len()),
+                rows: RowTable::new(&columns(), |_| false),
                 reader: RigReader::new(rig, self.setup.clone(), self.wheelset.nominal_radius()),
-                columns,
                 derailed: None,
             },
         })
@@ -103,21 +92,18 @@ impl Recorder for WheelsetRecorder {
         self.rows.restore(rows, times)
     }
 
-    fn step(&mut self, _integrator: &Integrator<System>, _system: &mut System, _x: &mut [f64]) {}
-
     fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
         let seen = system.observe(row.time, row.x);
         let entries = system.ledger_entries(&seen, row.start_energy);
-        self.row.clear();
-        self.reader.read(&seen, &entries, &mut self.row);
-        self.rows.append(&self.columns, &self.row, row.time)?;
+        self.reader.read(&seen, &entries, self.rows.begin_row());
+        self.rows.append(row.time)?;
         let seats = self.reader.rig().seats(&seen);
         if let Some(wheel) = seats.iter().position(|seat| *seat != Seat::OnRail) {
             self.derailed = Some(Derailed {
                 wheel,
                 seat: seats[wheel],
                 time: row.time,
-                distance: self.row[1],
+                distance: self.rows.row()[1],
             });
             let what = format!("a wheel has derailed at {} s", SixDigits(row.time));
             return Err(RunError::Derailed { what });
@@ -125,18 +111,13 @@ impl Recorder for WheelsetRecorder {
         Ok(entries)
     }
 
-    fn describe(&self, system: &System, finding: &PlausibilityFinding, units: Units) -> String {
-        plausibility::in_truck(system, finding, [&[], &[]], units)
-    }
-
-    fn contacts(&self, _contact_states: &[u8]) -> BTreeMap<String, String> {
-        BTreeMap::new()
+    fn has_derailed(&self) -> bool {
+        self.derailed.is_some()
     }
 }
 
 fn output(mut run: Run<WheelsetCase>, stopped: Option<Stopped>) -> WheelsetResult {
     let units = run.case.wheelset.units;
-    let columns = std::mem::take(&mut run.recorder.columns);
     let table = std::mem::take(&mut run.recorder.rows);
     let derailment = run.recorder.derailed.map(|found| Derailment {
         wheel: SIDES[found.wheel].to_owned(),
@@ -144,39 +125,31 @@ fn output(mut run: Run<WheelsetCase>, stopped: Option<Stopped>) -> WheelsetResul
         time: found.time,
         distance: SummaryValue::new(found.distance, Kind::Length, units),
     });
-    let complete = run.is_complete(stopped.as_ref());
-    // A derailment is a result, though not of a complete run.
-    let stopped = stopped.filter(|_| derailment.is_none());
-    let balance = run.energy_balance;
-    let mut warnings: Vec<String> = energy::warning(&balance, LOWER_THE_TOLERANCE)
-        .into_iter()
-        .collect();
+    let mut ended = run.ended(stopped, &table, LOWER_THE_TOLERANCE);
+    let ledger = run.last_ledger(&mut ended);
+    let mut warnings = ended.warnings;
     warnings.extend(findings::warnings_of_rolling(&run));
     warnings.extend(run.case.wheelset.track.doubts.iter().cloned());
-    let mut extremes = table.summary_extremes(&columns, units);
+    let mut extremes = table.summary_extremes(units);
     extremes.retain(|name, _| !name.contains("_patch_"));
     let summary = WheelsetSummary {
         schema: SCHEMA.to_owned(),
-        program: concat!("wedgelab ", env!("CARGO_PKG_VERSION")).to_owned(),
+        program: ended.program,
         name: run.case.wheelset.name.clone(),
         units,
         given: run.case.wheelset.given.clone(),
-        complete,
+        complete: ended.complete,
         derailment,
-        stopped,
-        failed: energy::failure(&balance, LOWER_THE_TOLERANCE),
+        stopped: ended.stopped,
+        failed: ended.failed,
         warnings,
-        rows: table.column("time").len() - table.before(),
+        rows: ended.rows,
         hunting: stability::hunting(&run.case.wheelset),
         extremes,
-        ledger: run.ledger(units),
+        ledger,
         relative_tolerance: run.case.wheelset.relative_tolerance,
-        statistics: run.integrator.statistics().clone(),
+        statistics: ended.statistics,
         assumptions: run.case.assumptions(),
     };
-    WheelsetResult {
-        columns,
-        values: table.into_values(),
-        summary,
-    }
+    table.into_result(summary)
 }
