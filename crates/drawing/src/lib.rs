@@ -206,6 +206,12 @@ impl Figure {
         }
     }
 
+    /// Returns the same figure with so many cells in a row.
+    #[must_use]
+    pub fn in_columns(self, columns: usize) -> Self {
+        Self { columns, ..self }
+    }
+
     /// Returns the figure as an SVG document.
     #[must_use]
     pub fn to_svg(&self) -> String {

@@ -84,11 +84,7 @@ pub fn beyond(outcomes: &[CaseOutcome]) -> Vec<Section> {
             id: format!("beyond-{}", group.name.replace('_', "-")),
             title: group.title.to_owned(),
             intro: group.look_at.to_owned(),
-            exhibits: vec![Exhibit {
-                name: format!("beyond_{}", group.name),
-                thesis: String::new(),
-                figure,
-            }],
+            exhibits: vec![Exhibit::new(format!("beyond_{}", group.name), figure)],
             ..Section::default()
         });
     }

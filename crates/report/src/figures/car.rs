@@ -90,13 +90,11 @@ fn wheels(run: &CarRun, truck: usize, what: &str) -> Vec<(String, String)> {
 #[must_use]
 pub fn exhibits(run: &CarRun) -> Vec<Exhibit> {
     let name = run.case.name.as_str();
-    let exhibit = |what: &str, title: &str, caption: &str, panels: Vec<Panel>| Exhibit {
-        name: format!("{name}_{what}"),
-        thesis: String::new(),
-        figure: Figure {
-            columns: 2,
-            ..Figure::new(format!("{name}: {title}"), caption, panels)
-        },
+    let exhibit = |what: &str, title: &str, caption: &str, panels: Vec<Panel>| {
+        Exhibit::new(
+            format!("{name}_{what}"),
+            Figure::new(format!("{name}: {title}"), caption, panels).in_columns(2),
+        )
     };
     let filter = run.case.rules.wheel_filter;
     let of_wheels = |what: &str, y: (&str, Kind)| {

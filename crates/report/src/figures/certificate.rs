@@ -85,24 +85,21 @@ pub fn over_speed(certificate: &Certificate, findings: &CertificateFindings, reg
     ));
     panels.retain(|panel| !panel.curves.is_empty());
     let columns = panels.len().clamp(1, 2);
-    Exhibit {
-        name: format!("over_speed_{}", own.name),
-        thesis: String::new(),
-        figure: Figure {
-            columns,
-            ..Figure::new(
-                format!("{}: over the speed", capital(&own.title)),
-                format!(
-                    "{}. What is limited, with its limit (dotted); then the energy that the friction of all \
+    Exhibit::new(
+        format!("over_speed_{}", own.name),
+        Figure::new(
+            format!("{}: over the speed", capital(&own.title)),
+            format!(
+                "{}. What is limited, with its limit (dotted); then the energy that the friction of all \
                  wedges took in a run, and the share of the time after settling in which no point of a \
                  wedge's faces slips, mean of all wedges. Runs that did not reach the end of their track, or \
                  failed, are not drawn. Limits: {}, {}.",
-                    capital(&own.title),
-                    certificate.limits.title,
-                    certificate.limits.source
-                ),
-                panels,
-            )
-        },
-    }
+                capital(&own.title),
+                certificate.limits.title,
+                certificate.limits.source
+            ),
+            panels,
+        )
+        .in_columns(columns),
+    )
 }

@@ -117,36 +117,33 @@ fn map(study: &Study, digest: &Digest, jam: &Jam, cells: &JamCells) -> Option<Ex
         true => ", on average",
         false => "",
     };
-    Some(Exhibit {
-        name: format!("jam_map_toe_{name}"),
-        thesis: String::new(),
-        figure: Figure {
-            columns: 2,
-            ..Figure::new(
-                format!("Jam map, toe {name}: the column's normal force over the coil's load"),
-                format!(
-                    "{} runs with toe {name} ({} deg{among}). Lines of equal normal force of the column (its \
+    Some(Exhibit::new(
+        format!("jam_map_toe_{name}"),
+        Figure::new(
+            format!("Jam map, toe {name}: the column's normal force over the coil's load"),
+            format!(
+                "{} runs with toe {name} ({} deg{among}). Lines of equal normal force of the column (its \
                  part along the track, mean over the branch) over the coil's force less the wedge's weight: \
                  computed (marked with the ratio), and of the massless wedge in steady sliding (eq. 5-1 \
                  with its misprint put right; ratios in brackets). Parameters that this map does not show \
                  vary in the computed lines and are the case's in the massless wedge's. {}",
-                    cells.toe.count,
-                    digits(toe),
-                    match cells.toe_in {
-                        true =>
-                            "The massless wedge's force grows without bound towards its jam line, θ + φ = b \
+                cells.toe.count,
+                digits(toe),
+                match cells.toe_in {
+                    true =>
+                        "The massless wedge's force grows without bound towards its jam line, θ + φ = b \
                          atan μ_s + a atan μ_c. The computed wedge has elastic contacts and need not slide: \
                          it passes the line with a finite force.",
-                        false =>
-                            "With toe out the frictions of the two faces act against each other, \
+                    false =>
+                        "With toe out the frictions of the two faces act against each other, \
                          θ + φ = b atan μ_s + a atan μ_c with b = -a, so that a wedge jams only at \
                          small angles or with very different frictions.",
-                    }
-                ),
-                panels,
-            )
-        },
-    })
+                }
+            ),
+            panels,
+        )
+        .in_columns(2),
+    ))
 }
 
 fn contours(x: &[f64], y: &[f64], heights: &[f64]) -> Vec<(PlotCurve, Mark)> {

@@ -45,6 +45,18 @@ pub struct Exhibit {
     pub figure: Figure,
 }
 
+impl Exhibit {
+    /// Returns a figure that the thesis does not have.
+    #[must_use]
+    pub fn new(name: impl Into<String>, figure: Figure) -> Self {
+        Self {
+            name: name.into(),
+            thesis: String::new(),
+            figure,
+        }
+    }
+}
+
 /// Returns the bolster's constant yaw, rad; 0 if it moves.
 #[must_use]
 pub fn yaw(case: &Case) -> f64 {

@@ -17,11 +17,10 @@ const LEVELS: usize = 6;
 
 /// Returns the map of each face with a grid; `None` if there is none.
 pub(super) fn exhibit((case, result): &CaseOutcome) -> Option<Exhibit> {
-    Some(Exhibit {
-        name: format!("{}_pressure", case.name),
-        thesis: String::new(),
-        figure: figure(case, result)?,
-    })
+    Some(Exhibit::new(
+        format!("{}_pressure", case.name),
+        figure(case, result)?,
+    ))
 }
 
 /// Returns the same as a figure.
@@ -36,9 +35,8 @@ pub fn figure(case: &Case, result: &RunResult) -> Option<Figure> {
     if maps.is_empty() {
         return None;
     }
-    Some(Figure {
-        columns: 2,
-        ..Figure::new(
+    Some(
+        Figure::new(
             format!("{}: pressure over the faces", case.name),
             "Lines of equal pressure over the faces of the wedge, seen from the counterface: on \
                       the left at the time of the greatest pressure after the first tenth of the run, on \
@@ -47,7 +45,8 @@ pub fn figure(case: &Case, result: &RunResult) -> Option<Figure> {
                       points. Left (+y) is the wedge's left side.",
             maps.into_iter().flatten(),
         )
-    })
+        .in_columns(2),
+    )
 }
 
 /// Returns the pressures of a face: at the time of the greatest one, and on average.

@@ -36,11 +36,7 @@ pub fn exhibits(outcome: &CaseOutcome) -> Vec<Exhibit> {
 }
 
 fn exhibit(name: &str, what: &str, figure: Figure) -> Exhibit {
-    Exhibit {
-        name: format!("{name}_{what}"),
-        thesis: String::new(),
-        figure,
-    }
+    Exhibit::new(format!("{name}_{what}"), figure)
 }
 
 fn ledger(name: &str, result: &RunResult) -> Exhibit {
@@ -188,10 +184,7 @@ fn corner_forces(name: &str, result: &RunResult) -> Exhibit {
     exhibit(
         name,
         "corner_forces",
-        Figure {
-            columns: 2,
-            ..Figure::new(format!("{name}: forces at the corners"), caption, panels)
-        },
+        Figure::new(format!("{name}: forces at the corners"), caption, panels).in_columns(2),
     )
 }
 

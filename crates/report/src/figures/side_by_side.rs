@@ -100,14 +100,11 @@ fn exhibit(wanted: &Wanted, runs: &[RunFolder], units: Units) -> Option<Exhibit>
     if !missing.is_empty() {
         caption.push_str(&format!(" Not in {}.", missing.join(", ")));
     }
-    Some(Exhibit {
-        name: format!("overlay_{}", wanted.name),
-        thesis: String::new(),
-        figure: Figure {
-            columns: if panels.len() > 1 { 2 } else { 0 },
-            ..Figure::new(wanted.title.clone(), caption, panels)
-        },
-    })
+    let columns = if panels.len() > 1 { 2 } else { 0 };
+    Some(Exhibit::new(
+        format!("overlay_{}", wanted.name),
+        Figure::new(wanted.title.clone(), caption, panels).in_columns(columns),
+    ))
 }
 
 /// Colour and line of a run: the same in every figure.

@@ -135,26 +135,24 @@ pub fn main_effects(study: &Study, digest: &Digest, name: &str) -> Option<Exhibi
         }
     });
     let panels: Vec<Panel> = panels.collect();
-    Some(Exhibit {
-        name: format!("effects_{name}"),
-        thesis: String::new(),
-        figure: Figure {
-            columns: panels.len().min(2),
-            ..Figure::new(
-                format!("Main effects: {}", words(name)),
-                format!(
-                    "{}: mean, least and greatest value over the runs that share a value of one \
+    let columns = panels.len().min(2);
+    Some(Exhibit::new(
+        format!("effects_{name}"),
+        Figure::new(
+            format!("Main effects: {}", words(name)),
+            format!(
+                "{}: mean, least and greatest value over the runs that share a value of one \
                  parameter (or lie in one part of its range), over that parameter. All other parameters \
                  vary within each point. All runs together: {} to {}, mean {}.",
-                    words(name),
-                    super::digits(all.least * factor),
-                    super::digits(all.most * factor),
-                    super::digits(all.mean() * factor),
-                ),
-                panels,
-            )
-        },
-    })
+                words(name),
+                super::digits(all.least * factor),
+                super::digits(all.most * factor),
+                super::digits(all.mean() * factor),
+            ),
+            panels,
+        )
+        .in_columns(columns),
+    ))
 }
 
 /// Means over the cells of a pair, in output units.
@@ -241,17 +239,16 @@ fn contours(study: &Study, digest: &Digest, pair: &ParameterPair) -> Option<Exhi
         })
         .collect();
     let names = [first, second].map(|number| study.factors[number].name());
-    (!panels.is_empty()).then(|| Exhibit {
-        name: format!("contours_{}_{}", file_name(names[0]), file_name(names[1])),
-        thesis: String::new(),
-        figure: Figure {
-            columns: 2,
-            ..Figure::new(
+    (!panels.is_empty()).then(|| {
+        Exhibit::new(
+            format!("contours_{}_{}", file_name(names[0]), file_name(names[1])),
+            Figure::new(
                 format!("Contours over {} and {}", names[0], names[1]),
                 "Lines of equal value of the means over all runs with these two values (or in these \
                       two parts of the ranges), marked with it. All other parameters vary within each point.",
                 panels,
             )
-        },
+            .in_columns(2),
+        )
     })
 }

@@ -43,13 +43,14 @@ impl TruckRun {
 #[must_use]
 pub fn exhibits(run: &TruckRun) -> Vec<Exhibit> {
     let name = run.case.name.as_str();
-    let exhibit = |what: &str, figure: Figure| Exhibit {
-        name: format!("{name}_{what}"),
-        thesis: String::new(),
-        figure: Figure {
-            title: format!("{name}: {}", lowered(&figure.title)),
-            ..figure
-        },
+    let exhibit = |what: &str, figure: Figure| {
+        Exhibit::new(
+            format!("{name}_{what}"),
+            Figure {
+                title: format!("{name}: {}", lowered(&figure.title)),
+                ..figure
+            },
+        )
     };
     let mut exhibits = Vec::new();
     if let Some(own) = run.hysteresis() {
@@ -162,16 +163,14 @@ fn contact_states(run: &TruckRun, contacts: &ContactTable) -> Figure {
             ));
         }
     }
-    Figure {
-        columns: 4,
-        ..Figure::new(
-            "Contact states",
-            "Of the corners (or points of a grid) of each wedge at column and slope, the share that is \
+    Figure::new(
+        "Contact states",
+        "Of the corners (or points of a grid) of each wedge at column and slope, the share that is \
                   open, sticks, and slips. With bristles a corner slips where its friction has reached its \
                   limit.",
-            panels,
-        )
-    }
+        panels,
+    )
+    .in_columns(4)
 }
 
 fn ledger(run: &TruckRun) -> Figure {
@@ -221,13 +220,14 @@ fn ledger(run: &TruckRun) -> Figure {
 /// the wedges.
 #[must_use]
 pub fn of_rigs(runs: &[TruckRun], smooth: Option<&TruckRun>) -> Vec<Exhibit> {
-    let exhibit = |name: &str, title: &str, figure: Figure| Exhibit {
-        name: format!("truck_{name}"),
-        thesis: String::new(),
-        figure: Figure {
-            title: title.to_owned(),
-            ..figure
-        },
+    let exhibit = |name: &str, title: &str, figure: Figure| {
+        Exhibit::new(
+            format!("truck_{name}"),
+            Figure {
+                title: title.to_owned(),
+                ..figure
+            },
+        )
     };
     let loops = |stem: &str, empty: bool| -> Vec<(String, LoopCurve)> {
         let own = runs.iter().filter_map(|run| {

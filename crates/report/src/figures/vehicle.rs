@@ -101,18 +101,15 @@ fn figure(
         left_out => format!(" Of each the first {CURVES}; {left_out} more are in the table."),
     };
     let columns = panels.len().min(3);
-    Some(Exhibit {
-        name: format!("{}_{name}", result.summary.name),
-        thesis: String::new(),
-        figure: Figure {
-            columns,
-            ..Figure::new(
-                format!("{}: {title}", result.summary.name),
-                format!("{caption}{more}"),
-                panels,
-            )
-        },
-    })
+    Some(Exhibit::new(
+        format!("{}_{name}", result.summary.name),
+        Figure::new(
+            format!("{}: {title}", result.summary.name),
+            format!("{caption}{more}"),
+            panels,
+        )
+        .in_columns(columns),
+    ))
 }
 
 /// Returns the name of the body or element that a column is of.

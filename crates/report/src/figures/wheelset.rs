@@ -55,11 +55,7 @@ fn panel(result: &WheelsetResult, title: &str, label: &str, kind: Kind, columns:
 #[must_use]
 pub fn exhibits(case: &WheelsetCase, result: &WheelsetResult) -> Vec<Exhibit> {
     let name = case.wheelset.name.as_str();
-    let exhibit = |what: &str, figure: Figure| Exhibit {
-        name: format!("{name}_{what}"),
-        thesis: String::new(),
-        figure,
-    };
+    let exhibit = |what: &str, figure: Figure| Exhibit::new(format!("{name}_{what}"), figure);
     let both = |title: &str, label: &str, kind: Kind, what: &str| {
         let names = ["left", "right"].map(|side| format!("{side}_{what}"));
         panel(
@@ -80,51 +76,47 @@ pub fn exhibits(case: &WheelsetCase, result: &WheelsetResult) -> Vec<Exhibit> {
         "degree of curve",
         [PlotCurve::new("", (BLUE.0, BLUE.1), curvature)],
     );
-    let motion = Figure {
-        columns: 3,
-        ..Figure::new(
-            format!("{name}: where the wheelset is"),
-            "Over the distance: curvature (to the left) and irregularities under the wheels (lateral \
+    let motion = Figure::new(
+        format!("{name}: where the wheelset is"),
+        "Over the distance: curvature (to the left) and irregularities under the wheels (lateral \
                   to the left, vertical up); lateral place of the wheelset's center (to the left), its yaw \
                   to the track (the angle of attack), its roll (left side up).",
-            [
-                track,
-                both("(b) alignment", "rail, lateral", Kind::Length, "rail_lateral"),
-                both("(c) profile", "rail, vertical", Kind::Length, "rail_vertical"),
-                panel(
-                    result,
-                    "(d) lateral",
-                    "to the left",
-                    Kind::Length,
-                    &[("lateral", "")],
-                ),
-                panel(result, "(e) yaw", "yaw", Kind::Angle, &[("yaw", "")]),
-                panel(result, "(f) roll", "roll", Kind::Angle, &[("roll", "")]),
-            ],
-        )
-    };
-    let forces = Figure {
-        columns: 3,
-        ..Figure::new(
-            format!("{name}: forces of the wheels"),
-            "Over the distance: forces of the wheels on the rails, vertical ones square to the track, \
+        [
+            track,
+            both("(b) alignment", "rail, lateral", Kind::Length, "rail_lateral"),
+            both("(c) profile", "rail, vertical", Kind::Length, "rail_vertical"),
+            panel(
+                result,
+                "(d) lateral",
+                "to the left",
+                Kind::Length,
+                &[("lateral", "")],
+            ),
+            panel(result, "(e) yaw", "yaw", Kind::Angle, &[("yaw", "")]),
+            panel(result, "(f) roll", "roll", Kind::Angle, &[("roll", "")]),
+        ],
+    )
+    .in_columns(3);
+    let forces = Figure::new(
+        format!("{name}: forces of the wheels"),
+        "Over the distance: forces of the wheels on the rails, vertical ones square to the track, \
                   lateral ones positive where they spread the gauge, their quotient; longitudinal forces on \
                   the wheels, forward; the wear number (energy that creep takes by distance); contact \
                   patches a wheel.",
-            [
-                both("(a) vertical", "force", Kind::Force, "vertical_force"),
-                both("(b) lateral", "force", Kind::Force, "lateral_force"),
-                both(
-                    "(c) lateral over vertical",
-                    "L/V",
-                    Kind::Dimensionless,
-                    "lateral_over_vertical",
-                ),
-                both("(d) longitudinal", "force", Kind::Force, "longitudinal_force"),
-                both("(e) wear number", "wear number", Kind::Force, "wear_number"),
-                both("(f) patches", "patches", Kind::Count, "patches"),
-            ],
-        )
-    };
+        [
+            both("(a) vertical", "force", Kind::Force, "vertical_force"),
+            both("(b) lateral", "force", Kind::Force, "lateral_force"),
+            both(
+                "(c) lateral over vertical",
+                "L/V",
+                Kind::Dimensionless,
+                "lateral_over_vertical",
+            ),
+            both("(d) longitudinal", "force", Kind::Force, "longitudinal_force"),
+            both("(e) wear number", "wear number", Kind::Force, "wear_number"),
+            both("(f) patches", "patches", Kind::Count, "patches"),
+        ],
+    )
+    .in_columns(3);
     vec![exhibit("motion", motion), exhibit("forces", forces)]
 }

@@ -5,7 +5,8 @@ use maud::{Markup, html};
 use study::car::summary::CarSummary;
 use study::summary::{RunSummary, SummaryValue};
 
-use super::{data_of, ledger_note, moving, run_page, shown_in, statics};
+use super::table::{self, Head};
+use super::{figures, in_unit, ledger_note, run_page, statics};
 use crate::figures::car::{CarRun, exhibits};
 use crate::figures::digits;
 use crate::view::run::{Detail, Recording};
@@ -18,28 +19,20 @@ pub fn render(run: &CarRun) -> Result<String, serde_json::Error> {
     let summary = &run.result.summary;
     let exhibits = exhibits(run);
     let recording = Recording::of_car(&run.case, &run.result, run.motions.as_ref(), Detail::Thinned);
-    let data = data_of(summary.units, recording, &exhibits)?;
-    let main = html! {
-        (super::doubts(summary))
-        (moving(&summary.name))
+    let sections = html! {
         section { h2 { "Limits" } (limits(summary)) }
         section { h2 { "Statistics" } (statistics(summary)) }
-        section {
-            h2 { "Figures" }
-            @for exhibit in &exhibits { (shown_in(exhibit, &exhibit.figure.to_svg(), None)) }
-        }
+        (figures(&exhibits))
         section { h2 { "At the start" } (statics::section(&summary.statics, summary.units)) }
         section { h2 { "Wedges" } (wedges(summary)) }
-        section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
     };
-    let title_and_program = (summary.title.as_str(), summary.program.as_str());
-    Ok(run_page(
+    run_page(
         summary,
-        title_and_program,
+        &summary.title,
         "a freight car on track",
-        &main,
-        &data,
-    ))
+        (recording, &exhibits),
+        &sections,
+    )
 }
 
 /// Returns the sentence above numbers that are not of the whole run.
@@ -48,6 +41,28 @@ fn partial(summary: &CarSummary) -> Markup {
 }
 
 fn limits(summary: &CarSummary) -> Markup {
+    let heads = [
+        Head::Words("quantity"),
+        Head::Words("worst at"),
+        Head::Numbers("value"),
+        Head::Numbers("limit"),
+        Head::Numbers("margin"),
+        Head::Words("regimes"),
+    ];
+    let rows = summary.limits.iter().map(|own| {
+        let margin = match own.unfiltered {
+            true => "none: raw".to_owned(),
+            false => format!("{:.0} %", 100.0 * own.margin),
+        };
+        [
+            own.quantity.clone(),
+            own.statistic.replace('_', " "),
+            in_unit(own.value, &own.unit),
+            in_unit(own.limit, &own.unit),
+            margin,
+            own.regimes.clone(),
+        ]
+    });
     html! {
         (partial(summary))
         p {
@@ -56,76 +71,66 @@ fn limits(summary: &CarSummary) -> Markup {
              what is left, in parts of the limit. Raw values, where rows are too far apart for the filter, \
              have none."
         }
-        div.wide {
-            table {
-                thead {
-                    tr {
-                        th scope="col" { "quantity" } th scope="col" { "worst at" }
-                        th.number scope="col" { "value" } th.number scope="col" { "limit" }
-                        th.number scope="col" { "margin" } th scope="col" { "regimes" }
-                    }
-                }
-                tbody {
-                    @for own in &summary.limits {
-                        tr {
-                            th scope="row" { (own.quantity) }
-                            td { (own.statistic.replace('_', " ")) }
-                            td.number { (digits(own.value)) @if !own.unit.is_empty() { " " (own.unit) } }
-                            td.number { (digits(own.limit)) @if !own.unit.is_empty() { " " (own.unit) } }
-                            td.number {
-                                @if own.unfiltered { "none: raw" }
-                                @else { (format!("{:.0} %", 100.0 * own.margin)) }
-                            }
-                            td { (own.regimes) }
-                        }
-                    }
-                }
-            }
-        }
+        (table::wide(&heads, rows))
     }
 }
 
 fn statistics(summary: &CarSummary) -> Markup {
+    let heads = [
+        Head::Words("statistic"),
+        Head::Numbers("raw"),
+        Head::Numbers("filtered"),
+        Head::Numbers("from (s)"),
+    ];
+    let rows = summary.statistics.iter().map(|(name, own)| {
+        let name = name.replace('_', " ");
+        [
+            match own.remark.as_str() {
+                "" => name,
+                remark => format!("{name} ({remark})"),
+            },
+            shown(own.raw.as_ref()),
+            shown(own.filtered.as_ref()),
+            own.time.map_or("–".to_owned(), digits),
+        ]
+    });
     html! {
         (partial(summary))
         details {
             summary { "All statistics, raw and filtered" }
-            div.wide {
-                table {
-                    thead {
-                        tr {
-                            th scope="col" { "statistic" } th.number scope="col" { "raw" }
-                            th.number scope="col" { "filtered" } th.number scope="col" { "from (s)" }
-                        }
-                    }
-                    tbody {
-                        @for (name, own) in &summary.statistics {
-                            tr {
-                                th scope="row" {
-                                    (name.replace('_', " "))
-                                    @if !own.remark.is_empty() { " (" (own.remark) ")" }
-                                }
-                                td.number { (shown(own.raw.as_ref())) }
-                                td.number { (shown(own.filtered.as_ref())) }
-                                td.number { (own.time.map_or("–".to_owned(), digits)) }
-                            }
-                        }
-                    }
-                }
-            }
+            (table::wide(&heads, rows))
         }
     }
 }
 
 /// Returns a value with its unit, a dash if there is none.
 fn shown(value: Option<&SummaryValue>) -> String {
-    value.map_or("–".to_owned(), |own| match own.unit.as_str() {
-        "" => digits(own.value),
-        unit => format!("{} {unit}", digits(own.value)),
-    })
+    value.map_or("–".to_owned(), |own| in_unit(own.value, &own.unit))
 }
 
 fn wedges(summary: &CarSummary) -> Markup {
+    let heads = [
+        Head::Words("wedge"),
+        Head::Numbers("friction energy"),
+        Head::Numbers("rise"),
+        Head::Numbers("coil without load"),
+        Head::Numbers("pocket"),
+        Head::Numbers("column"),
+        Head::Numbers("slope"),
+    ];
+    let rows = summary.wedge_losses.iter().map(|(name, own)| {
+        let rise = summary.wedge_rise.get(name);
+        let start = summary.locked_in.get(name).map(|own| &own.at_start);
+        [
+            name.replace('_', " "),
+            shown(Some(own)),
+            shown(rise.map(|own| &own.at_start)),
+            shown(rise.and_then(|own| own.coil_without_load.as_ref())),
+            shown(rise.map(|own| &own.pocket)),
+            shown(start.map(|own| &own.column)),
+            shown(start.map(|own| &own.slope)),
+        ]
+    });
     html! {
         p {
             "Energy that the friction of each wedge took at column and slope; its rise in its pocket at the \
@@ -133,33 +138,7 @@ fn wedges(summary: &CarSummary) -> Markup {
              that its pocket holds; the normal forces of its column and its slope at the start."
         }
         @if let Some(start) = summary.start_in_words() { p { (start) } }
-        div.wide {
-            table {
-                thead {
-                    tr {
-                        th scope="col" { "wedge" } th.number scope="col" { "friction energy" }
-                        th.number scope="col" { "rise" } th.number scope="col" { "coil without load" }
-                        th.number scope="col" { "pocket" }
-                        th.number scope="col" { "column" } th.number scope="col" { "slope" }
-                    }
-                }
-                tbody {
-                    @for (name, own) in &summary.wedge_losses {
-                        @let rise = summary.wedge_rise.get(name);
-                        @let start = summary.locked_in.get(name).map(|own| &own.at_start);
-                        tr {
-                            th scope="row" { (name.replace('_', " ")) }
-                            td.number { (shown(Some(own))) }
-                            td.number { (shown(rise.map(|own| &own.at_start))) }
-                            td.number { (shown(rise.and_then(|own| own.coil_without_load.as_ref()))) }
-                            td.number { (shown(rise.map(|own| &own.pocket))) }
-                            td.number { (shown(start.map(|own| &own.column))) }
-                            td.number { (shown(start.map(|own| &own.slope))) }
-                        }
-                    }
-                }
-            }
-        }
-        (ledger_note(summary.ledger.largest_relative_residual, summary.solver.steps))
+        (table::wide(&heads, rows))
+        (ledger_note(summary))
     }
 }

@@ -1,12 +1,15 @@
 //! The page of a certificate: limits by regime, what is worst in 3D, figures over speed and distance, wedges.
 
+use std::iter;
+
 use maud::{Markup, html};
 use quantity::System as Units;
 use study::car::limits::Bound;
 use study::certificate::{Certificate, LimitVerdict, worst_run};
 use study::records::Status;
 
-use super::{document, moving_as, shown_in};
+use super::table::{self, Head};
+use super::{document, in_unit, moving_as, shown_in};
 use crate::certificate_files::{CertificateFindings, NAMES};
 use crate::figures::car::{CarRun, exhibits};
 use crate::figures::certificate::over_speed;
@@ -162,13 +165,6 @@ fn summary(certificate: &Certificate, findings: &CertificateFindings) -> Markup 
     }
 }
 
-fn value(own: f64, unit: &str) -> String {
-    match unit {
-        "" => digits(own),
-        unit => format!("{} {unit}", digits(own)),
-    }
-}
-
 fn percent(margin: f64) -> String {
     format!("{:.0} %", 100.0 * margin).replace('-', "\u{2212}")
 }
@@ -214,7 +210,7 @@ fn limits(
                             td { (limit.quantity) @if !limit.remark.is_empty() { " (" (limit.remark) ")" } }
                             td.number {
                                 (own.worst.as_ref().map_or("–".to_owned(), |worst| {
-                                    value(worst.value, &limit.unit)
+                                    in_unit(worst.value, &limit.unit)
                                 }))
                                 @if own.worst.as_ref().is_some_and(|worst| worst.until_derailed) {
                                     " until it derailed"
@@ -223,7 +219,7 @@ fn limits(
                             td.number { (own.worst.as_ref().map_or("–", |worst| worst.speed.as_str())) }
                             td.number {
                                 (match limit.bound { Bound::AtMost => "≤ ", Bound::AtLeast => "≥ " })
-                                (value(limit.value, &limit.unit))
+                                (in_unit(limit.value, &limit.unit))
                             }
                             td.number {
                                 (own.worst.as_ref().map_or("–".to_owned(), |worst| percent(worst.margin)))
@@ -232,7 +228,7 @@ fn limits(
                             @if against.is_some() {
                                 @match other(own) {
                                     Some(other) => {
-                                        td.number { (value(other.value, &other.unit)) }
+                                        td.number { (in_unit(other.value, &other.unit)) }
                                         td.number { (percent(other.margin)) }
                                     }
                                     None => { td.number { "–" } td.number { "–" } }
@@ -282,32 +278,24 @@ fn conditions(certificate: &Certificate, findings: &CertificateFindings) -> Mark
             (false, false) => "–".to_owned(),
         }
     };
+    let names: Vec<String> = certificate
+        .conditions
+        .iter()
+        .map(|own| own.name.replace('_', " "))
+        .collect();
+    let mut heads = vec![Head::Words("regime")];
+    heads.extend(names.iter().map(|name| Head::Numbers(name)));
+    let rows = certificate.regimes.iter().enumerate().map(|(regime, own)| {
+        let margins = (0..certificate.conditions.len()).map(|condition| least(regime, condition));
+        iter::once(own.name.replace('_', " "))
+            .chain(margins)
+            .collect::<Vec<_>>()
+    });
     html! {
         section {
             h2 id="conditions" { "Conditions beside each other" }
             p { "The least margin of all limits of a regime, in parts of its limit." }
-            div.wide {
-                table {
-                    thead {
-                        tr {
-                            th scope="col" { "regime" }
-                            @for own in &certificate.conditions {
-                                th.number scope="col" { (own.name.replace('_', " ")) }
-                            }
-                        }
-                    }
-                    tbody {
-                        @for (regime, own) in certificate.regimes.iter().enumerate() {
-                            tr {
-                                th scope="row" { (own.name.replace('_', " ")) }
-                                @for condition in 0..certificate.conditions.len() {
-                                    td.number { (least(regime, condition)) }
-                                }
-                            }
-                        }
-                    }
-                }
-            }
+            (table::wide(&heads, rows))
         }
     }
 }
@@ -318,6 +306,20 @@ fn worst_of(certificate: &Certificate, findings: &CertificateFindings, own: &Wor
         return html! {};
     };
     let summary = &own.run.result.summary;
+    let heads = [
+        Head::Words("wedge"),
+        Head::Numbers("lost in friction"),
+        Head::Numbers("no point slips"),
+    ];
+    let rows = summary.wedge_losses.iter().map(|(name, loss)| {
+        let locked = summary.wedge_locked.get(name);
+        let locked = locked.map(|share| format!("{:.0} % of the time", 100.0 * share));
+        [
+            name.replace('_', " "),
+            in_unit(loss.value, &loss.unit),
+            locked.unwrap_or_else(|| "–".to_owned()),
+        ]
+    });
     html! {
         h3 { "The worst run: " (run.speed) ", " (certificate.conditions[run.condition].title) }
         (super::doubts_about("The run", summary))
@@ -327,29 +329,7 @@ fn worst_of(certificate: &Certificate, findings: &CertificateFindings, own: &Wor
         }
         @if own.run.motions.is_some() { (moving_as(&summary.name, "The worst second, \
                                                                             moving", own.regime == 0)) }
-        div.wide {
-            table {
-                thead {
-                    tr {
-                        th scope="col" { "wedge" } th.number scope="col" { "lost in friction" }
-                        th.number scope="col" { "no point slips" }
-                    }
-                }
-                tbody {
-                    @for (name, loss) in &summary.wedge_losses {
-                        tr {
-                            th scope="row" { (name.replace('_', " ")) }
-                            td.number { (value(loss.value, &loss.unit)) }
-                            td.number {
-                                (summary.wedge_locked.get(name).map_or("–".to_owned(), |share| {
-                                    format!("{:.0} % of the time", 100.0 * share)
-                                }))
-                            }
-                        }
-                    }
-                }
-            }
-        }
+        (table::wide(&heads, rows))
     }
 }
 

@@ -6,7 +6,8 @@ use study::contacts::ContactTable;
 use study::half_truck::{HalfTruckCase, HalfTruckResult, HalfTruckSummary};
 use study::summary::SummaryValue;
 
-use super::{data_of, doubts, ledger_note, moving, run_page, shown_in};
+use super::table::{self, Head};
+use super::{ledger_note, list, run_page, shown_in};
 use crate::figures::{Exhibit, axis, curve};
 use crate::view::run::{Detail, Recording};
 use drawing::{Figure, Panel, distinct};
@@ -24,31 +25,26 @@ pub fn render(
     let summary = &result.summary;
     let exhibit = loops(case, result);
     let recording = Recording::of_truck(case, result, contacts, Detail::Thinned);
-    let data = data_of(summary.units, recording, std::slice::from_ref(&exhibit))?;
     let kind = if case.wedge_bodies.is_empty() {
         "massless wedges"
     } else {
         "wedges that are bodies"
     };
-    let list = |texts: &[String]| html! { ul { @for text in texts { li { (text) } } } };
-    let main = html! {
-        (doubts(summary))
-        (moving(&summary.name))
+    let sections = html! {
         section { h2 { "Wedges" } (wedges(summary)) }
         section { h2 { "Loops" } (shown_in(&exhibit, &exhibit.figure.to_svg(), None)) }
         @if !case.wedge_notes.is_empty() {
             section { h2 { "Wedges as bodies" } (list(&case.wedge_notes)) }
         }
-        section { h2 { "Assumptions" } (list(&summary.assumptions)) }
     };
     let what = format!("a half-truck from files of NUCARS, with {kind}");
-    Ok(run_page(
+    run_page(
         summary,
-        (&summary.title, &summary.program),
+        &summary.title,
         &what,
-        &main,
-        &data,
-    ))
+        (recording, std::slice::from_ref(&exhibit)),
+        &sections,
+    )
 }
 
 /// Friction and normal force of each wedge's column over its stroke.
@@ -68,10 +64,9 @@ pub fn loops(case: &HalfTruckCase, result: &HalfTruckResult) -> Exhibit {
             }),
         )
     };
-    Exhibit {
-        name: format!("{}_loops", case.name),
-        thesis: String::new(),
-        figure: Figure::new(
+    Exhibit::new(
+        format!("{}_loops", case.name),
+        Figure::new(
             format!("{}: forces of the columns", case.name),
             "Wedge by wedge, over the vertical stroke of the bolster against the side frame: \
                       friction of the column on the side frame, positive up, and the column's normal force.",
@@ -80,7 +75,7 @@ pub fn loops(case: &HalfTruckCase, result: &HalfTruckResult) -> Exhibit {
                 panel("(b) normal force", "column_normal_force"),
             ],
         ),
-    }
+    )
 }
 
 /// Returns the table of a run's wedges.
@@ -90,35 +85,28 @@ fn wedges(summary: &HalfTruckSummary) -> Markup {
         let value = value.as_ref().map(|value| format!("{:.1}", value.value));
         value.unwrap_or_else(|| "–".to_owned()).replace('-', "\u{2212}")
     };
+    let heads = [
+        Head::Words("wedge"),
+        Head::InUnit("friction, up", force),
+        Head::InUnit("friction, down", force),
+        Head::InUnit("largest normal force", force),
+        Head::InUnit("lost in a cycle", energy),
+    ];
+    let rows = summary.wedges.iter().map(|(number, wedge)| {
+        [
+            number.clone(),
+            cell(&wedge.up),
+            cell(&wedge.down),
+            cell(&wedge.largest_normal_force),
+            cell(&wedge.energy_per_cycle),
+        ]
+    });
     html! {
         p {
             "Column friction on the side frame, positive up: its mean while the input goes up, and while it \
              goes down; what it takes in a cycle."
         }
-        div.wide {
-            table {
-                thead {
-                    tr {
-                        th scope="col" { "wedge" }
-                        th.number scope="col" { "friction, up" br; span.unit { (force) } }
-                        th.number scope="col" { "friction, down" br; span.unit { (force) } }
-                        th.number scope="col" { "largest normal force" br; span.unit { (force) } }
-                        th.number scope="col" { "lost in a cycle" br; span.unit { (energy) } }
-                    }
-                }
-                tbody {
-                    @for (number, wedge) in &summary.wedges {
-                        tr {
-                            th scope="row" { (number) }
-                            td.number { (cell(&wedge.up)) }
-                            td.number { (cell(&wedge.down)) }
-                            td.number { (cell(&wedge.largest_normal_force)) }
-                            td.number { (cell(&wedge.energy_per_cycle)) }
-                        }
-                    }
-                }
-            }
-        }
-        (ledger_note(summary.largest_relative_residual, summary.statistics.steps))
+        (table::wide(&heads, rows))
+        (ledger_note(summary))
     }
 }

@@ -11,6 +11,7 @@ pub mod side_by_side;
 pub mod stability;
 mod statics;
 pub mod study;
+mod table;
 pub mod truck_run;
 pub mod vehicle_run;
 mod viewer;
@@ -21,9 +22,8 @@ use std::borrow::Cow;
 
 use ::study::summary::RunSummary;
 use maud::{DOCTYPE, Markup, PreEscaped, Render, html};
-use quantity::System as Units;
 
-use crate::figures::{Exhibit, capital};
+use crate::figures::{Exhibit, capital, digits};
 use crate::view::View;
 use crate::view::data::Precision;
 use crate::view::kept::DATA;
@@ -80,32 +80,60 @@ fn doubts_about(name: &str, summary: &dyn RunSummary) -> Markup {
     }
 }
 
-/// Returns the data of a page with one run, JSON of [`View`].
-fn data_of(units: Units, recording: Recording, exhibits: &[Exhibit]) -> Result<String, serde_json::Error> {
-    View::with(units, [recording], exhibits, Precision::Rounded).to_json()
-}
-
-/// Returns the page of one run of a case with title and program, headed by the title or its name; `what` is
-/// run.
+/// Returns the page of one run, headed by its title or its name: what makes its numbers doubtful, the run
+/// moving, these sections, its assumptions. `what` is run.
+///
+/// # Errors
+/// Errors of the JSON writer.
 fn run_page(
     summary: &impl RunSummary,
-    (title, program): (&str, &str),
+    title: &str,
     what: &str,
-    main: &Markup,
-    data: &str,
-) -> String {
-    let name = summary.name();
+    (recording, exhibits): (Recording, &[Exhibit]),
+    sections: &Markup,
+) -> Result<String, serde_json::Error> {
+    let data = View::with(summary.units(), [recording], exhibits, Precision::Rounded).to_json()?;
+    let (name, program) = (summary.name(), summary.program());
     let heading = capital(if title.is_empty() { name } else { title });
     let lead = format!("The run {name} of {what}. Computed by {program}.");
-    document(&heading, &lead, None, main, Some(data))
+    let main = html! {
+        (doubts(summary))
+        (moving(name))
+        (sections)
+        section { h2 { "Assumptions" } (list(summary.assumptions())) }
+    };
+    Ok(document(&heading, &lead, None, &main, Some(&data)))
+}
+
+/// Returns texts as a list.
+fn list(texts: &[String]) -> Markup {
+    html! { ul { @for text in texts { li { (text) } } } }
+}
+
+/// Returns a number in a unit, if it has one.
+fn in_unit(value: f64, unit: &str) -> String {
+    match unit {
+        "" => digits(value),
+        unit => format!("{} {unit}", digits(value)),
+    }
+}
+
+/// Returns the section with these figures.
+fn figures(exhibits: &[Exhibit]) -> Markup {
+    html! {
+        section {
+            h2 { "Figures" }
+            @for exhibit in exhibits { (shown_in(exhibit, &exhibit.figure.to_svg(), None)) }
+        }
+    }
 }
 
 /// A sentence on the energy ledger of a run: its relative residual, and the steps of the integrator.
-fn ledger_note(largest_relative_residual: f64, steps: u64) -> Markup {
+fn ledger_note(summary: &impl RunSummary) -> Markup {
+    let (residual, (steps, _)) = (summary.largest_relative_residual(), summary.solver());
     html! {
         p {
-            "Energy ledger: its largest residual at any output time is "
-            (format!("{largest_relative_residual:.1e}"))
+            "Energy ledger: its largest residual at any output time is " (format!("{residual:.1e}"))
             " of the largest of work, losses and change of stored energy. " (steps) " steps."
         }
     }

@@ -7,8 +7,9 @@ use maud::{Markup, html};
 use quantity::{Kind, System as Units};
 use study::car::CarCase;
 use study::car::mode_shape::{MotionOf, ShownMotion, motions, record};
-use study::car::stability::{BEYOND, Branch, Stability, left_out};
+use study::car::stability::{AtAmplitude, BEYOND, Branch, Stability, left_out};
 
+use super::table::{self, Head};
 use super::{document, moving_as, shown_in};
 use crate::figures::{Exhibit, capital};
 use crate::stability_files::figure;
@@ -30,11 +31,7 @@ pub fn write(case: &CarCase, found: &Stability, units: Units, out: &mut dyn Writ
         recordings.push(Recording::of_mode_shape(&own, factor).named(&name));
         views.push((name, motion, factor));
     }
-    let exhibit = Exhibit {
-        name: "stability".to_owned(),
-        thesis: String::new(),
-        figure: figure(&case.name, found, units),
-    };
+    let exhibit = Exhibit::new("stability", figure(&case.name, found, units));
     let svg = exhibit.figure.to_svg();
     let data = View::with(units, recordings, [&exhibit], Precision::Rounded).to_json()?;
     let main = html! {
@@ -82,80 +79,58 @@ fn length(si: f64, units: Units) -> String {
 
 /// Returns the critical speeds of the branches.
 fn branches(found: &Stability, units: Units) -> Markup {
-    let row = |own: &Branch| match &own.critical {
-        Some(own) => {
-            let before = if own.at_lowest { "below " } else { "" };
-            let at = speed(own.speed, units);
-            [
-                format!("{before}{at}"),
-                format!("{:.2}", own.frequency),
-                own.name.clone(),
-            ]
-        }
-        None => ["none at these speeds".to_owned(), "–".to_owned(), "–".to_owned()],
+    let row = |own: &Branch| {
+        let kind = own.kind.words().to_owned();
+        let Some(critical) = &own.critical else {
+            let none = "none at these speeds".to_owned();
+            return [kind, none, "–".to_owned(), "–".to_owned()];
+        };
+        let before = if critical.at_lowest { "below " } else { "" };
+        let at = speed(critical.speed, units);
+        let frequency = format!("{:.2}", critical.frequency);
+        [kind, format!("{before}{at}"), frequency, critical.name.clone()]
     };
-    html! {
-        div.wide {
-            table {
-                thead {
-                    tr {
-                        th scope="col" { "smallest motions" } th.number scope="col" { "grow from" }
-                        th.number scope="col" { "frequency (Hz)" } th scope="col" { "motion" }
-                    }
-                }
-                tbody {
-                    @for own in &found.branches {
-                        @let [speed, frequency, motion] = row(own);
-                        tr {
-                            th scope="row" { (own.kind.words()) } td.number { (speed) }
-                            td.number { (frequency) } td { (motion) }
-                        }
-                    }
-                }
-            }
-        }
-    }
+    let heads = [
+        Head::Words("smallest motions"),
+        Head::Numbers("grow from"),
+        Head::Numbers("frequency (Hz)"),
+        Head::Words("motion"),
+    ];
+    table::wide(&heads, found.branches.iter().map(row))
 }
 
 /// Returns the critical speed of each amplitude, from small to large.
 fn over_amplitude(found: &Stability, units: Units) -> Markup {
     let fastest = found.speeds.iter().fold(0.0_f64, |most, own| most.max(*own));
+    let heads = [
+        Head::Numbers("amplitude"),
+        Head::Numbers("critical speed"),
+        Head::Numbers("frequency (Hz)"),
+        Head::Words("motion"),
+    ];
+    let row = |own: &AtAmplitude| {
+        let amplitude = length(own.amplitude, units);
+        let Some(critical) = &own.critical else {
+            let none = match own.unsolved {
+                true => "not found".to_owned(),
+                false => format!("above {}", speed(BEYOND * fastest, units)),
+            };
+            return [amplitude, none, "–".to_owned(), "–".to_owned()];
+        };
+        let frequency = format!("{:.2}", critical.frequency);
+        [
+            amplitude,
+            speed(critical.speed, units),
+            frequency,
+            critical.name.clone(),
+        ]
+    };
     html! {
         p {
             "The speed beyond which a motion of this lateral amplitude of the wheelset that moves most \
              grows, by equivalent linearization of friction, conicity and creep."
         }
-        div.wide {
-            table {
-                thead {
-                    tr {
-                        th.number scope="col" { "amplitude" } th.number scope="col" { "critical speed" }
-                        th.number scope="col" { "frequency (Hz)" } th scope="col" { "motion" }
-                    }
-                }
-                tbody {
-                    @for own in found.curve.iter().rev() {
-                        tr {
-                            th.number scope="row" { (length(own.amplitude, units)) }
-                            @match &own.critical {
-                                Some(own) => {
-                                    td.number { (speed(own.speed, units)) }
-                                    td.number { (format!("{:.2}", own.frequency)) }
-                                    td { (own.name) }
-                                },
-                                None => {
-                                    td.number {
-                                        @if own.unsolved { "not found" }
-                                        @else { "above " (speed(BEYOND * fastest, units)) }
-                                    }
-                                    td.number { "–" } td { "–" }
-                                },
-                            }
-                        }
-                    }
-                }
-            }
-        }
+        (table::wide(&heads, found.curve.iter().rev().map(row)))
     }
 }
 

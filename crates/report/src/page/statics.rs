@@ -1,53 +1,34 @@
 //! The static table of a run's start on its page.
 
+use std::iter;
+
 use maud::{Markup, html};
 use quantity::System as Units;
 use study::statics::{COILS, StaticTable};
 
+use super::in_unit;
+use super::table::{self, Head};
 use crate::figures::digits;
 
 /// Returns the section about the start of a run.
 pub(super) fn section(table: &StaticTable, units: Units) -> Markup {
+    let names = COILS.map(|(name, kind)| format!("{name}, {}", kind.label(units)));
+    let mut heads = vec![Head::Words("coils")];
+    heads.extend(names.iter().map(|name| Head::Numbers(name)));
+    let coils = table.coils().into_iter().map(|row| {
+        let values = row.values.map(|value| value.map_or("–".to_owned(), digits));
+        iter::once(row.name).chain(values)
+    });
+    let of_wheels = [Head::Words("wheel"), Head::Numbers("load")];
+    let wheels = table.wheels.iter();
+    let wheels = wheels.map(|(name, own)| [name.replace('_', " "), in_unit(own.value, &own.unit)]);
     html! {
         @if let Some(words) = table.words() { p { (words) } }
-        div.wide {
-            table {
-                thead {
-                    tr {
-                        th scope="col" { "coils" }
-                        @for (name, kind) in COILS {
-                            th.number scope="col" { (name) ", " (kind.label(units)) }
-                        }
-                    }
-                }
-                tbody {
-                    @for row in table.coils() {
-                        tr {
-                            th scope="row" { (row.name) }
-                            @for value in row.values { td.number { (value.map_or("–".to_owned(), digits)) } }
-                        }
-                    }
-                }
-            }
-        }
+        (table::wide(&heads, coils))
         p {
             "Down: from free height. Left: to where the first coil of a group is solid; the load there. \
              Column: normal force of a wedge's column. Rise: of a wedge in its pocket, as a gauge shows it."
         }
-        @if !table.wheels.is_empty() {
-            div.wide {
-                table {
-                    thead { tr { th scope="col" { "wheel" } th.number scope="col" { "load" } } }
-                    tbody {
-                        @for (name, own) in &table.wheels {
-                            tr {
-                                th scope="row" { (name.replace('_', " ")) }
-                                td.number { (digits(own.value)) " " (own.unit) }
-                            }
-                        }
-                    }
-                }
-            }
-        }
+        @if !table.wheels.is_empty() { (table::wide(&of_wheels, wheels)) }
     }
 }

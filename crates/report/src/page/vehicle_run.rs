@@ -5,7 +5,8 @@ use study::vehicle::VehicleCase;
 use study::vehicle::run::VehicleResult;
 use study::vehicle::summary::VehicleSummary;
 
-use super::{data_of, doubts, ledger_note, moving, run_page, shown_in};
+use super::table::{self, Head};
+use super::{figures, in_unit, ledger_note, run_page};
 use crate::figures::digits;
 use crate::figures::vehicle::exhibits;
 use crate::view::run::{Detail, Recording};
@@ -18,26 +19,19 @@ pub fn render(case: &VehicleCase, result: &VehicleResult) -> Result<String, serd
     let summary = &result.summary;
     let exhibits = exhibits(result);
     let recording = Recording::of_vehicle(case, result, Detail::Thinned);
-    let data = data_of(summary.units, recording, &exhibits)?;
-    let main = html! {
-        (doubts(summary))
-        (moving(&summary.name))
+    let sections = html! {
         section { h2 { "Natural vibrations" } (vibrations(summary)) }
         section { h2 { "At the start" } (start(summary)) }
         section { h2 { "Energy" } (energy(summary)) }
-        section {
-            h2 { "Figures" }
-            @for exhibit in &exhibits { (shown_in(exhibit, &exhibit.figure.to_svg(), None)) }
-        }
-        section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
+        (figures(&exhibits))
     };
-    Ok(run_page(
+    run_page(
         summary,
-        (&summary.title, &summary.program),
+        &summary.title,
         "a vehicle of bodies and elements",
-        &main,
-        &data,
-    ))
+        (recording, &exhibits),
+        &sections,
+    )
 }
 
 fn vibrations(summary: &VehicleSummary) -> Markup {
@@ -71,21 +65,14 @@ fn vibrations(summary: &VehicleSummary) -> Markup {
 }
 
 fn start(summary: &VehicleSummary) -> Markup {
+    let heads = [Head::Words("force"), Head::Numbers("at the start")];
+    let rows = summary.forces_at_start.iter();
+    let rows = rows.map(|(name, own)| [name.replace('_', " "), in_unit(own.value, &own.unit)]);
     html! {
         @if summary.forces_at_start.is_empty() {
             p { "No element carries a force." }
         } @else {
-            table {
-                thead { tr { th scope="col" { "force" } th.number scope="col" { "at the start" } } }
-                tbody {
-                    @for (name, own) in &summary.forces_at_start {
-                        tr {
-                            th scope="row" { (name.replace('_', " ")) }
-                            td.number { (digits(own.value)) " " (own.unit) }
-                        }
-                    }
-                }
-            }
+            (table::narrow(&heads, rows))
         }
     }
 }
@@ -102,6 +89,6 @@ fn energy(summary: &VehicleSummary) -> Markup {
                 }
             }
         }
-        (ledger_note(summary.ledger.largest_relative_residual, summary.statistics.steps))
+        (ledger_note(summary))
     }
 }

@@ -2,7 +2,7 @@
 
 use maud::html;
 
-use super::{data_of, doubts, ledger_note, moving, run_page, shown_in, side_by_side};
+use super::{figures, ledger_note, run_page, side_by_side};
 use crate::figures::CaseOutcome;
 use crate::figures::run::exhibits;
 use crate::run_folder::KeyNumber;
@@ -15,31 +15,21 @@ use crate::view::run::{Detail, Recording};
 pub fn render(run: &CaseOutcome) -> Result<String, serde_json::Error> {
     let (case, summary) = (&run.0, &run.1.summary);
     let exhibits = exhibits(run);
-    let data = data_of(
-        summary.units,
-        Recording::of_wedge(run, Detail::Thinned),
-        &exhibits,
-    )?;
+    let recording = Recording::of_wedge(run, Detail::Thinned);
     let numbers = KeyNumber::of_wedge(summary, Some(case.parameters.damping));
-    let main = html! {
-        (doubts(summary))
-        (moving(&summary.name))
+    let sections = html! {
         section {
             h2 { "Key numbers" }
             (side_by_side::table(&[("value", numbers)], summary.units))
-            (ledger_note(summary.ledger.largest_relative_residual, summary.solver.statistics.steps))
+            (ledger_note(summary))
         }
-        section {
-            h2 { "Figures" }
-            @for exhibit in &exhibits { (shown_in(exhibit, &exhibit.figure.to_svg(), None)) }
-        }
-        section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
+        (figures(&exhibits))
     };
-    Ok(run_page(
+    run_page(
         summary,
-        (&case.title, &summary.program),
+        &case.title,
         "a stand-alone friction wedge",
-        &main,
-        &data,
-    ))
+        (recording, &exhibits),
+        &sections,
+    )
 }

@@ -6,7 +6,8 @@ use study::wheelset::WheelsetCase;
 use study::wheelset::run::WheelsetResult;
 use study::wheelset::summary::WheelsetSummary;
 
-use super::{data_of, document, ledger_note, moving, shown_in};
+use super::table::{self, Head};
+use super::{figures, ledger_note, run_page};
 use crate::figures::wheelset::exhibits;
 use crate::view::run::{Detail, Recording};
 
@@ -18,19 +19,9 @@ pub fn render(case: &WheelsetCase, result: &WheelsetResult) -> Result<String, se
     let summary = &result.summary;
     let exhibits = exhibits(case, result);
     let recording = Recording::of_wheelset(case, result, Detail::Thinned);
-    let data = data_of(summary.units, recording, &exhibits)?;
-    let lead = format!(
-        "The run {} of one wheelset under a carriage. Computed by {}.",
-        summary.name, summary.program
-    );
-    let main = html! {
-        (super::doubts(summary))
-        (moving(&summary.name))
+    let sections = html! {
         section { h2 { "In numbers" } (numbers(summary)) }
-        section {
-            h2 { "Figures" }
-            @for exhibit in &exhibits { (shown_in(exhibit, &exhibit.figure.to_svg(), None)) }
-        }
+        (figures(&exhibits))
         section {
             h2 { "Given" }
             table {
@@ -39,10 +30,10 @@ pub fn render(case: &WheelsetCase, result: &WheelsetResult) -> Result<String, se
                 }
             }
         }
-        section { h2 { "Assumptions" } ul { @for text in &summary.assumptions { li { (text) } } } }
     };
     let heading = format!("A wheelset on the track {}", case.wheelset.track.name);
-    Ok(document(&heading, &lead, None, &main, Some(&data)))
+    let what = "one wheelset under a carriage";
+    run_page(summary, &heading, what, (recording, &exhibits), &sections)
 }
 
 /// Extremes of the wheels, and how the wheelset hunts.
@@ -54,37 +45,31 @@ fn numbers(summary: &WheelsetSummary) -> Markup {
     };
     let of =
         |side: &str, what: &str, kind: Kind| summary.extremes.get(&format!("{side}_{what}{}", suffix(kind)));
+    let heads = [
+        Head::Words("wheel"),
+        Head::InUnit("vertical, least", force),
+        Head::InUnit("vertical, largest", force),
+        Head::InUnit("lateral, largest", force),
+        Head::Numbers("L/V, largest"),
+        Head::InUnit("wear number, largest", force),
+    ];
+    let rows = ["left", "right"].map(|side| {
+        let number = |value: Option<f64>, decimals: usize| {
+            value.map_or(String::new(), |value| format!("{value:.decimals$}"))
+        };
+        let largest = |what: &str, kind: Kind| of(side, what, kind).map(|found| found.maximum);
+        let least = of(side, "vertical_force", Kind::Force).map(|found| found.minimum);
+        [
+            side.to_owned(),
+            number(least, 0),
+            number(largest("vertical_force", Kind::Force), 0),
+            number(largest("lateral_force", Kind::Force), 0),
+            number(largest("lateral_over_vertical", Kind::Dimensionless), 3),
+            number(largest("wear_number", Kind::Force), 1),
+        ]
+    });
     html! {
-        div.wide {
-            table {
-                thead {
-                    tr {
-                        th scope="col" { "wheel" }
-                        @for title in ["vertical, least", "vertical, largest", "lateral, largest"] {
-                            th.number scope="col" { (title) br; span.unit { (force) } }
-                        }
-                        th.number scope="col" { "L/V, largest" }
-                        th.number scope="col" { "wear number, largest" br; span.unit { (force) } }
-                    }
-                }
-                tbody {
-                    @for side in ["left", "right"] {
-                        @let vertical = of(side, "vertical_force", Kind::Force);
-                        @let lateral = of(side, "lateral_force", Kind::Force);
-                        @let ratio = of(side, "lateral_over_vertical", Kind::Dimensionless);
-                        @let wear = of(side, "wear_number", Kind::Force);
-                        tr {
-                            th scope="row" { (side) }
-                            td.number { @if let Some(found) = vertical { (format!("{:.0}", found.minimum)) } }
-                            td.number { @if let Some(found) = vertical { (format!("{:.0}", found.maximum)) } }
-                            td.number { @if let Some(found) = lateral { (format!("{:.0}", found.maximum)) } }
-                            td.number { @if let Some(found) = ratio { (format!("{:.3}", found.maximum)) } }
-                            td.number { @if let Some(found) = wear { (format!("{:.1}", found.maximum)) } }
-                        }
-                    }
-                }
-            }
-        }
+        (table::wide(&heads, rows))
         @if let Some(hunting) = &summary.hunting {
             p {
                 "About steady rolling at this speed on straight perfect track the least damped lateral \
@@ -94,6 +79,6 @@ fn numbers(summary: &WheelsetSummary) -> Markup {
                 @if hunting.damping_ratio < 0.0 { ": the wheelset hunts." } @else { ": it dies out." }
             }
         }
-        (ledger_note(summary.ledger.largest_relative_residual, summary.statistics.steps))
+        (ledger_note(summary))
     }
 }

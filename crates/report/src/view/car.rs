@@ -85,21 +85,14 @@ pub fn scene<S>(case: &CarCase, result: &RunResult<S>) -> Option<Scene> {
         let axle = patch.body.replace('_', " ");
         patch.name = format!("{axle}, {}", patch.name);
     }
-    let distances = result.column("distance").unwrap_or_default();
-    let first = distances.iter().copied().fold(f64::INFINITY, f64::min);
-    let last = distances.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    if first.is_finite() {
-        let offsets = own.rail_offsets();
-        let lines = RailLines::new(own.track.clone(), offsets);
-        let [behind, beyond] = BEYOND;
-        let range = [first - half - behind, last + half + beyond];
-        scene.track = Some(rolling::track(
-            &lines,
-            rails.each_ref().map(|own| &**own),
-            offsets,
-            range,
-        ));
-    }
+    let offsets = own.rail_offsets();
+    scene.track = rolling::track_of_run(
+        &RailLines::new(own.track.clone(), offsets),
+        rails.each_ref().map(|own| &**own),
+        offsets,
+        (result.column("distance").unwrap_or_default(), half),
+        BEYOND,
+    );
     scene.round();
     Some(scene)
 }
@@ -166,9 +159,7 @@ fn add_body(scene: &mut Scene, own: &Parameters) {
     let [_, aside, height] = center;
     scene.bodies.push(SceneBody {
         id: "car_body".to_owned(),
-        on: None,
         along: column("distance"),
-        spin: None,
         position: [0.0, aside, height],
         coordinates: [
             None,
@@ -179,6 +170,7 @@ fn add_body(scene: &mut Scene, own: &Parameters) {
             column("body_turn_yaw"),
         ],
         steady: [None, column("chord_lateral"), column("chord_vertical")],
+        ..SceneBody::default()
     });
     let block = |id: &str, name: &str, role: SolidRole, at: [f64; 3], [length, width, high]: [f64; 3]| {
         let (l, h) = (0.5 * length, 0.5 * high);
@@ -263,12 +255,8 @@ fn add_truck(scene: &mut Scene, parameters: &truck::Parameters, prefix: &str) {
     };
     scene.bodies.push(SceneBody {
         id: frame.clone(),
-        on: None,
         along: Some(format!("{prefix}distance")),
-        spin: None,
-        position: [0.0; 3],
-        coordinates: [const { None }; 6],
-        steady: [const { None }; 3],
+        ..SceneBody::default()
     });
     for body in own.bodies.iter_mut().filter(|body| body.on.is_none()) {
         body.on = Some(frame.clone());

@@ -174,12 +174,10 @@ impl Carriage {
         let [height, width] = first.size;
         let body = |part: &CarriagePart| SceneBody {
             id: part.id.clone(),
-            on: None,
-            along: None,
-            spin: None,
             position: part.center,
             coordinates: part.coordinates.clone(),
             steady: part.steady.clone(),
+            ..SceneBody::default()
         };
         let mut scene = Scene {
             factor: FACTOR,

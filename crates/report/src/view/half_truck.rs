@@ -234,24 +234,20 @@ pub fn scene(case: &HalfTruckCase) -> Option<Scene> {
         let own = |what: &str| Some(format!("{id}_{what}"));
         let body = if wedge.is_body {
             SceneBody {
-                on: None,
-                along: None,
-                spin: None,
                 position: wedge.place,
                 coordinates: names.map(own),
                 // It goes with its pocket.
                 steady: [None, None, column(wedge.bolster, 2)],
                 id: id.clone(),
+                ..SceneBody::default()
             }
         } else {
             SceneBody {
                 on: Some(body_id(truck, wedge.bolster)),
-                along: None,
-                spin: None,
                 position: less(wedge.place, model.bodies[wedge.bolster].frame.origin),
                 coordinates: [own("shift"), None, own("rise"), None, None, None],
-                steady: [None, None, None],
                 id: id.clone(),
+                ..SceneBody::default()
             }
         };
         Some(DrawnWedge {

@@ -35,6 +35,22 @@ fn outline(profile: &Profile) -> Vec<[f64; 2]> {
     sample.iter().map(|(_, point)| point.position).collect()
 }
 
+/// Returns the [`track`] along which something was at these distances (m) that reaches so far (m) ahead and
+/// back, and of the track so much behind and beyond it (m); none without distances.
+#[must_use]
+pub fn track_of_run(
+    lines: &RailLines,
+    rails: [&Profile; 2],
+    offsets: [f64; 2],
+    (distances, reach): (&[f64], f64),
+    [behind, beyond]: [f64; 2],
+) -> Option<SceneTrack> {
+    let first = distances.iter().copied().fold(f64::INFINITY, f64::min);
+    let last = distances.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let range = [first - reach - behind, last + reach + beyond];
+    first.is_finite().then(|| track(lines, rails, offsets, range))
+}
+
 /// Returns the track between two distances (m), with rails of profiles (left, right) as they stand on it.
 #[must_use]
 pub fn track(lines: &RailLines, rails: [&Profile; 2], offsets: [f64; 2], [from, to]: [f64; 2]) -> SceneTrack {
@@ -117,12 +133,7 @@ pub fn wheelset_bodies(id: &str, radius: f64, column: &dyn Fn(&str) -> String) -
     ];
     let body = |id: String| SceneBody {
         id,
-        on: None,
-        along: None,
-        spin: None,
-        position: [0.0; 3],
-        coordinates: [const { None }; 6],
-        steady: [const { None }; 3],
+        ..SceneBody::default()
     };
     [
         SceneBody {

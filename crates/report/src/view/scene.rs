@@ -78,7 +78,7 @@ impl Look {
 }
 
 /// A body: R = Ry(pitch) Rz(yaw) Rx(roll).
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct SceneBody {
     /// Its name.
     pub id: String,

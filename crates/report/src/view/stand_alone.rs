@@ -36,27 +36,19 @@ pub fn scene(parameters: &Parameters, result: &RunResult) -> Option<Scene> {
     let bodies = vec![
         SceneBody {
             id: "side_frame".to_owned(),
-            on: None,
-            along: None,
-            spin: None,
             position: origin(SIDE_FRAME),
             coordinates: neighbour("side_frame"),
-            steady: [None, None, None],
+            ..SceneBody::default()
         },
         SceneBody {
             id: "bolster".to_owned(),
-            on: None,
-            along: None,
-            spin: None,
             position: origin(BOLSTER),
             coordinates: neighbour("bolster"),
             steady: travels.clone(),
+            ..SceneBody::default()
         },
         SceneBody {
             id: "wedge".to_owned(),
-            on: None,
-            along: None,
-            spin: None,
             position: origin(WEDGE),
             coordinates: own([
                 "wedge_x",
@@ -67,6 +59,7 @@ pub fn scene(parameters: &Parameters, result: &RunResult) -> Option<Scene> {
                 "wedge_yaw",
             ]),
             steady: travels,
+            ..SceneBody::default()
         },
     ];
 

@@ -83,12 +83,10 @@ pub(super) fn carriage(parameters: &Parameters, prefix: &str, travel: &[Option<S
             name: format!("{} wedge", words(&key)),
             body: SceneBody {
                 id: format!("{key}_wedge"),
-                on: None,
-                along: None,
-                spin: None,
                 position: at,
                 coordinates: columns_of(&key),
                 steady: travel.clone(),
+                ..SceneBody::default()
             },
             key,
             offset,
@@ -159,12 +157,9 @@ pub fn scene(case: &TruckCase) -> Option<Scene> {
     let mut add_body = |id: &str, body: usize| {
         scene.bodies.push(SceneBody {
             id: id.to_owned(),
-            on: None,
-            along: None,
-            spin: None,
             position: center(body),
             coordinates: columns_of(id),
-            steady: [None, None, None],
+            ..SceneBody::default()
         });
     };
     if parameters.wheelsets.is_some() {

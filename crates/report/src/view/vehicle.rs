@@ -36,12 +36,7 @@ pub fn scene(case: &VehicleCase, columns: &[Column], distances: &[f64]) -> Optio
         ],
         bodies: vec![SceneBody {
             id: GROUND.to_owned(),
-            on: None,
-            along: None,
-            spin: None,
-            position: [0.0; 3],
-            coordinates: Default::default(),
-            steady: Default::default(),
+            ..SceneBody::default()
         }],
         ..Scene::default()
     };
@@ -54,8 +49,6 @@ pub fn scene(case: &VehicleCase, columns: &[Column], distances: &[f64]) -> Optio
         }
         scene.bodies.push(SceneBody {
             id: body.name.clone(),
-            on: None,
-            spin: None,
             // On a track places are counted from the center line, where the body is.
             position: match along {
                 Some(_) => [0.0, 0.0, body.place[2]],
@@ -63,7 +56,7 @@ pub fn scene(case: &VehicleCase, columns: &[Column], distances: &[f64]) -> Optio
             },
             along,
             coordinates: COORDINATES.map(column),
-            steady: Default::default(),
+            ..SceneBody::default()
         });
         let Shape::Box(size) = body.solid;
         scene.solids.push(cuboid(&body.name, size));
@@ -139,19 +132,14 @@ fn add_track(scene: &mut Scene, on: &OnTrack, axles: &[Axle], distances: &[f64])
             on.wheels.tape_distance,
         ));
     }
-    let first = distances.iter().copied().fold(f64::INFINITY, f64::min);
-    let last = distances.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    if first.is_finite() {
-        let offsets = on.wheels.geometry[0].rail_origins();
-        let lines = RailLines::new(on.track.clone(), offsets);
-        let reach = 2.0 * on.reach() + BEYOND;
-        scene.track = Some(rolling::track(
-            &lines,
-            rails.each_ref().map(|own| &**own),
-            offsets,
-            [first - reach, last + reach],
-        ));
-    }
+    let offsets = on.wheels.geometry[0].rail_origins();
+    scene.track = rolling::track_of_run(
+        &RailLines::new(on.track.clone(), offsets),
+        rails.each_ref().map(|own| &**own),
+        offsets,
+        (distances, 2.0 * on.reach() + BEYOND),
+        [0.0; 2],
+    );
     scene.follow = scene.bodies.get(1).map(|body| body.id.clone());
     scene.limit = 0.1;
 }

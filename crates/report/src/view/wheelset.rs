@@ -21,9 +21,6 @@ pub fn scene(case: &WheelsetCase, result: &WheelsetResult) -> Scene {
     let own = &case.wheelset;
     let column = |name: &str| name.to_owned();
     let distances = result.column("distance").unwrap_or_default();
-    let first = distances.iter().copied().fold(f64::INFINITY, f64::min);
-    let last = distances.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let [behind, beyond] = BEYOND;
     let radius = own.nominal_radius();
     let half = 0.5 * own.layout.tape_distance;
     let near = |name: &str, from: [f64; 3], at: [f64; 3], reach: f64| Look {
@@ -38,13 +35,13 @@ pub fn scene(case: &WheelsetCase, result: &WheelsetResult) -> Scene {
         own.layout,
         own.material,
     );
-    let track = rails.ok().filter(|_| first.is_finite()).map(|rails| {
-        let range = [first - behind, last + beyond];
-        rolling::track(
+    let track = rails.ok().and_then(|rails| {
+        rolling::track_of_run(
             &case.setup.lines,
             own.rails.each_ref(),
             rails.rail_origins(),
-            range,
+            (distances, 0.0),
+            BEYOND,
         )
     });
     let mut scene = Scene {

@@ -55,10 +55,9 @@ pub fn exhibits(found: &Sensitivity) -> Vec<Exhibit> {
             ..Panel::default()
         }
     };
-    vec![Exhibit {
-        name: "statements_over_stiffness".to_owned(),
-        thesis: String::new(),
-        figure: Figure {
+    vec![Exhibit::new(
+        "statements_over_stiffness",
+        Figure {
             title: "How many of the thesis's statements hold over the contact stiffness".to_owned(),
             caption: format!(
                 "Left: all statements that runs decide. Right: the {} required statements and axes. Blue: \
@@ -76,5 +75,5 @@ pub fn exhibits(found: &Sensitivity) -> Vec<Exhibit> {
             ],
             ..Figure::default()
         },
-    }]
+    )]
 }
