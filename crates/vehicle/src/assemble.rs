@@ -379,13 +379,14 @@ impl Nominal {
             drive(&mut model, on, lines);
         }
         for (element, own) in description.elements.iter().zip(&own_bodies) {
-            let still = element.law.without_friction().filter(|_| without_friction);
+            let still = element.law.at_rest().filter(|_| without_friction);
             let law = still.as_ref().unwrap_or(&element.law);
             let mut place = Place {
                 name: &element.name,
                 model: &mut model,
                 ends: element.ends.map(|end| (numbers[end.body], end.at)),
                 own,
+                lines: lines.as_ref(),
                 channels: &mut channels,
             };
             law.add(&mut place).map_err(|reason| VehicleError::Element {

@@ -102,6 +102,16 @@ impl TableForm {
             ..Self::coil()
         }
     }
+
+    /// Distance against force.
+    pub fn over_distance() -> Self {
+        TableForm {
+            names: ["distance", "force"],
+            kinds: [Kind::Distance, Kind::Force],
+            may_fall: true,
+            ..Self::coil()
+        }
+    }
 }
 
 impl TableForm<3> {

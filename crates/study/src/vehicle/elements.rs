@@ -10,7 +10,8 @@ use mechanics::motion::Motion;
 use quantity::Kind;
 use truck::coils::CoilKind;
 use vehicle::catalog::{
-    AppliedForce, Attachment, AxisStop, Bushing, CatalogElement, DryFriction, Element, FrictionWedge,
+    AppliedForce, Attachment, AxisStop, Bushing, CatalogElement, DryFriction, Element, ForceOverDistance,
+    FrictionWedge,
 };
 use wedge::parameters::Damping;
 
@@ -20,6 +21,7 @@ use crate::case::names::DAMPINGS;
 use crate::case::page::FRICTION;
 use crate::case::problem::Problem;
 use crate::case::section::{Names, Range};
+use crate::case::table::TableForm;
 use crate::case::tree::NodeValue;
 use crate::reader::schema::Form;
 use crate::reader::{CLEARANCE, CaseReader, DAMPING, PRELOAD, QuantityForm, STIFFNESS};
@@ -167,7 +169,7 @@ fn element(r: &mut CaseReader<'_>, name: &str, (bodies, own, coils): Known<'_>) 
         Which::Catalog(ElementKind::Stop) => Arc::new(stop(r)),
         Which::Catalog(ElementKind::DryFriction) => Arc::new(friction(r)),
         Which::Catalog(ElementKind::Wedge) => Arc::new(wedge(r, &path, coils)),
-        Which::Catalog(ElementKind::Force) => Arc::new(force(r)),
+        Which::Catalog(ElementKind::Force) => force(r),
         Which::Catalog(kind) => seats::seat(r, &path, kind),
     };
     let (a, b) = (a?, b?);
@@ -386,19 +388,50 @@ fn friction(r: &mut CaseReader<'_>) -> DryFriction {
     own
 }
 
-fn force(r: &mut CaseReader<'_>) -> AppliedForce {
+fn force(r: &mut CaseReader<'_>) -> Arc<dyn CatalogElement> {
     let mut axis = 2;
     r.choice(
         "axis",
         AXES,
         &mut axis,
-        "along which it acts, positive along it; fixed in space",
+        "along which it acts, positive along it; fixed in space, or over distance on a track those of the track",
     );
+    if r.gives("over_distance") {
+        r.also_known("value");
+        if r.gives("value") {
+            let problem = Problem::new("a force has a value over time or over distance, not both");
+            let help = "leave out value, or over_distance";
+            r.problem_at(&r.path("over_distance"), problem.label("two courses").help(help));
+        }
+        let comment = "of end a and force: along the track, or along x from the nominal layout without one; \
+                       constant before and behind";
+        let table = r.table(
+            "over_distance",
+            &TableForm::over_distance(),
+            Reach::Signed(1e5),
+            comment,
+        );
+        let points: Option<Vec<[f64; 2]>> = table.map(|table| {
+            let rows = table.rows.iter();
+            rows.map(|row| row.each_ref().map(quantity::Quantity::to_si))
+                .collect()
+        });
+        let made = points.and_then(|points| ForceOverDistance::new(axis, &points));
+        return match made {
+            Some(made) => Arc::new(made),
+            // What is wrong with it has been told.
+            None => Arc::new(AppliedForce {
+                direction: [1.0, 0.0, 0.0],
+                course: Motion::Constant(0.0),
+            }),
+        };
+    }
+    r.also_known("over_distance");
     let mut course = Motion::Constant(0.0);
     r.motion("value", Kind::Force, 1e5, &mut course, false);
     let mut direction = [0.0; 3];
     direction[axis] = 1.0;
-    AppliedForce { direction, course }
+    Arc::new(AppliedForce { direction, course })
 }
 
 fn wedge(r: &mut CaseReader<'_>, path: &str, coils: &[CoilKind]) -> FrictionWedge {

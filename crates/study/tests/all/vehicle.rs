@@ -541,3 +541,66 @@ fn analytic_a_wagon_on_two_axles_stands_on_its_wheels() {
         "{reached:?}"
     );
 }
+
+/// A force over distance does the work of its course: on a mass that slides along x, and on a wagon that
+/// coasts along a track into a curve.
+#[test]
+fn analytic_a_force_over_distance_does_its_work() {
+    let slides = "model = \"vehicle\"
+[bodies.mass]
+weight = \"980.665 N\"
+at = [\"0 m\", \"0 m\", \"0 m\"]
+free_coordinates = [\"x\"]
+[elements.held]
+kind = \"bushing\"
+a = \"mass\"
+b = \"ground\"
+at = [\"0 m\", \"0 m\", \"0 m\"]
+stiffness = [\"1 N/m\", \"0 N/m\", \"0 N/m\"]
+[elements.push]
+kind = \"force\"
+a = \"mass\"
+at = [\"0 m\", \"0 m\", \"0 m\"]
+axis = \"x\"
+over_distance = [[\"0 m\", \"50 N\"], [\"1 m\", \"150 N\"], [\"2 m\", \"150 N\"], [\"3 m\", \"-50 N\"]]
+[start]
+kind = \"nominal\"
+[simulation]
+duration = \"2.55 s\"
+relative_tolerance = 1e-8
+";
+    let result = run(slides);
+    let [x, speed] = ["mass_x", "mass_x_rate"].map(|name| result.column(name).unwrap());
+    let last = x.len() - 1;
+    assert!(x[last] > 2.2 && x[last] < 2.9, "{}", x[last]);
+    let ramp = |x: f64| 150.0 * (x - 2.0) - 100.0 * (x - 2.0).powi(2);
+    let work = 0.5 * (50.0 + 150.0) + 150.0 + ramp(x[last]) - 0.5 * x[last] * x[last];
+    assert!(
+        (50.0 * speed[last] * speed[last] / work - 1.0).abs() < 1e-6,
+        "{work}"
+    );
+
+    let wagon = study::models::built_in("vehicle_two_axles").unwrap().text();
+    let (before, behind) = wagon.split_once("[track]").unwrap();
+    let (_, rest) = behind.split_once("[speed]").unwrap();
+    let track = "segments = [{ tangent = \"40 m\" }, { spiral = \"30 m\" }, { curve = \"60 m\", radius = \
+                 \"400 m\", superelevation = \"30 mm\", direction = \"left\" }]";
+    let push = "[elements.push]\nkind = \"force\"\na = \"body\"\nat = [\"0 in\", \"0 in\", \"34.5 in\"]\naxis = \
+                \"x\"\nover_distance = [[\"20 m\", \"0 N\"], [\"21 m\", \"40 kN\"], [\"70 m\", \"40 kN\"], \
+                [\"71 m\", \"0 N\"]]\n";
+    let text = format!("{before}{push}[track]\n{track}\n[speed]{rest}")
+        .replace("value = \"40 mph\"", "kind = \"coasting\"\nvalue = \"16 m/s\"");
+    let result = run(&text);
+    let work = result.column("work").unwrap();
+    let distance = result.summary.reached.as_ref().unwrap();
+    assert!(distance.value > 0.0);
+    let last = work.len() - 1;
+    let expected = 40e3 * 50.0;
+    assert!(
+        (work[last] / expected - 1.0).abs() < 0.02,
+        "{} {expected}",
+        work[last]
+    );
+    let force = result.column("push_force").unwrap();
+    assert!(force.iter().any(|own| (own - 40e3).abs() < 1.0) && force[0] == 0.0);
+}

@@ -78,7 +78,7 @@ impl CatalogElement for DryFriction {
         Ok(())
     }
 
-    fn without_friction(&self) -> Option<Arc<dyn CatalogElement>> {
+    fn at_rest(&self) -> Option<Arc<dyn CatalogElement>> {
         Some(Arc::new(Self {
             coefficient: 0.0,
             ..*self

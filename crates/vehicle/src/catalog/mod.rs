@@ -9,13 +9,14 @@
 //! | `dry_friction` | [`DryFriction`]: a bristle in series with a slider, in a plane |
 //! | `wedge` | [`FrictionWedge`]: a rigid body with faces on pocket and column, and its control coil |
 //! | `center_plate`, `side_bearing`, `adapter` | [`Plate`], [`Bearing`], [`AxleAdapter`] |
-//! | `force` | [`AppliedForce`]: a force over time |
+//! | `force` | [`AppliedForce`]: a force over time; [`ForceOverDistance`] |
 //!
 //! An element of one's own implements [`CatalogElement`].
 
 mod bushing;
 mod coil;
 mod force;
+mod force_over_distance;
 mod friction;
 mod line;
 mod plate;
@@ -32,10 +33,12 @@ use mechanics::output::Column;
 use mechanics::system::Model;
 use mechanics::vector::Vector;
 use quantity::Kind;
+use wheelrail::track::RailLines;
 
 pub use bushing::Bushing;
 pub use coil::Coil;
 pub use force::AppliedForce;
+pub use force_over_distance::ForceOverDistance;
 pub use friction::DryFriction;
 pub use line::Line;
 pub use plate::{AxleAdapter, Bearing, Plate};
@@ -78,8 +81,9 @@ pub trait CatalogElement: Debug + Send + Sync {
         Vec::new()
     }
 
-    /// Returns the same element without the friction that a rest may not depend on, if it has any.
-    fn without_friction(&self) -> Option<Arc<dyn CatalogElement>> {
+    /// Returns what stands in its place while the vehicle comes to rest, if it is something else: the element
+    /// without the friction that a rest may not depend on.
+    fn at_rest(&self) -> Option<Arc<dyn CatalogElement>> {
         None
     }
 
@@ -105,6 +109,8 @@ pub struct Place<'p> {
     pub ends: [(usize, [f64; 3]); 2],
     /// The numbers of the bodies of its own.
     pub own: &'p [usize],
+    /// The rails, if the vehicle is on a track.
+    pub lines: Option<&'p Arc<RailLines>>,
     /// What is seen of it.
     pub channels: &'p mut Vec<Channels>,
 }

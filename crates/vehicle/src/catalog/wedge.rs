@@ -63,7 +63,7 @@ impl CatalogElement for FrictionWedge {
         Ok(())
     }
 
-    fn without_friction(&self) -> Option<Arc<dyn CatalogElement>> {
+    fn at_rest(&self) -> Option<Arc<dyn CatalogElement>> {
         let mut own = self.clone();
         (own.wedge.column_friction, own.wedge.slope_friction) = (none(), none());
         for face in [&mut own.wedge.column_face, &mut own.wedge.slope_face] {
