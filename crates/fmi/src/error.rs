@@ -79,12 +79,6 @@ impl Error {
     }
 }
 
-impl From<study::stepping::SteppingError> for Error {
-    fn from(error: study::stepping::SteppingError) -> Self {
-        Self::new(error.to_string())
-    }
-}
-
 /// Returns a member of a saved state that cannot be.
 pub(crate) fn damaged(member: &str, found: impl Display, expected: impl Display) -> Error {
     Error::new(format!(

@@ -7,8 +7,8 @@ use mechanics::system::scales;
 use numerics::scalar::{Dual, Real};
 use quantity::Kind;
 use study::case::Case;
-use study::stepping::{CoilInput, Neighbours};
 use wedge::Parameters;
+use wedge::inputs::{CoilInput, Neighbours};
 use wedge::outputs::FACES;
 use wedge::quasi_static::{PlanePlace, PlaneReading, read};
 

@@ -9,7 +9,6 @@ use crate::Error;
 use crate::element::{Element, Entries, Setting};
 use crate::half_truck::{self, HalfTruck};
 use crate::quasi_static::QuasiStaticElement;
-use crate::wedge::WedgeElement;
 use crate::{car, limits, quasi_static, three_piece, truck, vehicle, wedge};
 
 /// The file with the case.
@@ -261,7 +260,7 @@ impl Source {
     /// Values that are not admissible, or from which it cannot start.
     pub fn element(&self, entries: &Entries, setting: &Setting) -> Result<Box<dyn Element>, Error> {
         Ok(match self {
-            Self::Wedge(case) => Box::new(WedgeElement::new(case, entries, setting)?),
+            Self::Wedge(case) => Box::new(wedge::element(case, entries, setting)?),
             Self::QuasiStatic(case) => Box::new(QuasiStaticElement::new(case, entries, setting)?),
             Self::Truck(case) => Box::new(truck::element(case, setting)?),
             Self::HalfTruck(own) => Box::new(own.element(setting)?),

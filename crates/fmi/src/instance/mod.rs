@@ -53,6 +53,8 @@ struct Values {
     parameters: Vec<f64>,
     options: Vec<i32>,
     inputs: Vec<f64>,
+    /// The inputs from which the element started.
+    start_inputs: Vec<f64>,
     /// Derivatives of the inputs, for the next step only.
     slopes: Vec<Option<f64>>,
     /// True for each input that has been set since the initialization.
@@ -313,6 +315,7 @@ impl Instance {
                 start_time: self.experiment.start,
             };
             let element = self.source.element(&self.description.entries, &setting)?;
+            self.values.start_inputs = setting.inputs;
             self.stale = false;
             self.element = Some(element);
         }
@@ -385,6 +388,7 @@ impl Values {
                 })
                 .collect(),
             inputs: entries.inputs.iter().map(real).collect(),
+            start_inputs: entries.inputs.iter().map(real).collect(),
             slopes: vec![None; entries.inputs.len()],
             set: vec![false; entries.inputs.len()],
             past: Vec::new(),

@@ -13,7 +13,7 @@ use crate::limits;
 use crate::watch::Doubt;
 
 /// Version of [`Saved`].
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// A saved instance: plain data, restorable in another process.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,6 +31,8 @@ pub struct Saved {
     parameters: Vec<f64>,
     options: Vec<i32>,
     inputs: Vec<f64>,
+    /// Those from which the element started.
+    start_inputs: Vec<f64>,
     slopes: Vec<Option<f64>>,
     set: Vec<bool>,
     past: Vec<Point>,
@@ -82,6 +84,7 @@ impl Instance {
             parameters: self.values.parameters.clone(),
             options: self.values.options.clone(),
             inputs: self.values.inputs.clone(),
+            start_inputs: self.values.start_inputs.clone(),
             slopes: self.values.slopes.clone(),
             set: self.values.set.clone(),
             past: self.values.past.clone(),
@@ -114,11 +117,12 @@ impl Instance {
             ));
         }
         saved.check(self)?;
-        // Parameters that were set before the start make another element.
+        // What was set before the start makes another element.
         let keeps = saved.element.is_some()
             && self.element.is_some()
             && !self.phase.is_before_start()
             && same_bits(&saved.parameters, &self.values.parameters)
+            && same_bits(&saved.start_inputs, &self.values.start_inputs)
             && saved.options == self.values.options
             && (saved.start, saved.tolerance) == (self.experiment.start, self.experiment.tolerance);
         let mut fresh = None;
@@ -146,6 +150,7 @@ impl Instance {
         self.values.parameters.clone_from(&saved.parameters);
         self.values.options.clone_from(&saved.options);
         self.values.inputs.clone_from(&saved.inputs);
+        self.values.start_inputs.clone_from(&saved.start_inputs);
         self.values.slopes.clone_from(&saved.slopes);
         self.values.set.clone_from(&saved.set);
         self.values.past.clone_from(&saved.past);
@@ -161,6 +166,7 @@ impl Instance {
         let mut values = self.values.clone();
         values.parameters.clone_from(&saved.parameters);
         values.options.clone_from(&saved.options);
+        values.inputs.clone_from(&saved.start_inputs);
         Self {
             description: self.description.clone(),
             token: self.token.clone(),

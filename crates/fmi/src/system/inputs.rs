@@ -1,12 +1,13 @@
-//! The effect of inputs on a system: loads on bodies, and motions of prescribed bodies.
+//! The effect of inputs on a system: loads on bodies, forces of coils, and motions of prescribed bodies.
 
+use mechanics::coil::CoilLaw;
 use mechanics::motion::Motion;
 use mechanics::system::System;
 
 use super::ports::{Ports, Six, coordinates};
 use crate::Error;
 
-/// The loads on the bodies of a system.
+/// The loads on the bodies of a system, and the laws of its coils.
 #[derive(Clone, Debug)]
 pub(super) struct InputLoads {
     /// On each body.
@@ -15,6 +16,8 @@ pub(super) struct InputLoads {
     loaded: Vec<usize>,
     /// Body and coordinate of each position.
     places: Vec<(usize, usize)>,
+    /// The coils that have their forces from inputs.
+    coils: Vec<(usize, CoilLaw)>,
 }
 
 impl InputLoads {
@@ -26,6 +29,7 @@ impl InputLoads {
             on: vec![[0.0; 6]; system.bodies().len()],
             loaded,
             places: coordinates(system),
+            coils: Vec::new(),
         }
     }
 
@@ -39,6 +43,15 @@ impl InputLoads {
                 *sum += entry * value;
             }
         }
+        let coils = ports.coils.iter();
+        self.coils = coils
+            .map(|port| {
+                (
+                    port.coil,
+                    port.law(inputs.get(port.input).copied().unwrap_or(0.0)),
+                )
+            })
+            .collect();
     }
 
     /// Puts them on a copy of the system.
@@ -46,6 +59,11 @@ impl InputLoads {
         for &body in &self.loaded {
             system
                 .set_load(body, self.on[body])
+                .map_err(|error| Error::new(error.to_string()))?;
+        }
+        for (coil, law) in &self.coils {
+            system
+                .set_coil_law(*coil, law.clone())
                 .map_err(|error| Error::new(error.to_string()))?;
         }
         Ok(())

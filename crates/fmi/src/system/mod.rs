@@ -1,10 +1,10 @@
 //! Any system of bodies and elements behind the variables, through named ports.
 //!
-//! A [`Plant`] is the data: a system, its quantities, and what its inputs do and its outputs read. Loads are
-//! constant within a communication step; prescribed bodies follow cubics through values and rates at both
+//! A [`Plant`] is the data: a system, its quantities, and what its inputs do and its outputs read. Loads and
+//! forces of coils are constant within a communication step; prescribed bodies follow cubics through values and rates at both
 //! ends of it, and the integrator is not restarted (`docs/decisions/0014-driven-motions.md`). With constant
-//! loads Q the work that comes in is `Q · Δq`, exactly: it is the last state. The work of the prescribed
-//! motions is in the system's own ledger.
+//! loads Q the work that comes in is `Q · Δq`, exactly: it is the last state, if there is one for it. The work
+//! of the prescribed motions is in the system's own ledger.
 
 mod entries;
 mod inputs;
@@ -14,7 +14,9 @@ mod state;
 use integrate::{Integrator, Options, Problem};
 use mechanics::energy_balance::LOOSEST;
 use mechanics::plausibility::{FindingKind, Location, Plausibility, PlausibilityFinding};
-use mechanics::system::{Contacts, Observation, StaticFriction, System};
+use mechanics::system::{
+    Contacts, ElementEvaluation, MotionChange, Observation, StateDirection, StaticFriction, System,
+};
 use study::progress::{self, Pace};
 
 use crate::Error;
@@ -25,7 +27,10 @@ pub(crate) use entries::{
     kinds, ledger, load, motions, motions_along_axes, options, unit,
 };
 use inputs::{InputLoads, lead, place};
-pub use ports::{LoadPort, MotionPort, Plant, PortDirection, Ports, Reading, Six, StartPort, TableReader};
+pub use ports::{
+    CoilPort, CoilSource, FrictionPort, LoadPort, MotionPort, Plant, PortDirection, Ports, Reading, Six,
+    StartPort, TableReader,
+};
 
 /// The place of the option that says who moves prescribed bodies, in [`options`].
 pub(crate) const MOTION: usize = 0;
@@ -59,7 +64,7 @@ pub struct SystemElement {
     /// True if inputs move prescribed bodies; else these follow motions of their own.
     driven: bool,
     time: f64,
-    /// Those of the system, then the work of the loads.
+    /// Those of the system, then the work of the loads if that is a state.
     states: Vec<f64>,
     inputs: Vec<f64>,
     /// Stored energy at the start, J.
@@ -68,6 +73,8 @@ pub struct SystemElement {
     piece_start: f64,
     /// The values of the table.
     row: Vec<f64>,
+    /// What the elements do, for outputs.
+    elements: ElementEvaluation<f64>,
     /// Rates of the states, for the table.
     table_rates: Vec<f64>,
     plausibility: Plausibility,
@@ -83,7 +90,7 @@ impl SystemElement {
         let failed = |error: &dyn std::fmt::Display| Error::new(error.to_string());
         let mut plant = plant;
         let time = setting.start_time;
-        check_inputs(&setting.inputs, plant.entries.inputs.len())?;
+        plant.check_inputs(&setting.inputs)?;
         let mut loads = InputLoads::new(&plant.system, &plant.ports);
         loads.set(&plant.ports, &setting.inputs);
         loads.put(&mut plant.system)?;
@@ -111,9 +118,11 @@ impl SystemElement {
             Interface::ModelExchange => None,
             Interface::CoSimulation => {
                 let own = plant.options.clone();
-                let tolerance = setting.tolerance.unwrap_or(own.relative_tolerance);
+                let asked = setting
+                    .tolerance
+                    .map(|tolerance| tolerance.clamp(TOLERANCES[0], TOLERANCES[1]));
                 let options = Options {
-                    relative_tolerance: tolerance.clamp(TOLERANCES[0], TOLERANCES[1]),
+                    relative_tolerance: asked.unwrap_or(own.relative_tolerance),
                     ..own
                 };
                 let made = Integrator::new(plant.system.clone(), options, time, &states);
@@ -123,7 +132,7 @@ impl SystemElement {
         let reports_contacts = !plant.entries.modes.is_empty();
         let contacts = reports_contacts.then(|| Contacts::new(&mut plant.system, time, &states));
         let plausibility = Plausibility::new(&mut plant.system, time, &states);
-        states.push(0.0);
+        states.resize(plant.entries.states.len(), 0.0);
         Ok(Self {
             plant,
             integrator,
@@ -136,6 +145,7 @@ impl SystemElement {
             start_energy,
             piece_start: time,
             row: Vec::new(),
+            elements: ElementEvaluation::default(),
             table_rates: Vec::new(),
             plausibility,
         })
@@ -159,6 +169,15 @@ impl SystemElement {
     fn observe(&mut self) -> Observation {
         let dimension = self.dimension();
         self.plant.system.observe(self.time, &self.states[..dimension])
+    }
+
+    /// Evaluates what the elements do.
+    fn evaluate(&mut self) {
+        let dimension = self.dimension();
+        let states = &self.states[..dimension];
+        self.plant
+            .system
+            .evaluate_elements(self.time, states, &mut self.elements);
     }
 
     /// Evaluates the table.
@@ -213,7 +232,9 @@ impl SystemElement {
         let work = self.loads.work(ways.map(|(after, before)| after - before));
         let dimension = self.plant.system.layout().len();
         self.states[..dimension].copy_from_slice(after);
-        self.states[dimension] += work;
+        if let Some(sum) = self.states.get_mut(dimension) {
+            *sum += work;
+        }
         self.time = point;
         if let Some(contacts) = &mut self.contacts {
             contacts.states.copy_from_slice(integrator.discrete_states());
@@ -237,23 +258,6 @@ fn discontinuity_at(system: &System, driven: bool, point: f64, length: f64) -> O
         .filter(|time| *time <= point + slack)
 }
 
-/// Largest size of an input, SI: no motion and no load of a machine comes near it, and steps under larger
-/// ones would be so short that they lead nowhere.
-const LARGEST_INPUT: f64 = 1e15;
-
-/// Checks the values of all inputs.
-fn check_inputs(inputs: &[f64], count: usize) -> Result<(), Error> {
-    if inputs.len() != count || !inputs.iter().all(|value| value.is_finite()) {
-        return Err(Error::new("an input is not finite"));
-    }
-    match inputs.iter().find(|value| value.abs() > LARGEST_INPUT) {
-        Some(value) => Err(Error::new(format!(
-            "an input is {value:e}, out of all proportion: at most {LARGEST_INPUT:e} (SI units) is admissible"
-        ))),
-        None => Ok(()),
-    }
-}
-
 impl Element for SystemElement {
     fn states(&self) -> &[f64] {
         &self.states
@@ -275,17 +279,36 @@ impl Element for SystemElement {
     }
 
     fn set_inputs(&mut self, inputs: &[f64]) -> Result<(), Error> {
-        check_inputs(inputs, self.inputs.len())?;
+        self.plant.check_inputs(inputs)?;
         self.inputs.copy_from_slice(inputs);
         self.put_inputs()
     }
 
-    fn tune(&mut self, _: &[f64]) -> Result<(), Error> {
+    fn tune(&mut self, parameters: &[f64]) -> Result<(), Error> {
+        let frictions = self.plant.ports.frictions.iter();
+        let tuned = frictions.filter_map(|port| Some((port, *parameters.get(port.parameter)?)));
+        if let Some((port, value)) = tuned
+            .clone()
+            .find(|(_, value)| !(*value >= 0.0 && value.is_finite()))
+        {
+            let name = &self.plant.entries.parameters[port.parameter].name;
+            return Err(Error::new(format!(
+                "`{name}` is {value}; it must be zero or positive, and finite"
+            )));
+        }
+        for (port, value) in tuned {
+            let integrated = self.integrator.as_mut().map(Integrator::problem_mut);
+            for system in std::iter::once(&mut self.plant.system).chain(integrated) {
+                system
+                    .set_friction(port.face, value)
+                    .map_err(|error| Error::new(error.to_string()))?;
+            }
+        }
         Ok(())
     }
 
     fn step(&mut self, end: &[f64], time: f64) -> Result<(), Error> {
-        check_inputs(end, self.inputs.len())?;
+        self.plant.check_inputs(end)?;
         let Some(integrator) = &mut self.integrator else {
             return Err(Error::new("a step belongs to co-simulation"));
         };
@@ -318,14 +341,14 @@ impl Element for SystemElement {
 
     fn rates(&mut self, out: &mut [f64]) -> Result<(), Error> {
         let dimension = self.dimension();
-        if out.len() != dimension + 1 {
+        if out.len() != self.states.len() {
             return Err(Error::new("the rates have another number"));
         }
         let (rates, power) = out.split_at_mut(dimension);
         let system = &mut self.plant.system;
         system.derivative(self.time, &self.states[..dimension], rates);
         let speeds = system.layout().speeds;
-        power[0] = self.loads.work(self.states[speeds..2 * speeds].iter().copied());
+        power.fill(self.loads.work(self.states[speeds..2 * speeds].iter().copied()));
         Ok(())
     }
 
@@ -368,14 +391,22 @@ impl Element for SystemElement {
     }
 
     fn outputs(&mut self, out: &mut [f64]) -> Result<(), Error> {
-        let seen = self.observe();
-        self.read_table(&seen);
+        let mut readings = self.plant.ports.outputs.iter();
+        let seen = if readings.all(Reading::is_of_elements) {
+            None
+        } else {
+            let seen = self.observe();
+            self.read_table(&seen);
+            Some(seen)
+        };
+        let mut readings = self.plant.ports.outputs.iter();
+        if readings.any(Reading::is_of_elements) {
+            self.evaluate();
+        }
         for (target, reading) in out.iter_mut().zip(&self.plant.ports.outputs) {
-            *target = match reading {
-                Reading::Displacement(direction) => direction.value(&seen.bodies[direction.body].coordinates),
-                Reading::Rate(direction) => direction.value(&seen.bodies[direction.body].speeds),
-                Reading::Table(number) => self.row.get(*number).copied().unwrap_or(f64::NAN),
-            };
+            let of_elements = reading.of_elements(&self.elements, &self.plant.system);
+            let value = of_elements.or_else(|| reading.of_observation(seen.as_ref()?, &self.row));
+            *target = value.unwrap_or(f64::NAN);
         }
         Ok(())
     }
@@ -383,9 +414,14 @@ impl Element for SystemElement {
     fn columns(&mut self, out: &mut [f64]) {
         let seen = self.observe();
         self.read_table(&seen);
-        let own = self.plant.ports.columns.iter();
-        let own = own.map(|number| self.row.get(*number).copied().unwrap_or(f64::NAN));
-        let load_work = self.states[self.dimension()];
+        let own = &self.plant.ports.columns;
+        for (target, number) in out.iter_mut().zip(own) {
+            *target = self.row.get(*number).copied().unwrap_or(f64::NAN);
+        }
+        let Some(balance) = out.get_mut(own.len()..).filter(|rest| !rest.is_empty()) else {
+            return;
+        };
+        let load_work = self.states.get(self.dimension()).copied().unwrap_or(0.0);
         let of_stored = seen.residual(self.start_energy) - load_work;
         let mut ledger = self.plant.system.ledger_entries(&seen, self.start_energy);
         ledger.work += load_work;
@@ -401,14 +437,15 @@ impl Element for SystemElement {
         } else {
             -of_stored
         };
-        let balance = [ledger.stored_change, ledger.residual, ledger.relative_residual()];
-        for (target, value) in out.iter_mut().zip(own.chain(balance)) {
+        let values = [ledger.stored_change, ledger.residual, ledger.relative_residual()];
+        for (target, value) in balance.iter_mut().zip(values) {
             *target = value;
         }
     }
 
     fn findings(&mut self) -> Vec<PlausibilityFinding> {
-        let (system, states) = (&mut self.plant.system, &self.states[..self.states.len() - 1]);
+        let dimension = self.dimension();
+        let (system, states) = (&mut self.plant.system, &self.states[..dimension]);
         self.plausibility.note(system, self.time, states);
         let mut findings = self.plausibility.present(system);
         // What runs along a track leaves its place.
@@ -417,19 +454,57 @@ impl Element for SystemElement {
     }
 
     fn derailed(&mut self) -> Option<String> {
-        let watch = self.plant.derailed.as_ref()?;
-        let states = &self.states[..self.states.len() - 1];
-        watch(&self.plant.system.observe(self.time, states))
+        self.plant.derailed.as_ref()?;
+        let seen = self.observe();
+        self.plant.derailed.as_ref()?(&seen)
     }
 
     fn place(&self, location: Location) -> String {
         location.describe(&self.plant.system)
     }
 
-    fn jacobian_vector_product(&mut self, _: &[f64], _: &[f64]) -> Result<Slopes, Error> {
-        Err(Error::new(
-            "there are no directional derivatives of bodies with linearized kinematics",
-        ))
+    fn jacobian_vector_product(&mut self, states: &[f64], inputs: &[f64]) -> Result<Slopes, Error> {
+        let none = || Error::new("there are no directional derivatives of bodies with linearized kinematics");
+        let ports = &self.plant.ports;
+        if !(ports.loads.is_empty() && ports.outputs.iter().all(Reading::is_of_elements)) {
+            return Err(none());
+        }
+        self.evaluate();
+        let dimension = self.dimension();
+        let change = |number: usize| inputs.get(number).copied().unwrap_or(0.0);
+        let (system, ports) = (&mut self.plant.system, &self.plant.ports);
+        let motions = ports.motions.iter().map(|port| {
+            let at = |value: f64| std::array::from_fn(|k| if k == port.coordinate { value } else { 0.0 });
+            MotionChange {
+                body: port.body,
+                position: at(change(port.position)),
+                rate: at(change(port.rate)),
+            }
+        });
+        let motions: Vec<MotionChange> = motions.collect();
+        let mut coil_forces = vec![0.0; system.coils().len()];
+        for port in &ports.coils {
+            let compression = Reading::CoilCompression(port.coil).of_elements(&self.elements, system);
+            let input = [self.inputs[port.input], change(port.input)];
+            coil_forces[port.coil] = port.force_change(system, compression.unwrap_or(0.0), input);
+        }
+        let direction = StateDirection {
+            state: states.get(..dimension).unwrap_or(&[]),
+            motions: &motions,
+            coil_forces: &coil_forces,
+        };
+        let product = system.jacobian_vector_product(self.time, &self.states[..dimension], &direction);
+        let mut product = product.ok_or_else(none)?;
+        product.rates.resize(self.states.len(), 0.0);
+        let outputs = ports.outputs.iter();
+        let outputs = outputs.map(|reading| {
+            let slope = reading.of_elements(&product.evaluation, system);
+            slope.map_or(f64::NAN, |slope| slope.derivative[0])
+        });
+        Ok(Slopes {
+            outputs: outputs.collect(),
+            rates: product.rates,
+        })
     }
 
     fn save(&self) -> ElementState {

@@ -1,8 +1,11 @@
 //! Ports of a system: what its inputs do, and what its outputs read.
 
 use integrate::Options;
-use mechanics::system::{Observation, System};
+use mechanics::coil::CoilLaw;
+use mechanics::system::{ElementEvaluation, Observation, System};
+use numerics::scalar::Real;
 
+use crate::Error;
 use crate::element::Entries;
 
 /// Values of x, y, z (m), roll, pitch, yaw (rad); their rates; or forces (N) and moments (N·m).
@@ -96,6 +99,56 @@ pub struct StartPort {
     pub rate: bool,
 }
 
+/// An input that is the coefficient of a coil's spring force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CoilSource {
+    /// The stiffness (N/m), by which the compression is multiplied.
+    Stiffness,
+    /// The force (N), positive when it pushes.
+    Force,
+}
+
+/// An input from which a coil has its spring force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CoilPort {
+    /// The number of the coil.
+    pub coil: usize,
+    /// The number of the input.
+    pub input: usize,
+    /// What the input is.
+    pub source: CoilSource,
+}
+
+impl CoilPort {
+    /// Returns the law of the coil under a value of the input.
+    pub(super) fn law(&self, value: f64) -> CoilLaw {
+        match self.source {
+            CoilSource::Stiffness => CoilLaw::Linear { stiffness: value },
+            CoilSource::Force => CoilLaw::Given { force: value },
+        }
+    }
+
+    /// Returns the change of the spring force (N) by a change of the input, at this value of it and this
+    /// compression (m).
+    pub(super) fn force_change(&self, system: &System, compression: f64, [value, change]: [f64; 2]) -> f64 {
+        let pulls = system.coils()[self.coil].element.pulls;
+        match self.source {
+            CoilSource::Stiffness if pulls || compression > 0.0 => change * compression,
+            CoilSource::Force if pulls || value > 0.0 => change,
+            _ => 0.0,
+        }
+    }
+}
+
+/// A parameter that is the coefficient of friction of a face, and may change on the way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FrictionPort {
+    /// The number of the parameter.
+    pub parameter: usize,
+    /// The number of the face.
+    pub face: usize,
+}
+
 /// The quantity that an output reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reading {
@@ -105,6 +158,60 @@ pub enum Reading {
     Rate(PortDirection),
     /// The value of this number in the table.
     Table(usize),
+    /// Of all elements on a body: force (0 to 2, N) or moment about its origin (3 to 5, N·m), fixed axes.
+    Load(usize, usize),
+    /// The compression of a coil: free length less length, m.
+    CoilCompression(usize),
+    /// The spring force of a coil, N: positive when it pushes.
+    CoilForce(usize),
+    /// The sum of the normal forces of a face, N.
+    NormalForce(usize),
+    /// The power lost in friction at a face, W.
+    FrictionLoss(usize),
+}
+
+impl Reading {
+    /// Returns whether [`Reading::of_elements`] reads it.
+    pub(super) fn is_of_elements(&self) -> bool {
+        !matches!(self, Self::Displacement(_) | Self::Rate(_) | Self::Table(_))
+    }
+
+    /// Reads what elements do, or its derivative; none if it is something else.
+    pub(super) fn of_elements<S: Real>(&self, elements: &ElementEvaluation<S>, system: &System) -> Option<S> {
+        match *self {
+            Self::Displacement(_) | Self::Rate(_) | Self::Table(_) => None,
+            Self::Load(body, component) => {
+                let load = elements.loads.get(body)?;
+                let part = if component < 3 { load.force } else { load.moment };
+                Some(part.0[component % 3])
+            }
+            Self::CoilCompression(coil) => {
+                let free_length = system.coils().get(coil)?.element.free_length;
+                Some(-elements.coils.get(coil)?.length + free_length)
+            }
+            Self::CoilForce(coil) => Some(elements.coils.get(coil)?.spring),
+            Self::NormalForce(face) => {
+                let counts = system.faces().iter().map(|own| own.element.points.len());
+                let first: usize = counts.clone().take(face).sum();
+                let own = elements.points.get(first..first + counts.skip(face).next()?)?;
+                Some(own.iter().fold(S::zero(), |sum, point| sum + point.normal))
+            }
+            Self::FrictionLoss(face) => match system.faces().get(face)?.energy_terms[0] {
+                Some(term) => elements.powers.get(term).copied(),
+                None => Some(S::zero()),
+            },
+        }
+    }
+
+    /// Reads an observation and the row of the table.
+    pub(super) fn of_observation(&self, seen: &Observation, row: &[f64]) -> Option<f64> {
+        match self {
+            Self::Displacement(direction) => Some(direction.value(&seen.bodies[direction.body].coordinates)),
+            Self::Rate(direction) => Some(direction.value(&seen.bodies[direction.body].speeds)),
+            Self::Table(number) => row.get(*number).copied(),
+            _ => None,
+        }
+    }
 }
 
 /// Appends the values of a table's columns (SI) at an instant; the rates of its state are given if
@@ -122,11 +229,15 @@ pub struct Ports {
     pub loads: Vec<LoadPort>,
     /// Inputs that move prescribed bodies.
     pub motions: Vec<MotionPort>,
-    /// The kind of each parameter.
+    /// Inputs that are forces of coils.
+    pub coils: Vec<CoilPort>,
+    /// Parameters that are values at the start: the first ones, in their order.
     pub starts: Vec<StartPort>,
+    /// Parameters that are coefficients of friction.
+    pub frictions: Vec<FrictionPort>,
     /// The reading of each output.
     pub outputs: Vec<Reading>,
-    /// The values in the table that are columns, before the three of the energy ledger.
+    /// The values in the table that are columns: all, or those before the three of the energy ledger.
     pub columns: Vec<usize>,
 }
 
@@ -134,8 +245,9 @@ pub struct Ports {
 pub struct Plant {
     /// The system.
     pub system: System,
-    /// Its quantities. Its columns end with stored change, residual and relative residual of the energy
-    /// ledger; modes and indicators are those of all contact states, or none.
+    /// Its quantities. Its states are those of the system, or these and the work of all loads; columns that
+    /// the ports do not name are stored change, residual and relative residual of the energy ledger; modes
+    /// and indicators are those of all contact states, or none.
     pub entries: Entries,
     /// Its ports.
     pub ports: Ports,
@@ -155,6 +267,55 @@ pub struct Plant {
     pub options: Options,
     /// The state at the start; none: that of the system.
     pub initial: Option<Vec<f64>>,
+}
+
+/// Largest size of an input, SI: no motion and no load of a machine comes near it, and steps under larger
+/// ones would be so short that they lead nowhere.
+const LARGEST_INPUT: f64 = 1e15;
+
+impl Plant {
+    /// Returns the plant of a system without a table, which starts where the system does.
+    #[must_use]
+    pub fn new(system: System, entries: Entries, ports: Ports, options: Options) -> Self {
+        Self {
+            system,
+            entries,
+            ports,
+            table: None,
+            table_takes_rates: false,
+            derailed: None,
+            numbers: [Vec::new(), Vec::new()],
+            rolls: false,
+            residual_of_stored: false,
+            options,
+            initial: None,
+        }
+    }
+
+    /// Checks the values of all inputs.
+    pub(super) fn check_inputs(&self, inputs: &[f64]) -> Result<(), Error> {
+        let (found, own) = (inputs.len(), self.entries.inputs.len());
+        if found != own {
+            return Err(Error::new(format!("{found} inputs are given; there are {own}")));
+        }
+        let wrong = |number: usize, expected: &str| {
+            let (name, value) = (&self.entries.inputs[number].name, inputs[number]);
+            Err(Error::new(format!("the input `{name}` is {value:e}{expected}")))
+        };
+        if let Some(number) = inputs.iter().position(|value| !value.is_finite()) {
+            return wrong(number, "; it must be finite");
+        }
+        if let Some(number) = inputs.iter().position(|value| value.abs() > LARGEST_INPUT) {
+            let most = format!(", out of all proportion: at most {LARGEST_INPUT:e} (SI units) is admissible");
+            return wrong(number, &most);
+        }
+        let mut coils = self.ports.coils.iter();
+        let stiffness = |port: &&CoilPort| port.source == CoilSource::Stiffness && inputs[port.input] < 0.0;
+        match coils.find(stiffness) {
+            Some(port) => wrong(port.input, "; a stiffness must be zero or positive"),
+            None => Ok(()),
+        }
+    }
 }
 
 /// Returns the body and the coordinate of each position of a system.

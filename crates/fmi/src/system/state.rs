@@ -29,6 +29,8 @@ impl SystemState {
         }
         check_finite("the system's states", &self.states)?;
         check_finite("the system's inputs", &self.inputs)?;
+        let inputs = element.plant.check_inputs(&self.inputs);
+        inputs.map_err(|error| Error::new(format!("the saved state is damaged: {error}")))?;
         let times = [&self.time, &self.start_energy, &self.piece_start];
         check_finite("the system's time, start energy and start of the piece", times)?;
         if self.piece_start > self.time {

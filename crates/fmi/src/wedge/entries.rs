@@ -4,14 +4,12 @@ use mechanics::body::COORDINATES;
 use mechanics::system::{EnergyTermKind, System, scales};
 use quantity::Kind;
 use study::case::Case;
-use study::stepping::{CoilInput, Equations, Neighbours};
-use wedge::WEDGE;
-use wedge::inputs::NeighbourState;
-use wedge::outputs::{CORNERS, FACES, PointNames};
+use wedge::inputs::Neighbours;
+use wedge::outputs::{CORNERS, FACES, Outputs, PointNames};
 use wedge::parameters::Start as StartOfRun;
+use wedge::{WEDGE, Wedge};
 
 use super::parameters;
-use crate::Error;
 use crate::element::{Entries, QuantityEntry, rate_of, relative_residual};
 use crate::unit::Unit;
 
@@ -56,8 +54,8 @@ fn is_column(name: &str) -> bool {
 }
 
 /// Returns the numbers of the columns that become variables.
-pub(crate) fn column_numbers(equations: &Equations) -> Vec<usize> {
-    let columns = equations.columns().iter().enumerate();
+pub(super) fn column_numbers(outputs: &Outputs) -> Vec<usize> {
+    let columns = outputs.columns().iter().enumerate();
     columns
         .filter(|(_, column)| is_column(&column.name))
         .map(|(number, _)| number)
@@ -65,30 +63,25 @@ pub(crate) fn column_numbers(equations: &Equations) -> Vec<usize> {
 }
 
 /// Returns all quantities of the wedge of a case.
-///
-/// # Errors
-/// The case makes no wedge.
-pub(crate) fn entries(case: &Case) -> Result<Entries, Error> {
-    let start = Neighbours::of(&case.parameters, 0.0);
-    let equations = Equations::new(&case.parameters, &start, CoilInput::Internal)?;
-    let system = equations.system();
+pub(super) fn entries(case: &Case, wedge: &Wedge) -> Entries {
+    let (system, outputs) = (&wedge.system, Outputs::new(&wedge.parameters));
     let points = PointNames::new(&case.parameters);
     let states = states(system, &points);
-    Ok(Entries {
+    Entries {
         parameters: parameters::entries(&case.parameters),
         options: options(case),
-        inputs: inputs(&start),
-        outputs: outputs(),
+        inputs: inputs(&Neighbours::of(&case.parameters, 0.0)),
+        outputs: self::outputs(),
         outputs_of_states: false,
         accumulators: system.layout().quadratures,
         kinematic: (0..system.layout().speeds)
             .map(|q| (q, q + system.layout().speeds))
             .collect(),
         states,
-        columns: column_numbers(&equations)
+        columns: column_numbers(&outputs)
             .into_iter()
             .map(|number| {
-                let column = &equations.columns()[number];
+                let column = &outputs.columns()[number];
                 let about = match &*column.reference {
                     "" => String::new(),
                     reference => format!(" ({reference})"),
@@ -118,7 +111,7 @@ pub(crate) fn entries(case: &Case) -> Result<Entries, Error> {
                 format!("event indicator: positive while the contact state of the {point} lasts"),
             )
         }),
-    })
+    }
 }
 
 fn of_points(points: &PointNames, ending: &str, entry: impl Fn(&str) -> QuantityEntry) -> Vec<QuantityEntry> {
@@ -219,18 +212,6 @@ fn inputs(start: &Neighbours) -> Vec<QuantityEntry> {
         "spring force of the coil, positive pushes, read if coil_mode = 2",
     ));
     inputs
-}
-
-/// Positions and rates of the neighbours from the inputs.
-pub(crate) fn neighbours(inputs: &[f64]) -> Neighbours {
-    let place = |first: usize| NeighbourState {
-        position: std::array::from_fn(|k| inputs.get(first + k).copied().unwrap_or(0.0)),
-        rate: std::array::from_fn(|k| inputs.get(first + 6 + k).copied().unwrap_or(0.0)),
-    };
-    Neighbours {
-        bolster: place(0),
-        side_frame: place(12),
-    }
 }
 
 fn outputs() -> Vec<QuantityEntry> {

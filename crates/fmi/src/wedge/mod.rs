@@ -1,361 +1,161 @@
-//! The wedge behind the variables.
+//! The wedge with mass, as data of [`crate::system`].
+//!
+//! Inputs move bolster and side frame, and are the coil's force if an option says so; coefficients of friction
+//! may change on the way. Outputs are what the elements do to both neighbours.
 
 pub(crate) mod entries;
 pub(crate) mod parameters;
 
-use integrate::Options;
-use mechanics::plausibility::{Location, PlausibilityFinding};
-use numerics::scalar::Dual;
+use mechanics::body::COORDINATES;
 use study::case::Case;
-use study::stepping::{CoilInput, Equations, Reading, SteppedWedge};
-use wedge::inputs::COIL;
+use wedge::inputs::{COIL, CoilInput, NeighbourState, Neighbours};
+use wedge::outputs::Outputs;
 use wedge::parameters::Start;
+use wedge::{BOLSTER, COLUMN, Parameters, SIDE_FRAME, SLOPE, Wedge};
 
 use crate::Error;
-use crate::element::{Element, Entries, Interface, Setting, Slopes};
-use crate::element_state::{ElementState, WedgeState};
-use entries::{COIL_FORCE, COIL_STIFFNESS, neighbours};
-
-/// Tolerances that an importer may ask for.
-const TOLERANCES: [f64; 2] = [1e-12, 1e-3];
+use crate::element::{Entries, Setting};
+use crate::system::{
+    CoilPort, CoilSource, FrictionPort, MotionPort, Plant, Ports, Reading, StartState, SystemElement,
+};
+use entries::{COIL_FORCE, COIL_STIFFNESS};
 
 /// Returns all quantities of the wedge of a case.
 ///
 /// # Errors
 /// The case makes no wedge.
 pub fn entries(case: &Case) -> Result<Entries, Error> {
-    entries::entries(case)
+    let start = Neighbours::of(&case.parameters, 0.0);
+    Ok(entries::entries(
+        case,
+        &made(&case.parameters, &start, CoilInput::Internal)?,
+    ))
 }
 
-/// A wedge, integrated by itself or by the importer.
-enum Core {
-    Driven(Box<SteppedWedge>),
-    Equations(Box<Equations>),
-}
-
-/// A wedge behind the variables.
-pub struct WedgeElement {
-    core: Core,
-    coil_mode: i32,
-    /// Time of the experiment at which the wedge's own time is zero, s.
-    start_time: f64,
-    /// The numbers of the table's columns that are variables.
-    columns: Vec<usize>,
-    /// Places of the coefficients of friction among the parameters.
-    friction: [Option<usize>; 2],
-}
-
-fn coil(mode: i32, inputs: &[f64]) -> CoilInput {
-    let input = |index: usize| inputs.get(index).copied().unwrap_or(0.0);
-    match mode {
-        1 => CoilInput::Stiffness(input(COIL_STIFFNESS)),
-        2 => CoilInput::Force(input(COIL_FORCE)),
-        _ => CoilInput::Internal,
+/// Returns the wedge of a case under these settings, at its start.
+///
+/// # Errors
+/// Values outside their reach, or with which the number of states would be another one; or the integrator
+/// refuses the start.
+pub fn element(case: &Case, entries: &Entries, setting: &Setting) -> Result<SystemElement, Error> {
+    let mut parameters = parameters::apply(&case.parameters, &setting.parameters);
+    let option = |index: usize| setting.options.get(index).copied().unwrap_or(0);
+    parameters.start = match option(1) {
+        1 => Start::Touching,
+        2 => Start::Equilibrium,
+        _ => Start::Rest,
+    };
+    let input = |index: usize| setting.inputs.get(index).copied().unwrap_or(0.0);
+    let neighbour = |first: usize| NeighbourState {
+        position: std::array::from_fn(|k| input(first + k)),
+        rate: std::array::from_fn(|k| input(first + COORDINATES.len() + k)),
+    };
+    let start = Neighbours {
+        bolster: neighbour(0),
+        side_frame: neighbour(2 * COORDINATES.len()),
+    };
+    let (coil, source) = match option(0) {
+        1 => (
+            CoilInput::Stiffness(input(COIL_STIFFNESS)),
+            Some((COIL_STIFFNESS, CoilSource::Stiffness)),
+        ),
+        2 => (
+            CoilInput::Force(input(COIL_FORCE)),
+            Some((COIL_FORCE, CoilSource::Force)),
+        ),
+        _ => (CoilInput::Internal, None),
+    };
+    let wedge = made(&parameters, &start, coil)?;
+    let (found, own) = (wedge.initial_state.len(), entries.states.len());
+    if found != own {
+        return Err(Error::new(format!(
+            "with these parameters the wedge has {found} states, but the FMU was made with {own}: a damping \
+             that was zero stays zero, and one that was not stays so; export another FMU"
+        )));
     }
+    let coils = source.map(|(input, source)| CoilPort {
+        coil: COIL,
+        input,
+        source,
+    });
+    let ports = Ports {
+        coils: coils.into_iter().collect(),
+        ..ports(entries)
+    };
+    SystemElement::new(
+        plant(case, entries, wedge, ports),
+        setting,
+        StartState::Initial,
+        true,
+    )
 }
 
-impl WedgeElement {
-    /// Returns the wedge of a case under these settings, at its start.
-    ///
-    /// # Errors
-    /// Values outside their reach, or with which the number of states would be another one.
-    pub fn new(case: &Case, entries: &Entries, setting: &Setting) -> Result<Self, Error> {
-        let mut parameters = parameters::apply(&case.parameters, &setting.parameters);
-        let option = |index: usize| setting.options.get(index).copied().unwrap_or(0);
-        let coil_mode = option(0);
-        parameters.start = match option(1) {
-            1 => Start::Touching,
-            2 => Start::Equilibrium,
-            _ => Start::Rest,
-        };
-        let start = neighbours(&setting.inputs);
-        let drive = coil(coil_mode, &setting.inputs);
-        let core = match setting.interface {
-            Interface::CoSimulation => {
-                let options = study::stepping::options(&case.simulation);
-                let relative_tolerance = match setting.tolerance {
-                    Some(tolerance) => tolerance.clamp(TOLERANCES[0], TOLERANCES[1]),
-                    None => options.relative_tolerance,
-                };
-                let options = Options {
-                    relative_tolerance,
-                    ..options
-                };
-                Core::Driven(Box::new(SteppedWedge::with(&parameters, options, &start, drive)?))
-            }
-            Interface::ModelExchange => {
-                let mut equations = Equations::new(&parameters, &start, drive)?;
-                let states = equations.states().to_vec();
-                equations.set_states(setting.start_time, &states)?;
-                Core::Equations(Box::new(equations))
-            }
-        };
-        let friction =
-            ["column_friction", "slope_friction"].map(|name| parameters::place(&case.parameters, name));
-        let element = Self {
-            coil_mode,
-            start_time: setting.start_time,
-            columns: entries::column_numbers(match &core {
-                Core::Driven(wedge) => wedge.equations(),
-                Core::Equations(equations) => equations,
-            }),
-            core,
-            friction,
-        };
-        if element.states().len() != entries.states.len() {
-            return Err(Error::new(format!(
-                "with these parameters the wedge has {} states, but the FMU was made with {}: a damping \
-                 that was zero stays zero, and one that was not stays so; export another FMU",
-                element.states().len(),
-                entries.states.len()
-            )));
-        }
-        Ok(element)
-    }
+/// Returns a wedge whose neighbours inputs move, at its start.
+fn made(parameters: &Parameters, start: &Neighbours, coil: CoilInput) -> Result<Wedge, Error> {
+    let mut own = parameters.with_inputs(start);
+    own.coil.law = coil.law(parameters);
+    Wedge::new(own).map_err(|error| Error::new(error.to_string()))
+}
 
-    fn equations(&self) -> &Equations {
-        match &self.core {
-            Core::Driven(wedge) => wedge.equations(),
-            Core::Equations(equations) => equations,
-        }
-    }
-
-    fn only_exchange(&mut self, what: &str) -> Result<&mut Equations, Error> {
-        match &mut self.core {
-            Core::Equations(equations) => Ok(equations),
-            Core::Driven(_) => Err(Error::new(format!("{what} belongs to model exchange"))),
-        }
+/// Returns the plant of a wedge; `ports` read no table yet.
+fn plant(case: &Case, entries: &Entries, wedge: Wedge, mut ports: Ports) -> Plant {
+    let (outputs, system) = (Outputs::new(&wedge.parameters), wedge.system.clone());
+    ports.columns = entries::column_numbers(&outputs);
+    ports.columns.push(outputs.columns().len());
+    let start_energy = system.clone().observe(0.0, &wedge.initial_state).energies.total();
+    // Columns of contact states are no variables: these have their own.
+    let contact_states = vec![0; system.faces().iter().map(|face| face.element.points.len()).sum()];
+    let options = study::stepping::options(&case.simulation);
+    Plant {
+        table: Some(Box::new(move |seen, _, row| {
+            let ledger = outputs.values(&system, seen, &contact_states, start_energy, row);
+            row.push(ledger.entries().relative_residual());
+        })),
+        initial: Some(wedge.initial_state),
+        ..Plant::new(wedge.system, entries.clone(), ports, options)
     }
 }
 
-impl Element for WedgeElement {
-    fn states(&self) -> &[f64] {
-        self.equations().states()
-    }
-
-    fn set_states(&mut self, time: f64, states: &[f64]) -> Result<(), Error> {
-        Ok(self.only_exchange("setting states")?.set_states(time, states)?)
-    }
-
-    fn set_inputs(&mut self, inputs: &[f64]) -> Result<(), Error> {
-        let mode = self.coil_mode;
-        let equations = self.only_exchange("setting inputs within a step")?;
-        equations.set_neighbours(&neighbours(inputs))?;
-        let drive = coil(mode, inputs);
-        if drive != *equations.coil() {
-            equations.set_coil(drive)?;
-        }
-        Ok(())
-    }
-
-    fn tune(&mut self, parameters: &[f64]) -> Result<(), Error> {
-        let mut friction = self.equations().friction();
-        for (value, place) in friction.iter_mut().zip(self.friction) {
-            if let Some(tuned) = place.and_then(|place| parameters.get(place)) {
-                *value = *tuned;
-            }
-        }
-        match &mut self.core {
-            Core::Driven(wedge) => wedge.set_friction(friction)?,
-            Core::Equations(equations) => equations.set_friction(friction)?,
-        }
-        Ok(())
-    }
-
-    fn step(&mut self, end: &[f64], time: f64) -> Result<(), Error> {
-        let drive = coil(self.coil_mode, end);
-        let Core::Driven(wedge) = &mut self.core else {
-            return Err(Error::new("a step belongs to co-simulation"));
-        };
-        wedge.set_coil(drive)?;
-        wedge.step_to(&neighbours(end), time - self.start_time)?;
-        Ok(())
-    }
-
-    fn attempts(&self) -> u64 {
-        match &self.core {
-            Core::Equations(_) => 0,
-            Core::Driven(wedge) => wedge.statistics().attempts(),
-        }
-    }
-
-    fn rates(&mut self, out: &mut [f64]) -> Result<(), Error> {
-        match &mut self.core {
-            Core::Equations(equations) => equations.rates(out)?,
-            Core::Driven(wedge) => wedge.rates(out)?,
-        }
-        Ok(())
-    }
-
-    fn indicators(&mut self, out: &mut [f64]) {
-        let margins = match &mut self.core {
-            Core::Equations(equations) => equations.margins(),
-            Core::Driven(wedge) => wedge.margins(),
-        };
-        for (target, margin) in out.iter_mut().zip(margins) {
-            // A margin of zero has been passed.
-            *target = if *margin == 0.0 {
-                -f64::MIN_POSITIVE
-            } else {
-                *margin
-            };
-        }
-    }
-
-    fn modes(&self) -> &[u8] {
-        self.equations().contact_states()
-    }
-
-    fn update_modes(&mut self) -> bool {
-        match &mut self.core {
-            Core::Equations(equations) => equations.update_modes(),
-            Core::Driven(_) => false,
-        }
-    }
-
-    fn outputs(&mut self, out: &mut [f64]) -> Result<(), Error> {
-        let reading = match &mut self.core {
-            Core::Driven(wedge) => wedge.reading()?,
-            Core::Equations(equations) => equations.reading()?,
-        };
-        let mut targets = out.iter_mut();
-        for load in [reading.on_bolster, reading.on_side_frame] {
-            for value in load.force.0.into_iter().chain(load.moment.0) {
-                set(&mut targets, value);
-            }
-        }
-        set(&mut targets, reading.coil_compression);
-        set(&mut targets, reading.coil_force);
-        for value in reading.normal_forces.into_iter().chain(reading.friction_losses) {
-            set(&mut targets, value);
-        }
-        Ok(())
-    }
-
-    fn columns(&mut self, out: &mut [f64]) {
-        let (row, (_, ledger)) = match &mut self.core {
-            Core::Driven(wedge) => (wedge.row(), wedge.energies()),
-            Core::Equations(equations) => (equations.row(), equations.energies()),
-        };
-        let columns = self.columns.iter();
-        let values = columns.map(|number| row.get(*number).copied().unwrap_or(f64::NAN));
-        let relative = ledger.entries().relative_residual();
-        for (target, value) in out.iter_mut().zip(values.chain([relative])) {
-            *target = value;
-        }
-    }
-
-    fn findings(&mut self) -> Vec<PlausibilityFinding> {
-        let (mut findings, zero) = match &mut self.core {
-            Core::Driven(wedge) => (wedge.findings(), self.start_time),
-            Core::Equations(equations) => (equations.findings(), 0.0),
-        };
-        for time in findings
-            .iter_mut()
-            .flat_map(|own| [&mut own.time, &mut own.since])
-        {
-            *time = time.map(|time| time + zero);
-        }
-        findings
-    }
-
-    fn place(&self, location: Location) -> String {
-        location.describe(self.equations().system())
-    }
-
-    fn jacobian_vector_product(&mut self, states: &[f64], inputs: &[f64]) -> Result<Slopes, Error> {
-        let change = neighbours(inputs);
-        let input = |index: usize| inputs.get(index).copied().unwrap_or(0.0);
-        let compression = match &mut self.core {
-            Core::Driven(wedge) => wedge.reading()?,
-            Core::Equations(equations) => equations.reading()?,
-        }
-        .coil_compression;
-        let pulls = self.equations().parameters().coil.pulls;
-        let force_change = match *self.equations().coil() {
-            CoilInput::Internal => 0.0,
-            CoilInput::Stiffness(_) if !pulls && compression <= 0.0 => 0.0,
-            CoilInput::Stiffness(_) => input(COIL_STIFFNESS) * compression,
-            CoilInput::Force(force) if !pulls && force <= 0.0 => 0.0,
-            CoilInput::Force(_) => input(COIL_FORCE),
-        };
-        let product = match &mut self.core {
-            Core::Driven(wedge) => wedge.jacobian_vector_product(states, &change, force_change)?,
-            Core::Equations(equations) => equations.jacobian_vector_product(states, &change, force_change)?,
-        };
-        let equations = self.equations();
-        let reading: Reading<Dual<1>> =
-            Reading::of(&product.evaluation, equations.system(), equations.parameters())
-                .ok_or_else(|| Error::new("the derivatives cannot be read"))?;
-        let mut outputs = Vec::new();
-        let slope = |value: Dual<1>| value.derivative[0];
-        for load in [reading.on_bolster, reading.on_side_frame] {
-            outputs.extend(load.force.0.into_iter().chain(load.moment.0).map(slope));
-        }
-        outputs.extend([reading.coil_compression, reading.coil_force].map(slope));
-        outputs.extend(reading.normal_forces.map(slope));
-        outputs.extend(reading.friction_losses.map(slope));
-        debug_assert_eq!(COIL, 0);
-        Ok(Slopes {
-            rates: product.rates,
-            outputs,
-        })
-    }
-
-    fn save(&self) -> ElementState {
-        let state = match &self.core {
-            Core::Driven(wedge) => WedgeState::Driven(wedge.state()),
-            Core::Equations(equations) => WedgeState::Equations {
-                time: equations.time(),
-                states: equations.states().to_vec(),
-                modes: equations.contact_states().to_vec(),
-                neighbours: *equations.neighbours(),
-                start: *equations.start(),
-                coil: *equations.coil(),
-                start_coil: equations.start_coil(),
-                friction: equations.friction(),
-            },
-        };
-        ElementState::Wedge(Box::new(state))
-    }
-
-    fn restore(&mut self, state: &ElementState) -> Result<(), Error> {
-        let ElementState::Wedge(state) = state else {
-            return Err(Error::new("the saved state belongs to another model"));
-        };
-        match (&mut self.core, &**state) {
-            (Core::Driven(wedge), WedgeState::Driven(state)) => Ok(wedge.restore(state)?),
-            (
-                Core::Equations(equations),
-                WedgeState::Equations {
-                    time,
-                    states,
-                    modes,
-                    neighbours,
-                    start,
-                    coil,
-                    start_coil,
-                    friction,
-                },
-            ) => {
-                let mut fresh = Equations::new(equations.parameters(), start, *start_coil)?;
-                fresh.set_coil(*coil)?;
-                fresh.set_friction(*friction)?;
-                fresh.set_states(*time, states)?;
-                fresh.set_neighbours(neighbours)?;
-                fresh.set_contact_states(modes)?;
-                **equations = fresh;
-                Ok(())
-            }
-            _ => Err(Error::new(
-                "the saved state belongs to the other kind of interface (model exchange or co-simulation)",
-            )),
-        }
-    }
-}
-
-fn set<'o>(targets: &mut impl Iterator<Item = &'o mut f64>, value: f64) {
-    if let Some(target) = targets.next() {
-        *target = value;
+/// For each neighbour six positions and their rates are inputs, force and moment outputs.
+fn ports(entries: &Entries) -> Ports {
+    let bodies = [BOLSTER, SIDE_FRAME];
+    let inputs = bodies
+        .into_iter()
+        .flat_map(|body| (0..6).map(move |coordinate| (body, coordinate)));
+    let positions = (0..)
+        .zip(&entries.inputs)
+        .filter_map(|(place, entry)| Some((place, entry.rate?)));
+    let motions = inputs.zip(positions);
+    let loads = bodies
+        .into_iter()
+        .flat_map(|body| (0..6).map(move |k| Reading::Load(body, k)));
+    let faces = [COLUMN, SLOPE];
+    let others = [Reading::CoilCompression(COIL), Reading::CoilForce(COIL)];
+    let others = others.into_iter().chain(faces.map(Reading::NormalForce));
+    let place = |name: &str| entries.parameters.iter().position(|entry| entry.name == name);
+    let frictions = [("column_friction", COLUMN), ("slope_friction", SLOPE)];
+    Ports {
+        motions: motions
+            .map(|((body, coordinate), (position, rate))| MotionPort {
+                body,
+                coordinate,
+                position,
+                rate,
+            })
+            .collect(),
+        frictions: frictions
+            .into_iter()
+            .filter_map(|(name, face)| {
+                Some(FrictionPort {
+                    parameter: place(name)?,
+                    face,
+                })
+            })
+            .collect(),
+        outputs: loads
+            .chain(others)
+            .chain(faces.map(Reading::FrictionLoss))
+            .collect(),
+        ..Ports::default()
     }
 }

@@ -144,12 +144,12 @@ fn every_other_member_is_refused_or_goes_on(model: FmuModel, interface: Interfac
 fn issue_029_members_of_an_instance_that_led_astray_are_refused_by_name() {
     let mut instance = under_way(FmuModel::Wedge, Interface::CoSimulation);
     let good: Value = serde_json::from_slice(&instance.save().to_bytes().unwrap()).unwrap();
-    let integrator = "/element/Wedge/Driven/integrator";
+    let integrator = "/element/System/integrator";
     for (place, value, member) in [
         // A step from there would have been 1e308 s long.
         ("/time".to_owned(), json!(1e308), "the element's time"),
         ("/time".to_owned(), json!(0.0), "the element's time"),
-        ("/start".to_owned(), json!(0.25), "the element's time"),
+        ("/start_inputs".to_owned(), json!([0.0]), "start_inputs"),
         ("/phase".to_owned(), json!("Event"), "phase"),
         ("/phase".to_owned(), json!("Initialization"), "time"),
         ("/element".to_owned(), Value::Null, "element"),
@@ -174,7 +174,7 @@ fn issue_029_members_of_an_instance_that_led_astray_are_refused_by_name() {
         (
             format!("{integrator}/discrete_states/0"),
             json!(9),
-            "contact state of corner 0",
+            "contact state of the system",
         ),
         (
             format!("{integrator}/statistics/steps"),

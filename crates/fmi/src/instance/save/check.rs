@@ -5,6 +5,7 @@ use super::super::check_experiment;
 use super::{Instance, Phase, Saved};
 use crate::Error;
 use crate::element::Interface;
+use crate::element_state::ElementState;
 use crate::error::{check_finite, damaged};
 use crate::extrapolate::KEPT_POINTS;
 use crate::watch::Doubt;
@@ -17,6 +18,7 @@ impl Saved {
             ("parameters", values.parameters.len(), self.parameters.len()),
             ("options", values.options.len(), self.options.len()),
             ("inputs", values.inputs.len(), self.inputs.len()),
+            ("start_inputs", values.inputs.len(), self.start_inputs.len()),
             ("slopes", values.slopes.len(), self.slopes.len()),
             ("set", values.set.len(), self.set.len()),
             ("doubts", values.doubts.len(), self.doubts.len()),
@@ -34,6 +36,7 @@ impl Saved {
         check_finite("time", [&self.time])?;
         check_finite("parameters", &self.parameters)?;
         check_finite("inputs", &self.inputs)?;
+        check_finite("start_inputs", &self.start_inputs)?;
         check_finite("slopes", self.slopes.iter().flatten())?;
         check_finite("doubts", self.doubts.iter().flat_map(Doubt::values))?;
         self.check_options(instance)?;
@@ -118,11 +121,11 @@ impl Saved {
         }
         // A step that has failed may have left the element on its way.
         let may_differ = matches!(self.phase, Phase::Failed | Phase::Terminated);
-        match self.element.as_ref().map(|element| element.time(self.start)) {
-            Some(time) if time.own != time.of(self.time) && !may_differ => Err(damaged(
+        match self.element.as_ref().map(ElementState::time) {
+            Some(time) if time != self.time && !may_differ => Err(damaged(
                 "the element's time",
-                time.own,
-                format!("{} s, as the instance's", time.of(self.time)),
+                time,
+                format!("{} s, as the instance's", self.time),
             )),
             _ => Ok(()),
         }
