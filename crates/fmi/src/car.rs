@@ -7,26 +7,44 @@
 use std::sync::Arc;
 
 use mechanics::orientation::fixed;
-use mechanics::system::System;
 use mechanics::vector::Vector;
 use study::car::CarCase;
 use study::car::columns::CarTable;
 
 use crate::Error;
-use crate::element::{Entries, QuantityEntry, Setting};
+use crate::element::{Entries, Setting};
+use crate::source::{Made, Model};
 use crate::system::{
-    LoadPort, MOTION, Plant, PortDirection, Ports, StartState, SystemElement, accumulators, add_motion,
-    add_table, contacts, internals, ledger, load, motions_along_axes, options,
+    Inputs, Plant, PortDirection, Ports, accumulators, contacts, internals, is_driven, ledger, load,
+    motions_along_axes, options,
 };
 
 /// Axes along which rails are moved and the body is pushed.
-const AXES: usize = 3;
+const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Returns the car of a case; inputs can move its rails.
+/// A freight car on its track.
+pub(crate) struct CarModel;
+
+impl Model for CarModel {
+    type Origin = CarCase;
+
+    const NAME: &'static str = "FreightCar";
+    const TEXT: &'static str = "Freight car on its track: body and lading on two three-piece trucks with \
+                                friction wedges, whose wheelsets roll on rails";
+    const CONVENTIONS: &'static str = "Fixed axes: x forward and y left where the track starts, z up. Vertical wheel forces act on the \
+         rail, positive down; lateral ones are positive where they spread the gauge. Places of axles are \
+         those against the track's center line, positive to the left.";
+
+    fn made(case: &CarCase, setting: Option<&Setting>) -> Result<Made, Error> {
+        plant(case, setting)?.made(setting)
+    }
+}
+
+/// Returns the car of a case under these settings; inputs can move its rails.
 ///
 /// # Errors
 /// The case makes no car, or has wedges without mass.
-pub fn plant(case: &CarCase) -> Result<Plant, Error> {
+pub fn plant(case: &CarCase, setting: Option<&Setting>) -> Result<Plant, Error> {
     let mut parameters = case.parameters.clone();
     if parameters.has_connections() {
         return Err(Error::new(
@@ -35,7 +53,7 @@ pub fn plant(case: &CarCase) -> Result<Plant, Error> {
         ));
     }
     parameters.movable_rails = true;
-    let table = CarTable::new(&parameters).map_err(|error| Error::new(error.to_string()))?;
+    let table = CarTable::new(&parameters).map_err(Error::of)?;
     let car = table.car();
     let (system, initial) = (car.system.clone(), car.initial_state.clone());
     let start = system.clone().observe(0.0, &initial).energies.total();
@@ -43,86 +61,56 @@ pub fn plant(case: &CarCase) -> Result<Plant, Error> {
     let table = Arc::new(table);
     let watched = Arc::clone(&table);
     Ok(Plant {
-        entries,
-        ports,
         table: Some(Box::new(move |seen, rates, row| {
             table.read(seen, rates, start, row);
         })),
         table_takes_rates: true,
         derailed: Some(Box::new(move |seen| watched.derailed(seen))),
-        numbers: [Vec::new(), Vec::new()],
         rolls: true,
-        residual_of_stored: false,
-        options: case.simulation.options(),
         initial: Some(initial),
-        system,
+        driven: is_driven(setting),
+        ..Plant::new(system, entries, ports, case.simulation.options())
     })
-}
-
-/// Returns the car under these settings, at its start.
-///
-/// # Errors
-/// As [`plant`]; or values that are not finite, or the integrator refuses the start.
-pub fn element(case: &CarCase, setting: &Setting) -> Result<SystemElement, Error> {
-    let driven = setting.options.get(MOTION).copied().unwrap_or(0) == 0;
-    SystemElement::new(plant(case)?, setting, StartState::Initial, driven)
 }
 
 fn all(table: &CarTable) -> (Entries, Ports) {
     let car = table.car();
     let system = &car.system;
-    let (mut ports, mut inputs) = (Ports::default(), Vec::new());
+    let mut inputs = Inputs::default();
     for body in car.numbers.beds.iter().flatten().flatten() {
         let own = &system.bodies()[*body];
-        for (coordinate, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        for (coordinate, axis) in AXES.into_iter().enumerate() {
             let name = format!("{}_{axis}_motion", own.name);
             let text = "displacement of what the rail lies on under this wheel, along the fixed axes, added \
                         to the track's irregularities; read if motion = 0";
-            add_motion((&mut inputs, &mut ports), (*body, own), coordinate, (&name, text));
+            inputs.add_motion((*body, own), coordinate, &name, text);
         }
     }
     let body = car.numbers.body;
     let frame = fixed(system.bodies()[body].frame.orientation);
-    for axis in 0..AXES {
+    for axis in 0..AXES.len() {
         let mut row = [0.0; 6];
-        for (k, part) in row.iter_mut().take(AXES).enumerate() {
+        for (k, part) in row.iter_mut().take(AXES.len()).enumerate() {
             let Vector(column) = frame.column(k);
             *part = column[axis];
         }
-        ports.loads.push(LoadPort {
-            input: inputs.len(),
-            direction: PortDirection { body, row },
-        });
         let text = "the car body with its lading from outside, at its center of gravity, fixed axes";
-        inputs.push(load("", "car_body", axis, text));
+        inputs.add_load(PortDirection { body, row }, load("", "car_body", axis, text));
     }
-    let layout = system.layout();
+    let mut states = motions_along_axes(system);
+    states.extend(internals(system));
+    states.extend(accumulators(system));
     let (modes, indicators) = contacts(system);
-    let mut entries = Entries {
+    let own = Entries {
         options: options(
             "who moves what rails lie on: 0 the inputs rail_bed_*, 1 nobody: they lie as the track says",
             (0, "without effect: a car starts as its case says"),
         ),
-        inputs,
-        outputs_of_states: false,
-        accumulators: layout.quadratures + 1,
-        kinematic: (0..layout.speeds).map(|q| (q, q + layout.speeds)).collect(),
-        states: states(system),
+        states,
         columns: ledger("work of the drive, of moved rails and of loads less stored energy and losses"),
         modes,
         indicators,
         ..Entries::default()
     };
-    let fixed = table.fixed();
-    add_table((&mut entries, &mut ports), table.columns(), |number, _| {
-        number < fixed
-    });
-    (entries, ports)
-}
-
-fn states(system: &System) -> Vec<QuantityEntry> {
-    let mut states = motions_along_axes(system);
-    states.extend(internals(system));
-    states.extend(accumulators(system));
-    states
+    inputs.finish(system, own, table.columns(), |number, _| number < table.fixed())
 }

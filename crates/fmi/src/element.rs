@@ -1,6 +1,7 @@
 //! The elements whose quantities the variables show.
 
 use mechanics::plausibility::{Location, PlausibilityFinding};
+use quantity::Kind;
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
@@ -41,6 +42,27 @@ pub struct QuantityEntry {
 }
 
 impl QuantityEntry {
+    /// Returns a real number of a kind, which is calculated.
+    pub(crate) fn of(kind: Kind, name: impl Into<String>, text: impl Into<String>) -> Self {
+        Self::real(name, Some(Unit::Of(kind)), None, text)
+    }
+
+    /// Returns the same with a start value.
+    pub(crate) fn starting(self, value: f64) -> Self {
+        Self {
+            start: Start::Float(Some(value)),
+            ..self
+        }
+    }
+
+    /// Returns the same with a usual size.
+    pub(crate) fn of_size(self, nominal: f64) -> Self {
+        Self {
+            nominal: Some(nominal),
+            ..self
+        }
+    }
+
     /// Returns a real number.
     #[must_use]
     pub fn real(
@@ -82,9 +104,10 @@ impl QuantityEntry {
     }
 }
 
-/// Returns the description of the input that is the rate of a position.
-pub(crate) fn rate_of(position: &str) -> String {
-    format!("rate of {position}; never set, co-simulation finds it from {position}")
+/// Returns the input that is the rate of a position, at rest at the start.
+pub(crate) fn rate_input(kind: Kind, position: &str) -> QuantityEntry {
+    let text = format!("rate of {position}; never set, co-simulation finds it from {position}");
+    QuantityEntry::of(kind, format!("{position}_rate"), text).starting(0.0)
 }
 
 /// Returns the relative residual of the energy ledger.
@@ -140,6 +163,13 @@ pub struct Setting {
     pub tolerance: Option<f64>,
     /// Time at the start, s.
     pub start_time: f64,
+}
+
+impl Setting {
+    /// Returns the value of an option.
+    pub(crate) fn option(&self, place: usize) -> i32 {
+        self.options.get(place).copied().unwrap_or(0)
+    }
 }
 
 /// Derivatives of rates and outputs along a direction.

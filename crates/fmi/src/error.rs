@@ -77,6 +77,11 @@ impl Error {
             message: bounded(message.into()),
         }
     }
+
+    /// Returns an error with the message of another one.
+    pub(crate) fn of(error: impl Display) -> Self {
+        Self::new(error.to_string())
+    }
 }
 
 /// Returns a member of a saved state that cannot be.

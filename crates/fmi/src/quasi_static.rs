@@ -3,22 +3,20 @@
 use mechanics::plausibility::{
     FindingKind, LARGEST_COMPRESSION_SHARE, LIFTED_SHARE, Location, PlausibilityFinding,
 };
-use mechanics::system::scales;
 use numerics::scalar::{Dual, Real};
-use quantity::Kind;
 use study::case::Case;
 use wedge::Parameters;
-use wedge::inputs::{CoilInput, Neighbours};
+use wedge::inputs::CoilInput;
 use wedge::outputs::FACES;
 use wedge::quasi_static::{PlanePlace, PlaneReading, read};
 
 use crate::Error;
-use crate::element::{Element, Entries, QuantityEntry, Setting, Slopes, rate_of};
+use crate::element::{Element, Entries, Setting, Slopes};
 use crate::element_state::{ElementState, QuasiStaticState};
 use crate::error::damaged;
-use crate::unit::Unit;
-use crate::wedge::entries::NEIGHBOURS;
-use crate::wedge::parameters;
+use crate::source::{Made, Model};
+use crate::wedge::entries::{coil, friction_loss, inputs, motion_work, options, outputs};
+use crate::wedge::{COIL_MODE, CONVENTIONS, parameters};
 
 /// Inputs of positions and rates: for each neighbour x, z, and their rates.
 const PLACES: usize = 8;
@@ -31,7 +29,7 @@ const STATES: usize = 3;
 
 /// A quasi-static wedge behind the variables.
 #[derive(Clone, Debug)]
-pub struct QuasiStaticElement {
+struct QuasiStaticElement {
     parameters: Parameters,
     coil_mode: i32,
     time: f64,
@@ -40,130 +38,43 @@ pub struct QuasiStaticElement {
     friction: [Option<usize>; 2],
 }
 
-fn unit(kind: Kind) -> Option<Unit> {
-    Some(Unit::Of(kind))
+/// A quasi-static wedge.
+pub(crate) struct QuasiStaticModel;
+
+impl Model for QuasiStaticModel {
+    type Origin = Case;
+
+    const NAME: &'static str = "FrictionWedgeQS";
+    const TEXT: &'static str =
+        "Friction wedge of a three-piece truck between bolster and side frame: quasi-static, without mass";
+    const CONVENTIONS: &'static str = CONVENTIONS;
+    const HAS_DERIVATIVES: bool = true;
+
+    fn made(case: &Case, setting: Option<&Setting>) -> Result<Made, Error> {
+        let entries = entries(case);
+        let element = setting.map(|setting| QuasiStaticElement::new(case, &entries, setting));
+        let element = element.transpose()?;
+        Ok((
+            entries,
+            element.map(|element| Box::new(element) as Box<dyn Element>),
+        ))
+    }
 }
 
 /// Returns all quantities of the quasi-static wedge of a case.
-///
-/// # Errors
-/// The wedge jams.
-pub fn entries(case: &Case) -> Result<Entries, Error> {
-    let start = Neighbours::of(&case.parameters, 0.0);
-    let mut inputs = Vec::new();
-    for (name, place) in NEIGHBOURS.into_iter().zip([&start.bolster, &start.side_frame]) {
-        let first = inputs.len();
-        let words = name.replace('_', " ");
-        for (number, (axis, k, long)) in [("x", 0, "longitudinal"), ("z", 2, "vertical")]
-            .into_iter()
-            .enumerate()
-        {
-            let mut entry = QuantityEntry::real(
-                format!("{name}_{axis}"),
-                unit(Kind::Length),
-                Some(place.position[k]),
-                format!("{long} displacement of the {words} from its nominal position"),
-            );
-            entry.rate = Some(first + 2 + number);
-            inputs.push(entry);
-        }
-        for axis in ["x", "z"] {
-            inputs.push(QuantityEntry::real(
-                format!("{name}_{axis}_rate"),
-                unit(Kind::Speed),
-                Some(0.0),
-                rate_of(&format!("{name}_{axis}")),
-            ));
-        }
-    }
-    inputs.push(QuantityEntry::real(
-        "coil_stiffness_input",
-        unit(Kind::Stiffness),
-        Some(0.0),
-        "stiffness of the coil, read if coil_mode = 1",
-    ));
-    inputs.push(QuantityEntry::real(
-        "coil_force_input",
-        unit(Kind::Force),
-        Some(0.0),
-        "spring force of the coil, positive pushes, read if coil_mode = 2",
-    ));
-    let mut outputs = Vec::new();
-    for name in NEIGHBOURS {
-        for axis in ["x", "z"] {
-            outputs.push(QuantityEntry::real(
-                format!("force_on_{name}_{axis}"),
-                unit(Kind::Force),
-                None,
-                format!(
-                    "force of wedge and coil on the {}, {axis} axis of the fixed frame",
-                    name.replace('_', " ")
-                ),
-            ));
-        }
-    }
-    outputs.push(QuantityEntry::real(
-        "coil_compression",
-        unit(Kind::Length),
-        None,
-        "compression of the coil: free length less length",
-    ));
-    outputs.push(QuantityEntry::real(
-        "coil_force",
-        unit(Kind::Force),
-        None,
-        "spring force of the coil, positive pushes",
-    ));
-    for face in FACES {
-        let text = format!("normal force of the {face}");
-        outputs.push(QuantityEntry::real(
-            format!("{face}_normal_force"),
-            unit(Kind::Force),
-            None,
-            text,
-        ));
-    }
-    for face in FACES {
-        let text = format!("power lost in friction at the {face}");
-        outputs.push(QuantityEntry::real(
-            format!("{face}_friction_loss_power"),
-            unit(Kind::Power),
-            None,
-            text,
-        ));
-    }
-    let states = [
-        (
-            "motion_work",
-            "work that bolster and side frame have done on the wedge",
-        ),
-        (
-            "side_frame_friction_loss",
-            "energy lost in friction at the column",
-        ),
-        ("bolster_friction_loss", "energy lost in friction at the slope"),
-    ]
-    .map(|(name, text)| {
-        let mut entry = QuantityEntry::real(name, unit(Kind::Energy), None, text);
-        entry.nominal = Some(scales::ENERGY);
-        entry
-    });
-    let entries = Entries {
-        parameters: parameters::entries(&case.parameters)
-            .into_iter()
-            .filter(|entry| is_used(&entry.name))
-            .collect(),
-        options: crate::wedge::entries::options(case)
-            .into_iter()
-            .filter(|entry| entry.name != "start")
-            .collect(),
-        inputs,
-        outputs,
+fn entries(case: &Case) -> Entries {
+    let parameters = parameters::entries(&case.parameters).into_iter();
+    let options = options(case).into_iter();
+    let losses = FACES.map(friction_loss);
+    Entries {
+        parameters: parameters.filter(|entry| is_used(&entry.name)).collect(),
+        options: options.filter(|entry| entry.name != "start").collect(),
+        inputs: inputs(case, &[0, 2], ""),
+        outputs: outputs(&[0, 2], false),
         accumulators: STATES,
-        states: states.to_vec(),
+        states: std::iter::once(motion_work()).chain(losses).collect(),
         ..Entries::default()
-    };
-    Ok(entries)
+    }
 }
 
 /// Returns whether a parameter of the wedge means anything without mass and elasticity.
@@ -210,7 +121,7 @@ impl QuasiStaticElement {
     ///
     /// # Errors
     /// Values outside their reach, or the wedge jams.
-    pub fn new(case: &Case, entries: &Entries, setting: &Setting) -> Result<Self, Error> {
+    fn new(case: &Case, entries: &Entries, setting: &Setting) -> Result<Self, Error> {
         // The values by name among all of the wedge's parameters.
         let all = parameters::entries(&case.parameters);
         let values: Vec<f64> = all
@@ -226,13 +137,11 @@ impl QuasiStaticElement {
             .map(|value| value.unwrap_or(0.0))
             .collect();
         let parameters = parameters::apply(&case.parameters, &values);
-        parameters
-            .validate()
-            .map_err(|error| Error::new(error.to_string()))?;
+        parameters.validate().map_err(Error::of)?;
         let place = |name: &str| entries.parameters.iter().position(|entry| entry.name == name);
         let mut element = Self {
             parameters,
-            coil_mode: setting.options.first().copied().unwrap_or(0),
+            coil_mode: setting.option(COIL_MODE),
             time: setting.start_time,
             states: vec![0.0; STATES],
             inputs: setting.inputs.clone(),
@@ -264,7 +173,7 @@ impl QuasiStaticElement {
         let valid = self
             .parameters
             .validate()
-            .map_err(|error| Error::new(error.to_string()))
+            .map_err(Error::of)
             .and_then(|()| self.check_slides());
         if valid.is_err() {
             self.parameters = before;
@@ -273,12 +182,7 @@ impl QuasiStaticElement {
     }
 
     fn coil(&self, inputs: &[f64]) -> CoilInput {
-        let input = |index: usize| inputs.get(index).copied().unwrap_or(0.0);
-        match self.coil_mode {
-            1 => CoilInput::Stiffness(input(COIL_STIFFNESS)),
-            2 => CoilInput::Force(input(COIL_FORCE)),
-            _ => CoilInput::Internal,
-        }
+        coil(self.coil_mode, inputs.get(PLACES..).unwrap_or(&[]))
     }
 
     fn read<S: Real>(
@@ -298,7 +202,7 @@ impl QuasiStaticElement {
             &self.coil(inputs),
             coil_change,
         )
-        .map_err(|error| Error::new(error.to_string()))
+        .map_err(Error::of)
     }
 
     fn here(&self) -> Result<PlaneReading<f64>, Error> {

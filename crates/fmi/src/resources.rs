@@ -2,13 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use study::car::CarCase;
-use study::case::{Case, CaseError, Tables};
-use study::truck::TruckCase;
-use study::vehicle::VehicleCase;
-
-use crate::half_truck::{self, HalfTruck};
-use crate::source::{CASE, FmuModel, Source};
+use crate::source::{FmuModel, Source};
 use crate::{Error, limits};
 
 /// The file with the name of the model.
@@ -34,27 +28,9 @@ pub fn read(folder: &Path) -> Result<Source, Error> {
             folder.join(MODEL).display()
         ))
     };
-    let model = FmuModel::of(name.trim()).ok_or_else(unknown)?;
-    if model == FmuModel::HalfTruck {
-        let text = text(half_truck::RESOURCE, limits::RECORD_FILE)?;
-        return Ok(Source::HalfTruck(Box::new(HalfTruck::parse(&text)?)));
-    }
-    let text = text(CASE, limits::TEXT_FILE)?;
-    let damaged = |error: CaseError| Error::new(format!("the FMU's {CASE} is damaged: {error}"));
-    if model == FmuModel::ThreePieceTruck {
-        let case = TruckCase::parse(CASE, &text, folder, &[]).map_err(damaged)?;
-        return Ok(Source::ThreePieceTruck(Box::new(case)));
-    }
-    if model == FmuModel::Car {
-        let case = CarCase::parse(CASE, &text, Tables::below(folder), &[]).map_err(damaged)?;
-        return Ok(Source::Car(Box::new(case)));
-    }
-    if model == FmuModel::Vehicle {
-        let case = VehicleCase::parse(CASE, &text, folder, &[]).map_err(damaged)?;
-        return Ok(Source::Vehicle(Box::new(case)));
-    }
-    let case = Case::parse(CASE, &text, folder, &[]).map_err(damaged)?;
-    Source::of_case(model, case).ok_or_else(unknown)
+    FmuModel::of(name.trim())
+        .ok_or_else(unknown)?
+        .source(folder, text)
 }
 
 /// Returns the folder that an URI of FMI 2.0 names: `file:///folder`, `file:/folder`,

@@ -1,160 +1,224 @@
 //! The source of an FMU, its model, and the files in its resources.
 
+use std::path::Path;
+
 use study::car::CarCase;
-use study::case::Case;
+use study::car::packed::PackedFile;
+use study::case::{Case, Tables};
+use study::run::RunCase;
 use study::truck::TruckCase;
 use study::vehicle::VehicleCase;
 
-use crate::Error;
+use crate::car::CarModel;
 use crate::element::{Element, Entries, Setting};
-use crate::half_truck::{self, HalfTruck};
-use crate::quasi_static::QuasiStaticElement;
-use crate::{car, limits, quasi_static, three_piece, truck, vehicle, wedge};
+use crate::half_truck::{HalfTruck, HalfTruckModel};
+use crate::quasi_static::QuasiStaticModel;
+use crate::three_piece::ThreePieceTruckModel;
+use crate::truck::TruckModel;
+use crate::vehicle::VehicleModel;
+use crate::wedge::WedgeModel;
+use crate::{Error, limits};
 
 /// The file with the case.
 pub const CASE: &str = "case.toml";
 
-/// The element that an FMU holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FmuModel {
+/// The quantities of a model, and under a setting what has them, at its start.
+pub(crate) type Made = (Entries, Option<Box<dyn Element>>);
+
+/// A model of which FMUs are made.
+pub(crate) trait Model {
+    /// What it is made of.
+    type Origin: Origin;
+
+    /// Its name: of the model, and of the library in an FMU.
+    const NAME: &'static str;
+    /// The description, one line.
+    const TEXT: &'static str;
+    /// Its frames and signs, in a few sentences.
+    const CONVENTIONS: &'static str;
+    /// Whether it gives directional derivatives.
+    const HAS_DERIVATIVES: bool = false;
+
+    /// Returns all quantities; and the element under a setting, if one is given.
+    ///
+    /// # Errors
+    /// Nothing of this model can be made of it, values are not admissible, or it cannot start from them.
+    fn made(origin: &Self::Origin, setting: Option<&Setting>) -> Result<Made, Error>;
+}
+
+/// A case or a run of which FMUs are made.
+pub(crate) trait Origin: Sized {
+    /// What is run.
+    type Case: RunCase;
+
+    /// What it is called.
+    const WORD: &'static str = "case";
+    /// The file that holds it, and the most bytes of this.
+    const FILE: (&'static str, u64) = (CASE, limits::TEXT_FILE);
+
+    /// Returns what is run, and its title.
+    fn case(&self) -> (&Self::Case, &str);
+    /// Returns the text of its file; and the files that this names.
+    fn packed(&self) -> (String, Vec<PackedFile>);
+    /// Reads the text of its file in a folder.
+    ///
+    /// # Errors
+    /// It is damaged.
+    fn parse(text: &str, folder: &Path) -> Result<Self, Error>;
+}
+
+/// Makes cases origins: how each is packed, and where it looks for files.
+macro_rules! cases {
+    ($($case:ty: $packed:expr, $tables:expr;)+) => {$(
+        impl Origin for $case {
+            type Case = Self;
+
+            fn case(&self) -> (&Self, &str) {
+                (self, &self.title)
+            }
+
+            fn packed(&self) -> (String, Vec<PackedFile>) {
+                $packed(self)
+            }
+
+            fn parse(text: &str, folder: &Path) -> Result<Self, Error> {
+                let case = Self::parse(CASE, text, $tables(folder), &[]);
+                case.map_err(|error| Error::new(format!("the FMU's {CASE} is damaged: {error}")))
+            }
+        }
+    )+};
+}
+
+cases! {
+    Case: |case: &Self| (case.to_toml_embedded().to_owned(), Vec::new()), Tables::from;
+    TruckCase: |case: &Self| (case.to_toml_embedded().to_owned(), Vec::new()), Tables::from;
+    VehicleCase: |case: &Self| (case.to_toml_embedded().to_owned(), Vec::new()), Tables::from;
+    CarCase: CarCase::packed, Tables::below;
+}
+
+/// Declares the models: for each what it is made of, and the type that says all else.
+macro_rules! models {
+    ($($(#[$doc:meta])* $model:ident($origin:ty) = $own:ty,)+) => {
+        /// The element that an FMU holds.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum FmuModel {
+            $($(#[$doc])* $model,)+
+        }
+
+        impl FmuModel {
+            const ALL: &'static [Self] = &[$(Self::$model,)+];
+
+            /// Returns its name: of the model, and of the library in an FMU.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$model => <$own as Model>::NAME,)+ }
+            }
+
+            /// Returns whether it gives directional derivatives.
+            #[must_use]
+            pub fn has_derivatives(self) -> bool {
+                match self { $(Self::$model => <$own as Model>::HAS_DERIVATIVES,)+ }
+            }
+
+            /// Returns what it is made of: `case` or `run`.
+            #[must_use]
+            pub fn origin(self) -> &'static str {
+                match self { $(Self::$model => <$origin as Origin>::WORD,)+ }
+            }
+
+            /// The description, one line.
+            pub(crate) fn text(self) -> &'static str {
+                match self { $(Self::$model => <$own as Model>::TEXT,)+ }
+            }
+
+            /// Returns its frames and signs, in a few sentences.
+            pub(crate) fn conventions(self) -> &'static str {
+                match self { $(Self::$model => <$own as Model>::CONVENTIONS,)+ }
+            }
+
+            /// Returns the source in a folder; `read` gives the text of a file of at most so many bytes.
+            pub(crate) fn source(
+                self,
+                folder: &Path,
+                read: impl Fn(&str, u64) -> Result<String, Error>,
+            ) -> Result<Source, Error> {
+                match self {
+                    $(Self::$model => {
+                        let (file, most) = <$origin as Origin>::FILE;
+                        let origin = <$origin as Origin>::parse(&read(file, most)?, folder)?;
+                        Ok(Source::$model(Box::new(origin)))
+                    })+
+                }
+            }
+        }
+
+        /// The source of an FMU.
+        #[derive(Clone, Debug)]
+        pub enum Source {
+            $($(#[$doc])* $model(Box<$origin>),)+
+        }
+
+        impl Source {
+            /// Returns which model it is.
+            #[must_use]
+            pub fn model(&self) -> FmuModel {
+                match self { $(Self::$model(_) => FmuModel::$model,)+ }
+            }
+
+            fn head(&self) -> ([&str; 2], [f64; 2]) {
+                match self { $(Self::$model(origin) => head(&**origin),)+ }
+            }
+
+            fn packed(&self) -> (&'static str, String, Vec<PackedFile>) {
+                match self { $(Self::$model(origin) => packed(&**origin),)+ }
+            }
+
+            fn made(&self, setting: Option<&Setting>) -> Result<Made, Error> {
+                match self { $(Self::$model(origin) => <$own as Model>::made(origin, setting),)+ }
+            }
+        }
+    };
+}
+
+models! {
     /// The wedge with mass.
-    Wedge,
+    Wedge(Case) = WedgeModel,
     /// The quasi-static wedge.
-    QuasiStatic,
-    /// A half-truck without its wedges.
-    Truck,
+    QuasiStatic(Case) = QuasiStaticModel,
+    /// A half-truck without its wedges, with room for those of the case.
+    Truck(Case) = TruckModel,
     /// A half-truck with its wedges.
-    HalfTruck,
+    HalfTruck(HalfTruck) = HalfTruckModel,
     /// A three-piece truck with wedge bodies.
-    ThreePieceTruck,
+    ThreePieceTruck(TruckCase) = ThreePieceTruckModel,
     /// A freight car on its track.
-    Car,
+    Car(CarCase) = CarModel,
     /// A vehicle of bodies and elements.
-    Vehicle,
+    Vehicle(VehicleCase) = VehicleModel,
+}
+
+/// Returns name and title, and length (s) and tolerance of the default experiment.
+fn head(origin: &impl Origin) -> ([&str; 2], [f64; 2]) {
+    let (case, title) = origin.case();
+    let [duration, _] = case.duration_and_interval();
+    (
+        [case.name(), title],
+        [duration, case.options().relative_tolerance],
+    )
+}
+
+/// Returns name and text of the file that holds it, and the files that this names.
+fn packed<O: Origin>(origin: &O) -> (&'static str, String, Vec<PackedFile>) {
+    let (text, named) = origin.packed();
+    (O::FILE.0, text, named)
 }
 
 impl FmuModel {
-    /// Returns its name: of the model, and of the library in an FMU.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Wedge => "FrictionWedge",
-            Self::QuasiStatic => "FrictionWedgeQS",
-            Self::Truck => "FrictionTruck",
-            Self::HalfTruck => "HalfTruck",
-            Self::ThreePieceTruck => "ThreePieceTruck",
-            Self::Car => "FreightCar",
-            Self::Vehicle => "Vehicle",
-        }
-    }
-
-    /// Returns whether it gives directional derivatives.
-    #[must_use]
-    pub fn has_derivatives(self) -> bool {
-        matches!(self, Self::Wedge | Self::QuasiStatic)
-    }
-
-    /// The description, one line.
-    pub(crate) fn text(self) -> &'static str {
-        match self {
-            Self::Wedge => {
-                "Friction wedge of a three-piece truck between bolster and side frame: rigid body with \
-                 mass, unilateral contact at eight corners, stick-slip friction"
-            }
-            Self::QuasiStatic => {
-                "Friction wedge of a three-piece truck between bolster and side frame: quasi-static, \
-                 without mass"
-            }
-            Self::Truck => {
-                "Loaded half of a three-piece truck without its four friction wedges: half a car on a \
-                 bolster, side frames, springs"
-            }
-            Self::ThreePieceTruck => {
-                "Three-piece truck with four friction wedges that have mass: bolster, side frames, coils, \
-                 stops, adapters"
-            }
-            Self::Car => {
-                "Freight car on its track: body and lading on two three-piece trucks with friction wedges, \
-                 whose wheelsets roll on rails"
-            }
-            Self::Vehicle => "Vehicle of rigid bodies and force elements that its case names",
-            Self::HalfTruck => {
-                "Loaded half of a three-piece truck from files of NUCARS: half a car on a bolster, friction \
-                 wedges, side frames, springs"
-            }
-        }
-    }
-
-    /// Returns its frames and signs, in a few sentences.
-    pub(crate) fn conventions(self) -> &'static str {
-        match self {
-            Self::Wedge | Self::QuasiStatic => {
-                "Fixed frame: x longitudinal, positive from the column towards the bolster; y lateral; z \
-                 up. Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). Forces act on the named neighbour, \
-                 along the fixed axes; moments are taken about the neighbour's turning center, the point \
-                 whose displacements are the inputs."
-            }
-            Self::Truck => {
-                "Axes: x forward, y left, z up; displacements from the drawn position, small angles. \
-                 Quantities of a wedge are in the axes of that wedge, which has x from the column towards \
-                 the bolster."
-            }
-            Self::ThreePieceTruck => {
-                "Axes: x forward, y left, z up from the top of rail, origin at the truck's center; \
-                 displacements of centers of gravity from the nominal (loaded) layout. Angles turn by R = \
-                 Ry(pitch) Rz(yaw) Rx(roll). The warp moment acts on the bolster."
-            }
-            Self::Car => {
-                "Fixed axes: x forward and y left where the track starts, z up. Vertical wheel forces act on \
-                 the rail, positive down; lateral ones are positive where they spread the gauge. Places of \
-                 axles are those against the track's center line, positive to the left."
-            }
-            Self::Vehicle => {
-                "Fixed axes: x forward, y left, z up; displacements of centers of gravity from the nominal \
-                 layout. Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). Forces of elements act on the body \
-                 with end a; pushes are positive."
-            }
-            Self::HalfTruck => {
-                "Axes: x forward, y left, z up; displacements of centers of gravity from the drawn \
-                 position, small angles. Bodies, wedges and connections have the numbers of the files; \
-                 forces of connections are positive in extension."
-            }
-        }
-    }
-
     /// Returns the model of this name.
     #[must_use]
     pub fn of(name: &str) -> Option<Self> {
-        let all = [
-            Self::Wedge,
-            Self::QuasiStatic,
-            Self::Truck,
-            Self::HalfTruck,
-            Self::ThreePieceTruck,
-            Self::Car,
-            Self::Vehicle,
-        ];
-        all.into_iter().find(|model| model.name() == name)
+        Self::ALL.iter().copied().find(|model| model.name() == name)
     }
-}
-
-/// The source of an FMU.
-#[derive(Clone, Debug)]
-pub enum Source {
-    /// A wedge with mass.
-    Wedge(Box<Case>),
-    /// A quasi-static wedge.
-    QuasiStatic(Box<Case>),
-    /// A half-truck that has room for wedges of the case.
-    Truck(Box<Case>),
-    /// The run of a half-truck.
-    HalfTruck(Box<HalfTruck>),
-    /// A three-piece truck.
-    ThreePieceTruck(Box<TruckCase>),
-    /// A freight car on its track.
-    Car(Box<CarCase>),
-    /// A vehicle of bodies and elements.
-    Vehicle(Box<VehicleCase>),
 }
 
 impl Source {
@@ -166,48 +230,20 @@ impl Source {
             FmuModel::Wedge => Some(Self::Wedge(case)),
             FmuModel::QuasiStatic => Some(Self::QuasiStatic(case)),
             FmuModel::Truck => Some(Self::Truck(case)),
-            FmuModel::HalfTruck | FmuModel::ThreePieceTruck | FmuModel::Car | FmuModel::Vehicle => None,
-        }
-    }
-
-    /// Returns which model it is.
-    #[must_use]
-    pub fn model(&self) -> FmuModel {
-        match self {
-            Self::Wedge(_) => FmuModel::Wedge,
-            Self::QuasiStatic(_) => FmuModel::QuasiStatic,
-            Self::Truck(_) => FmuModel::Truck,
-            Self::HalfTruck(_) => FmuModel::HalfTruck,
-            Self::ThreePieceTruck(_) => FmuModel::ThreePieceTruck,
-            Self::Car(_) => FmuModel::Car,
-            Self::Vehicle(_) => FmuModel::Vehicle,
+            _ => None,
         }
     }
 
     /// Returns name and title.
     #[must_use]
     pub fn name_and_title(&self) -> [&str; 2] {
-        match self {
-            Self::Wedge(case) | Self::QuasiStatic(case) | Self::Truck(case) => [&case.name, &case.title],
-            Self::HalfTruck(own) => [&own.case().name, &own.case().title],
-            Self::ThreePieceTruck(case) => [&case.name, &case.title],
-            Self::Car(case) => [&case.name, &case.title],
-            Self::Vehicle(case) => [&case.name, &case.title],
-        }
+        self.head().0
     }
 
     /// Returns length (s) and tolerance of the default experiment.
     #[must_use]
     pub fn experiment(&self) -> [f64; 2] {
-        match self {
-            Self::Wedge(case) | Self::QuasiStatic(case) | Self::Truck(case) => {
-                [case.simulation.duration, case.simulation.relative_tolerance]
-            }
-            Self::HalfTruck(own) => [own.case().duration, own.case().relative_tolerance],
-            Self::ThreePieceTruck(case) => [case.simulation.duration, case.simulation.relative_tolerance],
-            Self::Car(case) => [case.simulation.duration, case.simulation.relative_tolerance],
-            Self::Vehicle(case) => [case.simulation.duration, case.simulation.relative_tolerance],
-        }
+        self.head().1
     }
 
     /// Returns name and bytes of the files that say what it is made of: the case or run first, then the
@@ -216,21 +252,8 @@ impl Source {
     /// # Errors
     /// A profile or a table can no longer be read.
     pub fn files(&self) -> Result<Vec<(String, Vec<u8>)>, Error> {
-        let mut named = Vec::new();
-        let (name, text) = match self {
-            Self::Wedge(case) | Self::QuasiStatic(case) | Self::Truck(case) => {
-                (CASE, case.to_toml_embedded().to_owned())
-            }
-            Self::HalfTruck(own) => (half_truck::RESOURCE, own.text().to_owned()),
-            Self::ThreePieceTruck(case) => (CASE, case.to_toml_embedded().to_owned()),
-            Self::Vehicle(case) => (CASE, case.to_toml_embedded().to_owned()),
-            Self::Car(case) => {
-                let (text, files) = case.packed();
-                named = files;
-                (CASE, text)
-            }
-        };
-        let mut files = vec![(name.to_owned(), text.into_bytes())];
+        let (file, text, named) = self.packed();
+        let mut files = vec![(file.to_owned(), text.into_bytes())];
         for file in named {
             let bytes = limits::read(&file.path, limits::TEXT_FILE)?;
             files.push((file.name.clone(), file.content(bytes)));
@@ -243,30 +266,22 @@ impl Source {
     /// # Errors
     /// Nothing of this model can be made of it.
     pub fn entries(&self) -> Result<Entries, Error> {
-        match self {
-            Self::Wedge(case) => wedge::entries(case),
-            Self::QuasiStatic(case) => quasi_static::entries(case),
-            Self::Truck(case) => Ok(truck::plant(case)?.entries),
-            Self::HalfTruck(own) => Ok(own.plant()?.entries),
-            Self::ThreePieceTruck(case) => Ok(three_piece::plant(case, true)?.entries),
-            Self::Car(case) => Ok(car::plant(case)?.entries),
-            Self::Vehicle(case) => Ok(vehicle::plant(case, true)?.entries),
-        }
+        Ok(self.made(None)?.0)
     }
 
-    /// Returns the element under these settings, at its start; `entries` are its own.
+    /// Returns the element under these settings, at its start; `entries` are those of the description.
     ///
     /// # Errors
     /// Values that are not admissible, or from which it cannot start.
     pub fn element(&self, entries: &Entries, setting: &Setting) -> Result<Box<dyn Element>, Error> {
-        Ok(match self {
-            Self::Wedge(case) => Box::new(wedge::element(case, entries, setting)?),
-            Self::QuasiStatic(case) => Box::new(QuasiStaticElement::new(case, entries, setting)?),
-            Self::Truck(case) => Box::new(truck::element(case, setting)?),
-            Self::HalfTruck(own) => Box::new(own.element(setting)?),
-            Self::ThreePieceTruck(case) => Box::new(three_piece::element(case, setting)?),
-            Self::Car(case) => Box::new(car::element(case, setting)?),
-            Self::Vehicle(case) => Box::new(vehicle::element(case, setting)?),
-        })
+        let (own, element) = self.made(Some(setting))?;
+        let (found, described) = (own.states.len(), entries.states.len());
+        if found != described {
+            return Err(Error::new(format!(
+                "with these parameters it has {found} states, but the FMU was made with {described}: a \
+                 damping that was zero stays zero, and one that was not stays so; export another FMU"
+            )));
+        }
+        element.ok_or_else(|| Error::new(format!("{} has no element", self.model().name())))
     }
 }

@@ -5,33 +5,50 @@
 //! loads of nests, forces and places of wedges.
 
 use integrate::Options;
-use mechanics::body::COORDINATES;
-use mechanics::motion::Motion;
 use mechanics::system::System;
 use study::truck::TruckCase;
 use study::truck::columns::TruckTable;
 use wedge::parameters::Start as CaseStart;
 
 use crate::Error;
-use crate::element::{Entries, QuantityEntry, Setting};
+use crate::element::{Entries, Setting};
+use crate::source::{Made, Model};
 use crate::system::{
-    MOTION, Plant, Ports, START, StartState, SystemElement, accumulators, add_loads, add_motion, add_table,
-    contacts, internals, ledger, motions, options,
+    Inputs, Plant, Ports, StartState, all_states, contacts, is_driven, ledger, options, release,
 };
 
-/// Returns the truck of a case; its prescribed bodies move as the case says, or are `driven`.
+/// A three-piece truck with wedge bodies.
+pub(crate) struct ThreePieceTruckModel;
+
+impl Model for ThreePieceTruckModel {
+    type Origin = TruckCase;
+
+    const NAME: &'static str = "ThreePieceTruck";
+    const TEXT: &'static str = "Three-piece truck with four friction wedges that have mass: bolster, side \
+                                frames, coils, stops, adapters";
+    const CONVENTIONS: &'static str = "Axes: x forward, y left, z up from the top of rail, origin at the truck's center; displacements of \
+         centers of gravity from the nominal (loaded) layout. Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). \
+         The warp moment acts on the bolster.";
+
+    fn made(case: &TruckCase, setting: Option<&Setting>) -> Result<Made, Error> {
+        plant(case, setting)?.made(setting)
+    }
+}
+
+/// Returns the truck of a case under these settings; its prescribed bodies are driven if there are none.
 ///
 /// # Errors
 /// The case makes no truck, or it settles first.
-pub fn plant(case: &TruckCase, driven: bool) -> Result<Plant, Error> {
+pub fn plant(case: &TruckCase, setting: Option<&Setting>) -> Result<Plant, Error> {
     if case.settle > 0.0 {
         return Err(Error::new(
             "`start.settle` is more than 0 s: an FMU starts where its case starts; let the importer settle \
              it",
         ));
     }
+    let driven = is_driven(setting);
     let moved = if driven { drivable(case) } else { case.clone() };
-    let table = TruckTable::new(&moved).map_err(|error| Error::new(error.to_string()))?;
+    let table = TruckTable::new(&moved).map_err(Error::of)?;
     let system = table.system().clone();
     let (entries, ports) = all(case, &system, &table);
     let start = system
@@ -39,94 +56,50 @@ pub fn plant(case: &TruckCase, driven: bool) -> Result<Plant, Error> {
         .observe(0.0, &system.initial_state())
         .energies
         .total();
+    let options = Options {
+        relative_tolerance: case.simulation.relative_tolerance,
+        ..Options::default()
+    };
     Ok(Plant {
-        entries,
-        ports,
         table: Some(Box::new(move |seen, _, row| {
             table.read(seen, start, row);
         })),
-        numbers: [Vec::new(), Vec::new()],
-        rolls: false,
-        residual_of_stored: false,
-        options: Options {
-            relative_tolerance: case.simulation.relative_tolerance,
-            ..Options::default()
-        },
-        initial: None,
-        table_takes_rates: false,
-        derailed: None,
-        system,
+        start: StartState::asked(setting),
+        driven,
+        ..Plant::new(system, entries, ports, options)
     })
 }
 
-/// Returns the truck under these settings, at its start.
-///
-/// # Errors
-/// As [`plant`]; or values that are not finite, no equilibrium, or the integrator refuses the start.
-pub fn element(case: &TruckCase, setting: &Setting) -> Result<SystemElement, Error> {
-    let option = |place: usize| setting.options.get(place).copied().unwrap_or(0);
-    let start = match option(START) {
-        0 => StartState::Initial,
-        _ => StartState::Equilibrium,
-    };
-    let driven = option(MOTION) == 0;
-    SystemElement::new(plant(case, driven)?, setting, start, driven)
-}
-
-/// Returns the same case with prescribed bodies that can be moved, since a system takes what is held for
-/// fixed, and without loads of its own.
+/// Returns the same case with prescribed bodies that can be moved, and without loads of its own.
 fn drivable(case: &TruckCase) -> TruckCase {
     let mut case = case.clone();
     let parameters = &mut case.parameters;
-    let side_frames = parameters
-        .side_frames
-        .iter_mut()
-        .map(|side_frame| &mut side_frame.motion);
-    let wheelsets = parameters
-        .wheelsets
-        .iter_mut()
-        .flat_map(|wheelsets| &mut wheelsets.motions);
-    let bodies = std::iter::once(&mut parameters.bolster.motion)
-        .chain(side_frames)
-        .chain(wheelsets);
-    for motion in bodies.flat_map(|body| &mut body.coordinates) {
-        let [value, rate, _] = motion.evaluate(0.0, 0.0);
-        *motion = Motion::line(0.0, [value, rate]);
+    let bodies = std::iter::once((&mut parameters.bolster.motion, &mut parameters.bolster.applied));
+    let side_frames = parameters.side_frames.iter_mut();
+    for (motion, loads) in bodies.chain(side_frames.map(|own| (&mut own.motion, &mut own.applied))) {
+        release(&mut motion.coordinates, loads);
     }
-    let side_frames = parameters.side_frames.iter_mut().map(|own| &mut own.applied);
-    let car_body = parameters.car_body.iter_mut().map(|car| &mut car.applied);
-    let loads = std::iter::once(&mut parameters.bolster.applied)
-        .chain(side_frames)
-        .chain(car_body);
-    loads.flatten().for_each(|load| *load = Motion::Constant(0.0));
+    let wheelsets = parameters.wheelsets.iter_mut().flat_map(|own| &mut own.motions);
+    let car_body = parameters.car_body.iter_mut().flat_map(|car| &mut car.applied);
+    release(wheelsets.flat_map(|motion| &mut motion.coordinates), car_body);
     case
 }
 
 fn all(case: &TruckCase, system: &System, table: &TruckTable) -> (Entries, Ports) {
-    let layout = system.layout();
-    let (mut ports, mut inputs) = (Ports::default(), Vec::new());
-    for (body, own) in system.bodies().iter().enumerate() {
-        // Without adapters nothing stands on the wheelsets.
-        let is_used = case.parameters.wheelsets.is_some() || !own.name.ends_with("wheelset");
-        for coordinate in (0..6).filter(|_| own.is_prescribed() && is_used) {
-            let name = format!("{}_{}_motion", own.name, COORDINATES[coordinate]);
-            let text =
-                "displacement of the prescribed body from its nominal place, or angle; read if motion = 0";
-            add_motion((&mut inputs, &mut ports), (body, own), coordinate, (&name, text));
-        }
+    let mut inputs = Inputs::default();
+    let bodies = || system.bodies().iter().enumerate();
+    // Without adapters nothing stands on the wheelsets.
+    let is_used = |name: &str| case.parameters.wheelsets.is_some() || !name.ends_with("wheelset");
+    for body in bodies().filter(|(_, own)| own.is_prescribed() && is_used(&own.name)) {
+        inputs.add_motions(body);
     }
-    for (body, own) in system.bodies().iter().enumerate() {
-        if !own.name.ends_with("wedge") {
-            let text = format!(
-                "the {} from outside, at its center of gravity",
-                own.name.replace('_', " ")
-            );
-            add_loads((&mut inputs, &mut ports), (body, own), (&own.name, &text));
-        }
+    for (body, own) in bodies().filter(|(_, own)| !own.name.ends_with("wedge")) {
+        let words = format!("the {}", own.name.replace('_', " "));
+        inputs.add_loads((body, own), &own.name, &words);
     }
     let equilibrium = case.parameters.start == CaseStart::Equilibrium;
     let (modes, indicators) = contacts(system);
-    let mut entries = Entries {
+    let own = Entries {
         options: options(
             "who moves prescribed bodies: 0 the inputs bolster_*, left_side_frame_*, ..., 1 the case, whose \
              loads act too then",
@@ -136,28 +109,11 @@ fn all(case: &TruckCase, system: &System, table: &TruckTable) -> (Entries, Ports
                  without friction",
             ),
         ),
-        inputs,
-        outputs_of_states: false,
-        accumulators: layout.quadratures + 1,
-        kinematic: (0..layout.speeds).map(|q| (q, q + layout.speeds)).collect(),
-        states: states(system),
+        states: all_states(system),
         columns: ledger("work of the prescribed bodies and of the loads less stored energy and losses"),
         modes,
         indicators,
         ..Entries::default()
     };
-    add_table((&mut entries, &mut ports), table.columns(), |number, _| {
-        number < table.fixed()
-    });
-    (entries, ports)
-}
-
-fn states(system: &System) -> Vec<QuantityEntry> {
-    let mut states = motions(system, |body| system.bodies()[body].name.clone());
-    for state in &mut states {
-        state.output = true;
-    }
-    states.extend(internals(system));
-    states.extend(accumulators(system));
-    states
+    inputs.finish(system, own, table.columns(), |number, _| number < table.fixed())
 }

@@ -3,40 +3,54 @@
 //! Bodies that are prescribed move as the inputs say, or as the case says; bodies that are free are loaded by
 //! inputs. Outputs are the columns of its results.
 
-use mechanics::body::COORDINATES;
-use mechanics::motion::Motion;
 use mechanics::output::Column;
-use mechanics::system::System;
 use study::vehicle::VehicleCase;
 use vehicle::{Vehicle, View};
 
 use crate::Error;
-use crate::element::{Entries, QuantityEntry, Setting};
-use crate::system::{
-    MOTION, Plant, Ports, StartState, SystemElement, accumulators, add_loads, add_motion, add_table,
-    contacts, internals, ledger, motions, options,
-};
+use crate::element::{Entries, Setting};
+use crate::source::{Made, Model};
+use crate::system::{Inputs, Plant, Ports, all_states, contacts, is_driven, ledger, options, release};
 
-/// Returns the vehicle of a case; its prescribed bodies move as the case says, or are `driven`.
+/// A vehicle of bodies and elements.
+pub(crate) struct VehicleModel;
+
+impl Model for VehicleModel {
+    type Origin = VehicleCase;
+
+    const NAME: &'static str = "Vehicle";
+    const TEXT: &'static str = "Vehicle of rigid bodies and force elements that its case names";
+    const CONVENTIONS: &'static str = "Fixed axes: x forward, y left, z up; displacements of centers of gravity from the nominal layout. \
+         Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). Forces of elements act on the body with end a; \
+         pushes are positive.";
+
+    fn made(case: &VehicleCase, setting: Option<&Setting>) -> Result<Made, Error> {
+        plant(case, setting)?.made(setting)
+    }
+}
+
+/// Returns the vehicle of a case under these settings; its prescribed bodies are driven if there are none.
 ///
 /// # Errors
 /// The case makes no vehicle, or one on a track.
-pub fn plant(case: &VehicleCase, driven: bool) -> Result<Plant, Error> {
+pub fn plant(case: &VehicleCase, setting: Option<&Setting>) -> Result<Plant, Error> {
     if case.description.on_track.is_some() {
         return Err(Error::new(
             "FMUs are made of vehicles without a track; a car on a track is one with model = \"car\"",
         ));
     }
-    let made = |case: &VehicleCase| case.vehicle().map_err(|error| Error::new(error.to_string()));
-    let vehicle = made(case)?;
+    let vehicle = case.vehicle().map_err(Error::of)?;
     let (entries, ports) = all(case, &vehicle);
     // The columns are those of the case, whoever moves its bodies: others know nothing more.
     let channels = vehicle.channels.clone();
-    let vehicle = if driven { made(&drivable(case))? } else { vehicle };
+    let driven = is_driven(setting);
+    let vehicle = if driven {
+        drivable(case).vehicle().map_err(Error::of)?
+    } else {
+        vehicle
+    };
     let (system, initial) = (vehicle.system.clone(), vehicle.initial_state.clone());
     Ok(Plant {
-        entries,
-        ports,
         table: Some(Box::new(move |seen, rates, row| {
             let view = View {
                 seen,
@@ -48,83 +62,44 @@ pub fn plant(case: &VehicleCase, driven: bool) -> Result<Plant, Error> {
             }
         })),
         table_takes_rates: true,
-        derailed: None,
-        numbers: [Vec::new(), Vec::new()],
-        rolls: false,
-        residual_of_stored: false,
-        options: case.simulation.options(),
         initial: Some(initial),
-        system,
+        driven,
+        ..Plant::new(system, entries, ports, case.simulation.options())
     })
-}
-
-/// Returns the vehicle under these settings, at its start.
-///
-/// # Errors
-/// As [`plant`]; or values that are not finite, or the integrator refuses the start.
-pub fn element(case: &VehicleCase, setting: &Setting) -> Result<SystemElement, Error> {
-    let driven = setting.options.get(MOTION).copied().unwrap_or(0) == 0;
-    SystemElement::new(plant(case, driven)?, setting, StartState::Initial, driven)
 }
 
 /// Returns the same case with prescribed bodies that can be moved, and without loads of its own.
 fn drivable(case: &VehicleCase) -> VehicleCase {
     let mut case = case.clone();
     for body in &mut case.description.bodies {
-        for motion in &mut body.motion.coordinates {
-            let [value, rate, _] = motion.evaluate(0.0, 0.0);
-            *motion = Motion::line(0.0, [value, rate]);
-        }
-        body.applied.fill(Motion::Constant(0.0));
+        release(&mut body.motion.coordinates, &mut body.applied);
     }
     case
 }
 
 fn all(case: &VehicleCase, vehicle: &Vehicle) -> (Entries, Ports) {
     let system = &vehicle.system;
-    let layout = system.layout();
-    let (mut ports, mut inputs) = (Ports::default(), Vec::new());
+    let mut inputs = Inputs::default();
     let bodies = case.description.bodies.len();
     for (body, own) in system.bodies().iter().enumerate().skip(1).take(bodies) {
         if own.is_prescribed() {
-            for coordinate in 0..6 {
-                let name = format!("{}_{}_motion", own.name, COORDINATES[coordinate]);
-                let text = "displacement of the prescribed body from its nominal place, or angle; read if \
-                            motion = 0";
-                add_motion((&mut inputs, &mut ports), (body, own), coordinate, (&name, text));
-            }
+            inputs.add_motions((body, own));
         } else {
-            let text = format!("{} from outside, at its center of gravity", own.name);
-            add_loads((&mut inputs, &mut ports), (body, own), (&own.name, &text));
+            inputs.add_loads((body, own), &own.name, &own.name);
         }
     }
     let (modes, indicators) = contacts(system);
-    let mut entries = Entries {
+    let own = Entries {
         options: options(
             "who moves prescribed bodies: 0 the inputs *_motion, 1 the case, whose loads act too then",
             (0, "without effect: a vehicle starts as its case says"),
         ),
-        inputs,
-        outputs_of_states: false,
-        accumulators: layout.quadratures + 1,
-        kinematic: (0..layout.speeds).map(|q| (q, q + layout.speeds)).collect(),
-        states: states(system),
+        states: all_states(system),
         columns: ledger("work of prescribed bodies and of loads less stored energy and losses"),
         modes,
         indicators,
         ..Entries::default()
     };
     let columns: Vec<Column> = vehicle.columns().cloned().collect();
-    add_table((&mut entries, &mut ports), &columns, |_, _| true);
-    (entries, ports)
-}
-
-fn states(system: &System) -> Vec<QuantityEntry> {
-    let mut states = motions(system, |body| system.bodies()[body].name.clone());
-    for state in &mut states {
-        state.output = true;
-    }
-    states.extend(internals(system));
-    states.extend(accumulators(system));
-    states
+    inputs.finish(system, own, &columns, |_, _| true)
 }

@@ -62,7 +62,7 @@ fn read(input: &[u8]) -> ReadOutcome {
     if let Err(error) = HalfTruck::parse(half_truck.text()) {
         refused_as_written(&error);
     }
-    match half_truck.plant() {
+    match half_truck.plant(None) {
         Ok(_) => ReadOutcome::ACCEPTED,
         Err(error) => ReadOutcome::refused_with(&error.to_string()),
     }

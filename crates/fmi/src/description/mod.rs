@@ -55,10 +55,8 @@ impl Description {
         let entries = source.entries()?;
         let model = source.model();
         let [name, title] = source.name_and_title();
-        let kind = match model {
-            FmuModel::HalfTruck => "Run",
-            _ => "Case",
-        };
+        let (first, rest) = model.origin().split_at(1);
+        let kind = format!("{}{rest}", first.to_uppercase());
         let text = match title {
             "" => format!("{}. {kind}: {name}", model.text()),
             title => format!("{}. {kind}: {name}, {title}", model.text()),

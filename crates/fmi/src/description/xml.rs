@@ -44,7 +44,7 @@ impl Xml {
 
     pub fn finish(self) -> Result<String, Error> {
         let bytes = self.writer.into_inner().into_inner();
-        let text = String::from_utf8(bytes).map_err(|error| Error::new(error.to_string()))?;
+        let text = String::from_utf8(bytes).map_err(Error::of)?;
         Ok(text + "\n")
     }
 

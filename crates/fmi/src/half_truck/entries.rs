@@ -8,31 +8,26 @@ use study::half_truck::HalfTruckCase;
 
 use super::start_option;
 use crate::element::{Entries, QuantityEntry};
-use crate::system::{
-    Ports, accumulated, add_loads, add_motion, add_table, contact, deflection, ledger, motions, options,
-};
+use crate::system::{Inputs, Ports, accumulated, contact, deflection, ledger, motions, options};
 
 /// Returns all quantities of a half-truck and its ports; `table` are the columns of its results.
 pub(super) fn all(case: &HalfTruckCase, system: &System, table: &[Column]) -> (Entries, Ports) {
-    let layout = system.layout();
-    let (mut ports, mut inputs) = (Ports::default(), Vec::new());
+    let mut inputs = Inputs::default();
     let bodies = case.truck.model.bodies.iter().enumerate();
     for (body, own) in bodies.clone().filter(|(_, own)| own.is_prescribed()) {
         // What the files hold stays where it is.
         for coordinate in (0..6).filter(|k| !own.frame.motions[*k].is_constant()) {
             let name = format!("body_{}_{}", case.truck.bodies[body], COORDINATES[coordinate]);
             let text = "displacement of the input body from the drawn position, or angle; read if motion = 0";
-            add_motion((&mut inputs, &mut ports), (body, own), coordinate, (&name, text));
+            inputs.add_motion((body, own), coordinate, &name, text);
         }
     }
     for (body, own) in bodies {
         let number = case.truck.bodies[body];
-        let text = format!("body {number} from outside, at its center of gravity");
-        let name = format!("body_{number}");
-        add_loads((&mut inputs, &mut ports), (body, own), (&name, &text));
+        inputs.add_loads((body, own), &format!("body_{number}"), &format!("body {number}"));
     }
     let (modes, indicators) = contacts(case, system);
-    let mut entries = Entries {
+    let own = Entries {
         options: options(
             "who moves the input bodies: 0 the inputs body_*, 1 the files",
             (
@@ -41,19 +36,14 @@ pub(super) fn all(case: &HalfTruckCase, system: &System, table: &[Column]) -> (E
                  equilibrium without friction",
             ),
         ),
-        inputs,
         outputs_of_states: outputs_of_states(case),
-        accumulators: layout.quadratures + 1,
-        kinematic: (0..layout.speeds).map(|q| (q, q + layout.speeds)).collect(),
         states: states(case, system),
         columns: ledger("work of the input bodies and of the loads less stored energy and losses"),
         modes,
         indicators,
         ..Entries::default()
     };
-    let of_wedge = |_: usize, column: &Column| column.name.starts_with("wedge_");
-    add_table((&mut entries, &mut ports), table, of_wedge);
-    (entries, ports)
+    inputs.finish(system, own, table, |_, column| column.name.starts_with("wedge_"))
 }
 
 fn states(case: &HalfTruckCase, system: &System) -> Vec<QuantityEntry> {
@@ -106,7 +96,8 @@ fn connection(case: &HalfTruckCase, place: usize) -> String {
 /// Contact states and event indicators of all connections with friction.
 fn contacts(case: &HalfTruckCase, system: &System) -> (Vec<QuantityEntry>, Vec<QuantityEntry>) {
     let names = system.frictional_connections().iter();
-    names.map(|place| contact(&connection(case, *place))).unzip()
+    let names = names.map(|place| connection(case, *place));
+    names.map(|name| contact(&name, &name.replace('_', " "))).unzip()
 }
 
 /// Returns whether no wedge acts on a body that inputs move.

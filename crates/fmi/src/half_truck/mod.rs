@@ -13,13 +13,16 @@ use mechanics::system::System;
 use nucars::Severity;
 use nucars::file_sets::{RunFiles, Texts};
 use serde::{Deserialize, Serialize};
+use study::car::packed::PackedFile;
 use study::half_truck::columns::Columns;
 use study::half_truck::files::{Settings, case_of_run};
 use study::half_truck::{HalfTruckCase, HalfTruckStart, catalog};
 
 use crate::Error;
 use crate::element::Setting;
-use crate::system::{MOTION, Plant, START, StartState, SystemElement};
+use crate::limits;
+use crate::source::{Made, Model, Origin};
+use crate::system::{Plant, StartState, is_driven};
 
 /// The file with the run.
 pub const RESOURCE: &str = "run.json";
@@ -32,13 +35,13 @@ const VERSION: u32 = 1;
 struct Resource {
     version: u32,
     settings: Settings,
-    run: Origin,
+    run: RunSource,
 }
 
-/// The origin of the run.
+/// What the run is made of.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum Origin {
+enum RunSource {
     /// The built-in run of this name.
     BuiltIn(String),
     /// Files.
@@ -61,7 +64,7 @@ impl HalfTruck {
         Self::of(Resource {
             version: VERSION,
             settings: settings.clone(),
-            run: Origin::BuiltIn(name.to_owned()),
+            run: RunSource::BuiltIn(name.to_owned()),
         })
     }
 
@@ -85,7 +88,7 @@ impl HalfTruck {
         Self::of(Resource {
             version: VERSION,
             settings: settings.clone(),
-            run: Origin::Files(Box::new(texts)),
+            run: RunSource::Files(Box::new(texts)),
         })
     }
 
@@ -110,14 +113,14 @@ impl HalfTruck {
         let settings = &resource.settings;
         check(settings)?;
         let case = match &resource.run {
-            Origin::BuiltIn(name) => catalog::entry(name)
+            RunSource::BuiltIn(name) => catalog::entry(name)
                 .ok_or_else(|| {
                     let name = input::shortened(name);
                     Error::new(format!("there is no built-in run `{name}` of a half-truck"))
                 })?
                 .case_with(settings)
-                .map_err(|error| Error::new(error.to_string()))?,
-            Origin::Files(texts) => of_texts(texts, settings)?,
+                .map_err(Error::of)?,
+            RunSource::Files(texts) => of_texts(texts, settings)?,
         };
         if !case.wedge_bodies.is_empty() {
             return Err(Error::new(
@@ -143,45 +146,63 @@ impl HalfTruck {
         &self.text
     }
 
-    /// Returns the half-truck; its input bodies move as the files say.
+    /// Returns the half-truck under these settings; without any, inputs move its input bodies.
     ///
     /// # Errors
     /// The files make no system.
-    pub fn plant(&self) -> Result<Plant, Error> {
+    pub fn plant(&self, setting: Option<&Setting>) -> Result<Plant, Error> {
         let case = &self.case;
-        let system = System::new(case.truck.model.clone()).map_err(|error| Error::new(error.to_string()))?;
+        let system = System::new(case.truck.model.clone()).map_err(Error::of)?;
         let columns = Columns::new(case, &system);
         let (entries, ports) = entries::all(case, &system, columns.columns());
+        let options = Options {
+            relative_tolerance: case.relative_tolerance,
+            ..Options::default()
+        };
         Ok(Plant {
-            entries,
-            ports,
             table: Some(Box::new(move |seen, _, row| columns.read(seen, row))),
             numbers: [case.truck.bodies.clone(), case.truck.connections.clone()],
-            rolls: false,
-            residual_of_stored: false,
-            options: Options {
-                relative_tolerance: case.relative_tolerance,
-                ..Options::default()
-            },
-            initial: None,
-            table_takes_rates: false,
-            derailed: None,
-            system,
+            start: StartState::asked(setting),
+            driven: is_driven(setting),
+            ..Plant::new(system, entries, ports, options)
         })
     }
+}
 
-    /// Returns the half-truck under these settings, at its start.
-    ///
-    /// # Errors
-    /// Values that are not finite, no equilibrium, or the integrator refuses the start.
-    pub fn element(&self, setting: &Setting) -> Result<SystemElement, Error> {
-        let option = |place: usize| setting.options.get(place).copied().unwrap_or(0);
-        let driven = option(MOTION) == 0;
-        let start = match option(START) {
-            0 => StartState::Initial,
-            _ => StartState::Equilibrium,
-        };
-        SystemElement::new(self.plant()?, setting, start, driven)
+/// A half-truck with its wedges.
+pub(crate) struct HalfTruckModel;
+
+impl Model for HalfTruckModel {
+    type Origin = HalfTruck;
+
+    const NAME: &'static str = "HalfTruck";
+    const TEXT: &'static str = "Loaded half of a three-piece truck from files of NUCARS: half a car on a \
+                                bolster, friction wedges, side frames, springs";
+    const CONVENTIONS: &'static str = "Axes: x forward, y left, z up; displacements of centers of gravity from the drawn position, small \
+         angles. Bodies, wedges and connections have the numbers of the files; forces of connections are \
+         positive in extension.";
+
+    fn made(half_truck: &HalfTruck, setting: Option<&Setting>) -> Result<Made, Error> {
+        half_truck.plant(setting)?.made(setting)
+    }
+}
+
+impl Origin for HalfTruck {
+    type Case = HalfTruckCase;
+
+    const WORD: &'static str = "run";
+    const FILE: (&'static str, u64) = (RESOURCE, limits::RECORD_FILE);
+
+    fn case(&self) -> (&HalfTruckCase, &str) {
+        (&self.case, &self.case.title)
+    }
+
+    fn packed(&self) -> (String, Vec<PackedFile>) {
+        (self.text.clone(), Vec::new())
+    }
+
+    fn parse(text: &str, _: &Path) -> Result<Self, Error> {
+        Self::parse(text)
     }
 }
 
@@ -202,7 +223,7 @@ fn check(settings: &Settings) -> Result<(), Error> {
 }
 
 fn of_texts(texts: &Texts, settings: &Settings) -> Result<HalfTruckCase, Error> {
-    let files = RunFiles::of_texts(texts).map_err(|error| Error::new(error.to_string()))?;
+    let files = RunFiles::of_texts(texts).map_err(Error::of)?;
     let mut all = files.findings().flat_map(|findings| findings.list());
     if let Some(first) = all.find(|one| one.severity() == Severity::Error) {
         let count = files.count(Severity::Error);
@@ -212,7 +233,7 @@ fn of_texts(texts: &Texts, settings: &Settings) -> Result<HalfTruckCase, Error> 
         )));
     }
     let name = texts.run.as_ref().map_or("", |run| &*run.name);
-    case_of_run(Path::new(name), &files, settings).map_err(|error| Error::new(error.to_string()))
+    case_of_run(Path::new(name), &files, settings).map_err(Error::of)
 }
 
 /// Returns the text of an option for the start of a run.

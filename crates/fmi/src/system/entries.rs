@@ -10,14 +10,7 @@ use mechanics::vector::Vector;
 use quantity::Kind;
 
 use super::ports::{LoadPort, MotionPort, PortDirection, Ports, Reading, coordinates};
-use crate::element::{Entries, QuantityEntry, rate_of, relative_residual};
-use crate::unit::Unit;
-
-/// Returns the unit of a kind.
-#[expect(clippy::unnecessary_wraps, reason = "as entries have it")]
-pub(crate) fn unit(kind: Kind) -> Option<Unit> {
-    Some(Unit::Of(kind))
-}
+use crate::element::{Entries, QuantityEntry, rate_input, relative_residual};
 
 /// Returns the kinds of a coordinate and of its rate.
 pub(crate) fn kinds(coordinate: usize) -> (Kind, Kind) {
@@ -36,112 +29,134 @@ pub(crate) fn load(prefix: &str, on: &str, coordinate: usize, text: &str) -> Qua
     } else {
         ("moment", Kind::Moment)
     };
-    QuantityEntry::real(
-        format!("{prefix}{load}_on_{on}_{}", COORDINATES[coordinate]),
-        unit(kind),
-        Some(0.0),
-        format!("{load} on {text}, {axis} axis"),
-    )
+    let name = format!("{prefix}{load}_on_{on}_{}", COORDINATES[coordinate]);
+    QuantityEntry::of(kind, name, format!("{load} on {text}, {axis} axis")).starting(0.0)
 }
 
-/// Adds inputs for value and rate of a coordinate of a prescribed body; they start where its own motion does,
-/// at rest.
-pub(crate) fn add_motion(
-    (inputs, ports): (&mut Vec<QuantityEntry>, &mut Ports),
-    (body, own): (usize, &Body),
-    coordinate: usize,
-    (name, text): (&str, &str),
-) {
-    let [value, ..] = own.frame.motions[coordinate].evaluate(0.0, 0.0);
-    let (kind, rate_kind) = kinds(coordinate);
-    let position = inputs.len();
-    let mut entry = QuantityEntry::real(name, unit(kind), Some(value), text);
-    entry.rate = Some(position + 1);
-    inputs.push(entry);
-    inputs.push(QuantityEntry::real(
-        format!("{name}_rate"),
-        unit(rate_kind),
-        Some(0.0),
-        rate_of(name),
-    ));
-    ports.motions.push(MotionPort {
-        body,
-        coordinate,
-        position,
-        rate: position + 1,
-    });
+/// The inputs of a plant in the making, and its ports.
+#[derive(Debug, Default)]
+pub(crate) struct Inputs {
+    entries: Vec<QuantityEntry>,
+    ports: Ports,
 }
 
-/// Adds inputs for force and moment along every free coordinate of a body.
-pub(crate) fn add_loads(
-    (inputs, ports): (&mut Vec<QuantityEntry>, &mut Ports),
-    (body, own): (usize, &Body),
-    (name, text): (&str, &str),
-) {
-    for coordinate in (0..6).filter(|k| own.free[*k]) {
-        ports.loads.push(LoadPort {
-            input: inputs.len(),
-            direction: PortDirection::coordinate(body, coordinate),
+impl Inputs {
+    /// Adds inputs for value and rate of a coordinate of a prescribed body; they start where its own motion
+    /// does, at rest.
+    pub fn add_motion(&mut self, (body, own): (usize, &Body), coordinate: usize, name: &str, text: &str) {
+        let [value, ..] = own.frame.motions[coordinate].evaluate(0.0, 0.0);
+        let (kind, rate_kind) = kinds(coordinate);
+        let position = self.entries.len();
+        self.entries.push(QuantityEntry {
+            rate: Some(position + 1),
+            ..QuantityEntry::of(kind, name, text).starting(value)
         });
-        inputs.push(load("", name, coordinate, text));
+        self.entries.push(rate_input(rate_kind, name));
+        self.ports.motions.push(MotionPort {
+            body,
+            coordinate,
+            position,
+            rate: position + 1,
+        });
     }
-}
 
-/// Puts what a table has, and no state, mode or input of that name is, among outputs or columns.
-pub(crate) fn add_table(
-    (entries, ports): (&mut Entries, &mut Ports),
-    table: &[Column],
-    is_output: impl Fn(usize, &Column) -> bool,
-) {
-    let own = [&entries.states, &entries.modes, &entries.inputs]
-        .into_iter()
-        .flatten();
-    let mut known: BTreeSet<String> = own.map(|entry| entry.name.clone()).collect();
-    known.insert("time".to_owned());
-    // The ledger is another one here: it counts the work of the loads too.
-    known.extend(entries.columns.iter().map(|entry| entry.name.clone()));
-    let mut columns = Vec::new();
-    for (number, column) in table.iter().enumerate() {
-        if !known.insert(column.name.clone()) {
-            continue;
-        }
-        let text = input::shortened(&column.text);
-        let entry = QuantityEntry::real(&column.name, unit(column.kind), None, text);
-        if is_output(number, column) {
-            entries.outputs.push(entry);
-            ports.outputs.push(Reading::Table(number));
-        } else {
-            columns.push(entry);
-            ports.columns.push(number);
+    /// Adds inputs for all coordinates of a prescribed body of the case.
+    pub fn add_motions(&mut self, (body, own): (usize, &Body)) {
+        for (coordinate, axis) in COORDINATES.into_iter().enumerate() {
+            let name = format!("{}_{axis}_motion", own.name);
+            let text = "displacement of the prescribed body from its nominal place, or angle; read if motion \
+                        = 0";
+            self.add_motion((body, own), coordinate, &name, text);
         }
     }
-    entries.columns.splice(0..0, columns);
+
+    /// Adds an input that is a load along a displacement.
+    pub fn add_load(&mut self, direction: PortDirection, entry: QuantityEntry) {
+        self.ports.loads.push(LoadPort {
+            input: self.entries.len(),
+            direction,
+        });
+        self.entries.push(entry);
+    }
+
+    /// Adds inputs for force and moment along every free coordinate of a body, at its center of gravity.
+    pub fn add_loads(&mut self, (body, own): (usize, &Body), name: &str, words: &str) {
+        let text = format!("{words} from outside, at its center of gravity");
+        for coordinate in (0..6).filter(|k| own.free[*k]) {
+            let direction = PortDirection::coordinate(body, coordinate);
+            self.add_load(direction, load("", name, coordinate, &text));
+        }
+    }
+
+    /// Returns all quantities and ports of a system with these inputs. `own` are those that the model has of
+    /// its own: options, states, columns, contact states. What the table has, and no state, mode or input of
+    /// that name is, is an output or a column.
+    pub fn finish(
+        self,
+        system: &System,
+        own: Entries,
+        table: &[Column],
+        is_output: impl Fn(usize, &Column) -> bool,
+    ) -> (Entries, Ports) {
+        let (layout, mut ports) = (system.layout(), self.ports);
+        let mut entries = Entries {
+            inputs: self.entries,
+            accumulators: layout.quadratures + 1,
+            kinematic: (0..layout.speeds).map(|q| (q, q + layout.speeds)).collect(),
+            ..own
+        };
+        let known = [&entries.states, &entries.modes, &entries.inputs]
+            .into_iter()
+            .flatten();
+        // The ledger is another one here: it counts the work of the loads too.
+        let known = known.chain(&entries.columns).map(|entry| entry.name.clone());
+        let mut known: BTreeSet<String> = known.chain(["time".to_owned()]).collect();
+        let mut columns = Vec::new();
+        for (number, column) in table.iter().enumerate() {
+            if !known.insert(column.name.clone()) {
+                continue;
+            }
+            let entry = QuantityEntry::of(column.kind, &column.name, input::shortened(&column.text));
+            if is_output(number, column) {
+                entries.outputs.push(entry);
+                ports.outputs.push(Reading::Table(number));
+            } else {
+                columns.push(entry);
+                ports.columns.push(number);
+            }
+        }
+        entries.columns.splice(0..0, columns);
+        (entries, ports)
+    }
 }
 
 /// Returns the options of a system whose prescribed bodies inputs may move; `motion` and `start` are their
 /// texts, and how it starts if nothing is said.
 pub(crate) fn options(motion: &str, (start, text): (i32, &str)) -> Vec<QuantityEntry> {
+    let [derive_rates, inputs_at_end] = steps("prescribed bodies");
     vec![
         QuantityEntry::integer("motion", Some(0), [0, 1], motion),
         QuantityEntry::integer("start", Some(start), [0, 1], text),
-        QuantityEntry::boolean(
-            "derive_rates",
-            false,
-            "co-simulation: rates of prescribed bodies are found from their positions, the inputs *_rate \
-             are not read",
-        ),
-        QuantityEntry::boolean(
-            "inputs_at_end",
-            false,
-            "co-simulation: inputs are those of the end of a communication step (else of its beginning, and \
-             continued)",
-        ),
+        derive_rates,
+        inputs_at_end,
     ]
 }
 
-/// Returns contact state and event indicator of a contact.
-pub(crate) fn contact(name: &str) -> (QuantityEntry, QuantityEntry) {
-    let words = name.replace('_', " ");
+/// Returns the options of communication steps in which `bodies` are moved.
+pub(crate) fn steps(bodies: &str) -> [QuantityEntry; 2] {
+    let rates = format!(
+        "co-simulation: rates of {bodies} are found from their positions, the inputs *_rate are not read"
+    );
+    let at_end = "co-simulation: inputs are those of the end of a communication step (else of its beginning, \
+                  and continued)";
+    [
+        QuantityEntry::boolean("derive_rates", false, rates),
+        QuantityEntry::boolean("inputs_at_end", false, at_end),
+    ]
+}
+
+/// Returns contact state and event indicator of a contact; `words` say what it is.
+pub(crate) fn contact(name: &str, words: &str) -> (QuantityEntry, QuantityEntry) {
     let state = QuantityEntry::integer(
         &format!("{name}_state"),
         None,
@@ -162,8 +177,8 @@ pub(crate) fn contacts(system: &System) -> (Vec<QuantityEntry>, Vec<QuantityEntr
     let faces = 0..system.faces().len();
     let points = |face: usize| 0..system.faces()[face].element.points.len();
     let all = faces.flat_map(|face| points(face).map(move |number| (face, number)));
-    all.map(|(face, number)| contact(&point(system, face, number)))
-        .unzip()
+    let names = all.map(|(face, number)| point(system, face, number));
+    names.map(|name| contact(&name, &name.replace('_', " "))).unzip()
 }
 
 /// Returns the name of a point of a face.
@@ -201,24 +216,36 @@ fn states(system: &System, text: &str, name: impl Fn(usize, usize) -> String) ->
     let mut states = Vec::new();
     for rate in [false, true] {
         for (body, k) in coordinates(system) {
-            let name = name(body, k);
-            let (kind, nominal, name) = match (rate, k < 3) {
-                (false, true) => (kinds(k).0, scales::DISPLACEMENT, name),
-                (false, false) => (kinds(k).0, scales::ANGLE, name),
-                (true, true) => (kinds(k).1, scales::VELOCITY, format!("{name}_rate")),
-                (true, false) => (kinds(k).1, scales::ANGULAR_VELOCITY, format!("{name}_rate")),
-            };
-            let text = if rate {
-                "rate of the position of the same name"
-            } else {
-                text
-            };
-            states.push(with_nominal(
-                QuantityEntry::real(name, unit(kind), None, text),
-                nominal,
-            ));
+            let (name, rate_text) = (name(body, k), "rate of the position of the same name");
+            states.push(motion_state(&name, k, rate, if rate { rate_text } else { text }));
         }
     }
+    states
+}
+
+/// Returns the state that is a coordinate, 0 to 5, of this name, or its rate.
+pub(crate) fn motion_state(name: &str, coordinate: usize, rate: bool, text: &str) -> QuantityEntry {
+    let (kind, rate_kind) = kinds(coordinate);
+    let (nominal, rate_nominal) = if coordinate < 3 {
+        (scales::DISPLACEMENT, scales::VELOCITY)
+    } else {
+        (scales::ANGLE, scales::ANGULAR_VELOCITY)
+    };
+    if rate {
+        QuantityEntry::of(rate_kind, format!("{name}_rate"), text).of_size(rate_nominal)
+    } else {
+        QuantityEntry::of(kind, name, text).of_size(nominal)
+    }
+}
+
+/// Returns all states of a system: motions, which are outputs too, internal states, and what is accumulated.
+pub(crate) fn all_states(system: &System) -> Vec<QuantityEntry> {
+    let mut states = motions(system, |body| system.bodies()[body].name.clone());
+    for state in &mut states {
+        state.output = true;
+    }
+    states.extend(internals(system));
+    states.extend(accumulators(system));
     states
 }
 
@@ -272,37 +299,21 @@ pub(crate) fn accumulators(system: &System) -> Vec<QuantityEntry> {
 }
 
 /// Returns the deflection of a bristle.
-pub(crate) fn deflection(name: String, text: &str) -> QuantityEntry {
-    with_nominal(
-        QuantityEntry::real(name, unit(Kind::Length), None, text),
-        scales::DEFLECTION,
-    )
+pub(crate) fn deflection(name: impl Into<String>, text: &str) -> QuantityEntry {
+    QuantityEntry::of(Kind::Length, name, text).of_size(scales::DEFLECTION)
 }
 
 /// Returns work or a loss that is accumulated.
 pub(crate) fn accumulated(name: &str, text: &str) -> QuantityEntry {
-    with_nominal(
-        QuantityEntry::real(name, unit(Kind::Energy), None, text),
-        scales::ENERGY,
-    )
-}
-
-fn with_nominal(mut entry: QuantityEntry, nominal: f64) -> QuantityEntry {
-    entry.nominal = Some(nominal);
-    entry
+    QuantityEntry::of(Kind::Energy, name, text).of_size(scales::ENERGY)
 }
 
 /// Returns the three columns of the energy ledger.
 pub(crate) fn ledger(residual: &str) -> Vec<QuantityEntry> {
-    [
-        (
-            "stored_energy_change",
-            "kinetic, elastic and gravity energy since the start",
-        ),
-        ("ledger_residual", residual),
+    let stored = "kinetic, elastic and gravity energy since the start";
+    vec![
+        QuantityEntry::of(Kind::Energy, "stored_energy_change", stored),
+        QuantityEntry::of(Kind::Energy, "ledger_residual", residual),
+        relative_residual(),
     ]
-    .map(|(name, text)| QuantityEntry::real(name, unit(Kind::Energy), None, text))
-    .into_iter()
-    .chain([relative_residual()])
-    .collect()
 }

@@ -57,14 +57,10 @@ impl InputLoads {
     /// Puts them on a copy of the system.
     pub fn put(&self, system: &mut System) -> Result<(), Error> {
         for &body in &self.loaded {
-            system
-                .set_load(body, self.on[body])
-                .map_err(|error| Error::new(error.to_string()))?;
+            system.set_load(body, self.on[body]).map_err(Error::of)?;
         }
         for (coil, law) in &self.coils {
-            system
-                .set_coil_law(*coil, law.clone())
-                .map_err(|error| Error::new(error.to_string()))?;
+            system.set_coil_law(*coil, law.clone()).map_err(Error::of)?;
         }
         Ok(())
     }
@@ -90,9 +86,7 @@ fn drive(system: &mut System, ports: &Ports, motion: impl Fn(usize, usize) -> Mo
         for port in own {
             motions[port.coordinate] = motion(port.position, port.rate);
         }
-        system
-            .set_motions(first.body, motions)
-            .map_err(|error| Error::new(error.to_string()))?;
+        system.set_motions(first.body, motions).map_err(Error::of)?;
         rest = others;
     }
     Ok(())
@@ -117,4 +111,17 @@ pub(super) fn lead(
         let (from, to) = ([from[position], from[rate]], [to[position], to[rate]]);
         Motion::between(start, duration, from, to)
     })
+}
+
+/// Lets prescribed bodies be moved, since a system takes what is held for fixed, and takes loads of the case
+/// away.
+pub(crate) fn release<'m>(
+    motions: impl IntoIterator<Item = &'m mut Motion>,
+    loads: impl IntoIterator<Item = &'m mut Motion>,
+) {
+    for motion in motions {
+        let [value, rate, _] = motion.evaluate(0.0, 0.0);
+        *motion = Motion::line(0.0, [value, rate]);
+    }
+    loads.into_iter().for_each(|load| *load = Motion::Constant(0.0));
 }

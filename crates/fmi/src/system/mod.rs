@@ -23,13 +23,15 @@ use crate::Error;
 use crate::element::{Element, Interface, Setting, Slopes};
 use crate::element_state::ElementState;
 pub(crate) use entries::{
-    accumulated, accumulators, add_loads, add_motion, add_table, contact, contacts, deflection, internals,
-    kinds, ledger, load, motions, motions_along_axes, options, unit,
+    Inputs, accumulated, accumulators, all_states, contact, contacts, deflection, internals, kinds, ledger,
+    load, motion_state, motions, motions_along_axes, options, steps,
 };
+pub(crate) use inputs::release;
 use inputs::{InputLoads, lead, place};
+pub(crate) use ports::is_driven;
 pub use ports::{
     CoilPort, CoilSource, FrictionPort, LoadPort, MotionPort, Plant, PortDirection, Ports, Reading, Six,
-    StartPort, TableReader,
+    StartPort, StartState, TableReader,
 };
 
 /// The place of the option that says who moves prescribed bodies, in [`options`].
@@ -45,15 +47,6 @@ const TOLERANCES: [f64; 2] = [1e-12, 1e-3];
 /// lost.
 const SAME_TIME: f64 = 1e-12;
 
-/// The start of a system.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StartState {
-    /// At its initial coordinates and at rest, or as its parameters say.
-    Initial,
-    /// In static equilibrium without friction, prescribed bodies being where they are.
-    Equilibrium,
-}
-
 /// A system behind the variables.
 pub struct SystemElement {
     pub(crate) plant: Plant,
@@ -61,8 +54,6 @@ pub struct SystemElement {
     loads: InputLoads,
     /// The contact states, if they are variables.
     contacts: Option<Contacts>,
-    /// True if inputs move prescribed bodies; else these follow motions of their own.
-    driven: bool,
     time: f64,
     /// Those of the system, then the work of the loads if that is a state.
     states: Vec<f64>,
@@ -81,26 +72,23 @@ pub struct SystemElement {
 }
 
 impl SystemElement {
-    /// Returns the system of a plant under these settings, at its start; `driven` says whether inputs move
-    /// prescribed bodies.
+    /// Returns the system of a plant under these settings, at its start.
     ///
     /// # Errors
     /// Values that are not finite, no equilibrium, or the integrator refuses the start.
-    pub fn new(plant: Plant, setting: &Setting, start: StartState, driven: bool) -> Result<Self, Error> {
-        let failed = |error: &dyn std::fmt::Display| Error::new(error.to_string());
-        let mut plant = plant;
+    pub fn new(mut plant: Plant, setting: &Setting) -> Result<Self, Error> {
         let time = setting.start_time;
         plant.check_inputs(&setting.inputs)?;
         let mut loads = InputLoads::new(&plant.system, &plant.ports);
         loads.set(&plant.ports, &setting.inputs);
         loads.put(&mut plant.system)?;
-        if driven {
+        if plant.driven {
             place(&mut plant.system, &plant.ports, &setting.inputs, time)?;
         }
         plant.system.next_time_discontinuity(time);
         let initial = plant.initial.clone();
         let mut states = initial.unwrap_or_else(|| plant.system.initial_state());
-        if start == StartState::Equilibrium {
+        if plant.start == StartState::Equilibrium {
             let drawn = states.clone();
             let found = plant.system.equilibrium(time, &drawn, StaticFriction::Without);
             states = found.map_err(|error| {
@@ -126,7 +114,7 @@ impl SystemElement {
                     ..own
                 };
                 let made = Integrator::new(plant.system.clone(), options, time, &states);
-                Some(made.map_err(|error| failed(&error))?)
+                Some(made.map_err(Error::of)?)
             }
         };
         let reports_contacts = !plant.entries.modes.is_empty();
@@ -138,7 +126,6 @@ impl SystemElement {
             integrator,
             loads,
             contacts,
-            driven,
             time,
             states,
             inputs: setting.inputs.clone(),
@@ -160,7 +147,7 @@ impl SystemElement {
     fn put_inputs(&mut self) -> Result<(), Error> {
         self.loads.set(&self.plant.ports, &self.inputs);
         self.loads.put(&mut self.plant.system)?;
-        if self.driven {
+        if self.plant.driven {
             place(&mut self.plant.system, &self.plant.ports, &self.inputs, self.time)?;
         }
         Ok(())
@@ -202,7 +189,7 @@ impl SystemElement {
             return Err(Error::new("a step belongs to co-simulation"));
         };
         let length = point - integrator.time();
-        let time = discontinuity_at(&self.plant.system, self.driven, point, length).unwrap_or(point);
+        let time = discontinuity_at(&self.plant.system, self.plant.driven, point, length).unwrap_or(point);
         let mut pace = Pace::of(integrator);
         let numbers = [&*self.plant.numbers[0], &*self.plant.numbers[1]];
         while integrator.time() < time {
@@ -299,9 +286,7 @@ impl Element for SystemElement {
         for (port, value) in tuned {
             let integrated = self.integrator.as_mut().map(Integrator::problem_mut);
             for system in std::iter::once(&mut self.plant.system).chain(integrated) {
-                system
-                    .set_friction(port.face, value)
-                    .map_err(|error| Error::new(error.to_string()))?;
+                system.set_friction(port.face, value).map_err(Error::of)?;
             }
         }
         Ok(())
@@ -313,7 +298,7 @@ impl Element for SystemElement {
             return Err(Error::new("a step belongs to co-simulation"));
         };
         let ports = &self.plant.ports;
-        let moved = self.driven && !ports.motions.is_empty();
+        let moved = self.plant.driven && !ports.motions.is_empty();
         let same = self
             .inputs
             .iter()
@@ -382,7 +367,7 @@ impl Element for SystemElement {
     }
 
     fn next_time_event(&mut self) -> Option<f64> {
-        if self.driven || self.integrator.is_some() {
+        if self.plant.driven || self.integrator.is_some() {
             return None;
         }
         self.piece_start = self.time;

@@ -5,8 +5,10 @@ use mechanics::coil::CoilLaw;
 use mechanics::system::{ElementEvaluation, Observation, System};
 use numerics::scalar::Real;
 
+use super::{MOTION, START, SystemElement};
 use crate::Error;
-use crate::element::Entries;
+use crate::element::{Element, Entries, Setting};
+use crate::source::Made;
 
 /// Values of x, y, z (m), roll, pitch, yaw (rad); their rates; or forces (N) and moments (N·m).
 pub type Six = [f64; 6];
@@ -191,9 +193,9 @@ impl Reading {
             }
             Self::CoilForce(coil) => Some(elements.coils.get(coil)?.spring),
             Self::NormalForce(face) => {
-                let counts = system.faces().iter().map(|own| own.element.points.len());
-                let first: usize = counts.clone().take(face).sum();
-                let own = elements.points.get(first..first + counts.skip(face).next()?)?;
+                let mut counts = system.faces().iter().map(|own| own.element.points.len());
+                let first: usize = counts.by_ref().take(face).sum();
+                let own = elements.points.get(first..first + counts.next()?)?;
                 Some(own.iter().fold(S::zero(), |sum, point| sum + point.normal))
             }
             Self::FrictionLoss(face) => match system.faces().get(face)?.energy_terms[0] {
@@ -267,6 +269,34 @@ pub struct Plant {
     pub options: Options,
     /// The state at the start; none: that of the system.
     pub initial: Option<Vec<f64>>,
+    /// How it starts.
+    pub start: StartState,
+    /// True if inputs move prescribed bodies; else these follow motions of their own.
+    pub driven: bool,
+}
+
+/// The start of a system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StartState {
+    /// At its initial coordinates and at rest, or as its parameters say.
+    Initial,
+    /// In static equilibrium without friction, prescribed bodies being where they are.
+    Equilibrium,
+}
+
+impl StartState {
+    /// Returns the one that the option `start` asks for.
+    pub(crate) fn asked(setting: Option<&Setting>) -> Self {
+        match setting.map_or(0, |setting| setting.option(START)) {
+            0 => Self::Initial,
+            _ => Self::Equilibrium,
+        }
+    }
+}
+
+/// Returns whether the option `motion` says that inputs move prescribed bodies.
+pub(crate) fn is_driven(setting: Option<&Setting>) -> bool {
+    setting.is_none_or(|setting| setting.option(MOTION) == 0)
 }
 
 /// Largest size of an input, SI: no motion and no load of a machine comes near it, and steps under larger
@@ -274,7 +304,7 @@ pub struct Plant {
 const LARGEST_INPUT: f64 = 1e15;
 
 impl Plant {
-    /// Returns the plant of a system without a table, which starts where the system does.
+    /// Returns the plant of a system without a table, which starts where the system does and is driven.
     #[must_use]
     pub fn new(system: System, entries: Entries, ports: Ports, options: Options) -> Self {
         Self {
@@ -289,7 +319,21 @@ impl Plant {
             residual_of_stored: false,
             options,
             initial: None,
+            start: StartState::Initial,
+            driven: true,
         }
+    }
+
+    /// Returns its quantities, and under a setting what has them, at its start.
+    pub(crate) fn made(self, setting: Option<&Setting>) -> Result<Made, Error> {
+        let entries = self.entries.clone();
+        let element = setting
+            .map(|setting| SystemElement::new(self, setting))
+            .transpose()?;
+        Ok((
+            entries,
+            element.map(|element| Box::new(element) as Box<dyn Element>),
+        ))
     }
 
     /// Checks the values of all inputs.

@@ -69,7 +69,6 @@ impl SystemElement {
     /// # Errors
     /// The state cannot be one of this element; nothing has changed then.
     pub(super) fn go_back(&mut self, state: &SystemState) -> Result<(), Error> {
-        let failed = |error: integrate::SetupError| Error::new(error.to_string());
         state.check(self)?;
         self.loads.set(&self.plant.ports, &state.inputs);
         match (&mut self.integrator, &state.integrator) {
@@ -79,14 +78,14 @@ impl SystemElement {
             (Some(integrator), Some(saved)) => {
                 if let Err(error) = integrator.check_state(saved) {
                     self.loads.set(&self.plant.ports, &self.inputs);
-                    return Err(failed(error));
+                    return Err(Error::of(error));
                 }
                 let system = integrator.problem_mut();
                 self.loads.put(system)?;
-                if self.driven {
+                if self.plant.driven {
                     place(system, &self.plant.ports, &state.inputs, saved.time)?;
                 }
-                integrator.restore(saved).map_err(failed)?;
+                integrator.restore(saved).map_err(Error::of)?;
                 self.plant.system.segment_like(integrator.problem());
             }
             _ => {

@@ -5,25 +5,18 @@ use mechanics::system::{EnergyTermKind, System};
 
 use super::WEDGES;
 use crate::element::{Entries, QuantityEntry};
-use crate::system::{accumulated, deflection, kinds, ledger, load, motions, unit};
+use crate::system::{accumulated, deflection, kinds, ledger, load, motions};
 use crate::wedge::entries::NEIGHBOURS;
 
 fn parameters() -> Vec<QuantityEntry> {
     let positions = COORDINATES.iter().enumerate().map(|(k, name)| {
-        QuantityEntry::real(
-            format!("body_{name}_start"),
-            unit(kinds(k).0),
-            Some(0.0),
-            format!("{name} of the loaded bolster's center of gravity at the start, from the drawn position"),
-        )
+        let text =
+            format!("{name} of the loaded bolster's center of gravity at the start, from the drawn position");
+        QuantityEntry::of(kinds(k).0, format!("body_{name}_start"), text).starting(0.0)
     });
     let rates = COORDINATES.iter().enumerate().map(|(k, name)| {
-        QuantityEntry::real(
-            format!("body_{name}_rate_start"),
-            unit(kinds(k).1),
-            Some(0.0),
-            format!("rate of body_{name} at the start"),
-        )
+        let text = format!("rate of body_{name} at the start");
+        QuantityEntry::of(kinds(k).1, format!("body_{name}_rate_start"), text).starting(0.0)
     });
     positions.chain(rates).collect()
 }
@@ -55,22 +48,16 @@ fn outputs() -> Vec<QuantityEntry> {
                 name.replace('_', " "),
                 wedge.replace('_', " ")
             );
-            for (k, axis) in COORDINATES.iter().enumerate() {
-                outputs.push(QuantityEntry::real(
-                    format!("{wedge}_{name}_{axis}"),
-                    unit(kinds(k).0),
-                    None,
-                    format!("{axis} of the {words}, in that wedge's axes"),
-                ));
-            }
-            for (k, axis) in COORDINATES.iter().enumerate() {
-                outputs.push(QuantityEntry::real(
-                    format!("{wedge}_{name}_{axis}_rate"),
-                    unit(kinds(k).1),
-                    None,
-                    format!("rate of {wedge}_{name}_{axis}"),
-                ));
-            }
+            let own = format!("{wedge}_{name}");
+            let axes = || COORDINATES.iter().enumerate();
+            outputs.extend(axes().map(|(k, axis)| {
+                let text = format!("{axis} of the {words}, in that wedge's axes");
+                QuantityEntry::of(kinds(k).0, format!("{own}_{axis}"), text)
+            }));
+            outputs.extend(axes().map(|(k, axis)| {
+                let text = format!("rate of {own}_{axis}");
+                QuantityEntry::of(kinds(k).1, format!("{own}_{axis}_rate"), text)
+            }));
         }
     }
     outputs

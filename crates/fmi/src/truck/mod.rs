@@ -23,7 +23,8 @@ use wedge::Parameters;
 
 use crate::Error;
 use crate::element::Setting;
-use crate::system::{LoadPort, Plant, PortDirection, Ports, Reading, StartPort, StartState, SystemElement};
+use crate::source::{Made, Model};
+use crate::system::{LoadPort, Plant, PortDirection, Ports, Reading, StartPort};
 
 /// The file that the truck is made of.
 pub const FILE: &str = "Bolst_wedge_sf_68_constant.sys";
@@ -38,36 +39,38 @@ pub const BODY: usize = 1;
 /// For each wedge the displacements of the points that bolster and side frame turn about.
 type Points = [[[PortDirection; 6]; 2]; 4];
 
+/// A half-truck without its wedges.
+pub(crate) struct TruckModel;
+
+impl Model for TruckModel {
+    type Origin = Case;
+
+    const NAME: &'static str = "FrictionTruck";
+    const TEXT: &'static str = "Loaded half of a three-piece truck without its four friction wedges: half a \
+                                car on a bolster, side frames, springs";
+    const CONVENTIONS: &'static str = "Axes: x forward, y left, z up; displacements from the drawn position, small angles. Quantities of a \
+         wedge are in the axes of that wedge, which has x from the column towards the bolster.";
+
+    fn made(case: &Case, setting: Option<&Setting>) -> Result<Made, Error> {
+        plant(case)?.made(setting)
+    }
+}
+
 /// Returns the truck that has room for the wedges of a case.
 ///
 /// # Errors
 /// Never, with the built-in file.
 pub fn plant(case: &Case) -> Result<Plant, Error> {
     let (system, points) = system(&case.parameters)?;
+    let options = Options {
+        relative_tolerance: case.simulation.relative_tolerance,
+        ..Options::default()
+    };
+    let entries = entries::entries(&system);
     Ok(Plant {
-        entries: entries::entries(&system),
-        ports: ports(&points),
-        table: None,
-        numbers: [Vec::new(), Vec::new()],
-        rolls: false,
         residual_of_stored: true,
-        options: Options {
-            relative_tolerance: case.simulation.relative_tolerance,
-            ..Options::default()
-        },
-        initial: None,
-        table_takes_rates: false,
-        derailed: None,
-        system,
+        ..Plant::new(system, entries, ports(&points), options)
     })
-}
-
-/// Returns the truck under these settings, at its start.
-///
-/// # Errors
-/// Values that are not finite; or the integrator refuses the start.
-pub fn element(case: &Case, setting: &Setting) -> Result<SystemElement, Error> {
-    SystemElement::new(plant(case)?, setting, StartState::Initial, false)
 }
 
 /// Returns the system, and the points where the wedges are.
@@ -149,6 +152,7 @@ mod tests {
 
     use super::*;
     use crate::element::{Element, Interface};
+    use crate::system::SystemElement;
 
     fn made() -> (System, Points) {
         let damping = wedge::parameters::Damping::Constant;
@@ -170,7 +174,7 @@ mod tests {
             tolerance: None,
             start_time: 0.0,
         };
-        element(&case, &setting).unwrap()
+        SystemElement::new(plant(&case).unwrap(), &setting).unwrap()
     }
 
     #[test]

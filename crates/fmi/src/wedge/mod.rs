@@ -6,114 +6,101 @@
 pub(crate) mod entries;
 pub(crate) mod parameters;
 
-use mechanics::body::COORDINATES;
 use study::case::Case;
-use wedge::inputs::{COIL, CoilInput, NeighbourState, Neighbours};
+use wedge::inputs::{COIL, CoilInput, Neighbours};
 use wedge::outputs::Outputs;
 use wedge::parameters::Start;
 use wedge::{BOLSTER, COLUMN, Parameters, SIDE_FRAME, SLOPE, Wedge};
 
 use crate::Error;
 use crate::element::{Entries, Setting};
-use crate::system::{
-    CoilPort, CoilSource, FrictionPort, MotionPort, Plant, Ports, Reading, StartState, SystemElement,
-};
-use entries::{COIL_FORCE, COIL_STIFFNESS};
+use crate::source::{Made, Model};
+use crate::system::{CoilPort, CoilSource, FrictionPort, MotionPort, Plant, Ports, Reading};
+use entries::PLACES;
 
-/// Returns all quantities of the wedge of a case.
-///
-/// # Errors
-/// The case makes no wedge.
-pub fn entries(case: &Case) -> Result<Entries, Error> {
-    let start = Neighbours::of(&case.parameters, 0.0);
-    Ok(entries::entries(
-        case,
-        &made(&case.parameters, &start, CoilInput::Internal)?,
-    ))
+/// Places of options.
+pub(crate) const COIL_MODE: usize = 0;
+const START: usize = 1;
+
+/// A wedge with mass.
+pub(crate) struct WedgeModel;
+
+impl Model for WedgeModel {
+    type Origin = Case;
+
+    const NAME: &'static str = "FrictionWedge";
+    const TEXT: &'static str = "Friction wedge of a three-piece truck between bolster and side frame: rigid \
+                                body with mass, unilateral contact at eight corners, stick-slip friction";
+    const CONVENTIONS: &'static str = CONVENTIONS;
+    const HAS_DERIVATIVES: bool = true;
+
+    fn made(case: &Case, setting: Option<&Setting>) -> Result<Made, Error> {
+        plant(case, setting)?.made(setting)
+    }
 }
 
-/// Returns the wedge of a case under these settings, at its start.
+/// Frames and signs of wedges.
+pub(crate) const CONVENTIONS: &str = "Fixed frame: x longitudinal, positive from the column towards the bolster; y lateral; z up. Angles turn \
+     by R = Ry(pitch) Rz(yaw) Rx(roll). Forces act on the named neighbour, along the fixed axes; moments are \
+     taken about the neighbour's turning center, the point whose displacements are the inputs.";
+
+/// Returns the wedge of a case under these settings.
 ///
 /// # Errors
-/// Values outside their reach, or with which the number of states would be another one; or the integrator
-/// refuses the start.
-pub fn element(case: &Case, entries: &Entries, setting: &Setting) -> Result<SystemElement, Error> {
-    let mut parameters = parameters::apply(&case.parameters, &setting.parameters);
-    let option = |index: usize| setting.options.get(index).copied().unwrap_or(0);
-    parameters.start = match option(1) {
-        1 => Start::Touching,
-        2 => Start::Equilibrium,
-        _ => Start::Rest,
-    };
-    let input = |index: usize| setting.inputs.get(index).copied().unwrap_or(0.0);
-    let neighbour = |first: usize| NeighbourState {
-        position: std::array::from_fn(|k| input(first + k)),
-        rate: std::array::from_fn(|k| input(first + COORDINATES.len() + k)),
-    };
-    let start = Neighbours {
-        bolster: neighbour(0),
-        side_frame: neighbour(2 * COORDINATES.len()),
-    };
-    let (coil, source) = match option(0) {
-        1 => (
-            CoilInput::Stiffness(input(COIL_STIFFNESS)),
-            Some((COIL_STIFFNESS, CoilSource::Stiffness)),
-        ),
-        2 => (
-            CoilInput::Force(input(COIL_FORCE)),
-            Some((COIL_FORCE, CoilSource::Force)),
-        ),
-        _ => (CoilInput::Internal, None),
-    };
-    let wedge = made(&parameters, &start, coil)?;
-    let (found, own) = (wedge.initial_state.len(), entries.states.len());
-    if found != own {
-        return Err(Error::new(format!(
-            "with these parameters the wedge has {found} states, but the FMU was made with {own}: a damping \
-             that was zero stays zero, and one that was not stays so; export another FMU"
-        )));
+/// The case makes no wedge, or values are outside their reach.
+pub fn plant(case: &Case, setting: Option<&Setting>) -> Result<Plant, Error> {
+    let mut parameters = case.parameters.clone();
+    let mut start = Neighbours::of(&parameters, 0.0);
+    let (mut coil, mut source) = (CoilInput::Internal, None);
+    if let Some(setting) = setting {
+        parameters = parameters::apply(&parameters, &setting.parameters);
+        parameters.start = match setting.option(START) {
+            1 => Start::Touching,
+            2 => Start::Equilibrium,
+            _ => Start::Rest,
+        };
+        start = entries::neighbours(&setting.inputs);
+        coil = entries::coil(
+            setting.option(COIL_MODE),
+            setting.inputs.get(PLACES..).unwrap_or(&[]),
+        );
+        source = match coil {
+            CoilInput::Internal => None,
+            CoilInput::Stiffness(_) => Some((PLACES, CoilSource::Stiffness)),
+            CoilInput::Force(_) => Some((PLACES + 1, CoilSource::Force)),
+        };
     }
-    let coils = source.map(|(input, source)| CoilPort {
+    let wedge = made(&parameters, &start, coil)?;
+    let entries = entries::entries(case, &wedge);
+    let outputs = Outputs::new(&wedge.parameters);
+    let mut ports = ports(&entries);
+    ports.coils.extend(source.map(|(input, source)| CoilPort {
         coil: COIL,
         input,
         source,
-    });
-    let ports = Ports {
-        coils: coils.into_iter().collect(),
-        ..ports(entries)
-    };
-    SystemElement::new(
-        plant(case, entries, wedge, ports),
-        setting,
-        StartState::Initial,
-        true,
-    )
+    }));
+    ports.columns = entries::column_numbers(&outputs);
+    ports.columns.push(outputs.columns().len());
+    let system = wedge.system.clone();
+    let start_energy = system.clone().observe(0.0, &wedge.initial_state).energies.total();
+    // Columns of contact states are no variables: these have their own.
+    let contact_states = vec![0; entries.modes.len()];
+    let options = study::stepping::options(&case.simulation);
+    Ok(Plant {
+        table: Some(Box::new(move |seen, _, row| {
+            let ledger = outputs.values(&system, seen, &contact_states, start_energy, row);
+            row.push(ledger.entries().relative_residual());
+        })),
+        initial: Some(wedge.initial_state),
+        ..Plant::new(wedge.system, entries, ports, options)
+    })
 }
 
 /// Returns a wedge whose neighbours inputs move, at its start.
 fn made(parameters: &Parameters, start: &Neighbours, coil: CoilInput) -> Result<Wedge, Error> {
     let mut own = parameters.with_inputs(start);
     own.coil.law = coil.law(parameters);
-    Wedge::new(own).map_err(|error| Error::new(error.to_string()))
-}
-
-/// Returns the plant of a wedge; `ports` read no table yet.
-fn plant(case: &Case, entries: &Entries, wedge: Wedge, mut ports: Ports) -> Plant {
-    let (outputs, system) = (Outputs::new(&wedge.parameters), wedge.system.clone());
-    ports.columns = entries::column_numbers(&outputs);
-    ports.columns.push(outputs.columns().len());
-    let start_energy = system.clone().observe(0.0, &wedge.initial_state).energies.total();
-    // Columns of contact states are no variables: these have their own.
-    let contact_states = vec![0; system.faces().iter().map(|face| face.element.points.len()).sum()];
-    let options = study::stepping::options(&case.simulation);
-    Plant {
-        table: Some(Box::new(move |seen, _, row| {
-            let ledger = outputs.values(&system, seen, &contact_states, start_energy, row);
-            row.push(ledger.entries().relative_residual());
-        })),
-        initial: Some(wedge.initial_state),
-        ..Plant::new(wedge.system, entries.clone(), ports, options)
-    }
+    Wedge::new(own).map_err(Error::of)
 }
 
 /// For each neighbour six positions and their rates are inputs, force and moment outputs.

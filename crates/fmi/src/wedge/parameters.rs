@@ -214,8 +214,3 @@ pub(crate) fn apply(parameters: &Parameters, values: &[f64]) -> Parameters {
     }
     changed
 }
-
-/// Returns the place of a parameter in the list.
-pub(crate) fn place(parameters: &Parameters, name: &str) -> Option<usize> {
-    present(parameters).position(|(access, _)| access.name == name)
-}

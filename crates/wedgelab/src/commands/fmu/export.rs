@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use clap::Args;
 use fmi::description::Version;
 use fmi::package::{self, Library, Platform};
-use fmi::source::{FmuModel, Source};
+use fmi::source::Source;
 use study::car::CarCase;
 use study::models::AnyCase;
 use study::truck::TruckCase;
@@ -85,10 +85,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
          {} states, for {}.",
         arguments.out.display(),
         description.model.name(),
-        match description.model {
-            FmuModel::HalfTruck => "run",
-            _ => "case",
-        },
+        description.model.origin(),
         description.case,
         match arguments.fmi {
             Version::Two => "2.0",
@@ -118,14 +115,13 @@ impl Arguments {
         }
         let any = run::read_any(&self.case, &self.set)?;
         let whole = match &any {
-            AnyCase::Truck(case) => {
-                Some((Source::ThreePieceTruck(Box::new(TruckCase::clone(case))), "truck"))
-            }
-            AnyCase::Car(case) => Some((Source::Car(Box::new(CarCase::clone(case))), "car")),
-            AnyCase::Vehicle(case) => Some((Source::Vehicle(Box::new(VehicleCase::clone(case))), "vehicle")),
+            AnyCase::Truck(case) => Some(Source::ThreePieceTruck(Box::new(TruckCase::clone(case)))),
+            AnyCase::Car(case) => Some(Source::Car(Box::new(CarCase::clone(case)))),
+            AnyCase::Vehicle(case) => Some(Source::Vehicle(Box::new(VehicleCase::clone(case)))),
             _ => None,
         };
-        if let Some((source, what)) = whole {
+        if let Some(source) = whole {
+            let what = any.model();
             let option = match (self.quasi_static, self.truck) {
                 (true, _) => Some("--quasi-static".to_owned()),
                 (_, true) => Some("--truck".to_owned()),
