@@ -24,7 +24,7 @@ pub struct NativeWedge {
 fn refused(py: Python<'_>, error: &SteppingError) -> PyErr {
     let help = match error {
         SteppingError::NoStep { .. } => "give a positive dt in s, or as a text such as \"1 ms\"",
-        SteppingError::Value { .. } | SteppingError::Length { .. } => "the step was not made",
+        SteppingError::Value { .. } => "the step was not made",
         SteppingError::State(_) | SteppingError::Version { .. } | SteppingError::OtherCase => {
             "restore takes what save of a wedge of the same case has given"
         }

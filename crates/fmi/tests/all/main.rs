@@ -6,3 +6,4 @@ mod issue_029_behaviour;
 mod issue_047_inputs;
 mod three_piece;
 mod vehicle;
+mod wedge;

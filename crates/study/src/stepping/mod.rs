@@ -1,9 +1,8 @@
-//! The wedge as an element of somebody else's simulation: the caller moves bolster and side frame, step by
-//! step or instant by instant, and reads the forces on them.
+//! The wedge as an element of somebody else's simulation: the caller moves bolster and side frame step by
+//! step, and reads the forces on them.
 //!
-//! [`SteppedWedge`] integrates itself from one call to the next; [`Equations`] gives rates, margins and
-//! derivatives for a solver of the caller's. Coordinates, axes and reference points are those of
-//! [`wedge::inputs`]. SI units.
+//! [`SteppedWedge`] integrates itself from one call to the next. Coordinates, axes and reference points are
+//! those of [`wedge::inputs`]. SI units.
 //!
 //! ```
 //! use study::case::Case;
@@ -22,23 +21,25 @@
 //! # }
 //! ```
 
-mod equations;
+mod error;
 mod state;
 
-pub use equations::{Equations, SteppingError};
+pub use error::SteppingError;
 pub use state::{MOST_STATE_BYTES, STEPPED_STATE_VERSION, SteppedState};
 pub use wedge::inputs::{CoilInput, NeighbourState, Neighbours, Reading};
 
+use std::fmt;
+
 use integrate::{Integrator, Options, Statistics};
 use mechanics::output::Column;
-use mechanics::plausibility::PlausibilityFinding;
-use mechanics::system::{ElementEvaluation, Energies, JacobianVectorProduct, System};
+use mechanics::system::{ElementEvaluation, Observation, System};
 
 use crate::case::{Case, Simulation};
 use crate::progress::{self, Pace};
-use wedge::Parameters;
+use error::{check_coil, check_friction, check_neighbours};
 use wedge::inputs::COIL;
-use wedge::outputs::Ledger;
+use wedge::outputs::{Ledger, Outputs};
+use wedge::{COLUMN, Parameters, SLOPE, Wedge};
 
 /// A step must be longer, s: below, times are rounding.
 const SHORTEST_STEP: f64 = 1e-15;
@@ -50,12 +51,31 @@ pub const LARGEST_PATH: f64 = 1.0;
 ///
 /// During a step each coordinate of a neighbour is the cubic through its values and rates at both ends. Steps
 /// may have any lengths; a smooth motion does not restart the integrator.
-#[derive(Debug)]
 pub struct SteppedWedge {
-    equations: Equations,
+    /// The wedge, its neighbours being where they are.
+    wedge: Wedge,
+    /// The parameters with the motions of the case.
+    parameters: Parameters,
+    outputs: Outputs,
     integrator: Integrator<System>,
     options: Options,
+    start: Neighbours,
+    start_energy: f64,
+    neighbours: Neighbours,
+    coil: CoilInput,
+    friction: [f64; 2],
     failed: bool,
+    evaluation: ElementEvaluation<f64>,
+}
+
+impl fmt::Debug for SteppedWedge {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SteppedWedge")
+            .field("time", &self.time())
+            .field("states", &self.states())
+            .field("neighbours", &self.neighbours)
+            .finish_non_exhaustive()
+    }
 }
 
 impl SteppedWedge {
@@ -73,60 +93,67 @@ impl SteppedWedge {
     /// # Errors
     /// As [`SteppedWedge::new`], and values that are not finite.
     pub fn starting(case: &Case, start: &Neighbours) -> Result<Self, SteppingError> {
-        Self::with(
-            &case.parameters,
-            options(&case.simulation),
-            start,
-            CoilInput::Internal,
-        )
+        Self::with(&case.parameters, options(&case.simulation), start)
     }
 
-    /// Returns the same of parameters, options of the integrator (the number of steps is bounded by the rule
-    /// of [`progress`], for each step of the neighbours) and a coil that may be outside.
-    ///
-    /// # Errors
-    /// As [`SteppedWedge::starting`].
-    pub fn with(
-        parameters: &Parameters,
-        options: Options,
-        start: &Neighbours,
-        coil: CoilInput,
-    ) -> Result<Self, SteppingError> {
-        let equations = Equations::new(parameters, start, coil)?;
+    fn with(parameters: &Parameters, options: Options, start: &Neighbours) -> Result<Self, SteppingError> {
+        check_neighbours(start)?;
+        let wedge = Wedge::new(parameters.with_inputs(start))?;
+        let x = &wedge.initial_state;
+        // The number of steps is bounded by the rule of `progress`, for each step of the neighbours.
         let options = Options {
             maximum_steps: u64::MAX,
             ..options
         };
-        let integrator = Integrator::new(
-            equations.system().clone(),
-            options.clone(),
-            equations.time(),
-            equations.states(),
-        )?;
+        let integrator = Integrator::new(wedge.system.clone(), options.clone(), 0.0, x)?;
         Ok(Self {
-            equations,
+            outputs: Outputs::new(&wedge.parameters),
+            start_energy: wedge.system.clone().observe(0.0, x).energies.total(),
+            parameters: parameters.clone(),
             integrator,
             options,
+            start: *start,
+            neighbours: *start,
+            coil: CoilInput::Internal,
+            friction: [
+                parameters.column_friction.coefficient,
+                parameters.slope_friction.coefficient,
+            ],
             failed: false,
+            evaluation: ElementEvaluation::default(),
+            wedge,
         })
     }
 
     /// Time reached, s.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.equations.time()
+        self.integrator.time()
+    }
+
+    /// Returns the states reached (SI): free coordinates, their rates, bristles, work and losses.
+    #[must_use]
+    pub fn states(&self) -> &[f64] {
+        self.integrator.x()
+    }
+
+    /// Returns the system, as it is built for this wedge.
+    #[must_use]
+    pub fn system(&self) -> &System {
+        &self.wedge.system
     }
 
     /// Returns the places of the neighbors.
     #[must_use]
     pub fn neighbours(&self) -> &Neighbours {
-        self.equations.neighbours()
+        &self.neighbours
     }
 
-    /// Returns the state reached.
-    #[must_use]
-    pub fn equations(&self) -> &Equations {
-        &self.equations
+    /// Returns the evaluation of all corners and the coil.
+    pub fn evaluation(&mut self) -> &ElementEvaluation<f64> {
+        let (time, x) = (self.integrator.time(), self.integrator.x());
+        self.wedge.system.evaluate_elements(time, x, &mut self.evaluation);
+        &self.evaluation
     }
 
     /// Returns the wrenches of the wedge on its neighbors, and the forces of coil and faces.
@@ -134,62 +161,44 @@ impl SteppedWedge {
     /// # Errors
     /// Never, with a wedge that was built here.
     pub fn reading(&mut self) -> Result<Reading<f64>, SteppingError> {
-        self.equations.reading()
+        self.evaluation();
+        Reading::of(&self.evaluation, &self.wedge.system, &self.wedge.parameters).ok_or(SteppingError::Failed)
     }
 
-    /// Returns the evaluation of all corners and the coil.
-    pub fn evaluation(&mut self) -> &ElementEvaluation<f64> {
-        self.equations.evaluation()
+    /// Everything that the state says.
+    #[must_use]
+    pub fn observe(&mut self) -> Observation {
+        let (time, x) = (self.integrator.time(), self.integrator.x());
+        self.wedge.system.observe(time, x)
     }
 
-    /// Returns what has been implausible so far, see [`Equations::findings`].
-    pub fn findings(&mut self) -> Vec<PlausibilityFinding> {
-        self.equations.findings()
-    }
-
-    /// Writes the rates of the states, see [`Equations::rates`].
-    ///
-    /// # Errors
-    /// `out` does not have the length of the states.
-    pub fn rates(&mut self, out: &mut [f64]) -> Result<(), SteppingError> {
-        self.equations.rates(out)
-    }
-
-    /// Returns the margins of the contact states, see [`Equations::margins`].
-    pub fn margins(&mut self) -> &[f64] {
-        self.equations.margins()
+    /// Returns the ledger since the start, J. Work of a coil from outside is in its residual.
+    #[must_use]
+    pub fn ledger(&mut self) -> Ledger {
+        let seen = self.observe();
+        Outputs::ledger(&self.wedge.system, &seen, self.start_energy)
     }
 
     /// Returns the columns of [`SteppedWedge::row`].
     #[must_use]
     pub fn columns(&self) -> &[Column] {
-        self.equations.columns()
+        self.outputs.columns()
     }
 
     /// Returns a row of the table that a run writes, SI.
     #[must_use]
     pub fn row(&mut self) -> Vec<f64> {
-        self.equations.row()
-    }
-
-    /// Stored energies and the ledger since the start, see [`Equations::energies`].
-    #[must_use]
-    pub fn energies(&mut self) -> (Energies, Ledger) {
-        self.equations.energies()
-    }
-
-    /// Derivatives along a direction, see [`Equations::jacobian_vector_product`].
-    ///
-    /// # Errors
-    /// A wrong number of states.
-    pub fn jacobian_vector_product(
-        &mut self,
-        states: &[f64],
-        neighbours: &Neighbours,
-        coil_force: f64,
-    ) -> Result<JacobianVectorProduct, SteppingError> {
-        self.equations
-            .jacobian_vector_product(states, neighbours, coil_force)
+        let seen = self.observe();
+        let mut row = Vec::with_capacity(self.outputs.columns().len());
+        let contact_states = self.integrator.discrete_states();
+        self.outputs.values(
+            &self.wedge.system,
+            &seen,
+            contact_states,
+            self.start_energy,
+            &mut row,
+        );
+        row
     }
 
     /// Returns the counters of the integrator so far.
@@ -205,7 +214,7 @@ impl SteppedWedge {
     /// state is restored.
     pub fn step(&mut self, end: &Neighbours, duration: f64) -> Result<(), SteppingError> {
         if !self.failed {
-            equations::check_neighbours(end)?;
+            check_neighbours(end)?;
             self.check_path(end)?;
         }
         self.step_to(end, self.time() + duration)
@@ -244,7 +253,7 @@ impl SteppedWedge {
                 time: start,
             });
         }
-        equations::check_neighbours(end)?;
+        check_neighbours(end)?;
         let result = self.advance(end, start, duration, time);
         self.failed = result.is_err();
         result
@@ -257,12 +266,12 @@ impl SteppedWedge {
         duration: f64,
         time: f64,
     ) -> Result<(), SteppingError> {
-        let from = *self.equations.neighbours();
+        let from = self.neighbours;
         from.set_between(self.integrator.problem_mut(), start, duration, end)?;
         self.integrator.reevaluate();
         let mut pace = Pace::of(&self.integrator);
         while self.integrator.time() < time {
-            let name = |state| progress::state_name(self.equations.system(), [&[], &[]], state);
+            let name = |state| progress::state_name(&self.wedge.system, [&[], &[]], state);
             if let Err(error) = self.integrator.step_to(time) {
                 return Err(SteppingError::Step(progress::describe(&error, name)));
             }
@@ -273,8 +282,15 @@ impl SteppedWedge {
                     why: stalled.describe(name),
                 })?;
         }
-        self.equations
-            .follow(time, self.integrator.x(), self.integrator.discrete_states(), end)
+        self.follow(end)
+    }
+
+    /// Puts the neighbours where they are now.
+    fn follow(&mut self, at: &Neighbours) -> Result<(), SteppingError> {
+        self.neighbours = *at;
+        // Straight through the place that was given: whoever begins here from a saved state sees the same.
+        at.set_at(&mut self.wedge.system, self.integrator.time())?;
+        Ok(())
     }
 
     /// Sets the source of the coil's force from now on.
@@ -282,12 +298,11 @@ impl SteppedWedge {
     /// # Errors
     /// Values that are not finite, or a negative stiffness.
     pub fn set_coil(&mut self, coil: CoilInput) -> Result<(), SteppingError> {
-        if coil == *self.equations.coil() {
-            return Ok(());
+        check_coil(&coil)?;
+        for system in [&mut self.wedge.system, self.integrator.problem_mut()] {
+            system.set_coil_law(COIL, coil.law(&self.parameters))?;
         }
-        self.equations.set_coil(coil)?;
-        let law = coil.law(self.equations.parameters());
-        self.integrator.problem_mut().set_coil_law(COIL, law)?;
+        self.coil = coil;
         Ok(())
     }
 
@@ -296,13 +311,13 @@ impl SteppedWedge {
     /// # Errors
     /// Values that are not finite, or negative.
     pub fn set_friction(&mut self, friction: [f64; 2]) -> Result<(), SteppingError> {
-        if friction == self.equations.friction() {
-            return Ok(());
+        check_friction(friction)?;
+        for system in [&mut self.wedge.system, self.integrator.problem_mut()] {
+            for (face, coefficient) in [COLUMN, SLOPE].into_iter().zip(friction) {
+                system.set_friction(face, coefficient)?;
+            }
         }
-        self.equations.set_friction(friction)?;
-        for (face, coefficient) in friction.into_iter().enumerate() {
-            self.integrator.problem_mut().set_friction(face, coefficient)?;
-        }
+        self.friction = friction;
         Ok(())
     }
 
@@ -311,12 +326,11 @@ impl SteppedWedge {
     pub fn state(&self) -> SteppedState {
         SteppedState {
             version: STEPPED_STATE_VERSION,
-            fingerprint: state::fingerprint(self.equations.parameters(), &self.options),
-            start: *self.equations.start(),
-            start_coil: self.equations.start_coil(),
-            neighbours: *self.equations.neighbours(),
-            coil: *self.equations.coil(),
-            friction: self.equations.friction(),
+            fingerprint: state::fingerprint(&self.parameters, &self.options),
+            start: self.start,
+            neighbours: self.neighbours,
+            coil: self.coil,
+            friction: self.friction,
             failed: self.failed,
             integrator: self.integrator.state(),
         }
@@ -333,24 +347,14 @@ impl SteppedWedge {
                 expected: STEPPED_STATE_VERSION,
             });
         }
-        if state.fingerprint != state::fingerprint(self.equations.parameters(), &self.options) {
+        if state.fingerprint != state::fingerprint(&self.parameters, &self.options) {
             return Err(SteppingError::OtherCase);
         }
         state.check()?;
         // Refused before anything changes.
         self.integrator.check_state(&state.integrator)?;
-        let mut fresh = None;
-        if (state.start, state.start_coil) != (*self.equations.start(), self.equations.start_coil()) {
-            let parameters = self.equations.parameters().clone();
-            fresh = Some(Self::with(
-                &parameters,
-                self.options.clone(),
-                &state.start,
-                state.start_coil,
-            )?);
-        }
-        if let Some(fresh) = fresh {
-            *self = fresh;
+        if state.start != self.start {
+            *self = Self::with(&self.parameters, self.options.clone(), &state.start)?;
         }
         self.set_coil(state.coil)?;
         self.set_friction(state.friction)?;
@@ -358,12 +362,7 @@ impl SteppedWedge {
         state.neighbours.set_at(self.integrator.problem_mut(), time)?;
         self.integrator.restore(&state.integrator)?;
         self.failed = state.failed;
-        self.equations.follow(
-            time,
-            self.integrator.x(),
-            self.integrator.discrete_states(),
-            &state.neighbours,
-        )
+        self.follow(&state.neighbours)
     }
 }
 

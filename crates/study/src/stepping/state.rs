@@ -8,10 +8,10 @@ use wedge::inputs::{CoilInput, Neighbours};
 use wedge::parameters::NeighbourMotion;
 
 use super::SteppingError;
-use super::equations::{check_coil, check_contact_states, check_friction, check_neighbours};
+use super::error::{check_coil, check_contact_states, check_friction, check_neighbours};
 
 /// Version of [`SteppedState`].
-pub const STEPPED_STATE_VERSION: u32 = 1;
+pub const STEPPED_STATE_VERSION: u32 = 2;
 /// More bytes than these are no saved state, and are not read: states take some kilobytes.
 pub const MOST_STATE_BYTES: usize = input::limits::RECORD_FILE as usize;
 
@@ -26,8 +26,6 @@ pub struct SteppedState {
     pub(super) fingerprint: u64,
     /// The poses of the neighbours at time zero.
     pub(super) start: Neighbours,
-    /// The source of the coil's force at time zero.
-    pub(super) start_coil: CoilInput,
     /// The poses of the neighbours.
     pub neighbours: Neighbours,
     /// The source of the coil's force.

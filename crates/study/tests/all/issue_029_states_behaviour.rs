@@ -273,7 +273,7 @@ fn issue_029_members_of_a_driven_wedge_that_led_astray_are_refused_by_name() {
     );
     // Nor is what is nested without end.
     let deep = format!(
-        "{{\"version\":1,\"integrator\":{}{}}}",
+        "{{\"version\":2,\"integrator\":{}{}}}",
         "[".repeat(200_000),
         "]".repeat(200_000)
     );

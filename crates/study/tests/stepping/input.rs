@@ -81,7 +81,7 @@ fn saved_states_of_others_are_refused() {
         (String::new(), "no saved state"),
         ("{}".to_owned(), "no saved state"),
         (text[..text.len() / 2].to_owned(), "no saved state"),
-        (text.replacen("\"version\":1", "\"version\":7", 1), "version 7"),
+        (text.replacen("\"version\":2", "\"version\":7", 1), "version 7"),
         (text.replacen("\"x\":[", "\"x\":[0.0,", 1), ""),
     ] {
         let error = match SteppedState::from_bytes(bad.as_bytes()) {

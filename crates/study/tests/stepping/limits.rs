@@ -9,13 +9,13 @@ fn a_wedge_in_equilibrium_stays_where_it_is() {
     let case = case("cdrun_toe_0_psi_0", &["simulation.start=\"equilibrium\""]);
     let still = Neighbours::default();
     let mut wedge = SteppedWedge::starting(&case, &still).unwrap();
-    let start = wedge.equations().states().to_vec();
+    let start = wedge.states().to_vec();
     for _ in 0..50 {
         wedge.step(&still, 0.02).unwrap();
     }
-    let speeds = wedge.equations().system().layout().speeds;
+    let speeds = wedge.system().layout().speeds;
     for k in 0..speeds {
-        let drift = wedge.equations().states()[k] - start[k];
+        let drift = wedge.states()[k] - start[k];
         assert!(drift.abs() < 1e-9, "coordinate {k}: {drift}");
     }
 }

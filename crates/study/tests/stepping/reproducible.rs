@@ -8,7 +8,7 @@ const BRISTLE: &str = "friction.law=\"bristle\"";
 
 fn bits(wedge: &mut SteppedWedge) -> Vec<u64> {
     let row = wedge.row();
-    let states = wedge.equations().states().to_vec();
+    let states = wedge.states().to_vec();
     row.iter().chain(&states).map(|value| value.to_bits()).collect()
 }
 
