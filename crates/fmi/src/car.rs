@@ -31,9 +31,10 @@ impl Model for CarModel {
     const NAME: &'static str = "FreightCar";
     const TEXT: &'static str = "Freight car on its track: body and lading on two three-piece trucks with \
                                 friction wedges, whose wheelsets roll on rails";
-    const CONVENTIONS: &'static str = "Fixed axes: x forward and y left where the track starts, z up. Vertical wheel forces act on the \
-         rail, positive down; lateral ones are positive where they spread the gauge. Places of axles are \
-         those against the track's center line, positive to the left.";
+    const CONVENTIONS: &'static str = "Fixed axes: x forward and y left where the track starts, z up. \
+                                       Vertical wheel forces act on the rail, positive down; lateral ones \
+                                       are positive where they spread the gauge. Places of axles are those \
+                                       against the track's center line, positive to the left.";
 
     fn made(case: &CarCase, setting: Option<&Setting>) -> Result<Made, Error> {
         plant(case, setting)?.made(setting)

@@ -4,10 +4,10 @@
 //!   version.
 //! - [`source`]: what an FMU is made of: the case of a wedge, a truck or a car, or the run of
 //!   a half-truck.
-//! - [`element`]: the elements whose quantities the variables show: the wedge ([`wedge`]), the quasi-static
-//!   wedge ([`quasi_static`]), and any system with named ports ([`system`]): the truck without wedges
-//!   ([`truck`]), the half-truck ([`half_truck`]), the three-piece truck ([`three_piece`]), the car
-//!   ([`car`]), the vehicle of bodies and elements ([`vehicle`](mod@vehicle)).
+//! - [`element`]: the elements whose quantities the variables show: any system with named ports ([`system`]),
+//!   which are the wedge ([`wedge`](mod@wedge)), the truck without wedges ([`truck`]), the half-truck
+//!   ([`half_truck`]), the three-piece truck ([`three_piece`]), the car ([`car`]), the vehicle of bodies and
+//!   elements ([`vehicle`](mod@vehicle)); and the quasi-static wedge.
 //! - [`instance`]: one instance, with the states of the standard's state machine, for both versions and both
 //!   kinds of interface.
 //! - [`package`], [`resources`]: writing a whole FMU, and finding the case again in an unpacked one;
@@ -37,7 +37,7 @@ pub mod half_truck;
 pub mod instance;
 pub mod limits;
 pub mod package;
-pub mod quasi_static;
+mod quasi_static;
 pub mod resources;
 pub mod source;
 pub mod ssp;

@@ -26,9 +26,10 @@ impl Model for ThreePieceTruckModel {
     const NAME: &'static str = "ThreePieceTruck";
     const TEXT: &'static str = "Three-piece truck with four friction wedges that have mass: bolster, side \
                                 frames, coils, stops, adapters";
-    const CONVENTIONS: &'static str = "Axes: x forward, y left, z up from the top of rail, origin at the truck's center; displacements of \
-         centers of gravity from the nominal (loaded) layout. Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). \
-         The warp moment acts on the bolster.";
+    const CONVENTIONS: &'static str = "Axes: x forward, y left, z up from the top of rail, origin at the \
+                                       truck's center; displacements of centers of gravity from the nominal \
+                                       (loaded) layout. Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). The \
+                                       warp moment acts on the bolster.";
 
     fn made(case: &TruckCase, setting: Option<&Setting>) -> Result<Made, Error> {
         plant(case, setting)?.made(setting)

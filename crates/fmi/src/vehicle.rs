@@ -20,9 +20,10 @@ impl Model for VehicleModel {
 
     const NAME: &'static str = "Vehicle";
     const TEXT: &'static str = "Vehicle of rigid bodies and force elements that its case names";
-    const CONVENTIONS: &'static str = "Fixed axes: x forward, y left, z up; displacements of centers of gravity from the nominal layout. \
-         Angles turn by R = Ry(pitch) Rz(yaw) Rx(roll). Forces of elements act on the body with end a; \
-         pushes are positive.";
+    const CONVENTIONS: &'static str = "Fixed axes: x forward, y left, z up; displacements of centers of \
+                                       gravity from the nominal layout. Angles turn by R = Ry(pitch) Rz(yaw) \
+                                       Rx(roll). Forces of elements act on the body with end a; pushes are \
+                                       positive.";
 
     fn made(case: &VehicleCase, setting: Option<&Setting>) -> Result<Made, Error> {
         plant(case, setting)?.made(setting)

@@ -183,103 +183,45 @@ fn variables(entries: &Entries) -> Vec<Variable> {
         nominal: None,
         reach: None,
     }];
-    let mut add =
-        |entry: &QuantityEntry, role: VariableRole, causality: Causality, variability: Variability| {
+    let rates = entries.states.iter().map(|state| {
+        let name = format!("der({})", state.name);
+        let unit = state.unit.map(Unit::rate);
+        QuantityEntry::real(name, unit, None, format!("rate of {}", state.name))
+    });
+    let rates: Vec<QuantityEntry> = rates.collect();
+    type Role = fn(usize) -> VariableRole;
+    use Causality::{Input, Local, Output, Parameter};
+    use Variability::{Continuous, Discrete, Fixed};
+    let lists: [(&[QuantityEntry], Role, Causality, Variability); 9] = [
+        (&entries.inputs, VariableRole::Input, Input, Continuous),
+        (&entries.outputs, VariableRole::Output, Output, Continuous),
+        (&entries.modes, VariableRole::ContactState, Output, Discrete),
+        (&entries.options, VariableRole::Option, Parameter, Fixed),
+        (&entries.parameters, VariableRole::Parameter, Parameter, Fixed),
+        (&entries.states, VariableRole::State, Local, Continuous),
+        (&rates, VariableRole::Rate, Local, Continuous),
+        (&entries.columns, VariableRole::Column, Local, Continuous),
+        (&entries.indicators, VariableRole::Indicator, Local, Continuous),
+    ];
+    for (list, role, causality, variability) in lists {
+        for (number, entry) in list.iter().enumerate() {
             variables.push(Variable {
                 reference: variables.len() as u32,
                 name: entry.name.clone(),
                 text: entry.text.clone(),
-                role,
+                role: role(number),
                 unit: entry.unit.filter(|unit| unit.name().is_some()),
-                causality,
-                variability,
+                causality: if entry.output { Output } else { causality },
+                variability: if entry.tunable {
+                    Variability::Tunable
+                } else {
+                    variability
+                },
                 start: entry.start,
                 nominal: entry.nominal,
                 reach: entry.reach,
             });
-        };
-    for (i, entry) in entries.inputs.iter().enumerate() {
-        add(
-            entry,
-            VariableRole::Input(i),
-            Causality::Input,
-            Variability::Continuous,
-        );
-    }
-    for (i, entry) in entries.outputs.iter().enumerate() {
-        add(
-            entry,
-            VariableRole::Output(i),
-            Causality::Output,
-            Variability::Continuous,
-        );
-    }
-    for (i, entry) in entries.modes.iter().enumerate() {
-        add(
-            entry,
-            VariableRole::ContactState(i),
-            Causality::Output,
-            Variability::Discrete,
-        );
-    }
-    for (i, entry) in entries.options.iter().enumerate() {
-        add(
-            entry,
-            VariableRole::Option(i),
-            Causality::Parameter,
-            Variability::Fixed,
-        );
-    }
-    for (i, entry) in entries.parameters.iter().enumerate() {
-        let variability = if entry.tunable {
-            Variability::Tunable
-        } else {
-            Variability::Fixed
-        };
-        add(
-            entry,
-            VariableRole::Parameter(i),
-            Causality::Parameter,
-            variability,
-        );
-    }
-    for (i, entry) in entries.states.iter().enumerate() {
-        let causality = if entry.output {
-            Causality::Output
-        } else {
-            Causality::Local
-        };
-        add(entry, VariableRole::State(i), causality, Variability::Continuous);
-    }
-    for (i, state) in entries.states.iter().enumerate() {
-        let rate = QuantityEntry::real(
-            format!("der({})", state.name),
-            state.unit.map(Unit::rate),
-            None,
-            format!("rate of {}", state.name),
-        );
-        add(
-            &rate,
-            VariableRole::Rate(i),
-            Causality::Local,
-            Variability::Continuous,
-        );
-    }
-    for (i, entry) in entries.columns.iter().enumerate() {
-        add(
-            entry,
-            VariableRole::Column(i),
-            Causality::Local,
-            Variability::Continuous,
-        );
-    }
-    for (i, entry) in entries.indicators.iter().enumerate() {
-        add(
-            entry,
-            VariableRole::Indicator(i),
-            Causality::Local,
-            Variability::Continuous,
-        );
+        }
     }
     variables
 }

@@ -178,9 +178,10 @@ impl Model for HalfTruckModel {
     const NAME: &'static str = "HalfTruck";
     const TEXT: &'static str = "Loaded half of a three-piece truck from files of NUCARS: half a car on a \
                                 bolster, friction wedges, side frames, springs";
-    const CONVENTIONS: &'static str = "Axes: x forward, y left, z up; displacements of centers of gravity from the drawn position, small \
-         angles. Bodies, wedges and connections have the numbers of the files; forces of connections are \
-         positive in extension.";
+    const CONVENTIONS: &'static str = "Axes: x forward, y left, z up; displacements of centers of gravity \
+                                       from the drawn position, small angles. Bodies, wedges and connections \
+                                       have the numbers of the files; forces of connections are positive in \
+                                       extension.";
 
     fn made(half_truck: &HalfTruck, setting: Option<&Setting>) -> Result<Made, Error> {
         half_truck.plant(setting)?.made(setting)

@@ -2,7 +2,7 @@
 
 use super::{Instance, Phase};
 use crate::Error;
-use crate::element::Interface;
+use crate::element::{Interface, QuantityEntry};
 use crate::variable::{Causality, Start, Variability, Variable, VariableRole};
 
 /// The type that a call is for.
@@ -63,46 +63,42 @@ impl Instance {
     /// There is no such variable, or no element starts from the values set so far.
     pub fn get_float(&mut self, reference: u32) -> Result<f64, Error> {
         let role = self.find(reference, Type::Float)?.role;
-        let damaged = || Error::new(format!("the variable {reference} has no value"));
-        match role {
-            VariableRole::Time => Ok(self.time),
-            VariableRole::Input(i) => self.values.inputs.get(i).copied().ok_or_else(damaged),
-            VariableRole::Parameter(i) => self.values.parameters.get(i).copied().ok_or_else(damaged),
-            VariableRole::State(i) => self.fresh()?.states().get(i).copied().ok_or_else(damaged),
+        let entries = &self.description.entries;
+        let room = |list: &[QuantityEntry]| vec![0.0; list.len()];
+        let value = match role {
+            VariableRole::Time => Some(self.time),
+            VariableRole::Input(i) => self.values.inputs.get(i).copied(),
+            VariableRole::Parameter(i) => self.values.parameters.get(i).copied(),
+            VariableRole::State(i) => self.fresh()?.states().get(i).copied(),
             VariableRole::Output(i) => {
                 if self.outputs.is_none() {
-                    let mut outputs = vec![0.0; self.description.entries.outputs.len()];
+                    let mut outputs = room(&entries.outputs);
                     self.fresh()?.outputs(&mut outputs)?;
                     self.outputs = Some(outputs);
                 }
-                self.outputs
-                    .as_ref()
-                    .and_then(|outputs| outputs.get(i).copied())
-                    .ok_or_else(damaged)
+                self.outputs.as_ref().and_then(|outputs| outputs.get(i).copied())
             }
             VariableRole::Column(i) => {
                 if self.columns.is_none() {
-                    let mut columns = vec![0.0; self.description.entries.columns.len()];
+                    let mut columns = room(&entries.columns);
                     self.fresh()?.columns(&mut columns);
                     self.columns = Some(columns);
                 }
-                self.columns
-                    .as_ref()
-                    .and_then(|columns| columns.get(i).copied())
-                    .ok_or_else(damaged)
+                self.columns.as_ref().and_then(|columns| columns.get(i).copied())
             }
             VariableRole::Rate(i) => {
-                let mut rates = vec![0.0; self.description.entries.states.len()];
+                let mut rates = room(&entries.states);
                 self.fresh()?.rates(&mut rates)?;
-                rates.get(i).copied().ok_or_else(damaged)
+                rates.get(i).copied()
             }
             VariableRole::Indicator(i) => {
-                let mut indicators = vec![0.0; self.description.entries.indicators.len()];
+                let mut indicators = room(&entries.indicators);
                 self.fresh()?.indicators(&mut indicators);
-                indicators.get(i).copied().ok_or_else(damaged)
+                indicators.get(i).copied()
             }
-            VariableRole::Option(_) | VariableRole::ContactState(_) => Err(damaged()),
-        }
+            VariableRole::Option(_) | VariableRole::ContactState(_) => None,
+        };
+        value.ok_or_else(|| Error::new(format!("the variable {reference} has no value")))
     }
 
     /// Returns the value of an integer variable.

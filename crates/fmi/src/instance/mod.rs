@@ -18,6 +18,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use numerics::processor::{self, OldProcessor};
+use serde::{Deserialize, Serialize};
 use study::case::Case;
 
 use crate::description::{Description, Version};
@@ -40,7 +41,8 @@ pub struct Message {
 }
 
 /// Times of the experiment.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Experiment {
     start: f64,
     stop: Option<f64>,
@@ -48,7 +50,8 @@ struct Experiment {
 }
 
 /// The values that an importer has set.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Values {
     parameters: Vec<f64>,
     options: Vec<i32>,
@@ -166,11 +169,7 @@ impl Instance {
             interface,
             name: name.to_owned(),
             phase: Phase::Instantiated,
-            experiment: Experiment {
-                start: 0.0,
-                stop: None,
-                tolerance: None,
-            },
+            experiment: Experiment::default(),
             time: 0.0,
             values,
             element: None,
@@ -233,15 +232,16 @@ impl Instance {
         tolerance: Option<f64>,
     ) -> Result<(), Error> {
         self.require("the experiment is set up", &[Phase::Instantiated])?;
-        check_experiment(start, stop, tolerance)?;
-        // One that was built to read its values has another start.
-        self.element = None;
-        self.changed();
-        self.experiment = Experiment {
+        let experiment = Experiment {
             start,
             stop,
             tolerance,
         };
+        check_experiment(experiment)?;
+        // One that was built to read its values has another start.
+        self.element = None;
+        self.changed();
+        self.experiment = experiment;
         self.time = start;
         Ok(())
     }
@@ -290,11 +290,7 @@ impl Instance {
     /// Goes back to the state after instantiation: all start values are those of the description again.
     pub fn reset(&mut self) {
         self.phase = Phase::Instantiated;
-        self.experiment = Experiment {
-            start: 0.0,
-            stop: None,
-            tolerance: None,
-        };
+        self.experiment = Experiment::default();
         self.values = Values::of(&self.description);
         self.time = 0.0;
         self.element = None;
@@ -303,19 +299,29 @@ impl Instance {
         self.warned.clear();
     }
 
+    /// Returns the element under these values, starting from these inputs.
+    fn made(
+        &self,
+        values: &Values,
+        inputs: &[f64],
+        experiment: Experiment,
+    ) -> Result<Box<dyn Element>, Error> {
+        let setting = Setting {
+            interface: self.interface,
+            parameters: values.parameters.clone(),
+            options: values.options.clone(),
+            inputs: inputs.to_vec(),
+            tolerance: experiment.tolerance,
+            start_time: experiment.start,
+        };
+        self.source.element(&self.description.entries, &setting)
+    }
+
     /// Returns the element under the values set so far.
     fn build(&mut self) -> Result<&mut Box<dyn Element>, Error> {
         if self.element.is_none() {
-            let setting = Setting {
-                interface: self.interface,
-                parameters: self.values.parameters.clone(),
-                options: self.values.options.clone(),
-                inputs: self.values.inputs.clone(),
-                tolerance: self.experiment.tolerance,
-                start_time: self.experiment.start,
-            };
-            let element = self.source.element(&self.description.entries, &setting)?;
-            self.values.start_inputs = setting.inputs;
+            let element = self.made(&self.values, &self.values.inputs, self.experiment)?;
+            self.values.start_inputs.clone_from(&self.values.inputs);
             self.stale = false;
             self.element = Some(element);
         }
@@ -350,7 +356,12 @@ impl Instance {
 }
 
 /// Checks whether times and tolerance can be those of an experiment.
-fn check_experiment(start: f64, stop: Option<f64>, tolerance: Option<f64>) -> Result<(), Error> {
+fn check_experiment(experiment: Experiment) -> Result<(), Error> {
+    let Experiment {
+        start,
+        stop,
+        tolerance,
+    } = experiment;
     if !start.is_finite() {
         return Err(Error::new(format!(
             "the start time is {start}; it must be finite"

@@ -4,13 +4,11 @@ mod check;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Experiment, Instance, Phase};
+use super::{Experiment, Instance, Phase, Values};
 use crate::Error;
 use crate::element::Interface;
 use crate::element_state::ElementState;
-use crate::extrapolate::Point;
 use crate::limits;
-use crate::watch::Doubt;
 
 /// Version of [`Saved`].
 const VERSION: u32 = 3;
@@ -24,20 +22,9 @@ pub struct Saved {
     token: String,
     interface: Interface,
     phase: Phase,
-    start: f64,
-    stop: Option<f64>,
-    tolerance: Option<f64>,
+    experiment: Experiment,
     time: f64,
-    parameters: Vec<f64>,
-    options: Vec<i32>,
-    inputs: Vec<f64>,
-    /// Those from which the element started.
-    start_inputs: Vec<f64>,
-    slopes: Vec<Option<f64>>,
-    set: Vec<bool>,
-    past: Vec<Point>,
-    doubts: Vec<Doubt>,
-    restartable: bool,
+    values: Values,
     stale: bool,
     element: Option<ElementState>,
 }
@@ -77,19 +64,9 @@ impl Instance {
             token: self.token.clone(),
             interface: self.interface,
             phase: self.phase,
-            start: self.experiment.start,
-            stop: self.experiment.stop,
-            tolerance: self.experiment.tolerance,
+            experiment: self.experiment,
             time: self.time,
-            parameters: self.values.parameters.clone(),
-            options: self.values.options.clone(),
-            inputs: self.values.inputs.clone(),
-            start_inputs: self.values.start_inputs.clone(),
-            slopes: self.values.slopes.clone(),
-            set: self.values.set.clone(),
-            past: self.values.past.clone(),
-            doubts: self.values.doubts.clone(),
-            restartable: self.values.restartable,
+            values: self.values.clone(),
             stale: self.stale,
             element: self.element.as_ref().map(|element| element.save()),
         }
@@ -121,75 +98,32 @@ impl Instance {
         let keeps = saved.element.is_some()
             && self.element.is_some()
             && !self.phase.is_before_start()
-            && same_bits(&saved.parameters, &self.values.parameters)
-            && same_bits(&saved.start_inputs, &self.values.start_inputs)
-            && saved.options == self.values.options
-            && (saved.start, saved.tolerance) == (self.experiment.start, self.experiment.tolerance);
+            && same_bits(&saved.values.parameters, &self.values.parameters)
+            && same_bits(&saved.values.start_inputs, &self.values.start_inputs)
+            && saved.values.options == self.values.options
+            && saved.experiment.start == self.experiment.start
+            && saved.experiment.tolerance == self.experiment.tolerance;
         let mut fresh = None;
-        if let Some(state) = &saved.element {
-            if keeps {
-                if let Some(element) = &mut self.element {
-                    element.restore(state)?;
-                }
-            } else {
-                let mut other = self.twin(saved);
-                other.build()?.restore(state)?;
-                fresh = other.element.take();
+        match (&saved.element, &mut self.element) {
+            (Some(state), Some(element)) if keeps => element.restore(state)?,
+            (Some(state), _) => {
+                let inputs = &saved.values.start_inputs;
+                let mut other = self.made(&saved.values, inputs, saved.experiment)?;
+                other.restore(state)?;
+                fresh = Some(other);
             }
+            (None, _) => {}
         }
         if !keeps {
             self.element = fresh;
         }
         self.phase = saved.phase;
-        self.experiment = Experiment {
-            start: saved.start,
-            stop: saved.stop,
-            tolerance: saved.tolerance,
-        };
+        self.experiment = saved.experiment;
         self.time = saved.time;
-        self.values.parameters.clone_from(&saved.parameters);
-        self.values.options.clone_from(&saved.options);
-        self.values.inputs.clone_from(&saved.inputs);
-        self.values.start_inputs.clone_from(&saved.start_inputs);
-        self.values.slopes.clone_from(&saved.slopes);
-        self.values.set.clone_from(&saved.set);
-        self.values.past.clone_from(&saved.past);
-        self.values.doubts.clone_from(&saved.doubts);
-        self.values.restartable = saved.restartable;
+        self.values = saved.values.clone();
         self.stale = saved.stale;
         self.changed();
         Ok(())
-    }
-
-    /// Returns an instance beside this one, with the values of a saved one and no element yet.
-    fn twin(&self, saved: &Saved) -> Self {
-        let mut values = self.values.clone();
-        values.parameters.clone_from(&saved.parameters);
-        values.options.clone_from(&saved.options);
-        values.inputs.clone_from(&saved.start_inputs);
-        Self {
-            description: self.description.clone(),
-            token: self.token.clone(),
-            source: self.source.clone(),
-            version: self.version,
-            interface: self.interface,
-            name: self.name.clone(),
-            phase: Phase::Initialization,
-            experiment: Experiment {
-                start: saved.start,
-                stop: saved.stop,
-                tolerance: saved.tolerance,
-            },
-            values,
-            time: saved.start,
-            element: None,
-            stale: false,
-            outputs: None,
-            columns: None,
-            log_events: false,
-            log: Vec::new(),
-            warned: Vec::new(),
-        }
     }
 }
 

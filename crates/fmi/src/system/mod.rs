@@ -1,10 +1,11 @@
 //! Any system of bodies and elements behind the variables, through named ports.
 //!
 //! A [`Plant`] is the data: a system, its quantities, and what its inputs do and its outputs read. Loads and
-//! forces of coils are constant within a communication step; prescribed bodies follow cubics through values and rates at both
-//! ends of it, and the integrator is not restarted (`docs/decisions/0014-driven-motions.md`). With constant
-//! loads Q the work that comes in is `Q · Δq`, exactly: it is the last state, if there is one for it. The work
-//! of the prescribed motions is in the system's own ledger.
+//! forces of coils are constant within a communication step; prescribed bodies follow cubics through values
+//! and rates at both ends of it, and the integrator is not restarted
+//! (`docs/decisions/0014-driven-motions-are-cubics-without-restart.md`). With constant loads Q the work that
+//! comes in is `Q · Δq`, exactly: it is the last state, if there is one for it. The work of the prescribed
+//! motions is in the system's own ledger.
 
 mod entries;
 mod inputs;

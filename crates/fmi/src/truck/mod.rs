@@ -48,8 +48,9 @@ impl Model for TruckModel {
     const NAME: &'static str = "FrictionTruck";
     const TEXT: &'static str = "Loaded half of a three-piece truck without its four friction wedges: half a \
                                 car on a bolster, side frames, springs";
-    const CONVENTIONS: &'static str = "Axes: x forward, y left, z up; displacements from the drawn position, small angles. Quantities of a \
-         wedge are in the axes of that wedge, which has x from the column towards the bolster.";
+    const CONVENTIONS: &'static str = "Axes: x forward, y left, z up; displacements from the drawn position, \
+                                       small angles. Quantities of a wedge are in the axes of that wedge, \
+                                       which has x from the column towards the bolster.";
 
     fn made(case: &Case, setting: Option<&Setting>) -> Result<Made, Error> {
         plant(case)?.made(setting)

@@ -1,7 +1,7 @@
 //! The wedge with mass, as data of [`crate::system`].
 //!
-//! Inputs move bolster and side frame, and are the coil's force if an option says so; coefficients of friction
-//! may change on the way. Outputs are what the elements do to both neighbours.
+//! Inputs move bolster and side frame, and are the coil's force if an option says so; coefficients of
+//! friction may change on the way. Outputs are what the elements do to both neighbours.
 
 pub(crate) mod entries;
 pub(crate) mod parameters;
@@ -40,9 +40,11 @@ impl Model for WedgeModel {
 }
 
 /// Frames and signs of wedges.
-pub(crate) const CONVENTIONS: &str = "Fixed frame: x longitudinal, positive from the column towards the bolster; y lateral; z up. Angles turn \
-     by R = Ry(pitch) Rz(yaw) Rx(roll). Forces act on the named neighbour, along the fixed axes; moments are \
-     taken about the neighbour's turning center, the point whose displacements are the inputs.";
+pub(crate) const CONVENTIONS: &str = "Fixed frame: x longitudinal, positive from the column towards the \
+                                      bolster; y lateral; z up. Angles turn by R = Ry(pitch) Rz(yaw) \
+                                      Rx(roll). Forces act on the named neighbour, along the fixed axes; \
+                                      moments are taken about the neighbour's turning center, the point \
+                                      whose displacements are the inputs.";
 
 /// Returns the wedge of a case under these settings.
 ///

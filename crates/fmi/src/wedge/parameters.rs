@@ -19,159 +19,111 @@ struct Access {
     tunable: bool,
 }
 
+/// A parameter that there is not.
+const NONE: Access = Access {
+    name: "",
+    kind: Kind::Dimensionless,
+    text: "",
+    get: |_| None,
+    set: |_, _| (),
+    tunable: false,
+};
+
 /// A parameter that stands at one place of [`Parameters`].
-macro_rules! at {
-    ($name:literal, $kind:ident, $text:literal, $($place:tt)+) => {
+macro_rules! fixed {
+    ($($place:tt)+) => {
         Access {
-            name: $name,
-            kind: Kind::$kind,
-            text: $text,
             get: |p| Some(p.$($place)+),
             set: |p, v| p.$($place)+ = v,
-            tunable: false,
+            ..NONE
         }
     };
 }
 
-/// A coefficient of friction, which may change while the simulation runs.
-macro_rules! friction {
-    ($name:literal, $text:literal, $face:ident) => {
+/// The same, which may change while the simulation runs.
+macro_rules! tunable {
+    ($($place:tt)+) => {
         Access {
             tunable: true,
-            ..at!($name, Dimensionless, $text, $face.coefficient)
+            ..fixed!($($place)+)
         }
     };
 }
 
 /// The reference speed of a face whose law of friction has one.
 macro_rules! reference_speed {
-    ($name:literal, $text:literal, $face:ident) => {
+    ($face:ident) => {
         Access {
-            name: $name,
-            kind: Kind::Speed,
-            text: $text,
             get: |p| reference_speed(&p.$face),
             set: |p, v| set_reference_speed(&mut p.$face, v),
-            tunable: false,
+            ..NONE
         }
     };
 }
 
-const ALL: &[Access] = &[
-    at!(
-        "wedge_angle",
-        Angle,
-        "wedge angle between the vertical and the slope",
-        wedge.angle
-    ),
-    at!(
-        "wedge_height",
-        Length,
-        "height of the vertical face",
-        wedge.height
-    ),
-    at!("wedge_width", Length, "lateral width", wedge.width),
-    at!("wedge_mass", Mass, "mass of the wedge", wedge.mass),
-    at!(
-        "wedge_inertia_roll",
-        Inertia,
-        "moment of inertia about the center of gravity, longitudinal axis",
-        wedge.inertia[0]
-    ),
-    at!(
-        "wedge_inertia_pitch",
-        Inertia,
-        "moment of inertia about the center of gravity, lateral axis",
-        wedge.inertia[1]
-    ),
-    at!(
-        "wedge_inertia_yaw",
-        Inertia,
-        "moment of inertia about the center of gravity, vertical axis",
-        wedge.inertia[2]
-    ),
-    at!(
-        "column_wear",
-        Length,
-        "depth of wear of the column and the wedge's vertical face together",
-        wear.column
-    ),
-    at!(
-        "slope_wear",
-        Length,
-        "depth of wear of the pocket's slope and the wedge's slope face together",
-        wear.slope
-    ),
-    Access {
-        name: "coil_stiffness",
-        kind: Kind::Stiffness,
-        text: "stiffness of the control coil (coil_mode = 0)",
-        get: |p| match p.coil.law {
-            CoilLaw::Linear { stiffness } => Some(stiffness),
-            _ => None,
-        },
-        set: |p, v| p.coil.law = CoilLaw::Linear { stiffness: v },
-        tunable: false,
-    },
-    at!(
-        "coil_free_length",
-        Length,
-        "free length of the control coil",
-        coil.free_length
-    ),
-    at!(
-        "coil_nominal_length",
-        Length,
-        "length of the control coil in the nominal position",
-        coil.nominal_length
-    ),
-    at!(
-        "coil_damping",
-        Damping,
-        "damping of the control coil, in all modes of the coil",
-        coil.damping
-    ),
-    at!(
-        "coil_rotational_damping",
-        RotationalDamping,
-        "damping of rotations by the control coil",
-        coil.rotational_damping
-    ),
-    at!(
-        "contact_stiffness",
-        Stiffness,
-        "normal stiffness of each corner",
-        contact.stiffness
-    ),
-    at!(
-        "contact_damping",
-        Damping,
-        "normal damping of each corner",
-        contact.damping
-    ),
-    friction!(
-        "column_friction",
-        "coefficient of friction of the column",
-        column_friction
-    ),
-    friction!(
-        "slope_friction",
-        "coefficient of friction of the slope",
-        slope_friction
-    ),
-    reference_speed!(
-        "column_reference_speed",
-        "reference speed of the tanh law of friction at the column",
-        column_friction
-    ),
-    reference_speed!(
-        "slope_reference_speed",
-        "reference speed of the tanh law of friction at the slope",
-        slope_friction
-    ),
-    at!("toe", Angle, "toe angle of the column, positive is toe out", toe),
-    at!("gravity", Acceleration, "gravity, downwards", gravity),
-];
+/// The stiffness of a coil that has one.
+macro_rules! coil_stiffness {
+    () => {
+        Access {
+            get: |p| match p.coil.law {
+                CoilLaw::Linear { stiffness } => Some(stiffness),
+                _ => None,
+            },
+            set: |p, v| p.coil.law = CoilLaw::Linear { stiffness: v },
+            ..NONE
+        }
+    };
+}
+
+/// Lists parameters: name, kind, access, description.
+macro_rules! parameters {
+    ($($name:ident: $kind:ident = $access:ident($($place:tt)*), $text:literal;)+) => {
+        const ALL: &[Access] = &[$(
+            Access {
+                name: stringify!($name),
+                kind: Kind::$kind,
+                text: $text,
+                ..$access!($($place)*)
+            },
+        )+];
+    };
+}
+
+parameters! {
+    wedge_angle: Angle = fixed(wedge.angle), "wedge angle between the vertical and the slope";
+    wedge_height: Length = fixed(wedge.height), "height of the vertical face";
+    wedge_width: Length = fixed(wedge.width), "lateral width";
+    wedge_mass: Mass = fixed(wedge.mass), "mass of the wedge";
+    wedge_inertia_roll: Inertia = fixed(wedge.inertia[0]),
+        "moment of inertia about the center of gravity, longitudinal axis";
+    wedge_inertia_pitch: Inertia = fixed(wedge.inertia[1]),
+        "moment of inertia about the center of gravity, lateral axis";
+    wedge_inertia_yaw: Inertia = fixed(wedge.inertia[2]),
+        "moment of inertia about the center of gravity, vertical axis";
+    column_wear: Length = fixed(wear.column),
+        "depth of wear of the column and the wedge's vertical face together";
+    slope_wear: Length = fixed(wear.slope),
+        "depth of wear of the pocket's slope and the wedge's slope face together";
+    coil_stiffness: Stiffness = coil_stiffness(), "stiffness of the control coil (coil_mode = 0)";
+    coil_free_length: Length = fixed(coil.free_length), "free length of the control coil";
+    coil_nominal_length: Length = fixed(coil.nominal_length),
+        "length of the control coil in the nominal position";
+    coil_damping: Damping = fixed(coil.damping), "damping of the control coil, in all modes of the coil";
+    coil_rotational_damping: RotationalDamping = fixed(coil.rotational_damping),
+        "damping of rotations by the control coil";
+    contact_stiffness: Stiffness = fixed(contact.stiffness), "normal stiffness of each corner";
+    contact_damping: Damping = fixed(contact.damping), "normal damping of each corner";
+    column_friction: Dimensionless = tunable(column_friction.coefficient),
+        "coefficient of friction of the column";
+    slope_friction: Dimensionless = tunable(slope_friction.coefficient),
+        "coefficient of friction of the slope";
+    column_reference_speed: Speed = reference_speed(column_friction),
+        "reference speed of the tanh law of friction at the column";
+    slope_reference_speed: Speed = reference_speed(slope_friction),
+        "reference speed of the tanh law of friction at the slope";
+    toe: Angle = fixed(toe), "toe angle of the column, positive is toe out";
+    gravity: Acceleration = fixed(gravity), "gravity, downwards";
+}
 
 fn reference_speed(face: &FaceFriction) -> Option<f64> {
     match face.law {

@@ -13,15 +13,15 @@ use crate::watch::Doubt;
 impl Saved {
     /// Checks whether it can be a state of this instance, as far as that can be said without its element.
     pub(super) fn check(&self, instance: &Instance) -> Result<(), Error> {
-        let values = &instance.values;
+        let (own, found) = (&instance.values, &self.values);
         for (member, own, found) in [
-            ("parameters", values.parameters.len(), self.parameters.len()),
-            ("options", values.options.len(), self.options.len()),
-            ("inputs", values.inputs.len(), self.inputs.len()),
-            ("start_inputs", values.inputs.len(), self.start_inputs.len()),
-            ("slopes", values.slopes.len(), self.slopes.len()),
-            ("set", values.set.len(), self.set.len()),
-            ("doubts", values.doubts.len(), self.doubts.len()),
+            ("parameters", own.parameters.len(), found.parameters.len()),
+            ("options", own.options.len(), found.options.len()),
+            ("inputs", own.inputs.len(), found.inputs.len()),
+            ("start_inputs", own.inputs.len(), found.start_inputs.len()),
+            ("slopes", own.slopes.len(), found.slopes.len()),
+            ("set", own.set.len(), found.set.len()),
+            ("doubts", own.doubts.len(), found.doubts.len()),
         ] {
             if own != found {
                 return Err(damaged(
@@ -31,34 +31,34 @@ impl Saved {
                 ));
             }
         }
-        check_experiment(self.start, self.stop, self.tolerance)
+        check_experiment(self.experiment)
             .map_err(|error| Error::new(format!("the saved state is damaged: {error}")))?;
         check_finite("time", [&self.time])?;
-        check_finite("parameters", &self.parameters)?;
-        check_finite("inputs", &self.inputs)?;
-        check_finite("start_inputs", &self.start_inputs)?;
-        check_finite("slopes", self.slopes.iter().flatten())?;
-        check_finite("doubts", self.doubts.iter().flat_map(Doubt::values))?;
+        check_finite("parameters", &found.parameters)?;
+        check_finite("inputs", &found.inputs)?;
+        check_finite("start_inputs", &found.start_inputs)?;
+        check_finite("slopes", found.slopes.iter().flatten())?;
+        check_finite("doubts", found.doubts.iter().flat_map(Doubt::values))?;
         self.check_options(instance)?;
         self.check_phase()?;
-        self.check_past(values.inputs.len())
+        self.check_past(own.inputs.len())
     }
 
     fn check_past(&self, inputs: usize) -> Result<(), Error> {
-        if self.past.len() > KEPT_POINTS {
+        if self.values.past.len() > KEPT_POINTS {
             let expected = format!("a list of at most {KEPT_POINTS}");
             return Err(damaged(
                 "past",
-                format!("a list of {}", self.past.len()),
+                format!("a list of {}", self.values.past.len()),
                 expected,
             ));
         }
         // An importer that integrates may go back in time.
         let mut span = match self.interface {
-            Interface::CoSimulation => [self.start, self.time],
+            Interface::CoSimulation => [self.experiment.start, self.time],
             Interface::ModelExchange => [f64::NEG_INFINITY, f64::INFINITY],
         };
-        for (number, point) in self.past.iter().enumerate() {
+        for (number, point) in self.values.past.iter().enumerate() {
             let found = point.inputs.len();
             if found != inputs {
                 let (found, expected) = (format!("a list of {found}"), format!("a list of {inputs}"));
@@ -76,7 +76,13 @@ impl Saved {
     }
 
     fn check_options(&self, instance: &Instance) -> Result<(), Error> {
-        for (entry, value) in instance.description.entries.options.iter().zip(&self.options) {
+        for (entry, value) in instance
+            .description
+            .entries
+            .options
+            .iter()
+            .zip(&self.values.options)
+        {
             let [least, greatest] = entry.reach.unwrap_or([0.0, 1.0]);
             if !(least..=greatest).contains(&f64::from(*value)) {
                 return Err(damaged(
@@ -112,11 +118,11 @@ impl Saved {
                 "there from the end of the initialization on",
             ));
         }
-        if !started && self.time != self.start {
+        if !started && self.time != self.experiment.start {
             return Err(damaged(
                 "time",
                 self.time,
-                format!("the start time, {} s", self.start),
+                format!("the start time, {} s", self.experiment.start),
             ));
         }
         // A step that has failed may have left the element on its way.
