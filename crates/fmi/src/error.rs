@@ -92,6 +92,20 @@ pub(crate) fn damaged(member: &str, found: impl Display, expected: impl Display)
     ))
 }
 
+/// Checks the numbers of entries of members: those found, and those that there must be.
+pub(crate) fn check_lengths<'m>(
+    members: impl IntoIterator<Item = (&'m str, usize, usize)>,
+) -> Result<(), Error> {
+    match members.into_iter().find(|(_, found, own)| found != own) {
+        Some((member, found, own)) => Err(damaged(
+            member,
+            format!("a list of {found}"),
+            format!("a list of {own}"),
+        )),
+        None => Ok(()),
+    }
+}
+
 /// Checks whether all numbers of a member are finite.
 pub(crate) fn check_finite<'v>(member: &str, values: impl IntoIterator<Item = &'v f64>) -> Result<(), Error> {
     match values

@@ -8,12 +8,11 @@ use study::case::Case;
 use wedge::Parameters;
 use wedge::inputs::CoilInput;
 use wedge::outputs::FACES;
-use wedge::quasi_static::{PlanePlace, PlaneReading, read};
+use wedge::quasi_static::{Jams, PlanePlace, PlaneReading, massless, read};
 
 use crate::Error;
-use crate::element::{Element, Entries, Setting, Slopes};
-use crate::element_state::{ElementState, QuasiStaticState};
-use crate::error::damaged;
+use crate::element::{Element, Entries, QuantityEntry, Setting, Slopes};
+use crate::element_state::ElementState;
 use crate::source::{Made, Model};
 use crate::wedge::entries::{coil, friction_loss, inputs, motion_work, options, outputs};
 use crate::wedge::{COIL_MODE, CONVENTIONS, parameters};
@@ -35,7 +34,8 @@ struct QuasiStaticElement {
     time: f64,
     states: Vec<f64>,
     inputs: Vec<f64>,
-    friction: [Option<usize>; 2],
+    /// The parameters that an importer may set.
+    known: Vec<QuantityEntry>,
 }
 
 /// A quasi-static wedge.
@@ -116,69 +116,38 @@ fn outputs_of<S: Real>(reading: &PlaneReading<S>) -> [S; 10] {
     ]
 }
 
+/// Checks parameters, and whether the wedge slides both ways with them, whatever part of the friction is
+/// mobilized.
+fn check(parameters: &Parameters) -> Result<(), Error> {
+    parameters.validate().map_err(Error::of)?;
+    let wedge = massless(parameters);
+    let slides = |mobilized: f64| wedge.normal_forces(mobilized, 1.0).is_some();
+    if [-1.0, 0.0, 1.0].into_iter().all(slides) {
+        Ok(())
+    } else {
+        Err(Error::of(Jams))
+    }
+}
+
 impl QuasiStaticElement {
     /// Returns the quasi-static wedge of a case under these settings, at its start.
     ///
     /// # Errors
     /// Values outside their reach, or the wedge jams.
     fn new(case: &Case, entries: &Entries, setting: &Setting) -> Result<Self, Error> {
-        // The values by name among all of the wedge's parameters.
-        let all = parameters::entries(&case.parameters);
-        let values: Vec<f64> = all
-            .iter()
-            .map(|entry| {
-                let place = entries.parameters.iter().position(|used| used.name == entry.name);
-                let value = place.and_then(|place| setting.parameters.get(place)).copied();
-                value.or(match entry.start {
-                    crate::variable::Start::Float(start) => start,
-                    _ => None,
-                })
-            })
-            .map(|value| value.unwrap_or(0.0))
-            .collect();
-        let parameters = parameters::apply(&case.parameters, &values);
-        parameters.validate().map_err(Error::of)?;
-        let place = |name: &str| entries.parameters.iter().position(|entry| entry.name == name);
+        let known = entries.parameters.clone();
+        let parameters = parameters::apply(&case.parameters, &known, &setting.parameters);
         let mut element = Self {
             parameters,
+            known,
             coil_mode: setting.option(COIL_MODE),
             time: setting.start_time,
             states: vec![0.0; STATES],
             inputs: setting.inputs.clone(),
-            friction: [place("column_friction"), place("slope_friction")],
         };
-        element.check_slides()?;
+        check(&element.parameters)?;
         element.set_inputs(&setting.inputs)?;
         Ok(element)
-    }
-
-    /// Checks whether the wedge slides both ways, whatever part of the friction is mobilized.
-    fn check_slides(&self) -> Result<(), Error> {
-        let wedge = wedge::quasi_static::massless(&self.parameters);
-        for mobilized in [-1.0, 0.0, 1.0] {
-            if wedge.normal_forces(mobilized, 1.0).is_none() {
-                return Err(Error::new(wedge::quasi_static::Jams.to_string()));
-            }
-        }
-        Ok(())
-    }
-
-    /// Sets the coefficients of friction of column and slope, if the wedge slides with them.
-    fn set_friction(&mut self, friction: [f64; 2]) -> Result<(), Error> {
-        let before = self.parameters.clone();
-        [
-            self.parameters.column_friction.coefficient,
-            self.parameters.slope_friction.coefficient,
-        ] = friction;
-        let valid = self
-            .parameters
-            .validate()
-            .map_err(Error::of)
-            .and_then(|()| self.check_slides());
-        if valid.is_err() {
-            self.parameters = before;
-        }
-        valid
     }
 
     fn coil(&self, inputs: &[f64]) -> CoilInput {
@@ -251,10 +220,10 @@ impl Element for QuasiStaticElement {
     }
 
     fn tune(&mut self, parameters: &[f64]) -> Result<(), Error> {
-        let value = |place: Option<usize>| place.and_then(|place| parameters.get(place)).copied();
-        let own = &self.parameters;
-        let own = [own.column_friction.coefficient, own.slope_friction.coefficient];
-        self.set_friction(std::array::from_fn(|k| value(self.friction[k]).unwrap_or(own[k])))
+        let tuned = parameters::apply(&self.parameters, &self.known, parameters);
+        check(&tuned)?;
+        self.parameters = tuned;
+        Ok(())
     }
 
     fn step(&mut self, end: &[f64], time: f64) -> Result<(), Error> {
@@ -376,32 +345,21 @@ impl Element for QuasiStaticElement {
     }
 
     fn save(&self) -> ElementState {
-        ElementState::QuasiStatic(QuasiStaticState {
+        ElementState {
             time: self.time,
             states: self.states.clone(),
             inputs: self.inputs.clone(),
-            friction: [
-                self.parameters.column_friction.coefficient,
-                self.parameters.slope_friction.coefficient,
-            ],
-        })
+            system: None,
+        }
     }
 
     fn restore(&mut self, state: &ElementState) -> Result<(), Error> {
-        let ElementState::QuasiStatic(state) = state else {
+        if state.system.is_some() {
             return Err(Error::new("the saved state belongs to another model"));
-        };
-        if state.inputs.len() != self.inputs.len() {
-            let (found, own) = (state.inputs.len(), self.inputs.len());
-            let (found, own) = (format!("a list of {found}"), format!("a list of {own}"));
-            return Err(damaged("the element's inputs", found, own));
         }
-        let mut fresh = self.clone();
-        let wrong = |error: Error| Error::new(format!("the saved state is damaged: {error}"));
-        fresh.set_states(state.time, &state.states).map_err(wrong)?;
-        fresh.set_inputs(&state.inputs).map_err(wrong)?;
-        fresh.set_friction(state.friction).map_err(wrong)?;
-        *self = fresh;
-        Ok(())
+        state.check(STATES, self.inputs.len())?;
+        let inputs = self.set_inputs(&state.inputs);
+        inputs.map_err(|error| Error::new(format!("the saved state is damaged: {error}")))?;
+        self.set_states(state.time, &state.states)
     }
 }

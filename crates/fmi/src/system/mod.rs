@@ -494,13 +494,10 @@ impl Element for SystemElement {
     }
 
     fn save(&self) -> ElementState {
-        ElementState::System(Box::new(self.saved()))
+        self.saved()
     }
 
     fn restore(&mut self, state: &ElementState) -> Result<(), Error> {
-        match state {
-            ElementState::System(state) => self.go_back(state),
-            _ => Err(Error::new("the saved state belongs to another model")),
-        }
+        self.go_back(state)
     }
 }

@@ -7,38 +7,25 @@ use super::SystemElement;
 use super::inputs::place;
 use crate::Error;
 use crate::element::Element;
-use crate::element_state::SystemState;
-use crate::error::{check_finite, damaged};
+use crate::element_state::{ElementState, SystemState};
+use crate::error::{check_finite, check_lengths, damaged};
 
-impl SystemState {
-    /// Checks whether it can be a state of this element; its integrator is checked by the element's.
-    fn check(&self, element: &SystemElement) -> Result<(), Error> {
-        for (member, found, own) in [
-            ("the system's states", self.states.len(), element.states.len()),
-            ("the system's inputs", self.inputs.len(), element.inputs.len()),
-            (
-                "the system's contact states",
-                self.contact_states.len(),
-                element.modes().len(),
-            ),
-        ] {
-            if found != own {
-                let (found, own) = (format!("a list of {found}"), format!("a list of {own}"));
-                return Err(damaged(member, found, own));
-            }
-        }
-        check_finite("the system's states", &self.states)?;
-        check_finite("the system's inputs", &self.inputs)?;
-        let inputs = element.plant.check_inputs(&self.inputs);
+impl SystemElement {
+    /// Checks whether a state can be one of this element; its integrator is checked by the element's.
+    fn check(&self, state: &ElementState, own: &SystemState) -> Result<(), Error> {
+        state.check(self.states.len(), self.inputs.len())?;
+        let inputs = self.plant.check_inputs(&state.inputs);
         inputs.map_err(|error| Error::new(format!("the saved state is damaged: {error}")))?;
-        let times = [&self.time, &self.start_energy, &self.piece_start];
-        check_finite("the system's time, start energy and start of the piece", times)?;
-        if self.piece_start > self.time {
-            let expected = format!("at most the time, {} s", self.time);
-            return Err(damaged("the start of the piece", self.piece_start, expected));
+        let count = own.contact_states.len();
+        check_lengths([("the system's contact states", count, self.modes().len())])?;
+        let numbers = [&own.start_energy, &own.piece_start];
+        check_finite("the system's start energy and start of the piece", numbers)?;
+        if own.piece_start > state.time {
+            let expected = format!("at most the time, {} s", state.time);
+            return Err(damaged("the start of the piece", own.piece_start, expected));
         }
-        let integrated = self.integrator.iter().flat_map(|state| &state.discrete_states);
-        let mut contact_states = self.contact_states.iter().chain(integrated);
+        let integrated = own.integrator.iter().flat_map(|state| &state.discrete_states);
+        let mut contact_states = own.contact_states.iter().chain(integrated);
         match contact_states.find(|state| **state > ContactState::Slip as u8) {
             Some(state) => Err(damaged(
                 "a contact state of the system",
@@ -48,19 +35,19 @@ impl SystemState {
             None => Ok(()),
         }
     }
-}
 
-impl SystemElement {
     /// Returns all that is needed to go on with the same bits.
-    pub(super) fn saved(&self) -> SystemState {
-        SystemState {
+    pub(super) fn saved(&self) -> ElementState {
+        ElementState {
             time: self.time,
             states: self.states.clone(),
             inputs: self.inputs.clone(),
-            contact_states: self.modes().to_vec(),
-            start_energy: self.start_energy,
-            piece_start: self.piece_start,
-            integrator: self.integrator.as_ref().map(Integrator::state),
+            system: Some(SystemState {
+                contact_states: self.modes().to_vec(),
+                start_energy: self.start_energy,
+                piece_start: self.piece_start,
+                integrator: self.integrator.as_ref().map(Integrator::state),
+            }),
         }
     }
 
@@ -68,12 +55,14 @@ impl SystemElement {
     ///
     /// # Errors
     /// The state cannot be one of this element; nothing has changed then.
-    pub(super) fn go_back(&mut self, state: &SystemState) -> Result<(), Error> {
-        state.check(self)?;
+    pub(super) fn go_back(&mut self, state: &ElementState) -> Result<(), Error> {
+        let own = state.system.as_ref();
+        let own = own.ok_or_else(|| Error::new("the saved state belongs to another model"))?;
+        self.check(state, own)?;
         self.loads.set(&self.plant.ports, &state.inputs);
-        match (&mut self.integrator, &state.integrator) {
+        match (&mut self.integrator, &own.integrator) {
             (None, None) => {
-                self.plant.system.next_time_discontinuity(state.piece_start);
+                self.plant.system.next_time_discontinuity(own.piece_start);
             }
             (Some(integrator), Some(saved)) => {
                 if let Err(error) = integrator.check_state(saved) {
@@ -97,10 +86,10 @@ impl SystemElement {
             }
         }
         if let Some(contacts) = &mut self.contacts {
-            contacts.states.copy_from_slice(&state.contact_states);
+            contacts.states.copy_from_slice(&own.contact_states);
         }
-        self.start_energy = state.start_energy;
-        self.piece_start = state.piece_start;
+        self.start_energy = own.start_energy;
+        self.piece_start = own.piece_start;
         self.time = state.time;
         self.states.copy_from_slice(&state.states);
         self.inputs.copy_from_slice(&state.inputs);

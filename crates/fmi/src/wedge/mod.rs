@@ -55,7 +55,11 @@ pub fn plant(case: &Case, setting: Option<&Setting>) -> Result<Plant, Error> {
     let mut start = Neighbours::of(&parameters, 0.0);
     let (mut coil, mut source) = (CoilInput::Internal, None);
     if let Some(setting) = setting {
-        parameters = parameters::apply(&parameters, &setting.parameters);
+        parameters = parameters::apply(
+            &parameters,
+            &parameters::entries(&parameters),
+            &setting.parameters,
+        );
         parameters.start = match setting.option(START) {
             1 => Start::Touching,
             2 => Start::Equilibrium,

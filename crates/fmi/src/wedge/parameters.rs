@@ -155,13 +155,14 @@ pub(crate) fn entries(parameters: &Parameters) -> Vec<QuantityEntry> {
         .collect()
 }
 
-/// Returns the parameters with other values, in the order of [`entries`]. What was not touched keeps its
-/// bits.
-pub(crate) fn apply(parameters: &Parameters, values: &[f64]) -> Parameters {
+/// Returns the parameters with other values of these. What was not touched keeps its bits.
+pub(crate) fn apply(parameters: &Parameters, known: &[QuantityEntry], values: &[f64]) -> Parameters {
     let mut changed = parameters.clone();
-    for ((access, before), value) in present(parameters).zip(values) {
-        if before.to_bits() != value.to_bits() {
-            (access.set)(&mut changed, *value);
+    for (access, before) in present(parameters) {
+        let place = known.iter().position(|entry| entry.name == access.name);
+        match place.and_then(|place| values.get(place)) {
+            Some(value) if value.to_bits() != before.to_bits() => (access.set)(&mut changed, *value),
+            _ => {}
         }
     }
     changed

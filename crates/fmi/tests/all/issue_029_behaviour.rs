@@ -144,7 +144,7 @@ fn every_other_member_is_refused_or_goes_on(model: FmuModel, interface: Interfac
 fn issue_029_members_of_an_instance_that_led_astray_are_refused_by_name() {
     let mut instance = under_way(FmuModel::Wedge, Interface::CoSimulation);
     let good: Value = serde_json::from_slice(&instance.save().to_bytes().unwrap()).unwrap();
-    let integrator = "/element/System/integrator";
+    let integrator = "/element/system/integrator";
     for (place, value, member) in [
         // A step from there would have been 1e308 s long.
         ("/time".to_owned(), json!(1e308), "the element's time"),

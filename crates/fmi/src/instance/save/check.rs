@@ -5,8 +5,7 @@ use super::super::check_experiment;
 use super::{Instance, Phase, Saved};
 use crate::Error;
 use crate::element::Interface;
-use crate::element_state::ElementState;
-use crate::error::{check_finite, damaged};
+use crate::error::{check_finite, check_lengths, damaged};
 use crate::extrapolate::KEPT_POINTS;
 use crate::watch::Doubt;
 
@@ -14,23 +13,15 @@ impl Saved {
     /// Checks whether it can be a state of this instance, as far as that can be said without its element.
     pub(super) fn check(&self, instance: &Instance) -> Result<(), Error> {
         let (own, found) = (&instance.values, &self.values);
-        for (member, own, found) in [
-            ("parameters", own.parameters.len(), found.parameters.len()),
-            ("options", own.options.len(), found.options.len()),
-            ("inputs", own.inputs.len(), found.inputs.len()),
-            ("start_inputs", own.inputs.len(), found.start_inputs.len()),
-            ("slopes", own.slopes.len(), found.slopes.len()),
-            ("set", own.set.len(), found.set.len()),
-            ("doubts", own.doubts.len(), found.doubts.len()),
-        ] {
-            if own != found {
-                return Err(damaged(
-                    member,
-                    format!("a list of {found}"),
-                    format!("a list of {own}"),
-                ));
-            }
-        }
+        check_lengths([
+            ("parameters", found.parameters.len(), own.parameters.len()),
+            ("options", found.options.len(), own.options.len()),
+            ("inputs", found.inputs.len(), own.inputs.len()),
+            ("start_inputs", found.start_inputs.len(), own.inputs.len()),
+            ("slopes", found.slopes.len(), own.slopes.len()),
+            ("set", found.set.len(), own.set.len()),
+            ("doubts", found.doubts.len(), own.doubts.len()),
+        ])?;
         check_experiment(self.experiment)
             .map_err(|error| Error::new(format!("the saved state is damaged: {error}")))?;
         check_finite("time", [&self.time])?;
@@ -59,11 +50,7 @@ impl Saved {
             Interface::ModelExchange => [f64::NEG_INFINITY, f64::INFINITY],
         };
         for (number, point) in self.values.past.iter().enumerate() {
-            let found = point.inputs.len();
-            if found != inputs {
-                let (found, expected) = (format!("a list of {found}"), format!("a list of {inputs}"));
-                return Err(damaged("past", found, expected));
-            }
+            check_lengths([("past", point.inputs.len(), inputs)])?;
             check_finite("past", point.inputs.iter().chain([&point.time]))?;
             let [least, greatest] = span;
             if point.time < least || number > 0 && point.time == least || point.time > greatest {
@@ -127,7 +114,7 @@ impl Saved {
         }
         // A step that has failed may have left the element on its way.
         let may_differ = matches!(self.phase, Phase::Failed | Phase::Terminated);
-        match self.element.as_ref().map(ElementState::time) {
+        match self.element.as_ref().map(|element| element.time) {
             Some(time) if time != self.time && !may_differ => Err(damaged(
                 "the element's time",
                 time,
