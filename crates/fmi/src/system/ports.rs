@@ -101,7 +101,7 @@ pub struct StartPort {
     pub rate: bool,
 }
 
-/// An input that is the coefficient of a coil's spring force.
+/// What an input says of the spring force of a coil.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CoilSource {
     /// The stiffness (N/m), by which the compression is multiplied.
@@ -231,7 +231,7 @@ pub struct Ports {
     pub loads: Vec<LoadPort>,
     /// Inputs that move prescribed bodies.
     pub motions: Vec<MotionPort>,
-    /// Inputs that are forces of coils.
+    /// Inputs that are stiffness or force of a coil.
     pub coils: Vec<CoilPort>,
     /// Parameters that are values at the start: the first ones, in their order.
     pub starts: Vec<StartPort>,
