@@ -145,7 +145,7 @@ impl OverAmplitude {
         match &parameters.wheels {
             Wheels::Linear { wheelset, .. } => own.half_distance = wheelset.geometry.half_distance,
             Wheels::OnRails(wheels) => {
-                own.saturation = Saturation::of(wheels.law.creep);
+                own.saturation = Saturation::of(wheels.laws[0].creep);
                 let mut tables = wheels.geometry.each_ref().map(|_| None);
                 for (w, geometry) in wheels.geometry.iter().enumerate() {
                     let same = wheels.geometry[..w]
@@ -160,13 +160,16 @@ impl OverAmplitude {
                     unreachable!("all are made")
                 };
                 own.wheels = Some([a, b, c, d]);
-                own.limit = 0.5 * axle_load * wheels.law.friction;
+                let [left, right] = wheels.laws.each_ref().map(|law| law.friction.zones.tread);
+                own.limit = 0.25 * axle_load * (left + right);
                 if let Ok(middle) = LinearGeometry::of(&wheels.geometry[0], MIDDLE) {
                     own.half_distance = middle.half_distance;
                 }
                 let mut bare = parameters.clone();
                 if let Wheels::OnRails(wheels) = &mut bare.wheels {
-                    wheels.law.creep = CreepLaw::Frictionless;
+                    for law in wheels.laws.iter_mut() {
+                        law.creep = CreepLaw::Frictionless;
+                    }
                 }
                 own.without_creep = Some(own.car.with(&bare)?);
             }

@@ -515,7 +515,7 @@ fn wheels(
                         lines: lines.clone(),
                         side: [Side::Left, Side::Right][i],
                         search: searches[w][i].clone(),
-                        law: own.law,
+                        law: own.laws[i].clone(),
                     };
                     let on = rails.map_or(0, |rails| rails[w][i]);
                     model.add(

@@ -8,6 +8,7 @@ use truck::{CarBody, Lading, RigidBody, SideBearings};
 use wedge::parameters::{Damping, STANDARD_GRAVITY};
 use wheelrail::contact::{ContactLaw, CreepLaw};
 use wheelrail::creep::polach;
+use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 use wheelrail::profile::{Profile, ProfileError, nominal};
 use wheelrail::track::Track;
@@ -94,12 +95,12 @@ impl ProfiledWheels {
             rails_over: [None, None],
             tape_distance: nominal::TAPE_DISTANCE,
             tables: false,
-            law: ContactLaw {
-                friction: 0.4,
+            laws: Box::new([0; 2].map(|_| ContactLaw {
+                friction: Friction::constant(0.4),
                 damping: if sprung { 0.3 } else { 2.0 },
                 creep: CreepLaw::Polach(polach::DRY),
                 slowest: 0.1,
-            },
+            })),
         })
     }
 }

@@ -64,8 +64,8 @@ pub struct ProfiledWheels {
     pub tape_distance: f64,
     /// True if patches come from tables: faster, for motion on treads only.
     pub tables: bool,
-    /// Friction, creep law and damping of the contacts.
-    pub law: ContactLaw,
+    /// Friction, creep law and damping of the contacts on the left and on the right rail.
+    pub laws: Box<[ContactLaw; 2]>,
 }
 
 impl ProfiledWheels {

@@ -18,6 +18,7 @@ use rolling::wheel::{Search, WheelOnRail};
 use rolling::wheelset::WheelsetBody;
 use wheelrail::contact::{ContactLaw, ContactTable, CreepLaw, Side};
 use wheelrail::creep::polach;
+use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 use wheelrail::profile::nominal;
 use wheelrail::track::spectrum::{Realization, Spectrum};
@@ -103,7 +104,7 @@ fn setup(track: Track, sprung: bool, table: bool) -> Result<Setup, Failure> {
             search: [search(0)?, search(1)?],
             tape_distance: nominal::TAPE_DISTANCE,
             law: ContactLaw {
-                friction: 0.4,
+                friction: Friction::constant(0.4),
                 damping: if sprung { 0.3 } else { 2.0 },
                 creep: CreepLaw::Polach(polach::DRY),
                 slowest: 0.1,
@@ -331,7 +332,7 @@ fn continuity() -> Result<(), Failure> {
         lines,
         side: Side::Left,
         search: search[0].clone(),
-        law: *law,
+        law: law.clone(),
     };
     let at = |lateral: f64| {
         let motion = RelativeMotion {

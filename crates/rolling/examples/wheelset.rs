@@ -15,6 +15,7 @@ use rolling::wheelset::WheelsetBody;
 use wheelrail::conicity::LinearGeometry;
 use wheelrail::contact::{ContactLaw, CreepLaw, Side};
 use wheelrail::creep::polach;
+use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 use wheelrail::profile::nominal;
 use wheelrail::track::{CenterLine, RailLines, Segment, Track};
@@ -74,7 +75,7 @@ fn setup(
             search: [0, 1].map(|i| Search::Exact(Arc::new(rigid.pairs()[i].clone()))),
             tape_distance: *tape_distance,
             law: ContactLaw {
-                friction: 0.4,
+                friction: Friction::constant(0.4),
                 damping: 2.0,
                 creep: CreepLaw::Polach(polach::DRY),
                 slowest: 0.1,

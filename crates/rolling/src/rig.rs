@@ -348,7 +348,7 @@ fn on_rails(setup: &Setup) -> Option<([WheelOnRail; 2], f64)> {
         lines: setup.lines.clone(),
         side,
         search: search.clone(),
-        law: *law,
+        law: law.clone(),
     };
     let wheels = [
         wheel("wheel_l", Side::Left, left),

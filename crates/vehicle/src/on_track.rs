@@ -291,7 +291,7 @@ pub(crate) fn add_wheels(
                 lines: lines.clone(),
                 side: [Side::Left, Side::Right][i],
                 search: searches[i].clone(),
-                law: on.wheels.law,
+                law: on.wheels.laws[i].clone(),
             }),
             half,
             radius: on.radius(),

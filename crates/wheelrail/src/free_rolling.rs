@@ -35,7 +35,7 @@ impl RigidWheelset {
         };
         check(&at(0.0), load, law)?;
         let usual = attitude.speed / self.nominal_radius();
-        if law.friction == 0.0 || law.creep == CreepLaw::Frictionless {
+        if law.friction.is_zero() || law.creep == CreepLaw::Frictionless {
             return Ok(-usual);
         }
         let torque = |spin: f64| -> Result<f64, LoadError> {

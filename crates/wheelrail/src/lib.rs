@@ -34,6 +34,7 @@ pub mod conicity;
 pub mod contact;
 pub mod creep;
 pub mod free_rolling;
+pub mod friction;
 pub mod hertz;
 pub mod loaded;
 pub mod profile;

@@ -15,6 +15,7 @@ use study::truck::{self, TruckCase};
 use study::wheelset::{SearchMode, Wheelset, WheelsetCase};
 use wheelrail::contact::CreepLaw;
 use wheelrail::creep::polach;
+use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 use wheelrail::profile::nominal;
 use wheelrail::wheelset::Layout;
@@ -93,7 +94,7 @@ fn one_wheelset() -> Option<Wheelset> {
         speed: 15.0,
         stiffness: [2e6, 2e6],
         damping: [2e4, 2e3],
-        friction: 0.4,
+        friction: Friction::constant(0.4),
         creep: CreepLaw::Polach(polach::DRY),
         search: SearchMode::Search,
         start: RigStart {

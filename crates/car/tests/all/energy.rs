@@ -122,7 +122,9 @@ fn analytic_gyroscopic_moment_of_the_wheelsets() {
     parameters.start.distance = 150.0;
     parameters.start.kind = StartKind::Nominal;
     if let Wheels::OnRails(wheels) = &mut parameters.wheels {
-        wheels.law.creep = CreepLaw::Frictionless;
+        for law in wheels.laws.iter_mut() {
+            law.creep = CreepLaw::Frictionless;
+        }
     }
     let car = Car::new(&parameters).unwrap();
     let mut system = car.system.clone();

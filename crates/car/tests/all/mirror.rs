@@ -152,7 +152,9 @@ fn issue_047_wedges_lose_more_at_the_axle_that_dips_first() {
 fn issue_047_a_car_that_runs_backward_loses_what_its_mirror_image_loses() {
     let frictionless = |parameters: &mut Parameters| {
         if let Wheels::OnRails(wheels) = &mut parameters.wheels {
-            wheels.law.creep = CreepLaw::Frictionless;
+            for law in wheels.laws.iter_mut() {
+                law.creep = CreepLaw::Frictionless;
+            }
         }
     };
     for change in [frictionless, |_: &mut Parameters| ()] {

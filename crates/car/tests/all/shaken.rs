@@ -212,7 +212,9 @@ fn input_cars_that_cannot_be_shaken_are_refused() {
     let mut wide = shaken(18.0);
     put_on_gauge(&mut wide, 60.5);
     if let Wheels::OnRails(wheels) = &mut wide.wheels {
-        wheels.law.creep = CreepLaw::Frictionless;
+        for law in wheels.laws.iter_mut() {
+            law.creep = CreepLaw::Frictionless;
+        }
     }
     let error = Car::new(&wide).unwrap_err();
     let text = error.to_string();

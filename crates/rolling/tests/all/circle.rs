@@ -14,7 +14,7 @@ use rolling::rig::{Rig, RigError, RigStart, Setup, WHEELSET, Wheels};
 use rolling::track::RailSupport;
 use rolling::wheel::{Search, WheelOnRail};
 use rolling::wheelset::coordinate;
-use wheelrail::contact::{ContactLaw, CreepLaw, LinearWheelset, Side};
+use wheelrail::contact::{CreepLaw, LinearWheelset, Side};
 use wheelrail::track::{CurveElements, Line, RailLines, Segment};
 
 /// Returns a circle of 10 deg of curve, to the left, and its radius.
@@ -45,7 +45,7 @@ fn left_wheel(setup: &Setup) -> WheelOnRail {
         lines: setup.lines.clone(),
         side: Side::Left,
         search: search[0].clone(),
-        law: *law,
+        law: law.clone(),
     }
 }
 
@@ -187,7 +187,7 @@ fn analytic_jacobian_is_that_of_differences() {
     let rough = |law: CreepLaw| {
         let mut setup = flanging.clone();
         if let Wheels::OnRails { law: own, .. } = &mut setup.wheels {
-            *own = ContactLaw { creep: law, ..*own };
+            own.creep = law;
         }
         setup
     };

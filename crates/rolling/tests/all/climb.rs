@@ -9,6 +9,7 @@ use rolling::rig::Wheels;
 use rolling::wheel::WheelOnRail;
 use wheelrail::contact::{ContactLaw, CreepLaw, Side};
 use wheelrail::creep::fastsim::StripGrid;
+use wheelrail::friction::Friction;
 use wheelrail::track::Segment;
 
 /// Returns the zero of a falling function.
@@ -29,7 +30,12 @@ fn zero([mut low, mut high]: [f64; 2], falling: impl Fn(f64) -> f64) -> f64 {
 fn largest_ratio(law: ContactLaw, attack: f64, load: f64) -> [f64; 2] {
     let wheels = freight();
     let half = 0.5 * wheels.1;
-    let setup = on_rails(&wheels, track(&[Segment::Tangent(40.0)], Vec::new()), law, 10.0);
+    let setup = on_rails(
+        &wheels,
+        track(&[Segment::Tangent(40.0)], Vec::new()),
+        law.clone(),
+        10.0,
+    );
     let Wheels::OnRails { search, .. } = &setup.wheels else {
         unreachable!()
     };
@@ -96,7 +102,7 @@ fn analytic_a_wheel_that_climbs_reaches_nadals_limit() {
     ] {
         let law = ContactLaw {
             creep,
-            friction,
+            friction: Friction::constant(friction),
             damping: 0.0,
             ..POLACH
         };

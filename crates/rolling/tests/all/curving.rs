@@ -160,7 +160,7 @@ fn limits_vibrations_in_a_wide_curve_are_those_of_straight_track() {
         ..RigStart::default()
     };
     let found = [Segment::Curve(2000.0, level), Segment::Tangent(2000.0)].map(|segment| {
-        let mut setup = on_rails(&freight(), track(&[segment], Vec::new()), law, SPEED);
+        let mut setup = on_rails(&freight(), track(&[segment], Vec::new()), law.clone(), SPEED);
         setup.carriage.damping = [0.0; 2];
         let (mut rig, x) = after(&setup, start, 1e-6, 4.0);
         least(&rig.vibrations(&setup.lines, 4.0, &x, 20.0).unwrap())

@@ -74,7 +74,7 @@ fn energy_a_frictionless_wheelset_over_a_bump_keeps_its_energy() {
         (Rails::Both, Direction::Lateral),
     ] {
         let track = track(&[Segment::Tangent(60.0)], dip(rails, direction));
-        let mut setup = on_rails(&freight(), track, law, 5.0);
+        let mut setup = on_rails(&freight(), track, law.clone(), 5.0);
         setup.carriage.stiffness = [0.0; 2];
         setup.carriage.damping = [0.0; 2];
         setup.carriage.load = 0.0;

@@ -18,6 +18,7 @@ use rolling::wheelset::WheelsetBody;
 use wheelrail::conicity::LinearGeometry;
 use wheelrail::contact::{ContactLaw, CreepCoefficients, CreepLaw, LinearWheelset};
 use wheelrail::creep::polach;
+use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 use wheelrail::profile::nominal;
 use wheelrail::track::{CenterLine, Placed, RailLines, Segment, Track};
@@ -34,7 +35,7 @@ pub const BODY: WheelsetBody = WheelsetBody {
     about_diameter: 700.0,
 };
 pub const POLACH: ContactLaw = ContactLaw {
-    friction: 0.4,
+    friction: Friction::constant(0.4),
     damping: 2.0,
     creep: CreepLaw::Polach(polach::DRY),
     slowest: 0.1,

@@ -7,10 +7,11 @@ use car::{Drive, Parameters, ProfiledWheels, StartKind, Wheels};
 use rolling::track::RailSupport;
 use truck::{Wedge, WedgeKind};
 use wheelrail::contact::{ContactLaw, CreepLaw};
+use wheelrail::creep::polach;
 use wheelrail::profile::Profile;
 
 use super::statistics::Rules;
-use super::{CarCase, rails};
+use super::{CarCase, friction, rails};
 use crate::truck::assumptions::of_kinds;
 use crate::wedge_faces;
 
@@ -85,8 +86,15 @@ fn of_wheels(case: &CarCase, own: &ProfiledWheels, list: &mut Vec<String>) {
 }
 
 /// Returns the assumption about the contacts of wheels on rails.
-fn of_contacts(law: &ContactLaw, tables: bool) -> String {
-    let friction = law.friction;
+fn of_contacts([law, right]: &[ContactLaw; 2], tables: bool) -> String {
+    let friction = match law.friction == right.friction {
+        true => friction::in_words(&law.friction),
+        false => format!(
+            "{} on the left rail, {} on the right one",
+            friction::in_words(&law.friction),
+            friction::in_words(&right.friction)
+        ),
+    };
     format!(
         "Wheels on rails: patches by overlap with Hertz's ellipses, {}{}.",
         match law.creep {
@@ -95,7 +103,11 @@ fn of_contacts(law: &ContactLaw, tables: bool) -> String {
             CreepLaw::ShenHedrickElkins => {
                 format!("creep after Shen, Hedrick and Elkins, friction {friction}")
             }
-            CreepLaw::Polach(_) => format!("creep after Polach, friction {friction}"),
+            CreepLaw::Polach(polach::DRY) => format!("creep after Polach, friction {friction}"),
+            CreepLaw::Polach(own) => format!(
+                "creep after Polach with kA {} and kS {}, friction {friction}",
+                own.adhesion, own.slip
+            ),
             CreepLaw::Fastsim(_) => format!("creep by FASTSIM, friction {friction}"),
         },
         if tables {
@@ -150,7 +162,7 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
     match &p.wheels {
         Wheels::OnRails(own) => {
             of_wheels(case, own, &mut list);
-            list.push(of_contacts(&own.law, own.tables));
+            list.push(of_contacts(&own.laws, own.tables));
         }
         Wheels::Linear { .. } => list.push(
             "Linear wheels: geometry and creep of small motions, no flange, no saturation: for stability \

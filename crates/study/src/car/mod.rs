@@ -10,6 +10,7 @@ pub mod builtin;
 mod checks;
 pub mod columns;
 mod derailment;
+pub(crate) mod friction;
 pub mod hunting;
 mod lading;
 pub mod limits;

@@ -9,6 +9,7 @@ use wheelrail::conicity::LinearGeometry;
 use wheelrail::contact::{ContactLaw, CreepCoefficients, CreepLaw, LinearWheelset, Side};
 use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
+use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 use wheelrail::profile::figures::LEAST_CLEARANCE;
 use wheelrail::profile::{
@@ -16,6 +17,7 @@ use wheelrail::profile::{
 };
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
+use super::friction;
 use super::profiles::{DEVIATION, NamedProfile, SIDES, named, named_or, profile, wrong};
 use super::rails::Rails;
 use crate::case::field::Reach;
@@ -138,6 +140,7 @@ pub(crate) fn wheels(
     }
     let law = contact_law(r, sprung);
     let each = each_wheel(r, (all, radius));
+    let laws = friction::laws(r, law);
     let mut doubts = rails.doubts;
     let options = ReadOptions {
         deviation,
@@ -222,7 +225,7 @@ pub(crate) fn wheels(
             rails_over: rails.over,
             tape_distance,
             tables,
-            law,
+            laws: Box::new(laws),
         });
     }
     doubts
@@ -314,7 +317,7 @@ fn contact_law(r: &mut CaseReader<'_>, sprung: bool) -> ContactLaw {
         range,
         Reach::FromZero(0.5),
         &mut friction,
-        "of wheel on rail",
+        "of wheel on rail; [friction] has zones, rails, distance, slip",
     );
     let mut creep = Creep::Polach;
     let comment = "\"polach\", \"shen_hedrick_elkins\", \"fastsim\", \"kalker\" (linear, no \
@@ -334,7 +337,7 @@ fn contact_law(r: &mut CaseReader<'_>, sprung: bool) -> ContactLaw {
     let comment = "creepages are velocities over the root of the sum of squares of this and the car's speed";
     r.quantity("slowest", speed, &mut slowest, comment);
     ContactLaw {
-        friction,
+        friction: Friction::constant(friction),
         damping,
         creep: match creep {
             Creep::Polach => CreepLaw::Polach(polach::DRY),

@@ -394,7 +394,7 @@ fn force(r: &mut CaseReader<'_>) -> Arc<dyn CatalogElement> {
         "axis",
         AXES,
         &mut axis,
-        "along which it acts, positive along it; fixed in space, or over distance on a track those of the track",
+        "along which it acts, positive along it; fixed in space, or of the track over distance on one",
     );
     if r.gives("over_distance") {
         r.also_known("value");

@@ -19,6 +19,7 @@ use rolling::wheel::Search;
 use rolling::wheelset::WheelsetBody;
 use thiserror::Error;
 use wheelrail::contact::{ContactLaw, ContactTable, CreepLaw};
+use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 use wheelrail::profile::{Profile, ProfileError, SlicedProfile};
 use wheelrail::track::{RailLines, Track, TrackError};
@@ -76,8 +77,8 @@ pub struct Wheelset {
     pub stiffness: [f64; 2],
     /// Lateral (N·s/m) and yaw damping (N·m·s/rad).
     pub damping: [f64; 2],
-    /// Coefficient of friction.
-    pub friction: f64,
+    /// Friction on both rails.
+    pub friction: Friction,
     /// The creep law.
     pub creep: CreepLaw,
     /// The search for contact.
@@ -260,6 +261,9 @@ fn check(wheelset: &Wheelset) -> Result<(), WheelsetError> {
     let [lateral_damping, yaw_damping] = wheelset.damping;
     let body = &wheelset.body;
     let weight = body.mass * STANDARD_GRAVITY;
+    // One that is not admissible, if there is any.
+    let mut coefficients = wheelset.friction.all();
+    let friction = coefficients.find(|own| !(0.0..=2.0).contains(own)).unwrap_or(0.0);
     let positives = [
         ("the mass of the wheelset (kg)", body.mass),
         ("the moment of inertia about the axle (kg m²)", body.about_axle),
@@ -280,8 +284,8 @@ fn check(wheelset: &Wheelset) -> Result<(), WheelsetError> {
     let ranges = [
         (
             "the coefficient of friction",
-            wheelset.friction,
-            (0.0..=2.0).contains(&wheelset.friction),
+            friction,
+            (0.0..=2.0).contains(&friction),
             "between 0 and 2",
         ),
         (
@@ -338,7 +342,7 @@ fn setup(wheelset: &Wheelset, track: Track) -> Result<Setup, WheelsetError> {
             search: [search(0)?, search(1)?],
             tape_distance: wheelset.layout.tape_distance,
             law: ContactLaw {
-                friction: wheelset.friction,
+                friction: wheelset.friction.clone(),
                 damping: DAMPING[usize::from(support.is_some())],
                 creep: wheelset.creep,
                 slowest: SLOWEST,

@@ -585,8 +585,9 @@ relative_tolerance = 1e-8
     let (_, rest) = behind.split_once("[speed]").unwrap();
     let track = "segments = [{ tangent = \"40 m\" }, { spiral = \"30 m\" }, { curve = \"60 m\", radius = \
                  \"400 m\", superelevation = \"30 mm\", direction = \"left\" }]";
-    let push = "[elements.push]\nkind = \"force\"\na = \"body\"\nat = [\"0 in\", \"0 in\", \"34.5 in\"]\naxis = \
-                \"x\"\nover_distance = [[\"20 m\", \"0 N\"], [\"21 m\", \"40 kN\"], [\"70 m\", \"40 kN\"], \
+    let push = "[elements.push]\nkind = \"force\"\na = \"body\"\nat = [\"0 in\", \"0 in\", \"34.5 in\"]\n\
+                axis = \"x\"\nover_distance = [[\"20 m\", \"0 N\"], [\"21 m\", \"40 kN\"], \
+                [\"70 m\", \"40 kN\"], \
                 [\"71 m\", \"0 N\"]]\n";
     let text = format!("{before}{push}[track]\n{track}\n[speed]{rest}")
         .replace("value = \"40 mph\"", "kind = \"coasting\"\nvalue = \"16 m/s\"");

@@ -135,7 +135,7 @@ fn issue_047_a_derailment_is_told_with_place_and_time() {
     steered.damping = [0.0, 1e9];
     steered.start.yaw = 0.08;
     steered.axle_load = 60e3;
-    steered.friction = 0.6;
+    steered.friction = wheelrail::friction::Friction::constant(0.6);
     let result = run(steered);
     let summary = &result.summary;
     let derailment = summary.derailment.as_ref().expect("it derails");

@@ -130,11 +130,11 @@ fn input_set_reaches_trucks_track_and_speed() {
         panic!("profiles are the default");
     };
     assert!(matches!(
-        wheels.law.creep,
+        wheels.laws[0].creep,
         wheelrail::contact::CreepLaw::Fastsim(_)
     ));
     // Rigid rails bring the damping of their contacts.
-    assert_eq!(wheels.law.damping, 2.0);
+    assert_eq!(wheels.laws[1].damping, 2.0);
     assert_eq!(own.start.wheelset_shifts, [0.0, 0.1 * 0.0254, 0.0, 0.0]);
     assert!((case.rules.hold_time - 0.06).abs() < 1e-15 && (case.rules.wheel_filter - 20.0).abs() < 1e-9);
 }

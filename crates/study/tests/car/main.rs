@@ -3,6 +3,7 @@
 
 mod assumptions;
 mod case;
+mod friction;
 mod geometry;
 mod input;
 #[path = "../case_keys/layout.rs"]

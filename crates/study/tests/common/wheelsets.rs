@@ -10,6 +10,7 @@ use study::track::TrackFile;
 use study::wheelset::{SearchMode, Wheelset};
 use wheelrail::contact::CreepLaw;
 use wheelrail::creep::polach;
+use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 use wheelrail::profile::nominal;
 use wheelrail::wheelset::Layout;
@@ -43,7 +44,7 @@ pub fn wheelset(track: &str, speed: f64) -> Wheelset {
         speed,
         stiffness: [2e6, 2e6],
         damping: [2e4, 2e3],
-        friction: 0.4,
+        friction: Friction::constant(0.4),
         creep: CreepLaw::Polach(polach::DRY),
         search: SearchMode::Search,
         start: RigStart {

@@ -15,6 +15,7 @@ use wheelrail::hertz::Material;
 use wheelrail::loaded::{Attitude, LoadError, LoadedPatch};
 
 use super::wheelrail_pair::{ProfiledPair, WheelRailPair, word};
+use super::wheelrail_suspended::zones;
 use crate::failure::{Failure, Message};
 use crate::json;
 use crate::units::OutputUnits;
@@ -105,6 +106,10 @@ pub struct Arguments {
         allow_hyphen_values = true
     )]
     friction: f64,
+    /// Coefficient of friction on the gauge face, above a contact angle of 30 deg; between 20 and 30 deg it
+    /// goes over from that of the tread [default: that of the tread]
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    gauge_face_friction: Option<f64>,
     /// Creep law
     #[arg(long, value_name = "LAW", value_enum, default_value_t = Creep::Polach)]
     creep: Creep,
@@ -201,7 +206,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let radius = wheelset.nominal_radius();
     let cells = usize::from(arguments.cells);
     let law = ContactLaw {
-        friction: arguments.friction,
+        friction: zones(arguments.friction, arguments.gauge_face_friction),
         damping: 0.0,
         creep: match arguments.creep {
             Creep::Linear => CreepLaw::Linear,
@@ -263,7 +268,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         given.put("pitch_rate_rad_per_s", attitude.pitch_rate);
         given.put("free_rolling", arguments.pitch_rate.is_none());
         given.add("load", load, units.force);
-        given.put("friction", law.friction);
+        given.put("friction", law.friction.zones.tread);
+        given.put("gauge_face_friction", law.friction.zones.gauge_face);
         given.put("creep", creep.map(|value| value.get_name().to_owned()));
         given.put("cells", (arguments.creep == Creep::Fastsim).then_some(cells));
         given.add("shear_modulus", arguments.shear_modulus, units.modulus);

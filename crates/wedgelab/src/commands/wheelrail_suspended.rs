@@ -11,6 +11,7 @@ use study::wheelset::{SearchMode, Wheelset};
 use wheelrail::contact::CreepLaw;
 use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
+use wheelrail::friction::{Friction, Zones};
 use wheelrail::hertz::Material;
 
 use super::wheelrail_contact::Creep;
@@ -57,6 +58,10 @@ pub struct SuspendedArguments {
     /// Coefficient of friction
     #[arg(long, value_name = "NUMBER", default_value_t = 0.4)]
     friction: f64,
+    /// Coefficient of friction on the gauge face, above a contact angle of 30 deg; between 20 and 30 deg it
+    /// goes over from that of the tread [default: that of the tread]
+    #[arg(long, value_name = "FRICTION")]
+    gauge_face_friction: Option<f64>,
     /// Creep law
     #[arg(long, value_name = "LAW", value_enum, default_value_t = Creep::Polach)]
     creep: Creep,
@@ -129,6 +134,17 @@ fn of_yaw_stiffness(text: &str) -> Result<Named, String> {
     })
 }
 
+/// Returns friction of the tread and of the gauge face, which is that of the tread if it is not given.
+pub fn zones(tread: f64, gauge_face: Option<f64>) -> Friction {
+    Friction {
+        zones: Zones {
+            tread,
+            gauge_face: gauge_face.unwrap_or(tread),
+        },
+        ..Friction::constant(tread)
+    }
+}
+
 impl SuspendedArguments {
     /// Returns the wheelset on a track, at rest in its middle; the settings of a run are the usual ones. With
     /// `over` rails may change along the track.
@@ -160,7 +176,7 @@ impl SuspendedArguments {
             speed: 0.0,
             stiffness: [self.lateral_stiffness.to_si(), self.yaw_stiffness.si],
             damping: [self.lateral_damping.to_si(), self.yaw_damping.to_si()],
-            friction: self.friction,
+            friction: zones(self.friction, self.gauge_face_friction),
             creep: match self.creep {
                 Creep::Linear => CreepLaw::Linear,
                 Creep::ShenHedrickElkins => CreepLaw::ShenHedrickElkins,
@@ -227,7 +243,12 @@ impl SuspendedArguments {
             ("yaw stiffness", self.yaw_stiffness.text.clone()),
             ("lateral damping", self.lateral_damping.to_string()),
             ("yaw damping", self.yaw_damping.to_string()),
-            ("friction", self.friction.to_string()),
+            ("friction", {
+                let face = self.gauge_face_friction.filter(|face| *face != self.friction);
+                face.map_or(self.friction.to_string(), |face| {
+                    format!("{} (tread), {face} (gauge face)", self.friction)
+                })
+            }),
             ("creep", creep),
             (
                 "contact",

@@ -20,6 +20,7 @@ use crate::creep::polach::Reduction;
 use crate::creep::{
     Coefficients, CreepForces, Creepage, Patch, fastsim, linear, polach, shen_hedrick_elkins,
 };
+use crate::friction::Friction;
 use crate::vector::{cross, dot};
 
 /// A creep law with its parameters.
@@ -38,10 +39,10 @@ pub enum CreepLaw {
 }
 
 /// The laws of a contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ContactLaw {
-    /// Coefficient of friction.
-    pub friction: f64,
+    /// Friction.
+    pub friction: Friction,
     /// α of Hunt and Crossley, s/m.
     pub damping: f64,
     /// The creep law.
@@ -109,12 +110,16 @@ impl ContactLaw {
         let load = elastic * (rate * (1.5 * self.damping) + 1.0);
         let forward = motion.velocity[0];
         let reference = (forward * forward + self.slowest * self.slowest).sqrt();
-        let creepage = Creepage {
-            longitudinal: match patch.climb {
+        let slip = [
+            match patch.climb {
                 None => velocity[0],
                 Some(_) => dot(velocity, patch.along()),
-            } / reference,
-            lateral: dot(velocity, patch.across()) / reference,
+            },
+            dot(velocity, patch.across()),
+        ];
+        let creepage = Creepage {
+            longitudinal: slip[0] / reference,
+            lateral: slip[1] / reference,
             spin: dot(motion.angular_velocity, normal) / reference,
         };
         if load.value() <= 0.0 {
@@ -134,7 +139,7 @@ impl ContactLaw {
         let loaded = || Patch {
             axes,
             load,
-            friction: self.friction,
+            friction: self.friction.at(patch.slope, pose.along, slip),
             shear_modulus: material.shear_modulus(),
             coefficients: Coefficients::of(axes[0] / axes[1], material.poisson),
         };

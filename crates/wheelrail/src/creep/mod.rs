@@ -59,7 +59,7 @@ pub struct Patch<S> {
     /// Load, N: positive.
     pub load: S,
     /// Coefficient of friction.
-    pub friction: f64,
+    pub friction: S,
     /// Shear modulus, Pa.
     pub shear_modulus: f64,
     /// Kalker's coefficients.
@@ -75,7 +75,7 @@ impl<S: Real> Patch<S> {
         Self {
             axes,
             load,
-            friction,
+            friction: S::from(friction),
             shear_modulus: hertz.material.shear_modulus(),
             coefficients: Coefficients::of(ratio, hertz.material.poisson),
         }

@@ -11,6 +11,7 @@ use wheelrail::contact::{
     ContactLaw, ContactPair, ContactTable, CreepLaw, FindPatches, Side, WheelMotion, WheelPose,
 };
 use wheelrail::creep::fastsim::StripGrid;
+use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 use wheelrail::profile::{Profile, ProfileKind};
 
@@ -117,7 +118,7 @@ fn wheel(pair: &impl FindPatches, rail_origin: f64, side: Side, shift: f64) -> F
         angular_velocity: axle.map(|component| component * spin),
     };
     let law = ContactLaw {
-        friction: 0.3,
+        friction: Friction::constant(0.3),
         damping: 0.0,
         creep: CreepLaw::Fastsim(StripGrid {
             cells: 50,

@@ -8,11 +8,12 @@ use wheelrail::contact::{
     WheelMotion, WheelPose,
 };
 use wheelrail::creep::polach;
+use wheelrail::friction::Friction;
 use wheelrail::profile::nominal;
 
 fn law() -> ContactLaw {
     ContactLaw {
-        friction: 0.4,
+        friction: Friction::constant(0.4),
         damping: 0.3,
         creep: CreepLaw::Polach(polach::DRY),
         slowest: 0.1,

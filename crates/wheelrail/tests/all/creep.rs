@@ -281,7 +281,7 @@ fn analytic_derivatives_against_differences() {
     let hertz_like = |load: Dual<4>| Patch {
         axes: [load * 6e-8, load * 1.2e-7],
         load,
-        friction: 0.33,
+        friction: Dual::from(0.33),
         shear_modulus: SHEAR,
         coefficients: Coefficients::of(Dual::from(0.5), 0.28),
     };

@@ -3,6 +3,7 @@
 use wheelrail::contact::{ContactLaw, CreepLaw, Side};
 use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
+use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 use wheelrail::loaded::{Attitude, LoadError, Seat};
 use wheelrail::profile::{Profile, ProfileError, nominal};
@@ -31,7 +32,7 @@ fn wheelset(gauge: f64) -> RigidWheelset {
 
 fn law(creep: CreepLaw, friction: f64) -> ContactLaw {
     ContactLaw {
-        friction,
+        friction: Friction::constant(friction),
         damping: 0.0,
         creep,
         slowest: 0.0,
@@ -118,7 +119,7 @@ fn issue_048_limits_of_free_rolling() {
     for (lateral, law) in [
         (0.003, law(CreepLaw::Polach(polach::DRY), 0.0)),
         (0.003, law(CreepLaw::Frictionless, 0.3)),
-        (0.3, dry),
+        (0.3, dry.clone()),
     ] {
         let rate = wheelset
             .free_rolling(&attitude(lateral, 0.0), LOAD, &law)

@@ -7,6 +7,7 @@ use wheelrail::contact::{
     ContactLaw, CreepCoefficients, CreepLaw, LinearWheelset, Side, WheelMotion, WheelPose,
 };
 use wheelrail::creep::Patch;
+use wheelrail::friction::Friction;
 use wheelrail::hertz::{Hertz, Material};
 use wheelrail::profile::nominal;
 use wheelrail::wheelset::{Layout, RigidWheelset};
@@ -154,7 +155,7 @@ fn analytic_linear_geometry_is_the_limit_of_the_contact_search() {
         axle_load: 2.0 * load * cosine,
     };
     let law = ContactLaw {
-        friction: 0.4,
+        friction: Friction::constant(0.4),
         damping: 0.0,
         creep: CreepLaw::Linear,
         slowest: 0.0,

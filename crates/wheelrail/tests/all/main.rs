@@ -12,6 +12,7 @@ mod creep;
 mod figures;
 mod formats;
 mod free_rolling;
+mod friction;
 mod hertz;
 mod kinds;
 mod linear_wheelset;

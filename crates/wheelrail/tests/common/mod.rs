@@ -3,6 +3,7 @@
 
 use numerics::scalar::Real;
 use wheelrail::contact::{ContactLaw, ContactPair, CreepLaw, Side, WheelForces, WheelMotion, WheelPose};
+use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 use wheelrail::profile::{Profile, ProfileKind, nominal};
 
@@ -35,7 +36,7 @@ pub fn conformal_pair() -> ContactPair {
 
 pub fn law(creep: CreepLaw) -> ContactLaw {
     ContactLaw {
-        friction: 0.4,
+        friction: Friction::constant(0.4),
         damping: 0.3,
         creep,
         slowest: 0.1,

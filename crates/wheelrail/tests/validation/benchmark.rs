@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use wheelrail::contact::{ContactLaw, CreepLaw, Side};
 use wheelrail::creep::fastsim::StripGrid;
+use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 use wheelrail::loaded::Attitude;
 use wheelrail::profile::{Profile, ProfileKind};
@@ -71,7 +72,7 @@ pub fn manchester(out: &mut String) {
         return;
     };
     let law = ContactLaw {
-        friction: 0.3,
+        friction: Friction::constant(0.3),
         damping: 0.0,
         creep: CreepLaw::Fastsim(StripGrid {
             cells: 50,
