@@ -3,7 +3,9 @@
 
 use quantity::{Kind, System as Units};
 use serde_json::json;
+use study::certificate::refined::Refined;
 use study::certificate::{Assessed, Certificate, KeptLimit, LimitVerdict, verdicts};
+use study::models::AnyCase;
 
 use crate::csv;
 use crate::output_table::{Cell, Content, OutputTable};
@@ -30,6 +32,8 @@ pub struct CertificateFindings {
     pub runs: Vec<Assessed>,
     /// The verdict on each limit.
     pub verdicts: Vec<LimitVerdict>,
+    /// The cars of runs at speeds that were not asked for; their numbers follow those of the study.
+    pub refined: Vec<AnyCase>,
 }
 
 impl CertificateFindings {
@@ -43,7 +47,34 @@ impl CertificateFindings {
             runs.push(certificate.assess(values, record));
         })?;
         let verdicts = verdicts(&runs);
-        Ok(Self { runs, verdicts })
+        Ok(Self {
+            runs,
+            verdicts,
+            refined: Vec::new(),
+        })
+    }
+
+    /// Adds runs at speeds that were not asked for, and judges anew.
+    pub fn add(&mut self, certificate: &Certificate, more: Vec<Refined>) {
+        for mut own in more {
+            own.assessed.run = certificate.study.count() + self.refined.len() as u64;
+            self.runs.push(own.assessed);
+            self.refined.push(own.case);
+        }
+        self.runs.sort_by(|a, b| {
+            let place = |run: &Assessed| (run.regime, run.condition);
+            place(a).cmp(&place(b)).then(a.speed_si.total_cmp(&b.speed_si))
+        });
+        self.verdicts = verdicts(&self.runs);
+    }
+
+    /// Returns the car of a run by its number.
+    #[must_use]
+    pub fn case(&self, certificate: &Certificate, run: u64) -> Option<AnyCase> {
+        match run.checked_sub(certificate.study.count()) {
+            None => certificate.study.case(run).ok(),
+            Some(more) => self.refined.get(usize::try_from(more).ok()?).cloned(),
+        }
     }
 
     /// Returns the numbers of limits that are kept, exceeded, unknown.
@@ -139,6 +170,12 @@ fn table<'c>(
             None => Cell::Missing,
         }
     });
+    let about = [
+        "refined",
+        "",
+        "1 if the speed was not asked for: it lies beside the worst one; else 0",
+    ];
+    table.column(about, integer, |(run, _)| Cell::Integer(i64::from(run.refined)));
     let about = ["note", "", "what else is to be said of the run"];
     table.column(about, text, |(run, _)| run.note.as_str().into());
     table
@@ -176,6 +213,7 @@ fn document(certificate: &Certificate, findings: &CertificateFindings) -> serde_
             "speed": run.speed,
             "status": run.status,
             "note": run.note,
+            "refined": run.refined,
         })
     });
     json!({

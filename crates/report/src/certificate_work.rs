@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use study::certificate::other_start::{Repeated, near};
+use study::certificate::refined::Refined;
 use study::certificate::{Assessed, Certificate, worst_run};
 use study::models::AnyCase;
 use study::run::Run;
@@ -39,10 +40,12 @@ pub fn finish(
     done: &(dyn Fn() + Sync),
 ) -> Result<Option<CertificateFindings>, StudyFolderError> {
     let mut findings = CertificateFindings::gather(certificate, folder)?;
+    refine(certificate, &mut findings, jobs, stop);
     let near = near(&findings.verdicts).into();
     let repeated = in_parallel(near, jobs, |number| {
         let goes_on = !stop.load(Ordering::Relaxed);
-        goes_on.then(|| certificate.repeat(number)).flatten()
+        let case = findings.case(certificate, number).filter(|_| goes_on)?;
+        certificate.repeat(number, case)
     });
     let repeated: Vec<Repeated> = repeated.into_iter().flatten().collect();
     certificate.note(&mut findings.verdicts, &repeated);
@@ -56,6 +59,24 @@ pub fn finish(
     certificate_files::write(certificate, &findings, &page, &files)
         .map_err(StudyFolderError::after_all_runs)?;
     Ok(Some(findings))
+}
+
+/// Computes runs at more speeds about the worst one of each regime, as long as there is something to see.
+fn refine(certificate: &Certificate, findings: &mut CertificateFindings, jobs: usize, stop: &AtomicBool) {
+    while certificate.request.refine && !stop.load(Ordering::Relaxed) {
+        let wanted = certificate.next_speeds(&findings.runs).into();
+        let found = in_parallel(wanted, jobs, |at| {
+            let goes_on = !stop.load(Ordering::Relaxed);
+            goes_on.then(|| certificate.run_at(at).ok()).flatten()
+        });
+        let mut found: Vec<Refined> = found.into_iter().flatten().collect();
+        // One that cannot be made would be asked for again.
+        if found.is_empty() || stop.load(Ordering::Relaxed) {
+            return;
+        }
+        found.sort_by_key(|own| (own.assessed.regime, own.assessed.condition));
+        findings.add(certificate, found);
+    }
 }
 
 fn unwritable(folder: &Path, error: serde_json::Error) -> StudyFolderError {
@@ -78,7 +99,10 @@ fn worst_runs(
         .filter_map(|regime| Some((regime, worst_run(&findings.runs, regime)?)))
         .collect();
     let found = in_parallel(wanted, jobs, |(regime, run)| {
-        let own = one(certificate, regime, run, path, stop);
+        let own = match findings.case(certificate, run.run) {
+            Some(case) => one(certificate, (regime, case), path, stop),
+            None => Ok(None),
+        };
         done();
         own
     });
@@ -109,13 +133,12 @@ fn in_parallel<T: Send, R: Send>(items: VecDeque<T>, jobs: usize, compute: impl 
 /// Makes one of the runs; `None` if it was stopped, or is no run any more.
 fn one(
     certificate: &Certificate,
-    regime: usize,
-    run: &Assessed,
+    (regime, case): (usize, AnyCase),
     path: &Path,
     stop: &AtomicBool,
 ) -> Result<Option<WorstRun>, StudyFolderError> {
     let name = certificate.regimes[regime].name.as_str();
-    let Ok(AnyCase::Car(case)) = certificate.study.case(run.run) else {
+    let AnyCase::Car(case) = case else {
         return Ok(None);
     };
     let case = case.named(name);

@@ -6,6 +6,7 @@
 
 pub mod conditions;
 pub mod other_start;
+pub mod refined;
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -43,11 +44,15 @@ pub struct Request {
     pub conditions: Vec<String>,
     /// Name or file of the limits.
     pub limits: String,
+    /// Whether more speeds are looked at about the worst one of each regime ([`refined`]).
+    pub refine: bool,
 }
 
 /// A car in regimes, at speeds and in conditions.
 #[derive(Clone, Debug)]
 pub struct Certificate {
+    /// The request.
+    pub request: Request,
     /// The car's name.
     pub car: String,
     /// The runs.
@@ -94,6 +99,8 @@ pub struct Assessed {
     pub checks: Vec<KeptLimit>,
     /// Measures, SI, in the study's order; none if it has none.
     pub measures: Vec<f64>,
+    /// True if no one asked for its speed: it lies beside the worst one.
+    pub refined: bool,
 }
 
 impl Assessed {
@@ -104,6 +111,17 @@ impl Assessed {
             true => Some(false),
             false => check.margin.map(|margin| margin >= 0.0),
         }
+    }
+
+    /// Returns the least margin, in parts of its limit; minus infinity if a wheel left its rail. `None` if
+    /// nothing was measured, or no limit is set.
+    #[must_use]
+    pub fn least(&self) -> Option<f64> {
+        if self.derailed {
+            return Some(f64::NEG_INFINITY);
+        }
+        let margins = self.checks.iter().filter_map(|check| check.margin);
+        margins.min_by(f64::total_cmp)
     }
 }
 
@@ -129,8 +147,18 @@ impl Certificate {
             [] => Condition::all().iter().take(1).cloned().collect(),
             names => Condition::chosen(names)?,
         };
-        let (source, car) = car_of(request)?;
-        let text = text(&regimes, &conditions, request, &car)?;
+        Self::with(request.clone(), limits, regimes, conditions)
+    }
+
+    /// Makes it of limits, regimes and conditions that are read.
+    fn with(
+        request: Request,
+        limits: LimitSet,
+        regimes: Vec<Regime>,
+        conditions: Vec<Condition>,
+    ) -> Result<Self, CaseError> {
+        let (source, car) = car_of(&request)?;
+        let text = text(&regimes, &conditions, &request, &car)?;
         let study = Study::of_source(StudySource {
             name: STUDY.to_owned(),
             text,
@@ -140,6 +168,7 @@ impl Certificate {
         let study = study.map_err(|error| CaseError::new(error.into_problems().map(of_parts)))?;
         Ok(Self {
             car: car.name().to_owned(),
+            request,
             study,
             regimes,
             conditions,
@@ -227,6 +256,7 @@ impl Certificate {
             derailed,
             checks,
             measures: record.measures.0.clone(),
+            refined: false,
         }
     }
 }
@@ -333,13 +363,7 @@ pub fn worst_run(runs: &[Assessed], regime: usize) -> Option<&Assessed> {
     let own = runs
         .iter()
         .filter(|run| run.regime == regime && (run.derailed || run.status == complete));
-    let rank = |run: &Assessed| match run.derailed {
-        true => f64::NEG_INFINITY,
-        false => {
-            let margins = run.checks.iter().filter_map(|check| check.margin);
-            margins.fold(f64::INFINITY, f64::min)
-        }
-    };
+    let rank = |run: &Assessed| run.least().unwrap_or(f64::INFINITY);
     own.min_by(|a, b| {
         rank(a)
             .total_cmp(&rank(b))
@@ -467,6 +491,7 @@ mod tests {
             speeds: Vec::new(),
             conditions: vec![condition.to_owned()],
             limits: "aar_chapter_xi".to_owned(),
+            refine: true,
         };
         for (set, condition) in [
             ("simulation.duration=3 s", "as_given"),

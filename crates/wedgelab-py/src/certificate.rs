@@ -36,11 +36,13 @@ impl NativeCertificate {
                     simple(py, "CaseError", &message, "write for example \"30 mph\"")
                 })
             });
+            let speeds: Vec<Quantity> = speeds.collect::<PyResult<_>>()?;
             let request = Request {
                 car,
                 set,
                 regimes,
-                speeds: speeds.collect::<PyResult<_>>()?,
+                refine: speeds.is_empty(),
+                speeds,
                 conditions,
                 limits,
             };

@@ -183,6 +183,7 @@ fn request_with(regimes: &[String], conditions: &[String], limits: &str) -> Requ
         speeds: Vec::new(),
         conditions: conditions.to_vec(),
         limits: limits.to_owned(),
+        refine: false,
     }
 }
 

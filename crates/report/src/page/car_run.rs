@@ -3,6 +3,7 @@
 
 use maud::{Markup, html};
 use study::car::summary::CarSummary;
+use study::car::worst::place_in_words;
 use study::summary::{RunSummary, SummaryValue};
 
 use super::table::{self, Head};
@@ -56,7 +57,7 @@ fn limits(summary: &CarSummary) -> Markup {
         };
         [
             own.quantity.clone(),
-            own.statistic.replace('_', " "),
+            place_in_words(&own.statistic),
             in_unit(own.value, &own.unit),
             in_unit(own.limit, &own.unit),
             margin,
@@ -68,7 +69,8 @@ fn limits(summary: &CarSummary) -> Markup {
         p {
             "The worst value of each kind beside limits that are remembered of AAR M-1001, chapter XI: \
              check them against your edition of the standard. A limit counts for the regimes named. Margin: \
-             what is left, in parts of the limit. Raw values, where rows are too far apart for the filter, \
+             what is left, in parts of the limit; of a least share, of the way from 100 %. \
+             Raw values, where rows are too far apart for the filter, \
              have none."
         }
         (table::wide(&heads, rows))

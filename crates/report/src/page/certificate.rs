@@ -5,6 +5,7 @@ use std::iter;
 use maud::{Markup, html};
 use quantity::System as Units;
 use study::car::limits::Bound;
+use study::car::worst::place_in_words;
 use study::certificate::{Certificate, LimitVerdict, worst_run};
 use study::records::Status;
 
@@ -360,8 +361,8 @@ pub fn worst_second(certificate: &Certificate, regime: usize, run: &CarRun) -> O
         .iter()
         .filter(|limit| limit.is_for(name));
     let found = limits.filter_map(|limit| {
-        let (check, time) = limit.check(&summary.statistics, summary.units)?;
-        let what = format!("{}, {}", check.quantity, check.statistic.replace('_', " "));
+        let (check, time) = limit.check(&summary.statistics, (&run.case.rules, summary.units))?;
+        let what = format!("{}, {}", check.quantity, place_in_words(&check.statistic));
         Some((check.margin, time?, what))
     });
     let least = found.min_by(|a, b| a.0.total_cmp(&b.0));

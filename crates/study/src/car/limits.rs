@@ -24,7 +24,7 @@ use quantity::{Kind, Quantity, System as Units, nearest};
 use serde::{Deserialize, Serialize};
 
 use super::named::{self, BuiltInOrFile, find};
-use super::statistics::Statistic;
+use super::statistics::{Rules, Statistic};
 use super::worst::{WORST, Worst};
 use crate::case::CaseError;
 use crate::case::problem::{Problem, Problems, TomlSource};
@@ -35,6 +35,8 @@ const KEYS: [&str; 3] = ["title", "source", "limits"];
 const LIMIT_KEYS: [&str; 7] = [
     "name", "quantity", "measure", "regimes", "at_most", "at_least", "remark",
 ];
+/// What is there at rest, %.
+const WHOLE: f64 = 100.0;
 const HELP: &str = "write [[limits]] and below it name, quantity, measure, regimes and at_most or at_least";
 /// The built-in sets, by name; the first one is that of freight cars.
 const BUILT_IN: [(&str, &str); 2] = [
@@ -128,7 +130,7 @@ pub struct LimitCheck {
     pub limit: f64,
     /// Their unit.
     pub unit: String,
-    /// By how much the limit is kept, in parts of it: negative where it is not.
+    /// By how much the limit is kept ([`Limit::margin`]): negative where it is not.
     pub margin: f64,
     /// True if the value is raw, although the limit is for filtered values: then the margin is none.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -168,12 +170,12 @@ impl Limit {
     pub fn check(
         &self,
         statistics: &BTreeMap<String, Statistic>,
-        units: Units,
+        (rules, units): (&Rules, Units),
     ) -> Option<(LimitCheck, Option<f64>)> {
         let worst = self.measure.of(statistics)?;
         let value = self.in_unit(worst.value.value / self.measure.kind.from_si(units));
         let check = LimitCheck {
-            quantity: self.quantity.clone(),
+            quantity: rules.in_words(&self.quantity),
             regimes: self.regimes_in_words(),
             statistic: worst.statistic.to_owned(),
             value,
@@ -185,14 +187,18 @@ impl Limit {
         Some((check, worst.time))
     }
 
-    /// Returns the margin of a value in its unit, in parts of the limit: negative where it does not.
+    /// Returns the margin of a value in its unit: negative where the limit is not kept. Of a greatest value it
+    /// is in parts of the limit; of a least share of what is there at rest it is in parts of the way from there
+    /// to the limit, so that 1 is "nothing lost".
     #[must_use]
     pub fn margin(&self, value: f64) -> f64 {
-        let left = match self.bound {
-            Bound::AtMost => self.value - value,
-            Bound::AtLeast => value - self.value,
-        };
-        left / self.value.abs()
+        match self.bound {
+            Bound::AtMost => (self.value - value) / self.value.abs(),
+            Bound::AtLeast if self.unit == "%" && self.value < WHOLE => {
+                (value - self.value) / (WHOLE - self.value)
+            }
+            Bound::AtLeast => (value - self.value) / self.value.abs(),
+        }
     }
 }
 
@@ -465,14 +471,14 @@ fn contradiction(first: &Limit, second: &Limit, own: &CaseSection<'_>, problems:
 }
 
 /// Returns the limits of freight cars beside the worst of the statistics of a run, whose numbers are in these
-/// units.
+/// units, taken by these rules.
 #[must_use]
-pub fn of(statistics: &BTreeMap<String, Statistic>, units: Units) -> Vec<LimitCheck> {
+pub fn of(statistics: &BTreeMap<String, Statistic>, (rules, units): (&Rules, Units)) -> Vec<LimitCheck> {
     let limits = LimitSet::built_in()
         .first()
         .into_iter()
         .flat_map(|set| &set.limits);
-    let checks = limits.filter_map(|limit| limit.check(statistics, units));
+    let checks = limits.filter_map(|limit| limit.check(statistics, (rules, units)));
     checks.map(|(check, _)| check).collect()
 }
 

@@ -304,7 +304,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         distance,
         speed,
         static_loads,
-        limits: limits::of(&statistics.values, units),
+        limits: limits::of(&statistics.values, (&run.case.rules, units)),
         statistics: statistics.values,
         wedge_losses,
         wedge_locked,

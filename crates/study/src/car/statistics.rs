@@ -56,6 +56,32 @@ pub struct Rules {
     pub filtered_columns: bool,
 }
 
+impl Rules {
+    /// Returns a text in which hold times and distances are named with their values: `L/V lasting 50 ms`.
+    #[must_use]
+    pub fn in_words(&self, text: &str) -> String {
+        let feet = |length: f64| format!("{} ft", SixDigits(length / FOOT));
+        [
+            (
+                "that lasts for the hold time",
+                format!("lasting {} ms", SixDigits(1e3 * self.hold_time)),
+            ),
+            (
+                "that lasts over the hold distance",
+                format!("lasting {}", feet(self.hold_distance)),
+            ),
+            (
+                "over the side distance",
+                format!("over {}", feet(self.side_distance)),
+            ),
+        ]
+        .into_iter()
+        .fold(text.to_owned(), |text, (before, value)| {
+            text.replace(before, &value)
+        })
+    }
+}
+
 impl Default for Rules {
     fn default() -> Self {
         Self {

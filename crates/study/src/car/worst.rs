@@ -126,6 +126,22 @@ pub struct WorstStatistic<'s> {
     pub filtered: bool,
 }
 
+/// Returns where a statistic is taken, in words, by its name: `axle_2_right_l_over_v_time` is taken at axle
+/// 2, right wheel.
+#[must_use]
+pub fn place_in_words(statistic: &str) -> String {
+    let parts: Vec<&str> = statistic.split('_').collect();
+    match parts.as_slice() {
+        ["axle", axle, side @ ("left" | "right"), ..] => format!("axle {axle}, {side} wheel"),
+        ["axle", axle, ..] => format!("axle {axle}"),
+        ["truck", truck, side @ ("left" | "right"), ..] => format!("truck {truck}, {side} side"),
+        ["truck", truck, ..] => format!("truck {truck}"),
+        ["body", "at", "truck", truck, ..] => format!("body over truck {truck}"),
+        ["body", ..] => "body".to_owned(),
+        _ => statistic.replace('_', " "),
+    }
+}
+
 impl Worst {
     /// Returns the kind with this name.
     #[must_use]

@@ -49,10 +49,11 @@ pub fn near(verdicts: &[LimitVerdict]) -> Vec<u64> {
 }
 
 impl Certificate {
-    /// Computes a run of it from its other start; `None` for a car on linear wheels, which has no other one.
+    /// Computes a run of it, by its number and its case, from its other start; `None` for a car on linear
+    /// wheels, which has no other one.
     #[must_use]
-    pub fn repeat(&self, number: u64) -> Option<Repeated> {
-        let Ok(AnyCase::Car(case)) = self.study.case(number) else {
+    pub fn repeat(&self, number: u64, case: AnyCase) -> Option<Repeated> {
+        let AnyCase::Car(case) = case else {
             return None;
         };
         if matches!(case.parameters.wheels, Wheels::Linear { .. }) {

@@ -202,7 +202,7 @@ fn analytic_limits_name_the_worst_statistic() {
     set(&mut columns, "axle_2_right_lateral", |_| 40e3);
     set(&mut columns, "axle_3_left_vertical", |_| 60e3);
     let statistics = statistics(&columns, &Rules::default());
-    let limits = limits::of(&statistics.values, System::Us);
+    let limits = limits::of(&statistics.values, (&Rules::default(), System::Us));
     let of = |quantity: &str| {
         limits
             .iter()
@@ -211,12 +211,12 @@ fn analytic_limits_name_the_worst_statistic() {
     };
     let roll = of("body roll");
     assert!((roll.value - 3.0).abs() < 1e-3 && (roll.margin - 0.5).abs() < 1e-3);
-    let wheel = of("wheel L/V that lasts");
+    let wheel = of("wheel L/V lasting 50 ms");
     assert_eq!(wheel.statistic, "axle_2_right_l_over_v_time");
     assert!((wheel.value - 0.4).abs() < 1e-6 && (wheel.margin - 0.6).abs() < 1e-6);
     let load = of("least wheel load");
     assert_eq!(load.statistic, "axle_3_left_least_load_time");
-    assert!((load.value - 60.0).abs() < 1e-6 && (load.margin - 5.0).abs() < 1e-6);
+    assert!((load.value - 60.0).abs() < 1e-6 && (load.margin - 50.0 / 90.0).abs() < 1e-6);
 }
 
 /// Rows too far apart for a filter: raw values stay, and what is missing is said. A run that only settles has

@@ -36,7 +36,7 @@ class Verdict:
     unit: str
     """Their unit; empty for pure numbers."""
     margin: float | None
-    """What is left, in parts of the limit; negative where it is not kept."""
+    """What is left, in parts of the limit (of a least share, of the way from 100 %); negative where it is not kept."""
     speed: str | None
     """The speed of the worst run, with its unit."""
     run: int | None

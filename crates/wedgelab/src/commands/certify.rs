@@ -62,6 +62,9 @@ pub struct Common {
         value_parser = clap::value_parser!(u32).range(2..=100),
     )]
     steps: u32,
+    /// No runs at more speeds about the worst one of each regime; without --speeds up to six are made of each
+    #[arg(long)]
+    unrefined: bool,
     /// Conditions by name (as_given, new, rise_0.75, ...), or your own file [default: those of the case]
     #[arg(long, value_name = "CONDITION", num_args = 0..)]
     conditions: Option<Vec<String>>,
@@ -116,6 +119,7 @@ pub fn assess(car: &Path, regimes: &[String], common: &Common, ending: &str) -> 
         speeds: speeds::parse(&common.speeds, common.steps)?,
         conditions,
         limits: common.limits.clone(),
+        refine: !common.unrefined && common.speeds.is_empty(),
     })?;
     let path = common
         .out
@@ -235,9 +239,13 @@ fn print(certificate: &Certificate, findings: &CertificateFindings, path: &Path)
         )?;
     }
     let [kept, exceeded, unknown] = findings.counts();
+    let refined = match findings.refined.len() {
+        0 => String::new(),
+        count => format!(", {count} of them at speeds about the worst ones"),
+    };
     writeln!(
         out,
-        "\n{} runs. Limits: {kept} kept, {exceeded} exceeded, {unknown} unknown. {}: {}.",
+        "\n{} runs{refined}. Limits: {kept} kept, {exceeded} exceeded, {unknown} unknown. {}: {}.",
         findings.runs.len(),
         certificate.limits.title,
         certificate.limits.source

@@ -19,6 +19,7 @@ use staging::Folder;
 use study::car::CarCase;
 use study::car::statistics::NO_STATISTICS;
 use study::car::summary::CarSummary;
+use study::car::worst::place_in_words;
 use study::case::Case;
 use study::models::{AnyCase, built_in, built_in_names};
 use study::outcome::Outcome;
@@ -460,7 +461,7 @@ const CAR_NOTE: &str = "\
 Worst value of each kind, of filtered forces and accelerations, beside limits that are remembered of AAR \
 M-1001, chapter XI: check
 them against your edition. A limit counts for its regimes only (summary.json names them). Margin: what is \
-left, in parts of it.";
+left, in parts of it; of a least share, of the way from 100 %.";
 
 /// Returns the table of a car's limits.
 fn car_table(summary: &CarSummary) -> TerminalTable {
@@ -481,7 +482,7 @@ fn car_table(summary: &CarSummary) -> TerminalTable {
         };
         table.row([
             own.quantity.clone(),
-            own.statistic.replace('_', " "),
+            place_in_words(&own.statistic),
             shown(own.value),
             shown(own.limit),
             match own.unfiltered {
