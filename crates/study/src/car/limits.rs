@@ -187,9 +187,9 @@ impl Limit {
         Some((check, worst.time))
     }
 
-    /// Returns the margin of a value in its unit: negative where the limit is not kept. Of a greatest value it
-    /// is in parts of the limit; of a least share of what is there at rest it is in parts of the way from there
-    /// to the limit, so that 1 is "nothing lost".
+    /// Returns the margin of a value in its unit: negative where the limit is not kept. Of a greatest value
+    /// it is in parts of the limit; of a least share of what is there at rest it is in parts of the way from
+    /// there to the limit, so that 1 is "nothing lost".
     #[must_use]
     pub fn margin(&self, value: f64) -> f64 {
         match self.bound {

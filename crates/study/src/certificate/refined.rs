@@ -7,8 +7,9 @@
 //! coarse end does not draw all runs; of equal ones to the worse). They end early where all runs are within 2
 //! % of the limit, or both neighbors some 2 mph away are. The numbers are choices.
 //!
-//! Limits: one worst speed is looked at; a second resonance between two other speeds stays unseen. A regime
-//! in which a wheel leaves its rail is not refined: no limit is kept there.
+//! Limits: of each limit one worst speed is looked at, of that with the least margin first; a second
+//! resonance between two other speeds stays unseen. A regime in which a wheel leaves its rail is not refined:
+//! no limit is kept there.
 
 use quantity::{Kind, Quantity};
 
@@ -89,11 +90,25 @@ impl Certificate {
                 if !whole || own().filter(|run| run.refined).count() >= MOST {
                     continue;
                 }
-                let mut known: Vec<Known> = own()
-                    .filter_map(|run| Some((run.speed_si, run.least()?)))
-                    .collect();
-                known.sort_by(|a, b| a.0.total_cmp(&b.0));
-                next_ones.extend(next(&known).map(|speed| (regime, condition, speed)));
+                // The limit of which least is left comes first.
+                let mut known: Vec<Vec<Known>> = vec![Vec::new(); self.limits.limits.len()];
+                for run in own() {
+                    for check in &run.checks {
+                        let margin = if run.derailed {
+                            Some(f64::NEG_INFINITY)
+                        } else {
+                            check.margin
+                        };
+                        known[check.limit].extend(margin.map(|margin| (run.speed_si, margin)));
+                    }
+                }
+                let least = |own: &Vec<Known>| own.iter().map(|own| own.1).fold(f64::INFINITY, f64::min);
+                known.sort_by(|a, b| least(a).total_cmp(&least(b)));
+                let speed = known.iter_mut().find_map(|own| {
+                    own.sort_by(|a, b| a.0.total_cmp(&b.0));
+                    next(own)
+                });
+                next_ones.extend(speed.map(|speed| (regime, condition, speed)));
             }
         }
         next_ones
