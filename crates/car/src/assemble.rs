@@ -13,12 +13,11 @@ use mechanics::body::Body;
 use mechanics::connection::{Options, SlopeDirection};
 use mechanics::frame::Frame;
 use mechanics::link::Marker;
-use mechanics::motion::Motion;
 use mechanics::orientation::fixed;
 use mechanics::system::{Model, System};
 use mechanics::vector::{Matrix, Vector, rotation_z};
 use rolling::linear::LinearOnTrack;
-use rolling::track::{RailSupport, rail_body};
+use rolling::track::{RailSupport, rail_bed, rail_body};
 use rolling::wheel::{Search, WheelOnRail};
 use rolling::wheelset::{WheelsetPlace, leave_spin_uncontrolled, marker};
 use truck::{Bolster, Mount, MountedTruck, WedgeKind, WedgeLoads};
@@ -487,11 +486,7 @@ pub(crate) fn body_marker(carried: &Carried, place: [f64; 3]) -> Marker {
 fn beds(model: &mut Model) -> [[usize; 2]; 4] {
     [0, 1, 2, 3].map(|w| {
         ["left", "right"].map(|side| {
-            let mut frame = Frame::fixed([0.0; 3], [0.0; 3]);
-            frame.motions = std::array::from_fn(|_| Motion::line(0.0, [0.0; 2]));
-            model
-                .bodies
-                .push(Body::prescribed(&format!("rail_bed_{}_{side}", w + 1), frame));
+            model.bodies.push(rail_bed(&format!("rail_bed_{}_{side}", w + 1)));
             model.bodies.len() - 1
         })
     })

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use study::car::CarCase;
-use study::car::packed::PackedFile;
+use study::packed::PackedFile;
 use study::case::{Case, Tables};
 use study::run::RunCase;
 use study::truck::TruckCase;
@@ -92,7 +92,7 @@ macro_rules! cases {
 cases! {
     Case: |case: &Self| (case.to_toml_embedded().to_owned(), Vec::new()), Tables::from;
     TruckCase: |case: &Self| (case.to_toml_embedded().to_owned(), Vec::new()), Tables::from;
-    VehicleCase: |case: &Self| (case.to_toml_embedded().to_owned(), Vec::new()), Tables::from;
+    VehicleCase: VehicleCase::packed, Tables::below;
     CarCase: CarCase::packed, Tables::below;
 }
 
@@ -247,7 +247,7 @@ impl Source {
     }
 
     /// Returns name and bytes of the files that say what it is made of: the case or run first, then the
-    /// profiles and measured tables of a car.
+    /// profiles and measured tables of a car or a vehicle.
     ///
     /// # Errors
     /// A profile or a table can no longer be read.

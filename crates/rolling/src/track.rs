@@ -16,7 +16,9 @@
 
 use mechanics::body::Body;
 use mechanics::element::{Element, Inputs, Wrench};
+use mechanics::frame::Frame;
 use mechanics::link::RelativeMotion;
+use mechanics::motion::Motion;
 use mechanics::vector::Vector;
 use numerics::scalar::Real;
 
@@ -56,6 +58,15 @@ pub fn rail_body(support: &RailSupport) -> Body {
     let mut body = Body::free(&support.name, support.mass, [0.0; 3], [0.0; 6]);
     body.free = [true, true, true, false, false, false];
     body
+}
+
+/// Returns the body that a rail lies on where that can be moved (a bridge, a rig): it stands still along the
+/// fixed axes until its motions are set.
+#[must_use]
+pub fn rail_bed(name: &str) -> Body {
+    let mut frame = Frame::fixed([0.0; 3], [0.0; 3]);
+    frame.motions = std::array::from_fn(|_| Motion::line(0.0, [0.0; 2]));
+    Body::prescribed(name, frame)
 }
 
 impl Element for RailSupport {

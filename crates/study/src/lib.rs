@@ -37,6 +37,7 @@ pub mod metrics;
 pub mod models;
 pub mod outcome;
 pub mod output_files;
+pub mod packed;
 pub mod patches;
 pub mod plausibility;
 pub mod progress;

@@ -11,7 +11,7 @@ use mechanics::body::Body;
 use mechanics::link::Marker;
 use mechanics::system::{BodyState, Model, Observation};
 use mechanics::vector::{Matrix, Vector};
-use rolling::track::{RailSupport, rail_body};
+use rolling::track::{RailSupport, rail_bed, rail_body};
 use rolling::wheel::{Search, WheelOnRail, motion_of};
 use rolling::wheelset::{WheelsetBody, WheelsetPlace, coordinate, marker};
 use wheelrail::contact::Side;
@@ -20,6 +20,7 @@ use wheelrail::track::{CenterLine, Line, RailLines, Segment, Track, TrackError, 
 
 /// Length of straight track before and behind a vehicle that comes to rest, m.
 const ROOM: f64 = 10.0;
+const SIDES: [&str; 2] = ["left", "right"];
 
 /// What runs on a track.
 #[derive(Clone, Debug)]
@@ -32,6 +33,9 @@ pub struct OnTrack {
     pub wheelset: WheelsetBody,
     /// Springs under each rail; none: rails do not give way.
     pub support: Option<RailSupport>,
+    /// True if what each rail lies on under each wheel can be moved
+    /// ([`mechanics::system::System::set_motions`]): a bridge, a rig.
+    pub movable_rails: bool,
     /// Wheelsets outside of trucks.
     pub wheelsets: Vec<WheelsetPart>,
     /// Trucks.
@@ -168,6 +172,8 @@ pub struct Axle {
     pub name: String,
     /// The number of its body.
     pub body: usize,
+    /// The bodies that its left and right rail lie on, if they can be moved.
+    pub beds: Option<[usize; 2]>,
     /// The bodies under its left and right wheel.
     under: [usize; 2],
     wheels: [WheelOnRail; 2],
@@ -231,11 +237,15 @@ impl Axle {
         motion_of(&seen.bodies[self.body], left, under, Matrix::identity())
     }
 
-    /// Returns the side (0 left, 1 right) and the seat of a wheel that has left its rail.
+    /// Returns the distance along the track (m) at which one of its wheels has left its rail, and this in
+    /// words.
     #[must_use]
-    pub fn left_rail(&self, seen: &Observation) -> Option<(usize, Seat)> {
-        let seats = [0, 1].map(|side| (side, self.wheels[side].seat(&self.motion(seen, side))));
-        seats.into_iter().find(|(_, seat)| *seat != Seat::OnRail)
+    pub fn left_rail(&self, seen: &Observation) -> Option<(f64, String)> {
+        let left = |side: &usize| self.wheels[*side].seat(&self.motion(seen, *side)) != Seat::OnRail;
+        let side = SIDES[[0, 1].into_iter().find(left)?];
+        let (at, name) = (self.state(seen).distance, self.name.replace('_', " "));
+        let words = format!("the {side} wheel of {name} left its rail at {at:.1} m along the track");
+        Some((at, words))
     }
 }
 
@@ -260,12 +270,25 @@ pub(crate) fn add_wheels(
     wheelsets: &[(String, usize)],
 ) -> Vec<Axle> {
     let track = Marker::new([0.0; 3], [0.0; 3]);
-    let sides = ["left", "right"];
-    let under: Vec<[usize; 2]> = wheelsets
+    let beds: Vec<Option<[usize; 2]>> = wheelsets
         .iter()
         .map(|(name, _)| {
-            let Some(support) = &on.support else { return [0; 2] };
-            sides.map(|side| {
+            on.movable_rails.then(|| {
+                SIDES.map(|side| {
+                    model.bodies.push(rail_bed(&format!("{name}_{side}_rail_bed")));
+                    model.bodies.len() - 1
+                })
+            })
+        })
+        .collect();
+    let under: Vec<[usize; 2]> = wheelsets
+        .iter()
+        .zip(&beds)
+        .map(|((name, _), beds)| {
+            let beds = beds.unwrap_or([0; 2]);
+            let Some(support) = &on.support else { return beds };
+            [0, 1].map(|i| {
+                let side = SIDES[i];
                 let number = model.bodies.len();
                 let mut rail = rail_body(support);
                 rail.name = format!("{name}_{side}_rail");
@@ -274,20 +297,21 @@ pub(crate) fn add_wheels(
                     name: format!("{name}_{side}_rail_support"),
                     ..support.clone()
                 };
-                model.add(own, (number, track), (0, track));
+                model.add(own, (number, track), (beds[i], track));
                 number
             })
         })
         .collect();
     let half = 0.5 * on.wheels.tape_distance;
-    let axles = wheelsets.iter().zip(under);
+    let axles = wheelsets.iter().zip(beds).zip(under);
     axles
-        .map(|((name, body), under)| Axle {
+        .map(|(((name, body), beds), under)| Axle {
             name: name.clone(),
             body: *body,
+            beds,
             under,
             wheels: [0, 1].map(|i| WheelOnRail {
-                name: format!("{name}_{}_wheel", sides[i]),
+                name: format!("{name}_{}_wheel", SIDES[i]),
                 lines: lines.clone(),
                 side: [Side::Left, Side::Right][i],
                 search: searches[i].clone(),

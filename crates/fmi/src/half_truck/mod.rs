@@ -13,7 +13,7 @@ use mechanics::system::System;
 use nucars::Severity;
 use nucars::file_sets::{RunFiles, Texts};
 use serde::{Deserialize, Serialize};
-use study::car::packed::PackedFile;
+use study::packed::PackedFile;
 use study::half_truck::columns::Columns;
 use study::half_truck::files::{Settings, case_of_run};
 use study::half_truck::{HalfTruckCase, HalfTruckStart, catalog};

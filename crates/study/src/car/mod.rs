@@ -19,7 +19,6 @@ pub mod mode_shape;
 pub mod motions;
 pub(crate) mod named;
 pub mod onset;
-pub mod packed;
 mod peaks;
 pub(crate) mod profiles;
 pub(crate) mod rails;
@@ -65,7 +64,7 @@ pub struct CarCase {
     /// Warnings of reading.
     pub doubts: Vec<String>,
     /// Profiles and measured tables that were read.
-    files: Vec<NamedFile>,
+    pub(crate) files: Vec<NamedFile>,
     text: CaseText,
 }
 

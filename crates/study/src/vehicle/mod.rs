@@ -42,7 +42,7 @@ pub struct VehicleCase {
     /// Warnings of reading.
     pub doubts: Vec<String>,
     /// Profiles and measured tables that were read.
-    files: Vec<NamedFile>,
+    pub(crate) files: Vec<NamedFile>,
     text: CaseText,
 }
 
@@ -56,12 +56,6 @@ impl PartialEq for VehicleCase {
 model_case!(VehicleCase, Model::Vehicle, like::complete, read);
 
 impl VehicleCase {
-    /// Returns profiles and measured tables that were read, by their keys.
-    #[must_use]
-    pub fn has_files(&self) -> bool {
-        !self.files.is_empty()
-    }
-
     /// As [`VehicleCase::parse`], with kinds of elements of one's own beside those of the catalog.
     ///
     /// # Errors

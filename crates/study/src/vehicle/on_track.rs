@@ -166,6 +166,7 @@ pub(super) fn track(
     }
     let on = OnTrack {
         support: sections::rail_support(&read.support, scratch.gravity),
+        movable_rails: false,
         track: read.track,
         wheels: own,
         wheelset: scratch.wheelset,

@@ -7,7 +7,7 @@ use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
 use mechanics::system::{Observation, System};
 use quantity::Kind;
-use vehicle::{Axle, Vehicle, View};
+use vehicle::{Vehicle, View};
 
 use super::VehicleCase;
 use super::summary::{SCHEMA, VehicleDerailed, VehicleSummary, VibrationSummary};
@@ -154,12 +154,8 @@ impl Recorder for VehicleRecorder {
         let values = [own.work, own.losses, own.stored_change, own.residual];
         self.rows.row().extend(values);
         self.rows.append(row.time)?;
-        let left = |axle: &Axle| Some((axle.clone(), axle.left_rail(&seen)?));
-        if let Some((axle, (side, _))) = self.vehicle.axles.iter().find_map(left) {
-            let at = axle.state(&seen).distance;
-            let side = ["left", "right"][side];
-            let name = axle.name.replace('_', " ");
-            let what = format!("the {side} wheel of {name} left its rail at {at:.1} m along the track");
+        let mut axles = self.vehicle.axles.iter();
+        if let Some((at, what)) = axles.find_map(|axle| axle.left_rail(&seen)) {
             self.derailed = Some((row.time, at, what.clone()));
             return Err(RunError::Derailed { what });
         }

@@ -1,10 +1,11 @@
 //! A case with the files that it names, as they lie together in one folder.
 
-use super::CarCase;
+use crate::car::CarCase;
 use crate::case::field::quoted;
 use crate::case::problem::TomlSource;
 use crate::case::tables::NamedFile;
 use crate::case::tree::{self, NodeValue, TableEntry};
+use crate::vehicle::VehicleCase;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -71,45 +72,62 @@ impl Files {
     }
 }
 
-impl CarCase {
-    /// Returns the text of the case in which profiles and measured tables are named `files/...`, and these
-    /// files, with those that lists of sections name. A case that names no files is
-    /// [`CarCase::to_toml_embedded`]. What is packed once more has the same names.
-    #[must_use]
-    pub fn packed(&self) -> (String, Vec<PackedFile>) {
-        let mut text = self.to_toml_embedded().to_owned();
-        let mut named = Vec::new();
-        // The text is one that this program wrote.
-        if let Ok(tree) = tree::parse(&TomlSource::new("case.toml", text.as_str())) {
-            for entry in &tree.entries {
-                find(entry, &entry.key, &mut named);
-            }
+/// Returns the text of a case in which profiles and measured tables are named `files/...`, and these files,
+/// with those that lists of sections name. A case that names no files stays as it is. What is packed once
+/// more has the same names.
+fn packed(text: &str, read: &[NamedFile]) -> (String, Vec<PackedFile>) {
+    let mut named = Vec::new();
+    // The text is one that this program wrote.
+    if let Ok(tree) = tree::parse(&TomlSource::new("case.toml", text)) {
+        for entry in &tree.entries {
+            find(entry, &entry.key, &mut named);
         }
-        named.sort_by_key(|(_, _, span)| span.start);
-        let mut files = Files::default();
-        let mut spans: Vec<(Range<usize>, String)> = Vec::new();
-        for (key, typed, span) in named {
-            let same = |own: &&NamedFile| own.key == key && own.typed == typed;
-            let Some(file) = self.files.iter().find(same) else {
-                continue;
-            };
-            let name = files.add(key, &typed, &file.path);
-            let listed = file.listed.iter().map(|(own, path)| {
-                let beside = files.add("rails.section", own, path);
-                let beside = beside.strip_prefix("files/").unwrap_or(&beside).to_owned();
-                (own.clone(), beside)
-            });
-            let renamed: Vec<(String, String)> = listed.collect();
-            if let Some(packed) = files.packed.iter_mut().find(|own| own.name == name) {
-                packed.renamed = renamed;
-            }
-            spans.push((span, quoted(&name)));
-        }
-        for (span, name) in spans.into_iter().rev() {
-            text.replace_range(span, &name);
-        }
-        (text, files.packed)
     }
+    named.sort_by_key(|(_, _, span)| span.start);
+    let mut files = Files::default();
+    let mut spans: Vec<(Range<usize>, String)> = Vec::new();
+    for (key, typed, span) in named {
+        let same = |own: &&NamedFile| own.key == key && own.typed == typed;
+        let Some(file) = read.iter().find(same) else {
+            continue;
+        };
+        let name = files.add(key, &typed, &file.path);
+        let listed = file.listed.iter().map(|(own, path)| {
+            let beside = files.add("rails.section", own, path);
+            let beside = beside.strip_prefix("files/").unwrap_or(&beside).to_owned();
+            (own.clone(), beside)
+        });
+        let renamed: Vec<(String, String)> = listed.collect();
+        if let Some(packed) = files.packed.iter_mut().find(|own| own.name == name) {
+            packed.renamed = renamed;
+        }
+        spans.push((span, quoted(&name)));
+    }
+    let mut text = text.to_owned();
+    for (span, name) in spans.into_iter().rev() {
+        text.replace_range(span, &name);
+    }
+    (text, files.packed)
+}
+
+/// Packs cases that keep the files that were read for them.
+macro_rules! packs {
+    ($($case:ty,)+) => {$(
+        impl $case {
+            /// Returns the text of the case in which profiles and measured tables are named `files/...`, and
+            /// these files, with those that lists of sections name. What is packed once more has the same
+            /// names.
+            #[must_use]
+            pub fn packed(&self) -> (String, Vec<PackedFile>) {
+                packed(self.to_toml_embedded(), &self.files)
+            }
+        }
+    )+};
+}
+
+packs! {
+    CarCase,
+    VehicleCase,
 }
 
 /// Finds the texts that may be names of files: key, text and place.
