@@ -6,8 +6,6 @@
 
 use std::sync::Arc;
 
-use mechanics::orientation::fixed;
-use mechanics::vector::Vector;
 use study::car::CarCase;
 use study::car::columns::CarTable;
 
@@ -18,9 +16,6 @@ use crate::system::{
     Inputs, Plant, PortDirection, Ports, accumulators, contacts, internals, is_driven, ledger, load,
     motions_along_axes, options,
 };
-
-/// Axes along which rails are moved and the body is pushed.
-const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// A freight car on its track.
 pub(crate) struct CarModel;
@@ -79,26 +74,15 @@ fn all(table: &CarTable) -> (Entries, Ports) {
     let system = &car.system;
     let mut inputs = Inputs::default();
     for body in car.numbers.beds.iter().flatten().flatten() {
-        let own = &system.bodies()[*body];
-        for (coordinate, axis) in AXES.into_iter().enumerate() {
-            let name = format!("{}_{axis}_motion", own.name);
-            let text = "displacement of what the rail lies on under this wheel, along the fixed axes, added \
-                        to the track's irregularities; read if motion = 0";
-            inputs.add_motion((*body, own), coordinate, &name, text);
-        }
+        inputs.add_rail_bed((*body, &system.bodies()[*body]));
     }
     let body = car.numbers.body;
-    let frame = fixed(system.bodies()[body].frame.orientation);
-    for axis in 0..AXES.len() {
-        let mut row = [0.0; 6];
-        for (k, part) in row.iter_mut().take(AXES.len()).enumerate() {
-            let Vector(column) = frame.column(k);
-            *part = column[axis];
-        }
+    for axis in 0..3 {
+        let direction = PortDirection::along_axis((body, &system.bodies()[body]), axis);
         let text = "the car body with its lading from outside, at its center of gravity, fixed axes";
-        inputs.add_load(PortDirection { body, row }, load("", "car_body", axis, text));
+        inputs.add_load(direction, load("", "car_body", axis, text));
     }
-    let mut states = motions_along_axes(system);
+    let mut states = motions_along_axes(system, "");
     states.extend(internals(system));
     states.extend(accumulators(system));
     let (modes, indicators) = contacts(system);

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use study::car::CarCase;
-use study::packed::PackedFile;
 use study::case::{Case, Tables};
+use study::packed::PackedFile;
 use study::run::RunCase;
 use study::truck::TruckCase;
 use study::vehicle::VehicleCase;

@@ -13,10 +13,10 @@ use mechanics::system::System;
 use nucars::Severity;
 use nucars::file_sets::{RunFiles, Texts};
 use serde::{Deserialize, Serialize};
-use study::packed::PackedFile;
 use study::half_truck::columns::Columns;
 use study::half_truck::files::{Settings, case_of_run};
 use study::half_truck::{HalfTruckCase, HalfTruckStart, catalog};
+use study::packed::PackedFile;
 
 use crate::Error;
 use crate::element::Setting;

@@ -79,12 +79,25 @@ impl Inputs {
         self.entries.push(entry);
     }
 
-    /// Adds inputs for force and moment along every free coordinate of a body, at its center of gravity.
+    /// Adds inputs for force and moment along every free coordinate of a body, at its center of gravity; of a
+    /// body whose reference frame is turned, along the fixed axes.
     pub fn add_loads(&mut self, (body, own): (usize, &Body), name: &str, words: &str) {
         let text = format!("{words} from outside, at its center of gravity");
-        for coordinate in (0..6).filter(|k| own.free[*k]) {
-            let direction = PortDirection::coordinate(body, coordinate);
-            self.add_load(direction, load("", name, coordinate, &text));
+        for axis in 0..6 {
+            let direction = PortDirection::along_axis((body, own), axis);
+            if (0..6).all(|k| own.free[k] || direction.row[k] == 0.0) {
+                self.add_load(direction, load("", name, axis, &text));
+            }
+        }
+    }
+
+    /// Adds inputs for the displacements of what a rail lies on, along the fixed axes.
+    pub fn add_rail_bed(&mut self, (body, own): (usize, &Body)) {
+        for (coordinate, axis) in COORDINATES.into_iter().enumerate().take(3) {
+            let name = format!("{}_{axis}_motion", own.name);
+            let text = "displacement of what the rail lies on under this wheel, along the fixed axes, added \
+                        to the track's irregularities; read if motion = 0";
+            self.add_motion((body, own), coordinate, &name, text);
         }
     }
 
@@ -197,8 +210,8 @@ pub(crate) fn motions(system: &System, name: impl Fn(usize) -> String) -> Vec<Qu
 
 /// As [`motions`], of bodies whose reference frames stand in any way along the fixed axes: a coordinate has
 /// the name of the fixed axis along or about which it goes in the nominal layout, and `minus` if it goes the
-/// other way.
-pub(crate) fn motions_along_axes(system: &System) -> Vec<QuantityEntry> {
+/// other way. `word` stands before the axis.
+pub(crate) fn motions_along_axes(system: &System, word: &str) -> Vec<QuantityEntry> {
     let text = "displacement of the origin along a fixed axis, or angle about it, from the nominal layout; \
                 angles of a body follow each other";
     states(system, text, |body, k| {
@@ -207,7 +220,7 @@ pub(crate) fn motions_along_axes(system: &System) -> Vec<QuantityEntry> {
         let longest = (0..3).max_by(|a, b| axis[*a].abs().total_cmp(&axis[*b].abs()));
         let number = longest.unwrap_or(k % 3);
         let sign = if axis[number] < 0.0 { "minus_" } else { "" };
-        format!("{}_{sign}{}", own.name, COORDINATES[number + k / 3 * 3])
+        format!("{}_{word}{sign}{}", own.name, COORDINATES[number + k / 3 * 3])
     })
 }
 

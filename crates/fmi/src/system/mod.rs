@@ -31,8 +31,8 @@ pub(crate) use inputs::release;
 use inputs::{InputLoads, lead, place};
 pub(crate) use ports::is_driven;
 pub use ports::{
-    CoilPort, CoilSource, FrictionPort, LoadPort, MotionPort, Plant, PortDirection, Ports, Reading, Six,
-    StartPort, StartState, TableReader,
+    CoilPort, CoilSource, DerailmentWatch, FrictionPort, LoadPort, MotionPort, Plant, PortDirection, Ports,
+    Reading, Six, StartPort, StartState, TableReader,
 };
 
 /// The place of the option that says who moves prescribed bodies, in [`options`].
@@ -368,7 +368,7 @@ impl Element for SystemElement {
     }
 
     fn next_time_event(&mut self) -> Option<f64> {
-        if self.plant.driven || self.integrator.is_some() {
+        if self.integrator.is_some() {
             return None;
         }
         self.piece_start = self.time;

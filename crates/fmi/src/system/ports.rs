@@ -1,8 +1,11 @@
 //! Ports of a system: what its inputs do, and what its outputs read.
 
 use integrate::Options;
+use mechanics::body::Body;
 use mechanics::coil::CoilLaw;
+use mechanics::orientation::fixed;
 use mechanics::system::{ElementEvaluation, Observation, System};
+use mechanics::vector::Matrix;
 use numerics::scalar::Real;
 
 use super::{MOTION, START, SystemElement};
@@ -33,6 +36,17 @@ impl PortDirection {
             body,
             row: std::array::from_fn(|k| if k == coordinate { 1.0 } else { 0.0 }),
         }
+    }
+
+    /// Returns the displacement of a body along a fixed axis (0 to 2), or its turn about that one (3 to 5),
+    /// whose reference frame stands in any way in the nominal layout.
+    #[must_use]
+    pub fn along_axis((body, own): (usize, &Body), axis: usize) -> Self {
+        let Matrix(frame) = fixed(own.frame.orientation);
+        let first = axis / 3 * 3;
+        let mut row = [0.0; 6];
+        row[first..first + 3].copy_from_slice(&frame[axis - first]);
+        Self { body, row }
     }
 
     /// Returns the six displacements of a point of a body that lies at `lever` (m) from its center of
