@@ -3,13 +3,14 @@
 
 use fmi::description::{Description, Version};
 use fmi::element::Interface;
-use fmi::instance::Instance;
 use fmi::source::Source;
 use study::car::CarCase;
 use study::car::columns::CarTable;
 use study::car::run::CarResult;
 use study::case::Tables;
 use study::run::Run;
+
+use crate::part::Part;
 
 const INTERVAL: f64 = 0.005;
 
@@ -22,47 +23,9 @@ fn run(case: &CarCase) -> CarResult {
     Run::new(case).unwrap().finish(|_| ())
 }
 
-/// An instance with its variables by their names.
-struct Part {
-    instance: Instance,
-    description: Description,
-}
-
-impl Part {
-    fn new(case: CarCase, interface: Interface) -> Self {
-        let source = Source::Car(Box::new(case));
-        let description = Description::new(&source).unwrap();
-        let instance = Instance::of("car", None, source, Version::Three, interface).unwrap();
-        Self {
-            instance,
-            description,
-        }
-    }
-
-    fn reference(&self, name: &str) -> u32 {
-        let mut all = self.description.variables.iter();
-        let found = all.find(|variable| variable.name == name);
-        found
-            .unwrap_or_else(|| panic!("there is no variable {name}"))
-            .reference
-    }
-
-    fn set(&mut self, name: &str, value: f64) {
-        self.instance.set_float(self.reference(name), value).unwrap();
-    }
-
-    fn get(&mut self, name: &str) -> f64 {
-        self.instance.get_float(self.reference(name)).unwrap()
-    }
-
-    fn begin(&mut self) {
-        self.instance.enter_initialization().unwrap();
-        self.instance.exit_initialization().unwrap();
-    }
-
-    fn step(&mut self) {
-        self.instance.do_step(self.instance.time(), INTERVAL).unwrap();
-    }
+fn part(case: CarCase, interface: Interface) -> Part {
+    let source = Source::Car(Box::new(case));
+    Part::new(source, Version::Three, interface, INTERVAL)
 }
 
 const TRACK: &str = "simulation.duration = \"0.2 s\"\nspeed.value = \"40 mph\"\n[[track.segments]]\n\
@@ -77,7 +40,7 @@ const DIP: &str = "[[track.irregularities]]\nshape = \"dip\"\nrails = \"both\"\n
 fn cross_code_a_car_gives_the_columns_of_its_run() {
     let own = case(&format!("simulation.relative_tolerance = 1e-5\n{TRACK}{DIP}"));
     let result = run(&own);
-    let mut part = Part::new(own, Interface::CoSimulation);
+    let mut part = part(own, Interface::CoSimulation);
     part.begin();
     let names = [
         "distance",
@@ -117,7 +80,7 @@ fn cross_code_moved_rails_do_what_the_same_irregularity_does() {
     let dipped = rigid(DIP);
     let result = run(&dipped);
     let lines = CarTable::new(&dipped.parameters).unwrap().car().lines.clone();
-    let mut part = Part::new(rigid(""), Interface::CoSimulation);
+    let mut part = part(rigid(""), Interface::CoSimulation);
     let reference = part.reference("inputs_at_end");
     part.instance.set_boolean(reference, true).unwrap();
     part.begin();
@@ -163,7 +126,7 @@ fn cross_code_moved_rails_do_what_the_same_irregularity_does() {
 /// A saved car goes on with the same bits, and a load on the body does its work.
 #[test]
 fn reproducible_a_saved_car_goes_on_with_the_same_bits() {
-    let mut part = Part::new(case(&format!("{TRACK}{DIP}")), Interface::CoSimulation);
+    let mut part = part(case(&format!("{TRACK}{DIP}")), Interface::CoSimulation);
     part.set("force_on_car_body_y", 20e3);
     part.begin();
     for _ in 0..8 {
@@ -195,7 +158,7 @@ fn reproducible_a_saved_car_goes_on_with_the_same_bits() {
 
 #[test]
 fn limits_every_variable_has_a_value_in_model_exchange() {
-    let mut part = Part::new(case(TRACK), Interface::ModelExchange);
+    let mut part = part(case(TRACK), Interface::ModelExchange);
     part.begin();
     let entries = part.description.entries.clone();
     for list in [

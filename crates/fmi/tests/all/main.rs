@@ -4,6 +4,8 @@
 mod car;
 mod issue_029_behaviour;
 mod issue_047_inputs;
+mod part;
 mod three_piece;
 mod vehicle;
+mod vehicle_on_track;
 mod wedge;

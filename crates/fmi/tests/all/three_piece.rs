@@ -3,59 +3,22 @@
 
 use fmi::description::{Description, Version};
 use fmi::element::Interface;
-use fmi::instance::Instance;
 use fmi::source::Source;
 use study::run::Run;
 use study::truck::builtin;
 use study::truck::run::TruckResult;
 
-const INTERVAL: f64 = 0.01;
+use crate::part::Part;
 
-/// An instance with its variables by their names.
-struct Part {
-    instance: Instance,
-    description: Description,
-}
+const INTERVAL: f64 = 0.01;
 
 fn source(name: &str, set: &[&str]) -> Source {
     let set: Vec<String> = set.iter().map(|text| (*text).to_owned()).collect();
     Source::ThreePieceTruck(Box::new(builtin::case_with(name, &set).unwrap()))
 }
 
-impl Part {
-    fn new(source: Source, interface: Interface) -> Self {
-        let description = Description::new(&source).unwrap();
-        let instance = Instance::of("truck", None, source, Version::Three, interface).unwrap();
-        Self {
-            instance,
-            description,
-        }
-    }
-
-    fn reference(&self, name: &str) -> u32 {
-        let mut all = self.description.variables.iter();
-        let found = all.find(|variable| variable.name == name);
-        found
-            .unwrap_or_else(|| panic!("there is no variable {name}"))
-            .reference
-    }
-
-    fn set(&mut self, name: &str, value: f64) {
-        self.instance.set_float(self.reference(name), value).unwrap();
-    }
-
-    fn get(&mut self, name: &str) -> f64 {
-        self.instance.get_float(self.reference(name)).unwrap()
-    }
-
-    fn begin(&mut self) {
-        self.instance.enter_initialization().unwrap();
-        self.instance.exit_initialization().unwrap();
-    }
-
-    fn step(&mut self) {
-        self.instance.do_step(self.instance.time(), INTERVAL).unwrap();
-    }
+fn truck(source: Source, interface: Interface) -> Part {
+    Part::new(source, Version::Three, interface, INTERVAL)
 }
 
 const SET: [&str; 2] = ["simulation.duration=2.6 s", "simulation.relative_tolerance=1e-8"];
@@ -100,7 +63,7 @@ fn cross_code_the_motions_of_the_case_give_the_columns_of_the_run() {
     let result = Run::new(&builtin::case_with(name, &SET.map(str::to_owned)).unwrap())
         .unwrap()
         .finish(|_| ());
-    let mut part = Part::new(source(name, &SET), Interface::CoSimulation);
+    let mut part = truck(source(name, &SET), Interface::CoSimulation);
     let reference = part.reference("motion");
     part.instance.set_integer(reference, 1).unwrap();
     part.begin();
@@ -116,7 +79,7 @@ fn cross_code_inputs_that_move_as_the_case_give_the_columns_of_the_run() {
     let result = Run::new(&builtin::case_with(name, &set.map(str::to_owned)).unwrap())
         .unwrap()
         .finish(|_| ());
-    let mut part = Part::new(source(name, &set), Interface::CoSimulation);
+    let mut part = truck(source(name, &set), Interface::CoSimulation);
     let reference = part.reference("inputs_at_end");
     part.instance.set_boolean(reference, true).unwrap();
     part.set("bolster_z_motion_rate", 0.0254);
@@ -147,7 +110,7 @@ fn cross_code_a_load_as_input_gives_the_columns_of_a_case_that_has_it() {
     )
     .unwrap();
     let result = Run::new(&case).unwrap().finish(|_| ());
-    let mut part = Part::new(source(name, &set), Interface::CoSimulation);
+    let mut part = truck(source(name, &set), Interface::CoSimulation);
     part.set("force_on_bolster_z", -20_000.0);
     part.begin();
     let names = [
@@ -164,7 +127,7 @@ fn cross_code_a_load_as_input_gives_the_columns_of_a_case_that_has_it() {
     );
     assert!(relative < 1e-5, "{relative}");
     // The case's own load is left out where inputs load, and acts where the case moves.
-    let mut case_moves = Part::new(source(name, &loaded), Interface::CoSimulation);
+    let mut case_moves = truck(source(name, &loaded), Interface::CoSimulation);
     let reference = case_moves.reference("motion");
     case_moves.instance.set_integer(reference, 1).unwrap();
     case_moves.begin();
@@ -173,7 +136,7 @@ fn cross_code_a_load_as_input_gives_the_columns_of_a_case_that_has_it() {
 
 #[test]
 fn reproducible_a_saved_truck_goes_on_with_the_same_bits() {
-    let mut part = Part::new(source("truck_roll_variable", &SET), Interface::CoSimulation);
+    let mut part = truck(source("truck_roll_variable", &SET), Interface::CoSimulation);
     let reference = part.reference("motion");
     part.instance.set_integer(reference, 1).unwrap();
     part.begin();
@@ -198,7 +161,7 @@ fn reproducible_a_saved_truck_goes_on_with_the_same_bits() {
 
 #[test]
 fn limits_every_variable_has_a_value_in_model_exchange() {
-    let mut part = Part::new(source("truck_drop_variable", &[]), Interface::ModelExchange);
+    let mut part = truck(source("truck_drop_variable", &[]), Interface::ModelExchange);
     part.begin();
     let entries = part.description.entries.clone();
     for list in [
