@@ -18,7 +18,7 @@ use super::write;
 use crate::commands::run;
 use crate::failure::{Failure, Message};
 
-/// Write the wedge, the truck or the car of a case, or the half-truck of a run, as an FMU
+/// Write the wedge, truck, car or vehicle of a case, or the half-truck of a run, as an FMU
 ///
 /// The file holds the model for model exchange and for co-simulation, the case or the files of the run, a
 /// page that documents all variables, and the library for the platform that this program runs on. It needs
