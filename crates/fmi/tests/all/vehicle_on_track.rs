@@ -259,7 +259,7 @@ fn input_an_fmu_takes_the_files_of_a_vehicle_along() {
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
     write(
         "My worn wheel.PRW",
-        include_str!("../../../wheelrail/tests/data/manchester/MBench_S1002_v3.prw"),
+        include_str!("../../../wheelrail/tests/data/worn/worn_high_mileage.prw"),
     );
     let rail = include_str!("../../../wheelrail/tests/data/manchester/MBench_UIC60_v3.prr");
     std::fs::create_dir(folder.path().join("rails")).unwrap();
@@ -275,6 +275,8 @@ fn input_an_fmu_takes_the_files_of_a_vehicle_along() {
     write("measured.csv", &format!("distance_ft,profile_in\n{rows}"));
     let set = [
         "wheels.profile=\"My worn wheel.PRW\"",
+        "wheels.datum=\"flange_back\"",
+        "wheels.tape_from_back=\"3.0625 in\"",
         "rails.profile=\"rails/line.slcs\"",
         "rails.slices_from=\"30 m\"",
         "track.segments=[{tangent=\"500 ft\"}]",
