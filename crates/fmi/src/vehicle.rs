@@ -23,16 +23,17 @@ impl Model for VehicleModel {
     type Origin = VehicleCase;
 
     const NAME: &'static str = "Vehicle";
-    const TEXT: &'static str = "Vehicle of rigid bodies and force elements that its case names, on its track if \
-                                it has wheelsets";
+    const TEXT: &'static str = "Vehicle of rigid bodies and force elements that its case names, on its track \
+                                if it has wheelsets";
     const CONVENTIONS: &'static str = "Fixed axes: x forward, y left, z up; displacements of centers of \
                                        gravity from the nominal layout. Angles turn by R = Ry(pitch) Rz(yaw) \
                                        Rx(roll). Forces of elements act on the body with end a; pushes are \
-                                       positive. On a track the fixed axes are those of its beginning; outputs \
-                                       of bodies and wheelsets are against the track, states are not. Vertical \
-                                       wheel forces act on the rail, positive down; lateral ones are positive \
-                                       where they spread the gauge. Inputs that are moments act about the axes \
-                                       of angles, which turn with the body's heading.";
+                                       positive. On a track the fixed axes are those of its beginning; \
+                                       outputs of bodies and wheelsets are against the track, states are \
+                                       not. Vertical wheel forces act on the rail, positive down; lateral \
+                                       ones are positive where they spread the gauge. Inputs that are \
+                                       moments act about the axes of angles, which turn with the body's \
+                                       heading.";
 
     fn made(case: &VehicleCase, setting: Option<&Setting>) -> Result<Made, Error> {
         plant(case, setting)?.made(setting)
