@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 use study::certificate::other_start::{Repeated, near};
 use study::certificate::refined::Refined;
 use study::certificate::{Assessed, Certificate, worst_run};
-use study::models::AnyCase;
+use study::models::{AnyCase, ModelCase};
 use study::run::Run;
 
 use crate::certificate_files::{self, CertificateFindings, NAMES};
@@ -45,7 +45,7 @@ pub fn finish(
     let repeated = in_parallel(near, jobs, |number| {
         let goes_on = !stop.load(Ordering::Relaxed);
         let case = findings.case(certificate, number).filter(|_| goes_on)?;
-        certificate.repeat(number, case)
+        certificate.repeat(number, &case)
     });
     let repeated: Vec<Repeated> = repeated.into_iter().flatten().collect();
     certificate.note(&mut findings.verdicts, &repeated);
@@ -138,7 +138,7 @@ fn one(
     stop: &AtomicBool,
 ) -> Result<Option<WorstRun>, StudyFolderError> {
     let name = certificate.regimes[regime].name.as_str();
-    let AnyCase::Car(case) = case else {
+    let Some(case) = case.car() else {
         return Ok(None);
     };
     let case = case.named(name);

@@ -7,12 +7,13 @@
 //! - [`page`]: pages of runs and studies.
 //! - [`figures`]: the report's figures.
 //! - [`view`]: the data of the page's interactive part.
-//! - [`run_files`]: the files of a run.
+//! - [`models`]: what each model shows of its runs; [`run_files`]: the files of a run.
 //! - [`half_truck_files`]: the files of a half-truck's run.
 //! - [`warp_files`], [`curves_files`], [`wear_files`]: the files of `wedgelab warp`, `curves` and `wear`;
 //!   [`stability_files`], [`locus_files`], [`hunting_files`], [`onset_files`]: those of `wedgelab stability`;
 //!   [`wheelrail_files`]: those of `wedgelab wheelrail plot`; [`track_files`]: those of
 //!   `wedgelab track show`.
+//! - [`terminal`]: tables on the terminal.
 //! - [`table`]: tables of results, read back; [`run_folder`]: whole runs.
 //! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table,
 //!   [`study_digest`] what their page shows.
@@ -45,6 +46,7 @@ pub mod lock_up_files;
 pub mod locus_files;
 pub mod mat;
 pub mod mat5;
+pub mod models;
 pub mod onset_files;
 pub mod output_table;
 mod overlay;
@@ -60,6 +62,7 @@ pub mod study_folder;
 pub mod study_work;
 pub mod summary;
 pub mod table;
+pub mod terminal;
 pub mod track_class;
 pub mod track_files;
 pub mod view;

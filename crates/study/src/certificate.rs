@@ -397,7 +397,7 @@ fn car_of(request: &Request) -> Result<(CaseSource, AnyCase), CaseError> {
         },
     };
     let case = source.case(&request.set)?;
-    if !matches!(case, AnyCase::Car(_)) {
+    if case.car().is_none() {
         return Err(no_car(path));
     }
     Ok((source, case))
@@ -431,7 +431,7 @@ fn text(
     request: &Request,
     car: &AnyCase,
 ) -> Result<String, CaseError> {
-    let is_empty = matches!(car, AnyCase::Car(own) if own.parameters.lading.is_empty());
+    let is_empty = car.car().is_some_and(|own| own.parameters.lading.is_empty());
     let mut text = format!("case = \"{}\"\nsampling = \"list\"\n[set]\n", car.name());
     let lines = |text: &mut String, set: &[String]| {
         for own in set {

@@ -11,6 +11,7 @@ use mechanics::energy_balance::EnergyBalance;
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
+use crate::car::limits::LimitCheck;
 use crate::finite::{find, is_finite};
 use crate::jam::JamMargins;
 use crate::losses::EnergySummary;
@@ -61,6 +62,14 @@ pub trait RunSummary {
     fn reached(&self) -> Option<SummaryValue> {
         None
     }
+    /// Returns the worst values beside limits of rules; none of models without such limits.
+    fn limits(&self) -> &[LimitCheck] {
+        &[]
+    }
+    /// Returns the name of the first number that is not finite, of models whose runs do not stop there.
+    fn not_finite(&self) -> Option<String> {
+        None
+    }
     /// Returns how the run ended. A run that did not come to its end is `Derailed` or `Stopped` even if its
     /// energy ledger does not close, which [`RunSummary::failed`] and its warnings say.
     fn outcome(&self) -> Outcome {
@@ -106,11 +115,11 @@ macro_rules! ledger {
 }
 
 /// Implements [`RunSummary`] by the fields of these names, and from what differs: title, ledger and solver;
-/// models that run on a track add `derailed` and `reached`.
+/// models that run on a track add `derailed` and `reached`, others further methods.
 macro_rules! run_summary {
     (
         $summary:ty, |$own:ident| $(title: $title:expr,)? ledger: $ledger:expr, solver: $solver:expr
-        $(, derailed: $derailed:expr, reached: $reached:expr)?
+        $(, derailed: $derailed:expr, reached: $reached:expr)? $(, { $($more:tt)* })?
     ) => {
         impl $crate::summary::RunSummary for $summary {
             fn schema(&self) -> &str {
@@ -176,6 +185,8 @@ macro_rules! run_summary {
                     $reached
                 }
             )?
+
+            $($($more)*)?
         }
     };
 }
@@ -186,7 +197,12 @@ run_summary!(
     Summary,
     |own| title: &own.title,
     ledger: ledger!(own.ledger, own.ledger.entries),
-    solver: (own.solver.statistics.steps, own.solver.relative_tolerance)
+    solver: (own.solver.statistics.steps, own.solver.relative_tolerance),
+    {
+        fn not_finite(&self) -> Option<String> {
+            Self::not_finite(self)
+        }
+    }
 );
 
 /// The summary of a run.

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError, mpsc};
+use std::sync::{Mutex, PoisonError, mpsc};
 use std::thread;
 use std::time::Duration;
 
@@ -10,10 +10,7 @@ use pyo3::prelude::*;
 use study::models::{AnyCase, AnySummary};
 use study::result::RunResult;
 
-use crate::half_truck::NativeHalfTruckCase;
-use crate::model_case::NativeCase;
-use crate::model_case::NativeTruckCase;
-use crate::model_case::{NativeCarCase, NativeVehicleCase};
+use crate::model_case::of_python;
 use crate::outcome::NativeResult;
 use crate::run::{Failure, table};
 
@@ -34,23 +31,7 @@ pub fn run_many(
     columns: Option<Vec<String>>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Vec<Py<PyAny>>> {
-    let work = cases.iter().map(|case| {
-        if let Ok(case) = case.cast::<NativeCase>() {
-            return Ok(AnyCase::Wedge(Arc::clone(&case.get().case)));
-        }
-        if let Ok(case) = case.cast::<NativeTruckCase>() {
-            return Ok(AnyCase::Truck(Arc::clone(&case.get().case)));
-        }
-        if let Ok(case) = case.cast::<NativeCarCase>() {
-            return Ok(AnyCase::Car(Arc::clone(&case.get().case)));
-        }
-        if let Ok(case) = case.cast::<NativeVehicleCase>() {
-            return Ok(AnyCase::Vehicle(Arc::clone(&case.get().case)));
-        }
-        let case = case.cast::<NativeHalfTruckCase>()?;
-        Ok(AnyCase::HalfTruck(Arc::clone(&case.get().case)))
-    });
-    let work: Vec<AnyCase> = work.collect::<PyResult<_>>()?;
+    let work: Vec<AnyCase> = cases.iter().map(of_python).collect::<PyResult<_>>()?;
     let slots = py.detach(|| all(&work, workers, columns.as_deref(), progress.as_ref()))?;
     let results = work.iter().zip(slots).map(|(work, slot)| match slot {
         Some(Ok(table)) => Ok(Py::new(py, NativeResult::new(work.clone(), table))?.into_any()),

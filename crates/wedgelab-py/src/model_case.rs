@@ -15,6 +15,7 @@ use toml::Table;
 use wedge::Wedge;
 
 use crate::errors::{case_error, case_message, guarded};
+use crate::half_truck::NativeHalfTruckCase;
 use crate::outcome::NativeResult;
 use crate::run::{Progress, run_one};
 use crate::values;
@@ -31,10 +32,10 @@ fn over<C: Send>(
     guarded(py, || make(values).map_err(|error| case_error(py, &error)))
 }
 
-/// A class for the cases of a model: its name here and in Python, the case, its module of built-in ones, its
-/// variant of [`AnyCase`]. (Classes for Python cannot be generic.)
+/// A class for the cases of a model: its name here and in Python, the case, its module of built-in ones.
+/// (Classes for Python cannot be generic.)
 macro_rules! model_case {
-    ($native:ident, $name:literal, $case:ident, $builtin:ident, $model:ident, $about:literal) => {
+    ($native:ident, $name:literal, $case:ident, $builtin:ident, $about:literal) => {
         #[doc = $about]
         #[pyclass(frozen, module = "wedgelab._wedgelab", name = $name)]
         pub struct $native {
@@ -143,7 +144,7 @@ macro_rules! model_case {
                 interruptible: bool,
             ) -> PyResult<NativeResult> {
                 let progress = Progress::new(progress, interruptible);
-                let case = AnyCase::$model(Arc::clone(&self.case));
+                let case = AnyCase::from(Arc::clone(&self.case));
                 run_one(py, case, columns.as_deref(), progress)
             }
 
@@ -154,7 +155,7 @@ macro_rules! model_case {
                 header: &[u8],
                 values: PyReadonlyArray2<'_, f64>,
             ) -> PyResult<NativeResult> {
-                let case = AnyCase::$model(Arc::clone(&self.case));
+                let case = AnyCase::from(Arc::clone(&self.case));
                 NativeResult::of_parts(py, Some(case), header, &values)
             }
         }
@@ -166,7 +167,6 @@ model_case!(
     "NativeCase",
     Case,
     wedges,
-    Wedge,
     "A wedge's case, completed and checked."
 );
 model_case!(
@@ -174,7 +174,6 @@ model_case!(
     "NativeTruckCase",
     TruckCase,
     trucks,
-    Truck,
     "A truck's case, completed and checked."
 );
 model_case!(
@@ -182,7 +181,6 @@ model_case!(
     "NativeCarCase",
     CarCase,
     cars,
-    Car,
     "A car's case, completed and checked."
 );
 model_case!(
@@ -190,9 +188,37 @@ model_case!(
     "NativeVehicleCase",
     VehicleCase,
     vehicles,
-    Vehicle,
     "A vehicle's case, completed and checked."
 );
+
+/// Between these classes and [`AnyCase`]: the model, its class.
+macro_rules! classes {
+    ($($own:ident: $native:ident),+) => {
+        /// Returns the case of an object of one of the classes of cases.
+        ///
+        /// # Errors
+        /// It is of another class.
+        pub fn of_python(object: &Bound<'_, PyAny>) -> PyResult<AnyCase> {
+            $(if let Ok(case) = object.cast::<$native>() {
+                return Ok(Arc::clone(&case.get().case).into());
+            })+
+            Ok(Arc::clone(&object.cast::<NativeHalfTruckCase>()?.get().case).into())
+        }
+
+        /// Returns the object of a case; `None` of a half-truck, whose object has its files, too.
+        ///
+        /// # Errors
+        /// Python's.
+        pub fn to_python(py: Python<'_>, case: &AnyCase) -> PyResult<Option<Py<PyAny>>> {
+            $(if let Some(case) = case.$own() {
+                return Ok(Some(Py::new(py, $native::new(Arc::clone(case)))?.into_any()));
+            })+
+            Ok(None)
+        }
+    };
+}
+
+classes!(wedge: NativeCase, truck: NativeTruckCase, car: NativeCarCase, vehicle: NativeVehicleCase);
 
 /// Returns the assumptions of a run of a wedge.
 #[pyfunction]

@@ -1,7 +1,6 @@
 //! The result of a run: columns, summary, and files.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use ::quantity::System as Units;
 use mechanics::output::Column;
@@ -13,15 +12,14 @@ use report::run_files::RunFiles;
 use serde::{Deserialize, Serialize};
 use staging::{FileError, Folder};
 use study::case::Case;
+use study::each_case;
 use study::half_truck::HalfTruckResult;
-use study::models::{AnyCase, AnySummary};
+use study::models::{AnyCase, AnySummary, ModelSummary};
 use study::result::RunResult;
 use study::summary::RunSummary;
 
 use crate::errors::{guarded, simple};
-use crate::model_case::NativeCase;
-use crate::model_case::NativeTruckCase;
-use crate::model_case::{NativeCarCase, NativeVehicleCase};
+use crate::model_case::{NativeCarCase, NativeCase, NativeTruckCase, NativeVehicleCase};
 use crate::values;
 
 /// The parts of a result besides its values.
@@ -76,28 +74,23 @@ impl NativeResult {
 
     /// Case and result as lower layers have them; `None` for others than wedges.
     pub fn outcome(&self) -> Option<(Case, RunResult)> {
-        let (Some(AnyCase::Wedge(case)), AnySummary::Wedge(summary)) = (&self.case, &self.result.summary)
-        else {
-            return None;
-        };
-        Some((Case::clone(case), self.with(&**summary)))
+        let case = self.case.as_ref()?.wedge()?;
+        Some((Case::clone(case), self.with()?))
     }
 
     /// Returns the half-truck's result as lower layers have it; `None` for others.
     pub fn half_truck(&self) -> Option<HalfTruckResult> {
-        let AnySummary::HalfTruck(summary) = &self.result.summary else {
-            return None;
-        };
-        Some(self.with(&**summary))
+        self.with()
     }
 
-    /// Returns the table with its summary.
-    fn with<S: Clone>(&self, summary: &S) -> RunResult<S> {
-        RunResult {
+    /// Returns the table with its summary, if that is of this model.
+    fn with<S: ModelSummary>(&self) -> Option<RunResult<S>> {
+        let summary = S::of(&self.result.summary)?.clone();
+        Some(RunResult {
             columns: self.result.columns.clone(),
             values: self.result.values.clone(),
-            summary: summary.clone(),
-        }
+            summary,
+        })
     }
 
     /// Returns the reverse of [`NativeResult::parts`].
@@ -191,41 +184,25 @@ impl NativeResult {
     /// Returns the case of a wedge's run.
     #[getter]
     fn case(&self) -> Option<NativeCase> {
-        let Some(AnyCase::Wedge(case)) = &self.case else {
-            return None;
-        };
-        let case = Arc::clone(case);
-        Some(NativeCase { case })
+        self.case.as_ref()?.wedge().cloned().map(NativeCase::new)
     }
 
     /// Returns the case of a truck's run.
     #[getter]
     fn truck_case(&self) -> Option<NativeTruckCase> {
-        let Some(AnyCase::Truck(case)) = &self.case else {
-            return None;
-        };
-        let case = Arc::clone(case);
-        Some(NativeTruckCase { case })
+        self.case.as_ref()?.truck().cloned().map(NativeTruckCase::new)
     }
 
     /// Returns the case of a car's run.
     #[getter]
     fn car_case(&self) -> Option<NativeCarCase> {
-        let Some(AnyCase::Car(case)) = &self.case else {
-            return None;
-        };
-        let case = Arc::clone(case);
-        Some(NativeCarCase { case })
+        self.case.as_ref()?.car().cloned().map(NativeCarCase::new)
     }
 
     /// Returns the case of a vehicle's run.
     #[getter]
     fn vehicle_case(&self) -> Option<NativeVehicleCase> {
-        let Some(AnyCase::Vehicle(case)) = &self.case else {
-            return None;
-        };
-        let case = Arc::clone(case);
-        Some(NativeVehicleCase { case })
+        self.case.as_ref()?.vehicle().cloned().map(NativeVehicleCase::new)
     }
 
     /// Returns the model that was run: `wedge`, `half_truck`, `truck`, `car` or `vehicle`.
@@ -332,21 +309,14 @@ impl NativeResult {
                 let message = "results of half-trucks cannot be written";
                 simple(py, "WedgelabError", message, "use to_pandas().to_csv(...)")
             };
-            match (&self.case, &self.result.summary) {
-                (Some(AnyCase::Wedge(case)), AnySummary::Wedge(summary)) => {
-                    write_run(&**case, folder, &self.with(&**summary), force).map_err(failed)
-                }
-                (Some(AnyCase::Truck(case)), AnySummary::Truck(summary)) => {
-                    write_run(&**case, folder, &self.with(&**summary), force).map_err(failed)
-                }
-                (Some(AnyCase::Car(case)), AnySummary::Car(summary)) => {
-                    write_run(&**case, folder, &self.with(&**summary), force).map_err(failed)
-                }
-                (Some(AnyCase::Vehicle(case)), AnySummary::Vehicle(summary)) => {
-                    write_run(&**case, folder, &self.with(&**summary), force).map_err(failed)
-                }
-                _ => Err(refused()),
-            }
+            let case = self.case.as_ref().filter(|case| case.half_truck().is_none());
+            let Some(case) = case else {
+                return Err(refused());
+            };
+            each_case!(case, case => {
+                let result = self.with().ok_or_else(refused)?;
+                write_run(&**case, folder, &result, force).map_err(failed)
+            })
         })
     }
 }

@@ -7,7 +7,6 @@ use std::thread;
 use std::time::Duration;
 
 use ::study::design::{MANY, Study, StudySource};
-use ::study::models::AnyCase;
 use ::study::records;
 use miette::Diagnostic;
 use pyo3::prelude::*;
@@ -18,9 +17,7 @@ use report::study_work;
 
 use crate::errors::{case_error, guarded, internal, panic_text, raise, shown, simple};
 use crate::half_truck;
-use crate::model_case::NativeCase;
-use crate::model_case::NativeTruckCase;
-use crate::model_case::{NativeCarCase, NativeVehicleCase};
+use crate::model_case::to_python;
 use crate::outcome::from_saved;
 
 /// The interval of asking Python for signals and of reporting progress.
@@ -145,17 +142,12 @@ impl NativeStudy {
     fn case(&self, py: Python<'_>, number: u64) -> PyResult<Py<PyAny>> {
         guarded(py, || {
             let case = self.study.case(number).map_err(|error| case_error(py, &error))?;
-            match case {
-                AnyCase::Wedge(case) => Ok(Py::new(py, NativeCase::new(case))?.into_any()),
-                AnyCase::Truck(case) => Ok(Py::new(py, NativeTruckCase::new(case))?.into_any()),
-                AnyCase::Car(case) => Ok(Py::new(py, NativeCarCase::new(case))?.into_any()),
-                AnyCase::Vehicle(case) => Ok(Py::new(py, NativeVehicleCase::new(case))?.into_any()),
-                AnyCase::HalfTruck(_) => {
-                    let set = self.study.overrides(number);
-                    let case = half_truck::of_source(py, &self.study.source().case, set)?;
-                    Ok(Py::new(py, case)?.into_any())
-                }
+            if let Some(case) = to_python(py, &case)? {
+                return Ok(case);
             }
+            let set = self.study.overrides(number);
+            let case = half_truck::of_source(py, &self.study.source().case, set)?;
+            Ok(Py::new(py, case)?.into_any())
         })
     }
 

@@ -1,28 +1,23 @@
 //! Running one case, writing its files, and its row in the table.
 
 use std::io::{self, Write};
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 use quantity::SixDigits;
+use report::models::{GoOn, ReportCase};
 use report::page;
 use report::run_files::RunFiles;
 use staging::Folder;
-use study::car::CarCase;
-use study::car::motions::MotionTable;
-use study::car::run::CarResult;
-use study::contacts::{ContactTable, TakesCorners};
 use study::outcome::Outcome;
 use study::output_files::OutputFiles;
 use study::result::RunResult;
 use study::run::{Run, RunCase, RunError};
-use study::summary::{RunSummary, Summary, SummaryValue};
+use study::summary::RunSummary;
 
 use crate::failure::{Failure, Message, say};
 use crate::interrupt;
 use crate::progress::Progress;
-use crate::table::TerminalTable;
 
 /// A run that has ended, perhaps before its time.
 #[derive(Debug)]
@@ -39,30 +34,13 @@ pub fn compute<C: RunCase>(case: &C, progress: &Progress) -> Result<Done<C::Outp
     compute_by(case, Run::new, finish, progress).map(|(done, ())| done)
 }
 
-/// As [`compute`], with the corners of wedges that are bodies.
-pub fn compute_with_contacts<C>(
+/// As [`compute`], with what the view of the run needs beside its table.
+pub fn compute_shown<C: ReportCase>(
     case: &C,
     progress: &Progress,
-) -> Result<(Done<C::Output>, Option<ContactTable>), Failure>
-where
-    C: RunCase,
-    C::Recorder: TakesCorners,
-{
-    let finish = |run: Run<C>, go_on: &mut GoOn<'_>| run.finish_with_contacts(go_on);
-    compute_by(case, Run::with_contacts, finish, progress)
+) -> Result<(Done<C::Output>, C::Along), Failure> {
+    compute_by(case, C::start, C::finish, progress)
 }
-
-/// As [`compute`], of a car, with the motions of its bodies.
-pub fn compute_with_motions(
-    case: &CarCase,
-    progress: &Progress,
-) -> Result<(Done<CarResult>, Option<MotionTable>), Failure> {
-    let finish = |run: Run<CarCase>, go_on: &mut GoOn<'_>| run.finish_with_motions(go_on);
-    compute_by(case, Run::with_motions, finish, progress)
-}
-
-/// Asked at each output time (s) whether a run is to go on.
-type GoOn<'a> = dyn FnMut(f64) -> ControlFlow<String> + 'a;
 
 /// Runs a case, from what begins it and what finishes it with what it takes along.
 fn compute_by<C: RunCase, T>(
@@ -226,63 +204,4 @@ pub fn jobs(given: Option<u16>) -> usize {
         || std::thread::available_parallelism().map_or(1, usize::from),
         usize::from,
     )
-}
-
-/// Returns the table of runs; all of them in the same units.
-pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone) -> TerminalTable {
-    let unit = |of: fn(&Summary) -> Option<&SummaryValue>| {
-        let found = runs.clone().into_iter().find_map(|(summary, _)| of(summary));
-        found.map_or(String::new(), |measure| measure.unit.clone())
-    };
-    let mut table = TerminalTable::new(
-        2,
-        &[
-            ("run", ""),
-            ("window", "of mean force"),
-            ("mean force, up", &unit(up)),
-            ("mean force, down", &unit(down)),
-            ("energy per cycle", &unit(energy)),
-            ("ledger residual", "relative"),
-            ("wall time", "s"),
-        ],
-    );
-    for (summary, wall) in runs {
-        let cell = |measure: Option<&SummaryValue>| {
-            measure.map_or("-".to_owned(), |measure| format!("{:.1}", measure.value))
-        };
-        table.row([
-            summary.name.clone(),
-            summary.averages.window.clone(),
-            cell(up(summary)),
-            cell(down(summary)),
-            cell(energy(summary)),
-            format!("{:.1e}", summary.ledger.largest_relative_residual),
-            format!("{:.2}", wall.as_secs_f64()),
-        ]);
-    }
-    table
-}
-
-/// The note on the columns of the table.
-pub const TABLE_NOTE: &str = "\
-Mean force: vertical wedge force (column friction on the side frame, positive up), averaged while the \
-bolster goes up or down, over
-the output times after the first half period in the window: mid stroke (constant damping), the bolster \
-faster than 0.9 of its peak
-speed; lower stroke (variable damping), faster than 0.25 of it, and lower than 0.3 of its amplitude below \
-its middle. Energy per
-cycle: lost in friction at the side frame. Ledger residual: the largest at any output time, over the largest \
-of work, losses and
-change of stored energy.";
-
-fn up(summary: &Summary) -> Option<&SummaryValue> {
-    summary.averages.up.get("vertical_wedge_force")
-}
-
-fn down(summary: &Summary) -> Option<&SummaryValue> {
-    summary.averages.down.get("vertical_wedge_force")
-}
-
-fn energy(summary: &Summary) -> Option<&SummaryValue> {
-    summary.averages.energy_per_cycle.get("side_frame")
 }

@@ -12,7 +12,6 @@ mod progress;
 mod saved;
 mod select;
 mod start;
-mod table;
 mod units;
 
 use std::io::Write;

@@ -3,9 +3,8 @@
 use std::io::{self, Write};
 
 use quantity::{Kind, System as Units};
+use report::terminal::TerminalTable;
 use study::statics::{COILS, StaticTable};
-
-use crate::table::TerminalTable;
 
 /// Returns the static table of a run's start.
 fn table(table: &StaticTable, units: Units) -> TerminalTable {

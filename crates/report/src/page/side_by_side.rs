@@ -3,14 +3,15 @@
 
 use maud::{Markup, html};
 use quantity::System as Units;
+use study::each_summary;
 use study::summary::SummaryValue;
 
 use super::{anchor, document, moving_as, shown_in};
 use crate::figures::side_by_side::exhibits;
 use crate::figures::{Exhibit, capital, digits};
+use crate::models::ReportSummary;
 use crate::run_folder::{KeyNumber, RunFolder, Seen};
 use crate::view::View;
-use study::models::AnySummary;
 
 /// Returns the page as HTML, which needs nothing else to be shown; `links` are the addresses of the runs'
 /// folders from the page.
@@ -36,7 +37,7 @@ pub fn render(runs: &[RunFolder], links: &[String]) -> Result<String, serde_json
         (limits(runs))
         @if !others.is_empty() {
             section {
-                h2 id="histories" { @if has_cars(runs) { "Over time and distance" } @else { "Over time" } }
+                h2 id="histories" { @if over_distance(runs) { "Over time and distance" } @else { "Over time" } }
                 @for own in others { (shown_in(own, &own.figure.to_svg(), None)) }
             }
         }
@@ -60,8 +61,8 @@ fn has_scene(seen: &Seen) -> bool {
     }
 }
 
-fn has_cars(runs: &[RunFolder]) -> bool {
-    let rolls = |run: &RunFolder| matches!(run.summary, AnySummary::Car(_) | AnySummary::Wheelset(_));
+fn over_distance(runs: &[RunFolder]) -> bool {
+    let rolls = |run: &RunFolder| each_summary!(&run.summary, own => own.over_distance());
     runs.iter().any(rolls)
 }
 
@@ -239,10 +240,8 @@ fn cell(value: Option<&SummaryValue>, first: Option<&SummaryValue>, unit: &str) 
 fn limits(runs: &[RunFolder]) -> Markup {
     let cars: Vec<(&RunFolder, &[study::car::limits::LimitCheck])> = runs
         .iter()
-        .filter_map(|run| match &run.summary {
-            AnySummary::Car(own) if !own.limits.is_empty() => Some((run, own.limits.as_slice())),
-            _ => None,
-        })
+        .map(|run| (run, run.summary.shared().limits()))
+        .filter(|(_, limits)| !limits.is_empty())
         .collect();
     let mut rows: Vec<&study::car::limits::LimitCheck> = Vec::new();
     for limit in cars.iter().flat_map(|(_, limits)| limits.iter()) {

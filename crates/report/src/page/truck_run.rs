@@ -15,7 +15,7 @@ use study::truck::summary::TruckSummary;
 use super::table::{self, Head};
 use super::{figures, ledger_note, run_page, side_by_side, statics};
 use crate::figures::truck::{TruckRun, exhibits};
-use crate::run_folder::KeyNumber;
+use crate::models::ReportSummary;
 use crate::view::run::{Detail, Recording};
 
 /// Returns the page as HTML; it needs nothing else to be shown.
@@ -30,7 +30,7 @@ pub fn render(run: &TruckRun) -> Result<String, serde_json::Error> {
     let sections = html! {
         section {
             h2 { "Key numbers" }
-            (side_by_side::table(&[("value", KeyNumber::of_truck(summary))], summary.units))
+            (side_by_side::table(&[("value", summary.key_numbers(None))], summary.units))
         }
         section { h2 { "At the start" } (statics::section(&summary.statics, summary.units)) }
         section { h2 { "Wedges" } (wedges(summary)) }

@@ -5,7 +5,7 @@ use maud::html;
 use super::{figures, ledger_note, run_page, side_by_side};
 use crate::figures::CaseOutcome;
 use crate::figures::run::exhibits;
-use crate::run_folder::KeyNumber;
+use crate::models::wedge::key_numbers;
 use crate::view::run::{Detail, Recording};
 
 /// Returns the page as HTML; it needs nothing else to be shown.
@@ -16,7 +16,7 @@ pub fn render(run: &CaseOutcome) -> Result<String, serde_json::Error> {
     let (case, summary) = (&run.0, &run.1.summary);
     let exhibits = exhibits(run);
     let recording = Recording::of_wedge(run, Detail::Thinned);
-    let numbers = KeyNumber::of_wedge(summary, Some(case.parameters.damping));
+    let numbers = key_numbers(summary, Some(case.parameters.damping));
     let sections = html! {
         section {
             h2 { "Key numbers" }

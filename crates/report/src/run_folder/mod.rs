@@ -10,14 +10,14 @@ use input::{FileType, limits};
 use mechanics::output::Column;
 use quantity::System as Units;
 use serde::Deserialize;
-use study::models::{self, AnyCase, AnySummary};
+use study::each_case;
+use study::models::{self, AnyCase, AnySummary, ModelSummary};
 use study::result::RunResult;
 
 pub use error::{REPRODUCTION_FILE, RunFolderError};
 pub use key_numbers::{KeyNumber, branch_window};
 
-use crate::figures::car::CarRun;
-use crate::figures::truck::TruckRun;
+use crate::models::ReportCase;
 use crate::run_files::CASE_FILE_NAME;
 use crate::table::ResultTable;
 use crate::view::kept::KeptView;
@@ -25,7 +25,7 @@ use crate::view::run::{Detail, Recording};
 use crate::{csv, mat, page, result_parquet, summary};
 
 mod error;
-mod key_numbers;
+pub(crate) mod key_numbers;
 
 /// The expected file of a summary.
 const SUMMARY_FILE: Expected = Expected {
@@ -146,24 +146,7 @@ impl RunFolder {
         if let Some(kept) = self.kept() {
             return Some(Seen::Kept(Box::new(kept)));
         }
-        let made = match (&self.summary, self.case.as_ref()?) {
-            (AnySummary::Wedge(summary), AnyCase::Wedge(case)) => {
-                let outcome = ((**case).clone(), self.result((**summary).clone()));
-                Recording::of_wedge(&outcome, Detail::Thinned)
-            }
-            (AnySummary::Truck(_), AnyCase::Truck(_)) => {
-                let run = self.truck()?;
-                Recording::of_three_piece_truck(&run.case, &run.result, None, Detail::Thinned)
-            }
-            (AnySummary::Car(_), AnyCase::Car(_)) => {
-                let run = self.car()?;
-                Recording::of_car(&run.case, &run.result, None, Detail::Thinned)
-            }
-            (AnySummary::Vehicle(summary), AnyCase::Vehicle(case)) => {
-                Recording::of_vehicle(case, &self.result((**summary).clone()), Detail::Thinned)
-            }
-            _ => return None,
-        };
+        let made = each_case!(self.case.as_ref()?, case => self.made(&**case))?;
         Some(Seen::Made(Box::new(made.named(&self.label))))
     }
 
@@ -181,30 +164,12 @@ impl RunFolder {
         (stride > 0 && [1, last].into_iter().all(same)).then(|| kept.named(&self.label))
     }
 
-    /// Returns the run of a truck, without the corners of its wedges, which its table has not.
-    #[must_use]
-    pub fn truck(&self) -> Option<TruckRun> {
-        match (&self.summary, self.case.as_ref()?) {
-            (AnySummary::Truck(summary), AnyCase::Truck(case)) => Some(TruckRun {
-                case: (**case).clone(),
-                result: self.result((**summary).clone()),
-                contacts: None,
-            }),
-            _ => None,
-        }
-    }
-
-    /// Returns the run of a car, without the motions of its bodies, which its table has not.
-    #[must_use]
-    pub fn car(&self) -> Option<CarRun> {
-        match (&self.summary, self.case.as_ref()?) {
-            (AnySummary::Car(summary), AnyCase::Car(case)) => Some(CarRun {
-                case: (**case).clone(),
-                result: self.result((**summary).clone()),
-                motions: None,
-            }),
-            _ => None,
-        }
+    /// Returns its 3D view and plots from its table, without what that has not; `None` if it is no run of such
+    /// a case.
+    fn made<C: ReportCase>(&self, case: &C) -> Option<Recording> {
+        let result = self.result(C::Summary::of(&self.summary)?.clone());
+        let shown = case.clone().shown(result, C::Along::default());
+        Some(C::recording(&shown, Detail::Thinned))
     }
 
     /// Returns the result as it came out of the run: what stands in the table, SI, without texts of columns.

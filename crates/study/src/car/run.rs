@@ -23,7 +23,10 @@ use super::{limits, locked_in, peaks};
 use crate::energy;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
+use crate::models::ModelCase;
+use crate::output_files::OutputFiles;
 use crate::progress;
+use crate::reader::CaseText;
 use crate::result::RunResult;
 use crate::run::{
     Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
@@ -120,6 +123,24 @@ impl RunCase for CarCase {
 
     fn output(run: Run<Self>, stopped: Option<Stopped>) -> CarResult {
         output(run, stopped)
+    }
+}
+
+impl ModelCase for CarCase {
+    type Summary = CarSummary;
+
+    const ENERGY: Option<fn(&CarSummary) -> &EnergySummary> = Some(|own| &own.energy);
+
+    fn columns(&self) -> Result<Vec<Column>, RunError> {
+        columns(self)
+    }
+
+    fn output_files(&self) -> OutputFiles {
+        self.output_files.clone()
+    }
+
+    fn text(&self) -> Option<&CaseText> {
+        Some(&self.text)
     }
 }
 

@@ -94,7 +94,12 @@ run_summary!(
     ledger: ledger!(own.ledger, own.ledger.entries),
     solver: (own.solver.steps, own.relative_tolerance),
     derailed: own.end_of_derailed(),
-    reached: own.end_distance()
+    reached: own.end_distance(),
+    {
+        fn limits(&self) -> &[LimitCheck] {
+            &self.limits
+        }
+    }
 );
 
 impl CarSummary {

@@ -57,7 +57,7 @@ pub struct Case {
     /// True if the case file, with the values of `--set` over it, says nothing of wedge, coil, contact,
     /// friction and motions: they are defaults.
     pub nothing_given: bool,
-    text: CaseText,
+    pub(crate) text: CaseText,
 }
 
 /// The settings of a case's run. The start is one of the [`Parameters`].

@@ -4,12 +4,11 @@
 //! the start of its run. The run that keeps a limit least is therefore computed once more where its margin is
 //! within [`NEAR`]: from the shaken car, or from the equilibrium if its own start is shaken.
 
-use std::sync::Arc;
-
 use car::{StartKind, Wheels};
 use serde::Serialize;
 
 use super::{Certificate, LimitVerdict};
+use crate::car::CarCase;
 use crate::car::locked_in::name;
 use crate::models::AnyCase;
 use crate::records::{self, Record, Status};
@@ -52,10 +51,8 @@ impl Certificate {
     /// Computes a run of it, by its number and its case, from its other start; `None` for a car on linear
     /// wheels, which has no other one.
     #[must_use]
-    pub fn repeat(&self, number: u64, case: AnyCase) -> Option<Repeated> {
-        let AnyCase::Car(case) = case else {
-            return None;
-        };
+    pub fn repeat(&self, number: u64, case: &AnyCase) -> Option<Repeated> {
+        let case = case.car()?;
         if matches!(case.parameters.wheels, Wheels::Linear { .. }) {
             return None;
         }
@@ -64,7 +61,7 @@ impl Certificate {
             StartKind::Shaken => StartKind::Equilibrium,
             StartKind::Equilibrium | StartKind::Nominal => StartKind::Shaken,
         };
-        let mut case = Arc::unwrap_or_clone(case);
+        let mut case = CarCase::clone(case);
         case.parameters.start.kind = other;
         let record = records::run_case(&self.study, number, &case.into());
         Some((number, [own, other].map(name), record))

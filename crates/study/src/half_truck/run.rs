@@ -8,6 +8,7 @@ use mechanics::body::COORDINATES;
 use mechanics::connection::Law;
 use mechanics::energy_balance::Entries;
 use mechanics::motion::Motion;
+use mechanics::output::Column;
 use mechanics::system::{AtRest, ContactState, NoEquilibrium, StaticFriction, System};
 use quantity::Kind;
 use serde::{Deserialize, Serialize};
@@ -22,6 +23,7 @@ use crate::contacts::{ContactTable, TakesCorners};
 use crate::energy;
 use crate::finite::{find, is_finite, residual_not_finite};
 use crate::metrics::{Cycle, mean, window_of};
+use crate::models::ModelCase;
 use crate::progress;
 use crate::run::{
     Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
@@ -140,6 +142,15 @@ impl RunCase for HalfTruckCase {
 
     fn output(run: Run<Self>, stopped: Option<Stopped>) -> HalfTruckResult {
         output(run, stopped)
+    }
+}
+
+impl ModelCase for HalfTruckCase {
+    type Summary = HalfTruckSummary;
+
+    fn columns(&self) -> Result<Vec<Column>, RunError> {
+        let beginning = self.begin()?;
+        Ok(Columns::new(self, &beginning.system).columns().to_vec())
     }
 }
 

@@ -4,11 +4,12 @@
 use quantity::{Kind, System as Units};
 use truck::WEDGE_NAMES;
 
-use super::measuring::run_whole;
+use super::measuring::judged;
 use super::{Definitions, Judged, Measure, Measures, Unmeasured};
 use crate::car::CarCase;
 use crate::car::run::CarResult;
 use crate::car::worst::WORST;
+use crate::models::StudyCase;
 use crate::run::findings;
 use crate::wedge_rise;
 
@@ -50,9 +51,7 @@ const OTHERS: [(&str, Kind, &str); 10] = [
     ("steps", Kind::Count, "accepted steps of the integrator"),
 ];
 
-/// Returns the measures of cars' runs.
-#[must_use]
-pub fn definitions() -> Definitions {
+fn definitions() -> Definitions {
     let worst = WORST
         .iter()
         .map(|own| Measure::new(own.name, own.kind, own.text, false));
@@ -71,19 +70,21 @@ pub fn definitions() -> Definitions {
     Definitions(worst.chain(others).chain(locked).chain(losses).collect())
 }
 
-/// Runs a car, measures it in the order of [`definitions`], and judges whether the measures mean something.
-///
-/// # Errors
-/// The run cannot begin or stops on its way.
-pub fn judge(case: &CarCase) -> Result<Judged, Unmeasured> {
-    // The summary's numbers are in the units of the results.
-    let mut case = case.clone();
-    case.simulation.output_units = Units::Si;
-    let (result, outcome) = run_whole(&case, findings::nonsense_in_car)?;
-    Ok(Judged {
-        measures: measures(&result),
-        outcome,
-    })
+impl StudyCase for CarCase {
+    fn named(&self, name: &str) -> Self {
+        Self::named(self, name)
+    }
+
+    fn definitions(&self) -> Definitions {
+        definitions()
+    }
+
+    fn judge(&self) -> Result<Judged, Unmeasured> {
+        // The summary's numbers are in the units of the results.
+        let mut case = self.clone();
+        case.simulation.output_units = Units::Si;
+        judged(&case, findings::nonsense_in_car, measures)
+    }
 }
 
 /// Returns the names of all wedges.
@@ -91,7 +92,7 @@ fn wedges() -> impl Iterator<Item = String> {
     (1..=2).flat_map(|truck| WEDGE_NAMES.map(|wedge| format!("truck_{truck}_{wedge}")))
 }
 
-fn measures(result: &CarResult) -> Measures {
+fn measures(_: &CarCase, result: &CarResult) -> Measures {
     let summary = &result.summary;
     // What limits compare is filtered: where rows are too far apart for that, there is no number.
     let worst = WORST.iter().map(|own| {

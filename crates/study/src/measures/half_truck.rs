@@ -3,9 +3,12 @@
 use mechanics::body::COORDINATES;
 use quantity::{Kind, System as Units};
 
-use super::measuring::run_whole;
+use super::measuring::judged;
 use super::{Definitions, Judged, Measure, Measures, Unmeasured};
-use crate::half_truck::{HalfTruckCase, HalfTruckSummary, WedgeSummary};
+use crate::half_truck::run::cycle;
+use crate::half_truck::{HalfTruckCase, HalfTruckResult, WedgeSummary};
+use crate::metrics::Cycle;
+use crate::models::StudyCase;
 use crate::run::findings;
 use crate::summary;
 
@@ -50,9 +53,7 @@ fn value(measure: Option<&summary::SummaryValue>) -> Option<f64> {
     measure.map(|measure| measure.value)
 }
 
-/// Returns the measures of a half-truck's runs.
-#[must_use]
-pub fn definitions(case: &HalfTruckCase) -> Definitions {
+fn definitions(case: &HalfTruckCase) -> Definitions {
     let mut all = vec![Measure::new(
         "energy_per_cycle",
         Kind::Energy,
@@ -97,25 +98,34 @@ fn displacements(case: &HalfTruckCase) -> Vec<(String, usize)> {
         .collect()
 }
 
-/// Runs a half-truck, measures it in the order of [`definitions`], and judges whether the measures mean
-/// something.
-///
-/// # Errors
-/// The run cannot begin or does not come to its end.
-pub fn judge(case: &HalfTruckCase) -> Result<Judged, Unmeasured> {
-    // The summary's numbers are in the units of the results.
-    let case = HalfTruckCase {
-        units: Units::Si,
-        ..case.clone()
-    };
-    let (result, outcome) = run_whole(&case, findings::nonsense)?;
-    Ok(Judged {
-        measures: of_summary(&case, &result.summary),
-        outcome,
-    })
+impl StudyCase for HalfTruckCase {
+    fn named(&self, name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            ..self.clone()
+        }
+    }
+
+    fn cycle(&self) -> Option<Cycle> {
+        cycle(self)
+    }
+
+    fn definitions(&self) -> Definitions {
+        definitions(self)
+    }
+
+    fn judge(&self) -> Result<Judged, Unmeasured> {
+        // The summary's numbers are in the units of the results.
+        let case = Self {
+            units: Units::Si,
+            ..self.clone()
+        };
+        judged(&case, findings::nonsense, measures)
+    }
 }
 
-fn of_summary(case: &HalfTruckCase, summary: &HalfTruckSummary) -> Measures {
+fn measures(case: &HalfTruckCase, result: &HalfTruckResult) -> Measures {
+    let summary = &result.summary;
     let or_none = |value: Option<f64>| value.unwrap_or(f64::NAN);
     let energies = summary
         .wedges

@@ -15,17 +15,17 @@ use wedge::resultants::Resultants;
 use wedge::{BOLSTER, Wedge};
 
 use super::contact_times::ContactTimeCounter;
-use super::{COUNT, Measures, place};
+use super::{COUNT, Definitions, Measures, of_wedges, place};
 use crate::case::Case;
 use crate::closed_form;
 use crate::metrics::{Cycle, first_harmonic};
+use crate::models::{ModelCase, StudyCase};
 use crate::outcome::{Outcome, RunEnd};
 use crate::plausibility;
 use crate::progress;
-use crate::result::RunResult;
 use crate::run::wedge_run::{contact_states_in_words, friction_losses};
 use crate::run::{Beginning, Recorder, Row, Run, RunCase, RunError, RunSettings, findings};
-use crate::summary::{RunSummary, Stopped};
+use crate::summary::{RunSummary as _, Stopped};
 
 /// Reasons why a run has no measures.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,36 +45,43 @@ pub struct Judged {
     pub outcome: Outcome,
 }
 
-/// Runs a case and measures it.
+/// Runs a wedge and measures it.
 ///
 /// # Errors
 /// The run cannot begin or does not come to its end.
 pub fn measure(case: &Case) -> Result<Measures, Unmeasured> {
-    judge(case).map(|judged| judged.measures)
+    case.judge().map(|judged| judged.measures)
 }
 
-/// Runs a case, measures it, and judges whether the measures mean something.
-///
-/// # Errors
-/// The run cannot begin or does not come to its end.
-pub fn judge(case: &Case) -> Result<Judged, Unmeasured> {
-    let run = Run::new(&Measured(case)).map_err(|error| Unmeasured::Refused(error.to_string()))?;
-    run.finish(|_| ())
+impl StudyCase for Case {
+    fn named(&self, name: &str) -> Self {
+        Self::named(self, name)
+    }
+
+    fn cycle(&self) -> Option<Cycle> {
+        Cycle::of(&self.parameters)
+    }
+
+    fn definitions(&self) -> Definitions {
+        of_wedges().clone()
+    }
+
+    fn judge(&self) -> Result<Judged, Unmeasured> {
+        let run = Run::new(&Measured(self)).map_err(|error| Unmeasured::Refused(error.to_string()))?;
+        run.finish(|_| ())
+    }
 }
 
-/// Runs a case to its end, or until it derails. Returns its result and its outcome; by `nonsense`, a run that
-/// means nothing has failed.
+/// Runs a case to its end, or until it derails, and measures it; by `nonsense`, a run that means nothing has
+/// failed.
 ///
 /// # Errors
 /// The run cannot begin or stops on its way.
-pub(super) fn run_whole<C, S>(
+pub(super) fn judged<C: ModelCase>(
     case: &C,
     nonsense: impl FnOnce(&Run<C>) -> Option<String>,
-) -> Result<(RunResult<S>, Outcome), Unmeasured>
-where
-    C: RunCase<Output = RunResult<S>>,
-    S: RunSummary,
-{
+    measures: impl FnOnce(&C, &C::Output) -> Measures,
+) -> Result<Judged, Unmeasured> {
     let mut run = Run::new(case).map_err(|error| Unmeasured::Refused(error.to_string()))?;
     let stopped = run.go_on_while(|_| ControlFlow::Continue(()));
     let nonsense = nonsense(&run);
@@ -90,7 +97,10 @@ where
         }),
         (outcome, _) => outcome,
     };
-    Ok((result, outcome))
+    Ok(Judged {
+        measures: measures(case, &result),
+        outcome,
+    })
 }
 
 /// A wedge's case of which only measures are wanted.

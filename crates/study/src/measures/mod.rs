@@ -22,12 +22,12 @@
 //! Stick share and wear power are taken over the whole cycles after the first half period, as energies are;
 //! where there are none, over the whole run. A measure that a run does not have is `NaN`.
 
-pub mod car;
+mod car;
 mod contact_times;
-pub mod half_truck;
+mod half_truck;
 mod measuring;
-pub mod truck;
-pub mod vehicle;
+mod truck;
+mod vehicle;
 
 use std::borrow::Cow;
 use std::ops::Deref;
@@ -35,7 +35,7 @@ use std::sync::LazyLock;
 
 use quantity::Kind;
 
-pub use measuring::{Judged, Unmeasured, judge, measure};
+pub use measuring::{Judged, Unmeasured, measure};
 
 /// The description of a metric.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,8 +8,10 @@
 use quantity::{Kind, System as Units};
 use truck::WEDGE_NAMES;
 
-use super::measuring::run_whole;
+use super::measuring::judged;
 use super::{Definitions, Judged, Measure, Measures, Unmeasured};
+use crate::metrics::Cycle;
+use crate::models::StudyCase;
 use crate::run::findings;
 use crate::truck::TruckCase;
 use crate::truck::run::{TruckResult, window};
@@ -114,9 +116,7 @@ const OF_WEDGES: [(&str, Kind, &str); 3] = [
     ),
 ];
 
-/// Returns the measures of trucks' runs.
-#[must_use]
-pub fn definitions() -> Definitions {
+fn definitions() -> Definitions {
     let all = OF_ALL.iter();
     let mut measures: Vec<Measure> = all
         .map(|(name, kind, text, always)| Measure::new(*name, *kind, *text, *always))
@@ -135,19 +135,25 @@ pub fn definitions() -> Definitions {
     Definitions(measures)
 }
 
-/// Runs a truck, measures it in the order of [`definitions`], and judges whether the measures mean something.
-///
-/// # Errors
-/// The run cannot begin or does not come to its end.
-pub fn judge(case: &TruckCase) -> Result<Judged, Unmeasured> {
-    // The summary's numbers are in the units of the results.
-    let mut case = case.clone();
-    case.simulation.output_units = Units::Si;
-    let (result, outcome) = run_whole(&case, findings::nonsense_in_truck)?;
-    Ok(Judged {
-        measures: measures(&case, &result),
-        outcome,
-    })
+impl StudyCase for TruckCase {
+    fn named(&self, name: &str) -> Self {
+        Self::named(self, name)
+    }
+
+    fn cycle(&self) -> Option<Cycle> {
+        Cycle::of_motion(&self.parameters.bolster.motion.coordinates[2])
+    }
+
+    fn definitions(&self) -> Definitions {
+        definitions()
+    }
+
+    fn judge(&self) -> Result<Judged, Unmeasured> {
+        // The summary's numbers are in the units of the results.
+        let mut case = self.clone();
+        case.simulation.output_units = Units::Si;
+        judged(&case, findings::nonsense_in_truck, measures)
+    }
 }
 
 fn measures(case: &TruckCase, result: &TruckResult) -> Measures {

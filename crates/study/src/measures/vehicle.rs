@@ -3,9 +3,10 @@
 
 use quantity::{Kind, System as Units};
 
-use super::measuring::run_whole;
+use super::measuring::judged;
 use super::{Definitions, Judged, Measure, Measures, Unmeasured};
-use crate::run::{Run, findings};
+use crate::models::{ModelCase, StudyCase};
+use crate::run::findings;
 use crate::vehicle::VehicleCase;
 use crate::vehicle::run::VehicleResult;
 
@@ -43,8 +44,7 @@ const OF_ALL: [(&str, Kind, &str, bool); 5] = [
 ];
 
 /// Returns the measures of a vehicle's run; none where it makes no vehicle.
-#[must_use]
-pub fn definitions(case: &VehicleCase) -> Definitions {
+fn definitions(case: &VehicleCase) -> Definitions {
     let all = OF_ALL.iter();
     let mut measures: Vec<Measure> = all
         .map(|(name, kind, text, always)| Measure::new(*name, *kind, *text, *always))
@@ -59,27 +59,28 @@ pub fn definitions(case: &VehicleCase) -> Definitions {
     Definitions(measures)
 }
 
-/// Runs a vehicle, measures it in the order of [`definitions`], and judges whether the measures mean
-/// something.
-///
-/// # Errors
-/// The run cannot begin or does not come to its end.
-pub fn judge(case: &VehicleCase) -> Result<Judged, Unmeasured> {
-    // The summary's numbers are in the units of the results.
-    let mut case = case.clone();
-    case.simulation.output_units = Units::Si;
-    let nonsense: fn(&Run<VehicleCase>) -> Option<String> = match case.description.on_track {
-        Some(_) => findings::nonsense_in_car,
-        None => findings::nonsense_in_truck,
-    };
-    let (result, outcome) = run_whole(&case, nonsense)?;
-    Ok(Judged {
-        measures: measures(&result),
-        outcome,
-    })
+impl StudyCase for VehicleCase {
+    fn named(&self, name: &str) -> Self {
+        Self::named(self, name)
+    }
+
+    fn definitions(&self) -> Definitions {
+        definitions(self)
+    }
+
+    fn judge(&self) -> Result<Judged, Unmeasured> {
+        // The summary's numbers are in the units of the results.
+        let mut case = self.clone();
+        case.simulation.output_units = Units::Si;
+        let nonsense = match case.description.on_track {
+            Some(_) => findings::nonsense_in_car,
+            None => findings::nonsense_in_truck,
+        };
+        judged(&case, nonsense, measures)
+    }
 }
 
-fn measures(result: &VehicleResult) -> Measures {
+fn measures(_: &VehicleCase, result: &VehicleResult) -> Measures {
     let summary = &result.summary;
     let slowest = summary.vibrations.first();
     let losses = result.column("losses").and_then(<[f64]>::last).copied();

@@ -6,22 +6,22 @@ use std::sync::Arc;
 
 use quantity::System as Units;
 
-use super::{AnySummary, MODELS, built_in};
+use super::{AnySummary, MODELS, ModelCase, ModelEntry, StudyCase, built_in};
 use crate::car::CarCase;
 use crate::case::model::model;
 use crate::case::problem::Problems;
 use crate::case::{Case, CaseError, FieldSection, Tables, text_of, tree_with_overrides};
 use crate::half_truck::HalfTruckCase;
-use crate::measures::{self, Definitions, Judged, Unmeasured, half_truck};
+use crate::measures::{Definitions, Judged, Unmeasured};
 use crate::metrics::Cycle;
 use crate::result::RunResult;
 use crate::run::{Run, RunCase, RunError};
 use crate::truck::TruckCase;
 use crate::vehicle::VehicleCase;
 
-/// Declares [`AnyCase`], made of the case of each model.
+/// Declares [`AnyCase`], made of the case of each model, and `each_case!`.
 macro_rules! any_case {
-    ($($(#[$doc:meta])* $model:ident($case:ty) = $name:literal,)+) => {
+    ($d:tt $($(#[$doc:meta])* $model:ident($case:ty) = $name:literal, $own:ident;)+) => {
         /// A case of any model, which its copies share.
         #[derive(Clone, Debug)]
         pub enum AnyCase {
@@ -36,6 +36,27 @@ macro_rules! any_case {
                     $(Self::$model(_) => $name,)+
                 }
             }
+
+            $(
+                /// Returns the case of this model, if it is one.
+                #[must_use]
+                pub fn $own(&self) -> Option<&Arc<$case>> {
+                    match self {
+                        Self::$model(case) => Some(case),
+                        _ => None,
+                    }
+                }
+            )+
+        }
+
+        /// Does the same with the case of whatever model: `each_case!(&any, case => case.columns())`.
+        #[macro_export]
+        macro_rules! each_case {
+            ($d any:expr, $d case:ident => $d do:expr) => {
+                match $d any {
+                    $($crate::models::AnyCase::$model($d case) => $d do,)+
+                }
+            };
         }
 
         $(
@@ -44,34 +65,28 @@ macro_rules! any_case {
                     Self::$model(Arc::new(case))
                 }
             }
+
+            impl From<Arc<$case>> for AnyCase {
+                fn from(case: Arc<$case>) -> Self {
+                    Self::$model(case)
+                }
+            }
         )+
     };
 }
 
 any_case! {
+    $
     /// A wedge's.
-    Wedge(Case) = "wedge",
+    Wedge(Case) = "wedge", wedge;
     /// A half-truck's.
-    HalfTruck(HalfTruckCase) = "half-truck",
+    HalfTruck(HalfTruckCase) = "half-truck", half_truck;
     /// A truck's.
-    Truck(TruckCase) = "truck",
+    Truck(TruckCase) = "truck", truck;
     /// A car's.
-    Car(CarCase) = "car",
+    Car(CarCase) = "car", car;
     /// A vehicle's.
-    Vehicle(VehicleCase) = "vehicle",
-}
-
-/// Does the same with the case of whatever model.
-macro_rules! each {
-    ($any:expr, $case:ident => $do:expr) => {
-        match $any {
-            AnyCase::Wedge($case) => $do,
-            AnyCase::HalfTruck($case) => $do,
-            AnyCase::Truck($case) => $do,
-            AnyCase::Car($case) => $do,
-            AnyCase::Vehicle($case) => $do,
-        }
-    };
+    Vehicle(VehicleCase) = "vehicle", vehicle;
 }
 
 impl AnyCase {
@@ -126,19 +141,19 @@ impl AnyCase {
     /// Returns its name.
     #[must_use]
     pub fn name(&self) -> &str {
-        each!(self, case => &case.name)
+        each_case!(self, case => &case.name)
     }
 
     /// Returns the units of its results.
     #[must_use]
     pub fn units(&self) -> Units {
-        each!(self, case => RunCase::units(&**case))
+        each_case!(self, case => RunCase::units(&**case))
     }
 
     /// Returns the end of its run and the time between two rows, s.
     #[must_use]
     pub fn duration_and_interval(&self) -> [f64; 2] {
-        each!(self, case => case.duration_and_interval())
+        each_case!(self, case => case.duration_and_interval())
     }
 
     /// Runs it to its end.
@@ -157,64 +172,44 @@ impl AnyCase {
         &self,
         progress: impl FnMut(f64) -> ControlFlow<String>,
     ) -> Result<RunResult<AnySummary>, RunError> {
-        each!(self, case => Ok(Run::new(&**case)?.finish_while(progress).with_summary(Into::into)))
+        each_case!(self, case => Ok(Run::new(&**case)?.finish_while(progress).with_summary(Into::into)))
+    }
+
+    /// Returns the row of its model.
+    #[must_use]
+    pub fn entry(&self) -> Option<&'static ModelEntry> {
+        MODELS.iter().find(|model| model.name == self.model())
+    }
+
+    /// Returns it under another name.
+    #[must_use]
+    pub fn named(&self, name: &str) -> Self {
+        each_case!(self, case => StudyCase::named(&**case, name).into())
     }
 
     /// Returns the cycle of its vertical motion, if that is one sine or triangle.
     #[must_use]
     pub fn cycle(&self) -> Option<Cycle> {
-        match self {
-            Self::Wedge(case) => Cycle::of(&case.parameters),
-            Self::HalfTruck(case) => crate::half_truck::run::cycle(case),
-            Self::Truck(case) => Cycle::of_motion(&case.parameters.bolster.motion.coordinates[2]),
-            Self::Car(_) | Self::Vehicle(_) => None,
-        }
+        each_case!(self, case => case.cycle())
     }
 
-    /// Returns the wedge's case, if it is one.
-    #[must_use]
-    pub fn wedge(&self) -> Option<&Case> {
-        match self {
-            Self::Wedge(case) => Some(case),
-            _ => None,
-        }
-    }
-
-    /// Returns its fields as its case file has them; none of a half-truck, which is made of other files.
+    /// Returns its fields as its case file has them; none of a model without case files.
     #[must_use]
     pub fn fields(&self) -> Vec<FieldSection> {
-        match self {
-            Self::Wedge(case) => case.fields().to_vec(),
-            Self::HalfTruck(_) => Vec::new(),
-            Self::Truck(case) => case.fields().to_vec(),
-            Self::Car(case) => case.fields().to_vec(),
-            Self::Vehicle(case) => case.fields().to_vec(),
-        }
+        each_case!(self, case => ModelCase::fields(&**case).to_vec())
     }
 
     /// Returns the whole case as a commented case file, with the points of tables from other files in it;
-    /// `None` of a half-truck, which is made of other files.
+    /// `None` of a model without case files.
     #[must_use]
     pub fn to_toml(&self) -> Option<String> {
-        match self {
-            Self::Wedge(case) => Some(case.to_toml_embedded().to_owned()),
-            Self::HalfTruck(_) => None,
-            Self::Truck(case) => Some(case.to_toml_embedded().to_owned()),
-            Self::Car(case) => Some(case.to_toml_embedded().to_owned()),
-            Self::Vehicle(case) => Some(case.to_toml_embedded().to_owned()),
-        }
+        each_case!(self, case => case.case_file().map(str::to_owned))
     }
 
     /// Returns the measures that a study keeps of its runs.
     #[must_use]
     pub fn definitions(&self) -> Definitions {
-        match self {
-            Self::Wedge(_) => measures::of_wedges().clone(),
-            Self::HalfTruck(case) => half_truck::definitions(case),
-            Self::Truck(_) => measures::truck::definitions(),
-            Self::Car(_) => measures::car::definitions(),
-            Self::Vehicle(case) => measures::vehicle::definitions(case),
-        }
+        each_case!(self, case => case.definitions())
     }
 
     /// Runs it, measures it, and judges whether the measures mean something.
@@ -222,12 +217,6 @@ impl AnyCase {
     /// # Errors
     /// The run cannot begin or does not come to its end.
     pub fn judge(&self) -> Result<Judged, Unmeasured> {
-        match self {
-            Self::Wedge(case) => measures::judge(case),
-            Self::HalfTruck(case) => half_truck::judge(case),
-            Self::Truck(case) => measures::truck::judge(case),
-            Self::Car(case) => measures::car::judge(case),
-            Self::Vehicle(case) => measures::vehicle::judge(case),
-        }
+        each_case!(self, case => case.judge())
     }
 }

@@ -3,6 +3,7 @@
 
 mod case;
 mod every_key;
+mod model_case;
 mod source;
 mod summary;
 
@@ -19,8 +20,9 @@ use crate::{summary as wedge, wheelset};
 
 pub use case::AnyCase;
 pub use every_key::{ModelKeys, Variant};
+pub use model_case::{ModelCase, StudyCase};
 pub use source::CaseSource;
-pub use summary::AnySummary;
+pub use summary::{AnySummary, ModelSummary};
 
 /// A model.
 #[derive(Debug)]
@@ -61,7 +63,7 @@ pub static MODELS: [ModelEntry; 6] = [
         schema: wedge::SCHEMA,
         command: "run",
         class: "Case",
-        summary: |json| Ok(AnySummary::Wedge(serde_json::from_slice(json)?)),
+        summary: wedge::Summary::of_json,
         case_files: Some(CaseFiles {
             model: Model::Wedge,
             groups: builtin::groups,
@@ -75,7 +77,7 @@ pub static MODELS: [ModelEntry; 6] = [
         schema: half_truck::SCHEMA,
         command: "nucars run",
         class: "HalfTruckCase",
-        summary: |json| Ok(AnySummary::HalfTruck(serde_json::from_slice(json)?)),
+        summary: half_truck::HalfTruckSummary::of_json,
         case_files: None,
     },
     ModelEntry {
@@ -84,7 +86,7 @@ pub static MODELS: [ModelEntry; 6] = [
         schema: truck::summary::SCHEMA,
         command: "run",
         class: "TruckCase",
-        summary: |json| Ok(AnySummary::Truck(serde_json::from_slice(json)?)),
+        summary: truck::summary::TruckSummary::of_json,
         case_files: Some(CaseFiles {
             model: Model::Truck,
             groups: truck::builtin::groups,
@@ -100,7 +102,7 @@ pub static MODELS: [ModelEntry; 6] = [
         schema: car::summary::SCHEMA,
         command: "run",
         class: "CarCase",
-        summary: |json| Ok(AnySummary::Car(serde_json::from_slice(json)?)),
+        summary: car::summary::CarSummary::of_json,
         case_files: Some(CaseFiles {
             model: Model::Car,
             groups: car::builtin::groups,
@@ -116,7 +118,7 @@ pub static MODELS: [ModelEntry; 6] = [
         schema: vehicle::summary::SCHEMA,
         command: "run",
         class: "VehicleCase",
-        summary: |json| Ok(AnySummary::Vehicle(serde_json::from_slice(json)?)),
+        summary: vehicle::summary::VehicleSummary::of_json,
         case_files: Some(CaseFiles {
             model: Model::Vehicle,
             groups: vehicle::builtin::groups,
@@ -132,7 +134,7 @@ pub static MODELS: [ModelEntry; 6] = [
         schema: wheelset::summary::SCHEMA,
         command: "wheelrail run",
         class: "",
-        summary: |json| Ok(AnySummary::Wheelset(serde_json::from_slice(json)?)),
+        summary: wheelset::summary::WheelsetSummary::of_json,
         case_files: None,
     },
 ];

@@ -1,7 +1,6 @@
 //! Where a case comes from: what a study varies.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use nucars::Severity;
 use nucars::file_sets::{Instead, LoadError, RunFiles, Texts, find};
@@ -88,7 +87,7 @@ impl CaseSource {
             }
         };
         let case = case.map_err(|error| problem(&error))?;
-        Ok(AnyCase::HalfTruck(Arc::new(case)))
+        Ok(case.into())
     }
 
     /// Returns the text that identifies the case.

@@ -1,5 +1,6 @@
 //! The summary of a run of any model.
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize, Serializer};
 
 use crate::car::summary::CarSummary;
@@ -9,33 +10,37 @@ use crate::truck::summary::TruckSummary;
 use crate::vehicle::summary::VehicleSummary;
 use crate::wheelset::summary::WheelsetSummary;
 
-/// Declares [`AnySummary`], made of the summary of each model.
+/// The summary of a run of one model.
+pub trait ModelSummary: RunSummary + Clone + Serialize + DeserializeOwned + Into<AnySummary> {
+    /// Returns it from the summary of a run of any model; `None` of another one.
+    fn of(any: &AnySummary) -> Option<&Self>;
+
+    /// Reads it from JSON.
+    ///
+    /// # Errors
+    /// It is not what its schema says.
+    fn of_json(json: &[u8]) -> serde_json::Result<AnySummary> {
+        serde_json::from_slice::<Self>(json).map(Into::into)
+    }
+}
+
+/// Declares [`AnySummary`], made of the summary of each model, and `each_summary!`.
 macro_rules! any_summary {
-    ($($(#[$doc:meta])* $model:ident($summary:ty),)+) => {
+    ($d:tt $($(#[$doc:meta])* $model:ident($summary:ty),)+) => {
         /// The summary of a run of any model.
         #[derive(Clone, Debug, Serialize, Deserialize)]
         pub enum AnySummary {
             $($(#[$doc])* $model(Box<$summary>),)+
         }
 
-        impl AnySummary {
-            /// Returns the part that the summaries of all models have.
-            #[must_use]
-            pub fn shared(&self) -> &dyn RunSummary {
-                match self {
-                    $(Self::$model(own) => &**own,)+
+        /// Does the same with the summary of whatever model: `each_summary!(&any, own => own.units())`.
+        #[macro_export]
+        macro_rules! each_summary {
+            ($d any:expr, $d own:ident => $d do:expr) => {
+                match $d any {
+                    $($crate::models::AnySummary::$model($d own) => $d do,)+
                 }
-            }
-
-            /// Writes the summary as `summary.json` has it: without the name of its variant.
-            ///
-            /// # Errors
-            /// The serializer's.
-            pub fn serialize_content<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                match self {
-                    $(Self::$model(own) => own.serialize(serializer),)+
-                }
-            }
+            };
         }
 
         $(
@@ -44,11 +49,21 @@ macro_rules! any_summary {
                     Self::$model(Box::new(summary))
                 }
             }
+
+            impl ModelSummary for $summary {
+                fn of(any: &AnySummary) -> Option<&Self> {
+                    match any {
+                        AnySummary::$model(own) => Some(own),
+                        _ => None,
+                    }
+                }
+            }
         )+
     };
 }
 
 any_summary! {
+    $
     /// Of a wedge.
     Wedge(Summary),
     /// Of a half-truck from files of NUCARS.
@@ -61,4 +76,20 @@ any_summary! {
     Vehicle(VehicleSummary),
     /// Of a wheelset.
     Wheelset(WheelsetSummary),
+}
+
+impl AnySummary {
+    /// Returns the part that the summaries of all models have.
+    #[must_use]
+    pub fn shared(&self) -> &dyn RunSummary {
+        each_summary!(self, own => &**own)
+    }
+
+    /// Writes the summary as `summary.json` has it: without the name of its variant.
+    ///
+    /// # Errors
+    /// The serializer's.
+    pub fn serialize_content<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        each_summary!(self, own => own.serialize(serializer))
+    }
 }

@@ -12,7 +12,7 @@ mod text;
 
 pub(crate) use keys::in_customary_units;
 pub(crate) use motions::check_motions;
-pub(crate) use text::CaseText;
+pub use text::CaseText;
 
 use std::mem;
 

@@ -4,7 +4,7 @@ use crate::case::field::{FieldSection, quoted};
 
 /// A complete, commented case file, and its fields.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct CaseText {
+pub struct CaseText {
     /// As typed.
     pub typed: String,
     /// With the contents of files that it names.
@@ -15,6 +15,7 @@ pub(crate) struct CaseText {
 
 impl CaseText {
     /// Returns the same of a case with another name, which stands in the line below that of the schema.
+    #[must_use]
     pub fn named(&self, name: &str) -> Self {
         let rename = |text: &str| {
             let mut lines = text.splitn(3, '\n');

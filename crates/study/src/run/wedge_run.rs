@@ -16,12 +16,14 @@ use wedge::outputs::{FACES, Outputs, PointNames};
 use super::{Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, summarize};
 use crate::case::Case;
 use crate::losses::stroke::Stroke;
-use crate::losses::{LossCounts, LossRecorder, Window};
+use crate::losses::{EnergySummary, LossCounts, LossRecorder, Window};
 use crate::metrics::Cycle;
+use crate::models::ModelCase;
 use crate::plausibility;
 use crate::progress;
+use crate::reader::CaseText;
 use crate::result::RunResult;
-use crate::summary::{ContactEvent, Stopped};
+use crate::summary::{ContactEvent, Stopped, Summary};
 
 /// Largest number of listed events.
 pub const EVENT_CAP: usize = 500;
@@ -110,6 +112,20 @@ impl RunCase for Case {
             )));
         }
         run.recorder.rows.into_result(summary)
+    }
+}
+
+impl ModelCase for Case {
+    type Summary = Summary;
+
+    const ENERGY: Option<fn(&Summary) -> &EnergySummary> = Some(|own| &own.energy);
+
+    fn columns(&self) -> Result<Vec<Column>, RunError> {
+        Ok(Outputs::new(&self.parameters).columns().to_vec())
+    }
+
+    fn text(&self) -> Option<&CaseText> {
+        Some(&self.text)
     }
 }
 

@@ -19,8 +19,10 @@ use crate::energy;
 use crate::finite::find;
 use crate::jam::{self, JamMargins};
 use crate::losses::stroke::Stroke;
-use crate::losses::{LossCounts, LossRecorder};
+use crate::losses::{EnergySummary, LossCounts, LossRecorder};
+use crate::models::ModelCase;
 use crate::progress::{self, ADVANCE, Pace};
+use crate::reader::CaseText;
 use crate::result::RunResult;
 use crate::run::{
     Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
@@ -126,6 +128,20 @@ impl RunCase for TruckCase {
 
     fn output(run: Run<Self>, stopped: Option<Stopped>) -> TruckResult {
         output(run, stopped)
+    }
+}
+
+impl ModelCase for TruckCase {
+    type Summary = TruckSummary;
+
+    const ENERGY: Option<fn(&TruckSummary) -> &EnergySummary> = Some(|own| &own.energy);
+
+    fn columns(&self) -> Result<Vec<Column>, RunError> {
+        Ok(TruckTable::new(self)?.columns().to_vec())
+    }
+
+    fn text(&self) -> Option<&CaseText> {
+        Some(&self.text)
     }
 }
 

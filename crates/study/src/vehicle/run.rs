@@ -12,7 +12,10 @@ use vehicle::{Vehicle, View};
 use super::VehicleCase;
 use super::summary::{SCHEMA, VehicleDerailed, VehicleSummary, VibrationSummary};
 use crate::energy;
+use crate::models::ModelCase;
+use crate::output_files::OutputFiles;
 use crate::progress;
+use crate::reader::CaseText;
 use crate::result::RunResult;
 use crate::run::{
     Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
@@ -98,14 +101,6 @@ impl VehicleCase {
     pub fn vehicle(&self) -> Result<Vehicle, RunError> {
         Ok(Vehicle::new(&self.description)?)
     }
-
-    /// Returns the columns of its result.
-    ///
-    /// # Errors
-    /// As [`VehicleCase::vehicle`].
-    pub fn columns(&self) -> Result<Vec<Column>, RunError> {
-        Ok(columns_of(&self.vehicle()?))
-    }
 }
 
 impl RunCase for VehicleCase {
@@ -132,6 +127,22 @@ impl RunCase for VehicleCase {
 
     fn output(run: Run<Self>, stopped: Option<Stopped>) -> VehicleResult {
         output(run, stopped)
+    }
+}
+
+impl ModelCase for VehicleCase {
+    type Summary = VehicleSummary;
+
+    fn columns(&self) -> Result<Vec<Column>, RunError> {
+        Ok(columns_of(&self.vehicle()?))
+    }
+
+    fn output_files(&self) -> OutputFiles {
+        self.output_files.clone()
+    }
+
+    fn text(&self) -> Option<&CaseText> {
+        Some(&self.text)
     }
 }
 

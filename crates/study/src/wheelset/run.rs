@@ -5,6 +5,7 @@
 
 use integrate::Options;
 use mechanics::energy_balance::Entries;
+use mechanics::output::Column;
 use mechanics::system::System;
 use quantity::{Kind, SixDigits};
 use rolling::rig::Rig;
@@ -14,6 +15,8 @@ use super::WheelsetCase;
 use super::columns::{RigReader, SIDES, columns};
 use super::stability;
 use super::summary::{Derailment, SCHEMA, WheelsetSummary};
+use crate::models::ModelCase;
+use crate::output_files::{OutputFiles, TableFormat};
 use crate::result::RunResult;
 use crate::run::{
     Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
@@ -78,6 +81,21 @@ impl RunCase for WheelsetCase {
 
     fn output(run: Run<Self>, stopped: Option<Stopped>) -> WheelsetResult {
         output(run, stopped)
+    }
+}
+
+impl ModelCase for WheelsetCase {
+    type Summary = WheelsetSummary;
+
+    fn columns(&self) -> Result<Vec<Column>, RunError> {
+        Ok(columns())
+    }
+
+    fn output_files(&self) -> OutputFiles {
+        OutputFiles {
+            tables: vec![TableFormat::Csv],
+            ..OutputFiles::default()
+        }
     }
 }
 

@@ -6,12 +6,12 @@ use std::process::ExitCode;
 
 use clap::Args;
 use clap::builder::PossibleValuesParser;
+use report::terminal::TerminalTable;
 use study::models::{self, AnyCase, case_keys};
 
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::select::select;
-use crate::table::TerminalTable;
 
 /// List the built-in cases, or print one as a case file
 ///

@@ -9,6 +9,7 @@ use report::certificate_files::{CertificateFindings, NAMES};
 use report::certificate_work;
 use report::page::certificate::Against;
 use report::study_folder::TABLE_FILE;
+use report::terminal::TerminalTable;
 use serde_json::json;
 use study::car::speeds;
 use study::certificate::other_start::NEAR;
@@ -21,7 +22,6 @@ use crate::failure::{Failure, Message, say};
 use crate::interrupt;
 use crate::json;
 use crate::progress::Steady;
-use crate::table::TerminalTable;
 
 /// Run a car in all regimes of the assessment of freight cars, and compare with the limits of rules
 ///

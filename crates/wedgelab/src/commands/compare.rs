@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use clap::Args;
 use report::comparison::{ComparedResult, Comparison, FILE_NAME};
 use report::table::is_of_run;
+use report::terminal::TerminalTable;
 use serde_json::{Value, json};
 
 use crate::adjust::{Names, TimeSpan};
@@ -15,7 +16,6 @@ use crate::folders;
 use crate::interrupt;
 use crate::json;
 use crate::select::read_table;
-use crate::table::TerminalTable;
 
 /// Compare results: overlay figures and a table of differences
 ///

@@ -8,6 +8,7 @@ use clap::Args;
 use quantity::{Kind, System as Units};
 use report::csv::converted;
 use report::curves_files::{self, LabeledLoop, NAMES};
+use report::terminal::TerminalTable;
 use study::truck::loop_curve::{LoopCurve, LoopKind};
 
 use super::warp::{STOPPING, Varied, interrupted, run};
@@ -16,7 +17,6 @@ use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
-use crate::table::TerminalTable;
 
 /// Stiffness, friction and energy of a truck whose bolster moves up and down or rolls
 ///

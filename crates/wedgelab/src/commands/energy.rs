@@ -9,10 +9,11 @@ use quantity::{Kind, SixDigits, System as Units};
 use report::figures::power_flow;
 use report::run_files::{CASE_FILE_NAME, RunFiles};
 use report::summary::write_json;
+use report::terminal::TerminalTable;
+use study::each_case;
 use study::losses::flow::{PowerFlow, words};
 use study::losses::stroke::PARTS;
 use study::losses::{EnergySummary, LossSplit};
-use study::models::AnyCase;
 use study::summary::{RunSummary, SummaryValue};
 
 use super::run::read_any;
@@ -23,7 +24,6 @@ use crate::folders;
 use crate::interrupt;
 use crate::json;
 use crate::progress::Progress;
-use crate::table::TerminalTable;
 
 /// The files that are written on request.
 const NAMES: [&str; 3] = ["energy.json", "power_flow.svg", "power_flow.png"];
@@ -78,16 +78,11 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Some(path) => Some(folders::check(path, &NAMES, arguments.force)?),
         None => None,
     };
-    let (energy, units) = match &case {
-        AnyCase::Wedge(case) => energy_of(&**case, arguments.quiet, |summary| summary.energy.clone())?,
-        AnyCase::Truck(case) => energy_of(&**case, arguments.quiet, |summary| summary.energy.clone())?,
-        AnyCase::Car(case) => energy_of(&**case, arguments.quiet, |summary| summary.energy.clone())?,
-        AnyCase::HalfTruck(_) | AnyCase::Vehicle(_) => {
-            let message = format!("{} is neither a wedge, nor a truck, nor a car", case.name());
-            let advice =
-                "energies are given for wedges and trucks whose motion or load is periodic, and for cars";
-            return Err(Message::new(message, advice).into());
-        }
+    let Some(energy) = each_case!(&case, case => energy_of(&**case, arguments.quiet))? else {
+        let message = format!("{} is neither a wedge, nor a truck, nor a car", case.name());
+        let advice =
+            "energies are given for wedges and trucks whose motion or load is periodic, and for cars";
+        return Err(Message::new(message, advice).into());
     };
     let Some(figure) = power_flow::figure(&energy) else {
         let why = if energy.missing.is_empty() {
@@ -103,7 +98,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     if arguments.json {
         json::print(&energy)?;
     } else {
-        write(&energy, units, &mut io::stdout().lock())?;
+        write(&energy, case.units(), &mut io::stdout().lock())?;
     }
     if let Some(folder) = folder {
         let figure = Drawn::of(&figure)?;
@@ -119,12 +114,11 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Runs a case, and returns the energies of its summary and their units.
-fn energy_of<C: RunFiles>(
-    case: &C,
-    quiet: bool,
-    energy: impl FnOnce(&C::Summary) -> EnergySummary,
-) -> Result<(EnergySummary, Units), Failure> {
+/// Runs a case, and returns the energies of its summary; `None` of a model without them.
+fn energy_of<C: RunFiles>(case: &C, quiet: bool) -> Result<Option<EnergySummary>, Failure> {
+    let Some(energy) = C::ENERGY else {
+        return Ok(None);
+    };
     let progress = Progress::new(1, quiet);
     interrupt::stops(
         "stopping: energies of a cycle are given for whole runs (once more: ends at once)",
@@ -149,12 +143,15 @@ fn energy_of<C: RunFiles>(
     for warning in summary.warnings() {
         say(&format!("warning: {}: {warning}", case.name()));
     }
-    Ok((energy(summary), case.units()))
+    Ok(Some(energy(summary).clone()))
 }
 
 /// Returns the lines of `run` about the energy of a cycle; `None` if there is none.
 pub fn in_short(energy: &EnergySummary) -> Option<String> {
     const MOST: usize = 4;
+    if energy.distance.is_some() {
+        return None;
+    }
     let flow = PowerFlow::of(energy)?;
     let loss = energy.loss.as_ref()?;
     let of_all = |value: f64| format!("{:.1} %", 100.0 * value / loss.value);

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use report::fit_files::{self, FitFigure};
 use report::run_files;
 use report::table::{ResultTable as Measurements, TableColumn};
+use report::terminal::TerminalTable;
 use study::case::CaseError;
 use study::fit::{Fit, FitError, Free, FreeError, Measured, fit};
 use study::metrics::Cycle;
@@ -22,7 +23,6 @@ use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
 use crate::select::read_table;
-use crate::table::TerminalTable;
 
 /// Columns of a wedge or a truck that may hold the measured force, the first one found being taken.
 const FORCES: [&str; 7] = [

@@ -8,13 +8,13 @@ use clap::Args;
 use mechanics::quasi_static::{QuasiStaticWedge, SlidingDirection, SlopeFriction};
 use quantity::{Kind, Quantity, System as Units};
 use report::summary::write_json;
+use report::terminal::TerminalTable;
 use serde_json::{Value, json};
 use study::case::bounds;
 
 use crate::failure::Failure;
 use crate::folders;
 use crate::json;
-use crate::table::TerminalTable;
 use crate::units::OutputUnits;
 
 /// Forces of the massless wedge in steady sliding, and its jam margin

@@ -14,6 +14,7 @@ use std::time::Duration;
 use clap::Args;
 use rayon::prelude::*;
 use report::figures::{CaseOutcome, Exhibit};
+use report::models::{WEDGE_NOTE, table_of_wedges};
 use report::run_files;
 use report::view::View;
 use report::view::run::{Detail, Recording};
@@ -29,7 +30,7 @@ use study::case::{Case, builtin};
 use study::half_truck::HalfTruckCase;
 use study::truck::TruckCase;
 
-use crate::execute::{TABLE_NOTE, execute_whole, table, unsound, write_outcome};
+use crate::execute::{execute_whole, unsound, write_outcome};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -181,10 +182,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         write_outcome(&result.summary, &mut out)?;
     }
     let summaries = outcomes.iter().map(|(_, result)| &result.summary);
-    table(summaries.zip(walls.iter().copied())).write(&mut out)?;
+    table_of_wedges(summaries.zip(walls.iter().copied())).write(&mut out)?;
     writeln!(
         out,
-        "\n{TABLE_NOTE}\n\n\
+        "\n{WEDGE_NOTE}\n\n\
          Written into {}: {} (the report; open it in a browser), {}, {}/ ({figures} figures as SVG and \
          PNG), runs/NAME/{{{}}}.",
         places.sheets.path().display(),

@@ -9,32 +9,22 @@ use std::sync::Arc;
 
 use clap::Args;
 use quantity::{Kind, Number, Quantity, nearest};
-use report::figures::car::CarRun;
-use report::figures::truck::TruckRun;
+use report::models::{ReportCase, ReportSummary, with_note};
 use report::page;
 use report::run_files::{CASE_FILE_NAME, RunFiles, TABLES};
+use report::terminal::TerminalTable;
 use serde::Serialize;
 use serde_json::json;
 use staging::Folder;
-use study::car::CarCase;
-use study::car::statistics::NO_STATISTICS;
-use study::car::summary::CarSummary;
-use study::car::worst::place_in_words;
 use study::case::Case;
+use study::each_case;
 use study::models::{AnyCase, built_in, built_in_names};
 use study::outcome::Outcome;
 use study::output_files::{OutputFiles, TableFormat};
 use study::summary::RunSummary;
-use study::truck::run::TruckResult;
-use study::truck::{TruckCase, WEDGE_NAMES};
-use study::vehicle::VehicleCase;
-use study::vehicle::summary::VehicleSummary;
 
 use super::energy;
-use crate::execute::{
-    Done, TABLE_NOTE, compute, compute_with_contacts, compute_with_motions, started_with, table, unsound,
-    write_as, write_outcome, write_page,
-};
+use crate::execute::{Done, compute_shown, started_with, unsound, write_as, write_outcome, write_page};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
@@ -43,7 +33,6 @@ use crate::progress::Progress;
 use crate::saved::{self, Parts, Saved};
 use crate::select::built_in_elsewhere;
 use crate::start;
-use crate::table::TerminalTable;
 
 /// Run one case: a wedge, a truck, a car or a vehicle of your own
 ///
@@ -157,15 +146,13 @@ fn output_of<C: RunFiles>(case: &C, arguments: &Arguments) -> Result<OutputFiles
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let case = read_any(&arguments.case, &arguments.set)?;
-    if arguments.save.is_some() || arguments.from.is_some() {
-        return execute_in_parts(&case, arguments);
+    if let Some(entry) = case.entry().filter(|entry| entry.command != "run") {
+        let message = format!("{} is a {}", case.name(), entry.name);
+        return Err(Message::new(message, format!("`wedgelab {}` runs it", entry.command)).into());
     }
-    match case {
-        AnyCase::Wedge(case) => run_wedge(Arc::unwrap_or_clone(case), arguments),
-        AnyCase::Truck(case) => run_truck(&case, arguments),
-        AnyCase::Car(case) => run_car(&case, arguments),
-        AnyCase::Vehicle(case) => run_vehicle(&case, arguments),
-        AnyCase::HalfTruck(case) => Err(not_here(&case.name)),
+    match arguments.save.is_some() || arguments.from.is_some() {
+        true => each_case!(&case, case => run_in_parts(&**case, arguments)),
+        false => each_case!(&case, case => run_whole(&**case, arguments)),
     }
 }
 
@@ -197,55 +184,35 @@ fn begin<C: RunFiles>(case: &C, besides: &[&'static str], arguments: &Arguments)
     })
 }
 
-/// Runs a wedge, and writes its page besides.
-fn run_wedge(case: Case, arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let place = begin(&case, &[page::FILE_NAME], arguments)?;
+/// Runs a case, and writes its page besides.
+fn run_whole<C: ReportCase>(case: &C, arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let place = begin(case, &[page::FILE_NAME], arguments)?;
     let (folder, progress) = (&place.folder, &place.progress);
-    let done = compute(&case, progress).and_then(|done| {
-        write_as(&done, &case, folder, &place.output, progress)?;
-        Ok(done)
+    let computed = compute_shown(case, progress).and_then(|(done, along)| {
+        write_as(&done, case, folder, &place.output, progress)?;
+        Ok((done, along))
     });
     progress.finish();
-    let done = done?;
-    let (wall, run) = (done.wall, (case, done.result));
-    write_page(folder, || page::wedge_run::render(&run))?;
-    let summary = &run.1.summary;
+    let (Done { result, wall }, along) = computed?;
+    let shown = case.clone().shown(result, along);
+    write_page(folder, || C::page(&shown))?;
+    let summary = &C::parts(&shown).1.summary;
+    if let Some(statics) = summary.statics().filter(|_| !arguments.json) {
+        start::print(statics, summary.units())?;
+    }
     print_run(arguments, &place, summary, || {
-        let energy = energy::in_short(&summary.energy);
-        (table([(summary, wall)]), note(TABLE_NOTE, energy))
+        let (table, about) = C::in_words(summary, wall);
+        let energy = C::ENERGY.and_then(|of| energy::in_short(of(summary)));
+        (table, with_note(&about, energy))
     })?;
-    match unsound::<Case>(summary, folder.path()) {
+    match unsound::<C>(summary, folder.path()) {
         Some(failure) => Err(failure),
         None => Ok(ExitCode::SUCCESS),
     }
 }
 
-/// Runs a case of any model in parts.
-fn execute_in_parts(case: &AnyCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
-    match case {
-        AnyCase::Wedge(case) => run_in_parts(&**case, arguments, |done| {
-            (table([(&done.result.summary, done.wall)]), TABLE_NOTE.to_owned())
-        }),
-        AnyCase::Truck(case) => run_in_parts(&**case, arguments, |done| {
-            (truck_table(&done.result), TRUCK_NOTE.to_owned())
-        }),
-        AnyCase::Car(case) => run_in_parts(&**case, arguments, |done| limits_of_car(&done.result.summary)),
-        AnyCase::Vehicle(case) => run_in_parts(&**case, arguments, |done| {
-            let units = done.result.summary.units;
-            (
-                vehicle_table(&done.result.summary, units),
-                VEHICLE_NOTE.to_owned(),
-            )
-        }),
-        AnyCase::HalfTruck(case) => Err(not_here(&case.name)),
-    }
-}
-
-fn run_in_parts<C: RunFiles>(
-    case: &C,
-    arguments: &Arguments,
-    shown: impl FnOnce(&Done<C::Output>) -> (TerminalTable, String),
-) -> Result<ExitCode, Failure> {
+/// Runs a case in parts.
+fn run_in_parts<C: ReportCase>(case: &C, arguments: &Arguments) -> Result<ExitCode, Failure> {
     let place = begin(case, &[], arguments)?;
     let (folder, progress) = (&place.folder, &place.progress);
     let parts = Parts {
@@ -262,7 +229,7 @@ fn run_in_parts<C: RunFiles>(
     progress.finish();
     let (done, saved) = computed?;
     let summary = &done.result.summary;
-    print_run(arguments, &place, summary, || shown(&done))?;
+    print_run(arguments, &place, summary, || C::in_words(summary, done.wall))?;
     if let Some(Saved { time, path }) = &saved {
         let (time, path) = (Number(*time), path.display());
         say(&format!(
@@ -279,122 +246,6 @@ fn run_in_parts<C: RunFiles>(
         Some(failure) if !saved => Err(failure),
         _ => Ok(ExitCode::SUCCESS),
     }
-}
-
-/// Half-trucks have a command of their own.
-fn not_here(name: &str) -> Failure {
-    Message::new(format!("{name} is a half-truck"), "`wedgelab nucars run` runs it").into()
-}
-
-/// Returns a note with another one below it, if there is one.
-fn note(about: &str, more: Option<String>) -> String {
-    more.map_or(about.to_owned(), |more| format!("{about}\n\n{more}"))
-}
-
-/// Runs a truck, and writes its page besides.
-fn run_truck(case: &TruckCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let place = begin(case, &[page::FILE_NAME], arguments)?;
-    let (folder, progress) = (&place.folder, &place.progress);
-    let done = compute_with_contacts(case, progress).and_then(|(done, contacts)| {
-        write_as(&done, case, folder, &place.output, progress)?;
-        Ok((done, contacts))
-    });
-    progress.finish();
-    let (done, contacts) = done?;
-    let run = TruckRun {
-        case: case.clone(),
-        result: done.result,
-        contacts,
-    };
-    write_page(folder, || page::truck_run::render(&run))?;
-    let summary = &run.result.summary;
-    if !arguments.json {
-        start::print(&summary.statics, summary.units)?;
-    }
-    print_run(arguments, &place, &run.result.summary, || {
-        let energy = energy::in_short(&run.result.summary.energy);
-        (truck_table(&run.result), note(TRUCK_NOTE, energy))
-    })?;
-    match unsound::<TruckCase>(&run.result.summary, folder.path()) {
-        Some(failure) => Err(failure),
-        None => Ok(ExitCode::SUCCESS),
-    }
-}
-
-/// Runs a car, and writes its page besides.
-fn run_car(case: &CarCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let place = begin(case, &[page::FILE_NAME], arguments)?;
-    let (folder, progress) = (&place.folder, &place.progress);
-    let done = compute_with_motions(case, progress).and_then(|(done, motions)| {
-        write_as(&done, case, folder, &place.output, progress)?;
-        Ok((done, motions))
-    });
-    progress.finish();
-    let (done, motions) = done?;
-    let run = CarRun {
-        case: case.clone(),
-        result: done.result,
-        motions,
-    };
-    write_page(folder, || page::car_run::render(&run))?;
-    let summary = &run.result.summary;
-    if !arguments.json {
-        start::print(&summary.statics, summary.units)?;
-    }
-    print_run(arguments, &place, summary, || limits_of_car(summary))?;
-    match unsound::<CarCase>(summary, folder.path()) {
-        Some(failure) => Err(failure),
-        None => Ok(ExitCode::SUCCESS),
-    }
-}
-
-/// Runs a vehicle, and writes its page besides.
-fn run_vehicle(case: &VehicleCase, arguments: &Arguments) -> Result<ExitCode, Failure> {
-    let place = begin(case, &[page::FILE_NAME], arguments)?;
-    let (folder, progress) = (&place.folder, &place.progress);
-    let done = compute(case, progress).and_then(|done| {
-        write_as(&done, case, folder, &place.output, progress)?;
-        Ok(done)
-    });
-    progress.finish();
-    let result = done?.result;
-    write_page(folder, || page::vehicle_run::render(case, &result))?;
-    let summary = &result.summary;
-    print_run(arguments, &place, summary, || {
-        (vehicle_table(summary, summary.units), VEHICLE_NOTE.to_owned())
-    })?;
-    match unsound::<VehicleCase>(summary, folder.path()) {
-        Some(failure) => Err(failure),
-        None => Ok(ExitCode::SUCCESS),
-    }
-}
-
-const VEHICLE_NOTE: &str = "\
-Forces at the start and extremes over all output times. Natural vibrations, extremes of all columns and the
-energy ledger stand in summary.json.";
-
-/// Returns the table of the forces of a vehicle's elements.
-fn vehicle_table(summary: &VehicleSummary, units: quantity::System) -> TerminalTable {
-    let unit = Kind::Force.label(units);
-    let head = [
-        ("force", ""),
-        ("at the start", unit),
-        ("least", unit),
-        ("largest", unit),
-    ];
-    let mut table = TerminalTable::new(1, &head);
-    for (name, own) in &summary.forces_at_start {
-        let column = format!("{name}_{}", Kind::Force.suffix(units));
-        let found = summary.extremes.get(&column);
-        let cell = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1}"));
-        table.row([
-            name.replace('_', " "),
-            cell(Some(own.value)),
-            cell(found.map(|found| found.minimum)),
-            cell(found.map(|found| found.maximum)),
-        ]);
-    }
-    table
 }
 
 /// Tells what came out and where it lies: in words, a table and what its columns are, or as JSON.
@@ -425,106 +276,6 @@ fn print_run(
     let files = folders::listed(path, names);
     writeln!(out, "\n{note}\n\nWritten into {}: {files}{page}.", path.display())?;
     Ok(())
-}
-
-/// Returns the text about a car's run: its limits, and what its start locks in.
-fn limits_of_car(summary: &CarSummary) -> (TerminalTable, String) {
-    let (table, about) = limits_beside(summary);
-    (table, note(&about, summary.start_in_words()))
-}
-
-fn limits_beside(summary: &CarSummary) -> (TerminalTable, String) {
-    if summary.limits.is_empty() {
-        let why = summary
-            .warnings()
-            .iter()
-            .find(|own| own.starts_with(NO_STATISTICS));
-        let why = why.and_then(|own| own.strip_prefix(NO_STATISTICS));
-        (
-            TerminalTable::new(1, &[]),
-            format!("No statistics{}.", why.unwrap_or_default()),
-        )
-    } else if summary.limits.iter().any(|own| own.unfiltered) {
-        (car_table(summary), format!("{CAR_NOTE}\n{UNFILTERED_NOTE}"))
-    } else {
-        (car_table(summary), CAR_NOTE.to_owned())
-    }
-}
-
-/// The note on values that no filter has passed.
-const UNFILTERED_NOTE: &str = "\
-Values without margin are raw: the rows are too far apart for the filter that their limit is for. Shorten \
-simulation.output_interval.";
-
-/// The note that explains the columns of a car's table.
-const CAR_NOTE: &str = "\
-Worst value of each kind, of filtered forces and accelerations, beside limits that are remembered of AAR \
-M-1001, chapter XI: check
-them against your edition. A limit counts for its regimes only (summary.json names them). Margin: what is \
-left, in parts of it; of a least share, of the way from 100 %.";
-
-/// Returns the table of a car's limits.
-fn car_table(summary: &CarSummary) -> TerminalTable {
-    let mut table = TerminalTable::new(
-        2,
-        &[
-            ("quantity", ""),
-            ("worst at", ""),
-            ("value", ""),
-            ("limit", ""),
-            ("margin", "%"),
-        ],
-    );
-    for own in &summary.limits {
-        let shown = |value: f64| match own.unit.as_str() {
-            "" => format!("{value:.3}"),
-            unit => format!("{value:.3} {unit}"),
-        };
-        table.row([
-            own.quantity.clone(),
-            place_in_words(&own.statistic),
-            shown(own.value),
-            shown(own.limit),
-            match own.unfiltered {
-                true => "-".to_owned(),
-                false => format!("{:.0}", 100.0 * own.margin),
-            },
-        ]);
-    }
-    table
-}
-
-/// The note that explains the columns of a truck's table.
-const TRUCK_NOTE: &str = "\
-Column normal force: of each wedge, its least and largest at any output time. Energy per cycle: lost in \
-friction at column and
-slope, over whole cycles of the first periodic motion after the first one.";
-
-/// Returns the table of a truck's wedges.
-fn truck_table(result: &TruckResult) -> TerminalTable {
-    let summary = &result.summary;
-    let [force, energy] = [Kind::Force, Kind::Energy].map(|kind| kind.label(summary.units));
-    let mut table = TerminalTable::new(
-        1,
-        &[
-            ("wedge", ""),
-            ("column normal force, least", force),
-            ("largest", force),
-            ("energy per cycle", energy),
-        ],
-    );
-    for name in WEDGE_NAMES {
-        let column = format!("{name}_column_normal_{}", Kind::Force.suffix(summary.units));
-        let extremes = summary.extremes.get(&column);
-        let cell = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1}"));
-        table.row([
-            name.replace('_', " "),
-            cell(extremes.map(|found| found.minimum)),
-            cell(extremes.map(|found| found.maximum)),
-            cell(summary.cycles.loss_of_wedges(&[name])),
-        ]);
-    }
-    table
 }
 
 /// Returns whether a built-in case is meant. A folder may well have its name: that of its results.

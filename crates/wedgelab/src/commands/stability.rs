@@ -8,12 +8,12 @@ use std::process::ExitCode;
 use clap::Args;
 use quantity::{Kind, Quantity, System as Units};
 use report::stability_files::NAMES;
+use report::terminal::TerminalTable;
 use report::{hunting_files, onset_files, stability_files};
 use study::car::CarCase;
 use study::car::hunting::{Boundary, Hunting, HuntingError, HuntingSettings, hunting};
 use study::car::onset::onset;
 use study::car::stability::{BEYOND, Branch, BranchKind, Stability, left_out, stability};
-use study::models::AnyCase;
 use study::outcome::Outcome;
 use study::vehicle::VehicleCase;
 use study::vehicle::summary::VibrationSummary;
@@ -26,7 +26,6 @@ use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
-use crate::table::TerminalTable;
 
 /// Stability of a car over speed: growth and frequency of its vibrations, critical speeds, hunting
 ///
@@ -176,14 +175,14 @@ fn vibrations(case: &VehicleCase) -> Result<ExitCode, Failure> {
 /// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
-    let case = match read_any(&arguments.case, &arguments.set)? {
-        AnyCase::Car(case) => case,
-        AnyCase::Vehicle(case) => return vibrations(&case),
-        other => {
-            let message = format!("{} is no car: hunting is what a car on track does", other.name());
-            let advice = "take car_hunting_empty, or a case with model = \"car\"";
-            return Err(Message::new(message, advice).into());
-        }
+    let any = read_any(&arguments.case, &arguments.set)?;
+    if let Some(vehicle) = any.vehicle() {
+        return vibrations(vehicle);
+    }
+    let Some(case) = any.car() else {
+        let message = format!("{} is no car: hunting is what a car on track does", any.name());
+        let advice = "take car_hunting_empty, or a case with model = \"car\"";
+        return Err(Message::new(message, advice).into());
     };
     if case.stability.body_held && (arguments.nonlinear || arguments.onset.is_some()) {
         let message = "stability.body is \"held\", but --nonlinear and --onset run the whole car";
@@ -198,7 +197,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         force: arguments.force,
         quiet: arguments.quiet,
     };
-    if let Some(done) = arguments.vary.execute(&case, around) {
+    if let Some(done) = arguments.vary.execute(case, around) {
         return done;
     }
     let path = arguments
@@ -212,8 +211,8 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     if arguments.nonlinear {
         settings
-            .check(&case)
-            .map_err(|error| cannot_hunt(&case, &error))?;
+            .check(case)
+            .map_err(|error| cannot_hunt(case, &error))?;
     }
     let mut names: Vec<&str> = NAMES.to_vec();
     if arguments.nonlinear {
@@ -234,7 +233,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     };
     // Ramps, then runs at held speeds.
     let ramps = if arguments.onset.is_some() { 0.4 } else { 1.0 };
-    let found = stability(&case, &speeds, |share| {
+    let found = stability(case, &speeds, |share| {
         reached(part * share);
         match interrupt::wanted() {
             true => ControlFlow::Break(()),
@@ -242,7 +241,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         }
     });
     let runs = match &found {
-        Ok(found) if found.complete && arguments.nonlinear => Some(hunting(&case, settings, |share| {
+        Ok(found) if found.complete && arguments.nonlinear => Some(hunting(case, settings, |share| {
             reached(part + ramps * (1.0 - part) * share);
             interrupt::go_on()
         })),
@@ -260,7 +259,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             } else {
                 part
             };
-            Some(onset(&case, &spaced(arguments.speeds, count), |share| {
+            Some(onset(case, &spaced(arguments.speeds, count), |share| {
                 reached(before + (1.0 - before) * share);
                 interrupt::go_on()
             }))
@@ -273,7 +272,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         let advice = "look at its speeds, lading and side bearings; `wedgelab run` shows how it runs";
         Message::new(message, advice)
     })?;
-    let runs = runs.transpose().map_err(|error| cannot_hunt(&case, &error))?;
+    let runs = runs.transpose().map_err(|error| cannot_hunt(case, &error))?;
     let held = held.transpose().map_err(|error| {
         let message = format!("{} cannot be run at held speeds: {error}", case.name);
         Message::new(
@@ -305,11 +304,11 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
             stability_files::write_curve(&found, units, out)
         })?;
         files.add(stability_files::NUMBERS, |out| {
-            stability_files::write_numbers(&case, &found, units, out)
+            stability_files::write_numbers(case, &found, units, out)
         })?;
         figure.add(files, stability_files::FIGURE, stability_files::PICTURE)?;
         files.add(stability_files::PAGE, |out| {
-            report::page::stability::write(&case, &found, units, out)
+            report::page::stability::write(case, &found, units, out)
         })?;
         if let Some((held, figure)) = &onset_drawn {
             files.add(onset_files::TABLE, |out| {
@@ -338,7 +337,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         over_amplitude(&found, units).write(&mut out)?;
         writeln!(out)?;
     }
-    if let Some(what) = left_out(&case) {
+    if let Some(what) = left_out(case) {
         writeln!(out, "On straight track without irregularities: {what}.")?;
     }
     for branch in &found.branches {

@@ -4,12 +4,12 @@ use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Arc;
 
 use clap::Args;
 use miette::Diagnostic;
 use quantity::{Kind, Number};
 use report::locus_files;
+use report::terminal::TerminalTable;
 use study::car::CarCase;
 use study::case::CaseError;
 use study::locus::{Locus, LocusError, Vary, VaryError, locus};
@@ -22,7 +22,6 @@ use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
-use crate::table::TerminalTable;
 
 /// The options of the root locus over a parameter.
 #[derive(Debug, Args)]
@@ -136,11 +135,8 @@ fn read(around: Around<'_>, set: &[String], case: &CarCase) -> Result<CarCase, C
         Some(own) => own,
         None => AnyCase::read(around.path, &all)?,
     };
-    match any {
-        AnyCase::Car(own) => Ok(Arc::unwrap_or_clone(own)),
-        // Numbers change no model.
-        _ => Ok(case.clone()),
-    }
+    // Numbers change no model.
+    Ok(any.car().map_or(case, |own| &**own).clone())
 }
 
 fn failure(error: LocusError) -> Failure {

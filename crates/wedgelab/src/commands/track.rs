@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
 use quantity::{Kind, Quantity};
+use report::terminal::TerminalTable;
 use report::track_class;
 use report::track_files::{self, NAMES, Survey, degree};
 use study::track::TrackFile;
@@ -15,7 +16,6 @@ use wheelrail::track::TrackClass;
 use crate::drawn::Drawn;
 use crate::failure::{Failure, Message, say};
 use crate::folders;
-use crate::table::TerminalTable;
 
 /// Tracks: curves, spirals, superelevation, grades and irregularities
 #[derive(Debug, Args)]

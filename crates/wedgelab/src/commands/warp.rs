@@ -3,11 +3,10 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Arc;
 
 use clap::Args;
+use report::terminal::TerminalTable;
 use report::warp_files::{self, KIP_INCH, NAMES, Tested};
-use study::models::AnyCase;
 use study::truck::TruckCase;
 use study::truck::run::TruckResult;
 use study::truck::warp::{NUCARS_STIFFNESS, WarpCurve};
@@ -19,7 +18,6 @@ use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
-use crate::table::TerminalTable;
 
 /// Warp moment of a truck over the warp angle, its parts and stiffness
 ///
@@ -221,11 +219,11 @@ type Variant = (String, Vec<String>);
 
 /// Returns the case of a truck with values laid over it.
 fn truck(case: &Path, set: &[String]) -> Result<TruckCase, Failure> {
-    let what = match read_any(case, set)? {
-        AnyCase::Truck(case) => return Ok(Arc::unwrap_or_clone(case)),
-        AnyCase::Wedge(_) => "single wedge",
-        other => other.model(),
-    };
+    let any = read_any(case, set)?;
+    if let Some(truck) = any.truck() {
+        return Ok(TruckCase::clone(truck));
+    }
+    let what = any.wedge().map_or(any.model(), |_| "single wedge");
     let message = format!(
         "{} is the case of a {what}; a truck's is expected",
         case.display()

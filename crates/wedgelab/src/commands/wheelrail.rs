@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
+use report::terminal::TerminalTable;
 use report::wheelrail_files::{self, NAMES};
 use wheelrail::conicity::RollingRadiusDifference;
 use wheelrail::hertz::Material;
@@ -18,7 +19,6 @@ use super::{wheelrail_contact, wheelrail_run, wheelrail_stability};
 use crate::drawn::Drawn;
 use crate::failure::{Failure, Message, say};
 use crate::folders;
-use crate::table::TerminalTable;
 
 /// Profiles of wheels and rails: checks, rolling radius difference, contact angles, equivalent conicity,
 /// contact; a wheelset that runs

@@ -8,8 +8,10 @@ use clap::Args;
 use quantity::{Kind, Quantity};
 use report::page;
 use report::run_files::RunFiles;
+use report::terminal::TerminalTable;
 use rolling::rig::RigStart;
 use staging::Folder;
+use study::models::ModelCase;
 use study::track::TrackFile;
 use study::wheelset::summary::WheelsetSummary;
 use study::wheelset::{Wheelset, WheelsetCase};
@@ -22,7 +24,6 @@ use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
-use crate::table::TerminalTable;
 use crate::units::OutputUnits;
 
 /// Prints them with the long help of the command.

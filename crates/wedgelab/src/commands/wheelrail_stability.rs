@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use quantity::{Kind, System as Units};
+use report::terminal::TerminalTable;
 use report::wheelset_stability_files::{self as files, NAMES};
 use study::track::TrackFile;
 use study::wheelset::stability::{WheelsetStability, stability};
@@ -19,7 +20,6 @@ use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
-use crate::table::TerminalTable;
 use crate::units::OutputUnits;
 
 /// Prints them with the long help of the command.

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::Instant;
 
+use report::models::Loop;
 use report::view::View;
 use report::{run_files, summary};
 use serde::{Deserialize, Serialize};
@@ -14,7 +15,7 @@ use study::models::{self, AnyCase, AnySummary};
 
 use super::base::Base;
 use super::limits;
-use super::outcome::{Loop, Outcome, compute};
+use super::outcome::{Outcome, compute};
 
 /// The name and version of the answers.
 pub const SCHEMA: &str = "wedgelab.explore/1";
@@ -253,7 +254,7 @@ impl Explorer {
             view: outcome.view(),
             summary: outcome.summary(),
             shown_loop: outcome.shown_loop(),
-            sections: outcome.fields(),
+            sections: outcome.case.fields(),
             seconds,
         })
     }
@@ -280,7 +281,7 @@ impl Explorer {
             }
             let outcome = self.outcome(wanted, &self.begin(client))?;
             let media = outcome.write(file, &mut bytes).map_err(failed)?;
-            (outcome.name().to_owned(), media)
+            (outcome.case.name().to_owned(), media)
         };
         Ok(Export {
             name: format!("{name}_{file}"),
@@ -363,6 +364,7 @@ fn mistakes(error: &CaseError, set: &BTreeMap<String, String>, known: &[FieldSec
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
+    use super::super::outcome::finite;
     use super::*;
 
     fn explorer() -> Explorer {
@@ -393,20 +395,12 @@ mod tests {
         let client = Client::default();
         let turn = explorer.begin(client.watch());
         let outcome = explorer.outcome(&Wanted::default(), &turn).unwrap();
-        assert_eq!(outcome.finite(), Ok(()));
-        let Outcome::Wedge(own) = &*outcome else {
+        let AnySummary::Wedge(mut own) = outcome.summary() else {
             unreachable!("it is a wedge");
         };
-        let mut own = own.clone();
-        own.1
-            .summary
-            .averages
-            .energy_per_cycle
-            .values_mut()
-            .next()
-            .unwrap()
-            .value = f64::NAN;
-        let Err(Refused::Mistakes(mistakes)) = Outcome::Wedge(own).finite() else {
+        assert_eq!(finite(&*own), Ok(()));
+        own.averages.energy_per_cycle.values_mut().next().unwrap().value = f64::NAN;
+        let Err(Refused::Mistakes(mistakes)) = finite(&*own) else {
             unreachable!("it is not finite");
         };
         assert!(

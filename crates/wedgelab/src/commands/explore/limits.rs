@@ -70,7 +70,7 @@ pub struct TooLong {
 /// The run is longer.
 pub fn check(case: &AnyCase) -> Result<(), TooLong> {
     let [duration, interval] = case.duration_and_interval();
-    if matches!(case, AnyCase::Car(_)) && duration > CAR_SECONDS {
+    if case.car().is_some() && duration > CAR_SECONDS {
         return Err(TooLong {
             path: "simulation.duration",
             message: format!("{duration} s of a car are more than {CAR_SECONDS} s, which is the most here"),

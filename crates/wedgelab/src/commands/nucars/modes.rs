@@ -15,7 +15,7 @@ use nucars::truck::{Choices, Truck};
 
 use super::load::print_findings;
 use crate::failure::{Failure, INPUT, Message};
-use crate::table::TerminalTable;
+use report::terminal::TerminalTable;
 
 /// Print natural frequencies and shapes of a system
 ///

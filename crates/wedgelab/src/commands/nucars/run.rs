@@ -10,21 +10,22 @@ use nucars::file_sets::{self, RunFiles, find, kind, load};
 use nucars::truck::{Choices, Wedges, Yaw};
 use quantity::{Kind, Quantity, nearest};
 use report::half_truck_files;
+use report::models::ReportCase;
 use report::page;
+use report::terminal::TerminalTable;
 use study::half_truck::catalog::{self, CatalogEntry, YawCase};
 use study::half_truck::files::{Settings, case_of_run};
-use study::half_truck::{HalfTruckCase, HalfTruckStart, HalfTruckSummary, options};
+use study::half_truck::{HalfTruckCase, HalfTruckStart, options};
 
 use super::files::Instead;
 use super::load::print_findings;
 use crate::commands::run::is_built_in;
 use crate::drawn::Drawn;
-use crate::execute::{compute_with_contacts, unsound, write, write_outcome, write_page};
+use crate::execute::{Done, compute_shown, unsound, write, write_outcome, write_page};
 use crate::failure::{Failure, Message, say};
 use crate::folders;
 use crate::interrupt;
 use crate::progress::Progress;
-use crate::table::TerminalTable;
 use crate::units::OutputUnits;
 
 /// The files of the figure.
@@ -169,24 +170,25 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let folder = folders::check(path, &names, arguments.force)?;
     let progress = Progress::new(1, arguments.quiet);
     interrupt::stops_run();
-    let done = compute_with_contacts(&case, &progress)
-        .and_then(|(done, contacts)| write(&done, &case, &folder, &progress).map(|()| (done, contacts)));
+    let done = compute_shown(&case, &progress)
+        .and_then(|(done, along)| write(&done, &case, &folder, &progress).map(|()| (done, along)));
     progress.finish();
-    let (done, contacts) = done?;
-    let figure = Drawn::of(&page::half_truck_run::loops(&case, &done.result).figure)?;
+    let (Done { result, wall }, along) = done?;
+    let figure = Drawn::of(&page::half_truck_run::loops(&case, &result).figure)?;
     let figures = folders::check(folder.path().to_owned(), &FIGURE, true)?;
     figures.write(|files| figure.add(files, FIGURE[0], FIGURE[1]))?;
-    write_page(&folder, || {
-        page::half_truck_run::render(&case, &done.result, contacts.as_ref())
-    })?;
-    let summary = &done.result.summary;
+    let shown = case.shown(result, along);
+    write_page(&folder, || HalfTruckCase::page(&shown))?;
+    let (case, result) = HalfTruckCase::parts(&shown);
+    let summary = &result.summary;
+    let (table, about) = HalfTruckCase::in_words(summary, wall);
     if summary.yaw.as_ref().is_some_and(|yaw| yaw.is_missed()) {
         say("  --yaw drop leaves out the springs that hold it, --yaw drive moves their input bodies along");
     }
     let mut out = io::stdout().lock();
     writeln!(out, "{}\n", summary.title)?;
     write_outcome(summary, &mut out)?;
-    table(summary).write(&mut out)?;
+    table.write(&mut out)?;
     if !case.wedge_notes.is_empty() {
         writeln!(out, "\nWedges as bodies:")?;
         for note in &case.wedge_notes {
@@ -195,7 +197,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
     writeln!(
         out,
-        "\n{TABLE_NOTE}\n\
+        "\n{about}\n\
          Relative residual of the energy ledger: {:.1e}, the largest at any output time over the largest \
          of work, losses and\nchange of stored energy.\n\nWritten into {}: {} (open it in a browser).",
         summary.largest_relative_residual,
@@ -374,48 +376,4 @@ fn list() -> Result<ExitCode, Failure> {
     let mut out = io::stdout().lock();
     shown.write(&mut out)?;
     Ok(ExitCode::SUCCESS)
-}
-
-/// The note that explains the columns of the table.
-const TABLE_NOTE: &str = "\
-Mean force: column friction on the side frame, positive up, averaged while the input goes up or down, over \
-the output times after
-the first half period in the window: mid stroke (constant damping), the input faster than 0.9 of its peak \
-speed; lower stroke
-(variable damping), faster than 0.25 of it, and lower than 0.3 of its amplitude. Energy per cycle: lost in \
-friction at the column.
-Jammed: share of the output times without steady sliding, held by the limit alone.";
-
-/// Returns the table of wedges.
-fn table(summary: &HalfTruckSummary) -> TerminalTable {
-    let units = summary.units;
-    let (force, energy) = (Kind::Force.label(units), Kind::Energy.label(units));
-    let mut table = TerminalTable::new(
-        2,
-        &[
-            ("wedge", ""),
-            ("window", "of mean force"),
-            ("mean force, up", force),
-            ("mean force, down", force),
-            ("energy per cycle", energy),
-            ("largest normal force", force),
-            ("jammed", "%"),
-        ],
-    );
-    for (number, wedge) in &summary.wedges {
-        let cell = |measure: &Option<study::summary::SummaryValue>| {
-            let value = measure.as_ref().map(|measure| format!("{:.1}", measure.value));
-            value.unwrap_or_else(|| "-".to_owned())
-        };
-        table.row([
-            number.clone(),
-            wedge.window.clone(),
-            cell(&wedge.up),
-            cell(&wedge.down),
-            cell(&wedge.energy_per_cycle),
-            cell(&wedge.largest_normal_force),
-            format!("{:.1}", 100.0 * wedge.jammed),
-        ]);
-    }
-    table
 }

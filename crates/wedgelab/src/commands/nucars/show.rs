@@ -12,7 +12,7 @@ use nucars::show;
 
 use super::load::print_findings;
 use crate::failure::{Failure, INPUT, Message};
-use crate::table::TerminalTable;
+use report::terminal::TerminalTable;
 
 /// Print bodies, connections, characteristics and functions of a system file as tables
 ///

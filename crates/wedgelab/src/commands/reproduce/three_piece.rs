@@ -15,7 +15,7 @@ use study::truck::summary::TruckSummary;
 use study::truck::{TruckCase, builtin};
 
 use super::draw;
-use crate::execute::{compute, compute_with_contacts, write_quietly};
+use crate::execute::{compute, compute_shown, write_quietly};
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -92,7 +92,7 @@ fn one(planned: Planned, progress: &Progress) -> Result<Option<Made>, Failure> {
         Planned::Variant(variant) => (variant.key, variant.case, None),
     };
     let (done, contacts) = match &folder {
-        Some(_) => compute_with_contacts(&case, progress)?,
+        Some(_) => compute_shown(&case, progress)?,
         None => (compute(&case, progress)?, None),
     };
     if interrupt::is_reason(done.result.summary.stopped.as_ref()) {

@@ -4,13 +4,13 @@
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
-use std::sync::Arc;
 
 use report::run_files::RunFiles;
 use report::study_folder::SERIES;
 use staging::Folder;
 use study::design::Study;
-use study::models::AnyCase;
+use study::each_case;
+use study::models::ModelCase;
 
 use crate::execute::{execute_whole, unsound};
 use crate::failure::{Failure, Message};
@@ -25,30 +25,15 @@ pub fn write(study: &Study, out: &Path, numbers: &[u64], quiet: bool) -> Result<
         "stopping: the run under way is not written (once more: ends at once)",
         "the runs that were written before are whole; the same command computes all of them again",
     );
-    let names = match study.base {
-        AnyCase::Wedge(ref own) => own.names(&own.output_files()),
-        AnyCase::HalfTruck(ref own) => own.names(&own.output_files()),
-        AnyCase::Truck(ref own) => own.names(&own.output_files()),
-        AnyCase::Car(ref own) => own.names(&own.output_files()),
-        AnyCase::Vehicle(ref own) => own.names(&own.output_files()),
-    };
+    let names = each_case!(&study.base, own => own.names(&own.output_files()));
     let (mut written, mut failures) = (Vec::new(), Vec::new());
     for number in numbers {
         let path = out.join(SERIES).join(number.to_string());
         let name = format!("{}_{number}", study.name);
         // The same run gives the same files.
         let folder = folders::check(&path, &names, true)?;
-        let whole = match study.case(*number)? {
-            AnyCase::Wedge(case) => one(&case.named(&name), &folder, &progress)?,
-            AnyCase::HalfTruck(case) => {
-                let mut case = Arc::unwrap_or_clone(case);
-                case.name = name;
-                one(&case, &folder, &progress)?
-            }
-            AnyCase::Truck(case) => one(&case.named(&name), &folder, &progress)?,
-            AnyCase::Car(case) => one(&case.named(&name), &folder, &progress)?,
-            AnyCase::Vehicle(case) => one(&case.named(&name), &folder, &progress)?,
-        };
+        let case = study.case(*number)?.named(&name);
+        let whole = each_case!(&case, case => one(&**case, &folder, &progress))?;
         let Some(failure) = whole else {
             progress.finish();
             return Err(interrupted(numbers, written.len()));

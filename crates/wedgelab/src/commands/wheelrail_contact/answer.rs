@@ -3,10 +3,9 @@
 use std::io::{self, Write};
 
 use quantity::{INCH, POUND_FORCE, System as Units};
+use report::terminal::TerminalTable;
 use serde_json::{Map, Value, json};
 use wheelrail::loaded::{LoadedPatch, LoadedWheel, Seat};
-
-use crate::table::TerminalTable;
 
 /// A unit: the end of a key in JSON, its name in a table, and the factor to it from SI.
 #[derive(Clone, Copy, Debug)]

@@ -1,4 +1,4 @@
-//! Tables on the standard output.
+//! Tables on the terminal.
 
 use std::io::{self, Write};
 
@@ -11,6 +11,7 @@ pub struct TerminalTable {
 
 impl TerminalTable {
     /// Returns a table with the names and units of its columns; the first `left` ones are words.
+    #[must_use]
     pub fn new(left: usize, head: &[(&str, &str)]) -> Self {
         let line = |of: fn(&(&str, &str)) -> String| head.iter().map(of).collect();
         Self {
@@ -28,6 +29,9 @@ impl TerminalTable {
     }
 
     /// Writes it.
+    ///
+    /// # Errors
+    /// The writer's.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
         let width = |column: usize| {
