@@ -128,7 +128,7 @@ pub trait RunFiles: ModelCase {
 }
 
 /// Returns the names of the files of the table.
-pub fn table_names(output: &OutputFiles) -> impl Iterator<Item = &'static str> {
+fn table_names(output: &OutputFiles) -> impl Iterator<Item = &'static str> {
     let written = TABLES.into_iter().filter(|(format, _)| output.has(*format));
     written.map(|(_, name)| name)
 }

@@ -26,11 +26,114 @@ use crate::view::run::{Detail, Recording};
 
 impl ReportSummary for CarSummary {
     fn key_numbers(&self, _: Option<&AnyCase>) -> Vec<KeyNumber> {
-        key_numbers(self)
+        let mut numbers: Vec<KeyNumber> = self
+            .limits
+            .iter()
+            .map(|limit| {
+                let at = limit.statistic.replace('_', " ");
+                let window = format!("worst after settling, at {at}");
+                KeyNumber::plain(&limit.quantity, window, limit.value, &limit.unit)
+            })
+            .collect();
+        for ((what, value), kind) in [
+            ("speed at the start", &self.speed[0]),
+            ("speed at the end", &self.speed[1]),
+            ("distance at the end", &self.distance[1]),
+        ]
+        .into_iter()
+        .zip([Kind::TravelSpeed, Kind::TravelSpeed, Kind::Distance])
+        {
+            numbers.push(KeyNumber::new(what, "one output time", value, kind));
+        }
+        if let Some(first) = self.wedge_losses.values().next() {
+            let sum = SummaryValue {
+                value: self.wedge_losses.values().map(|loss| loss.value).sum(),
+                unit: first.unit.clone(),
+            };
+            numbers.push(KeyNumber::new(
+                "friction energy of all wedges",
+                "the whole run",
+                &sum,
+                Kind::Energy,
+            ));
+        }
+        numbers.extend(of_rise(&self.wedge_rise));
+        numbers
     }
 
     fn overlays(&self, _: &ResultTable) -> Vec<Wanted> {
-        overlays()
+        let wheels = |name: &str, title: &str, caption: &str, what: &str| {
+            let places = [
+                (1, "left", "(a) axle 1, left"),
+                (1, "right", "(b) axle 1, right"),
+                (3, "left", "(c) axle 3, left"),
+                (3, "right", "(d) axle 3, right"),
+            ];
+            let own = places.map(|(axle, side, title)| (format!("axle_{axle}_{side}_{what}"), title));
+            let own: Vec<(&str, &str)> = own.iter().map(|(name, title)| (name.as_str(), *title)).collect();
+            Wanted::new(name, title, caption, "distance", &own)
+        };
+        vec![
+            wheels(
+                "wheel_loads",
+                "Vertical wheel forces, leading axles",
+                "Vertical force on the rail, filtered where the run filters.",
+                "vertical",
+            ),
+            wheels(
+                "lateral_forces",
+                "Lateral wheel forces, leading axles",
+                "Lateral force on the rail, positive where it spreads the gauge, filtered where the run filters.",
+                "lateral",
+            ),
+            wheels(
+                "l_over_v",
+                "L/V, leading axles",
+                "Lateral over vertical force, filtered where the run filters.",
+                "l_over_v",
+            ),
+            Wanted::new(
+                "car_body",
+                "Car body",
+                "Roll against the track, accelerations at the front truck center, speed.",
+                "distance",
+                &[
+                    ("body_roll", "(a) roll"),
+                    ("body_at_truck_1_lateral_acceleration", "(b) lateral acceleration"),
+                    (
+                        "body_at_truck_1_vertical_acceleration",
+                        "(c) vertical acceleration",
+                    ),
+                    ("speed", "(d) speed"),
+                ],
+            ),
+            Wanted::new(
+                "car_trucks",
+                "Trucks",
+                "Warp angles, and the normal force of the leading left column of each truck.",
+                "distance",
+                &[
+                    ("truck_1_warp_angle", "(a) warp, front truck"),
+                    ("truck_2_warp_angle", "(b) warp, rear truck"),
+                    ("truck_1_leading_left_column_normal", "(c) column, front truck"),
+                    ("truck_2_leading_left_column_normal", "(d) column, rear truck"),
+                ],
+            ),
+            Wanted::new(
+                "car_warp_loops",
+                "Warp moment over warp angle",
+                "Warp moment on each bolster over the warp angle of its truck.",
+                "",
+                &[],
+            )
+            .with([1, 2].map(|truck| {
+                [
+                    format!("truck_{truck}_warp_angle"),
+                    format!("truck_{truck}_warp_moment"),
+                    ["(a) front truck", "(b) rear truck"][truck - 1].to_owned(),
+                ]
+            })),
+        ]
     }
 
     fn over_distance(&self) -> bool {
@@ -127,117 +230,6 @@ impl ReportCase for CarCase {
 }
 
 impl RunFiles for CarCase {}
-
-fn key_numbers(own: &CarSummary) -> Vec<KeyNumber> {
-    let mut numbers: Vec<KeyNumber> = own
-        .limits
-        .iter()
-        .map(|limit| {
-            let at = limit.statistic.replace('_', " ");
-            let window = format!("worst after settling, at {at}");
-            KeyNumber::plain(&limit.quantity, window, limit.value, &limit.unit)
-        })
-        .collect();
-    for ((what, value), kind) in [
-        ("speed at the start", &own.speed[0]),
-        ("speed at the end", &own.speed[1]),
-        ("distance at the end", &own.distance[1]),
-    ]
-    .into_iter()
-    .zip([Kind::TravelSpeed, Kind::TravelSpeed, Kind::Distance])
-    {
-        numbers.push(KeyNumber::new(what, "one output time", value, kind));
-    }
-    if let Some(first) = own.wedge_losses.values().next() {
-        let sum = SummaryValue {
-            value: own.wedge_losses.values().map(|loss| loss.value).sum(),
-            unit: first.unit.clone(),
-        };
-        numbers.push(KeyNumber::new(
-            "friction energy of all wedges",
-            "the whole run",
-            &sum,
-            Kind::Energy,
-        ));
-    }
-    numbers.extend(of_rise(&own.wedge_rise));
-    numbers
-}
-
-fn overlays() -> Vec<Wanted> {
-    let wheels = |name: &str, title: &str, caption: &str, what: &str| {
-        let places = [
-            (1, "left", "(a) axle 1, left"),
-            (1, "right", "(b) axle 1, right"),
-            (3, "left", "(c) axle 3, left"),
-            (3, "right", "(d) axle 3, right"),
-        ];
-        let own = places.map(|(axle, side, title)| (format!("axle_{axle}_{side}_{what}"), title));
-        let own: Vec<(&str, &str)> = own.iter().map(|(name, title)| (name.as_str(), *title)).collect();
-        Wanted::new(name, title, caption, "distance", &own)
-    };
-    vec![
-        wheels(
-            "wheel_loads",
-            "Vertical wheel forces, leading axles",
-            "Vertical force on the rail, filtered where the run filters.",
-            "vertical",
-        ),
-        wheels(
-            "lateral_forces",
-            "Lateral wheel forces, leading axles",
-            "Lateral force on the rail, positive where it spreads the gauge, filtered where the run filters.",
-            "lateral",
-        ),
-        wheels(
-            "l_over_v",
-            "L/V, leading axles",
-            "Lateral over vertical force, filtered where the run filters.",
-            "l_over_v",
-        ),
-        Wanted::new(
-            "car_body",
-            "Car body",
-            "Roll against the track, accelerations at the front truck center, speed.",
-            "distance",
-            &[
-                ("body_roll", "(a) roll"),
-                ("body_at_truck_1_lateral_acceleration", "(b) lateral acceleration"),
-                (
-                    "body_at_truck_1_vertical_acceleration",
-                    "(c) vertical acceleration",
-                ),
-                ("speed", "(d) speed"),
-            ],
-        ),
-        Wanted::new(
-            "car_trucks",
-            "Trucks",
-            "Warp angles, and the normal force of the leading left column of each truck.",
-            "distance",
-            &[
-                ("truck_1_warp_angle", "(a) warp, front truck"),
-                ("truck_2_warp_angle", "(b) warp, rear truck"),
-                ("truck_1_leading_left_column_normal", "(c) column, front truck"),
-                ("truck_2_leading_left_column_normal", "(d) column, rear truck"),
-            ],
-        ),
-        Wanted::new(
-            "car_warp_loops",
-            "Warp moment over warp angle",
-            "Warp moment on each bolster over the warp angle of its truck.",
-            "",
-            &[],
-        )
-        .with([1, 2].map(|truck| {
-            [
-                format!("truck_{truck}_warp_angle"),
-                format!("truck_{truck}_warp_moment"),
-                ["(a) front truck", "(b) rear truck"][truck - 1].to_owned(),
-            ]
-        })),
-    ]
-}
 
 fn limits_beside(summary: &CarSummary) -> (TerminalTable, String) {
     if summary.limits.is_empty() {

@@ -21,11 +21,82 @@ use crate::{half_truck_files, page};
 
 impl ReportSummary for HalfTruckSummary {
     fn key_numbers(&self, _: Option<&AnyCase>) -> Vec<KeyNumber> {
-        key_numbers(self)
+        let mut numbers = Vec::new();
+        let over = "whole cycles after the first half period";
+        for (number, wedge) in &self.wedges {
+            let rows = [
+                (
+                    "mean column friction, bolster going up",
+                    branch_window(None),
+                    &wedge.up,
+                    Kind::Force,
+                ),
+                (
+                    "mean column friction, bolster going down",
+                    branch_window(None),
+                    &wedge.down,
+                    Kind::Force,
+                ),
+                (
+                    "friction energy at the column per cycle",
+                    over,
+                    &wedge.energy_per_cycle,
+                    Kind::Energy,
+                ),
+                (
+                    "largest normal force of the column",
+                    ALL_TIMES,
+                    &wedge.largest_normal_force,
+                    Kind::Force,
+                ),
+            ];
+            for (what, window, value, kind) in rows {
+                let what = format!("wedge {number}: {what}");
+                numbers.extend(
+                    value
+                        .iter()
+                        .map(|value| KeyNumber::new(&what, window, value, kind)),
+                );
+            }
+        }
+        numbers
     }
 
     fn overlays(&self, _: &ResultTable) -> Vec<Wanted> {
-        overlays(self.wedges.keys().map(String::as_str))
+        let numbers: Vec<&str> = self.wedges.keys().map(String::as_str).collect();
+        let panels = |x: &dyn Fn(&str) -> String, what: &str| -> Vec<[String; 3]> {
+            let of = |number: &&str| {
+                [
+                    x(number),
+                    format!("wedge_{number}_{what}"),
+                    format!("wedge {number}"),
+                ]
+            };
+            numbers.iter().map(of).collect()
+        };
+        let stroke = |number: &str| format!("wedge_{number}_stroke");
+        let named = |name: &str, title: &str, caption: &str, panels: Vec<[String; 3]>, loops: bool| Wanted {
+            panels,
+            loops,
+            ..Wanted::new(name, title, caption, "", &[])
+        };
+        vec![
+            named(
+                "half_truck_loops",
+                "Column friction over stroke",
+                "Friction of each column on the side frame, positive up, over the vertical stroke of the bolster \
+                 against the side frame.",
+                panels(&stroke, "column_friction"),
+                true,
+            ),
+            named(
+                "half_truck_normals",
+                "Normal forces of the columns",
+                "Normal force of each wedge at its column.",
+                panels(&|_| "time".to_owned(), "column_normal_force"),
+                false,
+            ),
+        ]
     }
 }
 
@@ -72,85 +143,6 @@ impl RunFiles for HalfTruckCase {
     ) -> io::Result<()> {
         half_truck_files::write_mat(self, result, self.script_interval, out)
     }
-}
-
-fn key_numbers(own: &HalfTruckSummary) -> Vec<KeyNumber> {
-    let mut numbers = Vec::new();
-    let over = "whole cycles after the first half period";
-    for (number, wedge) in &own.wedges {
-        let rows = [
-            (
-                "mean column friction, bolster going up",
-                branch_window(None),
-                &wedge.up,
-                Kind::Force,
-            ),
-            (
-                "mean column friction, bolster going down",
-                branch_window(None),
-                &wedge.down,
-                Kind::Force,
-            ),
-            (
-                "friction energy at the column per cycle",
-                over,
-                &wedge.energy_per_cycle,
-                Kind::Energy,
-            ),
-            (
-                "largest normal force of the column",
-                ALL_TIMES,
-                &wedge.largest_normal_force,
-                Kind::Force,
-            ),
-        ];
-        for (what, window, value, kind) in rows {
-            let what = format!("wedge {number}: {what}");
-            numbers.extend(
-                value
-                    .iter()
-                    .map(|value| KeyNumber::new(&what, window, value, kind)),
-            );
-        }
-    }
-    numbers
-}
-
-fn overlays<'w>(wedges: impl Iterator<Item = &'w str>) -> Vec<Wanted> {
-    let numbers: Vec<&str> = wedges.collect();
-    let panels = |x: &dyn Fn(&str) -> String, what: &str| -> Vec<[String; 3]> {
-        let of = |number: &&str| {
-            [
-                x(number),
-                format!("wedge_{number}_{what}"),
-                format!("wedge {number}"),
-            ]
-        };
-        numbers.iter().map(of).collect()
-    };
-    let stroke = |number: &str| format!("wedge_{number}_stroke");
-    let named = |name: &str, title: &str, caption: &str, panels: Vec<[String; 3]>, loops: bool| Wanted {
-        panels,
-        loops,
-        ..Wanted::new(name, title, caption, "", &[])
-    };
-    vec![
-        named(
-            "half_truck_loops",
-            "Column friction over stroke",
-            "Friction of each column on the side frame, positive up, over the vertical stroke of the bolster \
-             against the side frame.",
-            panels(&stroke, "column_friction"),
-            true,
-        ),
-        named(
-            "half_truck_normals",
-            "Normal forces of the columns",
-            "Normal force of each wedge at its column.",
-            panels(&|_| "time".to_owned(), "column_normal_force"),
-            false,
-        ),
-    ]
 }
 
 /// The note that explains the columns of the table.

@@ -27,11 +27,154 @@ use crate::view::run::{Detail, Recording};
 
 impl ReportSummary for TruckSummary {
     fn key_numbers(&self, _: Option<&AnyCase>) -> Vec<KeyNumber> {
-        key_numbers(self)
+        let mut numbers = Vec::new();
+        let over = format!("{} after the first", cycles(self.cycles.count));
+        let energy = |value: f64| SummaryValue {
+            value,
+            unit: Kind::Energy.label(self.units).to_owned(),
+        };
+        if let Some(work) = &self.cycles.work {
+            numbers.push(KeyNumber::new(
+                "work of all motions per cycle",
+                &over,
+                work,
+                Kind::Energy,
+            ));
+        }
+        if let Some(loss) = self.cycles.loss_of_wedges(&WEDGE_NAMES) {
+            numbers.push(KeyNumber::new(
+                "friction energy of the four wedges per cycle",
+                &over,
+                &energy(loss),
+                Kind::Energy,
+            ));
+        }
+        if let Some(equivalent) = &self.energy.equivalent {
+            let over = cycles(self.energy.cycles);
+            numbers.push(KeyNumber::new(
+                "equivalent damping of all losses",
+                &over,
+                &equivalent.damping,
+                Kind::Damping,
+            ));
+            if let Some(ratio) = equivalent.damping_ratio {
+                numbers.push(KeyNumber::plain("damping ratio of all losses", &over, ratio, ""));
+            }
+        }
+        for (angle, value) in &self.warp_stiffness {
+            numbers.push(KeyNumber::plain(
+                format!("warp stiffness to {angle}"),
+                "secant from rest to this angle",
+                value.value,
+                &value.unit,
+            ));
+        }
+        let suffix = Kind::Force.suffix(self.units);
+        let of = |wedge: &'static str| {
+            Some((
+                wedge,
+                self.extremes.get(&format!("{wedge}_column_normal_{suffix}"))?,
+            ))
+        };
+        let columns: Vec<(&str, &Extremes)> = WEDGE_NAMES.into_iter().filter_map(of).collect();
+        let number = |what: &str, (wedge, value, time): (&str, f64, f64)| KeyNumber {
+            what: what.to_owned(),
+            window: format!(
+                "{ALL_TIMES}; {} wedge at {} s",
+                wedge.replace('_', " "),
+                digits(time)
+            ),
+            value: SummaryValue {
+                value,
+                unit: Kind::Force.label(self.units).to_owned(),
+            },
+            kind: Some(Kind::Force),
+        };
+        let least = columns
+            .iter()
+            .min_by(|(_, a), (_, b)| a.minimum.total_cmp(&b.minimum));
+        let largest = columns
+            .iter()
+            .max_by(|(_, a), (_, b)| a.maximum.total_cmp(&b.maximum));
+        if let (Some((least, a)), Some((largest, b))) = (least, largest) {
+            numbers.extend([
+                number(
+                    "least normal force of a column",
+                    (least, a.minimum, a.minimum_time),
+                ),
+                number(
+                    "largest normal force of a column",
+                    (largest, b.maximum, b.maximum_time),
+                ),
+            ]);
+        }
+        numbers.extend(of_rise(&self.wedge_rise));
+        numbers
     }
 
     fn overlays(&self, _: &ResultTable) -> Vec<Wanted> {
-        overlays()
+        let of_wedges = |what: &str| -> Vec<(String, String)> {
+            let letters = ["(a)", "(b)", "(c)", "(d)"].into_iter();
+            let wedges = WEDGE_NAMES.into_iter().zip(letters);
+            wedges
+                .map(|(wedge, letter)| (format!("{wedge}_{what}"), format!("{letter} {}", words(wedge))))
+                .collect()
+        };
+        let wedges = |name: &str, title: &str, caption: &str, x: &str, what: &str| {
+            let own = of_wedges(what);
+            let own: Vec<(&str, &str)> = own
+                .iter()
+                .map(|(name, title)| (name.as_str(), title.as_str()))
+                .collect();
+            Wanted::new(name, title, caption, x, &own)
+        };
+        vec![
+            Wanted::new(
+                "nest_loops",
+                "Nest force over travel",
+                "Load of each nest with its wedges over the bolster's vertical displacement, positive up.",
+                "bolster_z",
+                &[
+                    ("left_nest_vertical_force", "(a) left nest"),
+                    ("right_nest_vertical_force", "(b) right nest"),
+                ],
+            )
+            .looped(),
+            Wanted::new(
+                "warp_loop",
+                "Warp moment over warp angle",
+                "Warp moment on the bolster over the warp angle.",
+                "warp_angle",
+                &[("warp_moment", "")],
+            )
+            .looped(),
+            wedges(
+                "column_friction",
+                "Column friction of the wedges",
+                "Friction of each column on the side frame, positive up.",
+                "time",
+                "column_friction_z",
+            ),
+            wedges(
+                "column_normals",
+                "Normal forces of the columns",
+                "Normal force of each wedge at its column.",
+                "time",
+                "column_normal",
+            ),
+            Wanted::new(
+                "truck_motion",
+                "Motion over time",
+                "The bolster's displacement and roll, and the warp angle.",
+                "time",
+                &[
+                    ("bolster_z", "(a) bolster, vertical"),
+                    ("bolster_roll", "(b) bolster, roll"),
+                    ("warp_angle", "(c) warp angle"),
+                    ("warp_moment", "(d) warp moment"),
+                ],
+            ),
+        ]
     }
 
     fn statics(&self) -> Option<&StaticTable> {
@@ -118,157 +261,6 @@ impl ReportCase for TruckCase {
 }
 
 impl RunFiles for TruckCase {}
-
-fn key_numbers(own: &TruckSummary) -> Vec<KeyNumber> {
-    let mut numbers = Vec::new();
-    let over = format!("{} after the first", cycles(own.cycles.count));
-    let energy = |value: f64| SummaryValue {
-        value,
-        unit: Kind::Energy.label(own.units).to_owned(),
-    };
-    if let Some(work) = &own.cycles.work {
-        numbers.push(KeyNumber::new(
-            "work of all motions per cycle",
-            &over,
-            work,
-            Kind::Energy,
-        ));
-    }
-    if let Some(loss) = own.cycles.loss_of_wedges(&WEDGE_NAMES) {
-        numbers.push(KeyNumber::new(
-            "friction energy of the four wedges per cycle",
-            &over,
-            &energy(loss),
-            Kind::Energy,
-        ));
-    }
-    if let Some(equivalent) = &own.energy.equivalent {
-        let over = cycles(own.energy.cycles);
-        numbers.push(KeyNumber::new(
-            "equivalent damping of all losses",
-            &over,
-            &equivalent.damping,
-            Kind::Damping,
-        ));
-        if let Some(ratio) = equivalent.damping_ratio {
-            numbers.push(KeyNumber::plain("damping ratio of all losses", &over, ratio, ""));
-        }
-    }
-    for (angle, value) in &own.warp_stiffness {
-        numbers.push(KeyNumber::plain(
-            format!("warp stiffness to {angle}"),
-            "secant from rest to this angle",
-            value.value,
-            &value.unit,
-        ));
-    }
-    let suffix = Kind::Force.suffix(own.units);
-    let of = |wedge: &'static str| {
-        Some((
-            wedge,
-            own.extremes.get(&format!("{wedge}_column_normal_{suffix}"))?,
-        ))
-    };
-    let columns: Vec<(&str, &Extremes)> = WEDGE_NAMES.into_iter().filter_map(of).collect();
-    let number = |what: &str, (wedge, value, time): (&str, f64, f64)| KeyNumber {
-        what: what.to_owned(),
-        window: format!(
-            "{ALL_TIMES}; {} wedge at {} s",
-            wedge.replace('_', " "),
-            digits(time)
-        ),
-        value: SummaryValue {
-            value,
-            unit: Kind::Force.label(own.units).to_owned(),
-        },
-        kind: Some(Kind::Force),
-    };
-    let least = columns
-        .iter()
-        .min_by(|(_, a), (_, b)| a.minimum.total_cmp(&b.minimum));
-    let largest = columns
-        .iter()
-        .max_by(|(_, a), (_, b)| a.maximum.total_cmp(&b.maximum));
-    if let (Some((least, a)), Some((largest, b))) = (least, largest) {
-        numbers.extend([
-            number(
-                "least normal force of a column",
-                (least, a.minimum, a.minimum_time),
-            ),
-            number(
-                "largest normal force of a column",
-                (largest, b.maximum, b.maximum_time),
-            ),
-        ]);
-    }
-    numbers.extend(of_rise(&own.wedge_rise));
-    numbers
-}
-
-fn overlays() -> Vec<Wanted> {
-    let of_wedges = |what: &str| -> Vec<(String, String)> {
-        let letters = ["(a)", "(b)", "(c)", "(d)"].into_iter();
-        let wedges = WEDGE_NAMES.into_iter().zip(letters);
-        wedges
-            .map(|(wedge, letter)| (format!("{wedge}_{what}"), format!("{letter} {}", words(wedge))))
-            .collect()
-    };
-    let wedges = |name: &str, title: &str, caption: &str, x: &str, what: &str| {
-        let own = of_wedges(what);
-        let own: Vec<(&str, &str)> = own
-            .iter()
-            .map(|(name, title)| (name.as_str(), title.as_str()))
-            .collect();
-        Wanted::new(name, title, caption, x, &own)
-    };
-    vec![
-        Wanted::new(
-            "nest_loops",
-            "Nest force over travel",
-            "Load of each nest with its wedges over the bolster's vertical displacement, positive up.",
-            "bolster_z",
-            &[
-                ("left_nest_vertical_force", "(a) left nest"),
-                ("right_nest_vertical_force", "(b) right nest"),
-            ],
-        )
-        .looped(),
-        Wanted::new(
-            "warp_loop",
-            "Warp moment over warp angle",
-            "Warp moment on the bolster over the warp angle.",
-            "warp_angle",
-            &[("warp_moment", "")],
-        )
-        .looped(),
-        wedges(
-            "column_friction",
-            "Column friction of the wedges",
-            "Friction of each column on the side frame, positive up.",
-            "time",
-            "column_friction_z",
-        ),
-        wedges(
-            "column_normals",
-            "Normal forces of the columns",
-            "Normal force of each wedge at its column.",
-            "time",
-            "column_normal",
-        ),
-        Wanted::new(
-            "truck_motion",
-            "Motion over time",
-            "The bolster's displacement and roll, and the warp angle.",
-            "time",
-            &[
-                ("bolster_z", "(a) bolster, vertical"),
-                ("bolster_roll", "(b) bolster, roll"),
-                ("warp_angle", "(c) warp angle"),
-                ("warp_moment", "(d) warp moment"),
-            ],
-        ),
-    ]
-}
 
 /// The note that explains the columns of a truck's table.
 const NOTE: &str = "\

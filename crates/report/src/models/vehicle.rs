@@ -21,11 +21,48 @@ use crate::view::run::{Detail, Recording};
 
 impl ReportSummary for VehicleSummary {
     fn key_numbers(&self, _: Option<&AnyCase>) -> Vec<KeyNumber> {
-        key_numbers(self)
+        let mut numbers = Vec::new();
+        for (number, vibration) in (1..).zip(&self.vibrations).take(8) {
+            let window = "about the rest";
+            let what = format!("natural frequency {number}");
+            numbers.push(KeyNumber::plain(what, window, vibration.frequency_hz, "Hz"));
+            let what = format!("damping ratio {number}");
+            numbers.push(KeyNumber::plain(what, window, vibration.damping_ratio, ""));
+        }
+        for (name, force) in &self.forces_at_start {
+            let what = name.replace('_', " ");
+            numbers.push(KeyNumber::new(what, "at the start", force, Kind::Force));
+        }
+        numbers
     }
 
+    /// The displacements of a vehicle's bodies, and the forces of its elements.
     fn overlays(&self, table: &ResultTable) -> Vec<Wanted> {
-        overlays(table)
+        let of = |kind: Kind, ending: &str| -> Vec<(String, String)> {
+            let own = table.columns().iter();
+            let own = own.filter(|column| column.kind == kind && column.name.ends_with(ending));
+            own.map(|column| (column.name.clone(), words(&column.name)))
+                .take(6)
+                .collect()
+        };
+        let wanted = |name: &str, title: &str, caption: &str, own: Vec<(String, String)>| {
+            let own: Vec<(&str, &str)> = own.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect();
+            Wanted::new(name, title, caption, "time", &own)
+        };
+        vec![
+            wanted(
+                "vehicle_motion",
+                "Vertical motion over time",
+                "Displacements of bodies upwards, the first six.",
+                of(Kind::Length, "_z"),
+            ),
+            wanted(
+                "vehicle_forces",
+                "Forces over time",
+                "Forces of elements, the first six.",
+                of(Kind::Force, "_force"),
+            ),
+        ]
     }
 }
 
@@ -59,51 +96,6 @@ impl ReportCase for VehicleCase {
 }
 
 impl RunFiles for VehicleCase {}
-
-fn key_numbers(own: &VehicleSummary) -> Vec<KeyNumber> {
-    let mut numbers = Vec::new();
-    for (number, vibration) in (1..).zip(&own.vibrations).take(8) {
-        let window = "about the rest";
-        let what = format!("natural frequency {number}");
-        numbers.push(KeyNumber::plain(what, window, vibration.frequency_hz, "Hz"));
-        let what = format!("damping ratio {number}");
-        numbers.push(KeyNumber::plain(what, window, vibration.damping_ratio, ""));
-    }
-    for (name, force) in &own.forces_at_start {
-        let what = name.replace('_', " ");
-        numbers.push(KeyNumber::new(what, "at the start", force, Kind::Force));
-    }
-    numbers
-}
-
-/// The displacements of a vehicle's bodies, and the forces of its elements.
-fn overlays(table: &ResultTable) -> Vec<Wanted> {
-    let of = |kind: Kind, ending: &str| -> Vec<(String, String)> {
-        let own = table.columns().iter();
-        let own = own.filter(|column| column.kind == kind && column.name.ends_with(ending));
-        own.map(|column| (column.name.clone(), words(&column.name)))
-            .take(6)
-            .collect()
-    };
-    let wanted = |name: &str, title: &str, caption: &str, own: Vec<(String, String)>| {
-        let own: Vec<(&str, &str)> = own.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect();
-        Wanted::new(name, title, caption, "time", &own)
-    };
-    vec![
-        wanted(
-            "vehicle_motion",
-            "Vertical motion over time",
-            "Displacements of bodies upwards, the first six.",
-            of(Kind::Length, "_z"),
-        ),
-        wanted(
-            "vehicle_forces",
-            "Forces over time",
-            "Forces of elements, the first six.",
-            of(Kind::Force, "_force"),
-        ),
-    ]
-}
 
 const NOTE: &str = "\
 Forces at the start and extremes over all output times. Natural vibrations, extremes of all columns and the

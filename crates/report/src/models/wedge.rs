@@ -32,7 +32,44 @@ impl ReportSummary for Summary {
     }
 
     fn overlays(&self, _: &ResultTable) -> Vec<Wanted> {
-        overlays()
+        vec![
+            Wanted::new(
+                "wedge_loop",
+                "Force over travel",
+                "Vertical wedge force (friction of the column on the side frame, positive up) over the bolster's \
+                 vertical displacement, positive up.",
+                "bolster_vertical",
+                &[("vertical_wedge_force", "")],
+            )
+            .looped(),
+            Wanted::new(
+                "wedge_forces",
+                "Forces over time",
+                "Forces of wedge and coil.",
+                "time",
+                &[
+                    ("vertical_wedge_force", "(a) vertical wedge force"),
+                    (
+                        "vertical_force_on_side_frame",
+                        "(b) with the coil, where it stands there",
+                    ),
+                    ("longitudinal_wedge_force", "(c) longitudinal wedge force"),
+                    ("coil_force", "(d) coil"),
+                ],
+            ),
+            Wanted::new(
+                "wedge_motion",
+                "Motion over time",
+                "Displacements of bolster and wedge.",
+                "time",
+                &[
+                    ("bolster_vertical", "(a) bolster, vertical"),
+                    ("wedge_z", "(b) wedge, vertical"),
+                    ("wedge_x", "(c) wedge, longitudinal"),
+                    ("wedge_yaw", "(d) wedge, yaw"),
+                ],
+            ),
+        ]
     }
 
     fn in_short(&self) -> AnySummary {
@@ -155,47 +192,6 @@ pub(crate) fn key_numbers(own: &Summary, damping: Option<Damping>) -> Vec<KeyNum
         own.units,
     ));
     numbers
-}
-
-fn overlays() -> Vec<Wanted> {
-    vec![
-        Wanted::new(
-            "wedge_loop",
-            "Force over travel",
-            "Vertical wedge force (friction of the column on the side frame, positive up) over the bolster's \
-             vertical displacement, positive up.",
-            "bolster_vertical",
-            &[("vertical_wedge_force", "")],
-        )
-        .looped(),
-        Wanted::new(
-            "wedge_forces",
-            "Forces over time",
-            "Forces of wedge and coil.",
-            "time",
-            &[
-                ("vertical_wedge_force", "(a) vertical wedge force"),
-                (
-                    "vertical_force_on_side_frame",
-                    "(b) with the coil, where it stands there",
-                ),
-                ("longitudinal_wedge_force", "(c) longitudinal wedge force"),
-                ("coil_force", "(d) coil"),
-            ],
-        ),
-        Wanted::new(
-            "wedge_motion",
-            "Motion over time",
-            "Displacements of bolster and wedge.",
-            "time",
-            &[
-                ("bolster_vertical", "(a) bolster, vertical"),
-                ("wedge_z", "(b) wedge, vertical"),
-                ("wedge_x", "(c) wedge, longitudinal"),
-                ("wedge_yaw", "(d) wedge, yaw"),
-            ],
-        ),
-    ]
 }
 
 /// Returns the table of runs; all of them in the same units.

@@ -10,6 +10,24 @@ use super::CarCase;
 use super::regime::Regime;
 use crate::case::CaseError;
 use crate::case::builtin::{BuiltIn, CaseGroup, names_in, text_in};
+use crate::models::ModelKeys;
+
+/// Cases that together have all keys.
+pub(crate) const KEYS: ModelKeys = ModelKeys {
+    cases: &[
+        ("car_tangent_loaded", &[]),
+        ("car_tangent_empty", &[]),
+        ("car_constant_curve_loaded", &[]),
+        ("car_hunting_empty", &[]),
+        ("car_hunting_roller_empty", &[]),
+        ("car_twist_and_roll_loaded", &[]),
+        ("car_286k_loaded", &[]),
+        ("car_286k_loaded", &["truck.load_springs.height=9 in"]),
+    ],
+    // Each truck of a car takes the keys of both.
+    alike: &[["front_truck", "truck"], ["rear_truck", "truck"]],
+    known: CarCase::known_keys,
+};
 
 /// Irregularities of a track of FRA class 4 by spectra, tapered at the start.
 const CLASS_4: &str = "

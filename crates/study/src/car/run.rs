@@ -380,10 +380,7 @@ fn statistics_of(run: &Run<CarCase>, table: &RowTable) -> Statistics {
 }
 
 /// Returns the columns of a car's run, filtered ones included.
-///
-/// # Errors
-/// The parameters make no car.
-pub fn columns(case: &CarCase) -> Result<Vec<Column>, RunError> {
+fn columns(case: &CarCase) -> Result<Vec<Column>, RunError> {
     let raw = CarTable::new(&case.parameters)?.columns().to_vec();
     let is_filtered = |column: &&Column| {
         let of_wheels = column.name.starts_with("axle_")

@@ -11,9 +11,25 @@ pub use thesis::own_name;
 
 use super::problem::Problem;
 use super::{Case, CaseError};
+use crate::models::ModelKeys;
 use quantity::nearest;
 use std::path::Path;
 use std::sync::LazyLock;
+
+/// Cases that together have all keys.
+pub(crate) const KEYS: ModelKeys = ModelKeys {
+    cases: &[
+        ("vdrun_toe_0_psi_0", &[]),
+        ("cdrun_toe_0_psi_0", &[]),
+        ("cdrun_toe_0_psi_0", &["friction.law=bristle"]),
+        (
+            "cdrun_toe_0_psi_0",
+            &[r#"control_coil.table=[["0 in", "0 lbf"], ["1 in", "3000 lbf"]]"#],
+        ),
+    ],
+    alike: &[],
+    known: Case::known_keys,
+};
 
 /// Cases that belong together.
 #[derive(Clone, Debug, PartialEq)]

@@ -71,6 +71,17 @@ pub struct HalfTruckCase {
     pub units: Units,
 }
 
+impl HalfTruckCase {
+    /// Returns the same case under another name.
+    #[must_use]
+    pub fn named(&self, name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            ..self.clone()
+        }
+    }
+}
+
 /// The result of a run.
 pub type HalfTruckResult = RunResult<HalfTruckSummary>;
 

@@ -51,32 +51,24 @@ const OTHERS: [(&str, Kind, &str); 10] = [
     ("steps", Kind::Count, "accepted steps of the integrator"),
 ];
 
-fn definitions() -> Definitions {
-    let worst = WORST
-        .iter()
-        .map(|own| Measure::new(own.name, own.kind, own.text, false));
-    let others = OTHERS
-        .iter()
-        .map(|(name, kind, text)| Measure::new(*name, *kind, *text, true));
-    let of_wedges = |ending: &str, kind: Kind, text: &'static str, always: bool| {
-        let names = wedges().map(|wedge| format!("{wedge}_{ending}"));
-        let all = names.map(|name| Measure::new(name, kind, text, always));
-        all.collect::<Vec<_>>()
-    };
-    let text = "share of the time after settling in which no point of its faces slips";
-    let locked = of_wedges("locked_share", Kind::Dimensionless, text, false);
-    let text = "lost in its friction";
-    let losses = of_wedges("friction_loss", Kind::Energy, text, true);
-    Definitions(worst.chain(others).chain(locked).chain(losses).collect())
-}
-
 impl StudyCase for CarCase {
-    fn named(&self, name: &str) -> Self {
-        Self::named(self, name)
-    }
-
     fn definitions(&self) -> Definitions {
-        definitions()
+        let worst = WORST
+            .iter()
+            .map(|own| Measure::new(own.name, own.kind, own.text, false));
+        let others = OTHERS
+            .iter()
+            .map(|(name, kind, text)| Measure::new(*name, *kind, *text, true));
+        let of_wedges = |ending: &str, kind: Kind, text: &'static str, always: bool| {
+            let names = wedges().map(|wedge| format!("{wedge}_{ending}"));
+            let all = names.map(|name| Measure::new(name, kind, text, always));
+            all.collect::<Vec<_>>()
+        };
+        let text = "share of the time after settling in which no point of its faces slips";
+        let locked = of_wedges("locked_share", Kind::Dimensionless, text, false);
+        let text = "lost in its friction";
+        let losses = of_wedges("friction_loss", Kind::Energy, text, true);
+        Definitions(worst.chain(others).chain(locked).chain(losses).collect())
     }
 
     fn judge(&self) -> Result<Judged, Unmeasured> {

@@ -53,40 +53,6 @@ fn value(measure: Option<&summary::SummaryValue>) -> Option<f64> {
     measure.map(|measure| measure.value)
 }
 
-fn definitions(case: &HalfTruckCase) -> Definitions {
-    let mut all = vec![Measure::new(
-        "energy_per_cycle",
-        Kind::Energy,
-        "lost in the friction of all columns each cycle of the vertical input",
-        false,
-    )];
-    for place in case.wedges() {
-        let number = case.truck.connections[place];
-        all.extend(OF_WEDGES.iter().map(|(name, kind, text, _)| {
-            Measure::new(format!("wedge_{number}_{name}"), *kind, *text, false)
-        }));
-    }
-    for (name, coordinate) in displacements(case) {
-        let kind = if coordinate < 3 { Kind::Length } else { Kind::Angle };
-        let text = "largest displacement or angle from the drawn layout, without sign";
-        all.push(Measure::new(format!("largest_{name}"), kind, text, true));
-    }
-    all.push(Measure::new(
-        "ledger_residual",
-        Kind::Dimensionless,
-        "relative residual of the energy ledger: the largest residual over the largest of work, losses and \
-         change of stored energy",
-        true,
-    ));
-    all.push(Measure::new(
-        "steps",
-        Kind::Count,
-        "accepted steps of the integrator",
-        true,
-    ));
-    Definitions(all)
-}
-
 /// Returns names and coordinates of the free bodies' displacements, as the summary has them.
 fn displacements(case: &HalfTruckCase) -> Vec<(String, usize)> {
     let bodies = case.truck.bodies.iter().zip(&case.truck.model.bodies);
@@ -99,19 +65,42 @@ fn displacements(case: &HalfTruckCase) -> Vec<(String, usize)> {
 }
 
 impl StudyCase for HalfTruckCase {
-    fn named(&self, name: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            ..self.clone()
-        }
-    }
-
     fn cycle(&self) -> Option<Cycle> {
         cycle(self)
     }
 
     fn definitions(&self) -> Definitions {
-        definitions(self)
+        let mut all = vec![Measure::new(
+            "energy_per_cycle",
+            Kind::Energy,
+            "lost in the friction of all columns each cycle of the vertical input",
+            false,
+        )];
+        for place in self.wedges() {
+            let number = self.truck.connections[place];
+            all.extend(OF_WEDGES.iter().map(|(name, kind, text, _)| {
+                Measure::new(format!("wedge_{number}_{name}"), *kind, *text, false)
+            }));
+        }
+        for (name, coordinate) in displacements(self) {
+            let kind = if coordinate < 3 { Kind::Length } else { Kind::Angle };
+            let text = "largest displacement or angle from the drawn layout, without sign";
+            all.push(Measure::new(format!("largest_{name}"), kind, text, true));
+        }
+        all.push(Measure::new(
+            "ledger_residual",
+            Kind::Dimensionless,
+            "relative residual of the energy ledger: the largest residual over the largest of work, losses and \
+             change of stored energy",
+            true,
+        ));
+        all.push(Measure::new(
+            "steps",
+            Kind::Count,
+            "accepted steps of the integrator",
+            true,
+        ));
+        Definitions(all)
     }
 
     fn judge(&self) -> Result<Judged, Unmeasured> {

@@ -54,10 +54,6 @@ pub fn measure(case: &Case) -> Result<Measures, Unmeasured> {
 }
 
 impl StudyCase for Case {
-    fn named(&self, name: &str) -> Self {
-        Self::named(self, name)
-    }
-
     fn cycle(&self) -> Option<Cycle> {
         Cycle::of(&self.parameters)
     }

@@ -1,6 +1,6 @@
 //! The metrics of a run in a study: one number each, without the table of the run. Files call them measures.
 //!
-//! Those of half-trucks are in [`half_truck`]. The definitions of wedges' measures are those of
+//! Each model has a file of its own. The definitions of wedges' measures are those of
 //! [`metrics`](crate::metrics) and of the summary, taken at the same output times from the same functions; a
 //! test holds every measure against the summary of the whole run. What is more here:
 //!

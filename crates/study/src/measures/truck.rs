@@ -116,36 +116,28 @@ const OF_WEDGES: [(&str, Kind, &str); 3] = [
     ),
 ];
 
-fn definitions() -> Definitions {
-    let all = OF_ALL.iter();
-    let mut measures: Vec<Measure> = all
-        .map(|(name, kind, text, always)| Measure::new(*name, *kind, *text, *always))
-        .collect();
-    for angle in WARP_ANGLES {
-        let name = format!("warp_moment_at_{}_mrad", angle.to_string().replace('.', "_"));
-        let text = format!("growth of the warp moment until the warp angle reaches {angle} mrad first");
-        measures.push(Measure::new(name, Kind::Moment, text, false));
-    }
-    for wedge in WEDGE_NAMES {
-        for (name, kind, text) in OF_WEDGES {
-            let always = !name.ends_with("per_cycle");
-            measures.push(Measure::new(format!("{wedge}_{name}"), kind, text, always));
-        }
-    }
-    Definitions(measures)
-}
-
 impl StudyCase for TruckCase {
-    fn named(&self, name: &str) -> Self {
-        Self::named(self, name)
-    }
-
     fn cycle(&self) -> Option<Cycle> {
         Cycle::of_motion(&self.parameters.bolster.motion.coordinates[2])
     }
 
     fn definitions(&self) -> Definitions {
-        definitions()
+        let all = OF_ALL.iter();
+        let mut measures: Vec<Measure> = all
+            .map(|(name, kind, text, always)| Measure::new(*name, *kind, *text, *always))
+            .collect();
+        for angle in WARP_ANGLES {
+            let name = format!("warp_moment_at_{}_mrad", angle.to_string().replace('.', "_"));
+            let text = format!("growth of the warp moment until the warp angle reaches {angle} mrad first");
+            measures.push(Measure::new(name, Kind::Moment, text, false));
+        }
+        for wedge in WEDGE_NAMES {
+            for (name, kind, text) in OF_WEDGES {
+                let always = !name.ends_with("per_cycle");
+                measures.push(Measure::new(format!("{wedge}_{name}"), kind, text, always));
+            }
+        }
+        Definitions(measures)
     }
 
     fn judge(&self) -> Result<Judged, Unmeasured> {

@@ -43,29 +43,21 @@ const OF_ALL: [(&str, Kind, &str, bool); 5] = [
     ("steps", Kind::Count, "accepted steps of the integrator", true),
 ];
 
-/// Returns the measures of a vehicle's run; none where it makes no vehicle.
-fn definitions(case: &VehicleCase) -> Definitions {
-    let all = OF_ALL.iter();
-    let mut measures: Vec<Measure> = all
-        .map(|(name, kind, text, always)| Measure::new(*name, *kind, *text, *always))
-        .collect();
-    for column in case.columns().unwrap_or_default().iter().skip(1) {
-        for (ending, text) in OF_COLUMNS {
-            let name = format!("{}_{ending}", column.name);
-            let text = format!("{text}, {}", column.text);
-            measures.push(Measure::new(name, column.kind, text, true));
-        }
-    }
-    Definitions(measures)
-}
-
 impl StudyCase for VehicleCase {
-    fn named(&self, name: &str) -> Self {
-        Self::named(self, name)
-    }
-
+    /// None where it makes no vehicle.
     fn definitions(&self) -> Definitions {
-        definitions(self)
+        let all = OF_ALL.iter();
+        let mut measures: Vec<Measure> = all
+            .map(|(name, kind, text, always)| Measure::new(*name, *kind, *text, *always))
+            .collect();
+        for column in self.columns().unwrap_or_default().iter().skip(1) {
+            for (ending, text) in OF_COLUMNS {
+                let name = format!("{}_{ending}", column.name);
+                let text = format!("{text}, {}", column.text);
+                measures.push(Measure::new(name, column.kind, text, true));
+            }
+        }
+        Definitions(measures)
     }
 
     fn judge(&self) -> Result<Judged, Unmeasured> {

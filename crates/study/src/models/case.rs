@@ -2,92 +2,17 @@
 
 use std::ops::ControlFlow;
 use std::path::Path;
-use std::sync::Arc;
 
 use quantity::System as Units;
 
-use super::{AnySummary, MODELS, ModelCase, ModelEntry, StudyCase, built_in};
-use crate::car::CarCase;
+use super::{AnyCase, AnySummary, MODELS, ModelCase, ModelEntry, StudyCase, built_in};
 use crate::case::model::model;
 use crate::case::problem::Problems;
 use crate::case::{Case, CaseError, FieldSection, Tables, text_of, tree_with_overrides};
-use crate::half_truck::HalfTruckCase;
 use crate::measures::{Definitions, Judged, Unmeasured};
 use crate::metrics::Cycle;
 use crate::result::RunResult;
 use crate::run::{Run, RunCase, RunError};
-use crate::truck::TruckCase;
-use crate::vehicle::VehicleCase;
-
-/// Declares [`AnyCase`], made of the case of each model, and `each_case!`.
-macro_rules! any_case {
-    ($d:tt $($(#[$doc:meta])* $model:ident($case:ty) = $name:literal, $own:ident;)+) => {
-        /// A case of any model, which its copies share.
-        #[derive(Clone, Debug)]
-        pub enum AnyCase {
-            $($(#[$doc])* $model(Arc<$case>),)+
-        }
-
-        impl AnyCase {
-            /// Returns the name of its model, as in [`MODELS`].
-            #[must_use]
-            pub fn model(&self) -> &'static str {
-                match self {
-                    $(Self::$model(_) => $name,)+
-                }
-            }
-
-            $(
-                /// Returns the case of this model, if it is one.
-                #[must_use]
-                pub fn $own(&self) -> Option<&Arc<$case>> {
-                    match self {
-                        Self::$model(case) => Some(case),
-                        _ => None,
-                    }
-                }
-            )+
-        }
-
-        /// Does the same with the case of whatever model: `each_case!(&any, case => case.columns())`.
-        #[macro_export]
-        macro_rules! each_case {
-            ($d any:expr, $d case:ident => $d do:expr) => {
-                match $d any {
-                    $($crate::models::AnyCase::$model($d case) => $d do,)+
-                }
-            };
-        }
-
-        $(
-            impl From<$case> for AnyCase {
-                fn from(case: $case) -> Self {
-                    Self::$model(Arc::new(case))
-                }
-            }
-
-            impl From<Arc<$case>> for AnyCase {
-                fn from(case: Arc<$case>) -> Self {
-                    Self::$model(case)
-                }
-            }
-        )+
-    };
-}
-
-any_case! {
-    $
-    /// A wedge's.
-    Wedge(Case) = "wedge", wedge;
-    /// A half-truck's.
-    HalfTruck(HalfTruckCase) = "half-truck", half_truck;
-    /// A truck's.
-    Truck(TruckCase) = "truck", truck;
-    /// A car's.
-    Car(CarCase) = "car", car;
-    /// A vehicle's.
-    Vehicle(VehicleCase) = "vehicle", vehicle;
-}
 
 impl AnyCase {
     /// Reads a case file of a wedge, of a truck (`model = "truck"`) or of a car (`model = "car"`) and lays
@@ -184,7 +109,7 @@ impl AnyCase {
     /// Returns it under another name.
     #[must_use]
     pub fn named(&self, name: &str) -> Self {
-        each_case!(self, case => StudyCase::named(&**case, name).into())
+        each_case!(self, case => case.named(name).into())
     }
 
     /// Returns the cycle of its vertical motion, if that is one sine or triangle.

@@ -6,12 +6,8 @@ use std::collections::BTreeSet;
 use serde_json::Value;
 
 use super::built_in;
-use crate::car::CarCase;
-use crate::case::Case;
 use crate::case::builtin::BuiltIn;
 use crate::reader::schema::{KnownSection, address, schema as joined};
-use crate::truck::TruckCase;
-use crate::vehicle::VehicleCase;
 
 /// A built-in case and `--set` overrides of it.
 pub type Variant = (&'static str, &'static [&'static str]);
@@ -22,89 +18,10 @@ pub struct ModelKeys {
     /// Cases that together have all keys.
     pub cases: &'static [Variant],
     /// Tables with the keys of another one.
-    alike: &'static [[&'static str; 2]],
-    known: fn(&str, &[String]) -> Vec<KnownSection>,
+    pub(crate) alike: &'static [[&'static str; 2]],
+    /// Reads the text of a case with values laid over it: its sections and keys.
+    pub(crate) known: fn(&str, &[String]) -> Vec<KnownSection>,
 }
-
-pub(super) const WEDGE: ModelKeys = ModelKeys {
-    cases: &[
-        ("vdrun_toe_0_psi_0", &[]),
-        ("cdrun_toe_0_psi_0", &[]),
-        ("cdrun_toe_0_psi_0", &["friction.law=bristle"]),
-        (
-            "cdrun_toe_0_psi_0",
-            &[r#"control_coil.table=[["0 in", "0 lbf"], ["1 in", "3000 lbf"]]"#],
-        ),
-    ],
-    alike: &[],
-    known: Case::known_keys,
-};
-
-pub(super) const TRUCK: ModelKeys = ModelKeys {
-    cases: &[
-        ("truck_vertical_variable", &[]),
-        ("truck_vertical_constant", &[]),
-        ("truck_warp_axles_variable_rising", &[]),
-        ("truck_roll_variable", &[]),
-        ("truck_vertical_variable", &["load.kind=car_body"]),
-        ("truck_warp_axles_variable_rising", &["adapter.kind=pad"]),
-        ("truck_vertical_variable", &["wedge.kind=massless"]),
-        ("truck_vertical_split", &[]),
-        (
-            "truck_vertical_variable",
-            &[
-                "control_coil.kind=B-353",
-                "load_springs.kind=D5",
-                "load_springs.outer=7",
-                "load_springs.inner=7",
-                "load_springs.height=9 in",
-            ],
-        ),
-        (
-            "truck_vertical_variable",
-            &[
-                "control_coil.kind=thesis",
-                r#"control_coil.table=[["0 in", "0 lbf"], ["1 in", "3000 lbf"]]"#,
-            ],
-        ),
-    ],
-    alike: &[],
-    known: TruckCase::known_keys,
-};
-
-pub(super) const CAR: ModelKeys = ModelKeys {
-    cases: &[
-        ("car_tangent_loaded", &[]),
-        ("car_tangent_empty", &[]),
-        ("car_constant_curve_loaded", &[]),
-        ("car_hunting_empty", &[]),
-        ("car_hunting_roller_empty", &[]),
-        ("car_twist_and_roll_loaded", &[]),
-        ("car_286k_loaded", &[]),
-        ("car_286k_loaded", &["truck.load_springs.height=9 in"]),
-    ],
-    // Each truck of a car takes the keys of both.
-    alike: &[["front_truck", "truck"], ["rear_truck", "truck"]],
-    known: CarCase::known_keys,
-};
-
-pub(super) const VEHICLE: ModelKeys = ModelKeys {
-    cases: &[
-        ("vehicle_catalog", &[]),
-        ("vehicle_two_axles", &[]),
-        ("vehicle_car_empty", &[]),
-        (
-            "vehicle_catalog",
-            &[r#"elements.spring.table=[["0 in", "0 lbf"], ["1 in", "3000 lbf"]]"#],
-        ),
-        (
-            "vehicle_catalog",
-            &[r#"elements.damper.table=[["0 in/s", "0 lbf"], ["1 in/s", "3000 lbf"]]"#],
-        ),
-    ],
-    alike: &[],
-    known: VehicleCase::known_keys,
-};
 
 impl ModelKeys {
     /// Returns the schema of the cases of the model with this name (JSON Schema, draft 7).

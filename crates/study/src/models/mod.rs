@@ -1,11 +1,11 @@
 //! The models: a row for each in [`MODELS`], which all lists of models and of built-in cases ask; cases and
 //! summaries of whatever model.
 
-mod case;
-mod every_key;
-mod model_case;
-mod source;
-mod summary;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+mod list;
 
 use crate::car::{self, CarCase};
 use crate::case::builtin::{self, BuiltIn, CaseGroup, own_name};
@@ -13,16 +13,54 @@ use crate::case::model::Model;
 use crate::case::problem::Problems;
 use crate::case::tree::TableNode;
 use crate::case::{Case, CaseError, Problem, Tables};
-use crate::half_truck::{self, catalog};
+use crate::half_truck::{self, HalfTruckCase, catalog};
 use crate::truck::{self, TruckCase};
 use crate::vehicle::{self, VehicleCase};
 use crate::{summary as wedge, wheelset};
 
-pub use case::AnyCase;
+use list::{any_case, any_summary};
+
+any_case! {
+    $
+    /// A wedge's.
+    Wedge(Case) = "wedge", wedge;
+    /// A half-truck's.
+    HalfTruck(HalfTruckCase) = "half-truck", half_truck;
+    /// A truck's.
+    Truck(TruckCase) = "truck", truck;
+    /// A car's.
+    Car(CarCase) = "car", car;
+    /// A vehicle's.
+    Vehicle(VehicleCase) = "vehicle", vehicle;
+}
+
+any_summary! {
+    $
+    /// Of a wedge.
+    Wedge(wedge::Summary),
+    /// Of a half-truck from files of NUCARS.
+    HalfTruck(half_truck::HalfTruckSummary),
+    /// Of a three-piece truck.
+    Truck(truck::summary::TruckSummary),
+    /// Of a car.
+    Car(car::summary::CarSummary),
+    /// Of a vehicle.
+    Vehicle(vehicle::summary::VehicleSummary),
+    /// Of a wheelset.
+    Wheelset(wheelset::summary::WheelsetSummary),
+}
+
+// After the lists, whose macros they use.
+mod case;
+mod every_key;
+mod model_case;
+mod source;
+mod summary;
+
 pub use every_key::{ModelKeys, Variant};
 pub use model_case::{ModelCase, StudyCase};
 pub use source::CaseSource;
-pub use summary::{AnySummary, ModelSummary};
+pub use summary::ModelSummary;
 
 /// A model.
 #[derive(Debug)]
@@ -67,7 +105,7 @@ pub static MODELS: [ModelEntry; 6] = [
         case_files: Some(CaseFiles {
             model: Model::Wedge,
             groups: builtin::groups,
-            keys: every_key::WEDGE,
+            keys: builtin::KEYS,
             read: |tree, source, tables, problems| Ok(Case::of_tree(tree, source, tables, problems)?.into()),
         }),
     },
@@ -90,7 +128,7 @@ pub static MODELS: [ModelEntry; 6] = [
         case_files: Some(CaseFiles {
             model: Model::Truck,
             groups: truck::builtin::groups,
-            keys: every_key::TRUCK,
+            keys: truck::builtin::KEYS,
             read: |tree, source, tables, problems| {
                 Ok(TruckCase::of_tree(tree, source, tables, problems)?.into())
             },
@@ -106,7 +144,7 @@ pub static MODELS: [ModelEntry; 6] = [
         case_files: Some(CaseFiles {
             model: Model::Car,
             groups: car::builtin::groups,
-            keys: every_key::CAR,
+            keys: car::builtin::KEYS,
             read: |tree, source, tables, problems| {
                 Ok(CarCase::of_tree(tree, source, tables, problems)?.into())
             },
@@ -122,7 +160,7 @@ pub static MODELS: [ModelEntry; 6] = [
         case_files: Some(CaseFiles {
             model: Model::Vehicle,
             groups: vehicle::builtin::groups,
-            keys: every_key::VEHICLE,
+            keys: vehicle::builtin::KEYS,
             read: |tree, source, tables, problems| {
                 Ok(VehicleCase::of_tree(tree, source, tables, problems)?.into())
             },

@@ -48,12 +48,8 @@ pub trait ModelCase: RunCase<Output = RunResult<Self::Summary>> {
     }
 }
 
-/// A case that studies vary, run and measure.
+/// A case that studies run and measure.
 pub trait StudyCase: ModelCase {
-    /// Returns the same case under another name.
-    #[must_use]
-    fn named(&self, name: &str) -> Self;
-
     /// Returns the cycle of its vertical motion, if that is one sine or triangle.
     fn cycle(&self) -> Option<Cycle> {
         None

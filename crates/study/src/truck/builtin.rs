@@ -6,6 +6,40 @@ use std::sync::LazyLock;
 use super::TruckCase;
 use crate::case::CaseError;
 use crate::case::builtin::{BuiltIn, CaseGroup, names_in, text_in};
+use crate::models::ModelKeys;
+
+/// Cases that together have all keys.
+pub(crate) const KEYS: ModelKeys = ModelKeys {
+    cases: &[
+        ("truck_vertical_variable", &[]),
+        ("truck_vertical_constant", &[]),
+        ("truck_warp_axles_variable_rising", &[]),
+        ("truck_roll_variable", &[]),
+        ("truck_vertical_variable", &["load.kind=car_body"]),
+        ("truck_warp_axles_variable_rising", &["adapter.kind=pad"]),
+        ("truck_vertical_variable", &["wedge.kind=massless"]),
+        ("truck_vertical_split", &[]),
+        (
+            "truck_vertical_variable",
+            &[
+                "control_coil.kind=B-353",
+                "load_springs.kind=D5",
+                "load_springs.outer=7",
+                "load_springs.inner=7",
+                "load_springs.height=9 in",
+            ],
+        ),
+        (
+            "truck_vertical_variable",
+            &[
+                "control_coil.kind=thesis",
+                r#"control_coil.table=[["0 in", "0 lbf"], ["1 in", "3000 lbf"]]"#,
+            ],
+        ),
+    ],
+    alike: &[],
+    known: TruckCase::known_keys,
+};
 
 /// Dampings, each with the height by which an empty car stands above the loaded one, in.
 const DAMPINGS: [(&str, f64); 2] = [("constant", 1.936), ("variable", 1.976)];

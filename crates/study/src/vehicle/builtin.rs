@@ -2,8 +2,29 @@
 
 use std::sync::LazyLock;
 
+use super::VehicleCase;
 use crate::case::CaseError;
 use crate::case::builtin::{BuiltIn, CaseGroup, text_in};
+use crate::models::ModelKeys;
+
+/// Cases that together have all keys.
+pub(crate) const KEYS: ModelKeys = ModelKeys {
+    cases: &[
+        ("vehicle_catalog", &[]),
+        ("vehicle_two_axles", &[]),
+        ("vehicle_car_empty", &[]),
+        (
+            "vehicle_catalog",
+            &[r#"elements.spring.table=[["0 in", "0 lbf"], ["1 in", "3000 lbf"]]"#],
+        ),
+        (
+            "vehicle_catalog",
+            &[r#"elements.damper.table=[["0 in/s", "0 lbf"], ["1 in/s", "3000 lbf"]]"#],
+        ),
+    ],
+    alike: &[],
+    known: VehicleCase::known_keys,
+};
 
 /// A file of a vehicle: its name, its title, its text.
 macro_rules! file {
