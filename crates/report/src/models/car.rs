@@ -83,7 +83,8 @@ impl ReportSummary for CarSummary {
             wheels(
                 "lateral_forces",
                 "Lateral wheel forces, leading axles",
-                "Lateral force on the rail, positive where it spreads the gauge, filtered where the run filters.",
+                "Lateral force on the rail, positive where it spreads the gauge, filtered where the run \
+                 filters.",
                 "lateral",
             ),
             wheels(
@@ -185,8 +186,8 @@ impl ReportCase for CarCase {
     }
 
     /// Over the distance: the roll of the body where it rolls by more than 0.5 deg, the lateral force of the
-    /// leading axle's wheel that pushes more where the track curves, else the vertical force of the leading left
-    /// wheel.
+    /// leading axle's wheel that pushes more where the track curves, else the vertical force of the leading
+    /// left wheel.
     fn shown_loop(&self, result: &CarResult) -> Loop {
         let most = |name: &str| {
             let values = result.column(name).unwrap_or_default().iter();

@@ -84,8 +84,8 @@ impl ReportSummary for HalfTruckSummary {
             named(
                 "half_truck_loops",
                 "Column friction over stroke",
-                "Friction of each column on the side frame, positive up, over the vertical stroke of the bolster \
-                 against the side frame.",
+                "Friction of each column on the side frame, positive up, over the vertical stroke of the \
+                 bolster against the side frame.",
                 panels(&stroke, "column_friction"),
                 true,
             ),

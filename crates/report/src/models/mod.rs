@@ -1,8 +1,7 @@
 //! The models: what reports and programs ask about the runs of each.
 //!
-//! A file for each model: its files of its own, its numbers and figures beside those of other runs, its 3D
-//! view and page, its lines on the terminal, its loop in the explorer. Everything else about a run is the same
-//! for all of them.
+//! A file for each model: files of its own, its numbers and figures beside those of other runs, its 3D view
+//! and page, its lines on the terminal, its loop in the explorer. All else about a run is the same for all.
 
 use std::ops::ControlFlow;
 use std::time::Duration;

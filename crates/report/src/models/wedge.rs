@@ -36,8 +36,8 @@ impl ReportSummary for Summary {
             Wanted::new(
                 "wedge_loop",
                 "Force over travel",
-                "Vertical wedge force (friction of the column on the side frame, positive up) over the bolster's \
-                 vertical displacement, positive up.",
+                "Vertical wedge force (friction of the column on the side frame, positive up) over the \
+                 bolster's vertical displacement, positive up.",
                 "bolster_vertical",
                 &[("vertical_wedge_force", "")],
             )

@@ -37,7 +37,7 @@ pub fn render(runs: &[RunFolder], links: &[String]) -> Result<String, serde_json
         (limits(runs))
         @if !others.is_empty() {
             section {
-                h2 id="histories" { @if over_distance(runs) { "Over time and distance" } @else { "Over time" } }
+                h2 id="histories" { @if rolls(runs) { "Over time and distance" } @else { "Over time" } }
                 @for own in others { (shown_in(own, &own.figure.to_svg(), None)) }
             }
         }
@@ -61,7 +61,7 @@ fn has_scene(seen: &Seen) -> bool {
     }
 }
 
-fn over_distance(runs: &[RunFolder]) -> bool {
+fn rolls(runs: &[RunFolder]) -> bool {
     let rolls = |run: &RunFolder| each_summary!(&run.summary, own => own.over_distance());
     runs.iter().any(rolls)
 }

@@ -164,8 +164,8 @@ impl RunFolder {
         (stride > 0 && [1, last].into_iter().all(same)).then(|| kept.named(&self.label))
     }
 
-    /// Returns its 3D view and plots from its table, without what that has not; `None` if it is no run of such
-    /// a case.
+    /// Returns its 3D view and plots from its table, without what that has not; `None` if it is no run of
+    /// such a case.
     fn made<C: ReportCase>(&self, case: &C) -> Option<Recording> {
         let result = self.result(C::Summary::of(&self.summary)?.clone());
         let shown = case.clone().shown(result, C::Along::default());

@@ -12,16 +12,12 @@ use study::contacts::ContactTable;
 use study::half_truck::{HalfTruckCase, HalfTruckResult};
 use study::truck::run::TruckResult;
 use study::truck::{TruckCase, WEDGE_NAMES};
-use study::vehicle::VehicleCase;
-use study::vehicle::run::VehicleResult;
-use study::wheelset::WheelsetCase;
-use study::wheelset::run::WheelsetResult;
 use wedge::outputs::{CORNERS, FACES};
 
 use super::data::{Data, Precision};
 use super::scene::Scene;
 use super::stand_alone;
-use super::{car, half_truck, kind_name, mode_shape, truck, vehicle, wheelset};
+use super::{car, half_truck, kind_name, mode_shape, truck};
 use crate::figures::CaseOutcome;
 use crate::overlay::moves;
 
@@ -100,7 +96,7 @@ pub struct Recording {
 }
 
 /// A table: descriptions of columns with their values, SI.
-type Table<'t> = Vec<(&'t Column, &'t [f64])>;
+pub(super) type Table<'t> = Vec<(&'t Column, &'t [f64])>;
 
 impl Recording {
     /// Makes the view of a stand-alone wedge.
@@ -151,29 +147,6 @@ impl Recording {
         Self::new(named, &all, plots, scene, Detail::Full)
     }
 
-    /// Makes the view of a wheelset on a track.
-    #[must_use]
-    pub fn of_wheelset(case: &WheelsetCase, result: &WheelsetResult, detail: Detail) -> Self {
-        let table = table(&result.columns, &result.values);
-        let scene = wheelset::scene(case, result);
-        let (name, title) = (case.wheelset.name.as_str(), "A wheelset on a track");
-        Self::new((name, title), &table, wheelset::plots(), Some(scene), detail)
-    }
-
-    /// Makes the view of a vehicle of bodies and elements.
-    #[must_use]
-    pub fn of_vehicle(case: &VehicleCase, result: &VehicleResult, detail: Detail) -> Self {
-        let all = table(&result.columns, &result.values);
-        let distances = result
-            .columns
-            .iter()
-            .position(|own| own.kind == quantity::Kind::Distance);
-        let distances = distances.map_or(&[][..], |place| &result.values[place]);
-        let scene = vehicle::scene(case, &result.columns, distances);
-        let plots = vehicle::plots(&result.columns);
-        Self::new((&case.name, &case.title), &all, plots, scene, detail)
-    }
-
     /// Makes the view of a half-truck, with the corners of its wedges if they are bodies and the run took
     /// them along.
     #[must_use]
@@ -197,7 +170,8 @@ impl Recording {
         Self::new((&case.name, &case.title), &all, plots, scene, detail)
     }
 
-    fn new(
+    /// Makes a view from a table with its plots and its scene.
+    pub(super) fn new(
         (name, title): (&str, &str),
         table: &Table<'_>,
         plots: Vec<Plot>,
@@ -298,7 +272,8 @@ impl Recording {
     }
 }
 
-fn table<'t>(columns: &'t [Column], values: &'t [Vec<f64>]) -> Table<'t> {
+/// Returns the columns of a table with their values.
+pub(super) fn table<'t>(columns: &'t [Column], values: &'t [Vec<f64>]) -> Table<'t> {
     let values = values.iter().map(Vec::as_slice);
     columns.iter().zip(values).collect()
 }

@@ -3,11 +3,12 @@
 use mechanics::output::Column;
 use quantity::Kind;
 use study::vehicle::VehicleCase;
+use study::vehicle::run::VehicleResult;
 use vehicle::{Axle, Drawing, Drawn, GROUND, OnTrack, Solid as Shape};
 use wheelrail::track::RailLines;
 
 use super::rolling;
-use super::run::Plot;
+use super::run::{Detail, Plot, Recording, table};
 use super::scene::{CoilEnd, Look, Scene, SceneBody, SceneCoil, Solid, SolidRole, extruded};
 
 /// Names of coordinates in columns.
@@ -17,10 +18,21 @@ const BEYOND: f64 = 30.0;
 /// The exaggerated size (m) beyond which displacements grow to scale.
 const LIMIT: f64 = 0.5;
 
+impl Recording {
+    /// Makes the view of a vehicle of bodies and elements.
+    #[must_use]
+    pub fn of_vehicle(case: &VehicleCase, result: &VehicleResult, detail: Detail) -> Self {
+        let columns = &result.columns;
+        let distances = columns.iter().position(|own| own.kind == Kind::Distance);
+        let distances = distances.map_or(&[][..], |place| &result.values[place]);
+        let (all, scene) = (table(columns, &result.values), scene(case, columns, distances));
+        Self::new((&case.name, &case.title), &all, plots(columns), scene, detail)
+    }
+}
+
 /// Returns the scene of a vehicle whose run has these columns; none where the case makes no vehicle.
 /// `distances` (m) are those of its first wheelset along the track, if it runs on one.
-#[must_use]
-pub fn scene(case: &VehicleCase, columns: &[Column], distances: &[f64]) -> Option<Scene> {
+fn scene(case: &VehicleCase, columns: &[Column], distances: &[f64]) -> Option<Scene> {
     let vehicle = case.vehicle().ok()?;
     let drawing = &vehicle.drawing;
     let has = |name: &String| columns.iter().any(|own| own.name == *name);
@@ -158,8 +170,7 @@ fn cuboid(name: &str, [x, y, z]: [f64; 3]) -> Solid {
 }
 
 /// Returns the plots of a run: of each body its displacements and its rotations, of each element its forces.
-#[must_use]
-pub fn plots(columns: &[Column]) -> Vec<Plot> {
+fn plots(columns: &[Column]) -> Vec<Plot> {
     let of = |kinds: &[Kind]| -> Vec<&Column> {
         let own = columns.iter();
         own.filter(|column| kinds.contains(&column.kind) && column.name != "time")

@@ -5,7 +5,7 @@ use study::wheelset::run::WheelsetResult;
 use wheelrail::wheelset::RigidWheelset;
 
 use super::rolling;
-use super::run::Plot;
+use super::run::{Detail, Plot, Recording, table};
 use super::scene::{Look, Scene};
 
 /// Lengths of the track drawn behind the start and beyond the end, m.
@@ -15,9 +15,18 @@ const ARROW: f64 = 0.35;
 /// Name of the wheelset's body.
 const ID: &str = "wheelset";
 
+impl Recording {
+    /// Makes the view of a wheelset on a track.
+    #[must_use]
+    pub fn of_wheelset(case: &WheelsetCase, result: &WheelsetResult, detail: Detail) -> Self {
+        let table = table(&result.columns, &result.values);
+        let (name, title) = (case.wheelset.name.as_str(), "A wheelset on a track");
+        Self::new((name, title), &table, plots(), Some(scene(case, result)), detail)
+    }
+}
+
 /// Returns the scene.
-#[must_use]
-pub fn scene(case: &WheelsetCase, result: &WheelsetResult) -> Scene {
+fn scene(case: &WheelsetCase, result: &WheelsetResult) -> Scene {
     let own = &case.wheelset;
     let column = |name: &str| name.to_owned();
     let distances = result.column("distance").unwrap_or_default();
@@ -74,8 +83,7 @@ pub fn scene(case: &WheelsetCase, result: &WheelsetResult) -> Scene {
 }
 
 /// Returns the quantities that its plots may show.
-#[must_use]
-pub fn plots() -> Vec<Plot> {
+fn plots() -> Vec<Plot> {
     let both = |title: &str, what: &str| {
         let names = ["left", "right"].map(|side| format!("{side}_{what}"));
         Plot::new(title, names.iter().map(String::as_str).zip(["left", "right"]))

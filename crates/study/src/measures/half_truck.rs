@@ -90,8 +90,8 @@ impl StudyCase for HalfTruckCase {
         all.push(Measure::new(
             "ledger_residual",
             Kind::Dimensionless,
-            "relative residual of the energy ledger: the largest residual over the largest of work, losses and \
-             change of stored energy",
+            "relative residual of the energy ledger: the largest residual over the largest of work, losses \
+             and change of stored energy",
             true,
         ));
         all.push(Measure::new(

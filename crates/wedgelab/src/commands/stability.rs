@@ -210,9 +210,7 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         threshold: arguments.threshold,
     };
     if arguments.nonlinear {
-        settings
-            .check(case)
-            .map_err(|error| cannot_hunt(case, &error))?;
+        settings.check(case).map_err(|error| cannot_hunt(case, &error))?;
     }
     let mut names: Vec<&str> = NAMES.to_vec();
     if arguments.nonlinear {
