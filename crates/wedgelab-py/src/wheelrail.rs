@@ -8,6 +8,7 @@ use ::wheelrail::conicity::RollingRadiusDifference;
 use ::wheelrail::contact::{ContactLaw, CreepLaw, Side};
 use ::wheelrail::creep::fastsim::StripGrid;
 use ::wheelrail::creep::{Coefficients, Creepage, Patch, fastsim, linear, polach, shen_hedrick_elkins};
+use ::wheelrail::friction::Friction;
 use ::wheelrail::hertz::Material;
 use ::wheelrail::loaded::{Attitude, LoadError, LoadedPatch, LoadedWheel};
 use ::wheelrail::profile::{
@@ -226,7 +227,7 @@ fn point(columns: &[&[f64]], k: usize, creep: CreepLaw) -> (Attitude, f64, Conta
         pitch_rate: columns[4][k],
     };
     let law = ContactLaw {
-        friction: columns[6][k],
+        friction: Friction::constant(columns[6][k]),
         damping: 0.0,
         creep,
         slowest: 0.0,
