@@ -11,6 +11,7 @@ use wheelrail::contact::{
 };
 use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::{Creepage, Patch, fastsim, linear, polach, shen_hedrick_elkins};
+use wheelrail::friction::Friction;
 use wheelrail::hertz::{Hertz, Material};
 use wheelrail::profile::nominal;
 
@@ -41,7 +42,7 @@ fn measure(name: &str, calls: u32, mut call: impl FnMut() -> f64) {
 
 fn law(creep: CreepLaw) -> ContactLaw {
     ContactLaw {
-        friction: 0.4,
+        friction: Friction::constant(0.4),
         damping: 0.3,
         creep,
         slowest: 0.1,

@@ -23,7 +23,7 @@ pub const MOST: usize = 6;
 /// Distance of speeds at which it ends: 0.5 mph, m/s.
 pub const FINEST: f64 = 0.5 * MILE_PER_HOUR;
 /// Largest distance of speeds that counts: 4 mph, m/s.
-const WIDE: f64 = 4.0 * MILE_PER_HOUR;
+pub const WIDE: f64 = 4.0 * MILE_PER_HOUR;
 /// Difference of margins that is none, in parts of the limit, between speeds nearer than 2.1 mph, m/s.
 const SAME: f64 = 0.02;
 const NEAR: f64 = 2.1 * MILE_PER_HOUR;
