@@ -45,11 +45,12 @@ struct AveragesPart {
 }
 
 /// Schemas of the summaries of runs, and what they are about.
-const MODELS: [(&str, &str); 5] = [
+const MODELS: [(&str, &str); 6] = [
     (study::summary::SCHEMA, "a wedge"),
     (study::half_truck::SCHEMA, "a half-truck"),
     (study::truck::summary::SCHEMA, "a truck"),
     (study::car::summary::SCHEMA, "a car"),
+    (study::vehicle::summary::SCHEMA, "a vehicle"),
     (study::wheelset::summary::SCHEMA, "a wheelset"),
 ];
 
