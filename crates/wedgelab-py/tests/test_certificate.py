@@ -59,7 +59,7 @@ def test_limits_a_cluster_that_loses_a_worker_gives_the_same_bytes(
     (verdict,) = alone.verdicts
     assert (verdict.regime, verdict.limit, verdict.verdict, verdict.unit) == ("short", "load", "kept", "%")
     assert verdict.value is not None and 20.0 < verdict.value < 100.0
-    assert verdict.margin == pytest.approx((verdict.value - 5.0) / 5.0)
+    assert verdict.margin == pytest.approx((verdict.value - 5.0) / (100.0 - 5.0))
     # The worst run's own statistics say the same.
     assert verdict.run is not None
     run = certificate.study.case(verdict.run).run()

@@ -98,13 +98,21 @@ pub fn render(
         }
         (files())
     };
+    let counted = |count: usize, what: &str| match count {
+        1 => format!("1 {what}"),
+        count => format!("{count} {what}s"),
+    };
+    let about = match findings.refined.len() {
+        0 => String::new(),
+        count => format!(" ({count} of them at speeds about the worst ones, to 0.5 mph)"),
+    };
     let lead = format!(
-        "{} runs of the car {}: {} regimes, {} conditions. Limits: {}, {}. Tracks of the regimes are \
-         remembered, too: check both against your edition.",
-        findings.runs.len(),
+        "{}{about} of the car {}: {}, {}. Limits: {}, {}. Tracks of the regimes are remembered, too: check \
+         both against your edition.",
+        counted(findings.runs.len(), "run"),
         certificate.car,
-        certificate.regimes.len(),
-        certificate.conditions.len(),
+        counted(certificate.regimes.len(), "regime"),
+        counted(certificate.conditions.len(), "condition"),
         certificate.limits.title,
         certificate.limits.source,
     );
