@@ -53,6 +53,8 @@ pub struct Request {
 pub struct Certificate {
     /// The request.
     pub request: Request,
+    /// The car as it is given.
+    base: AnyCase,
     /// The car's name.
     pub car: String,
     /// The runs.
@@ -147,18 +149,17 @@ impl Certificate {
             [] => Condition::all().iter().take(1).cloned().collect(),
             names => Condition::chosen(names)?,
         };
-        Self::with(request.clone(), limits, regimes, conditions)
+        Self::with(request.clone(), car_of(request)?, limits, (regimes, conditions))
     }
 
-    /// Makes it of limits, regimes and conditions that are read.
+    /// Makes it of a car, limits, regimes and conditions that are read.
     fn with(
         request: Request,
+        (source, base): (CaseSource, AnyCase),
         limits: LimitSet,
-        regimes: Vec<Regime>,
-        conditions: Vec<Condition>,
+        (regimes, conditions): (Vec<Regime>, Vec<Condition>),
     ) -> Result<Self, CaseError> {
-        let (source, car) = car_of(&request)?;
-        let text = text(&regimes, &conditions, &request, &car)?;
+        let text = text(&regimes, &conditions, &request, &base)?;
         let study = Study::of_source(StudySource {
             name: STUDY.to_owned(),
             text,
@@ -167,7 +168,8 @@ impl Certificate {
         });
         let study = study.map_err(|error| CaseError::new(error.into_problems().map(of_parts)))?;
         Ok(Self {
-            car: car.name().to_owned(),
+            car: base.name().to_owned(),
+            base,
             request,
             study,
             regimes,

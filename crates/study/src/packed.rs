@@ -1,13 +1,14 @@
 //! A case with the files that it names, as they lie together in one folder.
 
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
 use crate::car::CarCase;
 use crate::case::field::quoted;
 use crate::case::problem::TomlSource;
 use crate::case::tables::NamedFile;
 use crate::case::tree::{self, NodeValue, TableEntry};
 use crate::vehicle::VehicleCase;
-use std::ops::Range;
-use std::path::{Path, PathBuf};
 
 /// A file that lies beside a packed case.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -322,6 +322,26 @@ pub struct Averages {
     pub down: BTreeMap<String, SummaryValue>,
 }
 
+impl Averages {
+    /// Returns the mean of the vertical wedge force while the bolster goes up.
+    #[must_use]
+    pub fn force_up(&self) -> Option<&SummaryValue> {
+        self.up.get("vertical_wedge_force")
+    }
+
+    /// Returns the mean of the vertical wedge force while the bolster goes down.
+    #[must_use]
+    pub fn force_down(&self) -> Option<&SummaryValue> {
+        self.down.get("vertical_wedge_force")
+    }
+
+    /// Returns the friction energy per cycle at the side frame.
+    #[must_use]
+    pub fn side_frame_energy(&self) -> Option<&SummaryValue> {
+        self.energy_per_cycle.get("side_frame")
+    }
+}
+
 /// Changes of contact states.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Events {

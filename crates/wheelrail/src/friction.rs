@@ -63,14 +63,23 @@ impl Friction {
     /// Returns one coefficient for everything.
     #[must_use]
     pub const fn constant(coefficient: f64) -> Self {
+        Self::by_zone(coefficient, coefficient)
+    }
+
+    /// Returns a coefficient for the tread and one for the gauge face.
+    #[must_use]
+    pub const fn by_zone(tread: f64, gauge_face: f64) -> Self {
         Self {
-            zones: Zones {
-                tread: coefficient,
-                gauge_face: coefficient,
-            },
+            zones: Zones { tread, gauge_face },
             over: None,
             falling: None,
         }
+    }
+
+    /// Returns a coefficient that is not admissible, not between 0 and 2, if there is one.
+    #[must_use]
+    pub fn inadmissible(&self) -> Option<f64> {
+        self.all().find(|own| !(0.0..=2.0).contains(own))
     }
 
     /// Returns all coefficients: of both zones, everywhere.

@@ -357,9 +357,7 @@ impl RigidWheelset {
 }
 
 pub(crate) fn check(attitude: &Attitude, load: f64, law: &ContactLaw) -> Result<(), LoadError> {
-    // One that is not admissible, if there is any.
-    let mut all = law.friction.all();
-    let friction = all.find(|own| !(0.0..=2.0).contains(own)).unwrap_or(0.0);
+    let wrong_friction = law.friction.inadmissible();
     let within = |limit: f64| move |value: f64| value.abs() <= limit;
     let positive = |value: f64| value > 0.0 && value.is_finite();
     let numbers: [(&'static str, f64, bool, &'static str); 7] = [
@@ -396,8 +394,8 @@ pub(crate) fn check(attitude: &Attitude, load: f64, law: &ContactLaw) -> Result<
         ("the load (N)", load, positive(load), "positive"),
         (
             "the coefficient of friction",
-            friction,
-            (0.0..=2.0).contains(&friction),
+            wrong_friction.unwrap_or_default(),
+            wrong_friction.is_none(),
             "between 0 and 2",
         ),
     ];

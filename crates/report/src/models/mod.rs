@@ -120,6 +120,7 @@ pub struct LoopAxis {
     column: String,
     name: String,
 }
+
 impl LoopAxis {
     fn new(column: &str, name: &str) -> Self {
         Self {
@@ -128,6 +129,7 @@ impl LoopAxis {
         }
     }
 }
+
 /// The loop that is shown over earlier ones.
 #[derive(Debug, Serialize)]
 pub struct Loop {
@@ -143,11 +145,14 @@ pub struct Loop {
     /// The reason if there is none, else empty.
     missing: String,
 }
+
 /// The period that energies of periodic motions are of.
 const CYCLE: &str = "cycle";
+
 fn joules(value: f64, units: Units) -> f64 {
     value / Kind::Energy.from_si(units)
 }
+
 /// Returns the greatest value of a column less its least.
 fn range(column: Option<&[f64]>) -> f64 {
     let values = column.unwrap_or_default().iter();
@@ -156,6 +161,7 @@ fn range(column: Option<&[f64]>) -> f64 {
     });
     most - least
 }
+
 /// Returns a note with another one below it, if there is one.
 #[must_use]
 pub fn with_note(about: &str, more: Option<String>) -> String {

@@ -8,7 +8,7 @@ use study::case::Case;
 use study::models::{AnyCase, AnySummary};
 use study::result::RunResult;
 use study::run::Run;
-use study::summary::{Summary, SummaryValue};
+use study::summary::{Averages, Summary, SummaryValue};
 use wedge::face::Grid;
 use wedge::parameters::Damping;
 
@@ -196,8 +196,11 @@ pub(crate) fn key_numbers(own: &Summary, damping: Option<Damping>) -> Vec<KeyNum
 
 /// Returns the table of runs; all of them in the same units.
 pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone) -> TerminalTable {
-    let unit = |of: fn(&Summary) -> Option<&SummaryValue>| {
-        let found = runs.clone().into_iter().find_map(|(summary, _)| of(summary));
+    let unit = |of: fn(&Averages) -> Option<&SummaryValue>| {
+        let found = runs
+            .clone()
+            .into_iter()
+            .find_map(|(summary, _)| of(&summary.averages));
         found.map_or(String::new(), |measure| measure.unit.clone())
     };
     let mut table = TerminalTable::new(
@@ -205,9 +208,9 @@ pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone
         &[
             ("run", ""),
             ("window", "of mean force"),
-            ("mean force, up", &unit(up)),
-            ("mean force, down", &unit(down)),
-            ("energy per cycle", &unit(energy)),
+            ("mean force, up", &unit(Averages::force_up)),
+            ("mean force, down", &unit(Averages::force_down)),
+            ("energy per cycle", &unit(Averages::side_frame_energy)),
             ("ledger residual", "relative"),
             ("wall time", "s"),
         ],
@@ -219,9 +222,9 @@ pub fn table<'d>(runs: impl IntoIterator<Item = (&'d Summary, Duration)> + Clone
         table.row([
             summary.name.clone(),
             summary.averages.window.clone(),
-            cell(up(summary)),
-            cell(down(summary)),
-            cell(energy(summary)),
+            cell(summary.averages.force_up()),
+            cell(summary.averages.force_down()),
+            cell(summary.averages.side_frame_energy()),
             format!("{:.1e}", summary.ledger.largest_relative_residual),
             format!("{:.2}", wall.as_secs_f64()),
         ]);
@@ -240,15 +243,3 @@ its middle. Energy per
 cycle: lost in friction at the side frame. Ledger residual: the largest at any output time, over the largest \
 of work, losses and
 change of stored energy.";
-
-fn up(summary: &Summary) -> Option<&SummaryValue> {
-    summary.averages.up.get("vertical_wedge_force")
-}
-
-fn down(summary: &Summary) -> Option<&SummaryValue> {
-    summary.averages.down.get("vertical_wedge_force")
-}
-
-fn energy(summary: &Summary) -> Option<&SummaryValue> {
-    summary.averages.energy_per_cycle.get("side_frame")
-}

@@ -59,7 +59,7 @@ fn numbers((_, result): &CaseOutcome) -> Vec<(String, SummaryValue)> {
         let what = format!("mean vertical wedge force, bolster going {branch}");
         value.map(|value| (what, value.clone()))
     };
-    let energy = averages.energy_per_cycle.get("side_frame");
+    let energy = averages.side_frame_energy();
     let energy = energy.map(|value| {
         (
             "friction energy at the side frame per cycle".to_owned(),
@@ -67,8 +67,8 @@ fn numbers((_, result): &CaseOutcome) -> Vec<(String, SummaryValue)> {
         )
     });
     [
-        mean("up", averages.up.get("vertical_wedge_force")),
-        mean("down", averages.down.get("vertical_wedge_force")),
+        mean("up", averages.force_up()),
+        mean("down", averages.force_down()),
         energy,
     ]
     .into_iter()

@@ -5,16 +5,21 @@ use report::figures::{CaseOutcome, toe_style, yaw};
 use report::page::{anchor, doubts};
 use report::run_files;
 use study::metrics::WINDOWS;
-use study::summary::{Summary, SummaryValue};
+use study::summary::{Averages, SummaryValue};
 
 use super::{Contents, FIGURES};
 
 /// Returns the table of runs.
 pub(super) fn table(outcomes: &[CaseOutcome]) -> Markup {
-    let unit = |of: fn(&Summary) -> Option<&SummaryValue>| {
-        let found = outcomes.iter().find_map(|(_, result)| of(&result.summary));
+    let unit = |of: fn(&Averages) -> Option<&SummaryValue>| {
+        let found = outcomes
+            .iter()
+            .find_map(|(_, result)| of(&result.summary.averages));
         found.map_or(String::new(), |measure| measure.unit.clone())
     };
+    let (up, down) = (unit(Averages::force_up), unit(Averages::force_down));
+    let energy = unit(Averages::side_frame_energy);
+    let damping = unit(|own| own.equivalent_damping.as_ref());
     let cell = |measure: Option<&SummaryValue>| {
         measure.map_or("–".to_owned(), |measure| format!("{:.1}", measure.value))
     };
@@ -42,11 +47,11 @@ pub(super) fn table(outcomes: &[CaseOutcome]) -> Markup {
                             th scope="col" { "toe" }
                             th.number scope="col" { "yaw" br; span.unit { "rad" } }
                             th scope="col" { "window of mean force" }
-                            th.number scope="col" { "mean force, up" br; span.unit { (unit(up)) } }
-                            th.number scope="col" { "mean force, down" br; span.unit { (unit(down)) } }
-                            th.number scope="col" { "energy per cycle" br; span.unit { (unit(energy)) } }
+                            th.number scope="col" { "mean force, up" br; span.unit { (up) } }
+                            th.number scope="col" { "mean force, down" br; span.unit { (down) } }
+                            th.number scope="col" { "energy per cycle" br; span.unit { (energy) } }
                             th.number scope="col" {
-                                "equivalent damping" br; span.unit { (unit(equivalent)) }
+                                "equivalent damping" br; span.unit { (damping) }
                             }
                             th.number scope="col" { "ledger residual" br; span.unit { "relative" } }
                             th.number scope="col" { "steps" }
@@ -63,10 +68,10 @@ pub(super) fn table(outcomes: &[CaseOutcome]) -> Markup {
                                 td.plain { (toe_style(case.parameters.toe).0) }
                                 td.number { (yaw(case)) }
                                 td { (summary.averages.window) }
-                                td.number { (cell(up(summary))) }
-                                td.number { (cell(down(summary))) }
-                                td.number { (cell(energy(summary))) }
-                                td.number { (cell(equivalent(summary))) }
+                                td.number { (cell(summary.averages.force_up())) }
+                                td.number { (cell(summary.averages.force_down())) }
+                                td.number { (cell(summary.averages.side_frame_energy())) }
+                                td.number { (cell(summary.averages.equivalent_damping.as_ref())) }
                                 td.number { (format!("{:.1e}", summary.ledger.largest_relative_residual)) }
                                 td.number { (summary.solver.statistics.steps) }
                             }
@@ -77,22 +82,6 @@ pub(super) fn table(outcomes: &[CaseOutcome]) -> Markup {
             @for (_, result) in outcomes { (doubts(&result.summary)) }
         }
     }
-}
-
-fn up(summary: &Summary) -> Option<&SummaryValue> {
-    summary.averages.up.get("vertical_wedge_force")
-}
-
-fn down(summary: &Summary) -> Option<&SummaryValue> {
-    summary.averages.down.get("vertical_wedge_force")
-}
-
-fn energy(summary: &Summary) -> Option<&SummaryValue> {
-    summary.averages.energy_per_cycle.get("side_frame")
-}
-
-fn equivalent(summary: &Summary) -> Option<&SummaryValue> {
-    summary.averages.equivalent_damping.as_ref()
 }
 
 /// Returns the assumptions: those of all runs, then those of some.

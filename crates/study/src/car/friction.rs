@@ -5,30 +5,20 @@
 
 use std::sync::Arc;
 
-use quantity::{Kind, Quantity};
 use wheelrail::contact::{ContactLaw, CreepLaw};
 use wheelrail::friction::{Falling, Friction, Zones};
 
+use super::changes::{self, Change, Entries};
 use super::profiles::SIDES;
-use crate::case::field::{Reach, Written};
+use crate::case::field::Reach;
 use crate::case::friction::COEFFICIENT;
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Range};
 use crate::reader::CaseReader;
-use crate::reader::schema::Form;
 
 /// Length over which coefficients go over into the next ones, from their place on, m.
 const CHANGE: f64 = 1.0;
-/// Most places with coefficients of their own.
-const MOST: usize = 1000;
 const REACH: Reach = Reach::FromZero(0.5);
-
-/// Coefficients from a place along the track on.
-#[derive(Clone, Debug)]
-struct Change {
-    from: Quantity,
-    zones: Zones,
-}
 
 /// Reads `[friction]`, `[friction.left]`, `[friction.right]`; `law` has `wheels.friction`. Returns the laws
 /// of contacts on both rails.
@@ -108,101 +98,53 @@ fn gauge_face(r: &mut CaseReader<'_>, zones: &mut Zones) {
 }
 
 /// Reads `over_distance`; what a place does not say is as `zones` have it.
-fn over_distance(r: &mut CaseReader<'_>, zones: Zones) -> Vec<Change> {
+fn over_distance(r: &mut CaseReader<'_>, zones: Zones) -> Vec<Change<Zones>> {
     let comment = "from places along the track on, within 1 m: [{ from = \"500 ft\", tread = 0.2, gauge_face \
                    = 0.15 }]";
-    let read = |section: &CaseSection<'_>, problems: &mut Problems| list(section, zones, problems);
-    r.other(
-        "over_distance",
-        Form::Other,
-        comment,
-        Vec::new(),
-        read,
-        |list: &Vec<Change>| {
-            let one = |own: &Change| {
-                let Zones { tread, gauge_face } = own.zones;
-                format!(
-                    "{{ from = \"{}\", tread = {tread}, gauge_face = {gauge_face} }}",
-                    own.from
-                )
-            };
-            let all: Vec<String> = list.iter().map(one).collect();
-            Written::toml(format!("[{}]", all.join(", ")))
-        },
-    )
-}
-
-fn list(section: &CaseSection<'_>, zones: Zones, problems: &mut Problems) -> Option<Vec<Change>> {
-    let mut list: Vec<Change> = Vec::new();
-    for own in section.tables("over_distance", problems) {
-        own.allow_in(
-            &["from", "tread", "gauge_face"],
-            &[],
-            "friction over distance",
-            problems,
-        );
-        let from = own.quantity("from", Kind::Distance, Range::Any, problems);
+    let entries = Entries {
+        keys: &["from", "tread", "gauge_face"],
+        what: "friction over distance",
+        instead: "",
+    };
+    let read = |own: &CaseSection<'_>, problems: &mut Problems| {
         let mut coefficient = |key: &str, usual: f64| match own.table.get(key) {
             Some(_) => own.number(key, COEFFICIENT, "0.3", problems),
             None => Some(usual),
         };
-        let tread = coefficient("tread", zones.tread);
-        let gauge_face = coefficient(
-            "gauge_face",
-            match own.table.get("tread") {
-                // Without zones the tread's holds for both.
-                Some(_) if zones.tread == zones.gauge_face => tread?,
-                _ => zones.gauge_face,
-            },
-        );
-        list.push(Change {
-            from: from?,
-            zones: Zones {
-                tread: tread?,
-                gauge_face: gauge_face?,
-            },
-        });
-    }
-    if list.len() > MOST {
-        let message = format!("`{}.over_distance` has {} places", section.path, list.len());
-        let help = format!("at most {MOST} are read");
-        problems.push(Problem::new(message).label("too many").help(help));
-        return None;
-    }
-    Some(list)
+        let tread = coefficient("tread", zones.tread)?;
+        // Without zones the tread's holds for both.
+        let usual = match zones.tread == zones.gauge_face {
+            true => tread,
+            false => zones.gauge_face,
+        };
+        let gauge_face = coefficient("gauge_face", usual)?;
+        Some(Zones { tread, gauge_face })
+    };
+    changes::over_distance(r, comment, &entries, read, |Zones { tread, gauge_face }| {
+        format!("tread = {tread}, gauge_face = {gauge_face}")
+    })
 }
 
 fn made(
     r: &mut CaseReader<'_>,
-    (zones, changes): (Zones, &[Change]),
+    (zones, changes): (Zones, &[Change<Zones>]),
     falling: Falling,
     side: &str,
 ) -> Friction {
-    let mut over: Vec<(f64, Zones)> = Vec::new();
-    let mut before = zones;
-    for change in changes {
-        let from = change.from.to_si();
-        let end = over.last().map_or(f64::NEG_INFINITY, |(end, _)| *end);
-        if from < end {
-            let message = format!(
-                "friction from {} on begins before the change before it ends: places must rise by more \
-                 than 1 m",
-                change.from
-            );
-            let path = match r.has(&format!("friction.{side}.over_distance")) {
-                true => format!("friction.{side}.over_distance"),
-                false => "friction.over_distance".to_owned(),
-            };
-            let help = "give places in their order along the track";
-            r.problem(&path, Problem::new(message).label("too near").help(help));
-            break;
-        }
-        if from > end {
-            over.push((from, before));
-        }
-        over.push((from + CHANGE, change.zones));
-        before = change.zones;
-    }
+    let steps: Vec<(f64, Zones)> = changes.iter().map(|own| (own.from.to_si(), own.to)).collect();
+    let over = changes::places(&zones, &steps, CHANGE).unwrap_or_else(|number| {
+        let message = format!(
+            "friction from {} on begins before the change before it ends: places must rise by more than 1 m",
+            changes[number].from
+        );
+        let path = match r.has(&format!("friction.{side}.over_distance")) {
+            true => format!("friction.{side}.over_distance"),
+            false => "friction.over_distance".to_owned(),
+        };
+        let help = "give places in their order along the track";
+        r.problem(&path, Problem::new(message).label("too near").help(help));
+        Vec::new()
+    });
     Friction {
         zones,
         over: (!over.is_empty()).then(|| Arc::from(over)),

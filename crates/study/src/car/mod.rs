@@ -7,6 +7,7 @@
 
 pub(crate) mod assumptions;
 pub mod builtin;
+mod changes;
 mod checks;
 pub mod columns;
 mod derailment;

@@ -3,20 +3,18 @@
 use std::sync::Arc;
 
 use car::ProfiledWheels;
-use quantity::{Kind as Measure, Quantity};
+use quantity::Kind as Measure;
 use wheelrail::contact::Side;
 use wheelrail::profile::{Profile, ProfileKind, ReadOptions, SlicedProfile, names, nominal};
 
+use super::changes::{self, Change, Entries};
 use super::profiles::{self, DEVIATION, NamedProfile, SIDES, named, named_or, profile, sliced, wrong};
-use crate::case::field::{Reach, Written, quoted};
+use crate::case::field::{Reach, quoted};
 use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Range};
-use crate::reader::schema::Form;
 use crate::reader::{CaseReader, LENGTH, QuantityForm};
 
 const INCH: f64 = 0.0254;
-/// Most sections of a rail over distance.
-const MOST: usize = 1000;
 const PLACE: QuantityForm = (Measure::Distance, Range::Any, Reach::Wide);
 
 /// Rails as read: profiles (left, right), those that change along the track, gauge, its depth; what is
@@ -36,13 +34,6 @@ impl Rails {
     }
 }
 
-/// A change of the profile: from a distance along the track on it is another one.
-#[derive(Clone, Debug)]
-struct Change {
-    from: Quantity,
-    profile: String,
-}
-
 /// A rail as typed.
 #[derive(Clone, Debug)]
 struct Rail {
@@ -50,7 +41,8 @@ struct Rail {
     inclination: f64,
     /// Whether the inclination is given: then it is that of all profiles.
     inclined: bool,
-    changes: (String, Vec<Change>),
+    /// The section that names them, and profiles over distance.
+    changes: (String, Vec<Change<String>>),
     slices_from: f64,
 }
 
@@ -107,34 +99,26 @@ pub(crate) fn rails(r: &mut CaseReader<'_>) -> Rails {
         changes,
         slices_from,
     };
-    let mut own = [false; 2];
-    let mut side = 0;
     let sides = SIDES.map(|name| {
         let path = format!("rails.{name}");
-        let mut rail = whole.clone();
-        own[side] = r.overlay(&path, "One rail: what is not given is as in [rails].");
-        if own[side] {
-            rail.named = named_or(r, &path, &whole.named);
-            if rail.named != whole.named && !inclined {
-                rail.inclination = usual(&rail.named.name);
-            }
-            r.number(
-                "inclination",
-                range,
-                reach,
-                &mut rail.inclination,
-                "as for both rails",
-            );
-            rail.inclined |= r.gives("inclination");
-            let given = r.gives("over_distance");
-            let changes = over_distance(r, "as for both rails");
-            if given || r.gives("profile") {
-                rail.changes = (path, changes);
-            }
-            r.quantity("slices_from", PLACE, &mut rail.slices_from, "as for both rails");
+        if !r.overlay(&path, "One rail: what is not given is as in [rails].") {
+            return None;
         }
-        side += 1;
-        rail
+        let mut rail = whole.clone();
+        rail.named = named_or(r, &path, &whole.named);
+        if rail.named != whole.named && !inclined {
+            rail.inclination = usual(&rail.named.name);
+        }
+        let comment = "as for both rails";
+        r.number("inclination", range, reach, &mut rail.inclination, comment);
+        rail.inclined |= r.gives("inclination");
+        let given = r.gives("over_distance");
+        let changes = over_distance(r, comment);
+        if given || r.gives("profile") {
+            rail.changes = (path, changes);
+        }
+        r.quantity("slices_from", PLACE, &mut rail.slices_from, comment);
+        Some(rail)
     });
     let both = Both {
         gauge_depth,
@@ -142,13 +126,13 @@ pub(crate) fn rails(r: &mut CaseReader<'_>) -> Rails {
         change_length,
     };
     let mut doubts = Vec::new();
-    let alike = own == [false; 2];
-    let side = |i: usize| (!alike).then_some([Side::Left, Side::Right][i]);
-    let left = made(r, &sides[0], &both, side(0), &mut doubts);
-    let right = match alike {
-        true => left.clone(),
-        false => made(r, &sides[1], &both, side(1), &mut doubts),
+    let alike = sides.iter().all(Option::is_none);
+    let mut own = |i: usize| {
+        let side = (!alike).then_some([Side::Left, Side::Right][i]);
+        made(r, sides[i].as_ref().unwrap_or(&whole), &both, side, &mut doubts)
     };
+    let left = own(0);
+    let right = if alike { left.clone() } else { own(1) };
     let (profiles, over) = match left.zip(right) {
         Some(((left, left_over), (right, right_over))) => (Some([left, right]), [left_over, right_over]),
         None => (None, [None, None]),
@@ -170,46 +154,19 @@ fn usual(name: &str) -> f64 {
     }
 }
 
-/// Reads `over_distance`.
-fn over_distance(r: &mut CaseReader<'_>, comment: &str) -> Vec<Change> {
-    r.other(
-        "over_distance",
-        Form::Other,
-        comment,
-        Vec::new(),
-        list,
-        |list: &Vec<Change>| {
-            let one = |own: &Change| {
-                format!(
-                    "{{ from = \"{}\", profile = {} }}",
-                    own.from,
-                    quoted(&own.profile)
-                )
-            };
-            let all: Vec<String> = list.iter().map(one).collect();
-            Written::toml(format!("[{}]", all.join(", ")))
-        },
-    )
-}
-
-fn list(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Vec<Change>> {
-    let mut list: Vec<Change> = Vec::new();
-    for own in section.tables("over_distance", problems) {
-        own.allow_in(&["from", "profile"], &[], "a profile over distance", problems);
-        let from = own.quantity("from", Measure::Distance, Range::Any, problems);
-        let (profile, _) = own.text("profile", problems)?;
-        list.push(Change {
-            from: from?,
-            profile: profile.to_owned(),
-        });
-    }
-    if list.len() > MOST {
-        let message = format!("`{}.over_distance` has {} profiles", section.path, list.len());
-        let help = format!("a rail has at most {MOST}; a list of sections (.slcs) may have 2000");
-        problems.push(Problem::new(message).label("too many").help(help));
-        return None;
-    }
-    Some(list)
+/// Reads `over_distance`: names of profiles.
+fn over_distance(r: &mut CaseReader<'_>, comment: &str) -> Vec<Change<String>> {
+    let entries = Entries {
+        keys: &["from", "profile"],
+        what: "a profile over distance",
+        instead: "; a list of sections (.slcs) may have 2000",
+    };
+    let read = |own: &CaseSection<'_>, problems: &mut Problems| {
+        own.text("profile", problems).map(|(name, _)| name.to_owned())
+    };
+    changes::over_distance(r, comment, &entries, read, |name| {
+        format!("profile = {}", quoted(name))
+    })
 }
 
 /// Returns a rail as it stands.
@@ -225,19 +182,15 @@ fn made(
         side,
         ..ReadOptions::default()
     };
-    let stands = |profile: Profile, slope: f64| match slope {
-        0.0 => Arc::new(profile),
-        slope => Arc::new(profile.inclined(slope)),
-    };
-    let (path, changes) = &rail.changes;
+    let path = format!("{}.over_distance", rail.changes.0);
     if profiles::is_list(r, &rail.named) {
-        if !changes.is_empty() {
+        if !rail.changes.1.is_empty() {
             let message = format!(
-                "`{}` is a list of sections, and `{path}.over_distance` gives profiles too",
+                "`{}` is a list of sections, and `{path}` gives profiles too",
                 rail.named.path
             );
             let help = "write one of them: the list, or over_distance with single profiles";
-            r.problem(&format!("{path}.over_distance"), Problem::new(message).help(help));
+            r.problem(&path, Problem::new(message).help(help));
             return None;
         }
         let list = sliced(r, &rail.named, &options, doubts)?.from(rail.slices_from);
@@ -248,63 +201,63 @@ fn made(
         let first = list.profiles().first()?.clone();
         return Some((first, Some(Arc::new(list))));
     }
-    let base = profile(r, &rail.named, ProfileKind::Rail, &options, doubts)?;
-    let base = stands(base, rail.inclination);
-    if changes.is_empty() {
-        return Some((base, None));
-    }
-    let path = format!("{path}.over_distance");
-    let mut known: Vec<(String, Arc<Profile>)> = vec![(rail.named.name.clone(), base.clone())];
-    let mut slices: Vec<(f64, Arc<Profile>)> = Vec::new();
-    let mut before = base.clone();
-    for change in changes {
-        let found = known.iter().find(|(name, _)| *name == change.profile);
+    let mut stands = |named: &NamedProfile, slope: f64| {
+        let own = profile(r, named, ProfileKind::Rail, &options, doubts)?;
+        Some(match slope {
+            0.0 => own,
+            slope => own.inclined(slope),
+        })
+    };
+    let base = Arc::new(stands(&rail.named, rail.inclination)?);
+    // Each file is read once.
+    let mut known: Vec<(&str, Arc<Profile>)> = vec![(&rail.named.name, base.clone())];
+    let mut steps: Vec<(f64, Arc<Profile>)> = Vec::new();
+    for Change { from, to: name } in &rail.changes.1 {
+        let found = known.iter().find(|(other, _)| other == name);
         let own = match found {
             Some((_, own)) => own.clone(),
             None => {
                 let named = NamedProfile {
                     path: path.clone(),
-                    name: change.profile.clone(),
+                    name: name.clone(),
                 };
                 let slope = match rail.inclined {
                     true => rail.inclination,
-                    false => usual(&change.profile),
+                    false => usual(name),
                 };
-                let own = profile(r, &named, ProfileKind::Rail, &options, doubts)?;
-                let own = stands(own, slope);
+                let own = stands(&named, slope)?;
                 // Every profile stands with its gauge side and its top where the first one has them.
                 let place = |of: &Profile| [of.gauge_point(both.gauge_depth), of.top()[1]];
                 let ([y, z], [own_y, own_z]) = (place(&base), place(&own));
                 let own = Arc::new(own.moved([y - own_y, z - own_z]));
-                known.push((change.profile.clone(), own.clone()));
+                known.push((name, own.clone()));
                 own
             }
         };
-        let from = change.from.to_si();
-        let end = slices.last().map_or(f64::NEG_INFINITY, |(end, _)| *end);
-        if from < end {
+        steps.push((from.to_si(), own));
+    }
+    if steps.is_empty() {
+        return Some((base, None));
+    }
+    match changes::places(&base, &steps, both.change_length) {
+        Ok(slices) => match SlicedProfile::of_rails(&path, slices) {
+            Ok(over) => Some((base, Some(Arc::new(over)))),
+            Err(error) => {
+                wrong(r, &path, &error);
+                None
+            }
+        },
+        Err(number) => {
+            let Change { from, to: name } = &rail.changes.1[number];
             let message = format!(
-                "`{path}`: the profile {} begins at {}, before the one before it is reached",
-                profiles::shown(r, &change.profile),
-                change.from
+                "`{path}`: the profile {} begins at {from}, before the one before it is reached",
+                profiles::shown(r, name)
             );
             let help = format!(
                 "places must rise, each by more than rails.change_length ({} m)",
                 both.change_length
             );
             r.problem(&path, Problem::new(message).label("too near").help(help));
-            return None;
-        }
-        if from > end {
-            slices.push((from, before));
-        }
-        slices.push((from + both.change_length, own.clone()));
-        before = own;
-    }
-    match SlicedProfile::of_rails(&path, slices) {
-        Ok(over) => Some((base, Some(Arc::new(over)))),
-        Err(error) => {
-            wrong(r, &path, &error);
             None
         }
     }

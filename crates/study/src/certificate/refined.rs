@@ -127,9 +127,13 @@ impl Certificate {
             .collect();
         let alone = Self::with(
             request,
+            // The car is that of the other runs, whatever its file has become meanwhile.
+            (self.study.source().case.clone(), self.base.clone()),
             self.limits.clone(),
-            vec![self.regimes[regime].clone()],
-            vec![self.conditions[condition].clone()],
+            (
+                vec![self.regimes[regime].clone()],
+                vec![self.conditions[condition].clone()],
+            ),
         )?;
         let case = alone.study.case(0)?;
         let record = records::run_case(&alone.study, 0, &case);

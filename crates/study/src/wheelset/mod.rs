@@ -261,9 +261,7 @@ fn check(wheelset: &Wheelset) -> Result<(), WheelsetError> {
     let [lateral_damping, yaw_damping] = wheelset.damping;
     let body = &wheelset.body;
     let weight = body.mass * STANDARD_GRAVITY;
-    // One that is not admissible, if there is any.
-    let mut coefficients = wheelset.friction.all();
-    let friction = coefficients.find(|own| !(0.0..=2.0).contains(own)).unwrap_or(0.0);
+    let wrong_friction = wheelset.friction.inadmissible();
     let positives = [
         ("the mass of the wheelset (kg)", body.mass),
         ("the moment of inertia about the axle (kg m²)", body.about_axle),
@@ -284,8 +282,8 @@ fn check(wheelset: &Wheelset) -> Result<(), WheelsetError> {
     let ranges = [
         (
             "the coefficient of friction",
-            friction,
-            (0.0..=2.0).contains(&friction),
+            wrong_friction.unwrap_or_default(),
+            wrong_friction.is_none(),
             "between 0 and 2",
         ),
         (

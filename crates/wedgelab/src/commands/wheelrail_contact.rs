@@ -11,11 +11,11 @@ use serde_json::json;
 use wheelrail::contact::{ContactLaw, CreepLaw, Side};
 use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
+use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 use wheelrail::loaded::{Attitude, LoadError, LoadedPatch};
 
 use super::wheelrail_pair::{ProfiledPair, WheelRailPair, word};
-use super::wheelrail_suspended::zones;
 use crate::failure::{Failure, Message};
 use crate::json;
 use crate::units::OutputUnits;
@@ -206,7 +206,10 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let radius = wheelset.nominal_radius();
     let cells = usize::from(arguments.cells);
     let law = ContactLaw {
-        friction: zones(arguments.friction, arguments.gauge_face_friction),
+        friction: Friction::by_zone(
+            arguments.friction,
+            arguments.gauge_face_friction.unwrap_or(arguments.friction),
+        ),
         damping: 0.0,
         creep: match arguments.creep {
             Creep::Linear => CreepLaw::Linear,

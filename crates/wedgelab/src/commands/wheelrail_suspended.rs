@@ -11,7 +11,7 @@ use study::wheelset::{SearchMode, Wheelset};
 use wheelrail::contact::CreepLaw;
 use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
-use wheelrail::friction::{Friction, Zones};
+use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 
 use super::wheelrail_contact::Creep;
@@ -134,17 +134,6 @@ fn of_yaw_stiffness(text: &str) -> Result<Named, String> {
     })
 }
 
-/// Returns friction of the tread and of the gauge face, which is that of the tread if it is not given.
-pub fn zones(tread: f64, gauge_face: Option<f64>) -> Friction {
-    Friction {
-        zones: Zones {
-            tread,
-            gauge_face: gauge_face.unwrap_or(tread),
-        },
-        ..Friction::constant(tread)
-    }
-}
-
 impl SuspendedArguments {
     /// Returns the wheelset on a track, at rest in its middle; the settings of a run are the usual ones. With
     /// `over` rails may change along the track.
@@ -176,7 +165,7 @@ impl SuspendedArguments {
             speed: 0.0,
             stiffness: [self.lateral_stiffness.to_si(), self.yaw_stiffness.si],
             damping: [self.lateral_damping.to_si(), self.yaw_damping.to_si()],
-            friction: zones(self.friction, self.gauge_face_friction),
+            friction: Friction::by_zone(self.friction, self.gauge_face_friction.unwrap_or(self.friction)),
             creep: match self.creep {
                 Creep::Linear => CreepLaw::Linear,
                 Creep::ShenHedrickElkins => CreepLaw::ShenHedrickElkins,

@@ -14,13 +14,6 @@ use wheelrail::wheelset::{Layout, RigidWheelset};
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-fn zones(tread: f64, gauge_face: f64) -> Friction {
-    Friction {
-        zones: Zones { tread, gauge_face },
-        ..Friction::constant(tread)
-    }
-}
-
 /// Polach's falling friction is its formula, zones are linear in the angle on both sides, places linear in
 /// the distance; derivatives are those of differences.
 #[test]
@@ -34,7 +27,7 @@ fn analytic_friction_by_angle_distance_and_slip() {
         let found = falling.at(0.05, 0.0, [0.6 * w, -0.8 * w]);
         assert!((found / exact - 1.0).abs() < 1e-6, "{w}: {found} {exact}");
     }
-    let oiled = zones(0.4, 0.15);
+    let oiled = Friction::by_zone(0.4, 0.15);
     for (angle, exact) in [
         (-3.0, 0.4),
         (19.9, 0.4),
@@ -100,7 +93,7 @@ fn pressed(load: f64) -> LoadedWheel {
     };
     let wheelset = RigidWheelset::new([&wheel; 2], [0.444; 2], [&rail; 2], layout, material).unwrap();
     let law = ContactLaw {
-        friction: zones(0.35, 0.2),
+        friction: Friction::by_zone(0.35, 0.2),
         damping: 0.0,
         creep: CreepLaw::Fastsim(StripGrid {
             cells: 40,
