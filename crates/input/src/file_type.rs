@@ -25,8 +25,8 @@ pub enum FileType {
     MeasuredTrack,
     /// A profile of a wheel or a rail (CSV with y and z, Simpack, MiniProf, VAMPIRE).
     Profile,
-    /// A certificate (JSON).
-    Certificate,
+    /// An assessment (JSON).
+    Assessment,
     /// JSON: a summary, the description of a study, a saved state.
     Json,
     /// A web page, such as a report.
@@ -61,7 +61,7 @@ impl FileType {
         Self::Results,
         Self::MeasuredTrack,
         Self::Profile,
-        Self::Certificate,
+        Self::Assessment,
         Self::Json,
         Self::Page,
         Self::Figure,
@@ -110,8 +110,8 @@ impl FileType {
             return Some(Self::Figure);
         }
         if begins("{") || begins("[{") {
-            return match text.contains("\"wedgelab.certificate/") {
-                true => Some(Self::Certificate),
+            return match text.contains("\"wedgelab.assessment/") {
+                true => Some(Self::Assessment),
                 false => Some(Self::Json),
             };
         }
@@ -149,7 +149,7 @@ impl FileType {
             Self::Results => "a table of results",
             Self::MeasuredTrack => "a measured track",
             Self::Profile => "a profile of a wheel or a rail",
-            Self::Certificate => "a certificate",
+            Self::Assessment => "an assessment",
             Self::Json => "a JSON file",
             Self::Page => "a web page",
             Self::Figure => "a figure",
@@ -171,8 +171,8 @@ impl FileType {
                 format!("`wedgelab track show {path}` shows it; a case runs on it by track.file = \"{path}\"")
             }
             Self::Regime => format!("`wedgelab regime {path} CAR` runs a car in it"),
-            Self::Limits => format!("`wedgelab certify CAR --limits {path}` compares a car with them"),
-            Self::Conditions => format!("`wedgelab certify CAR --conditions {path}` runs a car in them"),
+            Self::Limits => format!("`wedgelab assess CAR --limits {path}` compares a car with them"),
+            Self::Conditions => format!("`wedgelab assess CAR --conditions {path}` runs a car in them"),
             Self::Nucars if path.to_ascii_lowercase().ends_with(".run") => {
                 format!("`wedgelab nucars run {path}` runs it, `wedgelab nucars check {path}` reads it")
             }
@@ -189,8 +189,8 @@ impl FileType {
                 "`wedgelab wheelrail check` takes it; in a case, write wheels.profile = \"{path}\" or \
                  rails.profile"
             ),
-            Self::Certificate => {
-                "`wedgelab certify CAR --against DIR` takes the folder that it lies in".to_owned()
+            Self::Assessment => {
+                "`wedgelab assess CAR --against DIR` takes the folder that it lies in".to_owned()
             }
             Self::Json => {
                 "`wedgelab compare` takes the folder that a summary.json lies in; no command takes other JSON"
@@ -324,8 +324,8 @@ mod tests {
             (b"time [s], value [in]\n0, 1\n", None),
             (b"{\"schema\": \"wedgelab.summary/1\"}", Some(FileType::Json)),
             (
-                b"{\"schema\": \"wedgelab.certificate/1\"}",
-                Some(FileType::Certificate),
+                b"{\"schema\": \"wedgelab.assessment/1\"}",
+                Some(FileType::Assessment),
             ),
             (b"title = \"m\"\n[[segments]]\n", Some(FileType::Track)),
             (b"segments = [{ tangent = \"1 ft\" }]", Some(FileType::Track)),

@@ -17,7 +17,7 @@
 //! - [`table`]: tables of results, read back; [`run_folder`]: whole runs.
 //! - [`study_folder`], [`study_work`]: studies of many runs, kept and computed; [`parquet`] is their table,
 //!   [`study_digest`] what their page shows.
-//! - [`certificate_work`], [`certificate_files`]: a certificate of a car, made and written.
+//! - [`assessment_work`], [`assessment_files`]: an assessment of a car, made and written.
 //! - [`fit_files`]: the files of an identification.
 //! - [`comparison`]: results beside each other; [`plot`]: any column over any other.
 //!
@@ -33,8 +33,8 @@
 //! # Ok::<(), std::io::Error>(())
 //! ```
 
-pub mod certificate_files;
-pub mod certificate_work;
+pub mod assessment_files;
+pub mod assessment_work;
 pub mod comparison;
 pub mod csv;
 pub mod curves_files;

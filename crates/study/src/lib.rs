@@ -15,10 +15,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod assessment;
 pub mod assumptions;
 pub mod car;
 pub mod case;
-pub mod certificate;
 pub mod closed_form;
 pub mod contacts;
 pub mod cycles;

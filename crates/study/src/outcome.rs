@@ -1,7 +1,7 @@
 //! The outcome of a run of any model: whether it came to its end with numbers to use, and if not, where and
 //! why.
 //!
-//! Exit codes, `complete` in the summary, tables, pages, rows of studies, certificates and Python ask it
+//! Exit codes, `complete` in the summary, tables, pages, rows of studies, assessments and Python ask it
 //! ([`RunSummary::outcome`](crate::summary::RunSummary::outcome)).
 
 use quantity::SixDigits;

@@ -28,7 +28,7 @@ MODULES = {
     "_wedgelab": "wl.",
     "many": "wl.",
     "study": "wl.",
-    "certificate": "wl.",
+    "assessment": "wl.",
     "cluster": "wl.cluster.",
     "figures": "wl.",
     "quasi_static": "wl.",

@@ -9,7 +9,7 @@
 
 use pyo3::prelude::*;
 
-mod certificate;
+mod assessment;
 mod errors;
 mod figures;
 mod half_truck;
@@ -31,7 +31,7 @@ mod _wedgelab {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use crate::certificate::NativeCertificate;
+    use crate::assessment::NativeAssessment;
     #[pymodule_export]
     use crate::errors::fail_inside;
     #[pymodule_export]

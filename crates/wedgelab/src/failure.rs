@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use miette::{Diagnostic, MietteHandlerOpts, Report};
 use nucars::file_sets::LoadError;
 use report::comparison::ComparisonError;
-use report::page::certificate::AgainstError;
+use report::page::assessment::AgainstError;
 use report::run_folder::RunFolderError;
 use report::table::TableError;
 use staging::FileError;

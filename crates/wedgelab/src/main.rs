@@ -21,7 +21,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use numerics::processor::{OldProcessor, check};
 
 use commands::{
-    case, certify, compare, completions, curves, energy, explore, fit, fmu, lock_up, man, nucars, plot,
+    assess, case, compare, completions, curves, energy, explore, fit, fmu, lock_up, man, nucars, plot,
     quasi_static, regime, report as report_command, reproduce, run, stability, study, track, warp, wear,
     wheelrail,
 };
@@ -47,7 +47,7 @@ Begin with:
   wedgelab warp                      warp of a whole truck with four wedges
   wedgelab lock-up                   where a wedge locks up, over two of its parameters
   wedgelab stability CAR             vibrations of a whole car over speed
-  wedgelab certify CAR               a car in the regimes of its assessment, beside limits
+  wedgelab assess CAR               a car in the regimes of its assessment, beside limits
   wedgelab explore my.toml           a page to change it and see its loop move
   wedgelab study STUDY.toml          many variants of a case, into one table
   wedgelab compare RESULT RESULT     differences and overlay figures
@@ -83,7 +83,8 @@ enum Command {
     Wear(wear::Arguments),
     Stability(stability::Arguments),
     Regime(regime::Arguments),
-    Certify(certify::Arguments),
+    #[command(alias = assess::BEFORE)]
+    Assess(assess::Arguments),
     Wheelrail(wheelrail::Arguments),
     Track(track::Arguments),
     Nucars(nucars::Arguments),
@@ -112,7 +113,7 @@ impl Cli {
             Command::Wear(arguments) => wear::execute(&arguments),
             Command::Stability(arguments) => stability::execute(&arguments),
             Command::Regime(arguments) => regime::execute(&arguments),
-            Command::Certify(arguments) => certify::execute(&arguments),
+            Command::Assess(arguments) => assess::execute(&arguments),
             Command::Wheelrail(arguments) => wheelrail::execute(&arguments),
             Command::Track(arguments) => track::execute(&arguments),
             Command::Nucars(arguments) => nucars::execute(&arguments),

@@ -89,6 +89,21 @@ impl Friction {
         zones.flat_map(|own| [own.tread, own.gauge_face])
     }
 
+    /// Returns the same with all coefficients times a factor.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let zones = |own: &Zones| Zones {
+            tread: factor * own.tread,
+            gauge_face: factor * own.gauge_face,
+        };
+        let over = |own: &Arc<[(f64, Zones)]>| own.iter().map(|(at, own)| (*at, zones(own))).collect();
+        Self {
+            zones: zones(&self.zones),
+            over: self.over.as_ref().map(over),
+            falling: self.falling,
+        }
+    }
+
     /// Returns whether there is no friction anywhere.
     #[must_use]
     pub fn is_zero(&self) -> bool {

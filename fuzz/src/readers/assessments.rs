@@ -1,19 +1,19 @@
 //! Assessments of freight cars: regimes, limits, conditions, what is asked for, records of runs, and
-//! certificates to compare with.
+//! assessments to compare with.
 
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use report::certificate_files::{self, CertificateFindings, NAMES};
-use report::page::certificate::{self as page, Against};
+use report::assessment_files::{self, AssessmentFindings, NAMES};
+use report::page::assessment::{self as page, Against};
 use report::study_folder::StudyFolder;
 use staging::Folder;
+use study::assessment::conditions::{self, Condition};
+use study::assessment::{Assessment, Request};
 use study::car::limits::LimitSet;
 use study::car::regime::Regime;
 use study::car::speeds;
 use study::case::CaseError;
-use study::certificate::conditions::{self, Condition};
-use study::certificate::{Certificate, Request};
 use study::measures::Measures;
 use study::records::{Record, Status};
 
@@ -86,7 +86,7 @@ pub const CONDITIONS: Reader = Reader {
 /// What is asked for.
 pub const REQUESTS: Reader = Reader {
     name: "requests",
-    about: "arguments of `wedgelab certify`, one a line",
+    about: "arguments of `wedgelab assess`, one a line",
     corpus: || texts(WANTED.into_iter()),
     dictionary: &[
         b"regime ",
@@ -108,9 +108,9 @@ pub const REQUESTS: Reader = Reader {
 };
 
 /// Runs beside limits.
-pub const ASSESSMENTS: Reader = Reader {
-    name: "assessments",
-    about: "runs of a certificate with these measures: verdicts, tables, page, and what it says of itself",
+pub const ASSESSED_RUNS: Reader = Reader {
+    name: "assessed_runs",
+    about: "runs of an assessment with these measures: verdicts, tables, page, and what it says of itself",
     corpus: || texts(MEASURED.into_iter()),
     dictionary: &[
         b"complete",
@@ -130,13 +130,13 @@ pub const ASSESSMENTS: Reader = Reader {
     read: assessed,
 };
 
-/// Certificates to compare with.
-pub const CERTIFICATES: Reader = Reader {
-    name: "certificates",
-    about: "certificate.json of `--against`, beside a certificate on its page",
-    corpus: certificate_corpus,
+/// Assessments to compare with.
+pub const ASSESSMENTS: Reader = Reader {
+    name: "assessments",
+    about: "assessment.json of `--against`, beside an assessment on its page",
+    corpus: assessment_corpus,
     dictionary: &[
-        b"\"schema\": \"wedgelab.certificate/1\"",
+        b"\"schema\": \"wedgelab.assessment/1\"",
         b"\"verdicts\": [",
         b"\"worst\": null",
         b"\"value\": 1e308",
@@ -147,7 +147,7 @@ pub const CERTIFICATES: Reader = Reader {
         b"\\u0000",
         b"\\ud800",
     ],
-    read: certificate,
+    read: assessment,
 };
 
 /// Arguments, one a line.
@@ -184,19 +184,20 @@ fn request_with(regimes: &[String], conditions: &[String], limits: &str) -> Requ
         conditions: conditions.to_vec(),
         limits: limits.to_owned(),
         refine: false,
+        frictions: Vec::new(),
     }
 }
 
-/// Makes the certificate, and the case of its last run.
+/// Makes the assessment, and the case of its last run.
 fn asked(request: &Request) -> ReadOutcome {
-    let certificate = match Certificate::new(request) {
-        Ok(certificate) => certificate,
+    let assessment = match Assessment::new(request) {
+        Ok(assessment) => assessment,
         Err(error) => return refused(&error),
     };
-    let count = certificate.study.count();
-    assert!(count > 0, "no runs: {}", certificate.car);
-    let _ = certificate.without_limits();
-    match certificate.study.case(count - 1) {
+    let count = assessment.study.count();
+    assert!(count > 0, "no runs: {}", assessment.car);
+    let _ = assessment.without_limits();
+    match assessment.study.case(count - 1) {
         Ok(_) => ReadOutcome::ACCEPTED,
         Err(error) => refused(&error),
     }
@@ -242,14 +243,17 @@ fn limits(input: &[u8]) -> ReadOutcome {
             Err(error) => return refused(&error),
         };
         for limit in &set.limits {
-            assert!(limit.value.is_finite(), "not finite: {}", limit.name);
-            let margin = limit.margin(limit.value);
-            assert!(
-                margin == 0.0,
-                "a margin at the limit itself: {margin}, {}",
-                limit.name
-            );
-            let _ = limit.regimes_in_words();
+            // What a formula needs is one, whatever it is.
+            if let Some(value) = limit.number(&|_| Some(1.0)) {
+                assert!(value.is_finite(), "not finite: {}", limit.name);
+                let margin = limit.margin(value, value);
+                assert!(
+                    margin == 0.0,
+                    "a margin at the limit itself: {margin}, {}",
+                    limit.name
+                );
+            }
+            let _ = (limit.regimes_in_words(), limit.value_in_words());
         }
         ReadOutcome::ACCEPTED
     })
@@ -283,7 +287,7 @@ fn request(input: &[u8]) -> ReadOutcome {
     let values = |key: &str| -> Vec<String> {
         let lines = text.lines().filter_map(|line| line.split_once(' '));
         let own = lines.filter(|(own, _)| *own == key);
-        // Each run of a certificate is a case that is read.
+        // Each run of an assessment is a case that is read.
         own.map(|(_, value)| value.to_owned()).take(MOST_ASKED).collect()
     };
     let speeds = match speeds::parse(&values("speed"), 3) {
@@ -308,23 +312,23 @@ fn request(input: &[u8]) -> ReadOutcome {
     })
 }
 
-/// A certificate of four runs.
-static SMALL: LazyLock<Option<Certificate>> = LazyLock::new(|| {
+/// An assessment of four runs.
+static SMALL: LazyLock<Option<Assessment>> = LazyLock::new(|| {
     let regimes = ["twist_and_roll", "spiral"].map(str::to_owned);
     let conditions = ["as_given", "mu_0.25"].map(str::to_owned);
     let speeds = speeds::parse(&["30 mph".to_owned()], 2).ok()?;
     let request = request_with(&regimes, &conditions, "aar_chapter_xi");
-    Certificate::new(&Request { speeds, ..request }).ok()
+    Assessment::new(&Request { speeds, ..request }).ok()
 });
 
 /// Returns the record of a line.
-fn record(certificate: &Certificate, line: &str) -> Option<Record> {
+fn record(assessment: &Assessment, line: &str) -> Option<Record> {
     let (values, reason) = line.split_once('#').unwrap_or((line, ""));
     let mut words = values.split_whitespace();
     let number = words.next()?.parse().ok()?;
     let status = words.next()?;
     let status = Status::ALL.into_iter().find(|own| own.name() == status)?;
-    let definitions = certificate.study.measures();
+    let definitions = assessment.study.measures();
     let mut measures = vec![f64::NAN; definitions.len()];
     for (name, value) in words.filter_map(|word| word.split_once('=')) {
         let place = definitions.iter().position(|own| own.name == name);
@@ -342,35 +346,31 @@ fn record(certificate: &Certificate, line: &str) -> Option<Record> {
 
 /// Keeps the records of an input in a study's folder, and those that are missing without measures.
 fn gathered(
-    certificate: &Certificate,
+    assessment: &Assessment,
     text: &str,
     folder: &Path,
-) -> Result<(StudyFolder, CertificateFindings), ReadOutcome> {
+) -> Result<(StudyFolder, AssessmentFindings), ReadOutcome> {
     let refused = |error| ReadOutcome::refused(&error);
-    let study = StudyFolder::open(folder, &certificate.study).map_err(refused)?;
-    for own in text
-        .lines()
-        .take(100)
-        .filter_map(|line| record(certificate, line))
-    {
+    let study = StudyFolder::open(folder, &assessment.study).map_err(refused)?;
+    for own in text.lines().take(100).filter_map(|line| record(assessment, line)) {
         study.keep(&own).map_err(refused)?;
     }
     for number in study.missing(0).map_err(refused)? {
-        let none = record(certificate, &format!("{number} refused # missing"));
+        let none = record(assessment, &format!("{number} refused # missing"));
         if let Some(none) = none {
             study.keep(&none).map_err(refused)?;
         }
     }
-    let findings = CertificateFindings::gather(certificate, &study).map_err(refused)?;
+    let findings = AssessmentFindings::gather(assessment, &study).map_err(refused)?;
     Ok((study, findings))
 }
 
 fn assessed(input: &[u8]) -> ReadOutcome {
-    let (Ok(text), Some(certificate)) = (std::str::from_utf8(input), SMALL.as_ref()) else {
+    let (Ok(text), Some(assessment)) = (std::str::from_utf8(input), SMALL.as_ref()) else {
         return ReadOutcome::NO_TEXT;
     };
     in_folder(|path| {
-        let (_study, findings) = match gathered(certificate, text, path) {
+        let (_study, findings) = match gathered(assessment, text, path) {
             Ok(found) => found,
             Err(refused) => return refused,
         };
@@ -383,15 +383,15 @@ fn assessed(input: &[u8]) -> ReadOutcome {
             let told = own.worst.as_ref().is_some_and(|worst| worst.margin.is_nan());
             assert!(!told, "a margin that is no number: {}", own.word());
         }
-        let Ok(page) = page::render(certificate, &findings, &[], None) else {
+        let Ok(page) = page::render(assessment, &findings, &[], None) else {
             return ReadOutcome::NO_TEXT;
         };
         let written = Folder::check(path, &NAMES, true)
-            .and_then(|folder| certificate_files::write(certificate, &findings, &page, &folder));
+            .and_then(|folder| assessment_files::write(assessment, &findings, &page, &folder));
         if let Err(error) = written {
             return ReadOutcome::refused(&error);
         }
-        let finite = |worst: &&study::certificate::WorstSpeed| worst.value.is_finite();
+        let finite = |worst: &&study::assessment::WorstSpeed| worst.value.is_finite();
         let worst = findings.verdicts.iter().filter_map(|own| own.worst.as_ref());
         let said = worst.filter(finite).count();
         match Against::read(path) {
@@ -402,27 +402,27 @@ fn assessed(input: &[u8]) -> ReadOutcome {
     })
 }
 
-/// The findings beside which certificates are shown.
-static FINDINGS: LazyLock<Option<CertificateFindings>> = LazyLock::new(|| {
+/// The findings beside which assessments are shown.
+static FINDINGS: LazyLock<Option<AssessmentFindings>> = LazyLock::new(|| {
     let folder = tempfile::tempdir().ok()?;
     gathered(SMALL.as_ref()?, MEASURED[0], folder.path())
         .ok()
         .map(|(_, found)| found)
 });
 
-fn certificate_corpus() -> Vec<Vec<u8>> {
+fn assessment_corpus() -> Vec<Vec<u8>> {
     let written = |text: &str| {
-        let (certificate, folder) = (SMALL.as_ref()?, tempfile::tempdir().ok()?);
-        let (_, findings) = gathered(certificate, text, folder.path()).ok()?;
+        let (assessment, folder) = (SMALL.as_ref()?, tempfile::tempdir().ok()?);
+        let (_, findings) = gathered(assessment, text, folder.path()).ok()?;
         let files = Folder::check(folder.path(), &NAMES, true).ok()?;
-        certificate_files::write(certificate, &findings, "", &files).ok()?;
+        assessment_files::write(assessment, &findings, "", &files).ok()?;
         std::fs::read(folder.path().join(NAMES[2])).ok()
     };
     MEASURED[..2].iter().filter_map(|text| written(text)).collect()
 }
 
-fn certificate(input: &[u8]) -> ReadOutcome {
-    let (Some(certificate), Some(findings)) = (SMALL.as_ref(), FINDINGS.as_ref()) else {
+fn assessment(input: &[u8]) -> ReadOutcome {
+    let (Some(assessment), Some(findings)) = (SMALL.as_ref(), FINDINGS.as_ref()) else {
         return ReadOutcome::NO_TEXT;
     };
     in_file(NAMES[2], input, |file| {
@@ -430,7 +430,7 @@ fn certificate(input: &[u8]) -> ReadOutcome {
             Ok(against) => against,
             Err(error) => return ReadOutcome::refused(&error),
         };
-        let page = page::render(certificate, findings, &[], Some(&against)).unwrap_or_default();
+        let page = page::render(assessment, findings, &[], Some(&against)).unwrap_or_default();
         super::check_page(&page);
         ReadOutcome::ACCEPTED
     })

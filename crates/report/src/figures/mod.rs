@@ -4,12 +4,12 @@
 //! - [`power_flow`]: where the energy of a cycle goes, of any run.
 //! - [`truck`]: a run of a three-piece truck; [`car`]: of a car on track, over the distance.
 //! - [`vehicle`]: of a vehicle of bodies and elements, over time.
-//! - [`certificate`]: of a car in regimes, over the speed.
+//! - [`assessment`]: of a car in regimes, over the speed.
 //! - [`side_by_side`]: runs over each other, read back from their folders.
 //! - [`study`]: main effects and contours of studies; [`jam`]: their jam map.
 
+pub mod assessment;
 pub mod car;
-pub mod certificate;
 pub mod jam;
 pub mod power_flow;
 mod pressure;

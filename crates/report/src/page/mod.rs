@@ -1,7 +1,7 @@
 //! `index.html`: the report as one page that needs nothing else to be shown.
 
+pub mod assessment;
 pub mod car_run;
-pub mod certificate;
 mod contents;
 pub mod explorer;
 pub mod half_truck_run;

@@ -11,6 +11,7 @@ mod changes;
 mod checks;
 pub mod columns;
 mod derailment;
+pub mod figures;
 pub(crate) mod friction;
 pub mod hunting;
 mod lading;
@@ -36,6 +37,8 @@ pub(crate) mod trucks;
 pub(crate) mod wheels;
 pub mod worst;
 
+use std::sync::Arc;
+
 use car::Parameters;
 
 use crate::case::Simulation;
@@ -43,6 +46,7 @@ use crate::case::model::{Model, model_case};
 use crate::case::tables::NamedFile;
 use crate::output_files::OutputFiles;
 use crate::reader::{CaseReader, CaseText};
+use limits::LimitSet;
 use statistics::Rules;
 
 /// The case of a car, ready to run.
@@ -56,6 +60,8 @@ pub struct CarCase {
     pub parameters: Parameters,
     /// The rules of statistics.
     pub rules: Rules,
+    /// The limits that its summary compares with; `None`: those of freight cars, built in.
+    pub limits: Option<Arc<LimitSet>>,
     /// The files of its time histories.
     pub output_files: OutputFiles,
     /// The settings of the run.
@@ -112,6 +118,7 @@ fn read(r: &mut CaseReader<'_>, default_name: &str) -> Option<CarCase> {
         title,
         parameters,
         rules,
+        limits: None,
         output_files,
         simulation,
         stability,

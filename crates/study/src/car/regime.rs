@@ -54,6 +54,15 @@ const DURATION_STEP: f64 = 0.05;
 /// Parts of a range by which a speed may lie outside: digits of units.
 const SLACK: f64 = 1e-9;
 
+/// The key of the start. Where nothing sets it, cars in regimes start shaken: with what friction holds in
+/// service.
+pub(crate) const START: &str = "start.kind";
+
+/// Returns whether settings, as `--set` takes them, say how a car starts.
+pub(crate) fn says_start(set: &[String]) -> bool {
+    set.iter().any(|own| own.split('=').next() == Some(START))
+}
+
 /// The files of the regimes of these names.
 macro_rules! files {
     ($($name:literal),* $(,)?) => {
@@ -181,6 +190,9 @@ impl Regime {
         let mut settings = vec![format!("track={}", self.track), speed_alone];
         settings.extend(self.at(speed)?.into_iter().skip(1));
         settings.extend(self.set.iter().cloned());
+        if !says_start(&self.set) {
+            settings.push(format!("{START}=\"shaken\""));
+        }
         Ok(settings)
     }
 

@@ -15,9 +15,11 @@ use truck::WEDGE_NAMES;
 use super::CarCase;
 use super::checks::POUND_FORCE;
 use super::columns::{CarTable, losses_of_wedge, points_of_wedges};
+use super::figures::CarFigures;
+use super::limits::{LimitCheck, LimitSet};
 use super::motions::MotionTable;
 use super::static_table::static_table;
-use super::statistics::{self, Histories, SIDES, Statistics};
+use super::statistics::{self, Histories, SIDES, Statistic, Statistics};
 use super::summary::{CarSummary, Derailed, SCHEMA};
 use super::{limits, locked_in, peaks};
 use crate::energy;
@@ -325,7 +327,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         distance,
         speed,
         static_loads,
-        limits: limits::of(&statistics.values, (&run.case.rules, units)),
+        limits: limits_of(&run.case, &statistics.values, units),
         statistics: statistics.values,
         wedge_losses,
         wedge_locked,
@@ -484,4 +486,14 @@ fn losses(run: &mut Run<CarCase>) -> BTreeMap<String, SummaryValue> {
         }
     }
     losses
+}
+
+/// Returns the limits of a case beside the statistics of its run.
+fn limits_of(case: &CarCase, statistics: &BTreeMap<String, Statistic>, units: Units) -> Vec<LimitCheck> {
+    let set = case.limits.as_deref().or(LimitSet::built_in().first());
+    let figures = CarFigures::of(&case.parameters);
+    let known = limits::known(&figures, statistics, units);
+    set.map_or_else(Vec::new, |set| {
+        limits::of(set, statistics, &known, (&case.rules, units))
+    })
 }

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use car::Wheels;
+use study::assessment::conditions::Condition;
 use study::car::CarCase;
 use study::case::Tables;
-use study::certificate::conditions::Condition;
 use study::run::Run;
 use wheelrail::contact::{ContactLaw, CreepLaw};
 use wheelrail::friction::DRY;

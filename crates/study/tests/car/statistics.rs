@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::{PI, SQRT_2};
 
 use quantity::System;
-use study::car::limits;
+use study::car::limits::{self, LimitSet};
 use study::car::statistics::{Histories, Rules, Statistics};
 
 const FOOT: f64 = 0.3048;
@@ -202,7 +202,12 @@ fn analytic_limits_name_the_worst_statistic() {
     set(&mut columns, "axle_2_right_lateral", |_| 40e3);
     set(&mut columns, "axle_3_left_vertical", |_| 60e3);
     let statistics = statistics(&columns, &Rules::default());
-    let limits = limits::of(&statistics.values, (&Rules::default(), System::Us));
+    let limits = limits::of(
+        &LimitSet::built_in()[0],
+        &statistics.values,
+        &|_| None,
+        (&Rules::default(), System::Us),
+    );
     let of = |quantity: &str| {
         limits
             .iter()

@@ -1,7 +1,7 @@
 //! Regimes of freight cars: their files, their tracks, what comes out beside the field.
 #![allow(clippy::unwrap_used)]
 
-mod certificates;
+mod assessments;
 mod files;
 mod orders;
 mod tracks;

@@ -3,12 +3,14 @@
 Units: a text carries its unit (``"32 deg"``), a bare number is in SI units. ``docs/python.md`` is a short tour.
 """
 
+import warnings
+
 from . import cluster, nucars, wheelrail
 from ._motions import Constant, Ramp, Sine, SweptSine, Table, Triangle
 from ._wedgelab import Quantity, __version__
+from .assessment import Assessment, AssessmentOutcome, Verdict
 from .car import CarCase
 from .case import Case, Group, built_in
-from .certificate import Certificate, CertificateOutcome, Verdict
 from .errors import (
     CaseError,
     EnergyWarning,
@@ -66,8 +68,8 @@ __all__ = [
     "CarResult",
     "Case",
     "CaseError",
-    "Certificate",
-    "CertificateOutcome",
+    "Assessment",
+    "AssessmentOutcome",
     "Column",
     "Constant",
     "ContactSection",
@@ -132,3 +134,15 @@ __all__ = [
     "run_many",
     "wheelrail",
 ]
+
+_BEFORE = {"Certificate": Assessment, "CertificateOutcome": AssessmentOutcome}
+
+
+def __getattr__(name: str) -> object:
+    """Older names, which go with the next version."""
+    try:
+        own = _BEFORE[name]
+    except KeyError:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}") from None
+    warnings.warn(f"wedgelab.{name} is called {own.__name__} now", DeprecationWarning, stacklevel=2)
+    return own

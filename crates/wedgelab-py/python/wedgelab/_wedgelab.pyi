@@ -18,7 +18,7 @@ _Load = tuple[list[float], list[float]]
 
 __all__ = [
     "NativeCase",
-    "NativeCertificate",
+    "NativeAssessment",
     "NativeFile",
     "NativeProfile",
     "NativeResult",
@@ -352,7 +352,7 @@ class NativeStudyFolder:
     def close(self) -> None: ...
 
 @final
-class NativeCertificate:
+class NativeAssessment:
     def __new__(
         cls,
         car: _Path,
@@ -361,7 +361,8 @@ class NativeCertificate:
         speeds: list[str],
         conditions: list[str],
         limits: str,
-    ) -> NativeCertificate: ...
+        frictions: list[float],
+    ) -> NativeAssessment: ...
     @property
     def car(self) -> str: ...
     def study(self) -> NativeStudy: ...

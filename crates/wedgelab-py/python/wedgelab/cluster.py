@@ -7,18 +7,20 @@ were under way on one that died are computed by others.
 
 from __future__ import annotations
 
+import warnings
+
 from collections.abc import Iterator
 from functools import lru_cache
 from typing import Any
 
 from ._optional import need
 from ._wedgelab import NativeStudy, NativeStudyFolder
-from .certificate import Certificate, CertificateOutcome
+from .assessment import Assessment, AssessmentOutcome
 from .errors import StudyError
 from .many import Progress, _teller
 from .study import PathLike, Study, StudyOutcome, finished, opened
 
-__all__ = ["run_certificate", "run_study"]
+__all__ = ["run_assessment", "run_study"]
 
 DEATHS = 5
 """A batch on which workers died so often, as often as Dask itself tries it each time, is given up."""
@@ -47,22 +49,22 @@ def run_study(
         return finished(study, native, path, before)
 
 
-def run_certificate(
-    certificate: Certificate,
+def run_assessment(
+    assessment: Assessment,
     folder: PathLike | None = None,
     *,
     client: Any,
     batch: int = 1,
     progress: Progress = False,
-) -> CertificateOutcome:
-    """Runs what the folder of a certificate lacks on the workers of ``client``, then makes its tables and page in this process.
+) -> AssessmentOutcome:
+    """Runs what the folder of an assessment lacks on the workers of ``client``, then makes its tables and page in this process.
 
-    As ``run_study``; what ``wedgelab certify`` or ``Certificate.run`` began goes on here, and the other way round, with the same bytes.
+    As ``run_study``; what ``wedgelab assess`` or ``Assessment.run`` began goes on here, and the other way round, with the same bytes.
     """
     distributed = _checked(client, batch)
-    with opened(certificate.study, certificate._folder(folder), False) as (native, path):
-        before = _compute(distributed, certificate.study, native, client, batch, progress)
-        return certificate._finished(native, path, before, None)
+    with opened(assessment.study, assessment._folder(folder), False) as (native, path):
+        before = _compute(distributed, assessment.study, native, client, batch, progress)
+        return assessment._finished(native, path, before, None)
 
 
 def _checked(client: Any, batch: int) -> Any:
@@ -142,3 +144,13 @@ def _study(saved: bytes) -> NativeStudy:
 def _records(saved: bytes, numbers: list[int]) -> bytes:
     """What a worker does."""
     return _study(saved).records(numbers)
+
+
+def __getattr__(name: str) -> object:
+    """The older name of ``run_assessment``, which goes with the next version."""
+    if name != "run_certificate":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    warnings.warn(
+        "wedgelab.cluster.run_certificate is called run_assessment now", DeprecationWarning, stacklevel=2
+    )
+    return run_assessment

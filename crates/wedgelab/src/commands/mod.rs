@@ -1,7 +1,7 @@
 //! The commands, one file each: arguments and execution.
 
+pub mod assess;
 pub mod case;
-pub mod certify;
 pub mod compare;
 pub mod completions;
 pub mod curves;

@@ -6,18 +6,18 @@ use std::process::ExitCode;
 
 use clap::Args;
 use quantity::nearest;
+use study::assessment::conditions;
 use study::car::limits::LimitSet;
 use study::car::regime::Regime;
-use study::certificate::conditions;
 
-use super::certify::{Common, assess};
+use super::assess::{Common, assess};
 use super::run::is_built_in;
 use crate::failure::{Failure, Message};
 
 /// Run a car in one regime of the assessment of freight cars, over speeds
 ///
 /// Without arguments it lists the built-in regimes, conditions and limits. With a regime and a car it runs
-/// the car at each speed, as `wedgelab certify` does. Tracks and limits are quoted from memory of AAR M-1001,
+/// the car at each speed, as `wedgelab assess` does. Tracks and limits are quoted from memory of AAR M-1001,
 /// chapter XI: check them against your edition.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
@@ -127,7 +127,7 @@ fn list() -> io::Result<()> {
     }
     writeln!(
         out,
-        "\n`wedgelab regime NAME CAR` runs a car in one of them, `wedgelab certify CAR` in all; \
+        "\n`wedgelab regime NAME CAR` runs a car in one of them, `wedgelab assess CAR` in all; \
          `wedgelab regime --show NAME` prints any of these as a file to change."
     )
 }

@@ -404,8 +404,8 @@ fn issue_048_files_in_wrong_places_are_recognized() {
     .unwrap();
     fs::write(path.join("wheel.csv"), "y [mm],z [mm]\n0,0\n1,0\n").unwrap();
     fs::write(
-        path.join("certificate.json"),
-        "{\"schema\": \"wedgelab.certificate/1\"}",
+        path.join("assessment.json"),
+        "{\"schema\": \"wedgelab.assessment/1\"}",
     )
     .unwrap();
     for (name, file) in [
@@ -423,7 +423,7 @@ fn issue_048_files_in_wrong_places_are_recognized() {
             "a profile of a wheel or a rail",
             "wedgelab wheelrail check",
         ),
-        ("certificate.json", "a certificate", "certify CAR --against DIR"),
+        ("assessment.json", "an assessment", "assess CAR --against DIR"),
         (
             "regime.toml",
             "a regime's file",
@@ -443,8 +443,8 @@ fn issue_048_files_in_wrong_places_are_recognized() {
         ("", &["study"], &[]),
         ("track.toml", &["track", "show"], &[]),
         ("regime.toml", &["regime"], &[car]),
-        ("limits.toml", &["certify", car, "--limits"], &[]),
-        ("conditions.toml", &["certify", car, "--conditions"], &[]),
+        ("limits.toml", &["assess", car, "--limits"], &[]),
+        ("conditions.toml", &["assess", car, "--conditions"], &[]),
         ("wheel.csv", &["wheelrail", "check"], &["136re"]),
         ("", &["plot"], &["--x", "time", "--y", "distance"]),
     ];

@@ -1,4 +1,4 @@
-//! How a run ended, at every door: exit code, summary, terminal, page, studies, certificates.
+//! How a run ended, at every door: exit code, summary, terminal, page, studies, assessments.
 
 use crate::common;
 use std::fs;
@@ -169,7 +169,7 @@ fn issue_047_a_study_counts_what_derailed() {
 
 /// A regime whose run derailed is never kept, and what is measured is told to be of the part until then.
 #[test]
-fn issue_047_a_certificate_tells_what_derailed() {
+fn issue_047_a_assessment_tells_what_derailed() {
     let folder = folder();
     let at = folder.path();
     let told = done(
@@ -192,17 +192,17 @@ fn issue_047_a_certificate_tells_what_derailed() {
     ] {
         assert!(told.contains(part), "{part}: {told}");
     }
-    let certificate = json(&at.join("c/certificate.json"));
-    let [run] = certificate["runs"].as_array().unwrap().as_slice() else {
+    let assessment = json(&at.join("c/assessment.json"));
+    let [run] = assessment["runs"].as_array().unwrap().as_slice() else {
         panic!("one run")
     };
     assert_eq!(run["status"], "derailed");
-    let verdict = &certificate["verdicts"][0];
+    let verdict = &assessment["verdicts"][0];
     assert_eq!(verdict["verdict"], "exceeded");
     // What the whole run would keep is kept only until it derailed.
     assert!(verdict["worst"]["margin"].as_f64().unwrap() > 0.5);
     assert_eq!(verdict["worst"]["until_derailed"], true);
-    let csv = fs::read_to_string(at.join("c/certificate.csv")).unwrap();
+    let csv = fs::read_to_string(at.join("c/assessment.csv")).unwrap();
     assert!(csv.lines().nth(1).unwrap().contains(",derailed,"), "{csv}");
     let page = fs::read_to_string(at.join("c/index.html")).unwrap();
     assert!(page.contains("until it derailed") && page.contains("The run derailed at"));

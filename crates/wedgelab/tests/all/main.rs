@@ -1,8 +1,8 @@
 //! Tests of `wedgelab`, one program: what is linked once is not linked thirty times.
 #![allow(clippy::unwrap_used, missing_docs)]
 
+mod assess;
 mod car_commands;
-mod certify;
 mod cli;
 #[path = "../common/mod.rs"]
 mod common;

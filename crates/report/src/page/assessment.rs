@@ -1,19 +1,21 @@
-//! The page of a certificate: limits by regime, what is worst in 3D, figures over speed and distance, wedges.
+//! The page of an assessment: limits by regime, what is worst in 3D, figures over speed and distance, wedges.
 
 use std::iter;
 
 use maud::{Markup, html};
 use quantity::System as Units;
-use study::car::limits::Bound;
+use study::assessment::dependence::{Dependence, NEAR, REACH};
+use study::assessment::{Assessment, LimitVerdict, worst_run};
+use study::car::figures::CarFigures;
+use study::car::limits::{self, Bound, Limit, Mark};
 use study::car::worst::place_in_words;
-use study::certificate::{Certificate, LimitVerdict, worst_run};
 use study::records::Status;
 
 use super::table::{self, Head};
 use super::{document, in_unit, moving_as, shown_in};
-use crate::certificate_files::{CertificateFindings, NAMES};
+use crate::assessment_files::{AssessmentFindings, NAMES, kind};
+use crate::figures::assessment::over_speed;
 use crate::figures::car::{CarRun, exhibits};
-use crate::figures::certificate::over_speed;
 use crate::figures::{Exhibit, capital, digits};
 use crate::study_folder::TABLE_FILE;
 use crate::view::View;
@@ -48,15 +50,15 @@ pub struct WorstRun {
 /// # Errors
 /// Errors of the JSON writer.
 pub fn render(
-    certificate: &Certificate,
-    findings: &CertificateFindings,
+    assessment: &Assessment,
+    findings: &AssessmentFindings,
     worst: &[WorstRun],
     against: Option<&Against>,
 ) -> Result<String, serde_json::Error> {
-    let regimes = 0..certificate.regimes.len();
+    let regimes = 0..assessment.regimes.len();
     let over_speeds: Vec<Exhibit> = regimes
         .clone()
-        .map(|regime| over_speed(certificate, findings, regime))
+        .map(|regime| over_speed(assessment, findings, regime))
         .collect();
     let over_distances: Vec<Vec<Exhibit>> = worst
         .iter()
@@ -69,16 +71,17 @@ pub fn render(
     let shown = over_speeds.iter().chain(over_distances.iter().flatten());
     let data = View::new(Units::Us, worst.iter().map(second), shown).to_json()?;
     let main = html! {
-        (summary(certificate, findings))
-        @for (condition, own) in certificate.conditions.iter().enumerate() {
+        (summary(assessment, findings))
+        @for (condition, own) in assessment.conditions.iter().enumerate() {
             section {
                 h2 id={ "condition-" (own.name) } { "Limits: " (own.title) }
-                (limits(certificate, findings, condition, against))
+                (limits(assessment, findings, condition, against))
             }
         }
-        @if certificate.conditions.len() > 1 { (conditions(certificate, findings)) }
+        (depends(assessment, findings))
+        @if assessment.conditions.len() > 1 { (conditions(assessment, findings)) }
         @for regime in regimes {
-            @let own = &certificate.regimes[regime];
+            @let own = &assessment.regimes[regime];
             section {
                 h2 id={ "regime-" (own.name) } { (capital(&own.title)) }
                 p {
@@ -91,11 +94,12 @@ pub fn render(
                     .zip(&over_distances)
                     .filter(|(own, _)| own.regime == regime)
                 {
-                    (worst_of(certificate, findings, own))
+                    (worst_of(assessment, findings, own))
                     @for exhibit in drawn { (shown_in(exhibit, &exhibit.figure.to_svg(), None)) }
                 }
             }
         }
+        (coverage(assessment, findings))
         (files())
     };
     let counted = |count: usize, what: &str| match count {
@@ -107,16 +111,16 @@ pub fn render(
         count => format!(" ({count} of them at speeds about the worst ones, to 0.5 mph)"),
     };
     let lead = format!(
-        "{}{about} of the car {}: {}, {}. Limits: {}, {}. Tracks of the regimes are remembered, too: check \
-         both against your edition.",
+        "{}{about} of the car {}: {}, {}. Limits: {}, {}. Tracks of the regimes are from memory: check \
+         them against your edition.",
         counted(findings.runs.len(), "run"),
-        certificate.car,
-        counted(certificate.regimes.len(), "regime"),
-        counted(certificate.conditions.len(), "condition"),
-        certificate.limits.title,
-        certificate.limits.source,
+        assessment.car,
+        counted(assessment.regimes.len(), "regime"),
+        counted(assessment.conditions.len(), "condition"),
+        assessment.limits.title_with_edition(),
+        assessment.limits.source,
     );
-    let heading = format!("Certificate: {}", certificate.car);
+    let heading = format!("{}: {}", capital(kind(assessment, findings)), assessment.car);
     Ok(document(&heading, &lead, None, &main, Some(&data)))
 }
 
@@ -138,14 +142,14 @@ fn second(own: &WorstRun) -> Recording {
     Recording::of_car(&run.case, &result, motions.as_ref(), Detail::Thinned)
 }
 
-fn summary(certificate: &Certificate, findings: &CertificateFindings) -> Markup {
+fn summary(assessment: &Assessment, findings: &AssessmentFindings) -> Markup {
     let [kept, exceeded, unknown] = findings.counts();
     let unsound = findings
         .runs
         .iter()
         .filter(|run| run.status != Status::Complete.name());
     let unsound: Vec<_> = unsound.collect();
-    let without = certificate.without_limits();
+    let without = assessment.without_limits();
     html! {
         section {
             h2 id="summary" { "In short" }
@@ -161,8 +165,8 @@ fn summary(certificate: &Certificate, findings: &CertificateFindings) -> Markup 
                         @for run in &unsound {
                             li {
                                 "run " (run.run) ", "
-                                (certificate.regimes[run.regime].name.replace('_', " ")) ", "
-                                (certificate.conditions[run.condition].name.replace('_', " ")) ", "
+                                (assessment.regimes[run.regime].name.replace('_', " ")) ", "
+                                (assessment.conditions[run.condition].name.replace('_', " ")) ", "
                                 (run.speed) ": "
                                 (run.status) ". " (run.note)
                             }
@@ -179,17 +183,17 @@ fn percent(margin: f64) -> String {
 }
 
 fn limits(
-    certificate: &Certificate,
-    findings: &CertificateFindings,
+    assessment: &Assessment,
+    findings: &AssessmentFindings,
     condition: usize,
     against: Option<&Against>,
 ) -> Markup {
     let own = findings.verdicts.iter().filter(|own| own.condition == condition);
     let other = |own: &LimitVerdict| {
         let key = [
-            &certificate.regimes[own.regime].name,
-            &certificate.conditions[own.condition].name,
-            &certificate.limits.limits[own.limit].name,
+            &assessment.regimes[own.regime].name,
+            &assessment.conditions[own.condition].name,
+            &assessment.limits.limits[own.limit].name,
         ];
         against?.others.iter().find(|other| other.key.iter().eq(key))
     };
@@ -209,14 +213,18 @@ fn limits(
                 }
                 tbody {
                     @for own in own {
-                        @let limit = &certificate.limits.limits[own.limit];
+                        @let limit = &assessment.limits.limits[own.limit];
                         tr {
                             th scope="row" {
-                                a href={ "#regime-" (certificate.regimes[own.regime].name) } {
-                                    (certificate.regimes[own.regime].name.replace('_', " "))
+                                a href={ "#regime-" (assessment.regimes[own.regime].name) } {
+                                    (assessment.regimes[own.regime].name.replace('_', " "))
                                 }
                             }
-                            td { (limit.quantity) @if !limit.remark.is_empty() { " (" (limit.remark) ")" } }
+                            td {
+                                (assessment.quantity(limit))
+                                @if !limit.remark.is_empty() { " (" (limit.remark) ")" }
+                                @if let Some(from) = origin(limit) { br; small { (from) } }
+                            }
                             td.number {
                                 (own.worst.as_ref().map_or("–".to_owned(), |worst| {
                                     in_unit(worst.value, &limit.unit)
@@ -228,12 +236,15 @@ fn limits(
                             td.number { (own.worst.as_ref().map_or("–", |worst| worst.speed.as_str())) }
                             td.number {
                                 (match limit.bound { Bound::AtMost => "≤ ", Bound::AtLeast => "≥ " })
-                                (in_unit(limit.value, &limit.unit))
+                                @match &own.worst {
+                                    Some(worst) => (in_unit(worst.limit_value, &limit.unit)),
+                                    None => (limit.value_in_words()),
+                                }
                             }
                             td.number {
                                 (own.worst.as_ref().map_or("–".to_owned(), |worst| percent(worst.margin)))
                             }
-                            td { (said(own, &limit.unit)) }
+                            td { (said(own)) }
                             @if against.is_some() {
                                 @match other(own) {
                                     Some(other) => {
@@ -251,8 +262,22 @@ fn limits(
     }
 }
 
+/// Returns paragraph and mark of a limit.
+fn origin(limit: &Limit) -> Option<String> {
+    let mark = limit.mark.map(|mark| match mark {
+        Mark::Source => "read in its source",
+        Mark::Derived => "derived",
+        Mark::Remembered => "from memory",
+        Mark::Guess => "a guess",
+    });
+    let paragraph = Some(limit.paragraph.as_str()).filter(|own| !own.is_empty());
+    let parts: Vec<&str> = [paragraph, mark].into_iter().flatten().collect();
+    (!parts.is_empty()).then(|| parts.join(", "))
+}
+
 /// Returns a verdict in words.
-fn said(own: &LimitVerdict, unit: &str) -> Markup {
+fn said(own: &LimitVerdict) -> Markup {
+    let by = own.turned_by();
     html! {
         @match own.word() {
             "exceeded" => strong { "exceeded" },
@@ -260,14 +285,132 @@ fn said(own: &LimitVerdict, unit: &str) -> Markup {
         }
         @if !own.derailed.is_empty() { ": derailed at " (own.derailed.join(", ")) }
         @if !own.missing.is_empty() { "; no numbers at " (own.missing.join(", ")) }
-        @if let (Some(other), Some(worst)) = (&own.other_start, &own.worst) {
-            "; from two starts: " (other.words(worst.value, unit))
+        @if !by.is_empty() { "; " a href="#depends" { "turned by " (by.join(", ")) } }
+    }
+}
+
+/// Returns what verdicts depend on: a row each verdict for which something was looked at.
+fn depends(assessment: &Assessment, findings: &AssessmentFindings) -> Markup {
+    let looked = |own: &&LimitVerdict| own.asked.is_some() || own.depends != Dependence::default();
+    let rows = findings.verdicts.iter().filter(looked).filter_map(|own| {
+        let worst = own.worst.as_ref()?;
+        let limit = &assessment.limits.limits[own.limit];
+        let unit = &limit.unit;
+        let condition = match assessment.conditions.len() {
+            1 => String::new(),
+            _ => format!(
+                ", {}",
+                assessment.conditions[own.condition].name.replace('_', " ")
+            ),
+        };
+        let asked = own.asked.as_ref().map(|own| {
+            format!(
+                "{} ({}) at {}",
+                in_unit(own.value, unit),
+                percent(own.margin),
+                own.speed
+            )
+        });
+        let start = own.depends.other_start.as_ref().map(|own| {
+            let value = own.judged.value.map_or("–".to_owned(), |own| in_unit(own, unit));
+            let margin = own.judged.margin.map_or(own.judged.verdict.to_owned(), percent);
+            format!("{value} ({margin}) from {}", own.start)
+        });
+        let friction = own.depends.friction.as_ref().map(|over| over.words(own.word()));
+        let by = own.turned_by();
+        let turned = if by.is_empty() {
+            "nothing of these".to_owned()
+        } else {
+            by.join(", ")
+        };
+        let dash = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
+        Some([
+            format!(
+                "{}{condition}: {}",
+                assessment.regimes[own.regime].name.replace('_', " "),
+                assessment.quantity(limit)
+            ),
+            format!(
+                "{} ({}) at {}",
+                in_unit(worst.value, unit),
+                percent(worst.margin),
+                worst.speed
+            ),
+            dash(asked),
+            dash(start),
+            dash(friction),
+            turned,
+        ])
+    });
+    let rows: Vec<_> = rows.collect();
+    html! {
+        @if !rows.is_empty() {
+            section {
+                h2 id="depends" { "What verdicts depend on" }
+                p {
+                    "Each verdict's worst run, its margin in brackets; the worst of the regime's own speeds, "
+                    "where another speed is worse; the same run from another start, where its margin is within "
+                    (format!("{:.0}", 100.0 * NEAR)) " %; and over the friction of wheel on rail, all coefficients "
+                    "in proportion, where the margin is within " (format!("{:.0}", 100.0 * REACH))
+                    " %: straight between the runs."
+                }
+                (table::wide(
+                    &[
+                        Head::Words("limit"),
+                        Head::Words("worst run"),
+                        Head::Words("given speeds alone"),
+                        Head::Words("other start"),
+                        Head::Words("friction"),
+                        Head::Words("verdict turned by"),
+                    ],
+                    rows,
+                ))
+            }
+        }
+    }
+}
+
+/// Returns what the rule asks for beyond the limits, and why this is no certificate.
+fn coverage(assessment: &Assessment, findings: &AssessmentFindings) -> Markup {
+    let limits = &assessment.limits;
+    let reasons = assessment.falls_short(&findings.verdicts);
+    html! {
+        section {
+            h2 id="coverage" { "Covered, not covered" }
+            p {
+                (limits.title_with_edition()) ". " (capital(&limits.source)) "."
+                @if reasons.is_empty() {
+                    " All that the rule asks for is here, read in its source, and kept: a certificate."
+                } @else {
+                    " This is an assessment, no certificate: " (reasons.join("; ")) "."
+                }
+            }
+            p {
+                "Covered: "
+                (limits.limits.iter().map(|own| assessment.quantity(own)).collect::<Vec<_>>().join("; ")) "."
+            }
+            @match limits.not_covered.as_deref() {
+                None => p { "The file of limits does not say what the rule asks for beyond them." },
+                Some([]) => {}
+                Some(all) => {
+                    p { "Not covered:" }
+                    ul {
+                        @for own in all {
+                            li {
+                                (own.what)
+                                @if !own.paragraph.is_empty() { " (" (own.paragraph) ")" }
+                                @if !own.reason.is_empty() { ": " (own.reason) }
+                            }
+                        }
+                    }
+                }
+            }
         }
     }
 }
 
 /// Returns the least margin by regime and condition.
-fn conditions(certificate: &Certificate, findings: &CertificateFindings) -> Markup {
+fn conditions(assessment: &Assessment, findings: &AssessmentFindings) -> Markup {
     let least = |regime: usize, condition: usize| {
         let own = findings
             .verdicts
@@ -287,15 +430,15 @@ fn conditions(certificate: &Certificate, findings: &CertificateFindings) -> Mark
             (false, false) => "–".to_owned(),
         }
     };
-    let names: Vec<String> = certificate
+    let names: Vec<String> = assessment
         .conditions
         .iter()
         .map(|own| own.name.replace('_', " "))
         .collect();
     let mut heads = vec![Head::Words("regime")];
     heads.extend(names.iter().map(|name| Head::Numbers(name)));
-    let rows = certificate.regimes.iter().enumerate().map(|(regime, own)| {
-        let margins = (0..certificate.conditions.len()).map(|condition| least(regime, condition));
+    let rows = assessment.regimes.iter().enumerate().map(|(regime, own)| {
+        let margins = (0..assessment.conditions.len()).map(|condition| least(regime, condition));
         iter::once(own.name.replace('_', " "))
             .chain(margins)
             .collect::<Vec<_>>()
@@ -310,7 +453,7 @@ fn conditions(certificate: &Certificate, findings: &CertificateFindings) -> Mark
 }
 
 /// Returns the worst run of a regime: what is worst, its wedges, where its files are.
-fn worst_of(certificate: &Certificate, findings: &CertificateFindings, own: &WorstRun) -> Markup {
+fn worst_of(assessment: &Assessment, findings: &AssessmentFindings, own: &WorstRun) -> Markup {
     let Some(run) = worst_run(&findings.runs, own.regime) else {
         return html! {};
     };
@@ -330,7 +473,7 @@ fn worst_of(certificate: &Certificate, findings: &CertificateFindings, own: &Wor
         ]
     });
     html! {
-        h3 { "The worst run: " (run.speed) ", " (certificate.conditions[run.condition].title) }
+        h3 { "The worst run: " (run.speed) ", " (assessment.conditions[run.condition].title) }
         (super::doubts_about("The run", summary))
         p {
             @if let Some((time, what)) = &own.worst { "From " (digits(*time)) " s on: " (what) ". " }
@@ -357,19 +500,17 @@ fn files() -> Markup {
 
 /// Returns the worst value of a run with its time, that of the limit that is kept least.
 #[must_use]
-pub fn worst_second(certificate: &Certificate, regime: usize, run: &CarRun) -> Option<(f64, String)> {
+pub fn worst_second(assessment: &Assessment, regime: usize, run: &CarRun) -> Option<(f64, String)> {
     let summary = &run.result.summary;
     if let Some(own) = &summary.derailed {
         return Some((own.time, own.what.clone()));
     }
-    let name = &certificate.regimes[regime].name;
-    let limits = certificate
-        .limits
-        .limits
-        .iter()
-        .filter(|limit| limit.is_for(name));
-    let found = limits.filter_map(|limit| {
-        let (check, time) = limit.check(&summary.statistics, (&run.case.rules, summary.units))?;
+    let name = &assessment.regimes[regime].name;
+    let own = assessment.limits.limits.iter().filter(|limit| limit.is_for(name));
+    let figures = CarFigures::of(&run.case.parameters);
+    let known = limits::known(&figures, &summary.statistics, summary.units);
+    let found = own.filter_map(|limit| {
+        let (check, time) = limit.check(&summary.statistics, &known, (&run.case.rules, summary.units))?;
         let what = format!("{}, {}", check.quantity, place_in_words(&check.statistic));
         Some((check.margin, time?, what))
     });

@@ -132,7 +132,7 @@ fn conditions(tree: &TableNode, problems: &mut Problems) -> Vec<Condition> {
     let count = section.table.entries.len();
     if count > MOST {
         let message = format!("`conditions` has {count} conditions; at most {MOST} are read");
-        let problem = Problem::new(message).help("write several files, and a certificate with each");
+        let problem = Problem::new(message).help("write several files, and an assessment with each");
         problems.push(match section.place {
             Some(place) => problem.at(&place).label("too many"),
             None => problem,

@@ -1,4 +1,4 @@
-//! `wedgelab regime` and `wedgelab certify`, as a user calls them.
+//! `wedgelab regime` and `wedgelab assess`, as a user calls them.
 
 use crate::common;
 use std::fs;
@@ -46,16 +46,16 @@ fn folder() -> tempfile::TempDir {
 }
 
 const FILES: [&str; 5] = [
-    "certificate.csv",
-    "certificate.parquet",
-    "certificate.json",
+    "assessment.csv",
+    "assessment.parquet",
+    "assessment.json",
     "table.parquet",
     "index.html",
 ];
 
-fn certify<'a>(out: &'a str, limits: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+fn assess<'a>(out: &'a str, limits: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     let mut arguments = vec![
-        "certify",
+        "assess",
         "car_tangent_loaded",
         "--regimes",
         "short.toml",
@@ -81,12 +81,12 @@ fn same(at: &Path, first: &str, second: &str) {
 }
 
 /// The same bytes for any number of jobs and after kills; a limit raised by hand turns its rows; a second
-/// certificate beside the first.
+/// assessment beside the first.
 #[test]
-fn limits_a_certificate_goes_on_after_kills_and_does_not_depend_on_jobs() {
+fn limits_a_assessment_goes_on_after_kills_and_does_not_depend_on_jobs() {
     let folder = folder();
     let at = folder.path();
-    let printed = done(at, &certify("one", "low.toml", &["--jobs", "1"]));
+    let printed = done(at, &assess("one", "low.toml", &["--jobs", "1"]));
     assert!(
         printed.contains("4 runs. Limits: 2 kept, 0 exceeded, 0 unknown"),
         "{printed}"
@@ -95,7 +95,7 @@ fn limits_a_certificate_goes_on_after_kills_and_does_not_depend_on_jobs() {
     for milliseconds in [150, 400, 900, 1500] {
         let mut child = Command::new(env!("CARGO_BIN_EXE_wedgelab"))
             .current_dir(at)
-            .args(certify("two", "low.toml", &["--jobs", "2"]))
+            .args(assess("two", "low.toml", &["--jobs", "2"]))
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .spawn()
@@ -106,19 +106,19 @@ fn limits_a_certificate_goes_on_after_kills_and_does_not_depend_on_jobs() {
         child.wait().unwrap();
     }
     assert!(killed > 0);
-    done(at, &certify("two", "low.toml", &["--jobs", "2"]));
+    done(at, &assess("two", "low.toml", &["--jobs", "2"]));
     same(at, "one", "two");
 
     // Other limits over the same runs: nothing is computed again but the worst run and speeds about it.
     let table = fs::read(at.join("two/table.parquet")).unwrap();
-    let compared = done(at, &certify("two", "high.toml", &["--json", "--against", "one"]));
+    let compared = done(at, &assess("two", "high.toml", &["--json", "--against", "one"]));
     let compared: Value = serde_json::from_str(&compared).unwrap();
     assert_eq!(
         (&compared["before"], &compared["exceeded"]),
         (&Value::from(4), &Value::from(2))
     );
     assert_eq!(fs::read(at.join("two/table.parquet")).unwrap(), table);
-    let csv = fs::read_to_string(at.join("two/certificate.csv")).unwrap();
+    let csv = fs::read_to_string(at.join("two/assessment.csv")).unwrap();
     let rows: Vec<&str> = csv.lines().collect();
     let refined = |word: &str| {
         rows[1..]
@@ -133,14 +133,13 @@ fn limits_a_certificate_goes_on_after_kills_and_does_not_depend_on_jobs() {
             .starts_with("run,regime,condition,speed_mph,status,limit,value,bound,limit_value,unit,margin")
     );
     assert_eq!(rows.len(), 5 + refined("1"), "{csv}");
-    // The page has the other certificate's values, the worst run and its files.
+    // The page has the other assessment's values, the worst run and its files.
     let page = fs::read_to_string(at.join("two/index.html")).unwrap();
     assert!(page.contains("car_tangent_loaded (one)") && page.contains("its margin"));
     assert!(page.contains("href=\"worst/short/index.html\""));
     assert!(at.join("two/worst/short/result.csv").is_file());
     // What the page says of the worst run is what that run's own summary says.
-    let document: Value =
-        serde_json::from_slice(&fs::read(at.join("two/certificate.json")).unwrap()).unwrap();
+    let document: Value = serde_json::from_slice(&fs::read(at.join("two/assessment.json")).unwrap()).unwrap();
     let summary: Value =
         serde_json::from_slice(&fs::read(at.join("two/worst/short/summary.json")).unwrap()).unwrap();
     let verdicts = document["verdicts"].as_array().unwrap().iter();
@@ -199,13 +198,10 @@ fn input_mistakes_are_explained() {
         ),
         (
             vec!["regime", "short.toml", car, "--against", "."],
-            "no certificate to compare with",
+            "no assessment to compare with",
         ),
-        (vec!["certify", "nowhere.toml"], "nowhere.toml"),
-        (
-            vec!["certify", car, "--set", "truck.friction.colum=0.3"],
-            "column",
-        ),
+        (vec!["assess", "nowhere.toml"], "nowhere.toml"),
+        (vec!["assess", car, "--set", "truck.friction.colum=0.3"], "column"),
     ] {
         let output = wedgelab(at, &arguments);
         assert_eq!(output.code, Some(2), "{arguments:?}: {}", output.err);

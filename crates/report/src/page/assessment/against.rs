@@ -1,4 +1,4 @@
-//! Another certificate, beside which one is shown.
+//! Another assessment, beside which one is shown.
 
 use std::path::{Path, PathBuf};
 
@@ -8,18 +8,21 @@ use miette::Diagnostic;
 use serde::Deserialize;
 use thiserror::Error;
 
-use crate::certificate_files::{NAMES, SCHEMA};
+use crate::assessment_files::{NAMES, SCHEMA};
 
+/// The file's older name, and its schema then, which are read.
+const BEFORE: &str = "certificate.json";
+const SCHEMA_BEFORE: &str = "wedgelab.certificate/1";
 /// The expected file.
 const FILE: Expected = Expected {
-    what: "certificate",
-    types: &[FileType::Certificate, FileType::Json],
+    what: "assessment",
+    types: &[FileType::Assessment, FileType::Json],
     most: limits::RECORD_FILE,
 };
 
-/// A folder has no certificate to compare with.
+/// A folder has no assessment to compare with.
 #[derive(Debug, Error, Diagnostic)]
-#[error("{} is no certificate to compare with: {reason}", .file.display())]
+#[error("{} is no assessment to compare with: {reason}", .file.display())]
 #[diagnostic(help("{advice}"))]
 pub struct AgainstError {
     file: PathBuf,
@@ -27,7 +30,7 @@ pub struct AgainstError {
     advice: &'static str,
 }
 
-/// The verdict of another certificate on a limit.
+/// The verdict of another assessment on a limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Other {
     /// Regime, condition, limit.
@@ -40,7 +43,7 @@ pub struct Other {
     pub margin: f64,
 }
 
-/// Another certificate, beside which this one is shown.
+/// Another assessment, beside which this one is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Against {
     /// Its car and folder, in words.
@@ -78,24 +81,30 @@ struct WorstThere {
 }
 
 impl Against {
-    /// Reads the certificate in a folder.
+    /// Reads the assessment in a folder.
     ///
     /// # Errors
     /// There is none, or it is damaged or of another version.
     pub fn read(folder: &Path) -> Result<Self, AgainstError> {
-        let file = folder.join(NAMES[2]);
+        let own = folder.join(NAMES[2]);
+        let before = folder.join(BEFORE);
+        let file = if !own.exists() && before.exists() {
+            before
+        } else {
+            own
+        };
         let text = read_text(&file, &FILE).map_err(|error: ReadError| {
             refused(
                 &file,
                 error.to_string(),
-                "name the folder that `wedgelab certify` or `wedgelab regime` wrote",
+                "name the folder that `wedgelab assess` or `wedgelab regime` wrote",
             )
         })?;
         let named: Named = parsed(&file, &text)?;
         let schema = named.schema.unwrap_or_default();
-        if schema != SCHEMA {
+        if ![SCHEMA, SCHEMA_BEFORE].contains(&schema.as_str()) {
             let reason = format!("its schema is \"{}\"; {SCHEMA} is expected", shortened(&schema));
-            let advice = "name a folder that this version of `wedgelab certify` or `wedgelab regime` wrote";
+            let advice = "name a folder that this version of `wedgelab assess` or `wedgelab regime` wrote";
             return Err(refused(&file, reason, advice));
         }
         let document: Document = parsed(&file, &text)?;
@@ -149,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn issue_048_values_of_other_certificates_keep_their_units() {
+    fn issue_048_values_of_other_assessments_keep_their_units() {
         let found = read(&document(&format!("[{VERDICT}]"))).unwrap();
         assert_eq!(found.others[0].unit, "rad");
         assert_eq!(found.others[0].key, ["a", "new", "roll"]);
@@ -158,7 +167,16 @@ mod tests {
     }
 
     #[test]
-    fn issue_048_damaged_certificates_are_refused_with_their_place() {
+    fn limits_documents_of_the_older_name_are_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let text = document(&format!("[{VERDICT}]")).replace(SCHEMA, SCHEMA_BEFORE);
+        std::fs::write(folder.path().join(BEFORE), &text).unwrap();
+        let found = Against::read(folder.path()).unwrap();
+        assert_eq!(found.others[0].key, ["a", "new", "roll"]);
+    }
+
+    #[test]
+    fn issue_048_damaged_assessments_are_refused_with_their_place() {
         let cut = document(&format!("[{VERDICT}]"));
         for (text, expected) in [
             (&cut[..cut.len() - 3], "line 2"),
@@ -168,11 +186,11 @@ mod tests {
                 "expected f64",
             ),
             (
-                "{\"schema\": \"wedgelab.certificate/1\", \"car\": \"a\"}",
+                "{\"schema\": \"wedgelab.assessment/1\", \"car\": \"a\"}",
                 "missing field `verdicts`",
             ),
             ("{\"schema\": \"\\u001b[31m\"}", "its schema is \"?[31m\""),
-            ("PAR1", "a certificate is expected"),
+            ("PAR1", "an assessment is expected"),
         ] {
             let error = read(text).unwrap_err();
             let message = error.to_string();

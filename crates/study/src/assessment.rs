@@ -1,33 +1,35 @@
-//! A certificate: a car in regimes, at speeds and in conditions, and what is left to the limits of rules.
+//! An assessment: a car in regimes, at speeds and in conditions, and what is left to the limits of rules.
 //!
 //! It is a [study](crate::design) whose list of variants has a row each regime, condition and speed; a
 //! study's folder, table and cluster serve it as they are. What is more here is the assessment of a record
-//! ([`Certificate::assess`]).
+//! ([`Assessment::assess`]).
 
 pub mod conditions;
-pub mod other_start;
+pub mod dependence;
 pub mod refined;
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use mechanics::energy_balance::Verdict;
 use quantity::{Kind, Quantity};
 use serde::Serialize;
 
 use self::conditions::Condition;
-use self::other_start::OtherStart;
+use self::dependence::Dependence;
 use crate::car;
-use crate::car::limits::{Limit, LimitSet};
-use crate::car::regime::Regime;
-use crate::case::problem::Problem;
-use crate::case::{self, CaseError, overrides};
+use crate::car::limits::{Limit, LimitSet, Mark};
+use crate::car::regime::{Regime, START, says_start};
+use crate::car::statistics::Rules;
+use crate::case::problem::{Problem, TomlSource};
+use crate::case::{self, CaseError, overrides, tree};
 use crate::design::{Study, StudySource, Value};
 use crate::models::{AnyCase, CaseSource, no_built_in};
 use crate::records::{Record, Status};
 
 /// The name of the study's text, which is made here.
-const STUDY: &str = "certificate.toml";
+const STUDY: &str = "assessment.toml";
 
 /// The request.
 #[derive(Clone, Debug)]
@@ -46,11 +48,16 @@ pub struct Request {
     pub limits: String,
     /// Whether more speeds are looked at about the worst one of each regime ([`refined`]).
     pub refine: bool,
+    /// Frictions of wheel on rail at which runs near limits are looked at again ([`dependence`]).
+    pub frictions: Vec<f64>,
 }
+
+/// Frictions of wheel on rail that are looked at if none are asked for: of damp and of dry rails.
+pub const FRICTIONS: [f64; 2] = [0.3, 0.5];
 
 /// A car in regimes, at speeds and in conditions.
 #[derive(Clone, Debug)]
-pub struct Certificate {
+pub struct Assessment {
     /// The request.
     pub request: Request,
     /// The car as it is given.
@@ -64,7 +71,9 @@ pub struct Certificate {
     /// The conditions.
     pub conditions: Vec<Condition>,
     /// The limits.
-    pub limits: LimitSet,
+    pub limits: Arc<LimitSet>,
+    /// Windows and filters of the statistics: those of the limits, else those of the case.
+    rules: Rules,
 }
 
 /// The verdict on one limit in a run.
@@ -74,6 +83,8 @@ pub struct KeptLimit {
     pub limit: usize,
     /// The measured value, in its unit; `None` if the run has none.
     pub value: Option<f64>,
+    /// The limit for this run, in its unit; `None` if its formula lacks something.
+    pub allowed: Option<f64>,
     /// The margin, in parts of the limit; negative where it is not kept.
     pub margin: Option<f64>,
 }
@@ -127,8 +138,8 @@ impl Assessed {
     }
 }
 
-impl Certificate {
-    /// Makes a certificate's study.
+impl Assessment {
+    /// Makes an assessment's study.
     ///
     /// # Errors
     /// The car, a regime, a condition or the limits cannot be read, or do not go together.
@@ -149,17 +160,24 @@ impl Certificate {
             [] => Condition::all().iter().take(1).cloned().collect(),
             names => Condition::chosen(names)?,
         };
-        Self::with(request.clone(), car_of(request)?, limits, (regimes, conditions))
+        Self::with(
+            request.clone(),
+            car_of(request)?,
+            Arc::new(limits),
+            (regimes, conditions),
+        )
     }
 
     /// Makes it of a car, limits, regimes and conditions that are read.
     fn with(
         request: Request,
         (source, base): (CaseSource, AnyCase),
-        limits: LimitSet,
+        limits: Arc<LimitSet>,
         (regimes, conditions): (Vec<Regime>, Vec<Condition>),
     ) -> Result<Self, CaseError> {
-        let text = text(&regimes, &conditions, &request, &base)?;
+        let shaken = is_shaken(&request, &source, &regimes, &conditions)?;
+        let set = (limits.output.as_slice(), shaken);
+        let text = text(&regimes, &conditions, &request, &base, set)?;
         let study = Study::of_source(StudySource {
             name: STUDY.to_owned(),
             text,
@@ -167,6 +185,7 @@ impl Certificate {
             case: source,
         });
         let study = study.map_err(|error| CaseError::new(error.into_problems().map(of_parts)))?;
+        let rules = study.case(0)?.car().map(|own| own.rules).unwrap_or_default();
         Ok(Self {
             car: base.name().to_owned(),
             base,
@@ -175,7 +194,60 @@ impl Certificate {
             regimes,
             conditions,
             limits,
+            rules,
         })
+    }
+
+    /// Returns what a limit is set for, with its windows named: wheel L/V lasting 50 ms.
+    #[must_use]
+    pub fn quantity(&self, limit: &Limit) -> String {
+        self.rules.in_words(&limit.quantity)
+    }
+
+    /// Returns why this is no certificate, each reason in words; none if it is one: all that the rule asks
+    /// for was looked at, with values read in it, and is kept.
+    #[must_use]
+    pub fn falls_short(&self, verdicts: &[LimitVerdict]) -> Vec<String> {
+        let limits = &self.limits;
+        let mut reasons = Vec::new();
+        match limits.not_covered.as_deref() {
+            None => reasons.push("the file of limits does not say what the rule asks for beyond them".into()),
+            Some([]) => {}
+            Some(all) => reasons.push(format!(
+                "{} of the rule is not covered",
+                counted(all.len(), "part")
+            )),
+        }
+        for mark in [Mark::Remembered, Mark::Guess] {
+            let count = limits.limits.iter().filter(|own| own.mark == Some(mark)).count();
+            if count > 0 {
+                let what = match mark {
+                    Mark::Guess => "a guess",
+                    _ => "from memory",
+                };
+                reasons.push(format!("{} {what}", counted(count, "limit")));
+            }
+        }
+        let named = limits.limits.iter().flat_map(|own| own.regimes.iter().flatten());
+        let mut missing: Vec<&str> = named
+            .map(String::as_str)
+            .filter(|name| !self.regimes.iter().any(|own| own.name == *name))
+            .collect();
+        missing.sort_unstable();
+        missing.dedup();
+        if !missing.is_empty() {
+            reasons.push(format!("no runs of {}", missing.join(", ").replace('_', " ")));
+        }
+        if !self.request.speeds.is_empty() || !self.request.refine {
+            reasons.push("speeds are not those of the regimes with more about the worst ones".into());
+        }
+        let count = |word: &str| verdicts.iter().filter(|own| own.word() == word).count();
+        for word in ["exceeded", "unknown"] {
+            if count(word) > 0 {
+                reasons.push(format!("{} {word}", counted(count(word), "limit")));
+            }
+        }
+        reasons
     }
 
     /// Returns the regimes that no limit is set for, by name.
@@ -222,22 +294,37 @@ impl Certificate {
         let checks = limits.filter(|(_, limit)| place(limit)).map(|(number, limit)| {
             let found = measured(limit.measure.name).filter(|_| usable);
             let value = found.map(|own| limit.in_unit(own));
+            let allowed = limit.number(&measured);
             KeptLimit {
                 limit: number,
                 value,
-                margin: value.map(|own| limit.margin(own)),
+                allowed,
+                margin: value
+                    .zip(allowed)
+                    .map(|(value, allowed)| limit.margin(value, allowed)),
             }
         });
         let checks: Vec<KeptLimit> = checks.collect();
-        let without = checks.iter().filter(|own| usable && own.value.is_none());
-        let without: Vec<&str> = without.map(|own| &*self.limits.limits[own.limit].name).collect();
-        if !without.is_empty() {
-            let also = if note.is_empty() { "" } else { "; " };
-            note += &format!(
-                "{also}no filtered value of {}: rows are too far apart for the filter \
-                 (simulation.output_interval), or the run is too short",
-                without.join(", ")
-            );
+        let names = |lacks: &dyn Fn(&KeptLimit) -> bool| {
+            let own = checks.iter().filter(|own| usable && lacks(own));
+            let names: Vec<&str> = own.map(|own| &*self.limits.limits[own.limit].name).collect();
+            names.join(", ")
+        };
+        for (names, why) in [
+            (
+                names(&|own| own.value.is_none()),
+                "no value: rows are too far apart for the filter (simulation.output_interval), or the run is \
+                 too short or has no such place",
+            ),
+            (
+                names(&|own| own.allowed.is_none()),
+                "no limit: its formula needs a wheel with a flange that holds at this friction",
+            ),
+        ] {
+            if !names.is_empty() {
+                let also = if note.is_empty() { "" } else { "; " };
+                note += &format!("{also}{names}: {why}");
+            }
         }
         Assessed {
             run: record.number,
@@ -278,8 +365,10 @@ pub struct LimitVerdict {
     pub derailed: Vec<String>,
     /// Speeds of runs without a value.
     pub missing: Vec<String>,
-    /// The worst run from another start, where it is near the limit.
-    pub other_start: Option<OtherStart>,
+    /// The worst run of the speeds that were asked for, where others were added.
+    pub asked: Option<WorstSpeed>,
+    /// What it depends on.
+    pub depends: Dependence,
 }
 
 /// The run that keeps a limit least.
@@ -291,6 +380,8 @@ pub struct WorstSpeed {
     pub speed: String,
     /// The measured value, in the limit's unit.
     pub value: f64,
+    /// The limit for that run, in its unit.
+    pub limit_value: f64,
     /// The margin, in parts of the limit.
     pub margin: f64,
     /// True if a wheel left its rail in that run: value and margin are of the part until then.
@@ -330,7 +421,8 @@ pub fn verdicts(runs: &[Assessed]) -> Vec<LimitVerdict> {
                     worst: None,
                     derailed: Vec::new(),
                     missing: Vec::new(),
-                    other_start: None,
+                    asked: None,
+                    depends: Dependence::default(),
                 });
                 found.len() - 1
             });
@@ -338,20 +430,31 @@ pub fn verdicts(runs: &[Assessed]) -> Vec<LimitVerdict> {
             if run.derailed {
                 own.derailed.push(run.speed.clone());
             }
-            let (Some(value), Some(margin)) = (check.value, check.margin) else {
+            let (Some(value), Some(limit_value), Some(margin)) = (check.value, check.allowed, check.margin)
+            else {
                 own.missing.push(run.speed.clone());
                 continue;
             };
-            if own.worst.as_ref().is_none_or(|worst| margin < worst.margin) {
-                own.worst = Some(WorstSpeed {
-                    run: run.run,
-                    speed: run.speed.clone(),
-                    value,
-                    margin,
-                    until_derailed: run.derailed,
-                });
+            let this = WorstSpeed {
+                run: run.run,
+                speed: run.speed.clone(),
+                value,
+                limit_value,
+                margin,
+                until_derailed: run.derailed,
+            };
+            let worse = |than: &Option<WorstSpeed>| than.as_ref().is_none_or(|worst| margin < worst.margin);
+            if !run.refined && worse(&own.asked) {
+                own.asked = Some(this.clone());
+            }
+            if worse(&own.worst) {
+                own.worst = Some(this);
             }
         }
+    }
+    for own in &mut found {
+        let same = own.asked.as_ref().map(|own| own.run) == own.worst.as_ref().map(|own| own.run);
+        own.asked = own.asked.take().filter(|_| !same);
     }
     found.sort_by_key(|own| (own.condition, own.regime, own.limit));
     found
@@ -371,6 +474,14 @@ pub fn worst_run(runs: &[Assessed], regime: usize) -> Option<&Assessed> {
             .total_cmp(&rank(b))
             .then(b.speed_si.total_cmp(&a.speed_si))
     })
+}
+
+/// Returns a number of things: `1 limit`, `2 limits`.
+fn counted(count: usize, what: &str) -> String {
+    match count {
+        1 => format!("1 {what}"),
+        count => format!("{count} {what}s"),
+    }
 }
 
 /// Returns the first regime that is there twice.
@@ -426,12 +537,37 @@ fn of_parts(problem: Problem) -> Problem {
     )
 }
 
-/// Writes the study.
+/// Returns which conditions start shaken: those in which neither the case, nor --set, nor a regime, nor the
+/// condition says how the car starts. A car on linear wheels is never shaken.
+fn is_shaken(
+    request: &Request,
+    source: &CaseSource,
+    regimes: &[Regime],
+    conditions: &[Condition],
+) -> Result<Vec<bool>, CaseError> {
+    let CaseSource::File { name, text, .. } = source else {
+        return Ok(vec![false; conditions.len()]);
+    };
+    let tree = tree::parse(&TomlSource::new(name.as_str(), text.as_str())).map_err(CaseError::new)?;
+    let linear = source.case(&request.set)?;
+    let linear = linear
+        .car()
+        .is_some_and(|own| matches!(own.parameters.wheels, ::car::Wheels::Linear { .. }));
+    let said = tree.place_of(START).is_some()
+        || says_start(&request.set)
+        || regimes.iter().any(|own| says_start(&own.set))
+        || linear;
+    Ok(conditions.iter().map(|own| !said && !says_start(&own.set)).collect())
+}
+
+/// Writes the study; `output` are windows of the rule, `shaken` says of each condition whether cars start
+/// shaken in it.
 fn text(
     regimes: &[Regime],
     conditions: &[Condition],
     request: &Request,
     car: &AnyCase,
+    (output, shaken): (&[String], Vec<bool>),
 ) -> Result<String, CaseError> {
     let is_empty = car.car().is_some_and(|own| own.parameters.lading.is_empty());
     let mut text = format!("case = \"{}\"\nsampling = \"list\"\n[set]\n", car.name());
@@ -441,6 +577,7 @@ fn text(
             let _ = writeln!(text, "{own}");
         }
     };
+    lines(&mut text, output);
     let set = request.set.iter().map(|own| overrides::to_toml(own));
     lines(
         &mut text,
@@ -473,9 +610,12 @@ fn text(
             }
         }
     }
-    for condition in conditions {
+    for (condition, shaken) in conditions.iter().zip(shaken) {
         let _ = writeln!(text, "[groups.condition.\"{}\"]", condition.name);
         lines(&mut text, &condition.set);
+        if shaken {
+            let _ = writeln!(text, "{START} = \"shaken\"");
+        }
     }
     Ok(text + &rows)
 }
@@ -494,12 +634,13 @@ mod tests {
             conditions: vec![condition.to_owned()],
             limits: "aar_chapter_xi".to_owned(),
             refine: true,
+            frictions: Vec::new(),
         };
         for (set, condition) in [
             ("simulation.duration=3 s", "as_given"),
             ("start.settle=1 s", "as_given"),
         ] {
-            let error = Certificate::new(&request(set, condition)).unwrap_err();
+            let error = Assessment::new(&request(set, condition)).unwrap_err();
             for problem in error.problems() {
                 assert_eq!(problem.source_name(), None, "{problem}");
                 assert!(problem.message().contains("--set"), "{problem}");

@@ -1,23 +1,23 @@
-//! Certificates of cars.
+//! Assessments of cars.
 
 use std::path::PathBuf;
 
-use ::study::certificate::{Certificate, Request};
+use ::study::assessment::{Assessment, Request};
 use pyo3::prelude::*;
 use quantity::{Kind, Quantity};
-use report::certificate_work;
+use report::assessment_work;
 
 use crate::errors::{case_error, guarded, simple};
 use crate::study::{NativeStudy, NativeStudyFolder, heard};
 
 /// A car in regimes, at speeds and in conditions.
-#[pyclass(frozen, module = "wedgelab._wedgelab", name = "NativeCertificate")]
-pub struct NativeCertificate {
-    certificate: Certificate,
+#[pyclass(frozen, module = "wedgelab._wedgelab", name = "NativeAssessment")]
+pub struct NativeAssessment {
+    assessment: Assessment,
 }
 
 #[pymethods]
-impl NativeCertificate {
+impl NativeAssessment {
     #[new]
     fn new(
         py: Python<'_>,
@@ -27,8 +27,18 @@ impl NativeCertificate {
         speeds: Vec<String>,
         conditions: Vec<String>,
         limits: String,
+        frictions: Vec<f64>,
     ) -> PyResult<Self> {
         guarded(py, || {
+            if let Some(wrong) = frictions.iter().find(|own| !(**own > 0.0 && **own <= 2.0)) {
+                let message = format!("the friction {wrong} is not above 0 and at most 2");
+                return Err(simple(
+                    py,
+                    "CaseError",
+                    &message,
+                    "write for example frictions=[0.3, 0.5]",
+                ));
+            }
             let speeds = speeds.iter().map(|text| {
                 let speed = Quantity::parse_as(text, Kind::TravelSpeed);
                 speed.map_err(|error| {
@@ -45,28 +55,29 @@ impl NativeCertificate {
                 speeds,
                 conditions,
                 limits,
+                frictions,
             };
-            let certificate = Certificate::new(&request).map_err(|error| case_error(py, &error))?;
-            Ok(Self { certificate })
+            let assessment = Assessment::new(&request).map_err(|error| case_error(py, &error))?;
+            Ok(Self { assessment })
         })
     }
 
     /// Returns the car's name.
     #[getter]
     fn car(&self) -> &str {
-        &self.certificate.car
+        &self.assessment.car
     }
 
     /// Returns its runs.
     fn study(&self) -> NativeStudy {
-        NativeStudy::new(self.certificate.study.clone())
+        NativeStudy::new(self.assessment.study.clone())
     }
 
     /// Makes tables and page of all runs, which are kept in the folder.
     fn finish(&self, py: Python<'_>, folder: &NativeStudyFolder, jobs: usize) -> PyResult<()> {
         let held = folder.held(py)?;
         heard(py, None, |stop, done| {
-            certificate_work::finish(&self.certificate, &held, jobs, None, stop, done)
+            assessment_work::finish(&self.assessment, &held, jobs, None, stop, done)
         })?;
         Ok(())
     }

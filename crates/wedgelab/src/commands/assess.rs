@@ -1,19 +1,19 @@
-//! `wedgelab certify`: a car in regimes, at speeds and in conditions, beside the limits of rules.
+//! `wedgelab assess`: a car in regimes, at speeds and in conditions, beside the limits of rules.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use report::certificate_files::{CertificateFindings, NAMES};
-use report::certificate_work;
-use report::page::certificate::Against;
+use report::assessment_files::{AssessmentFindings, NAMES};
+use report::assessment_work;
+use report::page::assessment::Against;
 use report::study_folder::TABLE_FILE;
 use report::terminal::TerminalTable;
 use serde_json::json;
+use study::assessment::dependence::NEAR;
+use study::assessment::{Assessment, FRICTIONS, LimitVerdict, Request};
 use study::car::speeds;
-use study::certificate::other_start::NEAR;
-use study::certificate::{Certificate, Request};
 use study::records::Status;
 
 use super::study::work;
@@ -27,17 +27,17 @@ use crate::progress::Steady;
 ///
 /// Each regime is a track (`wedgelab regime` lists them) that the car passes at several speeds, in one or
 /// more conditions: wedge rise, a broken coil, empty. Writes one page (limits, the worst runs in 3D, figures
-/// over speed and distance, wedges), certificate.csv and certificate.parquet (one row per run and limit),
-/// table.parquet (all measures of each run) and certificate.json. The same command continues a certificate
+/// over speed and distance, wedges), assessment.csv and assessment.parquet (one row per run and limit),
+/// table.parquet (all measures of each run) and assessment.json. The same command continues an assessment
 /// that was stopped or killed. Tracks and limits are quoted from memory of AAR M-1001, chapter XI: check them
 /// against your edition.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
-  wedgelab certify my_car.toml
-  wedgelab certify car_tangent_loaded --regimes twist_and_roll pitch_and_bounce
-  wedgelab certify my_car.toml --conditions new rise_0.75 mu_0.25 massless_wedges
-  wedgelab certify my_car.toml --limits my_limits.toml --against other_car_certificate")]
+  wedgelab assess my_car.toml
+  wedgelab assess car_tangent_loaded --regimes twist_and_roll pitch_and_bounce
+  wedgelab assess my_car.toml --conditions new rise_0.75 mu_0.25 massless_wedges
+  wedgelab assess my_car.toml --limits my_limits.toml --against other_car_assessment")]
 pub struct Arguments {
     /// Case file of a car, or the name of a built-in case
     car: PathBuf,
@@ -48,7 +48,7 @@ pub struct Arguments {
     common: Common,
 }
 
-/// Arguments of both `certify` and `regime`.
+/// Arguments of both `assess` and `regime`.
 #[derive(Debug, Args)]
 pub struct Common {
     /// Speeds for all regimes, with --steps; or several speeds [default: those of each regime]
@@ -68,16 +68,20 @@ pub struct Common {
     /// Conditions by name (as_given, new, rise_0.75, ...), or your own file [default: those of the case]
     #[arg(long, value_name = "CONDITION", num_args = 0..)]
     conditions: Option<Vec<String>>,
-    /// Limits by name (aar_chapter_xi, fra_213_333), or your own file
+    /// Frictions of wheel on rail at which runs near limits are looked at again; the option alone: none
+    /// [default: 0.3 0.5]
+    #[arg(long, value_name = "MU", num_args = 0.., value_parser = friction)]
+    frictions: Option<Vec<f64>>,
+    /// Limits by name (`wedgelab regime` lists them), or your own file
     #[arg(long, value_name = "LIMITS", default_value = "aar_chapter_xi")]
     limits: String,
-    /// Folder of another certificate, to compare with this one
+    /// Folder of another assessment, to compare with this one
     #[arg(long, value_name = "DIR")]
     against: Option<PathBuf>,
     /// Set one value over those of the case
     #[arg(long, value_name = "PATH.KEY=VALUE")]
     set: Vec<String>,
-    /// Folder to write into, or to continue in [default: NAME_certificate, or NAME_REGIME]
+    /// Folder to write into, or to continue in [default: NAME_assessment, or NAME_REGIME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Number of runs at a time [default: number of processors]
@@ -90,13 +94,27 @@ pub struct Common {
     json: bool,
 }
 
+/// Reads a coefficient of friction.
+fn friction(text: &str) -> Result<f64, String> {
+    let value = text.parse::<f64>().ok().filter(|own| *own > 0.0 && *own <= 2.0);
+    value.ok_or_else(|| "a coefficient above 0, at most 2, is expected".to_owned())
+}
+
+/// The command's older name, which this version still takes.
+pub const BEFORE: &str = "certify";
+
 /// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    if std::env::args().nth(1).as_deref() == Some(BEFORE) {
+        say(
+            "note: `wedgelab certify` is called `wedgelab assess` now; the older name goes with the next version",
+        );
+    }
     assess(
         &arguments.car,
         &arguments.regimes,
         &arguments.common,
-        "certificate",
+        "assessment",
     )
 }
 
@@ -107,12 +125,12 @@ pub fn assess(car: &Path, regimes: &[String], common: &Common, ending: &str) -> 
         None => Vec::new(),
         // The option alone: all of them.
         Some(names) if names.is_empty() => {
-            let all = study::certificate::conditions::Condition::all().iter();
+            let all = study::assessment::conditions::Condition::all().iter();
             all.map(|own| own.name.clone()).collect()
         }
         Some(names) => names.clone(),
     };
-    let certificate = Certificate::new(&Request {
+    let assessment = Assessment::new(&Request {
         car: car.to_owned(),
         set: common.set.clone(),
         regimes: regimes.to_vec(),
@@ -120,27 +138,28 @@ pub fn assess(car: &Path, regimes: &[String], common: &Common, ending: &str) -> 
         conditions,
         limits: common.limits.clone(),
         refine: !common.unrefined && common.speeds.is_empty(),
+        frictions: common.frictions.clone().unwrap_or_else(|| FRICTIONS.to_vec()),
     })?;
     let path = common
         .out
         .clone()
-        .unwrap_or_else(|| PathBuf::from(format!("{}_{ending}", certificate.car)));
+        .unwrap_or_else(|| PathBuf::from(format!("{}_{ending}", assessment.car)));
     let against = common.against.as_deref().map(Against::read).transpose()?;
-    for regime in certificate.without_limits() {
+    for regime in assessment.without_limits() {
         say(&format!(
             "note: {} sets no limit for the regime {regime}",
-            certificate.limits.title
+            assessment.limits.title
         ));
     }
-    let folder = work::open(&certificate.study, &path)?;
+    let folder = work::open(&assessment.study, &path)?;
     let jobs = jobs(common.jobs);
-    let done = work::all(&certificate.study, &folder, jobs, common.quiet)?;
+    let done = work::all(&assessment.study, &folder, jobs, common.quiet)?;
     if done.interrupted || interrupt::wanted() {
-        return Err(interrupted(&certificate, &path, done.before + done.now));
+        return Err(interrupted(&assessment, &path, done.before + done.now));
     }
-    let progress = Steady::new("worst runs", certificate.regimes.len() as u64, 0, common.quiet);
-    let finished = certificate_work::finish(
-        &certificate,
+    let progress = Steady::new("worst runs", assessment.regimes.len() as u64, 0, common.quiet);
+    let finished = assessment_work::finish(
+        &assessment,
         &folder,
         jobs,
         against.as_ref(),
@@ -149,7 +168,7 @@ pub fn assess(car: &Path, regimes: &[String], common: &Common, ending: &str) -> 
     );
     progress.finish();
     let Some(findings) = finished? else {
-        return Err(interrupted(&certificate, &path, certificate.study.count()));
+        return Err(interrupted(&assessment, &path, assessment.study.count()));
     };
     if common.json {
         let [kept, exceeded, unknown] = findings.counts();
@@ -165,23 +184,23 @@ pub fn assess(car: &Path, regimes: &[String], common: &Common, ending: &str) -> 
         }))?;
         return Ok(ExitCode::SUCCESS);
     }
-    print(&certificate, &findings, &path)?;
+    print(&assessment, &findings, &path)?;
     Ok(ExitCode::SUCCESS)
 }
 
-fn interrupted(certificate: &Certificate, path: &Path, kept: u64) -> Failure {
+fn interrupted(assessment: &Assessment, path: &Path, kept: u64) -> Failure {
     let message = format!(
         "{}: {kept} of {} runs are kept in {}",
         interrupt::REASON,
-        certificate.study.count(),
+        assessment.study.count(),
         path.display()
     );
     Failure::Interrupted(Message::new(message, "the same command goes on from there").into())
 }
 
 /// Prints the table of limits.
-fn print(certificate: &Certificate, findings: &CertificateFindings, path: &Path) -> io::Result<()> {
-    let several = certificate.conditions.len() > 1;
+fn print(assessment: &Assessment, findings: &AssessmentFindings, path: &Path) -> io::Result<()> {
+    let several = assessment.conditions.len() > 1;
     let mut table = TerminalTable::new(
         if several { 3 } else { 2 },
         &[
@@ -195,15 +214,15 @@ fn print(certificate: &Certificate, findings: &CertificateFindings, path: &Path)
         ],
     );
     for own in &findings.verdicts {
-        let limit = &certificate.limits.limits[own.limit];
+        let limit = &assessment.limits.limits[own.limit];
         let worst = own.worst.as_ref();
         let third = match several {
-            true => certificate.conditions[own.condition].name.clone(),
+            true => assessment.conditions[own.condition].name.clone(),
             false => worst.map_or("-".to_owned(), |worst| worst.speed.clone()),
         };
         let derailed = if own.derailed.is_empty() { "" } else { ", derailed" };
         table.row([
-            certificate.regimes[own.regime].name.clone(),
+            assessment.regimes[own.regime].name.clone(),
             limit.name.clone(),
             third,
             worst.map_or("-".to_owned(), |worst| {
@@ -214,30 +233,17 @@ fn print(certificate: &Certificate, findings: &CertificateFindings, path: &Path)
                 };
                 format!("{:.3} {}{until}", worst.value, limit.unit)
             }),
-            format!("{} {}", limit.value, limit.unit),
+            worst.map_or_else(
+                || limit.value_in_words(),
+                |worst| limit.with_unit(worst.limit_value),
+            ),
             worst.map_or("-".to_owned(), |worst| format!("{:.0}", 100.0 * worst.margin)),
             format!("{}{derailed}", own.word()),
         ]);
     }
     let mut out = io::stdout().lock();
     table.write(&mut out)?;
-    let near = findings.verdicts.iter();
-    let near = near.filter_map(|own| Some((own, own.other_start.as_ref()?, own.worst.as_ref()?)));
-    for (place, (own, other, worst)) in near.enumerate() {
-        if place == 0 {
-            writeln!(out, "\nWithin {:.0} % of a limit, from two starts:", 100.0 * NEAR)?;
-        }
-        let limit = &certificate.limits.limits[own.limit];
-        writeln!(
-            out,
-            "  {} {} ({}, {}): {}",
-            certificate.regimes[own.regime].name,
-            limit.name,
-            certificate.conditions[own.condition].name,
-            worst.speed,
-            other.words(worst.value, &limit.unit)
-        )?;
-    }
+    depends(assessment, findings, &mut out)?;
     let [kept, exceeded, unknown] = findings.counts();
     let refined = match findings.refined.len() {
         0 => String::new(),
@@ -247,9 +253,13 @@ fn print(certificate: &Certificate, findings: &CertificateFindings, path: &Path)
         out,
         "\n{} runs{refined}. Limits: {kept} kept, {exceeded} exceeded, {unknown} unknown. {}: {}.",
         findings.runs.len(),
-        certificate.limits.title,
-        certificate.limits.source
+        assessment.limits.title_with_edition(),
+        assessment.limits.source
     )?;
+    match assessment.falls_short(&findings.verdicts).as_slice() {
+        [] => writeln!(out, "A certificate: all that the rule asks for is kept.")?,
+        reasons => writeln!(out, "An assessment, no certificate: {}.", reasons.join("; "))?,
+    }
     let ended = |word: &str| findings.runs.iter().filter(|run| run.status == word).count();
     let others: Vec<String> = Status::ALL[1..]
         .iter()
@@ -264,7 +274,7 @@ fn print(certificate: &Certificate, findings: &CertificateFindings, path: &Path)
         writeln!(
             out,
             "  run {} ({}, {}): {}: {}",
-            run.run, certificate.regimes[run.regime].name, run.speed, run.status, run.note
+            run.run, assessment.regimes[run.regime].name, run.speed, run.status, run.note
         )?;
     }
     writeln!(
@@ -274,4 +284,45 @@ fn print(certificate: &Certificate, findings: &CertificateFindings, path: &Path)
         NAMES.join(", "),
         NAMES[3]
     )
+}
+
+/// Prints what verdicts depend on: the start of runs near limits, and the friction at which limits are
+/// reached.
+fn depends(assessment: &Assessment, findings: &AssessmentFindings, out: &mut impl Write) -> io::Result<()> {
+    let name = |own: &LimitVerdict| {
+        format!(
+            "{} {} ({})",
+            assessment.regimes[own.regime].name,
+            assessment.limits.limits[own.limit].name,
+            assessment.conditions[own.condition].name,
+        )
+    };
+    let near = findings.verdicts.iter();
+    let near = near.filter_map(|own| Some((own, own.depends.other_start.as_ref()?, own.worst.as_ref()?)));
+    for (place, (own, other, worst)) in near.enumerate() {
+        if place == 0 {
+            writeln!(out, "\nWithin {:.0} % of a limit, from two starts:", 100.0 * NEAR)?;
+        }
+        let unit = &assessment.limits.limits[own.limit].unit;
+        writeln!(
+            out,
+            "  {}, {}: {}",
+            name(own),
+            worst.speed,
+            other.words(worst.value, unit)
+        )?;
+    }
+    let over = findings.verdicts.iter();
+    let over = over.filter_map(|own| Some((own, own.depends.friction.as_ref()?)));
+    for (place, (own, friction)) in over.enumerate() {
+        if place == 0 {
+            writeln!(
+                out,
+                "\nOver the friction of wheel on rail (here {}):",
+                friction.own
+            )?;
+        }
+        writeln!(out, "  {}: {}", name(own), friction.words(own.word()))?;
+    }
+    Ok(())
 }

@@ -1,20 +1,20 @@
-//! Figures of a certificate: what is limited, and what the wedges do, over the speed.
+//! Figures of an assessment: what is limited, and what the wedges do, over the speed.
 
-use ::study::certificate::{Assessed, Certificate};
+use ::study::assessment::{Assessed, Assessment};
 use ::study::records::Status;
 use quantity::{Kind, System as Units};
 
 use super::{Exhibit, axis, capital};
-use crate::certificate_files::CertificateFindings;
+use crate::assessment_files::AssessmentFindings;
 use drawing::{Colour, Figure, Line, Panel, PlotCurve, distinct};
 
 /// Returns the figure of a regime over the speed: a panel for each of its limits, then the wedges.
 #[must_use]
-pub fn over_speed(certificate: &Certificate, findings: &CertificateFindings, regime: usize) -> Exhibit {
-    let own = &certificate.regimes[regime];
+pub fn over_speed(assessment: &Assessment, findings: &AssessmentFindings, regime: usize) -> Exhibit {
+    let own = &assessment.regimes[regime];
     let units = Units::Us;
     let over = |value: &dyn Fn(&Assessed) -> Option<f64>| -> Vec<PlotCurve> {
-        let conditions = certificate.conditions.iter().enumerate();
+        let conditions = assessment.conditions.iter().enumerate();
         let curves = conditions.map(|(condition, named)| {
             let runs = findings.runs.iter();
             let own = runs.filter(|run| run.regime == regime && run.condition == condition);
@@ -31,36 +31,26 @@ pub fn over_speed(certificate: &Certificate, findings: &CertificateFindings, reg
         Panel::new(title, axis("speed", Kind::TravelSpeed, units), y_label, curves)
     };
     let mut panels = Vec::new();
-    for (number, limit) in certificate.limits.limits.iter().enumerate() {
+    for (number, limit) in assessment.limits.limits.iter().enumerate() {
         if !limit.is_for(&own.name) {
             continue;
         }
         let value = |run: &Assessed| run.checks.iter().find(|check| check.limit == number)?.value;
         let mut curves = over(&value);
-        let speeds: Vec<f64> = curves
-            .iter()
-            .flat_map(|curve| curve.points.iter().map(|at| at.0))
-            .collect();
-        let ends = speeds
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
-                (low.min(*at), high.max(*at))
-            });
-        if ends.0.is_finite() {
-            curves.push(PlotCurve::new(
-                "limit",
-                (Colour::Vermillion, Line::Dotted),
-                [(ends.0, limit.value), (ends.1, limit.value)],
-            ));
-        }
+        // Of a formula each run has its own.
+        let allowed = |run: &Assessed| run.checks.iter().find(|check| check.limit == number)?.allowed;
+        let of_first = over(&allowed).into_iter().take(1);
+        curves.extend(
+            of_first.map(|own| PlotCurve::new("limit", (Colour::Vermillion, Line::Dotted), own.points)),
+        );
         let unit = match limit.unit.as_str() {
             "" => String::new(),
             unit => format!(" ({unit})"),
         };
         let y_label = format!("{}{unit}", limit.measure.name.replace('_', " "));
-        panels.push(panel(limit.quantity.clone(), y_label, curves));
+        panels.push(panel(assessment.quantity(limit), y_label, curves));
     }
-    let measures = certificate.study.measures();
+    let measures = assessment.study.measures();
     let loss = |run: &Assessed| {
         let place = measures.place("wedge_loss")?;
         Some(run.measures.get(place)? * Kind::Energy.from_si(units))
@@ -95,8 +85,8 @@ pub fn over_speed(certificate: &Certificate, findings: &CertificateFindings, reg
                  wedge's faces slips, mean of all wedges. Runs that did not reach the end of their track, or \
                  failed, are not drawn. Limits: {}, {}.",
                 capital(&own.title),
-                certificate.limits.title,
-                certificate.limits.source
+                assessment.limits.title,
+                assessment.limits.source
             ),
             panels,
         )

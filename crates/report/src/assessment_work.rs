@@ -1,4 +1,4 @@
-//! The evaluation of a certificate's runs when all are kept: tables, runs near limits from another start, the
+//! The evaluation of an assessment's runs when all are kept: tables, runs near limits from another start, the
 //! worst run of each regime, the page.
 
 use std::collections::VecDeque;
@@ -8,66 +8,66 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use study::certificate::other_start::{Repeated, near};
-use study::certificate::refined::Refined;
-use study::certificate::{Assessed, Certificate, worst_run};
+use study::assessment::dependence::{Varied, wanted};
+use study::assessment::refined::Refined;
+use study::assessment::{Assessed, Assessment, worst_run};
 use study::models::{AnyCase, ModelCase};
 use study::run::Run;
 
-use crate::certificate_files::{self, CertificateFindings, NAMES};
+use crate::assessment_files::{self, AssessmentFindings, NAMES};
 use crate::figures::car::CarRun;
 use crate::page as pages;
-use crate::page::certificate::{self as page, Against, WorstRun};
+use crate::page::assessment::{self as page, Against, WorstRun};
 use crate::run_files::RunFiles;
 use crate::study_folder::{StudyFolder, StudyFolderError};
 use staging::{FileError, Folder};
 
-/// The folder of the worst runs, in that of the certificate.
+/// The folder of the worst runs, in that of the assessment.
 pub const WORST: &str = "worst";
 
-/// Assesses all runs, computes those near a limit from another start and the worst one of each regime again
+/// Assesses all runs, computes those near limits from another start and at other frictions, and the worst one of each regime again
 /// with the motions of its bodies, and writes tables and page; `None` if `stop` became true meanwhile. Tells
 /// each worst run that is done.
 ///
 /// # Errors
 /// A run is missing, or something cannot be read or written.
 pub fn finish(
-    certificate: &Certificate,
+    assessment: &Assessment,
     folder: &StudyFolder,
     jobs: usize,
     against: Option<&Against>,
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
-) -> Result<Option<CertificateFindings>, StudyFolderError> {
-    let mut findings = CertificateFindings::gather(certificate, folder)?;
-    refine(certificate, &mut findings, jobs, stop);
-    let near = near(&findings.verdicts).into();
-    let repeated = in_parallel(near, jobs, |number| {
+) -> Result<Option<AssessmentFindings>, StudyFolderError> {
+    let mut findings = AssessmentFindings::gather(assessment, folder)?;
+    refine(assessment, &mut findings, jobs, stop);
+    let again = wanted(&findings.verdicts, &assessment.request.frictions);
+    let varied = in_parallel(again.into(), jobs, |(number, change)| {
         let goes_on = !stop.load(Ordering::Relaxed);
-        let case = findings.case(certificate, number).filter(|_| goes_on)?;
-        certificate.repeat(number, &case)
+        let case = findings.case(assessment, number).filter(|_| goes_on)?;
+        assessment.varied(number, &case, change)
     });
-    let repeated: Vec<Repeated> = repeated.into_iter().flatten().collect();
-    certificate.note(&mut findings.verdicts, &repeated);
-    let worst = worst_runs(certificate, &findings, folder.path(), jobs, stop, done)?;
+    let varied: Vec<Varied> = varied.into_iter().flatten().collect();
+    assessment.note(&mut findings.verdicts, &varied);
+    let worst = worst_runs(assessment, &findings, folder.path(), jobs, stop, done)?;
     if stop.load(Ordering::Relaxed) {
         return Ok(None);
     }
-    let page = page::render(certificate, &findings, &worst, against);
+    let page = page::render(assessment, &findings, &worst, against);
     let page = page.map_err(|error| unwritable(folder.path(), error))?;
     let files = Folder::check(folder.path(), &NAMES, true)?;
-    certificate_files::write(certificate, &findings, &page, &files)
+    assessment_files::write(assessment, &findings, &page, &files)
         .map_err(StudyFolderError::after_all_runs)?;
     Ok(Some(findings))
 }
 
 /// Computes runs at more speeds about the worst one of each regime, as long as there is something to see.
-fn refine(certificate: &Certificate, findings: &mut CertificateFindings, jobs: usize, stop: &AtomicBool) {
-    while certificate.request.refine && !stop.load(Ordering::Relaxed) {
-        let wanted = certificate.next_speeds(&findings.runs).into();
+fn refine(assessment: &Assessment, findings: &mut AssessmentFindings, jobs: usize, stop: &AtomicBool) {
+    while assessment.request.refine && !stop.load(Ordering::Relaxed) {
+        let wanted = assessment.next_speeds(&findings.runs).into();
         let found = in_parallel(wanted, jobs, |at| {
             let goes_on = !stop.load(Ordering::Relaxed);
-            goes_on.then(|| certificate.run_at(at).ok()).flatten()
+            goes_on.then(|| assessment.run_at(at).ok()).flatten()
         });
         let mut found: Vec<Refined> = found.into_iter().flatten().collect();
         // One that cannot be made would be asked for again.
@@ -75,7 +75,7 @@ fn refine(certificate: &Certificate, findings: &mut CertificateFindings, jobs: u
             return;
         }
         found.sort_by_key(|own| (own.assessed.regime, own.assessed.condition));
-        findings.add(certificate, found);
+        findings.add(assessment, found);
     }
 }
 
@@ -87,20 +87,20 @@ fn unwritable(folder: &Path, error: serde_json::Error) -> StudyFolderError {
 }
 
 fn worst_runs(
-    certificate: &Certificate,
-    findings: &CertificateFindings,
+    assessment: &Assessment,
+    findings: &AssessmentFindings,
     path: &Path,
     jobs: usize,
     stop: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<WorstRun>, StudyFolderError> {
-    let regimes = 0..certificate.regimes.len();
+    let regimes = 0..assessment.regimes.len();
     let wanted: VecDeque<(usize, &Assessed)> = regimes
         .filter_map(|regime| Some((regime, worst_run(&findings.runs, regime)?)))
         .collect();
     let found = in_parallel(wanted, jobs, |(regime, run)| {
-        let own = match findings.case(certificate, run.run) {
-            Some(case) => one(certificate, (regime, case), path, stop),
+        let own = match findings.case(assessment, run.run) {
+            Some(case) => one(assessment, (regime, case), path, stop),
             None => Ok(None),
         };
         done();
@@ -132,16 +132,17 @@ fn in_parallel<T: Send, R: Send>(items: VecDeque<T>, jobs: usize, compute: impl 
 
 /// Makes one of the runs; `None` if it was stopped, or is no run any more.
 fn one(
-    certificate: &Certificate,
+    assessment: &Assessment,
     (regime, case): (usize, AnyCase),
     path: &Path,
     stop: &AtomicBool,
 ) -> Result<Option<WorstRun>, StudyFolderError> {
-    let name = certificate.regimes[regime].name.as_str();
+    let name = assessment.regimes[regime].name.as_str();
     let Some(case) = case.car() else {
         return Ok(None);
     };
-    let case = case.named(name);
+    let mut case = case.named(name);
+    case.limits = Some(assessment.limits.clone());
     let Ok(started) = Run::with_motions(&case) else {
         return Ok(None);
     };
@@ -170,7 +171,7 @@ fn one(
     written?;
     Ok(Some(WorstRun {
         regime,
-        worst: page::worst_second(certificate, regime, &run),
+        worst: page::worst_second(assessment, regime, &run),
         run,
         folder: own,
     }))

@@ -1,4 +1,4 @@
-"""Certificates: in this process and on a cluster they give the same bytes; limits are what their files say."""
+"""Assessments: in this process and on a cluster they give the same bytes; limits are what their files say."""
 
 from __future__ import annotations
 
@@ -40,21 +40,21 @@ measure = "least_load_time"
 regimes = "all"
 at_least = "5 %"
 """
-FILES = ["certificate.csv", "certificate.parquet", "certificate.json", "table.parquet", "index.html"]
+FILES = ["assessment.csv", "assessment.parquet", "assessment.json", "table.parquet", "index.html"]
 
 
 @pytest.fixture
-def certificate(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> wl.Certificate:
+def assessment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> wl.Assessment:
     monkeypatch.chdir(tmp_path)
     Path("short.toml").write_text(REGIME)
     Path("limits.toml").write_text(LIMITS)
-    return wl.Certificate("car_tangent_loaded", regimes=["short.toml"], limits="limits.toml")
+    return wl.Assessment("car_tangent_loaded", regimes=["short.toml"], limits="limits.toml")
 
 
 def test_limits_a_cluster_that_loses_a_worker_gives_the_same_bytes(
-    certificate: wl.Certificate, tmp_path: Path
+    assessment: wl.Assessment, tmp_path: Path
 ) -> None:
-    alone = certificate.run(tmp_path / "alone", jobs=2)
+    alone = assessment.run(tmp_path / "alone", jobs=2)
     assert (alone.runs, alone.before, len(alone.verdicts)) == (4, 0, 1)
     (verdict,) = alone.verdicts
     assert (verdict.regime, verdict.limit, verdict.verdict, verdict.unit) == ("short", "load", "kept", "%")
@@ -62,7 +62,7 @@ def test_limits_a_cluster_that_loses_a_worker_gives_the_same_bytes(
     assert verdict.margin == pytest.approx((verdict.value - 5.0) / (100.0 - 5.0))
     # The worst run's own statistics say the same.
     assert verdict.run is not None
-    run = certificate.study.case(verdict.run).run()
+    run = assessment.study.case(verdict.run).run()
     least = [own for name, own in run.summary.statistics.items() if name.endswith("_least_load_time")]
     assert min(own.filtered.value for own in least) == pytest.approx(verdict.value, rel=1e-9)
 
@@ -78,15 +78,15 @@ def test_limits_a_cluster_that_loses_a_worker_gives_the_same_bytes(
                 os.kill(victim, signal.SIGKILL)
                 killed.append(done)
 
-        together: Any = wl.cluster.run_certificate(certificate, tmp_path / "together", client=client, progress=kill)
+        together: Any = wl.cluster.run_assessment(assessment, tmp_path / "together", client=client, progress=kill)
     assert killed and together.before == 0
     for file in FILES:
         assert (alone.folder / file).read_bytes() == (together.folder / file).read_bytes(), file
-    assert certificate.run(tmp_path / "together").before == 4
+    assert assessment.run(tmp_path / "together").before == 4
 
 
-def test_input_mistakes_are_explained(certificate: wl.Certificate) -> None:
-    assert pickle.loads(pickle.dumps(certificate.study)).count == 4
+def test_input_mistakes_are_explained(assessment: wl.Assessment) -> None:
+    assert pickle.loads(pickle.dumps(assessment.study)).count == 4
     for arguments, said in [
         ({"regimes": ["hunting"], "speeds": ["200 mph"]}, "not for 200 mph"),
         ({"regimes": ["hunting"], "speeds": ["200"]}, "200"),
@@ -96,4 +96,4 @@ def test_input_mistakes_are_explained(certificate: wl.Certificate) -> None:
         ({"set": ["truck.friction.colum=0.3"]}, "colum"),
     ]:
         with pytest.raises(wl.CaseError, match=said):
-            wl.Certificate("car_tangent_loaded", **arguments)  # type: ignore[arg-type]
+            wl.Assessment("car_tangent_loaded", **arguments)  # type: ignore[arg-type]

@@ -13,7 +13,7 @@
 
 use quantity::{Kind, Quantity};
 
-use super::{Assessed, Certificate};
+use super::{Assessed, Assessment};
 use crate::case::CaseError;
 use crate::models::AnyCase;
 use crate::records::{self, Status};
@@ -74,7 +74,7 @@ pub struct Refined {
     pub assessed: Assessed,
 }
 
-impl Certificate {
+impl Assessment {
     /// Returns the speeds that the regimes in their conditions are to be looked at next (regime, condition,
     /// speed in m/s), `runs` being known.
     #[must_use]
