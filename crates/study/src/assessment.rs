@@ -557,7 +557,10 @@ fn is_shaken(
         || says_start(&request.set)
         || regimes.iter().any(|own| says_start(&own.set))
         || linear;
-    Ok(conditions.iter().map(|own| !said && !says_start(&own.set)).collect())
+    Ok(conditions
+        .iter()
+        .map(|own| !said && !says_start(&own.set))
+        .collect())
 }
 
 /// Writes the study; `output` are windows of the rule, `shaken` says of each condition whether cars start

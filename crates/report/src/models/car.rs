@@ -244,9 +244,9 @@ fn limits_beside(summary: &CarSummary) -> (TerminalTable, String) {
             format!("No statistics{}.", why.unwrap_or_default()),
         )
     } else if summary.limits.iter().any(|own| own.unfiltered) {
-        (table(summary), format!("{NOTE}\n{UNFILTERED_NOTE}"))
+        (table(summary), format!("{}\n{UNFILTERED_NOTE}", note(summary)))
     } else {
-        (table(summary), NOTE.to_owned())
+        (table(summary), note(summary))
     }
 }
 
@@ -255,12 +255,15 @@ const UNFILTERED_NOTE: &str = "\
 Values without margin are raw: the rows are too far apart for the filter that their limit is for. Shorten \
 simulation.output_interval.";
 
-/// The note that explains the columns of a car's table.
-const NOTE: &str = "\
-Worst value of each kind, of filtered forces and accelerations, beside limits that are remembered of AAR \
-M-1001, chapter XI: check
-them against your edition. A limit counts for its regimes only (summary.json names them). Margin: what is \
-left, in parts of it; of a least share, of the way from 100 %.";
+/// Returns the note that explains the columns of a car's table.
+fn note(summary: &CarSummary) -> String {
+    format!(
+        "Worst value of each kind, of filtered forces and accelerations, beside limits of {}. A limit counts\n\
+         for its regimes only (summary.json names them). Margin: what is left, in parts of it; of a least\n\
+         share, of the way from 100 %.",
+        summary.limits_of
+    )
+}
 
 /// Returns the table of a car's limits.
 fn table(summary: &CarSummary) -> TerminalTable {

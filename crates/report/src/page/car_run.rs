@@ -67,8 +67,8 @@ fn limits(summary: &CarSummary) -> Markup {
     html! {
         (partial(summary))
         p {
-            "The worst value of each kind beside limits that are remembered of AAR M-1001, chapter XI: \
-             check them against your edition of the standard. A limit counts for the regimes named. Margin: \
+            "The worst value of each kind beside limits of " (summary.limits_of) ". A limit counts for the \
+             regimes named. Margin: \
              what is left, in parts of the limit; of a least share, of the way from 100 %. \
              Raw values, where rows are too far apart for the filter, \
              have none."

@@ -327,7 +327,8 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         distance,
         speed,
         static_loads,
-        limits: limits_of(&run.case, &statistics.values, units),
+        limits_of: limits_of(&run.case),
+        limits: checked(&run.case, &statistics.values, units),
         statistics: statistics.values,
         wedge_losses,
         wedge_locked,
@@ -488,12 +489,23 @@ fn losses(run: &mut Run<CarCase>) -> BTreeMap<String, SummaryValue> {
     losses
 }
 
+/// Returns the rule of a case's limits, with its source.
+fn limits_of(case: &CarCase) -> String {
+    let set = limit_set(case);
+    set.map_or_else(String::new, |set| {
+        format!("{}; {}", set.title_with_edition(), set.source)
+    })
+}
+
 /// Returns the limits of a case beside the statistics of its run.
-fn limits_of(case: &CarCase, statistics: &BTreeMap<String, Statistic>, units: Units) -> Vec<LimitCheck> {
-    let set = case.limits.as_deref().or(LimitSet::built_in().first());
+fn checked(case: &CarCase, statistics: &BTreeMap<String, Statistic>, units: Units) -> Vec<LimitCheck> {
     let figures = CarFigures::of(&case.parameters);
     let known = limits::known(&figures, statistics, units);
-    set.map_or_else(Vec::new, |set| {
+    limit_set(case).map_or_else(Vec::new, |set| {
         limits::of(set, statistics, &known, (&case.rules, units))
     })
+}
+
+fn limit_set(case: &CarCase) -> Option<&LimitSet> {
+    case.limits.as_deref().or(LimitSet::built_in().first())
 }

@@ -52,7 +52,10 @@ pub struct CarSummary {
     pub static_loads: BTreeMap<String, SummaryValue>,
     /// Statistics by name: see the table in docs/car.md.
     pub statistics: BTreeMap<String, Statistic>,
-    /// Limits of rules beside the worst value of each; remembered.
+    /// The rule of the limits, its edition and source; empty in older summaries.
+    #[serde(default)]
+    pub limits_of: String,
+    /// Limits of that rule beside the worst value of each.
     pub limits: Vec<LimitCheck>,
     /// Energy that the friction of each wedge took, by its name: `truck_1_leading_left`.
     pub wedge_losses: BTreeMap<String, SummaryValue>,
