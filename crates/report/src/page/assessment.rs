@@ -4,7 +4,7 @@ use std::iter;
 
 use maud::{Markup, html};
 use quantity::System as Units;
-use study::assessment::dependence::{Dependence, NEAR, REACH};
+use study::assessment::dependence::{Dependence, NEAR};
 use study::assessment::{Assessment, LimitVerdict, worst_run};
 use study::car::figures::CarFigures;
 use study::car::limits::{self, Bound, Limit, Mark};
@@ -351,8 +351,7 @@ fn depends(assessment: &Assessment, findings: &AssessmentFindings) -> Markup {
                     "Each verdict's worst run, its margin in brackets; the worst of the regime's own speeds, "
                     "where another speed is worse; the same run from another start, where its margin is within "
                     (format!("{:.0}", 100.0 * NEAR)) " %; and over the friction of wheel on rail, all coefficients "
-                    "in proportion, where the margin is within " (format!("{:.0}", 100.0 * REACH))
-                    " %: straight between the runs."
+                    "in proportion: straight between the runs."
                 }
                 (table::wide(
                     &[

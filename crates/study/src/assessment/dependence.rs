@@ -5,14 +5,14 @@
 //! hang on the start of its run. The run that keeps a limit least is computed once more where its margin is
 //! within [`NEAR`]: from the equilibrium, or from the shaken car if its own start is another.
 //!
-//! **Friction.** The same run at the frictions of the request where the margin is within [`REACH`]: all
-//! coefficients in proportion, so that the greatest has that value. Between these runs the margin is taken as
+//! **Friction.** The same run at the frictions of the request: all coefficients in proportion, so that the
+//! greatest has that value. Between these runs the margin is taken as
 //! straight; where it is zero the limit is reached. A friction beyond all runs is not guessed.
 //!
 //! **Speeds.** Beside the worst run of all stands that of the speeds of the regime alone
 //! ([`refined`](super::refined) adds others).
 //!
-//! NEAR and REACH are choices.
+//! NEAR is a choice.
 
 use car::{StartKind, Wheels};
 use serde::Serialize;
@@ -26,8 +26,6 @@ use crate::records::{self, Record, Status};
 
 /// Margin, in parts of the limit, up to which a result is near it, kept or not.
 pub const NEAR: f64 = 0.15;
-/// Margin up to which the friction at which a limit is reached is looked for.
-pub const REACH: f64 = 0.5;
 /// Frictions that are no different.
 const SAME: f64 = 0.02;
 
@@ -111,7 +109,7 @@ pub struct OverFriction {
 pub struct Dependence {
     /// The worst run from another start, where it is near the limit.
     pub other_start: Option<OtherStart>,
-    /// The worst run at other frictions, where the limit may be reached.
+    /// The worst run at other frictions.
     pub friction: Option<OverFriction>,
 }
 
@@ -122,7 +120,7 @@ pub fn wanted(verdicts: &[LimitVerdict], frictions: &[f64]) -> Vec<(u64, Change)
     for (most, changes) in [
         (NEAR, vec![Change::Start]),
         (
-            REACH,
+            f64::INFINITY,
             frictions.iter().map(|own| Change::Friction(*own)).collect(),
         ),
     ] {
@@ -193,7 +191,7 @@ impl Assessment {
                             judged,
                         });
                     }
-                    Changed::Friction([own, friction]) if worst.margin.abs() <= REACH => {
+                    Changed::Friction([own, friction]) => {
                         let over = over.get_or_insert_with(|| OverFriction {
                             own,
                             others: Vec::new(),
@@ -201,7 +199,7 @@ impl Assessment {
                         });
                         over.others.push(OtherFriction { friction, judged });
                     }
-                    _ => {}
+                    Changed::Start(_) => {}
                 }
             }
             if let Some(over) = &mut over {
