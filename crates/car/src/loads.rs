@@ -32,6 +32,12 @@ pub struct WheelLoads {
     pub longitudinal: f64,
     /// Power lost by creep over the speed, N: the wear number Tγ. Zero with linear wheels.
     pub wear_number: f64,
+    /// Angle of the plane of the patch that carries most, in the section of its rail, rad: positive where it
+    /// rises to the field side, as on treads and flanges. Zero without a patch, and with linear wheels.
+    pub contact_angle: f64,
+    /// How far the wheel must be lowered until it bears on its rail, m: zero while it bears, where it is
+    /// beside its rail, and with linear wheels.
+    pub lift: f64,
 }
 
 impl WheelLoads {
@@ -94,6 +100,9 @@ pub struct Loads {
     pub ends: [EndMotion; 2],
     /// The trucks, front and rear, in axes of the track at their bolsters.
     pub trucks: [truck::Loads; 2],
+    /// Lateral accelerations of bolster, left and right side frame of each truck, m/s²: what an accelerometer
+    /// at the body's center of gravity shows along its left, gravity's part included.
+    pub truck_accelerations: [[f64; 3]; 2],
 }
 
 impl Car {
@@ -134,6 +143,12 @@ impl Car {
         for (t, truck) in self.trucks.iter().enumerate() {
             let bolster = &seen.bodies[self.numbers.bolsters[t]];
             loads.trucks[t] = truck.loads(seen, &self.frame_at(bolster.center_of_gravity));
+            let [left, right] = self.numbers.side_frames[t];
+            loads.truck_accelerations[t] = [self.numbers.bolsters[t], left, right].map(|number| {
+                let own = &seen.bodies[number];
+                let felt = self.felt(number, own, own.center_of_gravity - own.origin, rates);
+                self.axes_of(number, own).column(1).dot::<f64, f64>(felt)
+            });
         }
         loads
     }
@@ -170,7 +185,12 @@ impl Car {
     /// Returns the rotation of the body from the nominal layout's axes forward, left, up to fixed axes.
     #[must_use]
     pub fn body_rotation(&self, body: &BodyState) -> Matrix<f64> {
-        let nominal = fixed(self.system.bodies()[self.numbers.body].frame.orientation);
+        self.axes_of(self.numbers.body, body)
+    }
+
+    /// Returns the same of any body.
+    fn axes_of(&self, number: usize, body: &BodyState) -> Matrix<f64> {
+        let nominal = fixed(self.system.bodies()[number].frame.orientation);
         body.rotation.times(nominal.transpose())
     }
 
@@ -205,9 +225,15 @@ impl Car {
                 let wrench = wheels[w][i].evaluate::<f64>(&motion);
                 let [x, y, z] = section.of(wrench.force.0);
                 let [forward, ..] = section.of(motion.velocity.0);
-                // Power of creep alone, without that of the contact's damping.
-                let mut creep = 0.0;
+                // Power of creep alone, without that of the contact's damping; the patch that carries most.
+                let (mut creep, mut most) = (0.0, [0.0; 2]);
+                let mut bears = false;
                 wheels[w][i].patches(&motion, |patch| {
+                    bears = true;
+                    let carried = patch.forces.normal * patch.patch.share;
+                    if carried > most[0] {
+                        most = [carried, patch.patch.slope];
+                    }
                     let (own, slip) = (&patch.forces.creep, &patch.forces.creepage);
                     let lost = own.x * slip.longitudinal + own.y * slip.lateral + own.spin_moment * slip.spin;
                     creep -= lost * patch.patch.share;
@@ -217,6 +243,11 @@ impl Car {
                     lateral: [-y, y][i],
                     longitudinal: -x,
                     wear_number: if forward == 0.0 { 0.0 } else { creep },
+                    contact_angle: libm::atan(most[1]),
+                    lift: match bears {
+                        true => 0.0,
+                        false => wheels[w][i].lift(&motion).unwrap_or(0.0),
+                    },
                 }
             }),
             WheelElements::Linear(element) => {
@@ -233,6 +264,8 @@ impl Car {
                     lateral: -side * 0.5 * y,
                     longitudinal: -0.5 * x,
                     wear_number: 0.0,
+                    contact_angle: 0.0,
+                    lift: 0.0,
                 })
             }
         }
@@ -248,7 +281,20 @@ impl Car {
         let arm = arm_to(self.accelerometers[t]);
         let section = self.section(place);
         let [_, lateral, height] = section.of(self.arm(place, &section));
-        let (system, number) = (&self.system, self.numbers.body);
+        let shown = self.felt(self.numbers.body, body, arm, rates);
+        let [_, left, up] = [0, 1, 2].map(|k| turned.column(k).dot::<f64, f64>(shown));
+        EndMotion {
+            lateral,
+            vertical: height - self.plates[t],
+            lateral_acceleration: left,
+            vertical_acceleration: up - self.gravity,
+        }
+    }
+
+    /// Returns what an accelerometer shows (m/s², fixed axes) that a body has at an arm (m, fixed axes) from its
+    /// origin: its acceleration less that of free fall.
+    fn felt(&self, number: usize, body: &BodyState, arm: Vector<f64>, rates: &[f64]) -> Vector<f64> {
+        let system = &self.system;
         let first = system.layout().speeds;
         let accelerations = [0, 1, 2, 3, 4, 5].map(|k| {
             let place = system.position_of(number, k);
@@ -264,16 +310,9 @@ impl Car {
         let origin: Vector<f64> = frame.apply(Vector([x, y, z]));
         let omega = body.angular_velocity;
         let swing: Vector<f64> = omega.cross(arm);
-        let shown = origin
+        origin
             + alpha.cross::<f64, f64>(arm)
             + omega.cross::<f64, f64>(swing)
-            + Vector([0.0, 0.0, self.gravity]);
-        let [_, left, up] = [0, 1, 2].map(|k| turned.column(k).dot::<f64, f64>(shown));
-        EndMotion {
-            lateral,
-            vertical: height - self.plates[t],
-            lateral_acceleration: left,
-            vertical_acceleration: up - self.gravity,
-        }
+            + Vector([0.0, 0.0, self.gravity])
     }
 }

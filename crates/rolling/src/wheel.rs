@@ -179,6 +179,18 @@ impl WheelOnRail {
         );
         section.distance
     }
+
+    /// Returns how far (m) the wheel must be lowered until it bears on its rail: zero while it does, none
+    /// where it is not over it. What a contact in the plane of the axle says: with yaw or on a rail that
+    /// changes along the track it is that of the silhouette there.
+    #[must_use]
+    pub fn lift(&self, motion: &RelativeMotion<f64>) -> Option<f64> {
+        let pose = self.placed(motion).pose;
+        match &self.search {
+            Search::Exact(pair) => pair.lift(&pose),
+            Search::Table(table) => table.pair().lift(&pose),
+        }
+    }
 }
 
 impl Element for WheelOnRail {

@@ -6,9 +6,19 @@ use std::f64::consts::{PI, SQRT_2};
 
 use thiserror::Error;
 
+pub use band::BandPass;
+pub use instability::{Instability, InstabilityError};
+pub use means::{largest_mean, largest_rmst, sliding_means};
+pub use range::largest_range;
 pub use spectrum::{FEWEST_ROWS, Spectrum, SpectrumError};
+pub use stretch::Stretch;
 
+mod band;
+mod instability;
+mod means;
+mod range;
 mod spectrum;
+mod stretch;
 
 /// A low-pass filter of fourth order without phase: Butterworth's filter of second order, forward and then
 /// backward.
@@ -45,7 +55,7 @@ pub struct TooCoarse {
 
 impl LowPass {
     /// Rows a period of the cutoff, at least.
-    const ROWS: f64 = 4.0;
+    pub const ROWS: f64 = 4.0;
 
     /// Returns the longest time between rows (s) for a cutoff (Hz).
     #[must_use]
@@ -125,7 +135,7 @@ impl LowPass {
         self.pass(long.iter_mut());
         let (block, ahead) = (self.block(), self.rows_ahead());
         let mut filtered = Vec::with_capacity(values.len());
-        let mut part = Vec::with_capacity(ahead);
+        let mut part = Vec::with_capacity(ahead.min(long.len()));
         for start in (0..values.len()).step_by(block) {
             let from = if start + ahead <= values.len() {
                 pad + start + ahead
@@ -222,12 +232,13 @@ fn range(values: &[f64]) -> Option<[f64; 2]> {
 /// without values.
 #[must_use]
 pub fn percentile(values: &[f64], share: f64) -> Option<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let place = share * sorted.len().checked_sub(1)? as f64;
-    let below = (place.floor() as usize).min(sorted.len() - 1);
-    let above = (below + 1).min(sorted.len() - 1);
-    Some(sorted[below] + (place - below as f64) * (sorted[above] - sorted[below]))
+    let place = share * values.len().checked_sub(1)? as f64;
+    let at = (place.floor() as usize).min(values.len() - 1);
+    let mut own = values.to_vec();
+    let (_, below, beyond) = own.select_nth_unstable_by(at, f64::total_cmp);
+    let below = *below;
+    let above = beyond.iter().copied().min_by(f64::total_cmp).unwrap_or(below);
+    Some(below + (place - at as f64) * (above - below))
 }
 
 /// Returns the largest standard deviation of the values within stretches of this length; of all rows where

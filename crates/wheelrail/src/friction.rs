@@ -142,6 +142,26 @@ impl Friction {
         coefficient * ((velocity * -decay).exp() * (1.0 - ratio) + ratio)
     }
 
+    /// Returns the coefficient where nothing slips, which is the greatest one, at a slope of the plane of
+    /// contact and a place along the track (m).
+    #[must_use]
+    pub fn at_rest(&self, slope: f64, along: f64) -> f64 {
+        self.at(slope, along, [0.0; 2])
+    }
+
+    /// Returns the greatest coefficient at a slope of the plane of contact, of all places along the track.
+    #[must_use]
+    pub fn greatest(&self, slope: f64) -> f64 {
+        match &self.over {
+            // Between places it is linear.
+            Some(over) => over
+                .iter()
+                .map(|(place, _)| self.at_rest(slope, *place))
+                .fold(0.0, f64::max),
+            None => self.at_rest(slope, 0.0),
+        }
+    }
+
     /// Returns the coefficients of tread and gauge face at a place along the track, m.
     fn zones_at<S: Real>(&self, along: S) -> [S; 2] {
         let constant = |zones: &Zones| [S::from(zones.tread), S::from(zones.gauge_face)];

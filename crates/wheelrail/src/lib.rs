@@ -30,6 +30,7 @@
 
 #![warn(missing_docs)]
 
+pub mod climb;
 pub mod conicity;
 pub mod contact;
 pub mod creep;

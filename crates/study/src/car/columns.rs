@@ -12,7 +12,8 @@ use wheelrail::profile::SlicedProfile;
 use wheelrail::track::Track;
 
 use super::derailment;
-use super::statistics::{SIDES, ratio};
+use super::figures::ClimbLimits;
+use super::statistics::{SIDES, TRUCK_PARTS, ratio};
 use crate::truck::channels::{FACES, FRICTION, TruckChannels, losses_at, names_of_face, places_of};
 
 /// The table of a car's results, for any observation of its system.
@@ -24,6 +25,8 @@ pub struct CarTable {
     track: Track,
     /// Rails whose sections change along the track.
     over: [Option<Arc<SlicedProfile>>; 2],
+    /// What flanges climb at; none with linear wheels.
+    climb: Option<Arc<ClimbLimits>>,
     /// Heights of the axles at the start, m.
     heights: [f64; 4],
     wedges_at_start: [[WedgeLoads; 4]; 2],
@@ -37,7 +40,8 @@ impl CarTable {
     pub fn new(parameters: &Parameters) -> Result<Self, BuildError> {
         let car = Car::new(parameters)?;
         let static_loads = derailment::static_loads(parameters);
-        let Table { columns, fixed } = Table::new(&car, &parameters.trucks, static_loads);
+        let climb = ClimbLimits::of(parameters).map(Arc::new);
+        let Table { columns, fixed } = Table::new(&car, &parameters.trucks, static_loads, climb.clone());
         let x = &car.initial_state;
         let seen = car.system.clone().observe(0.0, x);
         let loads = car.loads(&seen, &vec![0.0; x.len()]);
@@ -50,6 +54,7 @@ impl CarTable {
                 Wheels::Linear { .. } => [None, None],
             },
             car,
+            climb,
             columns,
             fixed,
             static_loads,
@@ -84,6 +89,12 @@ impl CarTable {
     #[must_use]
     pub fn static_loads(&self) -> [[f64; 2]; 4] {
         self.static_loads
+    }
+
+    /// Returns what the flanges climb at; none with linear wheels.
+    #[must_use]
+    pub fn climb(&self) -> Option<&ClimbLimits> {
+        self.climb.as_deref()
     }
 
     /// Appends the values of all columns (SI) at an observation, of whose state these are the rates;
@@ -139,7 +150,12 @@ struct Table {
 impl Table {
     /// Returns the columns of a car on these trucks; static loads of the wheels are by axle, left and right,
     /// N.
-    fn new(car: &Car, trucks: &[truck::Parameters; 2], static_loads: [[f64; 2]; 4]) -> Self {
+    fn new(
+        car: &Car,
+        trucks: &[truck::Parameters; 2],
+        static_loads: [[f64; 2]; 4],
+        climb: Option<Arc<ClimbLimits>>,
+    ) -> Self {
         let mut own = Self::default();
         own.add("time", Kind::Time, "", "time", |seen| seen.observation.time);
         let text = "of the center of gravity of body and lading along the track, in plan";
@@ -194,6 +210,11 @@ impl Table {
             own.halves(parameters);
         }
         own.wear();
+        if let Some(limits) = climb {
+            own.climb(static_loads, &limits);
+        }
+        own.forces();
+        own.truck_accelerations();
         for truck in 1..=2 {
             for wedge in WEDGE_NAMES {
                 let places = losses_of_wedge(&car.system, truck, wedge);
@@ -274,6 +295,73 @@ impl Table {
                 let text = "energy that creep takes by the distance: creep forces times creepages";
                 self.add(name, Kind::Force, TRACK, text, move |seen| {
                     seen.loads.wheels[axle][side].wear_number
+                });
+            }
+        }
+    }
+
+    /// How near wheels are to climbing.
+    fn climb(&mut self, static_loads: [[f64; 2]; 4], limits: &Arc<ClimbLimits>) {
+        let ratio_of = move |seen: &Seen<'_, Loads>, axle: usize, side: usize| {
+            let wheel = &seen.loads.wheels[axle][side];
+            ratio(wheel.lateral, wheel.vertical, static_loads[axle][side])
+        };
+        let at = |axle: usize| {
+            let limits = Arc::clone(limits);
+            move |seen: &Seen<'_, Loads>| limits.at(axle, seen.loads.axles[axle].distance)
+        };
+        for axle in 0..4 {
+            for (side, name) in SIDES.into_iter().enumerate() {
+                let stem = format!("axle_{}_{name}", axle + 1);
+                let text = "angle of the contact that carries most, against the track's plane, positive where \
+                            it rises to the field side; zero without contact";
+                let name = format!("{stem}_contact_angle");
+                self.add(name, Kind::Angle, TRACK, text, move |seen| {
+                    seen.loads.wheels[axle][side].contact_angle
+                });
+                let text = "L/V over Nadal's limit for the angle of the wheel's own flange and the friction of \
+                            its rail there, where nothing slips";
+                let name = format!("{stem}_nadal_share");
+                let limits = at(axle);
+                self.add(name, Kind::Dimensionless, TRACK, text, move |seen| {
+                    ratio_of(seen, axle, side) / limits(seen).nadal[side]
+                });
+                let text =
+                    "how far the wheel must be lowered until it bears on its rail; zero while it bears";
+                let name = format!("{stem}_lift");
+                self.add(name, Kind::Length, TRACK, text, move |seen| {
+                    seen.loads.wheels[axle][side].lift
+                });
+            }
+            let text = "sizes of both wheels' L/V over Weinstock's limit: Nadal's for the flange that bears, \
+                        and the friction of the other tread";
+            let name = format!("axle_{}_weinstock_share", axle + 1);
+            let limits = at(axle);
+            self.add(name, Kind::Dimensionless, TRACK, text, move |seen| {
+                limits(seen).weinstock_share([0, 1].map(|side| ratio_of(seen, axle, side)))
+            });
+        }
+    }
+
+    fn forces(&mut self) {
+        for axle in 0..4 {
+            let text = "force of both wheels on the track along its plane, positive to the left";
+            let name = format!("axle_{}_lateral_force", axle + 1);
+            self.add(name, Kind::Force, TRACK, text, move |seen| {
+                let [left, right] = &seen.loads.wheels[axle];
+                left.lateral - right.lateral
+            });
+        }
+    }
+
+    fn truck_accelerations(&mut self) {
+        for truck in 0..2 {
+            for (part, name) in TRUCK_PARTS.into_iter().enumerate() {
+                let name = format!("truck_{}_{name}_lateral_acceleration", truck + 1);
+                let text = "at its center of gravity, as an accelerometer shows it along its left: with \
+                            gravity's part by roll and superelevation";
+                self.add(name, Kind::RideAcceleration, TRUCK, text, move |seen| {
+                    seen.loads.truck_accelerations[truck][part]
                 });
             }
         }

@@ -21,6 +21,7 @@ pub mod mode_shape;
 pub mod motions;
 pub(crate) mod named;
 pub mod onset;
+mod output;
 mod peaks;
 pub(crate) mod profiles;
 pub(crate) mod rails;

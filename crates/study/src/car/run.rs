@@ -115,6 +115,8 @@ impl RunCase for CarCase {
         })
     }
 
+    /// The time that the filters of wheel forces and of the body's accelerations look ahead; the band of
+    /// trucks takes what rows there are ([`statistics`]).
     fn look_ahead(&self) -> f64 {
         let rules = &self.rules;
         let interval = self.simulation.output_interval;
@@ -370,13 +372,23 @@ fn statistics_of(run: &Run<CarCase>, table: &RowTable) -> Statistics {
         let [curvature, rate] = line.at(distance).curvature;
         curvature.abs() > 1e-6 && rate.abs() < 1e-9
     };
+    let parameters = &run.case.parameters;
+    let [forward, ..] = parameters.center_of_gravity();
+    let half = 0.5 * parameters.truck_distance;
+    let axle_places = [0, 1, 2, 3].map(|axle| {
+        let base = parameters.trucks[axle / 2].geometry.axle();
+        [half, -half][axle / 2] + [base, -base][axle % 2] - forward
+    });
     let long = run.recorder.ahead.as_ref().unwrap_or(table);
     let histories = Histories {
         column: &|name| long.column(name),
         rows: table.column("time").len(),
         interval: run.case.simulation.output_interval,
         begin: run.case.parameters.start.settle,
-        static_loads: run.recorder.table.static_loads(),
+        static_loads: &run.recorder.table.static_loads(),
+        trucks: &[vec![0, 1], vec![2, 3]],
+        climb: run.recorder.table.climb(),
+        axle_places: &axle_places,
         in_curve: &in_curve,
     };
     Statistics::of(&histories, &run.case.rules, run.case.simulation.output_units)
@@ -390,7 +402,7 @@ fn columns(case: &CarCase) -> Result<Vec<Column>, RunError> {
             && ["_vertical", "_l_over_v", "left_lateral", "right_lateral"]
                 .iter()
                 .any(|what| column.name.ends_with(what));
-        of_wheels || column.name.ends_with("_acceleration")
+        of_wheels || (column.name.starts_with("body_at_") && column.name.ends_with("_acceleration"))
     };
     let filtered = raw
         .iter()

@@ -81,7 +81,7 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     speed(r, &mut parameters);
     start(r, &mut parameters);
     let mut rules = Rules::default();
-    output(r, &mut rules);
+    super::output::output(r, &mut rules);
     let mut output_files = OutputFiles::of_car();
     output_files.read(r);
     let simulation = simulation(r);
@@ -342,84 +342,6 @@ fn start(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
         Drive::History { speeds, .. } => own.speed = checks::speed_at(speeds, 0.0),
         Drive::Held { .. } | Drive::Coasting => {}
     }
-}
-
-fn output(r: &mut CaseReader<'_>, rules: &mut Rules) {
-    r.section(
-        "output",
-        "What statistics are taken, and how, and what is written. All values of statistics are remembered: \
-         check them against your edition of the rules.",
-    );
-    let time: QuantityForm = (Kind::Time, Range::Positive, Reach::Positive);
-    let distance: QuantityForm = (Kind::Distance, Range::Positive, Reach::Positive);
-    let comment = "low-pass filter of wheel forces: fourth order, no phase, -3 dB there";
-    frequency(r, "wheel_filter", &mut rules.wheel_filter, comment);
-    let comment = "wheel L/V, axle sums and wheel loads that last so long";
-    r.quantity("hold_time", time, &mut rules.hold_time, comment);
-    r.quantity(
-        "hold_distance",
-        distance,
-        &mut rules.hold_distance,
-        "wheel L/V over this distance",
-    );
-    r.quantity(
-        "side_distance",
-        distance,
-        &mut rules.side_distance,
-        "L/V of a truck's side over this distance",
-    );
-    let comment = "share of wheel L/V and axle sums in curves that lies below the value reported";
-    let range = Range::Between(0.0, 1.0, "between 0 and 1");
-    r.number(
-        "percentile",
-        range,
-        Reach::Between(0.5, 0.999),
-        &mut rules.percentile,
-        comment,
-    );
-    frequency(
-        r,
-        "acceleration_filter",
-        &mut rules.acceleration_filter,
-        "low-pass filter of accelerations",
-    );
-    let comment = "largest standard deviation of accelerations over this distance";
-    r.quantity(
-        "deviation_distance",
-        distance,
-        &mut rules.deviation_distance,
-        comment,
-    );
-    r.quantity(
-        "rms_time",
-        time,
-        &mut rules.rms_time,
-        "largest rms of accelerations over this time",
-    );
-    r.truth(
-        "filtered_columns",
-        &mut rules.filtered_columns,
-        "whether results have filtered columns beside the raw ones",
-    );
-}
-
-/// A cutoff in Hz; frequencies are angular inside.
-fn frequency(r: &mut CaseReader<'_>, key: &'static str, hertz: &mut f64, comment: &str) {
-    let turn = 2.0 * std::f64::consts::PI;
-    let form: QuantityForm = (Kind::Frequency, Range::Positive, Reach::Positive);
-    let default = format!("{hertz} Hz");
-    let read = |section: &CaseSection<'_>, problems: &mut Problems| {
-        let (kind, range, _) = form;
-        section.quantity(key, kind, range, problems)
-    };
-    let Ok(usual) = Quantity::parse_as(&default, Kind::Frequency) else {
-        return;
-    };
-    let own = r.other(key, Form::Quantity(form.0), comment, usual, read, |own| {
-        Written::quantity(own, form.0, form.2)
-    });
-    // Angular and back again leaves a last digit.
-    *hertz = (own.to_si() / turn * 1e9).round() / 1e9;
 }
 
 fn simulation(r: &mut CaseReader<'_>) -> Simulation {

@@ -1,37 +1,47 @@
-//! Statistics of a run that rules for the assessment of freight cars ask for, from its columns.
+//! Statistics of a run that rules for the assessment of vehicles ask for, from its columns.
 //!
-//! All lengths of time and distance, frequencies and limits are those that are remembered of AAR M-1001,
-//! chapter XI (1993, and a later edition): **check them against your edition**. They are parameters
-//! ([`Rules`]).
+//! Lengths of time and distance, frequencies and factors are parameters ([`Rules`]); the usual ones are
+//! remembered of AAR M-1001, chapter XI (1993, and a later edition), of 49 CFR 213.333 (windows of 1, 2 and 4 s,
+//! the band of trucks) and of EN 14363:2005 (sections): **check them against your edition**.
 //!
-//! | statistic | how |
-//! |---|---|
-//! | wheel L/V | lateral force on the rail, positive where it spreads the gauge, over the vertical force; the largest that lasts for the hold time, and over the hold distance |
-//! | axle sum L/V | sum of the sizes of both wheels' L/V; the largest that lasts for the hold time |
-//! | truck side L/V | lateral over vertical forces of both wheels of a side; the largest that lasts over the side distance |
-//! | in curves | the percentile of wheel L/V and axle sums over the rows with the car's middle in full curves |
-//! | least wheel load | share of the static one; the least, and the one that is not exceeded for the hold time |
-//! | body roll | greatest less least |
-//! | accelerations at the truck centers | greatest less least, largest size, largest standard deviation over a distance, largest rms over a time |
+//! | statistic | how | |
+//! |---|---|---|
+//! | L/V, axle sums, truck sides, loads, Nadal, climb, lift, forces of axles | largest or least that lasts over a time or a distance | [`wheels`] |
+//! | in full curves | percentiles, medians, means | [`curves`] |
+//! | roll and accelerations of the body, accelerations of trucks | range, size, deviation, rms, rms about a line | [`body`] |
+//! | over sections of the run | mean and deviations of percentiles | [`parts`] |
 //!
 //! Raw: from the rows. Filtered: wheel forces and accelerations through a low-pass filter
-//! ([`crate::signal::LowPass`]), ratios of filtered forces. Before the settling time nothing counts. A ratio
-//! is zero where a wheel carries less than a hundredth of its static load: the value there is the least
-//! wheel load.
+//! ([`crate::signal::LowPass`]), ratios of filtered forces; accelerations of trucks through a band-pass
+//! ([`crate::signal::BandPass`]). Before the settling time nothing counts. A ratio is zero where a wheel carries
+//! less than a hundredth of its static load: the value there is the least wheel load.
+//!
+//! A filtered value depends on rows after it. Those of the low-pass filters are the same whether the run ends or
+//! goes on, since runs look ahead for them. The band-pass of trucks would need to see a minute ahead: it takes
+//! the rows that there are, so that the trucks' statistics of a run that is interrupted are those at its end
+//! so far, and those of the whole run come out when it is whole.
 
 use std::collections::BTreeMap;
 
 use quantity::{Kind, SixDigits, System as Units};
 use serde::{Deserialize, Serialize};
 
-use crate::signal::{LowPass, WindowValue, largest_deviation, largest_rms, percentile, sustained};
+use super::figures::ClimbLimits;
+use crate::signal::{LowPass, WindowValue};
 use crate::summary::SummaryValue;
+
+pub mod body;
+pub mod curves;
+pub mod parts;
+pub mod wheels;
 
 const FOOT: f64 = 0.3048;
 /// Share of the static load below which a wheel has no ratio.
 pub const LEAST_SHARE: f64 = 0.01;
 /// The names of the sides in columns.
 pub const SIDES: [&str; 2] = ["left", "right"];
+/// The names of the parts of a truck that have accelerometers, in columns.
+pub const TRUCK_PARTS: [&str; 3] = ["bolster", "left_side_frame", "right_side_frame"];
 
 /// The rules of statistics.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,6 +62,22 @@ pub struct Rules {
     pub deviation_distance: f64,
     /// Time of the rms of accelerations, s.
     pub rms_time: f64,
+    /// Window of the range of accelerations, s.
+    pub range_time: f64,
+    /// Window of the rms of accelerations about a line, s.
+    pub rmst_time: f64,
+    /// Ends of the band of the accelerations of trucks, Hz.
+    pub truck_band: [f64; 2],
+    /// Window of the rms of these, about zero and about a line, s.
+    pub truck_rms_time: f64,
+    /// Length of sections of the run, m.
+    pub section_length: f64,
+    /// Distance of sliding means, m.
+    pub mean_distance: f64,
+    /// Deviations beyond the mean of sections that count, of L/V and of axles' lateral forces.
+    pub section_factor_safety: f64,
+    /// The same of wheels' vertical forces and of accelerations.
+    pub section_factor: f64,
     /// True if results have filtered columns.
     pub filtered_columns: bool,
 }
@@ -74,6 +100,22 @@ impl Rules {
                 "over the side distance",
                 format!("over {}", feet(self.side_distance)),
             ),
+            (
+                "within the range time",
+                format!("within {} s", SixDigits(self.range_time)),
+            ),
+            (
+                "over the RMSt time",
+                format!("over {} s", SixDigits(self.rmst_time)),
+            ),
+            (
+                "over the truck's rms time",
+                format!("over {} s", SixDigits(self.truck_rms_time)),
+            ),
+            (
+                "over the mean distance",
+                format!("over {} m", SixDigits(self.mean_distance)),
+            ),
         ]
         .into_iter()
         .fold(text.to_owned(), |text, (before, value)| {
@@ -93,6 +135,14 @@ impl Default for Rules {
             acceleration_filter: 10.0,
             deviation_distance: 2000.0 * FOOT,
             rms_time: 2.0,
+            range_time: 1.0,
+            rmst_time: 4.0,
+            truck_band: [0.5, 10.0],
+            truck_rms_time: 2.0,
+            section_length: 100.0,
+            mean_distance: 2.0,
+            section_factor_safety: 3.0,
+            section_factor: 2.2,
             filtered_columns: true,
         }
     }
@@ -114,8 +164,15 @@ pub struct Histories<'c> {
     pub interval: f64,
     /// The start of the statistics, s.
     pub begin: f64,
-    /// Static loads of the wheels, by axle, left and right, N.
-    pub static_loads: [[f64; 2]; 4],
+    /// Static loads of the wheels, by axle from the front, left and right, N. The columns of axle 1 begin
+    /// with `axle_1_`, and so on.
+    pub static_loads: &'c [[f64; 2]],
+    /// The axles of each truck from the front, from 0. The columns of truck 1 begin with `truck_1_`.
+    pub trucks: &'c [Vec<usize>],
+    /// What flanges climb at; none with linear wheels.
+    pub climb: Option<&'c ClimbLimits>,
+    /// Places of the axles before the place of the column `distance`, m.
+    pub axle_places: &'c [f64],
     /// True if a distance along the track (m) is in a full curve.
     pub in_curve: &'c dyn Fn(f64) -> bool,
 }
@@ -145,7 +202,7 @@ pub struct Filtered {
 pub struct Statistics {
     /// By name.
     pub values: BTreeMap<String, Statistic>,
-    /// Filtered columns.
+    /// Filtered columns, without those of the accelerations of trucks.
     pub filtered: Vec<Filtered>,
     /// The action that failed.
     pub remarks: Vec<String>,
@@ -158,6 +215,24 @@ struct Rows<'c> {
     distance: &'c [f64],
 }
 
+impl Rows<'_> {
+    /// Returns whether the car goes forward all the time.
+    fn go_forward(&self) -> bool {
+        self.distance.windows(2).all(|pair| pair[1] > pair[0])
+    }
+
+    /// Returns the length of the run, m.
+    fn length(&self) -> f64 {
+        self.distance[self.distance.len() - 1] - self.distance[0]
+    }
+
+    /// Returns the time of the first row at a distance or beyond.
+    fn time_at(&self, distance: f64) -> f64 {
+        let row = self.distance.partition_point(|own| *own < distance);
+        self.time[row.min(self.time.len() - 1)]
+    }
+}
+
 /// Takes statistics.
 struct Taker<'c, 'h> {
     histories: &'c Histories<'h>,
@@ -167,9 +242,12 @@ struct Taker<'c, 'h> {
     /// The first of the rows, and the one after the last, among all.
     range: (usize, usize),
     taken: Statistics,
+    /// Rows in full curves.
+    curve: Vec<bool>,
 }
 
 /// Raw and filtered values of one quantity, from the settling time on.
+#[derive(Default)]
 struct Pair {
     raw: Vec<f64>,
     filtered: Option<Vec<f64>>,
@@ -182,9 +260,16 @@ impl Pair {
 
     /// Combines values of several pairs row by row.
     fn of<const N: usize>(pairs: [&Self; N], combine: impl Fn([f64; N]) -> f64) -> Self {
+        Self::by_row(pairs, |_, values| combine(values))
+    }
+
+    /// The same, with the number of the row.
+    fn by_row<const N: usize>(pairs: [&Self; N], combine: impl Fn(usize, [f64; N]) -> f64) -> Self {
         let rows = |each: [&[f64]; N]| -> Vec<f64> {
             let count = each.iter().map(|own| own.len()).min().unwrap_or(0);
-            (0..count).map(|row| combine(each.map(|own| own[row]))).collect()
+            (0..count)
+                .map(|row| combine(row, each.map(|own| own[row])))
+                .collect()
         };
         let raw = rows(pairs.map(|own| own.raw.as_slice()));
         let filtered = pairs.iter().all(|own| own.filtered.is_some());
@@ -192,6 +277,15 @@ impl Pair {
             raw,
             filtered: filtered.then(|| rows(pairs.map(|own| own.filtered.as_deref().unwrap_or_default()))),
         }
+    }
+
+    /// Adds several pairs.
+    fn sum<'p>(pairs: impl Iterator<Item = &'p Self> + Clone) -> Self {
+        let zero = |own: &Self| Self::of([own], |_| 0.0);
+        let Some(first) = pairs.clone().next() else {
+            return Self::default();
+        };
+        pairs.fold(zero(first), |sum, own| Self::of([&sum, own], |[a, b]| a + b))
     }
 }
 
@@ -212,9 +306,10 @@ impl Statistics {
             _ => all.len(),
         };
         let rows = histories.rows.min(even);
+        let names = Names::of(histories);
         for (cutoff, names) in [
-            (rules.wheel_filter, wheel_forces().collect::<Vec<_>>()),
-            (rules.acceleration_filter, accelerations().collect()),
+            (rules.wheel_filter, names.wheel_forces()),
+            (rules.acceleration_filter, names.accelerations()),
         ] {
             match LowPass::new(histories.interval, cutoff) {
                 Ok(filter) => own.filtered.extend(names.into_iter().map(|name| {
@@ -247,39 +342,73 @@ impl Statistics {
                 return own;
             }
         };
+        let distance = &column("distance")[from..rows];
         let mut taker = Taker {
             histories,
             rules,
             units,
             rows: Rows {
                 time: &all[from..rows],
-                distance: &column("distance")[from..rows],
+                distance,
             },
             range: (from, rows),
             taken: own,
+            curve: distance.iter().map(|own| (histories.in_curve)(*own)).collect(),
         };
         taker.wheels();
         taker.body();
+        taker.trucks(even);
         taker.taken
     }
 }
 
-/// Returns the names of the forces of wheels on rails.
-fn wheel_forces() -> impl Iterator<Item = String> {
-    let wheels = (1..=4).flat_map(|axle| SIDES.map(|side| format!("axle_{axle}_{side}")));
-    wheels.flat_map(|wheel| ["vertical", "lateral"].map(|what| format!("{wheel}_{what}")))
+/// The columns that statistics are taken of.
+struct Names {
+    axles: usize,
+    trucks: usize,
 }
 
-/// Returns the names of the accelerations at the truck centers.
-fn accelerations() -> impl Iterator<Item = String> {
-    let ends = (1..=2).flat_map(|end| ["lateral", "vertical"].map(|direction| (end, direction)));
-    ends.map(|(end, direction)| format!("body_at_truck_{end}_{direction}_acceleration"))
+impl Names {
+    fn of(histories: &Histories<'_>) -> Self {
+        Self {
+            axles: histories.static_loads.len(),
+            trucks: histories.trucks.len(),
+        }
+    }
+
+    /// The forces of wheels on rails.
+    fn wheel_forces(&self) -> Vec<String> {
+        let wheels = (1..=self.axles).flat_map(|axle| SIDES.map(|side| format!("axle_{axle}_{side}")));
+        let forces = wheels.flat_map(|wheel| ["vertical", "lateral"].map(|what| format!("{wheel}_{what}")));
+        forces.collect()
+    }
+
+    /// The accelerations of the body at the truck centers.
+    fn accelerations(&self) -> Vec<String> {
+        let ends =
+            (1..=self.trucks).flat_map(|end| ["lateral", "vertical"].map(|direction| (end, direction)));
+        let names = ends.map(|(end, direction)| format!("body_at_truck_{end}_{direction}_acceleration"));
+        names.collect()
+    }
+
+    /// The lateral accelerations of the parts of trucks.
+    fn truck_accelerations(&self) -> Vec<String> {
+        let parts = (1..=self.trucks).flat_map(|truck| TRUCK_PARTS.map(|part| (truck, part)));
+        let names = parts.map(|(truck, part)| format!("truck_{truck}_{part}_lateral_acceleration"));
+        names.collect()
+    }
 }
 
 /// Returns whether statistics need all rows of a column.
 pub(super) fn need(name: &str) -> bool {
+    let of_wheel = ["_vertical", "_lateral", "_lift"].iter().any(|ending| {
+        SIDES
+            .iter()
+            .any(|side| name.ends_with(&format!("_{side}{ending}")))
+    });
     let others = ["distance", "body_roll"].contains(&name);
-    others || wheel_forces().chain(accelerations()).any(|own| own == name)
+    let of_axle = of_wheel || name.ends_with("_yaw");
+    others || (name.starts_with("axle_") && of_axle) || name.ends_with("_acceleration")
 }
 
 impl Taker<'_, '_> {
@@ -294,178 +423,43 @@ impl Taker<'_, '_> {
         }
     }
 
-    fn wheels(&mut self) {
-        let (histories, rows, rules) = (self.histories, self.rows, self.rules);
-        let curve: Vec<bool> = rows
-            .distance
-            .iter()
-            .map(|own| (histories.in_curve)(*own))
-            .collect();
-        let mut axles: Vec<[[Pair; 2]; 2]> = Vec::new();
-        for (axle, loads) in (1..).zip(histories.static_loads) {
-            let mut wheels = Vec::new();
-            for (side, load) in SIDES.into_iter().zip(loads) {
-                let stem = format!("axle_{axle}_{side}");
-                let [vertical, lateral] =
-                    ["vertical", "lateral"].map(|what| self.pair(&format!("{stem}_{what}")));
-                let ratio = Pair::of([&lateral, &vertical], |[l, v]| ratio(l, v, load));
-                self.held(&format!("{stem}_l_over_v"), &ratio);
-                self.in_curves(&format!("{stem}_l_over_v"), &ratio, &curve);
-                self.least_load(&stem, &vertical, load);
-                wheels.push([lateral, vertical]);
-            }
-            let (Some(right), Some(left)) = (wheels.pop(), wheels.pop()) else {
-                return;
-            };
-            let sum = Pair::of([&left[0], &left[1], &right[0], &right[1]], |[ll, lv, rl, rv]| {
-                ratio(ll, lv, loads[0]).abs() + ratio(rl, rv, loads[1]).abs()
-            });
-            let name = format!("axle_{axle}_sum_l_over_v");
-            self.set(&format!("{name}_time"), &sum, Kind::Dimensionless, |values| {
-                sustained(rows.time, values, rules.hold_time)
-            });
-            self.in_curves(&name, &sum, &curve);
-            axles.push([left, right]);
-        }
-        for (truck, pair) in (1..).zip(axles.chunks(2)) {
-            let [first, second] = pair else { continue };
-            for (side, name) in SIDES.into_iter().enumerate() {
-                let least: f64 = histories.static_loads[2 * truck - 2..2 * truck]
-                    .iter()
-                    .map(|own| own[side])
-                    .sum();
-                let own = Pair::of(
-                    [
-                        &first[side][0],
-                        &first[side][1],
-                        &second[side][0],
-                        &second[side][1],
-                    ],
-                    |[l1, v1, l2, v2]| ratio(l1 + l2, v1 + v2, least),
-                );
-                self.set(
-                    &format!("truck_{truck}_{name}_side_l_over_v"),
-                    &own,
-                    Kind::Dimensionless,
-                    |values| over_distance(rows, values, rules.side_distance),
-                );
-            }
-        }
-    }
-
-    /// Wheel L/V that lasts, over time and distance.
-    fn held(&mut self, name: &str, ratio: &Pair) {
-        let (rows, rules) = (self.rows, self.rules);
-        self.set(&format!("{name}_time"), ratio, Kind::Dimensionless, |values| {
-            sustained(rows.time, values, rules.hold_time)
-        });
-        self.set(
-            &format!("{name}_distance"),
-            ratio,
-            Kind::Dimensionless,
-            |values| over_distance(rows, values, rules.hold_distance),
-        );
-    }
-
-    /// The percentile in full curves.
-    fn in_curves(&mut self, name: &str, own: &Pair, curve: &[bool]) {
-        let found = own.each().map(|values| {
-            let inside: Vec<f64> = values?
-                .iter()
-                .zip(curve)
-                .filter(|(_, inside)| **inside)
-                .map(|(v, _)| *v)
-                .collect();
-            percentile(&inside, self.rules.percentile)
-        });
-        if found[0].is_none() {
-            return;
-        }
-        let [raw, filtered] =
-            found.map(|own| own.map(|own| SummaryValue::new(own, Kind::Dimensionless, self.units)));
-        let statistic = Statistic {
-            raw,
-            filtered,
-            time: None,
-            remark: String::new(),
-        };
-        self.taken.values.insert(format!("{name}_in_curves"), statistic);
-    }
-
-    /// The least load of a wheel, and the one that is not exceeded for the hold time, in % of the static one.
-    fn least_load(&mut self, stem: &str, vertical: &Pair, load: f64) {
-        let (rows, rules) = (self.rows, self.rules);
-        if load <= 0.0 {
-            return;
-        }
-        let percent = |found: WindowValue| SummaryValue {
-            value: -100.0 * found.value / load,
-            unit: "%".to_owned(),
-        };
-        let negative = |values: &[f64]| -> Vec<f64> { values.iter().map(|own| -own).collect() };
-        for (name, hold) in [("least_load", 0.0), ("least_load_time", rules.hold_time)] {
-            let found = vertical
-                .each()
-                .map(|values| sustained(rows.time, &negative(values?), hold));
-            let statistic = Statistic {
-                time: found[1].or(found[0]).map(|own| own.start),
-                raw: found[0].map(percent),
-                filtered: found[1].map(percent),
-                remark: String::new(),
-            };
-            self.taken.values.insert(format!("{stem}_{name}"), statistic);
-        }
-    }
-
-    fn body(&mut self) {
-        let (rows, rules, (from, to)) = (self.rows, self.rules, self.range);
-        let roll = Pair {
-            raw: (self.histories.column)("body_roll")[from..to].to_vec(),
-            filtered: None,
-        };
-        self.set("body_roll_peak_to_peak", &roll, Kind::Angle, whole(rows));
-        for name in accelerations() {
-            {
-                let own = self.pair(&name);
-                let kind = Kind::RideAcceleration;
-                self.set(&format!("{name}_peak_to_peak"), &own, kind, whole(rows));
-                self.set(&format!("{name}_largest"), &own, kind, |values| {
-                    let sizes: Vec<f64> = values.iter().map(|own| own.abs()).collect();
-                    sustained(rows.time, &sizes, 0.0)
-                });
-                let deviation = |values: &[f64]| {
-                    let found = largest_deviation(rows.distance, values, rules.deviation_distance)?;
-                    Some(timed(rows, found))
-                };
-                let statistic = format!("{name}_deviation");
-                self.set(&statistic, &own, kind, deviation);
-                let run = rows.distance[rows.distance.len() - 1] - rows.distance[0];
-                if run < rules.deviation_distance
-                    && let Some(own) = self.taken.values.get_mut(&statistic)
-                {
-                    own.remark = format!(
-                        "over the {:.0} ft of the run, not over {:.0} ft",
-                        run / FOOT,
-                        rules.deviation_distance / FOOT
-                    );
-                }
-                self.set(&format!("{name}_rms"), &own, kind, |values| {
-                    largest_rms(rows.time, values, rules.rms_time)
-                });
-            }
-        }
+    /// Returns a column, if the run has it.
+    fn column(&self, name: &str) -> Option<&[f64]> {
+        let (from, to) = self.range;
+        (self.histories.column)(name).get(from..to)
     }
 
     /// Takes a number of raw and of filtered values.
     fn set(&mut self, name: &str, own: &Pair, kind: Kind, take: impl Fn(&[f64]) -> Option<WindowValue>) {
-        let found = own.each().map(|values| take(values?));
-        let value = |found: WindowValue| SummaryValue::new(found.value, kind, self.units);
-        let remark = match found[0] {
-            Some(_) => String::new(),
-            None => format!(
+        self.keep(name, own.each().map(|values| take(values?)), In::Unit(kind, 1.0));
+    }
+
+    /// As [`Taker::set`], of rows over the distance: where the car stands or goes back there is none.
+    fn over_distance(
+        &mut self,
+        name: &str,
+        own: &Pair,
+        unit: In,
+        take: impl Fn(&[f64], &[f64]) -> Option<WindowValue>,
+    ) {
+        let rows = self.rows;
+        let forward = rows.go_forward();
+        let taken = |values: &[f64]| Some(timed(rows, take(rows.distance, values)?)).filter(|_| forward);
+        self.keep(name, own.each().map(|values| taken(values?)), unit);
+        if !forward {
+            self.remark(name, "the car stands or goes back".to_owned());
+        }
+    }
+
+    /// Keeps a number, raw and filtered.
+    fn keep(&mut self, name: &str, found: [Option<WindowValue>; 2], unit: In) {
+        let value = |found: WindowValue| unit.of(found.value, self.units);
+        let remark = match found {
+            [None, None] => format!(
                 "the {:.3} s after settling are too short",
                 self.rows.time[self.rows.time.len() - 1] - self.rows.time[0]
             ),
+            _ => String::new(),
         };
         let statistic = Statistic {
             time: found[1].or(found[0]).map(|own| own.start),
@@ -474,6 +468,34 @@ impl Taker<'_, '_> {
             remark,
         };
         self.taken.values.insert(name.to_owned(), statistic);
+    }
+
+    /// Sets the remark of a number.
+    fn remark(&mut self, name: &str, text: String) {
+        if let Some(own) = self.taken.values.get_mut(name) {
+            own.remark = text;
+        }
+    }
+}
+
+/// The unit of a number of the summary, and a factor.
+#[derive(Clone, Copy)]
+enum In {
+    /// That of its kind.
+    Unit(Kind, f64),
+    /// Percent, of this value.
+    PercentOf(f64),
+}
+
+impl In {
+    fn of(self, value: f64, units: Units) -> SummaryValue {
+        match self {
+            Self::Unit(kind, factor) => SummaryValue::new(factor * value, kind, units),
+            Self::PercentOf(whole) => SummaryValue {
+                value: 100.0 * value / whole,
+                unit: "%".to_owned(),
+            },
+        }
     }
 }
 
@@ -487,36 +509,10 @@ pub fn ratio(lateral: f64, vertical: f64, static_load: f64) -> f64 {
     }
 }
 
-/// Greatest less least value of all rows, with the time from the first of both to the second.
-fn whole(rows: Rows<'_>) -> impl Fn(&[f64]) -> Option<WindowValue> {
-    move |values| {
-        let extreme = |worse: fn(&f64, &f64) -> bool| {
-            let pairs = values.iter().zip(rows.time);
-            pairs.reduce(|most, own| if worse(own.0, most.0) { own } else { most })
-        };
-        let (greatest, least) = (extreme(|a, b| a > b)?, extreme(|a, b| a < b)?);
-        Some(WindowValue {
-            value: greatest.0 - least.0,
-            start: greatest.1.min(*least.1),
-            length: (greatest.1 - least.1).abs(),
-        })
-    }
-}
-
-/// Returns the largest value that lasts over a distance, with its time. Where the car stands or goes back
-/// there is none.
-fn over_distance(rows: Rows<'_>, values: &[f64], distance: f64) -> Option<WindowValue> {
-    if rows.distance.windows(2).any(|pair| pair[1] <= pair[0]) {
-        return None;
-    }
-    Some(timed(rows, sustained(rows.distance, values, distance)?))
-}
-
 /// Returns a value at a distance with its time.
 fn timed(rows: Rows<'_>, found: WindowValue) -> WindowValue {
-    let row = rows.distance.partition_point(|own| *own < found.start);
     WindowValue {
-        start: rows.time[row.min(rows.time.len() - 1)],
+        start: rows.time_at(found.start),
         ..found
     }
 }

@@ -7,6 +7,16 @@ use quantity::Kind;
 use super::statistics::Statistic;
 use crate::summary::SummaryValue;
 
+/// What a statistic is taken of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Of {
+    Wheels,
+    Axles,
+    /// Trucks, their sides and their parts.
+    Trucks,
+    Body,
+}
+
 /// The rule that selects from all statistics of one kind.
 #[derive(Debug, PartialEq)]
 pub struct Worst {
@@ -16,100 +26,306 @@ pub struct Worst {
     pub kind: Kind,
     /// The description, a few words.
     pub text: &'static str,
-    /// The endings of the names of the statistics.
-    ending: &'static str,
+    /// What the statistics are taken of, and the endings of their names.
+    of: (Of, &'static str),
     /// True if the least value is worst, false if the greatest.
     least: bool,
+    /// True if nothing of it is filtered.
+    raw: bool,
+    /// The ending of the statistic whose greatest value says where this one counts, if not its own.
+    at: Option<&'static str>,
     /// Unit of a number of [`Kind::Dimensionless`].
     pub unit: &'static str,
 }
 
-const fn greatest(name: &'static str, kind: Kind, text: &'static str, ending: &'static str) -> Worst {
+const fn greatest(name: &'static str, kind: Kind, text: &'static str, of: (Of, &'static str)) -> Worst {
     Worst {
         name,
         kind,
         text,
-        ending,
+        of,
         least: false,
+        raw: false,
+        at: None,
         unit: "",
     }
 }
 
+impl Worst {
+    const fn least(self, unit: &'static str) -> Self {
+        Self {
+            least: true,
+            unit,
+            ..self
+        }
+    }
+
+    const fn raw(self) -> Self {
+        Self { raw: true, ..self }
+    }
+
+    const fn where_worst_is(self, ending: &'static str) -> Self {
+        Self {
+            at: Some(ending),
+            ..self
+        }
+    }
+}
+
+/// Returns what a statistic is taken of, by the beginning of its name.
+fn taken_of(statistic: &str) -> Option<Of> {
+    let mut parts = statistic.split('_');
+    match parts.next()? {
+        "body" => Some(Of::Body),
+        "truck" => Some(Of::Trucks),
+        "axle" => match parts.nth(1) {
+            Some("left" | "right") => Some(Of::Wheels),
+            _ => Some(Of::Axles),
+        },
+        _ => None,
+    }
+}
+
 /// All kinds.
-pub const WORST: [Worst; 12] = [
+pub const WORST: [Worst; 38] = [
     greatest(
         "l_over_v_time",
         Kind::Dimensionless,
         "largest wheel L/V that lasts for the hold time",
-        "_l_over_v_time",
+        (Of::Wheels, "_l_over_v_time"),
     ),
     greatest(
         "l_over_v_distance",
         Kind::Dimensionless,
         "largest wheel L/V that lasts over the hold distance",
-        "_l_over_v_distance",
+        (Of::Wheels, "_l_over_v_distance"),
     ),
     greatest(
         "axle_sum_l_over_v_time",
         Kind::Dimensionless,
         "largest axle sum of L/V that lasts for the hold time",
-        "_sum_l_over_v_time",
+        (Of::Axles, "_sum_l_over_v_time"),
     ),
     greatest(
         "side_l_over_v",
         Kind::Dimensionless,
         "largest L/V of a truck's side over the side distance",
-        "_side_l_over_v",
+        (Of::Trucks, "_side_l_over_v"),
     ),
     greatest(
         "l_over_v_in_curves",
         Kind::Dimensionless,
         "largest percentile of wheel L/V in curves",
-        "_l_over_v_in_curves",
+        (Of::Wheels, "_l_over_v_in_curves"),
     ),
     greatest(
         "axle_sum_l_over_v_in_curves",
         Kind::Dimensionless,
         "largest percentile of axle sums of L/V in curves",
-        "_sum_l_over_v_in_curves",
+        (Of::Axles, "_sum_l_over_v_in_curves"),
     ),
-    Worst {
-        name: "least_load_time",
-        kind: Kind::Dimensionless,
-        text: "least wheel load that lasts for the hold time, % of the static one",
-        ending: "_least_load_time",
-        least: true,
-        unit: "%",
-    },
+    greatest(
+        "least_load_time",
+        Kind::Dimensionless,
+        "least wheel load that lasts for the hold time, % of the static one",
+        (Of::Wheels, "_least_load_time"),
+    )
+    .least("%"),
     greatest(
         "body_roll_peak_to_peak",
         Kind::Angle,
         "greatest less least roll of the body",
-        "body_roll_peak_to_peak",
-    ),
+        (Of::Body, "body_roll_peak_to_peak"),
+    )
+    .raw(),
     greatest(
         "lateral_acceleration_deviation",
         Kind::RideAcceleration,
         "largest standard deviation of the lateral acceleration at a truck center",
-        "_lateral_acceleration_deviation",
+        (Of::Body, "_lateral_acceleration_deviation"),
     ),
     greatest(
         "lateral_acceleration_peak_to_peak",
         Kind::RideAcceleration,
         "greatest less least lateral acceleration at a truck center",
-        "_lateral_acceleration_peak_to_peak",
+        (Of::Body, "_lateral_acceleration_peak_to_peak"),
     ),
     greatest(
         "vertical_acceleration_peak_to_peak",
         Kind::RideAcceleration,
         "greatest less least vertical acceleration at a truck center",
-        "_vertical_acceleration_peak_to_peak",
+        (Of::Body, "_vertical_acceleration_peak_to_peak"),
     ),
     greatest(
         "lateral_acceleration_rms",
         Kind::RideAcceleration,
         "largest rms of the lateral acceleration at a truck center",
-        "_lateral_acceleration_rms",
+        (Of::Body, "_lateral_acceleration_rms"),
+    ),
+    greatest(
+        "lateral_acceleration_largest",
+        Kind::RideAcceleration,
+        "largest lateral acceleration at a truck center",
+        (Of::Body, "_lateral_acceleration_largest"),
+    ),
+    greatest(
+        "vertical_acceleration_largest",
+        Kind::RideAcceleration,
+        "largest vertical acceleration at a truck center",
+        (Of::Body, "_vertical_acceleration_largest"),
+    ),
+    greatest(
+        "lateral_acceleration_range",
+        Kind::RideAcceleration,
+        "greatest less least lateral acceleration at a truck center within the range time, without \
+         peaks shorter than the hold time",
+        (Of::Body, "_lateral_acceleration_range"),
+    ),
+    greatest(
+        "vertical_acceleration_range",
+        Kind::RideAcceleration,
+        "the same of the vertical acceleration",
+        (Of::Body, "_vertical_acceleration_range"),
+    ),
+    greatest(
+        "lateral_acceleration_rmst",
+        Kind::RideAcceleration,
+        "largest rms about a straight line over the RMSt time of the lateral acceleration at a truck \
+         center",
+        (Of::Body, "_lateral_acceleration_rmst"),
+    ),
+    greatest(
+        "vertical_acceleration_rmst",
+        Kind::RideAcceleration,
+        "the same of the vertical acceleration",
+        (Of::Body, "_vertical_acceleration_rmst"),
+    ),
+    greatest(
+        "truck_lateral_acceleration_rms",
+        Kind::RideAcceleration,
+        "largest rms over the truck's rms time of the lateral acceleration of a bolster or side \
+         frame, in the band of trucks",
+        (Of::Trucks, "_lateral_acceleration_rms"),
+    ),
+    greatest(
+        "truck_lateral_acceleration_rmst",
+        Kind::RideAcceleration,
+        "the same about a straight line",
+        (Of::Trucks, "_lateral_acceleration_rmst"),
+    ),
+    greatest(
+        "nadal_share_time",
+        Kind::Dimensionless,
+        "largest share of Nadal's limit of L/V that lasts for the hold time",
+        (Of::Wheels, "_nadal_share_time"),
+    ),
+    greatest(
+        "weinstock_share_time",
+        Kind::Dimensionless,
+        "largest share of Weinstock's limit of the axle sum that lasts for the hold time",
+        (Of::Axles, "_weinstock_share_time"),
+    ),
+    greatest(
+        "climb_distance",
+        Kind::Distance,
+        "longest distance over which a wheel's L/V exceeds Nadal's limit",
+        (Of::Wheels, "_climb_distance"),
+    ),
+    greatest(
+        "climb_angle_of_attack",
+        Kind::Angle,
+        "mean size of the axle's yaw along that distance; zero where nothing climbs",
+        (Of::Wheels, "_climb_angle_of_attack"),
+    )
+    .where_worst_is("_climb_distance"),
+    greatest(
+        "wheel_lift",
+        Kind::Length,
+        "largest lift of a wheel off its rail",
+        (Of::Wheels, "_lift_largest"),
+    )
+    .raw(),
+    greatest(
+        "net_axle_l_over_v",
+        Kind::Dimensionless,
+        "largest lateral force of an axle over its static load that lasts over the hold distance",
+        (Of::Axles, "_net_l_over_v"),
+    ),
+    greatest(
+        "least_load_distance",
+        Kind::Dimensionless,
+        "least wheel load that lasts over the hold distance, % of the static one",
+        (Of::Wheels, "_least_load_distance"),
+    )
+    .least("%"),
+    greatest(
+        "least_side_load",
+        Kind::Dimensionless,
+        "least load of a truck's side that lasts over the side distance, % of the static one",
+        (Of::Trucks, "_least_side_load"),
+    )
+    .least("%"),
+    greatest(
+        "axle_lateral_force_mean",
+        Kind::Force,
+        "largest mean of an axle's lateral force over the mean distance",
+        (Of::Axles, "_lateral_force_mean"),
+    ),
+    greatest(
+        "axle_lateral_force_instability",
+        Kind::Force,
+        "largest rms of an axle's lateral force over a section's length, within 2 Hz of its dominant \
+         frequency",
+        (Of::Axles, "_lateral_force_instability"),
+    ),
+    greatest(
+        "lateral_force_in_curves",
+        Kind::Force,
+        "largest quasi-static lateral force of a wheel: the median of a full curve",
+        (Of::Wheels, "_lateral_force_in_curves"),
+    ),
+    greatest(
+        "vertical_force_in_curves",
+        Kind::Force,
+        "largest quasi-static vertical force of a wheel: the median of a full curve",
+        (Of::Wheels, "_vertical_force_in_curves"),
+    ),
+    greatest(
+        "least_quasi_static_load",
+        Kind::Dimensionless,
+        "least mean load of a wheel in a full curve, % of the static one",
+        (Of::Wheels, "_quasi_static_load"),
+    )
+    .least("%"),
+    greatest(
+        "l_over_v_sections",
+        Kind::Dimensionless,
+        "mean and deviations of wheel L/V over sections",
+        (Of::Wheels, "_l_over_v_sections"),
+    ),
+    greatest(
+        "axle_lateral_force_sections",
+        Kind::Force,
+        "mean and deviations of an axle's lateral force over sections",
+        (Of::Axles, "_lateral_force_sections"),
+    ),
+    greatest(
+        "vertical_force_sections",
+        Kind::Force,
+        "mean and deviations of a wheel's vertical force over sections",
+        (Of::Wheels, "_vertical_force_sections"),
+    ),
+    greatest(
+        "lateral_acceleration_sections",
+        Kind::RideAcceleration,
+        "mean and deviations of the lateral acceleration at a truck center over sections",
+        (Of::Body, "_lateral_acceleration_sections"),
+    ),
+    greatest(
+        "vertical_acceleration_sections",
+        Kind::RideAcceleration,
+        "mean and deviations of the vertical acceleration at a truck center over sections",
+        (Of::Body, "_vertical_acceleration_sections"),
     ),
 ];
 
@@ -134,6 +350,10 @@ pub fn place_in_words(statistic: &str) -> String {
     match parts.as_slice() {
         ["axle", axle, side @ ("left" | "right"), ..] => format!("axle {axle}, {side} wheel"),
         ["axle", axle, ..] => format!("axle {axle}"),
+        ["truck", truck, side @ ("left" | "right"), "side", "frame", ..] => {
+            format!("truck {truck}, {side} side frame")
+        }
+        ["truck", truck, "bolster", ..] => format!("truck {truck}, bolster"),
         ["truck", truck, side @ ("left" | "right"), ..] => format!("truck {truck}, {side} side"),
         ["truck", truck, ..] => format!("truck {truck}"),
         ["body", "at", "truck", truck, ..] => format!("body over truck {truck}"),
@@ -149,32 +369,47 @@ impl Worst {
         WORST.iter().find(|own| own.name == name)
     }
 
-    /// Returns whether rules want it of filtered values: all but angles.
+    /// Returns whether rules want it of filtered values.
     #[must_use]
     pub fn is_filtered(&self) -> bool {
-        self.kind != Kind::Angle
+        !self.raw
     }
 
     /// Finds it among the statistics of a run, if there is one of its kind.
     #[must_use]
     pub fn of<'s>(&self, statistics: &'s BTreeMap<String, Statistic>) -> Option<WorstStatistic<'s>> {
-        let sum = self.ending.contains("_sum_");
-        let own = statistics
-            .iter()
-            .filter(|(name, _)| name.ends_with(self.ending) && (sum || !name.contains("_sum_")));
-        let found = own.filter_map(|(statistic, own)| {
-            let value = own.filtered.as_ref().or(own.raw.as_ref())?;
-            Some(WorstStatistic {
-                statistic,
-                value,
-                time: own.time,
-                filtered: own.filtered.is_some(),
-            })
-        });
-        let worse = |a: f64, b: f64| if self.least { a < b } else { a > b };
-        found.reduce(|worst, own| match worse(own.value.value, worst.value.value) {
-            true => own,
-            false => worst,
-        })
+        let (of, ending) = self.of;
+        let Some(other) = self.at else {
+            return worst(statistics, (of, ending), self.least);
+        };
+        let place = worst(statistics, (of, other), false)?;
+        let name = place.statistic.strip_suffix(other)?;
+        let (statistic, own) = statistics.get_key_value(&format!("{name}{ending}"))?;
+        found(statistic, own)
     }
+}
+
+fn worst<'s>(
+    statistics: &'s BTreeMap<String, Statistic>,
+    (of, ending): (Of, &str),
+    least: bool,
+) -> Option<WorstStatistic<'s>> {
+    let own = statistics
+        .iter()
+        .filter(|(name, _)| name.ends_with(ending) && taken_of(name) == Some(of));
+    let worse = |a: f64, b: f64| if least { a < b } else { a > b };
+    let all = own.filter_map(|(name, own)| found(name, own));
+    all.reduce(|worst, own| match worse(own.value.value, worst.value.value) {
+        true => own,
+        false => worst,
+    })
+}
+
+fn found<'s>(statistic: &'s str, own: &'s Statistic) -> Option<WorstStatistic<'s>> {
+    Some(WorstStatistic {
+        statistic,
+        value: own.filtered.as_ref().or(own.raw.as_ref())?,
+        time: own.time,
+        filtered: own.filtered.is_some(),
+    })
 }

@@ -7,6 +7,7 @@ use truck::WEDGE_NAMES;
 use super::measuring::judged;
 use super::{Definitions, Judged, Measure, Measures, Unmeasured};
 use crate::car::CarCase;
+use crate::car::figures::CarFigures;
 use crate::car::run::CarResult;
 use crate::car::worst::WORST;
 use crate::models::StudyCase;
@@ -51,11 +52,32 @@ const OTHERS: [(&str, Kind, &str); 10] = [
     ("steps", Kind::Count, "accepted steps of the integrator"),
 ];
 
+/// What figures of the car are, in the order of [`CarFigures::NAMES`].
+const FIGURES: [&str; 6] = [
+    "least static load of an axle on level track",
+    "greatest static load of an axle on level track",
+    "least static load of a wheel on level track",
+    "greatest static load of a wheel on level track",
+    "least of the largest angles of the wheels' flanges",
+    "greatest friction of a wheel on its rail at the angle of its flange, where nothing slips",
+];
+
 impl StudyCase for CarCase {
     fn definitions(&self) -> Definitions {
         let worst = WORST
             .iter()
             .map(|own| Measure::new(own.name, own.kind, own.text, false));
+        let kinds = [
+            Kind::Force,
+            Kind::Force,
+            Kind::Force,
+            Kind::Force,
+            Kind::Angle,
+            Kind::Dimensionless,
+        ];
+        let figures = CarFigures::NAMES.into_iter().zip(FIGURES).zip(kinds);
+        // Linear wheels have no flanges.
+        let figures = figures.map(|((name, text), kind)| Measure::new(name, kind, text, kind == Kind::Force));
         let others = OTHERS
             .iter()
             .map(|(name, kind, text)| Measure::new(*name, *kind, *text, true));
@@ -68,7 +90,8 @@ impl StudyCase for CarCase {
         let locked = of_wedges("locked_share", Kind::Dimensionless, text, false);
         let text = "lost in its friction";
         let losses = of_wedges("friction_loss", Kind::Energy, text, true);
-        Definitions(worst.chain(others).chain(locked).chain(losses).collect())
+        let all = worst.chain(others).chain(locked).chain(losses);
+        Definitions(all.chain(figures).collect())
     }
 
     fn judge(&self) -> Result<Judged, Unmeasured> {
@@ -84,7 +107,7 @@ fn wedges() -> impl Iterator<Item = String> {
     (1..=2).flat_map(|truck| WEDGE_NAMES.map(|wedge| format!("truck_{truck}_{wedge}")))
 }
 
-fn measures(_: &CarCase, result: &CarResult) -> Measures {
+fn measures(case: &CarCase, result: &CarResult) -> Measures {
     let summary = &result.summary;
     // What limits compare is filtered: where rows are too far apart for that, there is no number.
     let worst = WORST.iter().map(|own| {
@@ -119,5 +142,6 @@ fn measures(_: &CarCase, result: &CarResult) -> Measures {
     values.extend(wedges().map(|wedge| locked(wedge).unwrap_or(f64::NAN)));
     let loss = |wedge: String| summary.wedge_losses.get(&wedge).map(|own| own.value);
     values.extend(wedges().map(|wedge| loss(wedge).unwrap_or(0.0)));
+    values.extend(CarFigures::of(&case.parameters).values());
     Measures(values)
 }

@@ -23,6 +23,8 @@ pub(crate) fn address(model: &str) -> String {
 pub(crate) enum Form {
     /// A number with a unit.
     Quantity(Kind),
+    /// Two of them.
+    Pair(Kind),
     /// Three of them.
     Triple(Kind),
     /// A number between two ends.
@@ -121,6 +123,9 @@ impl Form {
     fn schema(&self) -> Value {
         match self {
             Self::Quantity(kind) => quantity(*kind),
+            Self::Pair(kind) => json!({
+                "type": "array", "items": quantity(*kind), "minItems": 2, "maxItems": 2,
+            }),
             Self::Triple(kind) => json!({
                 "type": "array", "items": quantity(*kind), "minItems": 3, "maxItems": 3,
             }),

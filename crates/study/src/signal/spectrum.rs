@@ -149,9 +149,17 @@ impl Spectrum {
     /// Returns the frequency (Hz) with the greatest density.
     #[must_use]
     pub fn peak(&self) -> f64 {
+        self.peak_within([0.0, f64::INFINITY]).unwrap_or(0.0)
+    }
+
+    /// Returns the frequency (Hz) with the greatest density from a lowest to a highest one; none where there
+    /// is no frequency between them.
+    #[must_use]
+    pub fn peak_within(&self, [lowest, highest]: [f64; 2]) -> Option<f64> {
         let pairs = self.frequencies.iter().zip(&self.density);
-        let peak = pairs.max_by(|a, b| a.1.total_cmp(b.1));
-        peak.map_or(0.0, |(frequency, _)| *frequency)
+        let within = pairs.filter(|(frequency, _)| (lowest..=highest).contains(*frequency));
+        let peak = within.max_by(|a, b| a.1.total_cmp(b.1));
+        peak.map(|(frequency, _)| *frequency)
     }
 }
 

@@ -8,7 +8,7 @@
 //! reflection, so that values within one longest wavelength of them are uncertain: deviations leave them out
 //! where [`SECTION`] remains.
 
-use crate::signal::LowPass;
+use crate::signal::{BandPass, LowPass};
 
 /// A band of wavelengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,16 +52,8 @@ pub struct BandDeviation {
 /// the rows are farther apart than a quarter of the shortest one.
 #[must_use]
 pub fn in_band(values: &[f64], spacing: f64, [shortest, longest]: [f64; 2]) -> Option<Vec<f64>> {
-    let short = LowPass::new(spacing, 1.0 / shortest).ok()?;
-    Some(short.apply(&shorter(values, spacing, longest)?))
-}
-
-/// Returns the part of values at equal distances (m) whose wavelengths are shorter than `longest` (m, -3 dB).
-fn shorter(values: &[f64], spacing: f64, longest: f64) -> Option<Vec<f64>> {
-    // 1 - 1/(1 + a r⁴) is 1/√2 where a r⁴ = 1/a.
-    let edge = libm::sqrt(std::f64::consts::SQRT_2 - 1.0);
-    let long = LowPass::new(spacing, edge / longest).ok()?.apply(values);
-    Some(values.iter().zip(long).map(|(own, long)| own - long).collect())
+    let band = BandPass::new(spacing, [1.0 / longest, 1.0 / shortest]).ok()?;
+    Some(band.apply(values))
 }
 
 /// Returns the standard deviations of values at equal distances (m, from zero) within a band.

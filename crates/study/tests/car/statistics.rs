@@ -2,14 +2,25 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, SQRT_2};
+use std::sync::LazyLock;
 
 use quantity::System;
+use study::car::CarCase;
+use study::car::figures::ClimbLimits;
 use study::car::limits::{self, LimitSet};
 use study::car::statistics::{Histories, Rules, Statistics};
 
 const FOOT: f64 = 0.3048;
 const GRAVITY: f64 = 9.806_65;
 const INTERVAL: f64 = 0.005;
+
+/// Wheels of AAR-1B, whose flanges have 75°, on rails with a friction of 0.5 on the left and 0.3 on the right.
+static CLIMB: LazyLock<ClimbLimits> = LazyLock::new(|| ClimbLimits::of(&car(0.5, 0.3).parameters).unwrap());
+
+fn car(left: f64, right: f64) -> CarCase {
+    let text = format!("[friction]\ncoefficient = {left}\n[friction.right]\ncoefficient = {right}\n");
+    CarCase::parse("made_up.toml", &text, std::path::Path::new(""), &[]).unwrap()
+}
 
 /// Returns a run of 40 s at 30 m/s: every wheel carries 100 kN, nothing else happens.
 fn quiet() -> BTreeMap<String, Vec<f64>> {
@@ -43,7 +54,10 @@ fn statistics(columns: &BTreeMap<String, Vec<f64>>, rules: &Rules) -> Statistics
         rows: columns["time"].len(),
         interval: INTERVAL,
         begin: 2.0,
-        static_loads: [[100e3; 2]; 4],
+        static_loads: &[[100e3; 2]; 4],
+        trucks: &[vec![0, 1], vec![2, 3]],
+        climb: Some(&*CLIMB),
+        axle_places: &[0.0; 4],
         in_curve: &|distance| distance > 500.0,
     };
     Statistics::of(&histories, rules, System::Us)

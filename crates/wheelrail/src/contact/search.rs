@@ -249,6 +249,13 @@ impl ContactPair {
             .filter(|touch| (low..=high).contains(&touch.place[1]))
     }
 
+    /// Returns how far (m) the wheel must be lowered at a pose until it bears on its rail: zero where it
+    /// overlaps it, none where it is not over it.
+    #[must_use]
+    pub fn lift(&self, pose: &WheelPose<f64>) -> Option<f64> {
+        self.touch(pose).map(|touch| (-touch.overlap).max(0.0))
+    }
+
     /// Returns the place where the rigid profiles overlap most, or are closest; none if the wheel is not over
     /// the rail.
     #[must_use]

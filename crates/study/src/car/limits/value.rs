@@ -13,6 +13,7 @@
 //! all: a car is never judged better than axle by axle.
 
 use quantity::{Kind, SixDigits};
+use wheelrail::climb::nadal;
 
 use crate::car::worst::Worst;
 
@@ -113,13 +114,6 @@ impl Formula {
     }
 }
 
-/// Returns Nadal's limit of L/V for a flange angle (rad) and a coefficient of friction.
-#[must_use]
-pub fn nadal(flange_angle: f64, friction: f64) -> f64 {
-    let slope = libm::tan(flange_angle);
-    (slope - friction) / (1.0 + friction * slope)
-}
-
 /// Returns the value of a table at a place.
 fn at(points: &[[f64; 2]], place: f64) -> Option<f64> {
     let above = points.partition_point(|[x, _]| *x <= place);
@@ -216,8 +210,5 @@ mod tests {
     fn limits_of_formulas_without_what_they_need_are_none() {
         assert_eq!(Formula::Nadal { friction: None }.value(&|_| None), None);
         assert_eq!(Formula::Nadal { friction: None }.value(&|_| Some(f64::NAN)), None);
-        // A flange of 20° holds nothing at this friction.
-        let flat = |name: &str| (name == "least_flange_angle").then_some(0.35);
-        assert_eq!(Formula::Nadal { friction: Some(0.5) }.value(&flat), None);
     }
 }
