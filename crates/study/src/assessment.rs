@@ -213,10 +213,7 @@ impl Assessment {
         match limits.not_covered.as_deref() {
             None => reasons.push("the file of limits does not say what the rule asks for beyond them".into()),
             Some([]) => {}
-            Some(all) => reasons.push(format!(
-                "{} of the rule is not covered",
-                counted(all.len(), "part")
-            )),
+            Some(all) => reasons.push(format!("{} of the rule not covered", counted(all.len(), "part"))),
         }
         for mark in [Mark::Remembered, Mark::Guess] {
             let count = limits.limits.iter().filter(|own| own.mark == Some(mark)).count();
@@ -318,7 +315,7 @@ impl Assessment {
             ),
             (
                 names(&|own| own.allowed.is_none()),
-                "no limit: its formula needs a wheel with a flange that holds at this friction",
+                "no limit: the car lacks what its formula needs (static loads, a flange)",
             ),
         ] {
             if !names.is_empty() {

@@ -122,6 +122,7 @@ fn cross_code_measures_are_those_of_a_run_in_the_regime() {
         "simulation.duration=1.75 s".to_owned(),
         format!("start.settle={} s", 70.0 * FOOT / speeds[1]),
         "simulation.relative_tolerance=1e-3".to_owned(),
+        "start.kind=equilibrium".to_owned(),
     ]);
     let text = "model = \"car\"\nlading.kind = \"empty\"\n";
     let own = CarCase::parse("car.toml", text, Tables::nowhere(), &settings).unwrap();

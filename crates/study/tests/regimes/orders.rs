@@ -132,6 +132,7 @@ fn reproduction_the_car_begins_to_rock_between_two_rises() {
         "truck.column_face.grid=[2, 2]",
         "truck.adapter.stiffness=5e5 lbf/in",
         "wheels.tape_distance=59.21875 in",
+        "start.kind=equilibrium",
     ];
     let runs: [(f64, &[&str]); 4] = [(0.75, &[]), (1.0, &[]), (0.8716, &earlier), (1.0459, &earlier)];
     let rolls = std::thread::scope(|scope| {
@@ -157,7 +158,8 @@ fn reproduction_the_car_begins_to_rock_between_two_rises() {
 fn limits_the_empty_car_on_rollers_hunts_at_speeds_of_the_field() {
     let swing = |speed: f64, bearing: &str| {
         let bearing = format!("truck.side_bearing.kind={bearing}");
-        let result = run("hunting", "empty", speed, &[&bearing]);
+        // From the shaken start, in which friction holds more, it dies down within half a minute at 80 mph too.
+        let result = run("hunting", "empty", speed, &[&bearing, "start.kind=equilibrium"]);
         let column = result.column("axle_1_lateral").unwrap();
         let own = &column[column.len() - 400..];
         // Friction may hold an axle beside the middle: half of the greatest less the least.

@@ -85,9 +85,16 @@ fn read(tree: &TableNode, name: &str, text: &str, problems: &mut Problems) -> Op
     if let NodeValue::List(items) = &node.value
         && !(1..=MOST).contains(&items.len())
     {
-        let message = format!("`limits` has {} limits; 1 to {MOST} are read", items.len());
-        let problem = Problem::new(message).at(&node.place).label("too many, or none");
-        problems.push(problem.help("write several files, and an assessment with each"));
+        let problem = match items.len() {
+            0 => Problem::new("`limits` is no list of limits: it is empty").label("none"),
+            count => Problem::new(format!("`limits` has {count} limits; at most {MOST} are read"))
+                .label("too many"),
+        };
+        let problem = problem.at(&node.place);
+        problems.push(problem.help(match items.len() {
+            0 => HELP,
+            _ => "write several files, and an assessment with each",
+        }));
         return None;
     }
     let mut found: Vec<Limit> = Vec::new();
