@@ -3,6 +3,8 @@
 //! The dominant frequency f₀ is that with the greatest density of Welch's spectrum ([`Spectrum`]) above half a
 //! hertz: slower changes are the track's. The values go through a band-pass filter ([`BandPass`]) from
 //! f₀ - 2 Hz, or half a hertz if that is more, to f₀ + 2 Hz. The band is remembered of EN 14363:2005.
+//!
+//! Limits: the filter takes 4 % of a sine of f₀ = 2.7 Hz in the middle of its band, less at higher ones.
 
 use thiserror::Error;
 
