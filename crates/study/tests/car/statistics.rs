@@ -372,7 +372,12 @@ fn analytic_lateral_forces_of_an_axle() {
     let angle = PI * frequency * 2.0 / 30.0;
     let [raw, _] = value(&statistics, "axle_2_lateral_force_mean");
     let expected = 20e3 + amplitude * angle.sin() / angle;
-    assert!((raw * pound - expected).abs() < 5.0, "{raw} {expected}");
+    // Chords between rows and windows that begin at rows leave out parts of second order: of the mean's sine
+    // (ωΔ)²/12 and, half a row from its peak, (ωΔ/2)²/2.
+    let turn = 2.0 * PI * frequency * INTERVAL;
+    let left_out = (turn * turn / 12.0 + turn * turn / 8.0) * amplitude * angle.sin() / angle;
+    let error = expected - raw * pound;
+    assert!((0.0..left_out).contains(&error), "{raw} {expected}");
     let (rms, name) = worst(&statistics, "axle_lateral_force_instability");
     assert_eq!(name, "axle_2_lateral_force_instability");
     let gain = BandPass::new(INTERVAL, [frequency - 2.0, frequency + 2.0])
