@@ -3,6 +3,7 @@
 use crate::common;
 use car::{BuildError, Car, Loads, Mass, Parameters, StartKind, Support};
 use common::{INCH, POUND_FORCE, at_start, loaded, put_on_gauge, run, tangent};
+use integrate::Problem;
 
 const GRAVITY: f64 = 9.806_65;
 
@@ -152,4 +153,56 @@ fn issue_048_accelerometers_have_a_height_and_show_gravity() {
         "{lateral:?}"
     );
     assert_eq!(at(None)[0].lateral, at(Some(3.0))[0].lateral);
+}
+
+/// Accelerometers on bolsters and side frames against a second derivation: the velocities of the centers of
+/// gravity along the flow of the state, and gravity along the left of each body.
+#[test]
+fn analytic_accelerometers_of_trucks_show_acceleration_and_gravity() {
+    let mut parameters = laden(100.0, [0.0, 12.0, 70.0]);
+    parameters.start.kind = StartKind::Nominal;
+    parameters.start.wheelset_shifts = [5e-3, -3e-3, 4e-3, 0.0];
+    let mut car = Car::new(&parameters).unwrap();
+    let mut x = car.initial_state.clone();
+    let mut rates = vec![0.0; x.len()];
+    // Some way into the motion, where bodies turn.
+    for _ in 0..400 {
+        car.system.derivative(0.0, &x, &mut rates);
+        for (own, rate) in x.iter_mut().zip(&rates) {
+            *own += 1e-6 * rate;
+        }
+    }
+    car.system.derivative(0.0, &x, &mut rates);
+    let seen = car.system.observe(0.0, &x);
+    let shown = car.loads(&seen, &rates).truck_accelerations;
+    let step = 1e-7;
+    let [before, after] = [-step, step].map(|step| {
+        let moved: Vec<f64> = x.iter().zip(&rates).map(|(x, rate)| x + step * rate).collect();
+        car.system.observe(0.0, &moved)
+    });
+    for truck in 0..2 {
+        let [left, right] = car.numbers.side_frames[truck];
+        for (part, number) in [car.numbers.bolsters[truck], left, right].into_iter().enumerate() {
+            let velocity = |seen: &mechanics::system::Observation| {
+                let own = &seen.bodies[number];
+                let arm = own.center_of_gravity - own.origin;
+                let turned: mechanics::vector::Vector<f64> = own.angular_velocity.cross(arm);
+                own.velocity + turned
+            };
+            let [a, b] = [velocity(&before), velocity(&after)];
+            // Roll, left side up, of a body whose axes in the nominal layout are along those of the track.
+            let own = &seen.bodies[number];
+            let nominal = mechanics::orientation::fixed(car.system.bodies()[number].frame.orientation);
+            let left = own.rotation.times(nominal.transpose()).column(1).0;
+            let expected: f64 = (0..3)
+                .map(|k| left[k] * ((b.0[k] - a.0[k]) / (2.0 * step) + [0.0, 0.0, GRAVITY][k]))
+                .sum();
+            let found = shown[truck][part];
+            assert!(expected.abs() > 1e-3, "{expected}");
+            assert!(
+                (found - expected).abs() < 1e-4 * expected.abs().max(1.0),
+                "{found} {expected}"
+            );
+        }
+    }
 }

@@ -71,10 +71,15 @@ pub(super) fn output(r: &mut CaseReader<'_>, rules: &mut Rules) {
     band(r, "truck_band", &mut rules.truck_band, comment);
     let comment = "largest rms of the accelerations of trucks over this time, about zero and a straight line";
     r.quantity("truck_rms_time", time, &mut rules.truck_rms_time, comment);
+    // Standards of Europe state these in meters.
+    let mut metric = |key, value: &mut f64, comment: &str| {
+        let usual = Quantity::parse_as(&format!("{value} m"), Kind::Distance).ok();
+        r.quantity_or(key, distance, usual, value, comment);
+    };
     let comment = "sections of the run, of whose values mean and deviation count";
-    r.quantity("section_length", distance, &mut rules.section_length, comment);
+    metric("section_length", &mut rules.section_length, comment);
     let comment = "sliding means of L/V and of axles' lateral forces";
-    r.quantity("mean_distance", distance, &mut rules.mean_distance, comment);
+    metric("mean_distance", &mut rules.mean_distance, comment);
     let factor = (Range::NotNegative, Reach::FromZero(6.0));
     let comment = "deviations of sections beyond their mean, of L/V and axles' lateral forces";
     let value = &mut rules.section_factor_safety;

@@ -55,7 +55,7 @@ pub fn largest_range(places: &[f64], values: &[f64], length: f64, hold: f64) -> 
 
 /// Returns the least and the greatest values of the stretches of a length at all places where these bend.
 fn held_levels(places: &[f64], values: &[f64], hold: f64) -> Vec<Held> {
-    let end = places[places.len() - 1] - hold;
+    let last = places[places.len() - 1] - hold;
     let at = |row: usize, place: f64| {
         // On the line from this row to the next one.
         match places.get(row + 1) {
@@ -91,25 +91,28 @@ fn held_levels(places: &[f64], values: &[f64], hold: f64) -> Vec<Held> {
             greatest: a.max(b).max(high),
         };
         held.push(here(place, a, b));
-        if place >= end - slack {
+        if place >= last - slack {
             return held;
         }
         // The next place at which an end of the stretch comes to a row.
         let ahead = [(from, 0.0), (to, hold)].map(|(row, shift)| {
             let next = places.get(row + 1);
-            next.map_or(end, |next| next - shift)
+            next.map_or(last, |next| next - shift)
         });
-        let next = ahead[0].min(ahead[1]).min(end);
+        let next = ahead[0].min(ahead[1]).min(last);
         let (c, d) = (at(from, next), at(to, next + hold));
-        // Until there both ends move on lines: where they meet, and where they pass what is inside.
+        // Until there both ends move on lines: where they meet, and where each passes what is inside.
         let crossing = |p: [f64; 2], q: [f64; 2]| {
             let (before, after) = (p[0] - q[0], p[1] - q[1]);
             (before * after < 0.0).then(|| before / (before - after))
         };
+        let (begin, end) = ([a, c], [b, d]);
         let mut shares = [
-            crossing([a, c], [b, d]),
-            crossing([a.min(b), c.min(d)], [low; 2]),
-            crossing([a.max(b), c.max(d)], [high; 2]),
+            crossing(begin, end),
+            crossing(begin, [low; 2]),
+            crossing(end, [low; 2]),
+            crossing(begin, [high; 2]),
+            crossing(end, [high; 2]),
         ];
         shares.sort_by(|p, q| p.unwrap_or(2.0).total_cmp(&q.unwrap_or(2.0)));
         for share in shares.into_iter().flatten() {

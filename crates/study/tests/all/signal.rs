@@ -4,7 +4,8 @@ use std::f64::consts::{PI, SQRT_2};
 
 use proptest::prelude::*;
 use study::signal::{
-    LowPass, Spectrum, SpectrumError, TooCoarse, largest_deviation, largest_rms, percentile, sustained,
+    BandPass, Instability, LowPass, Spectrum, SpectrumError, Stretch, TooCoarse, largest_deviation,
+    largest_mean, largest_range, largest_rms, largest_rmst, percentile, sliding_means, sustained,
 };
 
 fn times(interval: f64, count: usize) -> Vec<f64> {
@@ -303,4 +304,230 @@ fn input_issue_036_spectra_need_even_rows_and_enough_of_them() {
         assert!(matches!(found, SpectrumError::Resolution { .. }), "{found}");
     }
     assert_eq!(Spectrum::welch(&t, &values, Some(2.0)).unwrap().rows, 64);
+}
+
+/// The band-pass has -3 dB at both ends, and sines of 0.5 g come out with its gain and no delay.
+#[test]
+fn analytic_a_band_passes_with_its_gain() {
+    let interval = 0.005;
+    let filter = BandPass::new(interval, [0.5, 10.0]).unwrap();
+    // The gain of the other end is within 1e-5 of one there.
+    assert!((filter.gain(0.5) - 1.0 / SQRT_2).abs() < 1e-5);
+    assert!((filter.gain(10.0) - 1.0 / SQRT_2).abs() < 1e-5);
+    // The high-pass as it is written down: 1/(1 + c (tan f1 / tan f)^4).
+    let tangent = |frequency: f64| (PI * frequency * interval).tan();
+    for frequency in [0.1, 0.2, 0.5, 1.0, 3.0] {
+        let high = 1.0 / (1.0 + (SQRT_2 - 1.0) * (tangent(0.5) / tangent(frequency)).powi(4));
+        let low = LowPass::new(interval, 10.0).unwrap().gain(frequency);
+        assert!((filter.gain(frequency) - high * low).abs() < 1e-12);
+    }
+    let t = times(interval, 12_000);
+    for (frequency, rms) in [(3.0, 0.354), (0.2, 0.0206)] {
+        let own: Vec<f64> = sine(&t, frequency).iter().map(|own| 0.5 * own).collect();
+        let filtered = filter.apply(&own);
+        for row in 3000..9000 {
+            let error = filtered[row] - filter.gain(frequency) * own[row];
+            assert!(error.abs() < 1e-7, "{frequency} Hz, row {row}: {error}");
+        }
+        if frequency > 1.0 {
+            // Any 2 s are six periods.
+            let found = largest_rms(&t[3000..9000], &filtered[3000..9000], 2.0).unwrap();
+            assert!((found.value - rms).abs() < 2e-3, "{}", found.value);
+        } else {
+            let most = filtered[3000..9000]
+                .iter()
+                .fold(0.0, |most: f64, own| most.max(own.abs()));
+            assert!(most < 0.1 && (most / SQRT_2 - rms).abs() < 1e-3, "{most}");
+        }
+    }
+    assert!(BandPass::new(0.03, [0.5, 10.0]).is_err());
+}
+
+/// Means of a straight line are its values in the middles of the windows, whatever the rows; a triangle has its
+/// area over the window.
+#[test]
+fn analytic_sliding_means() {
+    let places: Vec<f64> = (0..200)
+        .map(|row| 0.1 * f64::from(row) + 0.03 * f64::from(row % 3))
+        .collect();
+    let line: Vec<f64> = places.iter().map(|x| 4.0 - 0.7 * x).collect();
+    let means = sliding_means(&places, &line, 1.234);
+    assert!(means.len() > 180);
+    for (mean, x) in means.iter().zip(&places) {
+        assert!((mean - (4.0 - 0.7 * (x + 0.617))).abs() < 1e-12);
+    }
+    let own: Vec<f64> = (0..400)
+        .map(|row| -(1.0 - (0.05 * f64::from(row) - 10.0).abs()).max(0.0))
+        .collect();
+    let found = largest_mean(&times(0.05, 400), &own, 4.0).unwrap();
+    assert!((found.value - 0.25).abs() < 1e-12, "{found:?}");
+    assert!(found.start <= 9.0 && found.start >= 7.0 - 1e-9);
+    assert_eq!(largest_mean(&times(0.05, 10), &own[..10], 4.0), None);
+}
+
+/// About a line a ramp has nothing; a sine over n whole periods has `a² (1/2 - 3 cos²φ/(πn)²)`, φ its phase in the
+/// middle, and at the best phase a/√2.
+#[test]
+fn analytic_rms_about_a_line() {
+    let t = times(0.001, 4001);
+    let ramp: Vec<f64> = t.iter().map(|t| 3.0 + 20.0 * t).collect();
+    assert!(largest_rmst(&t, &ramp, 2.0).unwrap().value < 1e-5);
+    for periods in [1.0, 2.0, 5.0] {
+        for phase in [0.0, 0.4, 1.2, PI / 2.0] {
+            let own: Vec<f64> = t
+                .iter()
+                .map(|t| 7.0 + 3.0 * (2.0 * PI * periods * (t - 2.0) / 4.0 + phase).sin() - 5.0 * t)
+                .collect();
+            let found = largest_rmst(&t, &own, 4.0).unwrap();
+            let taken = 3.0 * (phase.cos() / (PI * periods)).powi(2);
+            // Chords between rows have (2 + cos ωΔ)/3 of a sine's mean square.
+            let chords = (2.0 + (2.0 * PI * periods / 4000.0).cos()) / 3.0;
+            let expected = 3.0 * (0.5 * chords - taken).sqrt();
+            assert!(
+                (found.value - expected).abs() < 1e-6,
+                "{periods} {phase}: {found:?} {expected}"
+            );
+            assert!((found.length - 4.0).abs() < 1e-12 && found.start == 0.0);
+        }
+    }
+    let long = times(0.005, 4000);
+    let found = largest_rmst(&long, &sine(&long, 1.0), 4.0).unwrap();
+    assert!((found.value - 1.0 / SQRT_2).abs() < 2e-4, "{found:?}");
+    // Shorter rows: all of them.
+    let found = largest_rmst(&t, &ramp, 10.0).unwrap();
+    assert!((found.length - 4.0).abs() < 1e-12);
+}
+
+/// Pulses of 40 ms leave no trace at a hold time of 50 ms, those of 60 ms do; a ramp has `k (T - 2h)`, a sine
+/// `2 a cos(π f h)`.
+#[test]
+fn analytic_range_without_short_peaks() {
+    let interval = 0.002;
+    let t = times(interval, 5001);
+    let pulse = |length: f64, size: f64| -> Vec<f64> {
+        // Edges of one row outside of the pulse.
+        let inside = |t: f64| (3.0 - 1e-9..=3.0 + length + 1e-9).contains(&t);
+        t.iter().map(|t| if inside(*t) { size } else { 0.0 }).collect()
+    };
+    let range = |values: &[f64]| largest_range(&t, values, 1.0, 0.05).unwrap();
+    // The straight edges of 2 ms add to the length: of 40 ms, at the height zero, 44 ms.
+    assert!(range(&pulse(0.04, 1.0)).value < 1e-12);
+    assert!(range(&pulse(0.04, -1.0)).value < 1e-12);
+    assert!((range(&pulse(0.06, 1.0)).value - 1.0).abs() < 1e-12);
+    assert!((range(&pulse(0.06, -1.0)).value - 1.0).abs() < 1e-12);
+    // At 48 ms the edges hold for 50 ms at half of the height.
+    assert!((range(&pulse(0.048, 1.0)).value - 0.5).abs() < 1e-9);
+    let ramp: Vec<f64> = t.iter().map(|t| 0.3 * t).collect();
+    assert!(
+        (range(&ramp).value - 0.3 * 0.9).abs() < 1e-9,
+        "{:?}",
+        range(&ramp)
+    );
+    let own = sine(&t, 2.5);
+    assert!((range(&own).value - 2.0 * (PI * 2.5 * 0.05).cos()).abs() < 1e-3);
+    // A swing of 40 ms up and 40 ms down holds nothing.
+    assert!(range(&sine(&t, 12.5)).value < 1e-9);
+    assert_eq!(largest_range(&t[..10], &own[..10], 1.0, 0.05), None);
+    let short = largest_range(&t[..250], &ramp[..250], 1.0, 0.05).unwrap();
+    assert!((short.length - 0.498).abs() < 1e-12 && (short.value - 0.3 * 0.398).abs() < 1e-9);
+}
+
+proptest! {
+    /// Ranges against their definition on a fine grid of places.
+    #[test]
+    fn analytic_ranges_are_those_of_their_definition(
+        values in prop::collection::vec(-1.0..1.0_f64, 8..30),
+        steps in prop::collection::vec(0.5..1.5_f64, 30),
+        hold in 0.3..2.5_f64,
+        length in 3.0..6.0_f64,
+    ) {
+        let mut places = vec![0.0];
+        for step in &steps[..values.len() - 1] {
+            places.push(places[places.len() - 1] + step);
+        }
+        let last = places[places.len() - 1];
+        let length = length.min(last);
+        let at = |x: f64| {
+            let row = places.partition_point(|own| *own <= x).clamp(1, places.len() - 1);
+            let share = (x - places[row - 1]) / (places[row] - places[row - 1]);
+            values[row - 1] + (values[row] - values[row - 1]) * share
+        };
+        let grid = 0.01;
+        let fine: Vec<f64> = (0..=(last / grid) as usize).map(|k| at(k as f64 * grid)).collect();
+        let (held, reach) = ((hold / grid).ceil() as usize, ((length - hold) / grid).floor() as usize);
+        let ends: Vec<[f64; 2]> = fine.windows(held + 1).map(|own| {
+            own.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(*v), high.max(*v)])
+        }).collect();
+        let mut expected = 0.0_f64;
+        for window in ends.windows((reach + 1).min(ends.len())) {
+            let top = window.iter().map(|own| own[0]).fold(f64::NEG_INFINITY, f64::max);
+            let bottom = window.iter().map(|own| own[1]).fold(f64::INFINITY, f64::min);
+            expected = expected.max(top - bottom);
+        }
+        let found = largest_range(&places, &values, length, hold).unwrap();
+        // Slopes are at most 4. The grid misses rows between its places, by a step at the top and one at the
+        // bottom; it shortens windows and lengthens the hold time by up to two steps each.
+        prop_assert!(found.value >= expected - 4.0 * 2.0 * grid, "{} {}", found.value, expected);
+        prop_assert!(found.value <= expected + 4.0 * 6.0 * grid, "{} {}", found.value, expected);
+    }
+}
+
+/// A triangle above a level, a line above a level that falls, and what is above at both ends.
+#[test]
+fn analytic_the_longest_stretch_above_a_level() {
+    let x = times(0.5, 41);
+    let triangle: Vec<f64> = x.iter().map(|x| 5.0 - (x - 10.0).abs()).collect();
+    let found = Stretch::longest_above(&x, &triangle, &[2.2; 41]).unwrap();
+    assert!(
+        (found.start - 7.2).abs() < 1e-12 && (found.length - 5.6).abs() < 1e-12,
+        "{found:?}"
+    );
+    // The level falls from 6 by 0.2 x, and the triangle is above from where 5 - (10 - x) = 6 - 0.2 x.
+    let falling: Vec<f64> = x.iter().map(|x| 6.0 - 0.2 * x).collect();
+    let found = Stretch::longest_above(&x, &triangle, &falling).unwrap();
+    let (from, to) = (11.0 / 1.2, 9.0 / 0.8);
+    assert!(
+        (found.start - from).abs() < 1e-9 && (found.length - (to - from)).abs() < 1e-9,
+        "{found:?}"
+    );
+    let middle = found.mean(&x, &x).unwrap();
+    assert!((middle - 0.5 * (from + to)).abs() < 1e-9);
+    let squares: Vec<f64> = x.iter().map(|x| x * x).collect();
+    let whole = Stretch {
+        start: 0.0,
+        length: 20.0,
+    };
+    // Between rows x² is a chord: h²/6 more.
+    assert!((whole.mean(&x, &squares).unwrap() - (400.0 / 3.0 + 0.25 / 6.0)).abs() < 1e-9);
+    assert_eq!(
+        Stretch::longest_above(&x, &triangle, &[-99.0; 41])
+            .unwrap()
+            .length,
+        20.0
+    );
+    assert_eq!(
+        Stretch::longest_above(&x, &triangle, &[99.0; 41]).unwrap().length,
+        0.0
+    );
+    assert_eq!(Stretch::longest_above(&[], &[], &[]), None);
+}
+
+/// Hunting of 2.7 Hz beside the force of a curve: the rms of the hunting alone.
+#[test]
+fn analytic_the_rms_about_the_dominant_frequency() {
+    // It ends where the sine is zero, so that its reflection goes on with it.
+    let t = times(0.005, 8001);
+    let places: Vec<f64> = t.iter().map(|t| 25.0 * t).collect();
+    let own: Vec<f64> = t
+        .iter()
+        .map(|t| 2.0 * (2.0 * PI * 2.7 * t).sin() + 40.0 / (1.0 + (-(t - 20.0)).exp()))
+        .collect();
+    let found = Instability::of(&t, &places, &own, 100.0).unwrap();
+    assert!((found.frequency - 2.7).abs() < 0.15, "{found:?}");
+    let gain = BandPass::new(0.005, [found.frequency - 2.0, found.frequency + 2.0])
+        .unwrap()
+        .gain(2.7);
+    assert!((found.rms.value - gain * SQRT_2).abs() < 0.01, "{found:?}");
+    assert!((found.rms.length - 100.0).abs() < 1e-9);
+    assert!(Instability::of(&t[..5], &places[..5], &own[..5], 100.0).is_err());
 }

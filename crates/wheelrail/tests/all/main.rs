@@ -2,6 +2,7 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, missing_docs)]
 
 mod class;
+mod climb;
 #[path = "../common/mod.rs"]
 mod common;
 mod contact;

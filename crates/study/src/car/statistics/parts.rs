@@ -11,7 +11,7 @@
 //! Limits: the standard also wants at least 25 sections of a kind of track, test speeds and cant deficiencies
 //! that are not looked at here, and statistics of two dimensions in curves.
 
-use quantity::Kind;
+use quantity::{Kind, SixDigits};
 
 use super::{In, Pair, Rows, Taker};
 use crate::signal::{WindowValue, percentile, sliding_means};
@@ -44,6 +44,7 @@ impl Taker<'_, '_> {
         of: impl Fn(&[f64], &[f64]) -> Option<f64>,
     ) {
         let (rows, length) = (self.rows, self.rules.section_length);
+        let of_length = SixDigits(length);
         let name = format!("{name}_sections");
         let sections = match rows.go_forward() {
             true => sections(rows, length),
@@ -73,11 +74,11 @@ impl Taker<'_, '_> {
         let remark = match (sections.len(), rows.go_forward()) {
             (_, false) => "the car stands or goes back".to_owned(),
             (0, true) => format!(
-                "the {:.0} m after settling are no section of {length} m",
+                "the {:.0} m after settling are no section of {of_length} m",
                 rows.length()
             ),
-            (1, true) => format!("of one section of {length} m"),
-            (count, true) => format!("of {count} sections of {length} m"),
+            (1, true) => format!("of one section of {of_length} m"),
+            (count, true) => format!("of {count} sections of {of_length} m"),
         };
         self.remark(&name, remark);
     }

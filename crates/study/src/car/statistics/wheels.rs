@@ -195,7 +195,6 @@ impl Taker<'_, '_> {
     /// What of an axle's lateral force (N) is hunting.
     fn instability(&mut self, name: &str, force: &[f64]) {
         let (rows, rules) = (self.rows, self.rules);
-        // A motion by less than a millionth of what it is about is rounding.
         let found = match rows.go_forward() {
             true => Instability::of(rows.time, rows.distance, force, rules.section_length)
                 .map_err(|own| own.to_string()),
