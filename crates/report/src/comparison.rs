@@ -21,6 +21,8 @@ pub use error::ComparisonError;
 mod choose;
 mod energies;
 mod error;
+pub mod section_files;
+pub mod sections;
 
 /// The columns that are compared if nothing else is asked for, as far as all results have them.
 pub const MAIN: [&str; 15] = [
@@ -183,16 +185,9 @@ impl Comparison {
     /// A column is missing: the entries are not those that were compared.
     pub fn figures(&self, entries: &[ComparedResult]) -> Result<Vec<(String, Figure)>, ComparisonError> {
         let mut figures: Vec<(String, Figure)> = Vec::new();
-        let free = |file: &str, figures: &[(String, Figure)]| {
-            let taken = |other: &str| other.to_lowercase() == file.to_lowercase();
-            !taken(LOOP_FILE_NAME) && !figures.iter().any(|(other, _)| taken(other))
-        };
         for name in &self.columns {
             let title = format!("Comparison: {}", overlay::words(name));
-            let mut file = format!("{}.svg", plot::file_name(name));
-            while !free(&file, &figures) {
-                file.insert(0, '_');
-            }
+            let file = free_name(format!("{}.svg", plot::file_name(name)), &figures);
             figures.push((file, self.overlay(entries, title, "time", name)?));
         }
         let [x, y] = LOOP;
@@ -293,6 +288,21 @@ impl Comparison {
     }
 }
 
+/// Returns a file name that none of the figures has, nor the figure of the loops.
+fn free_name(mut file: String, figures: &[(String, Figure)]) -> String {
+    let taken = |file: &str| {
+        let mut names = figures
+            .iter()
+            .map(|(other, _)| other.as_str())
+            .chain([LOOP_FILE_NAME]);
+        names.any(|other| other.to_lowercase() == file.to_lowercase())
+    };
+    while taken(&file) {
+        file.insert(0, '_');
+    }
+    file
+}
+
 /// First and last time of a table.
 fn ends(table: &ResultTable) -> (f64, f64) {
     let times = table.times();
@@ -342,15 +352,7 @@ fn differing(
         ));
     }
     for other in others {
-        if other.table.units != first.table.units {
-            notes.push(format!(
-                "{} is in {} units; its numbers are converted to those of {}, {}.",
-                other.label,
-                words_of(other.table.units),
-                first.label,
-                words_of(first.table.units)
-            ));
-        }
+        notes.extend(conversion(first, other));
         let within = other
             .table
             .times()
@@ -372,6 +374,19 @@ fn differing(
         }
     }
     notes
+}
+
+/// Returns the remark about the units of a result that are not the first one's.
+fn conversion(first: &ComparedResult, other: &ComparedResult) -> Option<String> {
+    (other.table.units != first.table.units).then(|| {
+        format!(
+            "{} is in {} units; its numbers are converted to those of {}, {}.",
+            other.label,
+            words_of(other.table.units),
+            first.label,
+            words_of(first.table.units)
+        )
+    })
 }
 
 fn words_of(units: Units) -> &'static str {

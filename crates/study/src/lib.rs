@@ -47,6 +47,7 @@ pub mod result;
 mod rows;
 pub mod run;
 mod run_error;
+pub mod sections;
 pub mod signal;
 pub mod statics;
 pub mod stepping;

@@ -10,6 +10,7 @@ mod models;
 mod nucars;
 mod run_folders;
 mod run_states;
+mod sections;
 mod small;
 mod states;
 mod studies;
@@ -37,7 +38,7 @@ pub struct Reader {
 }
 
 /// All readers.
-pub const ALL: [Reader; 40] = [
+pub const ALL: [Reader; 42] = [
     cases::CASES,
     cases::VALUES,
     cases::OVERRIDES,
@@ -68,6 +69,8 @@ pub const ALL: [Reader; 40] = [
     tables::RESULTS,
     run_folders::RUN_FOLDERS,
     tables::TABLES,
+    sections::SECTIONS,
+    sections::ACCEPTED,
     states::DRIVEN,
     run_states::WEDGES,
     run_states::TRUCKS,

@@ -6,6 +6,8 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::table::TableError;
+use study::case::CaseError;
+use study::sections::CutError;
 
 /// Reasons why results cannot be compared.
 #[derive(Debug, Error, Diagnostic)]
@@ -110,6 +112,79 @@ pub enum ComparisonError {
     #[error("columns are compared at the same times; the time itself cannot be compared")]
     #[diagnostic(help("name other columns, such as vertical_wedge_force"))]
     Time,
+    /// Sections of a length, and a result that has no distance.
+    #[error(
+        "`{}` has no column `distance` with a unit of length, and sections along the track need it",
+        .file.display()
+    )]
+    #[diagnostic(help("{advice}"))]
+    NoDistance {
+        /// The result.
+        file: PathBuf,
+        /// What to do.
+        advice: String,
+    },
+    /// No column is left but the one along which sections are cut.
+    #[error(
+        "sections are cut along `{column}`, which cannot be compared itself, and no other column is left"
+    )]
+    #[diagnostic(help("name other columns by --columns"))]
+    Axis {
+        /// The column.
+        column: &'static str,
+    },
+    /// The axis that is cut turns back.
+    #[error(
+        "`{column}` in `{}` falls from {before} to {value} at its row {row}; sections need one that rises",
+        .file.display()
+    )]
+    #[diagnostic(help(
+        "leave rows out with --from and --to, or cut by time: --sections \"2 s\", or a file with from [s], \
+         to [s]"
+    ))]
+    NotRising {
+        /// The result.
+        file: PathBuf,
+        /// The column.
+        column: &'static str,
+        /// The row of numbers, from 1.
+        row: usize,
+        /// The value before, in words.
+        before: String,
+        /// The value, in words.
+        value: String,
+    },
+    /// No part of the axis is in all results.
+    #[error("the results have no part of `{axis}` in common: {spans}")]
+    #[diagnostic(help("sections lie where all results are: run the case over the measured part"))]
+    NothingBeside {
+        /// The column.
+        axis: &'static str,
+        /// From where to where each of them goes.
+        spans: String,
+    },
+    /// A section with fewer than two rows of a result.
+    #[error(
+        "`{}` has {rows} row{} in {section}; each section needs two or more",
+        .file.display(), if *.rows == 1 { "" } else { "s" }
+    )]
+    #[diagnostic(help("name longer sections, or results with more rows"))]
+    NoRows {
+        /// The result.
+        file: PathBuf,
+        /// Its rows in the section.
+        rows: usize,
+        /// The section, in words.
+        section: String,
+    },
+    /// There are no sections.
+    #[error("{0}")]
+    #[diagnostic(help("{}", .0.help()))]
+    Sections(#[from] CutError),
+    /// A file of accepted differences does not fit the results.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Acceptance(#[from] CaseError),
     /// There are not two times within the span that all have.
     #[error("the results have no span of time in common: {spans}")]
     #[diagnostic(help("results are compared at equal times: run the cases over the same times"))]

@@ -114,6 +114,18 @@ impl TableForm {
     }
 }
 
+impl TableForm {
+    /// From one place to another.
+    pub fn sections(kind: Kind) -> Self {
+        TableForm {
+            names: ["from", "to"],
+            kinds: [kind; 2],
+            may_fall: true,
+            ..Self::coil()
+        }
+    }
+}
+
 impl TableForm<3> {
     /// Depths over two places.
     pub fn map() -> Self {
@@ -153,9 +165,10 @@ fn count_in_words(count: usize) -> &'static str {
     if count == 2 { "two" } else { "three" }
 }
 
-struct Row<const N: usize> {
-    values: [Quantity; N],
-    place: TomlLocation,
+/// A line of a table.
+pub(crate) struct Row<const N: usize> {
+    pub values: [Quantity; N],
+    pub place: TomlLocation,
 }
 
 /// Reads the table under one of two keys: the name of a file, or the points.
@@ -331,7 +344,8 @@ const TABLE_FILE: Expected = Expected {
     most: limits::TEXT_FILE,
 };
 
-fn read_csv<const N: usize>(
+/// Reads the text of a CSV file.
+pub(crate) fn read_csv<const N: usize>(
     source: &Arc<TomlSource>,
     form: &TableForm<N>,
     problems: &mut Problems,

@@ -7,6 +7,7 @@ mod cli;
 #[path = "../common/mod.rs"]
 mod common;
 mod compare;
+mod compare_sections;
 mod energy;
 mod fmu;
 mod issue_036_book;

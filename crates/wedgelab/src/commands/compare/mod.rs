@@ -17,6 +17,8 @@ use crate::interrupt;
 use crate::json;
 use crate::select::read_table;
 
+mod sections;
+
 /// Compare results: overlay figures and a table of differences
 ///
 /// Compares results with the first of them: those of runs (the folder or a table in it) and other CSV files
@@ -24,12 +26,19 @@ use crate::select::read_table;
 /// times interpolated, with a message. Of runs of different models (a wedge, a truck) only columns chosen by
 /// --columns are compared. Prints the differences, and writes them as differences.csv with a figure for each
 /// column and the hysteresis loops.
+///
+/// With --sections the first result is a measurement and the others are models: all are cut into the same
+/// sections, over the distance where all have it, else over time. Prints mean and standard deviation of the
+/// differences over the sections, of mean, max (larger of the 0.15 % and 99.85 % percentiles in size) and rms
+/// about the mean in each; writes sections.csv, section_statistics.csv and a figure for each column.
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Examples:
   wedgelab compare reproduction/runs/vdrun_toe_0_psi_0.012 softer
   wedgelab compare my_run other_program.csv --columns wedge_z vertical_wedge_force --out check
   wedgelab compare my_run other_program.csv --map vertical_wedge_force=Fz --from 2 --to 8
+  wedgelab compare measured.csv my_run --sections \"100 m\" --columns axle_1_left_vertical
+  wedgelab compare measured.csv my_run --sections 12 --accept limits.toml
 
 Without --columns the main columns that all results have are compared.")]
 pub struct Arguments {
@@ -46,6 +55,12 @@ pub struct Arguments {
     span: TimeSpan,
     #[command(flatten)]
     names: Names,
+    /// Compare section by section: a number of sections, their length or time, or a CSV file of them
+    #[arg(long, value_name = "N|LENGTH|FILE")]
+    sections: Option<String>,
+    /// Limits of the standard deviations by column and quantity (TOML); means must be within two thirds
+    #[arg(long, value_name = "FILE", requires = "sections")]
+    accept: Option<PathBuf>,
     /// Overwrite existing results
     #[arg(long)]
     force: bool,
@@ -62,6 +77,9 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .apply(entries.iter_mut().map(|entry| &mut entry.table))?;
     for entry in &mut entries {
         arguments.span.apply(&mut entry.table)?;
+    }
+    if let Some(request) = &arguments.sections {
+        return sections::execute(arguments, request, &entries);
     }
     let comparison = Comparison::of(&entries, &arguments.columns)?;
     let figures = comparison.figures(&entries)?;
