@@ -22,10 +22,11 @@ pub const INCH: f64 = 0.0254;
 const HUNTS: f64 = 0.05 * INCH;
 const FLANGES: f64 = 0.38 * INCH;
 
-/// Returns a car of this lading in a regime.
+/// Returns a car of this lading in a regime, from its equilibrium: nothing is locked in by its friction.
 pub fn in_regime(name: &str, lading: &str, speed: f64, overrides: &[&str]) -> Result<CarCase, Failure> {
     let regime = Regime::named(name).ok_or_else(|| format!("there is no regime {name}"))?;
     let mut settings = regime.settings(&Quantity::parse(&format!("{speed} mph"))?)?;
+    settings.push("start.kind=equilibrium".to_owned());
     settings.extend(set(overrides));
     let text = format!("model = \"car\"\nlading.kind = \"{lading}\"\n");
     Ok(CarCase::parse("car.toml", &text, Tables::nowhere(), &settings)?)
