@@ -15,7 +15,7 @@ const BEFORE: &str = "certificate.json";
 const SCHEMA_BEFORE: &str = "wedgelab.certificate/1";
 /// The expected file.
 const FILE: Expected = Expected {
-    what: "assessment",
+    what: "file of an assessment",
     types: &[FileType::Assessment, FileType::Json],
     most: limits::RECORD_FILE,
 };
@@ -190,7 +190,7 @@ mod tests {
                 "missing field `verdicts`",
             ),
             ("{\"schema\": \"\\u001b[31m\"}", "its schema is \"?[31m\""),
-            ("PAR1", "an assessment is expected"),
+            ("PAR1", "a file of an assessment is expected"),
         ] {
             let error = read(text).unwrap_err();
             let message = error.to_string();
