@@ -1,8 +1,8 @@
 //! Statistics of a run that rules for the assessment of vehicles ask for, from its columns.
 //!
 //! Lengths of time and distance, frequencies and factors are parameters ([`Rules`]); the usual ones are
-//! remembered of AAR M-1001, chapter XI (1993, and a later edition), of 49 CFR 213.333 (windows of 1, 2 and 4 s,
-//! the band of trucks) and of EN 14363:2005 (sections): **check them against your edition**.
+//! remembered of AAR M-1001, chapter XI (1993, and a later edition), of 49 CFR 213.333 (windows of 1, 2 and 4
+//! s, the band of trucks) and of EN 14363:2005 (sections): **check them against your edition**.
 //!
 //! | statistic | how | |
 //! |---|---|---|
@@ -13,13 +13,13 @@
 //!
 //! Raw: from the rows. Filtered: wheel forces and accelerations through a low-pass filter
 //! ([`crate::signal::LowPass`]), ratios of filtered forces; accelerations of trucks through a band-pass
-//! ([`crate::signal::BandPass`]). Before the settling time nothing counts. A ratio is zero where a wheel carries
-//! less than a hundredth of its static load: the value there is the least wheel load.
+//! ([`crate::signal::BandPass`]). Before the settling time nothing counts. A ratio is zero where a wheel
+//! carries less than a hundredth of its static load: the value there is the least wheel load.
 //!
-//! A filtered value depends on rows after it. Those of the low-pass filters are the same whether the run ends or
-//! goes on, since runs look ahead for them. The band-pass of trucks would need to see a minute ahead: it takes
-//! the rows that there are, so that the trucks' statistics of a run that is interrupted are those at its end
-//! so far, and those of the whole run come out when it is whole.
+//! A filtered value depends on rows after it. Those of the low-pass filters are the same whether the run ends
+//! or goes on, since runs look ahead for them. The band-pass of trucks would need to see a minute ahead: it
+//! takes the rows that there are, so that the trucks' statistics of a run that is interrupted are those at
+//! its end so far, and those of the whole run come out when it is whole.
 
 use std::collections::BTreeMap;
 
