@@ -291,8 +291,8 @@ impl Car {
         }
     }
 
-    /// Returns what an accelerometer shows (m/s², fixed axes) that a body has at an arm (m, fixed axes) from its
-    /// origin: its acceleration less that of free fall.
+    /// Returns what an accelerometer shows (m/s², fixed axes) that a body has at an arm (m, fixed axes) from
+    /// its origin: its acceleration less that of free fall.
     fn felt(&self, number: usize, body: &BodyState, arm: Vector<f64>, rates: &[f64]) -> Vector<f64> {
         let system = &self.system;
         let first = system.layout().speeds;

@@ -215,11 +215,12 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
     list.push(match case.rules == remembered {
         true => {
             "Filters, times, distances and limits of the statistics are remembered of AAR M-1001, chapter \
-                 XI: check them against your edition."
+                 XI, 49 CFR 213.333 and EN 14363:2005: check them against your edition."
                 .to_owned()
         }
         false => "Filters, times and distances of the statistics are the case's own ([output]); built-in \
-                  ones and limits are remembered of AAR M-1001, chapter XI: check them against your edition."
+                  ones and limits are remembered of AAR M-1001, chapter XI, 49 CFR 213.333 and EN \
+                  14363:2005: check them against your edition."
             .to_owned(),
     });
     list

@@ -313,14 +313,14 @@ impl Table {
         for axle in 0..4 {
             for (side, name) in SIDES.into_iter().enumerate() {
                 let stem = format!("axle_{}_{name}", axle + 1);
-                let text = "angle of the contact that carries most, against the track's plane, positive where \
-                            it rises to the field side; zero without contact";
+                let text = "angle of the contact that carries most, against the track's plane, positive \
+                            where it rises to the field side; zero without contact";
                 let name = format!("{stem}_contact_angle");
                 self.add(name, Kind::Angle, TRACK, text, move |seen| {
                     seen.loads.wheels[axle][side].contact_angle
                 });
-                let text = "L/V over Nadal's limit for the angle of the wheel's own flange and the friction of \
-                            its rail there, where nothing slips";
+                let text = "L/V over Nadal's limit for the angle of the wheel's own flange and the friction \
+                            of its rail there, where nothing slips";
                 let name = format!("{stem}_nadal_share");
                 let limits = at(axle);
                 self.add(name, Kind::Dimensionless, TRACK, text, move |seen| {

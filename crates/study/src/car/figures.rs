@@ -73,8 +73,8 @@ impl ClimbLimits {
 }
 
 impl AxleLimits {
-    /// Returns the share of Weinstock's limit that wheels with these L/V have, left and right: the flange that
-    /// bears is that of the wheel with the greater share of its own limit. Zero without flanges.
+    /// Returns the share of Weinstock's limit that wheels with these L/V have, left and right: the flange
+    /// that bears is that of the wheel with the greater share of its own limit. Zero without flanges.
     #[must_use]
     pub fn weinstock_share(&self, [left, right]: [f64; 2]) -> f64 {
         let flange = usize::from(right / self.nadal[1] > left / self.nadal[0]);

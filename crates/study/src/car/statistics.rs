@@ -1,8 +1,8 @@
 //! Statistics of a run that rules for the assessment of vehicles ask for, from its columns.
 //!
 //! Lengths of time and distance, frequencies and factors are parameters ([`Rules`]); the usual ones are
-//! remembered of AAR M-1001, chapter XI (1993, and a later edition), of 49 CFR 213.333 (windows of 1, 2 and 4 s,
-//! the band of trucks) and of EN 14363:2005 (sections): **check them against your edition**.
+//! remembered of AAR M-1001, chapter XI (1993, and a later edition), of 49 CFR 213.333 (windows of 1, 2 and 4
+//! s, the band of trucks) and of EN 14363:2005 (sections): **check them against your edition**.
 //!
 //! | statistic | how | |
 //! |---|---|---|
@@ -13,18 +13,20 @@
 //!
 //! Raw: from the rows. Filtered: wheel forces and accelerations through a low-pass filter
 //! ([`crate::signal::LowPass`]), ratios of filtered forces; accelerations of trucks through a band-pass
-//! ([`crate::signal::BandPass`]). Before the settling time nothing counts. A ratio is zero where a wheel carries
-//! less than a hundredth of its static load: the value there is the least wheel load.
+//! ([`crate::signal::BandPass`]). Before the settling time nothing counts. A ratio is zero where a wheel
+//! carries less than a hundredth of its static load: the value there is the least wheel load.
 //!
-//! A filtered value depends on rows after it. Those of the low-pass filters are the same whether the run ends or
-//! goes on, since runs look ahead for them. The band-pass of trucks would need to see a minute ahead: it takes
-//! the rows that there are, so that the trucks' statistics of a run that is interrupted are those at its end
-//! so far, and those of the whole run come out when it is whole.
+//! A filtered value depends on rows after it. Those of the low-pass filters are the same whether the run ends
+//! or goes on, since runs look ahead for them. The band-pass of trucks would need to see a minute ahead: it
+//! takes the rows that there are, so that the trucks' statistics of a run that is interrupted are those at
+//! its end so far, and those of the whole run come out when it is whole.
 
 use std::collections::BTreeMap;
 
 use quantity::{Kind, SixDigits, System as Units};
 use serde::{Deserialize, Serialize};
+
+pub use rules::Rules;
 
 use super::figures::ClimbLimits;
 use crate::signal::{LowPass, WindowValue};
@@ -33,6 +35,7 @@ use crate::summary::SummaryValue;
 pub mod body;
 pub mod curves;
 pub mod parts;
+mod rules;
 pub mod wheels;
 
 const FOOT: f64 = 0.3048;
@@ -42,111 +45,6 @@ pub const LEAST_SHARE: f64 = 0.01;
 pub const SIDES: [&str; 2] = ["left", "right"];
 /// The names of the parts of a truck that have accelerometers, in columns.
 pub const TRUCK_PARTS: [&str; 3] = ["bolster", "left_side_frame", "right_side_frame"];
-
-/// The rules of statistics.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rules {
-    /// Cutoff of the filter of wheel forces, Hz.
-    pub wheel_filter: f64,
-    /// Duration of an exceedance, s.
-    pub hold_time: f64,
-    /// The same over a distance, m.
-    pub hold_distance: f64,
-    /// Distance of a truck side's L/V, m.
-    pub side_distance: f64,
-    /// Share of the rows in curves below the value reported.
-    pub percentile: f64,
-    /// Cutoff of the filter of accelerations, Hz.
-    pub acceleration_filter: f64,
-    /// Distance of the standard deviation of accelerations, m.
-    pub deviation_distance: f64,
-    /// Time of the rms of accelerations, s.
-    pub rms_time: f64,
-    /// Window of the range of accelerations, s.
-    pub range_time: f64,
-    /// Window of the rms of accelerations about a line, s.
-    pub rmst_time: f64,
-    /// Ends of the band of the accelerations of trucks, Hz.
-    pub truck_band: [f64; 2],
-    /// Window of the rms of these, about zero and about a line, s.
-    pub truck_rms_time: f64,
-    /// Length of sections of the run, m.
-    pub section_length: f64,
-    /// Distance of sliding means, m.
-    pub mean_distance: f64,
-    /// Deviations beyond the mean of sections that count, of L/V and of axles' lateral forces.
-    pub section_factor_safety: f64,
-    /// The same of wheels' vertical forces and of accelerations.
-    pub section_factor: f64,
-    /// True if results have filtered columns.
-    pub filtered_columns: bool,
-}
-
-impl Rules {
-    /// Returns a text in which hold times and distances are named with their values: `L/V lasting 50 ms`.
-    #[must_use]
-    pub fn in_words(&self, text: &str) -> String {
-        let feet = |length: f64| format!("{} ft", SixDigits(length / FOOT));
-        [
-            (
-                "that lasts for the hold time",
-                format!("lasting {} ms", SixDigits(1e3 * self.hold_time)),
-            ),
-            (
-                "that lasts over the hold distance",
-                format!("lasting {}", feet(self.hold_distance)),
-            ),
-            (
-                "over the side distance",
-                format!("over {}", feet(self.side_distance)),
-            ),
-            (
-                "within the range time",
-                format!("within {} s", SixDigits(self.range_time)),
-            ),
-            (
-                "over the RMSt time",
-                format!("over {} s", SixDigits(self.rmst_time)),
-            ),
-            (
-                "over the truck's rms time",
-                format!("over {} s", SixDigits(self.truck_rms_time)),
-            ),
-            (
-                "over the mean distance",
-                format!("over {} m", SixDigits(self.mean_distance)),
-            ),
-        ]
-        .into_iter()
-        .fold(text.to_owned(), |text, (before, value)| {
-            text.replace(before, &value)
-        })
-    }
-}
-
-impl Default for Rules {
-    fn default() -> Self {
-        Self {
-            wheel_filter: 15.0,
-            hold_time: 0.05,
-            hold_distance: 3.0 * FOOT,
-            side_distance: 6.0 * FOOT,
-            percentile: 0.95,
-            acceleration_filter: 10.0,
-            deviation_distance: 2000.0 * FOOT,
-            rms_time: 2.0,
-            range_time: 1.0,
-            rmst_time: 4.0,
-            truck_band: [0.5, 10.0],
-            truck_rms_time: 2.0,
-            section_length: 100.0,
-            mean_distance: 2.0,
-            section_factor_safety: 3.0,
-            section_factor: 2.2,
-            filtered_columns: true,
-        }
-    }
-}
 
 /// The beginning of the warning of a run without statistics.
 pub const NO_STATISTICS: &str = "there are no statistics";

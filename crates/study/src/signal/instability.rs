@@ -1,11 +1,11 @@
 //! The root of the mean square about the dominant frequency: how much of a force is hunting.
 //!
-//! The dominant frequency f₀ is that with the greatest density of Welch's spectrum ([`Spectrum`]) above half a
-//! hertz: slower changes are the track's. The values go through a band-pass filter ([`BandPass`]) from
-//! f₀ - 2 Hz, or half a hertz if that is more, to f₀ + 2 Hz. The band is remembered of EN 14363:2005.
+//! The dominant frequency f₀ is that with the greatest density of Welch's spectrum ([`Spectrum`]) above half
+//! a hertz: slower changes are the track's. The values go through a band-pass filter ([`BandPass`]) from f₀ -
+//! 2 Hz, or half a hertz if that is more, to f₀ + 2 Hz. The band is remembered of EN 14363:2005.
 //!
-//! A period of the lower end of the band is left out at both ends of the run, where a length remains: the filter
-//! does not know how the values go on.
+//! A period of the lower end of the band is left out at both ends of the run, where a length remains: the
+//! filter does not know how the values go on.
 //!
 //! Limits: the filter takes 4 % of a sine of f₀ = 2.7 Hz in the middle of its band, less at higher ones.
 

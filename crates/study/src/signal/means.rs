@@ -7,8 +7,8 @@
 //!
 //! **About a straight line** (RMSt). The line of least squares in a window of length T with τ from its middle
 //! is `⟨v⟩ + 12 ⟨τv⟩/T² τ`, and what remains has the mean square `⟨v²⟩ - ⟨v⟩² - 12 ⟨τv⟩²/T²`. A ramp has
-//! none. A sine of amplitude a over n whole periods, of phase φ at the middle, has `a² (1/2 - 3 cos²φ/(πn)²)`:
-//! the best line takes a part of it, none where φ is 90°.
+//! none. A sine of amplitude a over n whole periods, of phase φ at the middle, has `a² (1/2 - 3
+//! cos²φ/(πn)²)`: the best line takes a part of it, none where φ is 90°.
 //!
 //! Limits: a largest value between two windows that begin at rows is missed by a part of second order of the
 //! rows' distance.

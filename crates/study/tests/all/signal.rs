@@ -343,8 +343,8 @@ fn analytic_a_band_passes_with_its_gain() {
     assert!(BandPass::new(0.03, [0.5, 10.0]).is_err());
 }
 
-/// Means of a straight line are its values in the middles of the windows, whatever the rows; a triangle has its
-/// area over the window.
+/// Means of a straight line are its values in the middles of the windows, whatever the rows; a triangle has
+/// its area over the window.
 #[test]
 fn analytic_sliding_means() {
     let places: Vec<f64> = (0..200)
@@ -365,8 +365,8 @@ fn analytic_sliding_means() {
     assert_eq!(largest_mean(&times(0.05, 10), &own[..10], 4.0), None);
 }
 
-/// About a line a ramp has nothing; a sine over n whole periods has `a² (1/2 - 3 cos²φ/(πn)²)`, φ its phase in the
-/// middle, and at the best phase a/√2.
+/// About a line a ramp has nothing; a sine over n whole periods has `a² (1/2 - 3 cos²φ/(πn)²)`, φ its phase
+/// in the middle, and at the best phase a/√2.
 #[test]
 fn analytic_rms_about_a_line() {
     let t = times(0.001, 4001);

@@ -22,8 +22,8 @@ fn column<'r>(result: &'r CarResult, name: &str) -> &'r [f64] {
     result.column(name).unwrap_or_else(|| panic!("{name}"))
 }
 
-/// A car whose rails jump to the side climbs: columns hold together row by row, and the statistics say what the
-/// columns do.
+/// A car whose rails jump to the side climbs: columns hold together row by row, and the statistics say what
+/// the columns do.
 #[test]
 fn analytic_columns_of_a_car_that_climbs() {
     let case = case(
@@ -89,8 +89,8 @@ fn analytic_columns_of_a_car_that_climbs() {
     assert!((lift.value.value * 0.0254 - most).abs() < 1e-12);
 }
 
-/// Measures are those of the summary, all of which a run in a curve has, and figures of the car are there always;
-/// linear wheels have no flanges and no columns of them.
+/// Measures are those of the summary, all of which a run in a curve has, and figures of the car are there
+/// always; linear wheels have no flanges and no columns of them.
 #[test]
 fn analytic_a_run_in_a_curve_has_all_measures() {
     let case = case(

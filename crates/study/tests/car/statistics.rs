@@ -17,7 +17,8 @@ const FOOT: f64 = 0.3048;
 const GRAVITY: f64 = 9.806_65;
 const INTERVAL: f64 = 0.005;
 
-/// Wheels of AAR-1B, whose flanges have 75°, on rails with a friction of 0.5 on the left and 0.3 on the right.
+/// Wheels of AAR-1B, whose flanges have 75°, on rails with a friction of 0.5 on the left and 0.3 on the
+/// right.
 static CLIMB: LazyLock<ClimbLimits> = LazyLock::new(|| ClimbLimits::of(&car(0.5, 0.3).parameters).unwrap());
 
 fn car(left: f64, right: f64) -> CarCase {
@@ -294,8 +295,8 @@ fn worst(statistics: &Statistics, name: &str) -> (f64, String) {
     (own.value.value, own.statistic.to_owned())
 }
 
-/// Shares of Nadal's and Weinstock's limits: each wheel has the friction of its own rail, and the axle that of
-/// the flange that bears and of the other tread.
+/// Shares of Nadal's and Weinstock's limits: each wheel has the friction of its own rail, and the axle that
+/// of the flange that bears and of the other tread.
 #[test]
 fn analytic_shares_of_nadal_and_weinstock() {
     let mut columns = quiet();
@@ -325,9 +326,9 @@ fn analytic_shares_of_nadal_and_weinstock() {
     assert!((figures.flange_friction - 0.5).abs() < 1e-12);
 }
 
-/// L/V that rises and falls as a triangle to 2 climbs over the share of its base above the limit; the yaw that
-/// rises along the track has its value in the middle as mean. The angle of the measure is that of the wheel that
-/// climbs farthest, not the largest one.
+/// L/V that rises and falls as a triangle to 2 climbs over the share of its base above the limit; the yaw
+/// that rises along the track has its value in the middle as mean. The angle of the measure is that of the
+/// wheel that climbs farthest, not the largest one.
 #[test]
 fn analytic_climb_of_a_triangle() {
     let mut columns = quiet();
@@ -527,7 +528,13 @@ fn analytic_quasi_static_forces_of_two_curves() {
         s if (700.0..1000.0).contains(&s) => -1.0,
         _ => 0.0,
     };
-    let spike = |t: f64| if (t * 10.0) as usize % 50 == 0 { 5.0 } else { 1.0 };
+    let spike = |t: f64| {
+        if ((t * 10.0) as usize).is_multiple_of(50) {
+            5.0
+        } else {
+            1.0
+        }
+    };
     set(&mut columns, "axle_1_left_lateral", |t| {
         20e3 * spike(t) * curve(t) * if curve(t) > 0.0 { 1.0 } else { 0.5 }
     });

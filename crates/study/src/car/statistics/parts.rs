@@ -5,8 +5,8 @@
 //! means over the mean distance, for L/V and lateral forces of axles, else of the rows. Over the n sections
 //! it is `mean(x) + k s(x)` with their standard deviation s (n - 1 in the denominator) and a factor k for
 //! safety ([`super::Rules::section_factor_safety`]) or for the track and the ride
-//! ([`super::Rules::section_factor`]); of one section x itself. The time is that of the section with the largest
-//! x.
+//! ([`super::Rules::section_factor`]); of one section x itself. The time is that of the section with the
+//! largest x.
 //!
 //! Limits: the standard also wants at least 25 sections of a kind of track, test speeds and cant deficiencies
 //! that are not looked at here, and statistics of two dimensions in curves.
