@@ -74,6 +74,10 @@ impl Rules {
                 format!("over {} s", SixDigits(self.truck_rms_time)),
             ),
             (
+                "over the deviation distance",
+                format!("over {}", feet(self.deviation_distance)),
+            ),
+            (
                 "over the mean distance",
                 format!("over {} m", SixDigits(self.mean_distance)),
             ),
