@@ -33,7 +33,8 @@ fn messages(error: &CaseError) -> String {
 }
 
 /// All built-in regimes are there in their order; each says that its numbers are remembered, has six speeds
-/// or two, and makes a valid case of the loaded and the empty car at all of them and at both ends of its range.
+/// or two, and makes a valid case of the loaded and the empty car at all of them and at both ends of its
+/// range.
 #[test]
 fn input_built_in_regimes_are_whole() {
     let names = [
