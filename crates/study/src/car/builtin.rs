@@ -62,10 +62,12 @@ lading.kind = \"masses\"
 lading.masses = [{ name = \"lading\", weight = \"223400 lbf\", place = [\"0 in\", \"0 in\", \"87.66 in\"], \
                      inertia = [\"1.558e6 lbf in s^2\", \"1.4117e7 lbf in s^2\", \"1.4165e7 lbf in s^2\"] }]";
 
-/// Returns the track of a regime, as a line of a case.
-fn track_of(regime: &str) -> String {
-    let track = Regime::named(regime).map_or("{}", |own| &own.track);
-    format!("track = {track}\n")
+/// Returns the keys that a regime sets, as lines of a case, but for the start, which a case that slows down
+/// has of its own.
+fn set_of(regime: &str) -> String {
+    let set = Regime::named(regime).map_or(&[][..], |own| &own.set);
+    let lines = set.iter().filter(|line| !line.starts_with("start."));
+    lines.map(|line| format!("{line}\n")).collect()
 }
 
 /// Returns a car in a regime at the speed with this place among the regime's own.
@@ -106,9 +108,16 @@ fn held(speed: f64) -> String {
 
 static GROUPS: LazyLock<Vec<CaseGroup>> = LazyLock::new(|| {
     let rough = format!("{}{CLASS_4}", tangent(2500.0));
-    let both = |name: &str, title: &str, speed: f64, duration: f64, track: &str| {
-        ["loaded", "empty"].map(|lading| case(name, title, lading, &held(speed), duration, track))
-    };
+    let tangents = ["loaded", "empty"].map(|lading| {
+        case(
+            "tangent",
+            "tangent track of FRA class 4 at 50 mph",
+            lading,
+            &held(50.0),
+            20.0,
+            &rough,
+        )
+    });
     let slowing = "speed.kind = \"over_distance\"
 speed.over_distance = [[\"200 ft\", \"75 mph\"], [\"4200 ft\", \"30 mph\"]]
 start.axle_shift = \"0.2 in\"";
@@ -116,6 +125,10 @@ start.axle_shift = \"0.2 in\"";
 speed.kind = \"over_time\"
 speed.over_time = [[\"10 s\", \"75 mph\"], [\"70 s\", \"30 mph\"]]
 start.axle_shift = \"0.4 in\"";
+    let slows_down = |name: &str, title: &str, speed: &str, duration: f64, length: f64| {
+        let track = format!("{}{}", set_of("hunting"), tangent(length));
+        case(name, title, "empty", speed, duration, &track)
+    };
     // At a speed in the middle, and spectra at the greatest speed of their class.
     let others = [
         ("yaw_and_sway", "loaded", 3),
@@ -123,6 +136,11 @@ start.axle_shift = \"0.4 in\"";
         ("constant_curve_10", "loaded", 3),
         ("constant_curve_12", "loaded", 3),
         ("bunched_spiral", "loaded", 2),
+        ("single_bump", "loaded", 3),
+        ("curve_with_bump", "loaded", 3),
+        ("curve_with_dip", "loaded", 3),
+        ("lean", "loaded", 5),
+        ("static_curve", "empty", 0),
         ("fra_class_1", "loaded", 5),
         ("fra_class_1", "empty", 5),
         ("fra_class_2", "loaded", 5),
@@ -134,9 +152,12 @@ start.axle_shift = \"0.4 in\"";
         ("fra_class_5", "loaded", 5),
         ("fra_class_5", "empty", 5),
     ];
-    let others = others
-        .iter()
-        .filter_map(|(name, lading, place)| in_regime(name, lading, *place));
+    let in_regimes = |cases: &[(&str, &str, usize)]| -> Vec<BuiltIn> {
+        let cases = cases.iter();
+        cases
+            .filter_map(|(name, lading, place)| in_regime(name, lading, *place))
+            .collect()
+    };
     vec![
         CaseGroup {
             name: "car",
@@ -146,20 +167,8 @@ start.axle_shift = \"0.4 in\"";
                       wedges. Amplitudes and limits are remembered of AAR M-1001, chapter XI: check them \
                       against your edition.",
             cases: [
-                &both(
-                    "tangent",
-                    "tangent track of FRA class 4 at 50 mph",
-                    50.0,
-                    20.0,
-                    &rough,
-                )[..],
-                &both(
-                    "constant_curve",
-                    "curve of 7.5 deg at 28 mph, balanced",
-                    28.0,
-                    28.0,
-                    &track_of("constant_curve"),
-                ),
+                &tangents[..],
+                &in_regimes(&[("constant_curve", "loaded", 3), ("constant_curve", "empty", 3)]),
                 &[BuiltIn::new(
                     "car_286k_loaded".to_owned(),
                     "tangent track of FRA class 4 at 50 mph, car of 286,000 lbf on trucks of 72 in"
@@ -178,52 +187,30 @@ start.axle_shift = \"0.4 in\"";
             look_at: "Spiral: the least wheel load. Hunting: where the lateral motion dies while the car \
                       slows down, and the standard deviation of the lateral acceleration. Twist and roll: \
                       the roll of the body, greatest less least, over speeds. Pitch and bounce: wheel loads. \
-                      Yaw and sway, dynamic curving: L/V. `wedgelab regime` runs them over speeds.",
-            cases: vec![
-                case(
-                    "spiral",
-                    "into and out of a curve of 7.5 deg by short spirals at 20 mph",
-                    "loaded",
-                    &held(20.0),
-                    28.0,
-                    &track_of("spiral"),
-                ),
-                case(
-                    "hunting",
-                    "tangent, slowing down from 75 to 30 mph",
-                    "empty",
-                    slowing,
-                    50.0,
-                    &tangent(5000.0),
-                ),
-                case(
-                    "hunting_roller",
-                    "tangent on roller side bearings, slowing down from 75 to 30 mph",
-                    "empty",
-                    rollers,
-                    70.0,
-                    &tangent(6500.0),
-                ),
-                case(
-                    "twist_and_roll",
-                    "ten staggered low joints 39 ft apart at 16 mph",
-                    "loaded",
-                    &held(16.0),
-                    27.0,
-                    &track_of("twist_and_roll"),
-                ),
-                case(
-                    "pitch_and_bounce",
-                    "ten low joints 39 ft apart, both rails alike, at 55 mph",
-                    "loaded",
-                    &held(55.0),
-                    10.0,
-                    &track_of("pitch_and_bounce"),
-                ),
+                      Yaw and sway, dynamic curving: L/V. Bumps and dips: wheel loads. Lean, static curve: \
+                      steady wheel loads. `wedgelab regime` runs them over speeds.",
+            cases: [
+                in_regimes(&[("spiral", "loaded", 2)]),
+                vec![
+                    slows_down(
+                        "hunting",
+                        "tangent, slowing down from 75 to 30 mph",
+                        slowing,
+                        50.0,
+                        5000.0,
+                    ),
+                    slows_down(
+                        "hunting_roller",
+                        "tangent on roller side bearings, slowing down from 75 to 30 mph",
+                        rollers,
+                        70.0,
+                        6500.0,
+                    ),
+                ],
+                in_regimes(&[("twist_and_roll", "loaded", 1), ("pitch_and_bounce", "loaded", 3)]),
+                in_regimes(&others),
             ]
-            .into_iter()
-            .chain(others)
-            .collect(),
+            .concat(),
         },
     ]
 });

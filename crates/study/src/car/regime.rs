@@ -71,7 +71,7 @@ macro_rules! files {
 }
 
 /// The built-in regimes, in order.
-const BUILT_IN: [(&str, &str); 15] = files![
+const BUILT_IN: [(&str, &str); 20] = files![
     "hunting",
     "twist_and_roll",
     "pitch_and_bounce",
@@ -82,6 +82,11 @@ const BUILT_IN: [(&str, &str); 15] = files![
     "bunched_spiral",
     "constant_curve_10",
     "constant_curve_12",
+    "single_bump",
+    "curve_with_bump",
+    "curve_with_dip",
+    "lean",
+    "static_curve",
     "fra_class_1",
     "fra_class_2",
     "fra_class_3",

@@ -93,6 +93,44 @@ fn analytic_amplitudes_are_those_remembered() {
     }
 }
 
+/// Flat-topped bumps and dips: height, length of ramp and level, by points of `h (1 - cos)/2`, on the rails
+/// that are meant; the right rail is the outer one.
+#[test]
+fn analytic_bumps_and_dips_are_flat_topped() {
+    let zones: [(&str, [f64; 2], [f64; 2], f64); 3] = [
+        ("single_bump", [1.0, 1.0], [7.0, 20.0], 180.0),
+        ("curve_with_bump", [0.0, 2.0], [6.0, 12.0], 240.0),
+        ("curve_with_dip", [-2.0, 0.0], [6.0, 12.0], 240.0),
+    ];
+    for (name, sizes, [ramp, level], start) in zones {
+        let rails = foot_by_foot(name);
+        let whole = 2.0 * ramp + level;
+        for (share_of_height, place) in [
+            (0.0, 0.0),
+            (0.5, 0.5 * ramp),
+            (0.25, ramp / 3.0),
+            (1.0, ramp),
+            (1.0, ramp + 0.5 * level),
+            (1.0, ramp + level),
+            (0.5, whole - 0.5 * ramp),
+            (0.0, whole),
+        ] {
+            let own = rails[(4.0 * (start + place)).round() as usize];
+            // Rails are splines through samples; a third of a ramp of 7 ft is no whole quarter of a foot.
+            let near = if (4.0 * place).fract() == 0.0 { 5e-4 } else { 0.05 };
+            for (rail, size) in own.iter().zip(sizes) {
+                assert_eq!(rail[0], 0.0);
+                assert!(
+                    (rail[1] - size * share_of_height).abs() < near,
+                    "{name} {place}: {own:?}"
+                );
+            }
+        }
+        let beyond = rails.iter().skip((4.0 * (start + whole)) as usize + 1);
+        assert!(beyond.flatten().all(|rail| rail[1].abs() < 5e-4), "{name}");
+    }
+}
+
 /// Ranges and speeds of curves are 3 in of cant about balance, by E = 0.0007 D V² (in, deg, mph), the formula
 /// of 49 CFR 213.57.
 #[test]
@@ -104,6 +142,7 @@ fn analytic_curves_are_run_to_three_inches_of_cant() {
         ("dynamic_curving", 10.0, 4.0, 3.0),
         ("spiral", 7.5, 4.5, 4.5),
         ("bunched_spiral", 7.5, 4.5, 4.5),
+        ("lean", 4.0, 3.0, 3.0),
     ] {
         let regime = Regime::named(name).unwrap();
         let [least, greatest] = regime.range.each_ref().map(|own| own.to_si() / 0.447_04);
@@ -162,6 +201,27 @@ fn analytic_the_bunched_spiral_is_bunched() {
     }
 }
 
+/// Where a steady state is looked at, the rear axle has been in the full curve for 60 ft before statistics
+/// begin, and the car is in it until the end.
+#[test]
+fn analytic_steady_curves_are_entered_before_statistics() {
+    for name in ["lean", "static_curve"] {
+        for speed in &Regime::named(name).unwrap().range {
+            let own = case(name, "loaded", speed.text(), &[]);
+            let (start, reach) = (own.parameters.start.distance, own.parameters.reach());
+            let line = &own.parameters.track.center_line;
+            let rear = start - reach + own.speed() * own.parameters.start.settle - 60.0 * FOOT;
+            let front = start + reach + own.speed() * own.simulation.duration;
+            let full = |place: f64| line.at(place).curvature;
+            assert_eq!(full(rear), full(front), "{name} {speed}");
+            assert!(
+                full(rear)[0] > 0.0 && full(rear)[1] == 0.0 && front < line.length(),
+                "{name}"
+            );
+        }
+    }
+}
+
 /// Statistics begin before the front axle enters the test zone, and the run ends when the rear axle has left
 /// it, at every speed: zones end with the last shape.
 #[test]
@@ -171,6 +231,9 @@ fn analytic_test_zones_are_passed_whole() {
         "pitch_and_bounce",
         "yaw_and_sway",
         "dynamic_curving",
+        "single_bump",
+        "curve_with_bump",
+        "curve_with_dip",
     ] {
         for speed in &Regime::named(name).unwrap().range {
             let own = case(name, "loaded", speed.text(), &[]);
@@ -183,7 +246,9 @@ fn analytic_test_zones_are_passed_whole() {
                         start,
                         ..
                     }) => [start - 0.5 * spacing, start + (*joints as f64 - 0.5) * spacing],
-                    Irregularity::Shape(Shape::Dip { start, length, .. }) => [*start, start + length],
+                    Irregularity::Shape(
+                        Shape::Dip { start, length, .. } | Shape::Jog { start, length, .. },
+                    ) => [*start, start + length],
                     other => panic!("{other:?}"),
                 };
                 (begin, end) = (begin.min(from), end.max(to));
