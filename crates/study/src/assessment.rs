@@ -21,6 +21,7 @@ use self::dependence::Dependence;
 use crate::car;
 use crate::car::limits::{Limit, LimitSet, Mark};
 use crate::car::regime::{Regime, START, says_start};
+use crate::car::run::in_curve;
 use crate::car::statistics::Rules;
 use crate::case::problem::{Problem, TomlSource};
 use crate::case::{self, CaseError, overrides, tree};
@@ -74,7 +75,12 @@ pub struct Assessment {
     pub limits: Arc<LimitSet>,
     /// Windows and filters of the statistics: those of the limits, else those of the case.
     rules: Rules,
+    /// Whether the track of each regime has a full curve.
+    curved: Vec<bool>,
 }
+
+/// Distance of the places at which a track is looked at for curves, m.
+const LOOK: f64 = 5.0;
 
 /// The verdict on one limit in a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -186,6 +192,14 @@ impl Assessment {
         });
         let study = study.map_err(|error| CaseError::new(error.into_problems().map(of_parts)))?;
         let rules = study.case(0)?.car().map(|own| own.rules).unwrap_or_default();
+        let runs_of_regime = study.count() / regimes.len().max(1) as u64;
+        let mut curved = Vec::new();
+        for (number, regime) in (0..).zip(&regimes) {
+            let case = study.case(number * runs_of_regime)?;
+            let line = case.car().map(|own| &own.parameters.track.center_line);
+            let steps = (regime.distance.to_si() / LOOK) as usize;
+            curved.push(line.is_some_and(|line| (0..=steps).any(|step| in_curve(line, step as f64 * LOOK))));
+        }
         Ok(Self {
             car: base.name().to_owned(),
             base,
@@ -195,6 +209,7 @@ impl Assessment {
             conditions,
             limits,
             rules,
+            curved,
         })
     }
 
@@ -284,7 +299,14 @@ impl Assessment {
             }
             _ => record.reason.clone(),
         };
-        let place = |limit: &Limit| limit.is_for(&regime);
+        let number = self
+            .regimes
+            .iter()
+            .position(|own| own.name == regime)
+            .unwrap_or(0);
+        // What is taken in curves does not count on straight track.
+        let curved = self.curved.get(number).is_none_or(|own| *own);
+        let place = |limit: &Limit| limit.is_for(&regime) && (curved || !limit.measure.is_of_curves());
         let limits = self.limits.limits.iter().enumerate();
         let closes = measured("ledger_residual").is_none_or(|own| Verdict::of(own) != Verdict::Failed);
         let usable = record.status == Status::Complete || record.status == Status::Derailed && closes;
@@ -325,11 +347,7 @@ impl Assessment {
         }
         Assessed {
             run: record.number,
-            regime: self
-                .regimes
-                .iter()
-                .position(|own| own.name == regime)
-                .unwrap_or(0),
+            regime: number,
             condition: self
                 .conditions
                 .iter()

@@ -252,6 +252,16 @@ impl OverFriction {
         pairs.min_by(|a, b| (a - self.own).abs().total_cmp(&(b - self.own).abs()))
     }
 
+    /// Returns the least and the greatest friction that was looked at.
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        let others = || self.others.iter().map(|own| own.friction);
+        [
+            others().fold(self.own, f64::min),
+            others().fold(self.own, f64::max),
+        ]
+    }
+
     /// Returns it in words; `word` is the verdict on the run itself.
     #[must_use]
     pub fn words(&self, word: &str) -> String {

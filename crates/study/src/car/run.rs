@@ -11,6 +11,7 @@ use mechanics::system::{ContactState, System};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 use truck::WEDGE_NAMES;
+use wheelrail::track::CenterLine;
 
 use super::CarCase;
 use super::checks::POUND_FORCE;
@@ -365,13 +366,15 @@ fn wedges_at_start(run: &Run<CarCase>) -> [AtStart<'_>; 2] {
     ]
 }
 
+/// Returns whether a distance along a track (m) is in a full curve: its curvature does not change there.
+pub(crate) fn in_curve(line: &CenterLine, distance: f64) -> bool {
+    let [curvature, rate] = line.at(distance).curvature;
+    curvature.abs() > 1e-6 && rate.abs() < 1e-9
+}
+
 fn statistics_of(run: &Run<CarCase>, table: &RowTable) -> Statistics {
     let line = &run.case.parameters.track.center_line;
-    // Full curves: the curvature does not change there.
-    let in_curve = |distance: f64| {
-        let [curvature, rate] = line.at(distance).curvature;
-        curvature.abs() > 1e-6 && rate.abs() < 1e-9
-    };
+    let in_curve = |distance: f64| in_curve(line, distance);
     let parameters = &run.case.parameters;
     let [forward, ..] = parameters.center_of_gravity();
     let half = 0.5 * parameters.truck_distance;

@@ -369,6 +369,12 @@ impl Worst {
         WORST.iter().find(|own| own.name == name)
     }
 
+    /// Returns whether it is taken in full curves alone: on a track without them there is none.
+    #[must_use]
+    pub fn is_of_curves(&self) -> bool {
+        self.name.ends_with("_in_curves") || self.name == "least_quasi_static_load"
+    }
+
     /// Returns whether rules want it of filtered values.
     #[must_use]
     pub fn is_filtered(&self) -> bool {

@@ -326,6 +326,32 @@ fn analytic_limits_by_formulas_follow_the_car() {
     assert!((allowed.unwrap() - (slope - 0.5) / (1.0 + 0.5 * slope)).abs() < 1e-12);
 }
 
+/// What is taken in full curves is no row of a straight track, and is one of a curve.
+#[test]
+fn limits_rows_of_curves_are_left_out_on_straight_track() {
+    for (regime, curved) in [
+        ("fra_class_4", false),
+        ("constant_curve", true),
+        ("lean", true),
+        ("spiral", true),
+    ] {
+        let request = Request {
+            limits: "en_14363".to_owned(),
+            speeds: Vec::new(),
+            ..request(&[regime])
+        };
+        let assessment = Assessment::new(&request).unwrap();
+        let run = assessment.assess(&assessment.study.values(0), &record(&assessment, 0, &[]));
+        let names = run
+            .checks
+            .iter()
+            .map(|own| &*assessment.limits.limits[own.limit].name);
+        let names: Vec<&str> = names.collect();
+        assert_eq!(names.contains(&"y_quasi_static"), curved, "{regime}: {names:?}");
+        assert!(names.contains(&"sum_y"), "{regime}");
+    }
+}
+
 /// Cars start shaken, unless the case, --set or a condition says otherwise.
 #[test]
 fn limits_cars_start_shaken_if_nothing_says_otherwise() {

@@ -11,7 +11,7 @@ use report::page::assessment::Against;
 use report::study_folder::TABLE_FILE;
 use report::terminal::TerminalTable;
 use serde_json::json;
-use study::assessment::dependence::NEAR;
+use study::assessment::dependence::{NEAR, OverFriction};
 use study::assessment::{Assessment, FRICTIONS, LimitVerdict, Request};
 use study::car::speeds;
 use study::records::Status;
@@ -251,8 +251,9 @@ fn print(assessment: &Assessment, findings: &AssessmentFindings, path: &Path) ->
     };
     writeln!(
         out,
-        "\n{} runs{refined}. Limits: {kept} kept, {exceeded} exceeded, {unknown} unknown. {}: {}.",
+        "\n{} run{}{refined}. Limits: {kept} kept, {exceeded} exceeded, {unknown} unknown. {}: {}.",
         findings.runs.len(),
+        if findings.runs.len() == 1 { "" } else { "s" },
         assessment.limits.title_with_edition(),
         assessment.limits.source
     )?;
@@ -314,15 +315,17 @@ fn depends(assessment: &Assessment, findings: &AssessmentFindings, out: &mut imp
     }
     let over = findings.verdicts.iter();
     let over = over.filter_map(|own| Some((own, own.depends.friction.as_ref()?)));
-    for (place, (own, friction)) in over.enumerate() {
-        if place == 0 {
-            writeln!(
-                out,
-                "\nOver the friction of wheel on rail (here {}):",
-                friction.own
-            )?;
-        }
+    let turns = |own: &&(&LimitVerdict, &OverFriction)| own.0.turned_by().contains(&"friction");
+    let (reached, others): (Vec<_>, Vec<_>) = over.partition(|own| turns(&own));
+    if let Some((_, first)) = reached.first().or(others.first()) {
+        writeln!(out, "\nOver the friction of wheel on rail (here {}):", first.own)?;
+    }
+    for (own, friction) in &reached {
         writeln!(out, "  {}: {}", name(own), friction.words(own.word()))?;
+    }
+    if let Some((_, first)) = others.first() {
+        let [from, to] = first.range();
+        writeln!(out, "  {} verdicts stay from {from} to {to}.", others.len())?;
     }
     Ok(())
 }
