@@ -25,7 +25,7 @@ fn input_a_run_of_a_car_writes_its_files() {
         let done = wedgelab(at, &arguments);
         assert_eq!(done.code, Some(0), "{}", done.err);
         assert!(
-            done.out.contains("least wheel load") && done.out.contains("remembered"),
+            done.out.contains("least wheel load") && done.out.contains("from memory"),
             "{}",
             done.out
         );
@@ -52,7 +52,7 @@ fn input_a_run_of_a_car_writes_its_files() {
     let csv = fs::read_to_string(at.join("a/result.csv")).unwrap();
     assert!(csv.starts_with("time_s,distance_ft,speed_mph,body_roll_rad\n"));
     let page = fs::read_to_string(at.join("a/index.html")).unwrap();
-    assert!(page.contains("check them against your edition") && page.contains("<svg"));
+    assert!(page.contains("check against your edition") && page.contains("<svg"));
     // The written case runs again to the same table.
     let again = wedgelab(at, &["run", "a/case.toml", "-q", "--out", "c"]);
     assert_eq!(again.code, Some(0), "{}", again.err);
