@@ -25,9 +25,9 @@ use staging::{FileError, Folder};
 /// The folder of the worst runs, in that of the assessment.
 pub const WORST: &str = "worst";
 
-/// Assesses all runs, computes those near limits from another start and at other frictions, and the worst one of each regime again
-/// with the motions of its bodies, and writes tables and page; `None` if `stop` became true meanwhile. Tells
-/// each worst run that is done.
+/// Assesses all runs, computes those near limits from another start and at other frictions, and the worst one
+/// of each regime again with the motions of its bodies, and writes tables and page; `None` if `stop` became
+/// true meanwhile. Tells each worst run that is done.
 ///
 /// # Errors
 /// A run is missing, or something cannot be read or written.

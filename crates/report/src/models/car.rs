@@ -258,9 +258,9 @@ simulation.output_interval.";
 /// Returns the note that explains the columns of a car's table.
 fn note(summary: &CarSummary) -> String {
     format!(
-        "Worst value of each kind, of filtered forces and accelerations, beside limits of {}. A limit counts\n\
-         for its regimes only (summary.json names them). Margin: what is left, in parts of it; of a least\n\
-         share, of the way from 100 %.",
+        "Worst value of each kind, of filtered forces and accelerations, beside limits of {}.\n\
+         A limit counts for its regimes only (summary.json names them). Margin: what is left, in parts\n\
+         of it; of a least share, of the way from 100 %.",
         summary.limits_of
     )
 }

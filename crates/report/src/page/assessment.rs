@@ -349,9 +349,9 @@ fn depends(assessment: &Assessment, findings: &AssessmentFindings) -> Markup {
                 h2 id="depends" { "What verdicts depend on" }
                 p {
                     "Each verdict's worst run, its margin in brackets; the worst of the regime's own speeds, "
-                    "where another speed is worse; the same run from another start, where its margin is within "
-                    (format!("{:.0}", 100.0 * NEAR)) " %; and over the friction of wheel on rail, all coefficients "
-                    "in proportion: straight between the runs."
+                    "where another speed is worse; the same run from another start, where its margin is "
+                    "within " (format!("{:.0}", 100.0 * NEAR)) " %; and over the friction of wheel on rail, "
+                    "all coefficients in proportion: straight between the runs."
                 }
                 (table::wide(
                     &[

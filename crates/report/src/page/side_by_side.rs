@@ -254,8 +254,8 @@ fn limits(runs: &[RunFolder]) -> Markup {
             section {
                 h2 id="limits" { "Limits" }
                 p {
-                    "The worst value of each kind beside the limits that each run names. A limit counts for the \
-                     regimes named. In brackets: margin, what is left in parts of the limit."
+                    "The worst value of each kind beside the limits that each run names. A limit counts for \
+                     the regimes named. In brackets: margin, what is left in parts of the limit."
                     @for (run, _) in &cars {
                         @if let Some(end) = run.summary.shared().outcome().end() {
                             " Those of " (run.label) " are of the part until " (end.place()) "."

@@ -3,6 +3,7 @@
 
 mod assessments;
 mod files;
+mod limits;
 mod orders;
 mod tracks;
 

@@ -158,7 +158,7 @@ fn reproduction_the_car_begins_to_rock_between_two_rises() {
 fn limits_the_empty_car_on_rollers_hunts_at_speeds_of_the_field() {
     let swing = |speed: f64, bearing: &str| {
         let bearing = format!("truck.side_bearing.kind={bearing}");
-        // From the shaken start, in which friction holds more, it dies down within half a minute at 80 mph too.
+        // From the shaken start, in which friction holds more, it dies down at 80 mph too.
         let result = run("hunting", "empty", speed, &[&bearing, "start.kind=equilibrium"]);
         let column = result.column("axle_1_lateral").unwrap();
         let own = &column[column.len() - 400..];

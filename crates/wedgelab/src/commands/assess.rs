@@ -107,7 +107,8 @@ pub const BEFORE: &str = "certify";
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     if std::env::args().nth(1).as_deref() == Some(BEFORE) {
         say(
-            "note: `wedgelab certify` is called `wedgelab assess` now; the older name goes with the next version",
+            "note: `wedgelab certify` is called `wedgelab assess` now; the older name goes with the next \
+             version",
         );
     }
     assess(

@@ -275,8 +275,8 @@ impl Limit {
     }
 
     /// Returns the margin of a value to the limit, both in its unit: negative where it is not kept. Of a
-    /// greatest value it is in parts of the limit; of a least share of what is there at rest it is in parts of
-    /// the way from there to the limit, so that 1 is "nothing lost".
+    /// greatest value it is in parts of the limit; of a least share of what is there at rest it is in parts
+    /// of the way from there to the limit, so that 1 is "nothing lost".
     #[must_use]
     pub fn margin(&self, value: f64, limit: f64) -> f64 {
         match self.bound {

@@ -114,10 +114,7 @@ fn read(tree: &TableNode, name: &str, text: &str, problems: &mut Problems) -> Op
         }),
         None => Some(Vec::new()),
     };
-    let not_covered = match top.table.get("not_covered") {
-        Some(_) => Some(not_covered(&top, problems)),
-        None => None,
-    };
+    let not_covered = top.table.get("not_covered").map(|_| not_covered(&top, problems));
     Some(LimitSet {
         name: name.to_owned(),
         title: title?,
