@@ -20,7 +20,7 @@ WHEEL = ROOT / "crates/wheelrail/tests/data/manchester/MBench_S1002_v3.prw"
 ELSEWHERE = {"fmi.md"}
 # Cars run shorter and at fewer speeds here than a reader has them.
 SHORTER = {
-    '"speed.value": "18 mph"': '"speed.value": "18 mph", "simulation.duration": "3 s"',
+    '"speed.value": "18 mph"': '"speed.value": "18 mph", "simulation.duration": "3 s", "start.settle": "1 s"',
     'conditions=["new", "rise_0.75"]': 'conditions=["new", "rise_0.75"], speeds=["60 mph"]',
 }
 # Needs a cluster; tests of their own start one.
