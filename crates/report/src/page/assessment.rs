@@ -316,7 +316,8 @@ fn depends(assessment: &Assessment, findings: &AssessmentFindings) -> Markup {
             let margin = own.judged.margin.map_or(own.judged.verdict.to_owned(), percent);
             format!("{value} ({margin}) from {}", own.start)
         });
-        let friction = own.depends.friction.as_ref().map(|over| over.words(own.word()));
+        let friction = own.depends.friction.as_ref();
+        let friction = friction.map(|over| format!("{} (the run has {})", over.words(own.word()), over.own));
         let by = own.turned_by();
         let turned = if by.is_empty() {
             "nothing of these".to_owned()
