@@ -97,3 +97,12 @@ def test_input_mistakes_are_explained(assessment: wl.Assessment) -> None:
     ]:
         with pytest.raises(wl.CaseError, match=said):
             wl.Assessment("car_tangent_loaded", **arguments)  # type: ignore[arg-type]
+
+
+def test_older_names_are_taken_with_a_warning() -> None:
+    with pytest.warns(DeprecationWarning, match="called Assessment now"):
+        assert wl.Certificate is wl.Assessment
+    with pytest.warns(DeprecationWarning, match="called run_assessment now"):
+        assert wl.cluster.run_certificate is wl.cluster.run_assessment
+    with pytest.raises(AttributeError, match="no attribute 'Certificates'"):
+        wl.Certificates  # noqa: B018
