@@ -7,24 +7,24 @@
 pub mod conditions;
 pub mod dependence;
 pub mod refined;
+mod study_text;
+mod verdict;
 
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use mechanics::energy_balance::Verdict;
 use quantity::{Kind, Quantity};
-use serde::Serialize;
 
 use self::conditions::Condition;
-use self::dependence::Dependence;
+use self::study_text::{is_shaken, text};
+pub use self::verdict::{LimitVerdict, WorstSpeed, verdicts, worst_run};
 use crate::car;
 use crate::car::limits::{Limit, LimitSet, Mark};
-use crate::car::regime::{Regime, START, says_start};
-use crate::car::run::in_curve;
+use crate::car::regime::Regime;
 use crate::car::statistics::Rules;
-use crate::case::problem::{Problem, TomlSource};
-use crate::case::{self, CaseError, overrides, tree};
+use crate::case::problem::Problem;
+use crate::case::{self, CaseError};
 use crate::design::{Study, StudySource, Value};
 use crate::models::{AnyCase, CaseSource, no_built_in};
 use crate::records::{Record, Status};
@@ -75,12 +75,7 @@ pub struct Assessment {
     pub limits: Arc<LimitSet>,
     /// Windows and filters of the statistics: those of the limits, else those of the case.
     rules: Rules,
-    /// Whether the track of each regime has a full curve.
-    curved: Vec<bool>,
 }
-
-/// Distance of the places at which a track is looked at for curves, m.
-const LOOK: f64 = 5.0;
 
 /// The verdict on one limit in a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -181,7 +176,7 @@ impl Assessment {
         limits: Arc<LimitSet>,
         (regimes, conditions): (Vec<Regime>, Vec<Condition>),
     ) -> Result<Self, CaseError> {
-        let shaken = is_shaken(&request, &source, &regimes, &conditions)?;
+        let shaken = is_shaken(&request, (&source, &base), &regimes, &conditions)?;
         let set = (limits.output.as_slice(), shaken);
         let text = text(&regimes, &conditions, &request, &base, set)?;
         let study = Study::of_source(StudySource {
@@ -192,14 +187,6 @@ impl Assessment {
         });
         let study = study.map_err(|error| CaseError::new(error.into_problems().map(of_parts)))?;
         let rules = study.case(0)?.car().map(|own| own.rules).unwrap_or_default();
-        let runs_of_regime = study.count() / regimes.len().max(1) as u64;
-        let mut curved = Vec::new();
-        for (number, regime) in (0..).zip(&regimes) {
-            let case = study.case(number * runs_of_regime)?;
-            let line = case.car().map(|own| &own.parameters.track.center_line);
-            let steps = (regime.distance.to_si() / LOOK) as usize;
-            curved.push(line.is_some_and(|line| (0..=steps).any(|step| in_curve(line, step as f64 * LOOK))));
-        }
         Ok(Self {
             car: base.name().to_owned(),
             base,
@@ -209,7 +196,6 @@ impl Assessment {
             conditions,
             limits,
             rules,
-            curved,
         })
     }
 
@@ -305,7 +291,7 @@ impl Assessment {
             .position(|own| own.name == regime)
             .unwrap_or(0);
         // What is taken in curves does not count on straight track.
-        let curved = self.curved.get(number).is_none_or(|own| *own);
+        let curved = self.regimes.get(number).is_none_or(|own| own.curved);
         let place = |limit: &Limit| limit.is_for(&regime) && (curved || !limit.measure.is_of_curves());
         let limits = self.limits.limits.iter().enumerate();
         let closes = measured("ledger_residual").is_none_or(|own| Verdict::of(own) != Verdict::Failed);
@@ -365,134 +351,9 @@ impl Assessment {
     }
 }
 
-/// The verdict on a limit in a regime and a condition, over all speeds.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LimitVerdict {
-    /// The number of the regime.
-    pub regime: usize,
-    /// The number of the condition.
-    pub condition: usize,
-    /// The number of the limit.
-    pub limit: usize,
-    /// The run with the least margin, its speed, value and margin; `None` if no run has one.
-    pub worst: Option<WorstSpeed>,
-    /// Speeds at which a wheel left its rail.
-    pub derailed: Vec<String>,
-    /// Speeds of runs without a value.
-    pub missing: Vec<String>,
-    /// The worst run of the speeds that were asked for, where others were added.
-    pub asked: Option<WorstSpeed>,
-    /// What it depends on.
-    pub depends: Dependence,
-}
-
-/// The run that keeps a limit least.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct WorstSpeed {
-    /// Its number.
-    pub run: u64,
-    /// Its speed as typed.
-    pub speed: String,
-    /// The measured value, in the limit's unit.
-    pub value: f64,
-    /// The limit for that run, in its unit.
-    pub limit_value: f64,
-    /// The margin, in parts of the limit.
-    pub margin: f64,
-    /// True if a wheel left its rail in that run: value and margin are of the part until then.
-    pub until_derailed: bool,
-}
-
-impl LimitVerdict {
-    /// Returns `kept`, `exceeded`, or `unknown` if a run is missing and none exceeds it.
-    #[must_use]
-    pub fn word(&self) -> &'static str {
-        let exceeded = self.worst.as_ref().is_some_and(|own| own.margin < 0.0);
-        if exceeded || !self.derailed.is_empty() {
-            return "exceeded";
-        }
-        match self.missing.is_empty() && self.worst.is_some() {
-            true => "kept",
-            false => "unknown",
-        }
-    }
-}
-
-/// Returns the verdicts on the limits, by regime, condition and limit.
-#[must_use]
-pub fn verdicts(runs: &[Assessed]) -> Vec<LimitVerdict> {
-    let mut found: Vec<LimitVerdict> = Vec::new();
-    for run in runs {
-        for check in &run.checks {
-            let key = (run.regime, run.condition, check.limit);
-            let place = found
-                .iter()
-                .position(|own| (own.regime, own.condition, own.limit) == key);
-            let place = place.unwrap_or_else(|| {
-                found.push(LimitVerdict {
-                    regime: run.regime,
-                    condition: run.condition,
-                    limit: check.limit,
-                    worst: None,
-                    derailed: Vec::new(),
-                    missing: Vec::new(),
-                    asked: None,
-                    depends: Dependence::default(),
-                });
-                found.len() - 1
-            });
-            let own = &mut found[place];
-            if run.derailed {
-                own.derailed.push(run.speed.clone());
-            }
-            let (Some(value), Some(limit_value), Some(margin)) = (check.value, check.allowed, check.margin)
-            else {
-                own.missing.push(run.speed.clone());
-                continue;
-            };
-            let this = WorstSpeed {
-                run: run.run,
-                speed: run.speed.clone(),
-                value,
-                limit_value,
-                margin,
-                until_derailed: run.derailed,
-            };
-            let worse = |than: &Option<WorstSpeed>| than.as_ref().is_none_or(|worst| margin < worst.margin);
-            if !run.refined && worse(&own.asked) {
-                own.asked = Some(this.clone());
-            }
-            if worse(&own.worst) {
-                own.worst = Some(this);
-            }
-        }
-    }
-    for own in &mut found {
-        let same = own.asked.as_ref().map(|own| own.run) == own.worst.as_ref().map(|own| own.run);
-        own.asked = own.asked.take().filter(|_| !same);
-    }
-    found.sort_by_key(|own| (own.condition, own.regime, own.limit));
-    found
-}
-
-/// Returns the run of a regime that is worst: the first in which a wheel left its rail, else that with the
-/// least margin, else the fastest; `None` if none is complete or derailed.
-#[must_use]
-pub fn worst_run(runs: &[Assessed], regime: usize) -> Option<&Assessed> {
-    let complete = Status::Complete.name();
-    let own = runs
-        .iter()
-        .filter(|run| run.regime == regime && (run.derailed || run.status == complete));
-    let rank = |run: &Assessed| run.least().unwrap_or(f64::INFINITY);
-    own.min_by(|a, b| {
-        rank(a)
-            .total_cmp(&rank(b))
-            .then(b.speed_si.total_cmp(&a.speed_si))
-    })
-}
-
 /// Returns a number of things: `1 limit`, `2 limits`.
-fn counted(count: usize, what: &str) -> String {
+#[must_use]
+pub fn counted(count: usize, what: &str) -> String {
     match count {
         1 => format!("1 {what}"),
         count => format!("{count} {what}s"),
@@ -550,92 +411,6 @@ fn of_parts(problem: Problem) -> Problem {
         "a key is set by one of them: take it out of the others, or name other regimes or conditions; of \
          speed, duration and settling each regime takes care",
     )
-}
-
-/// Returns which conditions start shaken: those in which neither the case, nor --set, nor a regime, nor the
-/// condition says how the car starts. A car on linear wheels is never shaken.
-fn is_shaken(
-    request: &Request,
-    source: &CaseSource,
-    regimes: &[Regime],
-    conditions: &[Condition],
-) -> Result<Vec<bool>, CaseError> {
-    let CaseSource::File { name, text, .. } = source else {
-        return Ok(vec![false; conditions.len()]);
-    };
-    let tree = tree::parse(&TomlSource::new(name.as_str(), text.as_str())).map_err(CaseError::new)?;
-    let linear = source.case(&request.set)?;
-    let linear = linear
-        .car()
-        .is_some_and(|own| matches!(own.parameters.wheels, ::car::Wheels::Linear { .. }));
-    let said = tree.place_of(START).is_some()
-        || says_start(&request.set)
-        || regimes.iter().any(|own| says_start(&own.set))
-        || linear;
-    Ok(conditions
-        .iter()
-        .map(|own| !said && !says_start(&own.set))
-        .collect())
-}
-
-/// Writes the study; `output` are windows of the rule, `shaken` says of each condition whether cars start
-/// shaken in it.
-fn text(
-    regimes: &[Regime],
-    conditions: &[Condition],
-    request: &Request,
-    car: &AnyCase,
-    (output, shaken): (&[String], Vec<bool>),
-) -> Result<String, CaseError> {
-    let is_empty = car.car().is_some_and(|own| own.parameters.lading.is_empty());
-    let mut text = format!("case = \"{}\"\nsampling = \"list\"\n[set]\n", car.name());
-    let lines = |text: &mut String, set: &[String]| {
-        for own in set {
-            // Writing into a text cannot fail.
-            let _ = writeln!(text, "{own}");
-        }
-    };
-    lines(&mut text, output);
-    let set = request.set.iter().map(|own| overrides::to_toml(own));
-    lines(
-        &mut text,
-        &set.collect::<Result<Vec<_>, _>>().map_err(CaseError::new)?,
-    );
-    let mut rows = String::new();
-    for regime in regimes {
-        let _ = writeln!(text, "[groups.regime.\"{}\"]", regime.name);
-        let lading = match regime.lading.as_deref() {
-            Some("loaded") if is_empty => Some("loaded"),
-            Some("empty") if !is_empty => Some("empty"),
-            _ => None,
-        };
-        if let Some(lading) = lading {
-            let _ = writeln!(text, "lading = {{ kind = \"{lading}\" }}");
-        }
-        lines(&mut text, &regime.everywhere());
-        let speeds = match request.speeds.as_slice() {
-            [] => regime.speeds.as_slice(),
-            speeds => speeds,
-        };
-        for condition in conditions {
-            for speed in speeds {
-                let _ = writeln!(
-                    rows,
-                    "[[variants]]\nregime = \"{}\"\ncondition = \"{}\"",
-                    regime.name, condition.name
-                );
-                lines(&mut rows, &regime.at(speed)?);
-            }
-        }
-    }
-    for (condition, shaken) in conditions.iter().zip(shaken) {
-        let _ = writeln!(text, "[groups.condition.\"{}\"]", condition.name);
-        lines(&mut text, &condition.set);
-        if shaken {
-            let _ = writeln!(text, "{START} = \"shaken\"");
-        }
-    }
-    Ok(text + &rows)
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::iter;
 use maud::{Markup, html};
 use quantity::System as Units;
 use study::assessment::dependence::{Dependence, NEAR};
-use study::assessment::{Assessment, LimitVerdict, worst_run};
+use study::assessment::{Assessment, LimitVerdict, counted, worst_run};
 use study::car::figures::CarFigures;
 use study::car::limits::{self, Bound, Limit, Mark};
 use study::car::worst::place_in_words;
@@ -101,10 +101,6 @@ pub fn render(
         }
         (coverage(assessment, findings))
         (files())
-    };
-    let counted = |count: usize, what: &str| match count {
-        1 => format!("1 {what}"),
-        count => format!("{count} {what}s"),
     };
     let about = match findings.refined.len() {
         0 => String::new(),

@@ -14,8 +14,7 @@ use std::sync::LazyLock;
 use input::FileType;
 use input::limits::CONDITIONS as MOST;
 
-use crate::car::CarCase;
-use crate::car::named::{self, BuiltInOrFile, find};
+use crate::car::named::{self, BuiltInOrFile, find, try_on_car};
 use crate::case::problem::{Problem, Problems, TomlSource};
 use crate::case::section::CaseSection;
 use crate::case::tree::{self, NodeValue, TableNode};
@@ -85,16 +84,10 @@ fn read(path: &Path) -> Result<Vec<Condition>, CaseError> {
     let found = parse(&source, &text)?;
     let tree = tree::parse(&TomlSource::new(source, text.as_str())).map_err(CaseError::new)?;
     for own in &found {
-        CarCase::parse("car.toml", "model = \"car\"", Path::new(""), &own.set).map_err(|error| {
-            let key = format!("conditions.{}.set", own.name);
-            CaseError::new(error.into_problems().map(|problem| {
-                let path = problem.set_path().map(|path| format!("{key}.{path}"));
-                let place = path.and_then(|path| tree.place_of(&path)).or(tree.place_of(&key));
-                match place {
-                    Some(place) => problem.moved_to(place),
-                    None => problem,
-                }
-            }))
+        let key = format!("conditions.{}.set", own.name);
+        try_on_car(&own.set, |path| {
+            let path = path.map(|path| format!("{key}.{path}"));
+            path.and_then(|path| tree.place_of(&path)).or(tree.place_of(&key))
         })?;
     }
     Ok(found)

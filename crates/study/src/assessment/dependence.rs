@@ -226,8 +226,7 @@ impl Assessment {
             margin,
             verdict: match (record.status, margin) {
                 (Status::Derailed, _) => "exceeded",
-                (_, Some(margin)) if margin >= 0.0 => "kept",
-                (_, Some(_)) => "exceeded",
+                (_, Some(margin)) => verdict(margin),
                 (_, None) => "unknown",
             },
             note: record.reason.clone(),

@@ -6,8 +6,9 @@ use input::file::{Expected, read_text};
 use input::{FileType, limits};
 use quantity::nearest;
 
+use super::CarCase;
 use crate::case::CaseError;
-use crate::case::problem::Problem;
+use crate::case::problem::{Problem, TomlLocation};
 
 /// The target of a name.
 pub(crate) enum BuiltInOrFile<'a, T> {
@@ -60,3 +61,30 @@ pub(crate) fn read(
         Problem::new(error.to_string()).help(own).into()
     })
 }
+
+/// Tries settings, as `--set` takes them, on the car of which nothing is given; its mistakes are moved to the
+/// places in the file of which the settings are, by the path of the key.
+pub(crate) fn try_on_car<'t>(
+    set: &[String],
+    place: impl Fn(Option<&str>) -> Option<&'t TomlLocation>,
+) -> Result<(), CaseError> {
+    let tried = CarCase::parse("car.toml", "model = \"car\"", Path::new(""), set);
+    let Err(error) = tried else { return Ok(()) };
+    Err(CaseError::new(error.into_problems().map(|problem| {
+        match place(problem.set_path()) {
+            Some(place) => problem.moved_to(place),
+            None => problem,
+        }
+    })))
+}
+
+/// The texts of built-in files of a folder of `regimes`, with their names.
+macro_rules! built_in {
+    ($folder:literal, $($name:literal),* $(,)?) => {
+        [$((
+            $name,
+            include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/regimes/", $folder, $name, ".toml")),
+        )),*]
+    };
+}
+pub(crate) use built_in;

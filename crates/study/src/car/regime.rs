@@ -25,9 +25,10 @@ use std::sync::LazyLock;
 
 use input::FileType;
 use quantity::{Kind, Quantity};
+use wheelrail::track::CenterLine;
 
-use super::CarCase;
-use super::named::{self, BuiltInOrFile, find};
+use super::named::{self, BuiltInOrFile, built_in, find, try_on_car};
+use super::run::in_curve;
 use crate::case::field::quoted;
 use crate::case::problem::{Problem, Problems, TomlLocation, TomlSource};
 use crate::case::section::{CaseSection, Names, Range, quantity};
@@ -51,6 +52,8 @@ const LADINGS: Names<&str> = &[("loaded", "loaded"), ("empty", "empty")];
 const MOST_SPEEDS: usize = 100;
 /// Durations are whole multiples of it, s.
 const DURATION_STEP: f64 = 0.05;
+/// Distance of the places at which a track is looked at for curves, m.
+const LOOK: f64 = 5.0;
 /// Parts of a range by which a speed may lie outside: digits of units.
 const SLACK: f64 = 1e-9;
 
@@ -63,15 +66,9 @@ pub(crate) fn says_start(set: &[String]) -> bool {
     set.iter().any(|own| own.split('=').next() == Some(START))
 }
 
-/// The files of the regimes of these names.
-macro_rules! files {
-    ($($name:literal),* $(,)?) => {
-        [$(($name, include_str!(concat!("../../regimes/", $name, ".toml")))),*]
-    };
-}
-
 /// The built-in regimes, in order.
-const BUILT_IN: [(&str, &str); 20] = files![
+const BUILT_IN: [(&str, &str); 20] = built_in![
+    "",
     "hunting",
     "twist_and_roll",
     "pitch_and_bounce",
@@ -130,6 +127,8 @@ pub struct Regime {
     pub set: Vec<String>,
     /// The track, as TOML in one value.
     pub track: String,
+    /// True if the car comes into a full curve.
+    pub curved: bool,
     /// The file.
     pub text: String,
 }
@@ -242,27 +241,17 @@ impl Regime {
         let source = TomlSource::new(path.display().to_string(), self.text.as_str());
         let tree = tree::parse(&source).map_err(CaseError::new)?;
         for speed in &self.range {
-            let tried = CarCase::parse(
-                "car.toml",
-                "model = \"car\"",
-                Path::new(""),
-                &self.settings(speed)?,
-            );
-            let Err(error) = tried else { continue };
-            let problems = error.into_problems().map(|problem| {
-                let own = match problem.set_path() {
+            let tried = try_on_car(&self.settings(speed)?, |path| {
+                let own = match path {
                     Some("simulation.duration") => "distance".to_owned(),
                     Some("start.settle") => "settle".to_owned(),
                     Some("speed") => "range".to_owned(),
                     Some("track") | None => "track".to_owned(),
                     Some(path) => format!("set.{path}"),
                 };
-                match tree.place_of(&own) {
-                    Some(place) => problem.moved_to(place),
-                    None => problem,
-                }
+                tree.place_of(&own)
             });
-            return Err(CaseError::new(problems).of("regime"));
+            tried.map_err(|error| error.of("regime"))?;
         }
         Ok(())
     }
@@ -276,13 +265,9 @@ fn read(tree: &TableNode, source: &str, text: &str, problems: &mut Problems) -> 
     };
     top.allow_in(&KEYS, &[], "a regime", problems);
     let name = name::read(&top, name::of_source(source), problems);
-    let optional = |key: &str, problems: &mut Problems| match tree.get(key) {
-        Some(_) => top.text(key, problems).map(|(text, _)| text.to_owned()),
-        None => Some(String::new()),
-    };
-    let title = optional("title", problems);
-    let looks_at = optional("looks_at", problems);
-    let reason = optional("reason", problems);
+    let title = top.optional_text("title", problems);
+    let looks_at = top.optional_text("looks_at", problems);
+    let reason = top.optional_text("reason", problems);
     // A table of numbers without a source is one that nobody can check.
     let source_text = top.text("source", problems).map(|(text, _)| text.to_owned());
     let lading = match tree.get("lading") {
@@ -317,6 +302,11 @@ fn read(tree: &TableNode, source: &str, text: &str, problems: &mut Problems) -> 
     }
     let set = set(&top, problems);
     let track = track(&top, source, problems);
+    let (track, line) = (track.as_ref().map(|own| own.0.clone()), track.map(|own| own.1));
+    let curved = line.zip(distance.as_ref()).map(|(line, distance)| {
+        let steps = (distance.to_si() / LOOK) as usize;
+        (0..=steps).any(|step| in_curve(&line, step as f64 * LOOK))
+    });
     Some(Regime {
         name: name?,
         title: title?,
@@ -330,6 +320,7 @@ fn read(tree: &TableNode, source: &str, text: &str, problems: &mut Problems) -> 
         settle: settle?,
         set: set?,
         track: track?,
+        curved: curved?,
         text: text.to_owned(),
     })
 }
@@ -440,33 +431,39 @@ fn assignments(table: &TableNode, before: &str, out: &mut Vec<String>) {
     }
 }
 
-/// Returns the track, as TOML in one value; files are named by their whole paths.
-fn track(top: &CaseSection<'_>, source: &str, problems: &mut Problems) -> Option<String> {
+/// Returns the track, as TOML in one value; files are named by their whole paths. And its center line.
+fn track(top: &CaseSection<'_>, source: &str, problems: &mut Problems) -> Option<(String, CenterLine)> {
     let help = "write [track] on a line of its own, and below it the keys of a track file";
     top.require("track", help, problems)?;
     let section = top.section("track", problems)?;
     let folder = Path::new(source).parent().unwrap_or(Path::new(""));
-    match section.table.entry("file") {
+    let line = match section.table.entry("file") {
         Some(entry) => {
             section.allow_in(&["file"], &[], "a track that is a file", problems);
             let (file, _) = section.text("file", problems)?;
-            if let Err(error) = TrackFile::read(&folder.join(file)) {
-                let own = error.into_problems();
-                problems.append(own.map(|problem| match problem.line_and_column() {
-                    Some(_) => problem,
-                    None => problem.at(&entry.node.place).label("this file"),
-                }));
+            match TrackFile::read(&folder.join(file)) {
+                Ok(own) => own.track.center_line,
+                Err(error) => {
+                    let own = error.into_problems();
+                    problems.append(own.map(|problem| match problem.line_and_column() {
+                        Some(_) => problem,
+                        None => problem.at(&entry.node.place).label("this file"),
+                    }));
+                    return None;
+                }
             }
         }
         None => {
-            of_section(&section, Tables::anywhere(folder), problems)?;
+            of_section(&section, Tables::anywhere(folder), problems)?
+                .track
+                .center_line
         }
-    }
+    };
     let mut track = section.table.clone();
     for entry in &mut track.entries {
         name_whole(entry, folder);
     }
-    Some(NodeValue::Table(track).to_toml())
+    Some((NodeValue::Table(track).to_toml(), line))
 }
 
 /// Names a file by its whole path: a case looks for files from its own folder.

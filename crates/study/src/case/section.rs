@@ -338,6 +338,14 @@ impl<'a> CaseSection<'a> {
         None
     }
 
+    /// Returns a text, an empty one if the key is left out.
+    pub fn optional_text(&self, key: &str, problems: &mut Problems) -> Option<String> {
+        match self.table.get(key) {
+            Some(_) => self.text(key, problems).map(|(text, _)| text.to_owned()),
+            None => Some(String::new()),
+        }
+    }
+
     pub fn choice<T: Copy>(&self, key: &str, names: Names<T>, problems: &mut Problems) -> Option<T> {
         let node = self.require(key, &one_of(names), problems)?;
         choice(node, &self.path_of(key), names, problems)

@@ -352,6 +352,32 @@ fn limits_rows_of_curves_are_left_out_on_straight_track() {
     }
 }
 
+/// So they are where regimes have other numbers of speeds: each has its own track.
+#[test]
+fn limits_rows_of_curves_belong_to_their_regimes() {
+    let regimes = ["static_curve", "fra_class_4", "constant_curve", "twist_and_roll"];
+    let request = Request {
+        limits: "en_14363".to_owned(),
+        speeds: Vec::new(),
+        ..request(&regimes)
+    };
+    let assessment = Assessment::new(&request).unwrap();
+    assert_eq!(assessment.study.count(), 2 + 3 * 6);
+    let limit = assessment
+        .limits
+        .limits
+        .iter()
+        .position(|own| own.name == "y_quasi_static");
+    for number in 0..assessment.study.count() {
+        let run = assessment.assess(
+            &assessment.study.values(number),
+            &record(&assessment, number, &[]),
+        );
+        let there = run.checks.iter().any(|own| Some(own.limit) == limit);
+        assert_eq!(there, [true, false, true, false][run.regime], "{number}");
+    }
+}
+
 /// Cars start shaken, unless the case, --set or a condition says otherwise.
 #[test]
 fn limits_cars_start_shaken_if_nothing_says_otherwise() {

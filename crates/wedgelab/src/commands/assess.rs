@@ -12,7 +12,7 @@ use report::study_folder::TABLE_FILE;
 use report::terminal::TerminalTable;
 use serde_json::json;
 use study::assessment::dependence::{NEAR, OverFriction};
-use study::assessment::{Assessment, FRICTIONS, LimitVerdict, Request};
+use study::assessment::{Assessment, FRICTIONS, LimitVerdict, Request, counted};
 use study::car::speeds;
 use study::records::Status;
 
@@ -105,7 +105,7 @@ pub const BEFORE: &str = "certify";
 
 /// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
-    if std::env::args().nth(1).as_deref() == Some(BEFORE) {
+    if std::env::args_os().nth(1).is_some_and(|own| own == BEFORE) {
         say(
             "note: `wedgelab certify` is called `wedgelab assess` now; the older name goes with the next \
              version",
@@ -252,9 +252,8 @@ fn print(assessment: &Assessment, findings: &AssessmentFindings, path: &Path) ->
     };
     writeln!(
         out,
-        "\n{} run{}{refined}. Limits: {kept} kept, {exceeded} exceeded, {unknown} unknown. {}: {}.",
-        findings.runs.len(),
-        if findings.runs.len() == 1 { "" } else { "s" },
+        "\n{}{refined}. Limits: {kept} kept, {exceeded} exceeded, {unknown} unknown. {}: {}.",
+        counted(findings.runs.len(), "run"),
         assessment.limits.title_with_edition(),
         assessment.limits.source
     )?;

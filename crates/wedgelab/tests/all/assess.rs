@@ -249,3 +249,26 @@ fn input_what_is_built_in_is_listed_and_shown() {
     );
     assert!(output.err.contains("not for 200 mph"), "{}", output.err);
 }
+
+/// The older name is taken, and said; what is no Unicode is refused like any other name that is not there.
+#[cfg(unix)]
+#[test]
+fn input_the_older_name_and_names_that_are_no_unicode() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    use std::process::Command;
+
+    for (name, said) in [("certify", true), ("assess", false)] {
+        let done = Command::new(env!("CARGO_BIN_EXE_wedgelab"))
+            .args([OsStr::new(name), OsStr::from_bytes(b"my_\xff_car.toml")])
+            .output()
+            .unwrap();
+        let told = String::from_utf8_lossy(&done.stderr);
+        assert!(
+            done.status.code().is_some_and(|own| own != 0 && own != 101),
+            "{told}"
+        );
+        assert!(!told.contains("panicked"), "{told}");
+        assert_eq!(told.contains("is called `wedgelab assess` now"), said, "{told}");
+    }
+}

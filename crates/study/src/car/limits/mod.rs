@@ -34,7 +34,7 @@ use serde::{Deserialize, Serialize};
 
 use self::value::{Known, LimitValue};
 use super::figures::CarFigures;
-use super::named::{self, BuiltInOrFile, find};
+use super::named::{self, BuiltInOrFile, built_in, find};
 use super::statistics::{Rules, Statistic};
 use super::worst::Worst;
 use crate::case::CaseError;
@@ -44,15 +44,9 @@ pub mod value;
 
 /// What is there at rest, %.
 const WHOLE: f64 = 100.0;
-/// The files of the limits of these names.
-macro_rules! files {
-    ($($name:literal),* $(,)?) => {
-        [$(($name, include_str!(concat!("../../../regimes/limits/", $name, ".toml")))),*]
-    };
-}
-
 /// The built-in sets, by name; the first one is that of freight cars.
-const BUILT_IN: [(&str, &str); 6] = files![
+const BUILT_IN: [(&str, &str); 6] = built_in![
+    "limits/",
     "aar_chapter_xi",
     "aar_chapter_xi_1993",
     "fra_213_333",

@@ -7,7 +7,7 @@ use quantity::{Kind, Quantity, nearest};
 
 use super::value::{Formula, LimitValue, fits};
 use super::{Bound, Limit, LimitSet, Mark, NotCovered};
-use crate::car::CarCase;
+use crate::car::named::try_on_car;
 use crate::car::worst::{WORST, Worst};
 use crate::case::CaseError;
 use crate::case::problem::{Problem, Problems, TomlSource};
@@ -58,16 +58,11 @@ pub(super) fn parse(source: &str, text: &str) -> Result<LimitSet, CaseError> {
 /// Tries the windows of a set on the car of which nothing is given; mistakes are shown in its file.
 pub(super) fn try_out(set: &LimitSet, source: &str) -> Result<(), CaseError> {
     let tree = tree::parse(&TomlSource::new(source, set.text.as_str())).map_err(CaseError::new)?;
-    let tried = CarCase::parse("car.toml", "model = \"car\"", Path::new(""), &set.output);
-    let Err(error) = tried else { return Ok(()) };
-    let problems = error.into_problems().map(|problem| {
-        let place = problem.set_path().and_then(|path| tree.place_of(path));
-        match place.or(tree.place_of("output")) {
-            Some(place) => problem.moved_to(place),
-            None => problem,
-        }
-    });
-    Err(CaseError::new(problems).of("file of limits"))
+    let place = |path: Option<&str>| {
+        path.and_then(|path| tree.place_of(path))
+            .or(tree.place_of("output"))
+    };
+    try_on_car(&set.output, place).map_err(|error| error.of("file of limits"))
 }
 
 fn read(tree: &TableNode, name: &str, text: &str, problems: &mut Problems) -> Option<LimitSet> {
@@ -80,7 +75,7 @@ fn read(tree: &TableNode, name: &str, text: &str, problems: &mut Problems) -> Op
     let title = top.text("title", problems).map(|(text, _)| text.to_owned());
     // Limits without a source are limits that nobody can check.
     let source = top.text("source", problems).map(|(text, _)| text.to_owned());
-    let edition = optional(&top, "edition", problems);
+    let edition = top.optional_text("edition", problems);
     let node = top.require("limits", HELP, problems)?;
     if let NodeValue::List(items) = &node.value
         && !(1..=MOST).contains(&items.len())
@@ -127,22 +122,14 @@ fn read(tree: &TableNode, name: &str, text: &str, problems: &mut Problems) -> Op
     })
 }
 
-/// Returns a text that may be left out.
-fn optional(own: &CaseSection<'_>, key: &str, problems: &mut Problems) -> Option<String> {
-    match own.table.get(key) {
-        Some(_) => own.text(key, problems).map(|(text, _)| text.to_owned()),
-        None => Some(String::new()),
-    }
-}
-
 /// Reads what a rule asks for and the limits do not have.
 fn not_covered(top: &CaseSection<'_>, problems: &mut Problems) -> Vec<NotCovered> {
     let all = top.tables("not_covered", problems);
     let read = all.iter().filter_map(|own| {
         own.allow(&["what", "paragraph", "reason"], &[], problems);
         let what = own.text("what", problems).map(|(text, _)| text.to_owned());
-        let paragraph = optional(own, "paragraph", problems);
-        let reason = optional(own, "reason", problems);
+        let paragraph = own.optional_text("paragraph", problems);
+        let reason = own.optional_text("reason", problems);
         Some(NotCovered {
             what: what?,
             paragraph: paragraph?,
@@ -158,8 +145,8 @@ fn limit(own: &CaseSection<'_>, problems: &mut Problems) -> Option<Limit> {
     let text = |key: &str, problems: &mut Problems| own.text(key, problems).map(|(text, _)| text.to_owned());
     let name = text("name", problems);
     let quantity = text("quantity", problems);
-    let remark = optional(own, "remark", problems);
-    let paragraph = optional(own, "paragraph", problems);
+    let remark = own.optional_text("remark", problems);
+    let paragraph = own.optional_text("paragraph", problems);
     let mark = match own.table.get("mark") {
         Some(_) => own.choice("mark", MARKS, problems).map(Some),
         None => Some(None),
