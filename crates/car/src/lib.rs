@@ -42,6 +42,7 @@ mod amplitude;
 mod assemble;
 mod benchmark;
 mod body;
+mod climb;
 mod defaults;
 mod derailment;
 pub mod drive;
@@ -60,12 +61,13 @@ mod wheels_over_amplitude;
 pub use amplitude::{Neutral, OverAmplitude};
 pub use assemble::{Car, Numbers, free as free_truck, massless_options, searches, upright};
 pub use benchmark::NoWarp;
+pub use climb::{AxleLimits, ClimbLimits};
 pub use derailment::Derailment;
 pub use error::{BuildError, InvalidParameter};
 pub use linearize::{
     CriticalSpeed, FrictionState, LinearizeError, Mode, SteadyCar, VIBRATIONS, growing, vibrations,
 };
-pub use loads::{AxleLoads, EndMotion, Loads, WheelLoads};
+pub use loads::{AxleLoads, EndMotion, Loads, WheelLoads, accelerometer};
 pub use motions::{BodyMotion, Motions, TruckMotion, WheelsetAxes};
 pub use parameters::{
     ACCELEROMETER_HEIGHTS, Drive, Mass, Parameters, ProfiledWheels, Start, StartKind, TRUCK_DISTANCES, Wheels,

@@ -13,9 +13,9 @@ use mechanics::body::Kinematics;
 use mechanics::element::Element;
 use mechanics::link::RelativeMotion;
 use mechanics::orientation::fixed;
-use mechanics::system::{BodyState, Observation};
+use mechanics::system::{BodyState, Observation, System};
 use mechanics::vector::{Matrix, Vector};
-use rolling::wheel::{PatchState, motion_of};
+use rolling::wheel::{PatchState, WheelOnRail, motion_of};
 use truck::TruckFrame;
 use wheelrail::track::{Line, TrackSection};
 
@@ -41,6 +41,43 @@ pub struct WheelLoads {
 }
 
 impl WheelLoads {
+    /// Returns those of a wheel on the left (0) or the right (1) rail at its motion on it, in a section of
+    /// the track.
+    #[must_use]
+    pub fn of(
+        (wheel, side): (&WheelOnRail, usize),
+        motion: &RelativeMotion<f64>,
+        section: &TrackSection<f64>,
+    ) -> Self {
+        let wrench = wheel.evaluate::<f64>(motion);
+        let [x, y, z] = section.of(wrench.force.0);
+        let [forward, ..] = section.of(motion.velocity.0);
+        // Power of creep alone, without that of the contact's damping; the patch that carries most.
+        let (mut creep, mut most) = (0.0, [0.0; 2]);
+        let mut bears = false;
+        wheel.patches(motion, |patch| {
+            bears = true;
+            let carried = patch.forces.normal * patch.patch.share;
+            if carried > most[0] {
+                most = [carried, patch.patch.slope];
+            }
+            let (own, slip) = (&patch.forces.creep, &patch.forces.creepage);
+            let lost = own.x * slip.longitudinal + own.y * slip.lateral + own.spin_moment * slip.spin;
+            creep -= lost * patch.patch.share;
+        });
+        Self {
+            vertical: z,
+            lateral: [-y, y][side],
+            longitudinal: -x,
+            wear_number: if forward == 0.0 { 0.0 } else { creep },
+            contact_angle: libm::atan(most[1]),
+            lift: match bears {
+                true => 0.0,
+                false => wheel.lift(motion).unwrap_or(0.0),
+            },
+        }
+    }
+
     /// Returns the lateral force over the vertical one: zero where the wheel carries nothing.
     #[must_use]
     pub fn l_over_v(&self) -> f64 {
@@ -146,7 +183,12 @@ impl Car {
             let [left, right] = self.numbers.side_frames[t];
             loads.truck_accelerations[t] = [self.numbers.bolsters[t], left, right].map(|number| {
                 let own = &seen.bodies[number];
-                let felt = self.felt(number, own, own.center_of_gravity - own.origin, rates);
+                let felt = accelerometer(
+                    (&self.system, self.gravity),
+                    (number, own),
+                    own.center_of_gravity - own.origin,
+                    rates,
+                );
                 self.axes_of(number, own).column(1).dot::<f64, f64>(felt)
             });
         }
@@ -222,33 +264,7 @@ impl Car {
         match &self.wheels {
             WheelElements::OnRails(wheels, half) => [0, 1].map(|i| {
                 let motion = self.wheel_motion(seen, w, i, *half);
-                let wrench = wheels[w][i].evaluate::<f64>(&motion);
-                let [x, y, z] = section.of(wrench.force.0);
-                let [forward, ..] = section.of(motion.velocity.0);
-                // Power of creep alone, without that of the contact's damping; the patch that carries most.
-                let (mut creep, mut most) = (0.0, [0.0; 2]);
-                let mut bears = false;
-                wheels[w][i].patches(&motion, |patch| {
-                    bears = true;
-                    let carried = patch.forces.normal * patch.patch.share;
-                    if carried > most[0] {
-                        most = [carried, patch.patch.slope];
-                    }
-                    let (own, slip) = (&patch.forces.creep, &patch.forces.creepage);
-                    let lost = own.x * slip.longitudinal + own.y * slip.lateral + own.spin_moment * slip.spin;
-                    creep -= lost * patch.patch.share;
-                });
-                WheelLoads {
-                    vertical: z,
-                    lateral: [-y, y][i],
-                    longitudinal: -x,
-                    wear_number: if forward == 0.0 { 0.0 } else { creep },
-                    contact_angle: libm::atan(most[1]),
-                    lift: match bears {
-                        true => 0.0,
-                        false => wheels[w][i].lift(&motion).unwrap_or(0.0),
-                    },
-                }
+                WheelLoads::of((&wheels[w][i], i), &motion, section)
             }),
             WheelElements::Linear(element) => {
                 let state = &seen.bodies[self.numbers.wheelsets[w]];
@@ -281,7 +297,12 @@ impl Car {
         let arm = arm_to(self.accelerometers[t]);
         let section = self.section(place);
         let [_, lateral, height] = section.of(self.arm(place, &section));
-        let shown = self.felt(self.numbers.body, body, arm, rates);
+        let shown = accelerometer(
+            (&self.system, self.gravity),
+            (self.numbers.body, body),
+            arm,
+            rates,
+        );
         let [_, left, up] = [0, 1, 2].map(|k| turned.column(k).dot::<f64, f64>(shown));
         EndMotion {
             lateral,
@@ -290,29 +311,32 @@ impl Car {
             vertical_acceleration: up - self.gravity,
         }
     }
+}
 
-    /// Returns what an accelerometer shows (m/s², fixed axes) that a body has at an arm (m, fixed axes) from
-    /// its origin: its acceleration less that of free fall.
-    fn felt(&self, number: usize, body: &BodyState, arm: Vector<f64>, rates: &[f64]) -> Vector<f64> {
-        let system = &self.system;
-        let first = system.layout().speeds;
-        let accelerations = [0, 1, 2, 3, 4, 5].map(|k| {
-            let place = system.position_of(number, k);
-            place.map_or(0.0, |place| rates[first + place])
-        });
-        let frame = fixed(system.bodies()[number].frame.orientation);
-        let [x, y, z, roll, pitch, yaw] = accelerations;
-        let kinematics = Kinematics::<f64>::new(body.coordinates, body.speeds, true);
-        let spin_rate = kinematics
-            .orientation
-            .spin_rate(kinematics.rates, [roll, pitch, yaw], true);
-        let alpha: Vector<f64> = body.rotation.apply(spin_rate);
-        let origin: Vector<f64> = frame.apply(Vector([x, y, z]));
-        let omega = body.angular_velocity;
-        let swing: Vector<f64> = omega.cross(arm);
-        origin
-            + alpha.cross::<f64, f64>(arm)
-            + omega.cross::<f64, f64>(swing)
-            + Vector([0.0, 0.0, self.gravity])
-    }
+/// Returns what an accelerometer shows (m/s², fixed axes) that a body of a system has at an arm (m, fixed
+/// axes) from its origin: its acceleration less that of free fall (gravity in m/s², down). `rates` are those
+/// of the state.
+#[must_use]
+pub fn accelerometer(
+    (system, gravity): (&System, f64),
+    (number, body): (usize, &BodyState),
+    arm: Vector<f64>,
+    rates: &[f64],
+) -> Vector<f64> {
+    let first = system.layout().speeds;
+    let accelerations = [0, 1, 2, 3, 4, 5].map(|k| {
+        let place = system.position_of(number, k);
+        place.map_or(0.0, |place| rates[first + place])
+    });
+    let frame = fixed(system.bodies()[number].frame.orientation);
+    let [x, y, z, roll, pitch, yaw] = accelerations;
+    let kinematics = Kinematics::<f64>::new(body.coordinates, body.speeds, true);
+    let spin_rate = kinematics
+        .orientation
+        .spin_rate(kinematics.rates, [roll, pitch, yaw], true);
+    let alpha: Vector<f64> = body.rotation.apply(spin_rate);
+    let origin: Vector<f64> = frame.apply(Vector([x, y, z]));
+    let omega = body.angular_velocity;
+    let swing: Vector<f64> = omega.cross(arm);
+    origin + alpha.cross::<f64, f64>(arm) + omega.cross::<f64, f64>(swing) + Vector([0.0, 0.0, gravity])
 }

@@ -11,16 +11,13 @@ use std::sync::{Mutex, PoisonError};
 use study::assessment::dependence::{Varied, wanted};
 use study::assessment::refined::Refined;
 use study::assessment::{Assessed, Assessment, worst_run};
-use study::models::{AnyCase, ModelCase};
-use study::run::Run;
+use study::models::AnyCase;
 
 use crate::assessment_files::{self, AssessmentFindings, NAMES};
-use crate::figures::car::CarRun;
 use crate::page as pages;
-use crate::page::assessment::{self as page, Against, WorstRun};
-use crate::run_files::RunFiles;
+use crate::page::assessment::{self as page, Against, TrackRun, WorstRun};
 use crate::study_folder::{StudyFolder, StudyFolderError};
-use staging::{FileError, Folder};
+use staging::Folder;
 
 /// The folder of the worst runs, in that of the assessment.
 pub const WORST: &str = "worst";
@@ -138,41 +135,20 @@ fn one(
     stop: &AtomicBool,
 ) -> Result<Option<WorstRun>, StudyFolderError> {
     let name = assessment.regimes[regime].name.as_str();
-    let Some(case) = case.car() else {
-        return Ok(None);
-    };
-    let mut case = case.named(name);
-    case.limits = Some(assessment.limits.clone());
-    let Ok(started) = Run::with_motions(&case) else {
-        return Ok(None);
-    };
     let stops = || stop.load(Ordering::Relaxed);
-    let (result, motions) = started.finish_with_motions(|_| match stops() {
+    let run = TrackRun::of(&case, name, &assessment.limits, || match stops() {
         true => ControlFlow::Break(String::new()),
         false => ControlFlow::Continue(()),
     });
-    if stops() {
+    let Some(run) = run.filter(|_| !stops()) else {
         return Ok(None);
-    }
-    let run = CarRun {
-        case,
-        result,
-        motions,
     };
-    let own = format!("{WORST}/{name}");
-    let names = [run.case.names(&run.case.output_files()), vec![pages::FILE_NAME]].concat();
-    // The same run gives the same files.
-    let folder = Folder::check(path.join(&own), &names, true)?;
-    run.case.write(&folder, &run.result)?;
-    let html = pages::car_run::render(&run);
-    let html = html.map_err(|error| unwritable(folder.path(), error))?;
-    let written: Result<(), FileError> =
-        folder.write(|files| files.add(pages::FILE_NAME, |out| out.write_all(html.as_bytes())));
-    written?;
+    let folder = format!("{WORST}/{name}");
+    run.write(&path.join(&folder))?;
     Ok(Some(WorstRun {
         regime,
         worst: page::worst_second(assessment, regime, &run),
         run,
-        folder: own,
+        folder,
     }))
 }

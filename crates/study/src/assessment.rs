@@ -26,7 +26,7 @@ use crate::car::statistics::Rules;
 use crate::case::problem::Problem;
 use crate::case::{self, CaseError};
 use crate::design::{Study, StudySource, Value};
-use crate::models::{AnyCase, CaseSource, no_built_in};
+use crate::models::{AnyCase, CaseSource, built_in, no_built_in};
 use crate::records::{Record, Status};
 
 /// The name of the study's text, which is made here.
@@ -157,16 +157,12 @@ impl Assessment {
             let problem = Problem::new(format!("the regime {twice} is named twice"));
             return Err(problem.help("name each regime once").into());
         }
+        let car = car_of(request)?;
         let conditions = match request.conditions.as_slice() {
             [] => Condition::all().iter().take(1).cloned().collect(),
-            names => Condition::chosen(names)?,
+            names => Condition::chosen(names, car.1.car().is_some())?,
         };
-        Self::with(
-            request.clone(),
-            car_of(request)?,
-            Arc::new(limits),
-            (regimes, conditions),
-        )
+        Self::with(request.clone(), car, Arc::new(limits), (regimes, conditions))
     }
 
     /// Makes it of a car, limits, regimes and conditions that are read.
@@ -186,7 +182,7 @@ impl Assessment {
             case: source,
         });
         let study = study.map_err(|error| CaseError::new(error.into_problems().map(of_parts)))?;
-        let rules = study.case(0)?.car().map(|own| own.rules).unwrap_or_default();
+        let rules = rules(&study.case(0)?).unwrap_or_default();
         Ok(Self {
             car: base.name().to_owned(),
             base,
@@ -367,18 +363,31 @@ fn repeated(regimes: &[Regime]) -> Option<&str> {
     twice.next().map(|(_, name)| name)
 }
 
-/// Reads the car.
+/// Returns the rules of the statistics of what runs on a track; `None` of other models.
+fn rules(case: &AnyCase) -> Option<Rules> {
+    match case {
+        AnyCase::Car(own) => Some(own.rules),
+        AnyCase::Vehicle(own) => own.description.on_track.as_ref().map(|_| own.rules),
+        _ => None,
+    }
+}
+
+/// Reads the car, or the vehicle.
 fn car_of(request: &Request) -> Result<(CaseSource, AnyCase), CaseError> {
     let path = &request.car;
     let name = path.to_str().unwrap_or_default();
-    let source = match car::builtin::text(name) {
-        Ok(text) if !path.is_file() => CaseSource::File {
+    let source = match built_in(name) {
+        Some(own) if !path.is_file() => CaseSource::File {
             name: format!("{name}.toml"),
-            text: text.to_owned(),
+            text: own.text().to_owned(),
             folder: PathBuf::new(),
         },
-        Err(_) if matches!(AnyCase::built_in(name, &[]), Ok(Some(_))) => return Err(no_car(path)),
-        Err(error) if !path.exists() && path.extension().is_none() => return Err(no_built_in(name, error)),
+        None if !path.exists() && path.extension().is_none() => {
+            return Err(match car::builtin::text(name) {
+                Err(error) => no_built_in(name, error),
+                Ok(_) => no_car(path),
+            });
+        }
         _ => CaseSource::File {
             name: path.display().to_string(),
             text: case::text_of(path)?,
@@ -386,17 +395,18 @@ fn car_of(request: &Request) -> Result<(CaseSource, AnyCase), CaseError> {
         },
     };
     let case = source.case(&request.set)?;
-    if case.car().is_none() {
-        return Err(no_car(path));
+    match rules(&case) {
+        Some(_) => Ok((source, case)),
+        None => Err(no_car(path)),
     }
-    Ok((source, case))
 }
 
 fn no_car(path: &Path) -> CaseError {
-    let problem = Problem::new(format!("{} is no case of a car", path.display()));
+    let problem = Problem::new(format!("{} is no case of a car on a track", path.display()));
     problem
         .help(
-            "regimes are for cars: write model = \"car\", or take a built-in one such as car_tangent_loaded",
+            "regimes are for cars and for vehicles with wheelsets: write model = \"car\", or take a built-in \
+             one such as car_tangent_loaded",
         )
         .into()
 }

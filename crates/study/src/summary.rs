@@ -12,6 +12,7 @@ use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 
 use crate::car::limits::LimitCheck;
+use crate::car::statistics::Statistic;
 use crate::finite::{find, is_finite};
 use crate::jam::JamMargins;
 use crate::losses::EnergySummary;
@@ -62,9 +63,13 @@ pub trait RunSummary {
     fn reached(&self) -> Option<SummaryValue> {
         None
     }
+    /// Returns what rules ask of a run on a track; `None` of others.
+    fn by_rules(&self) -> Option<ByRules<'_>> {
+        None
+    }
     /// Returns the worst values beside limits of rules; none of models without such limits.
     fn limits(&self) -> &[LimitCheck] {
-        &[]
+        self.by_rules().map_or(&[], |own| own.limits)
     }
     /// Returns the name of the first number that is not finite, of models whose runs do not stop there.
     fn not_finite(&self) -> Option<String> {
@@ -87,6 +92,29 @@ pub trait RunSummary {
         }
     }
 }
+
+/// What rules ask of a run on a track.
+#[derive(Clone, Copy, Debug)]
+pub struct ByRules<'s> {
+    /// The rule of the limits, its edition and source.
+    pub limits_of: &'s str,
+    /// Its limits beside the worst value of each.
+    pub limits: &'s [LimitCheck],
+    /// Statistics by name.
+    pub statistics: &'s BTreeMap<String, Statistic>,
+}
+
+/// Returns the [`ByRules`] of a summary with fields of these names.
+macro_rules! by_rules {
+    ($own:expr) => {
+        $crate::summary::ByRules {
+            limits_of: &$own.limits_of,
+            limits: &$own.limits,
+            statistics: &$own.statistics,
+        }
+    };
+}
+pub(crate) use by_rules;
 
 /// The energy ledger at the end of a run of any model.
 #[derive(Clone, Copy, Debug)]

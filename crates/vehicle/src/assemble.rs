@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use car::drive::{Between, SpeedControl, over_distance};
-use car::{Drive, Wheels, free_truck, massless_options, searches, upright};
+use car::{ClimbLimits, Drive, Wheels, free_truck, massless_options, searches, upright};
 use mechanics::connection::Law as ConnectionLaw;
 use mechanics::friction::FrictionLaw;
 use mechanics::link::Marker;
@@ -83,6 +83,18 @@ pub struct Vehicle {
     pub start_warning: Option<String>,
     /// Its wheelsets.
     pub axles: Vec<Axle>,
+    /// Static loads of their wheels, left and right, at rest on straight perfect track, N; none if there is
+    /// no rest.
+    pub static_loads: Vec<[f64; 2]>,
+}
+
+/// A vehicle at rest, on straight perfect track if it runs on one.
+struct Resting {
+    positions: Vec<f64>,
+    /// The warning of a state that is nearly at rest.
+    warning: Option<String>,
+    /// Vertical forces of the wheels of each wheelset on the rails, left and right, N.
+    loads: Vec<[f64; 2]>,
 }
 
 /// A model in the nominal layout, with what is seen of it.
@@ -117,7 +129,17 @@ impl Vehicle {
                 return Err(VehicleError::Misplaced { distance, reason });
             }
         }
-        let nominal = Nominal::new(bodies, description, description.on_track.as_ref(), false)?;
+        let on = description.on_track.as_ref();
+        let rest = match description.start {
+            StartKind::Equilibrium => {
+                let held: Vec<RigidBody> = bodies.iter().map(RigidBody::held).collect();
+                Some(at_rest(&held, description)?)
+            }
+            // On a track its static loads count, if it has any.
+            StartKind::Nominal => on.and_then(|_| at_rest(bodies, description).ok()),
+        };
+        let static_loads = rest.as_ref().map_or(Vec::new(), |own| own.loads.clone());
+        let nominal = Nominal::new(bodies, description, on, (&static_loads, false))?;
         let channels = nominal.channels;
         let mut names = BTreeSet::new();
         let mut columns = channels.iter().flat_map(|own| &own.columns);
@@ -132,11 +154,9 @@ impl Vehicle {
         let mut initial_state = system.initial_state();
         let mut start_warning = None;
         let speeds = system.layout().speeds;
-        if description.start == StartKind::Equilibrium {
-            let held: Vec<RigidBody> = bodies.iter().map(RigidBody::held).collect();
-            let (positions, warning) = at_rest(&held, description)?;
-            start_warning = warning;
-            initial_state[..speeds].copy_from_slice(&positions);
+        if let (StartKind::Equilibrium, Some(rest)) = (description.start, rest) {
+            start_warning = rest.warning;
+            initial_state[..speeds].copy_from_slice(&rest.positions);
         }
         let rest = initial_state.clone();
         let on_track = description.on_track.is_some();
@@ -163,6 +183,7 @@ impl Vehicle {
             channels,
             start_warning,
             axles: nominal.axles,
+            static_loads,
         })
     }
 
@@ -234,15 +255,11 @@ fn on_rails(levels: &[(f64, [f64; 3])], [x, y, z]: [f64; 3], is_wheelset: bool) 
     }
 }
 
-/// Returns the positions of a vehicle at rest, on straight perfect track if it runs on one, with the
-/// warning of a state that is nearly at rest.
-fn at_rest(
-    bodies: &[RigidBody],
-    description: &Description,
-) -> Result<(Vec<f64>, Option<String>), VehicleError> {
+/// Returns a vehicle at rest.
+fn at_rest(bodies: &[RigidBody], description: &Description) -> Result<Resting, VehicleError> {
     let standing = description.on_track.as_ref().map(OnTrack::standing).transpose()?;
     let on = standing.as_ref().map(|(on, _)| on);
-    let mut nominal = Nominal::new(bodies, description, on, true)?;
+    let mut nominal = Nominal::new(bodies, description, on, (&[], true))?;
     if let Some((_, middle)) = &standing {
         for (body, _) in &nominal.running {
             nominal.model.bodies[*body].frame.origin[0] += middle;
@@ -254,6 +271,10 @@ fn at_rest(
     let rest = still.start_at_rest(0.0, &start, StaticFriction::Following)?;
     let speeds = still.layout().speeds;
     let mut positions = rest.state[..speeds].to_vec();
+    let seen = still.observe(0.0, &rest.state);
+    let loads = nominal.axles.iter();
+    let loads = loads.map(|axle| axle.state(&seen).wheels.map(|wheel| wheel.vertical));
+    let loads = loads.collect();
     if !nominal.axles.is_empty() {
         // Nothing holds it along the track.
         let rolled = |axle: &Axle| {
@@ -269,7 +290,11 @@ fn at_rest(
             }
         }
     }
-    Ok((positions, rest.warning))
+    Ok(Resting {
+        positions,
+        warning: rest.warning,
+        loads,
+    })
 }
 
 /// Lets carriers stand where their wheelsets do.
@@ -281,13 +306,14 @@ fn carry(model: &mut Model) {
 }
 
 impl Nominal {
-    /// Returns the model of these bodies, of a description's elements, and of what runs on a track, as they
-    /// are or without the friction that a rest may not depend on.
+    /// Returns the model of these bodies, of a description's elements, and of what runs on a track, whose
+    /// wheels have these static loads (N; none: not known), as they are or without the friction that a rest
+    /// may not depend on.
     fn new(
         bodies: &[RigidBody],
         description: &Description,
         on: Option<&OnTrack>,
-        without_friction: bool,
+        (static_loads, without_friction): (&[[f64; 2]], bool),
     ) -> Result<Self, VehicleError> {
         let on_track = on.is_some();
         let turned = |body: Body| match on_track {
@@ -364,17 +390,21 @@ impl Nominal {
                 if without_friction {
                     free_wedges(&mut model, first, &mounting.wedges);
                 }
-                let bolster = mounting.mount.bodies[truck::BOLSTER];
-                channels.push(seen::of_truck(&own.name, bolster, &mounted, lines));
-                numbers.extend([
-                    bolster,
-                    mounting.mount.bodies[SIDE_FRAMES],
-                    mounting.mount.bodies[SIDE_FRAMES + 1],
-                ]);
+                let places = [truck::BOLSTER, SIDE_FRAMES, SIDE_FRAMES + 1];
+                let parts = places.map(|place| mounting.mount.bodies[place]);
+                channels.push(seen::of_truck(&own.name, parts[0], &mounted, lines));
+                channels.push(seen::of_truck_parts(&own.name, parts, description.gravity));
+                numbers.extend(parts);
             }
-            for axle in &axles {
+            let limits = Arc::new(ClimbLimits::of_wheels(&on.wheels).of_axles(axles.len()));
+            for (number, axle) in axles.iter().enumerate() {
                 axle.add(&mut model);
-                channels.push(seen::of_axle(axle));
+                let loads = static_loads.get(number).copied().unwrap_or_default();
+                channels.push(seen::of_axle((axle, number), loads, &limits));
+            }
+            for own in on.all_accelerometers(&names_of(bodies)) {
+                let center = bodies.get(own.body - 1).map_or(own.at, |body| body.place);
+                channels.push(seen::of_accelerometer(&own, center, description.gravity));
             }
             drive(&mut model, on, lines);
         }
@@ -401,6 +431,10 @@ impl Nominal {
             running,
         })
     }
+}
+
+fn names_of(bodies: &[RigidBody]) -> Vec<&str> {
+    bodies.iter().map(|own| own.name.as_str()).collect()
 }
 
 /// Adds the bodies of a truck.

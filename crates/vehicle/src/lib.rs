@@ -48,7 +48,7 @@ pub use body::{BodyStart, RigidBody};
 pub use channel::{Channels, View, Whole};
 pub use drawing::{Drawing, Drawn, DrawnBody, DrawnElement, Solid};
 pub use error::VehicleError;
-pub use on_track::{Axle, AxleState, OnTrack, TruckPart, WheelsetPart};
+pub use on_track::{Accelerometer, AccelerometerOf, Axle, AxleState, OnTrack, TruckPart, WheelsetPart};
 pub use vibration::Vibration;
 
 /// The name of the body that stands still: number 0.

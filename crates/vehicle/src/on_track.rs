@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use car::{Drive, ProfiledWheels};
+use car::{Drive, ProfiledWheels, WheelLoads};
 use mechanics::body::Body;
 use mechanics::link::Marker;
 use mechanics::system::{BodyState, Model, Observation};
@@ -20,7 +20,8 @@ use wheelrail::track::{CenterLine, Line, RailLines, Segment, Track, TrackError, 
 
 /// Length of straight track before and behind a vehicle that comes to rest, m.
 const ROOM: f64 = 10.0;
-const SIDES: [&str; 2] = ["left", "right"];
+/// The names of the sides in columns.
+pub(crate) const SIDES: [&str; 2] = ["left", "right"];
 
 /// What runs on a track.
 #[derive(Clone, Debug)]
@@ -44,6 +45,8 @@ pub struct OnTrack {
     pub drive: Drive,
     /// The body that the drive pushes (1: the first of the description), and the height at which, m.
     pub driven: (usize, f64),
+    /// Accelerometers besides those above the centers of trucks.
+    pub accelerometers: Vec<Accelerometer>,
     /// Distance along the track of the layout's origin at the start, m.
     pub distance: f64,
     /// Speed at the start, m/s.
@@ -57,6 +60,31 @@ pub struct WheelsetPart {
     pub name: String,
     /// Its place along the track in the nominal layout, m.
     pub x: f64,
+    /// The name of the truck that it belongs to, for the forces of a truck's side; none: to none.
+    pub truck: Option<String>,
+}
+
+/// What the accelerations of an accelerometer are taken as.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AccelerometerOf {
+    /// Of a vehicle's body: ride, low-pass filtered.
+    #[default]
+    Body,
+    /// Of the frame of a truck: hunting, in a band.
+    Truck,
+}
+
+/// An accelerometer on a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Accelerometer {
+    /// Its name, with which its columns begin.
+    pub name: String,
+    /// The body that it is on (1: the first of the description).
+    pub body: usize,
+    /// Its place in the nominal layout, m.
+    pub at: [f64; 3],
+    /// What it is taken as.
+    pub of: AccelerometerOf,
 }
 
 /// A three-piece truck under a body.
@@ -74,7 +102,8 @@ pub struct TruckPart {
 
 impl OnTrack {
     /// Returns the names of all wheelsets with their places along the track, m: those of trucks first.
-    pub(crate) fn all_wheelsets(&self) -> Vec<(String, f64)> {
+    #[must_use]
+    pub fn all_wheelsets(&self) -> Vec<(String, f64)> {
         let of_trucks = self.trucks.iter().flat_map(|own| {
             let axle = own.parameters.geometry.axle();
             [(1, axle), (2, -axle)]
@@ -82,6 +111,22 @@ impl OnTrack {
         });
         let single = self.wheelsets.iter().map(|own| (own.name.clone(), own.x));
         of_trucks.chain(single).collect()
+    }
+
+    /// Returns all accelerometers: those on the body above the center of each truck, at the height of its
+    /// center plate, by the name `BODY_at_TRUCK` (the names of the bodies are given), then the others.
+    #[must_use]
+    pub fn all_accelerometers(&self, bodies: &[&str]) -> Vec<Accelerometer> {
+        let above = self.trucks.iter().map(|own| {
+            let plate = own.parameters.car_body.as_ref();
+            Accelerometer {
+                name: format!("{}_at_{}", bodies.get(own.body - 1).unwrap_or(&"body"), own.name),
+                body: own.body,
+                at: [own.x, 0.0, plate.map_or(0.0, |car| car.center_plate.height)],
+                of: AccelerometerOf::Body,
+            }
+        });
+        above.chain(self.accelerometers.iter().cloned()).collect()
     }
 
     /// Returns the largest distance of a wheelset from the layout's origin, m.
@@ -182,8 +227,7 @@ pub struct Axle {
     lines: Arc<RailLines>,
 }
 
-/// A wheelset against the track, and the forces of its wheels on the rails, as [`car::AxleLoads`] and
-/// [`car::WheelLoads`] have them.
+/// A wheelset against the track, with its wheels on the rails.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AxleState {
     /// Distance along the track, m.
@@ -198,10 +242,8 @@ pub struct AxleState {
     pub yaw: f64,
     /// Angle of the spin, rad.
     pub spin: f64,
-    /// Vertical force on the left and the right rail, down, N.
-    pub vertical: [f64; 2],
-    /// Lateral force in the plane of the track, positive where it spreads the gauge, N.
-    pub spreading: [f64; 2],
+    /// The left and the right wheel on their rails.
+    pub wheels: [WheelLoads; 2],
 }
 
 impl Axle {
@@ -221,13 +263,7 @@ impl Axle {
             yaw: -libm::asin(axle[0].clamp(-1.0, 1.0)),
             ..AxleState::default()
         };
-        for i in 0..2 {
-            use mechanics::element::Element;
-            let wrench = self.wheels[i].evaluate::<f64>(&self.motion(seen, i));
-            let [_, y, z] = section.of(wrench.force.0);
-            state.vertical[i] = z;
-            state.spreading[i] = [-y, y][i];
-        }
+        state.wheels = [0, 1].map(|i| WheelLoads::of((&self.wheels[i], i), &self.motion(seen, i), &section));
         state
     }
 

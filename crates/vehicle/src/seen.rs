@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use car::{ClimbLimits, WheelLoads};
 use mechanics::body::Body;
 use mechanics::orientation::fixed;
 use mechanics::output::Column;
@@ -14,8 +15,12 @@ use wheelrail::track::{Line, RailLines, TrackSection};
 use crate::assemble::nominal_center;
 use crate::body::RigidBody;
 use crate::channel::{Channels, View, column};
-use crate::on_track::{Axle, AxleState, section};
+use crate::on_track::{Accelerometer, Axle, AxleState, SIDES, section};
 
+/// The parts of a truck that have accelerometers, in columns.
+const TRUCK_PARTS: [&str; 3] = ["bolster", "left_side_frame", "right_side_frame"];
+/// Share of the static load below which a wheel has no ratio of forces.
+const LEAST_SHARE: f64 = 0.01;
 /// Names of coordinates in columns, with what they measure.
 const COORDINATES: [(&str, &str); 6] = [
     ("x", "forward"),
@@ -202,10 +207,19 @@ type ReadAxle = fn(&AxleState) -> f64;
 
 const VERTICAL: &str = "vertical force of the wheel on its rail, square to the track, down";
 const LATERAL: &str = "lateral force of the wheel on its rail, positive where it spreads the gauge";
-const OVER: &str = "lateral over vertical force; 0 where the wheel carries nothing";
+const OVER: &str = "lateral over vertical force; zero below a hundredth of the static load, or where it carries \
+                    nothing";
+const NADAL: &str = "L/V over Nadal's limit for the angle of the wheel's own flange and the friction of its rail \
+                     there, where nothing slips";
+const WEINSTOCK: &str = "sizes of both wheels' L/V over Weinstock's limit: Nadal's for the flange that bears, and \
+                         the friction of the other tread";
+const ANGLE: &str = "angle of the contact that carries most, against the track's plane, positive where it rises \
+                     to the field side; zero without contact";
+const LIFT: &str = "how far the wheel must be lowered until it bears on its rail; zero while it bears";
+const WEAR: &str = "energy that creep takes by the distance: creep forces times creepages";
 
-/// Columns of a wheelset.
-const OF_AXLE: [(&str, Kind, &str, ReadAxle); 12] = [
+/// Columns of a wheelset, the wheels' after these.
+const OF_AXLE: [(&str, Kind, &str, ReadAxle); 7] = [
     ("distance", Kind::Distance, "distance along the track", |own| {
         own.distance
     }),
@@ -223,44 +237,122 @@ const OF_AXLE: [(&str, Kind, &str, ReadAxle); 12] = [
     ),
     ("spin", Kind::Angle, "angle of the spin", |own| own.spin),
     ("yaw", Kind::Angle, "yaw to the track, to the left", |own| own.yaw),
-    ("left_vertical_force", Kind::Force, VERTICAL, |own| {
-        own.vertical[0]
-    }),
-    ("right_vertical_force", Kind::Force, VERTICAL, |own| {
-        own.vertical[1]
-    }),
-    ("left_lateral_force", Kind::Force, LATERAL, |own| own.spreading[0]),
-    ("right_lateral_force", Kind::Force, LATERAL, |own| {
-        own.spreading[1]
-    }),
-    ("left_l_over_v", Kind::Dimensionless, OVER, |own| l_over_v(own, 0)),
-    ("right_l_over_v", Kind::Dimensionless, OVER, |own| {
-        l_over_v(own, 1)
-    }),
+    (
+        "lateral_force",
+        Kind::Force,
+        "force of both wheels on the track along its plane, positive to the left",
+        |own| own.wheels[0].lateral - own.wheels[1].lateral,
+    ),
 ];
 
-/// Returns what is seen of a wheelset.
-pub(crate) fn of_axle(axle: &Axle) -> Channels {
-    let columns = OF_AXLE.map(|(ending, kind, text, _)| Column {
+/// How a channel of a wheel is read.
+type ReadWheel = fn(&WheelLoads) -> f64;
+
+/// Columns of a wheel.
+const OF_WHEEL: [(&str, Kind, &str, ReadWheel); 5] = [
+    ("vertical_force", Kind::Force, VERTICAL, |own| own.vertical),
+    ("lateral_force", Kind::Force, LATERAL, |own| own.lateral),
+    ("contact_angle", Kind::Angle, ANGLE, |own| own.contact_angle),
+    ("lift", Kind::Length, LIFT, |own| own.lift),
+    ("wear_number", Kind::Force, WEAR, |own| own.wear_number),
+];
+
+/// Returns what is seen of a wheelset of a number, whose wheels have these static loads (N; zero: not known)
+/// and flanges.
+pub(crate) fn of_axle(
+    (axle, number): (&Axle, usize),
+    loads: [f64; 2],
+    limits: &Arc<ClimbLimits>,
+) -> Channels {
+    let own = |ending: &str, kind: Kind, text: &str| Column {
         frame: Cow::Borrowed("track: along, to the left, up, at the wheelset"),
         ..column(
             format!("{}_{ending}", axle.name),
             kind,
             format!("{}: {text}", axle.name),
         )
-    });
-    let axle = axle.clone();
-    Channels::new(columns.to_vec(), move |view, row| {
+    };
+    let mut columns: Vec<Column> = OF_AXLE
+        .iter()
+        .map(|(ending, kind, text, _)| own(ending, *kind, text))
+        .collect();
+    for side in SIDES {
+        let of_wheel = OF_WHEEL.iter();
+        columns.extend(of_wheel.map(|(ending, kind, text, _)| own(&format!("{side}_{ending}"), *kind, text)));
+        columns.push(own(&format!("{side}_l_over_v"), Kind::Dimensionless, OVER));
+        columns.push(own(&format!("{side}_nadal_share"), Kind::Dimensionless, NADAL));
+    }
+    columns.push(own("weinstock_share", Kind::Dimensionless, WEINSTOCK));
+    let (axle, limits) = (axle.clone(), limits.clone());
+    Channels::new(columns, move |view, row| {
         let state = axle.state(view.seen);
         row.extend(OF_AXLE.map(|(.., read)| read(&state)));
+        let limits = limits.at(number, state.distance);
+        let ratios = [0, 1].map(|side| {
+            let wheel = &state.wheels[side];
+            match wheel.vertical > LEAST_SHARE * loads[side] {
+                true => wheel.l_over_v(),
+                false => 0.0,
+            }
+        });
+        for (side, wheel) in state.wheels.iter().enumerate() {
+            row.extend(OF_WHEEL.map(|(.., read)| read(wheel)));
+            row.extend([ratios[side], ratios[side] / limits.nadal[side]]);
+        }
+        row.push(limits.weinstock_share(ratios));
     })
 }
 
-fn l_over_v(own: &AxleState, side: usize) -> f64 {
-    match own.vertical[side] > 0.0 {
-        true => own.spreading[side] / own.vertical[side],
-        false => 0.0,
-    }
+/// Returns what an accelerometer shows, on a body with this center of gravity in the nominal layout (m).
+pub(crate) fn of_accelerometer(own: &Accelerometer, center: [f64; 3], gravity: f64) -> Channels {
+    let felt = "as an accelerometer shows it along the body's";
+    let columns = [
+        ("lateral", "left: with gravity's part by roll and superelevation"),
+        ("vertical", "up, less gravity"),
+    ]
+    .map(|(direction, text)| Column {
+        frame: Cow::Borrowed("body: left, up"),
+        ..column(
+            format!("{}_{direction}_acceleration", own.name),
+            Kind::RideAcceleration,
+            format!("{}: {felt} {text}", own.name),
+        )
+    });
+    let arm = [0, 1, 2].map(|k| own.at[k] - center[k]);
+    let number = own.body;
+    Channels::new(columns.to_vec(), move |view, row| {
+        let [_, left, up] = felt_at(view, number, arm, gravity);
+        row.extend([left, up - gravity]);
+    })
+}
+
+/// Returns what a body shows at an arm from its center of gravity (nominal layout, m), along its own axes
+/// forward, left, up, m/s².
+fn felt_at(view: &View<'_>, number: usize, arm: [f64; 3], gravity: f64) -> [f64; 3] {
+    let own = &view.seen.bodies[number];
+    let nominal = fixed(view.system.bodies()[number].frame.orientation);
+    let turned: Matrix<f64> = own.rotation.times(nominal.transpose());
+    let way: Vector<f64> = turned.apply(Vector(arm));
+    let from_origin = own.center_of_gravity + way - own.origin;
+    let shown = car::accelerometer((view.system, gravity), (number, own), from_origin, view.rates);
+    [0, 1, 2].map(|k| turned.column(k).dot::<f64, f64>(shown))
+}
+
+/// Returns the lateral accelerations of bolster and side frames of a truck, by their numbers.
+pub(crate) fn of_truck_parts(name: &str, parts: [usize; 3], gravity: f64) -> Channels {
+    let columns = TRUCK_PARTS.map(|part| {
+        column(
+            format!("{name}_{part}_lateral_acceleration"),
+            Kind::RideAcceleration,
+            format!(
+                "{name}_{part}: at its center of gravity, as an accelerometer shows it along its left: with \
+                 gravity's part by roll and superelevation"
+            ),
+        )
+    });
+    Channels::new(columns.to_vec(), move |view, row| {
+        row.extend(parts.map(|number| felt_at(view, number, [0.0; 3], gravity)[1]));
+    })
 }
 
 /// Returns what is seen of a truck, whose bolster has this number.

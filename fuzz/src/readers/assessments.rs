@@ -268,7 +268,7 @@ fn condition_corpus() -> Vec<Vec<u8>> {
 fn condition_file(input: &[u8]) -> ReadOutcome {
     in_file("conditions.toml", input, |file| {
         let names = [file.display().to_string()];
-        let read = |_: &Path| Condition::chosen(&names);
+        let read = |_: &Path| Condition::chosen(&names, true);
         if let Some(refused) = named(file, read, conditions::parse) {
             return refused;
         }

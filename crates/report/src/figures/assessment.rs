@@ -74,16 +74,21 @@ pub fn over_speed(assessment: &Assessment, findings: &AssessmentFindings, regime
         over(&locked),
     ));
     panels.retain(|panel| !panel.curves.is_empty());
+    let of_wedges = match measures.place("wedge_loss") {
+        Some(_) => {
+            "; then the energy that the friction of all wedges took in a run, and the share of the time after \
+             settling in which no point of a wedge's faces slips, mean of all wedges"
+        }
+        None => "",
+    };
     let columns = panels.len().clamp(1, 2);
     Exhibit::new(
         format!("over_speed_{}", own.name),
         Figure::new(
             format!("{}: over the speed", capital(&own.title)),
             format!(
-                "{}. What is limited, with its limit (dotted); then the energy that the friction of all \
-                 wedges took in a run, and the share of the time after settling in which no point of a \
-                 wedge's faces slips, mean of all wedges. Runs that did not reach the end of their track, or \
-                 failed, are not drawn. Limits: {}, {}.",
+                "{}. What is limited, with its limit (dotted){of_wedges}. Runs that did not reach the end of \
+                 their track, or failed, are not drawn. Limits: {}, {}.",
                 capital(&own.title),
                 assessment.limits.title,
                 assessment.limits.source

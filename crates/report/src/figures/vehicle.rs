@@ -1,4 +1,5 @@
-//! Figures of a vehicle's run over time: what its bodies do, what its elements carry.
+//! Figures of a vehicle's run: what its bodies do, what its elements carry, over time; its wheels on a track
+//! over the distance.
 
 use ::study::vehicle::run::VehicleResult;
 use mechanics::output::Column;
@@ -30,7 +31,31 @@ pub fn exhibits(result: &VehicleResult) -> Vec<Exhibit> {
         ("_normal_force", Kind::Force, "normal force"),
         ("_friction_force", Kind::Force, "friction force"),
     ];
+    let wheels = [
+        ("_left_vertical_force", Kind::Force, "vertical force, left wheels"),
+        (
+            "_right_vertical_force",
+            Kind::Force,
+            "vertical force, right wheels",
+        ),
+        ("_left_l_over_v", Kind::Dimensionless, "L/V, left wheels"),
+        ("_right_l_over_v", Kind::Dimensionless, "L/V, right wheels"),
+        ("_roll", Kind::Angle, "roll"),
+    ];
+    let unit = Kind::Distance.label(result.summary.units);
+    let over = result.columns.iter().find(|own| own.kind == Kind::Distance);
+    let over_distance = over.and_then(|own| {
+        figure(
+            (result, &own.name, &format!("distance ({unit})")),
+            "wheel_loads",
+            "wheels along the track",
+            "Forces of the wheels on their rails, L/V and roll over the distance.",
+            &wheels,
+        )
+    });
+    let result = (result, "time", "time (s)");
     [
+        over_distance,
         figure(
             result,
             "motion",
@@ -52,9 +77,10 @@ pub fn exhibits(result: &VehicleResult) -> Vec<Exhibit> {
     .collect()
 }
 
-/// Returns the figure of the columns with these endings; none where nothing moves.
+/// Returns the figure of the columns with these endings over one of a run, with the text of its axis; none
+/// where nothing moves.
 fn figure(
-    result: &VehicleResult,
+    (result, x, x_axis): (&VehicleResult, &str, &str),
     name: &str,
     title: &str,
     caption: &str,
@@ -80,14 +106,14 @@ fn figure(
             .map(|(number, column)| {
                 let (colour, line) = distinct(number);
                 let label = owner(column).replace('_', " ");
-                curve(result, "time", &column.name, (&label, colour, line))
+                curve(result, x, &column.name, (&label, colour, line))
             })
             .collect();
         if !curves.is_empty() {
             let letter = char::from(b'a' + u8::try_from(panels.len()).unwrap_or(0));
             panels.push(Panel::new(
                 format!("({letter}) {label}"),
-                "time (s)",
+                x_axis.to_owned(),
                 axis("", *kind, units).trim().to_owned(),
                 curves,
             ));

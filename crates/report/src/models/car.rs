@@ -6,14 +6,13 @@ use quantity::Kind;
 use study::car::CarCase;
 use study::car::motions::MotionTable;
 use study::car::run::CarResult;
-use study::car::statistics::NO_STATISTICS;
 use study::car::summary::CarSummary;
-use study::car::worst::place_in_words;
 use study::models::AnyCase;
 use study::run::{Run, RunError};
 use study::statics::StaticTable;
 use study::summary::{RunSummary, SummaryValue};
 
+use super::limits;
 use super::{GoOn, Loop, LoopAxis, ReportCase, ReportSummary, joules, range, with_note};
 use crate::figures::car::CarRun;
 use crate::figures::side_by_side::Wanted;
@@ -26,15 +25,7 @@ use crate::view::run::{Detail, Recording};
 
 impl ReportSummary for CarSummary {
     fn key_numbers(&self, _: Option<&AnyCase>) -> Vec<KeyNumber> {
-        let mut numbers: Vec<KeyNumber> = self
-            .limits
-            .iter()
-            .map(|limit| {
-                let at = limit.statistic.replace('_', " ");
-                let window = format!("worst after settling, at {at}");
-                KeyNumber::plain(&limit.quantity, window, limit.value, &limit.unit)
-            })
-            .collect();
+        let mut numbers = limits::key_numbers(self.limits());
         for ((what, value), kind) in [
             ("speed at the start", &self.speed[0]),
             ("speed at the end", &self.speed[1]),
@@ -181,7 +172,7 @@ impl ReportCase for CarCase {
 
     /// Its limits, and what its start locks in.
     fn in_words(summary: &CarSummary, _: Duration) -> (TerminalTable, String) {
-        let (table, about) = limits_beside(summary);
+        let (table, about) = limits::beside(summary);
         (table, with_note(&about, summary.start_in_words()))
     }
 
@@ -231,67 +222,3 @@ impl ReportCase for CarCase {
 }
 
 impl RunFiles for CarCase {}
-
-fn limits_beside(summary: &CarSummary) -> (TerminalTable, String) {
-    if summary.limits.is_empty() {
-        let why = summary
-            .warnings()
-            .iter()
-            .find(|own| own.starts_with(NO_STATISTICS));
-        let why = why.and_then(|own| own.strip_prefix(NO_STATISTICS));
-        (
-            TerminalTable::new(1, &[]),
-            format!("No statistics{}.", why.unwrap_or_default()),
-        )
-    } else if summary.limits.iter().any(|own| own.unfiltered) {
-        (table(summary), format!("{}\n{UNFILTERED_NOTE}", note(summary)))
-    } else {
-        (table(summary), note(summary))
-    }
-}
-
-/// The note on values that no filter has passed.
-const UNFILTERED_NOTE: &str = "\
-Values without margin are raw: the rows are too far apart for the filter that their limit is for. Shorten \
-simulation.output_interval.";
-
-/// Returns the note that explains the columns of a car's table.
-fn note(summary: &CarSummary) -> String {
-    format!(
-        "Worst value of each kind, of filtered forces and accelerations, beside limits of {}.\n\
-         A limit counts for its regimes only (summary.json names them). Margin: what is left, in parts\n\
-         of it; of a least share, of the way from 100 %.",
-        summary.limits_of
-    )
-}
-
-/// Returns the table of a car's limits.
-fn table(summary: &CarSummary) -> TerminalTable {
-    let mut table = TerminalTable::new(
-        2,
-        &[
-            ("quantity", ""),
-            ("worst at", ""),
-            ("value", ""),
-            ("limit", ""),
-            ("margin", "%"),
-        ],
-    );
-    for own in &summary.limits {
-        let shown = |value: f64| match own.unit.as_str() {
-            "" => format!("{value:.3}"),
-            unit => format!("{value:.3} {unit}"),
-        };
-        table.row([
-            own.quantity.clone(),
-            place_in_words(&own.statistic),
-            shown(own.value),
-            shown(own.limit),
-            match own.unfiltered {
-                true => "-".to_owned(),
-                false => format!("{:.0}", 100.0 * own.margin),
-            },
-        ]);
-    }
-    table
-}

@@ -21,6 +21,7 @@ use crate::view::run::{Detail, Recording};
 
 mod car;
 mod half_truck;
+mod limits;
 mod truck;
 mod vehicle;
 pub(crate) mod wedge;

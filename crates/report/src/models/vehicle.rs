@@ -5,11 +5,12 @@ use std::time::Duration;
 use quantity::Kind;
 use study::models::AnyCase;
 use study::run::Run;
+use study::summary::RunSummary;
 use study::vehicle::VehicleCase;
 use study::vehicle::run::VehicleResult;
 use study::vehicle::summary::VehicleSummary;
 
-use super::{GoOn, ReportCase, ReportSummary};
+use super::{GoOn, ReportCase, ReportSummary, limits};
 use crate::figures::side_by_side::Wanted;
 use crate::overlay::words;
 use crate::page;
@@ -21,7 +22,7 @@ use crate::view::run::{Detail, Recording};
 
 impl ReportSummary for VehicleSummary {
     fn key_numbers(&self, _: Option<&AnyCase>) -> Vec<KeyNumber> {
-        let mut numbers = Vec::new();
+        let mut numbers = limits::key_numbers(self.limits());
         for (number, vibration) in (1..).zip(&self.vibrations).take(8) {
             let window = "about the rest";
             let what = format!("natural frequency {number}");
@@ -91,7 +92,10 @@ impl ReportCase for VehicleCase {
     }
 
     fn in_words(summary: &VehicleSummary, _: Duration) -> (TerminalTable, String) {
-        (table(summary), NOTE.to_owned())
+        match summary.by_rules() {
+            Some(_) => limits::beside(summary),
+            None => (table(summary), NOTE.to_owned()),
+        }
     }
 }
 

@@ -6,29 +6,25 @@ use maud::{Markup, html};
 use quantity::System as Units;
 use study::assessment::dependence::{Dependence, NEAR};
 use study::assessment::{Assessment, LimitVerdict, counted, worst_run};
-use study::car::figures::CarFigures;
-use study::car::limits::{self, Bound, Limit, Mark};
-use study::car::worst::place_in_words;
+use study::car::limits::{Bound, Limit, Mark};
 use study::records::Status;
 
 use super::table::{self, Head};
 use super::{document, in_unit, moving_as, shown_in};
 use crate::assessment_files::{AssessmentFindings, NAMES, kind};
 use crate::figures::assessment::over_speed;
-use crate::figures::car::{CarRun, exhibits};
 use crate::figures::{Exhibit, capital, digits};
 use crate::study_folder::TABLE_FILE;
 use crate::view::View;
-use crate::view::run::{Detail, Recording};
 
 pub use against::{Against, AgainstError, Other};
+pub use worst_run::TrackRun;
 
 mod against;
+mod worst_run;
 
 /// The page's file name.
 pub const FILE_NAME: &str = super::FILE_NAME;
-/// The duration around the worst value that is shown moving, s.
-const SECOND: f64 = 1.0;
 /// Figures over the distance of the worst run of a regime.
 const OVER_DISTANCE: [&str; 3] = ["wheel_loads", "l_over_v", "body_roll"];
 
@@ -37,8 +33,8 @@ const OVER_DISTANCE: [&str; 3] = ["wheel_loads", "l_over_v", "body_roll"];
 pub struct WorstRun {
     /// The number of the regime.
     pub regime: usize,
-    /// The run, with the motions of its bodies.
-    pub run: CarRun,
+    /// The run.
+    pub run: TrackRun,
     /// The folder of its files, from the page's folder.
     pub folder: String,
     /// The start of the worst, s, and its name.
@@ -63,13 +59,20 @@ pub fn render(
     let over_distances: Vec<Vec<Exhibit>> = worst
         .iter()
         .map(|own| {
-            let all = exhibits(&own.run);
+            let all = own.run.exhibits();
             let wanted = |exhibit: &Exhibit| OVER_DISTANCE.iter().any(|name| exhibit.name.ends_with(name));
             all.into_iter().filter(wanted).collect()
         })
         .collect();
     let shown = over_speeds.iter().chain(over_distances.iter().flatten());
-    let data = View::new(Units::Us, worst.iter().map(second), shown).to_json()?;
+    let data = View::new(
+        Units::Us,
+        worst
+            .iter()
+            .map(|own| own.run.around(own.worst.as_ref().map(|(time, _)| *time))),
+        shown,
+    )
+    .to_json()?;
     let main = html! {
         (summary(assessment, findings))
         @for (condition, own) in assessment.conditions.iter().enumerate() {
@@ -107,7 +110,7 @@ pub fn render(
         count => format!(" ({count} of them at speeds about the worst ones, to 0.5 mph)"),
     };
     let lead = format!(
-        "{}{about} of the car {}: {}, {}. Limits: {}, {}. Tracks of the regimes are from memory: check \
+        "{}{about} of {}: {}, {}. Limits: {}, {}. Tracks of the regimes are from memory: check \
          them against your edition.",
         counted(findings.runs.len(), "run"),
         assessment.car,
@@ -118,24 +121,6 @@ pub fn render(
     );
     let heading = format!("{}: {}", capital(kind(assessment, findings)), assessment.car);
     Ok(document(&heading, &lead, None, &main, Some(&data)))
-}
-
-/// Returns the rows of a run around its worst second.
-fn second(own: &WorstRun) -> Recording {
-    let run = &own.run;
-    let (mut result, mut motions) = (run.result.clone(), run.motions.clone());
-    if let (Some((begin, _)), Some(times)) = (&own.worst, run.result.column("time")) {
-        let from = times.partition_point(|time| *time < begin - 0.5 * SECOND);
-        let to = times.partition_point(|time| *time <= begin + 0.5 * SECOND);
-        let tables = [
-            Some(&mut result.values),
-            motions.as_mut().map(|own| &mut own.values),
-        ];
-        for column in tables.into_iter().flatten().flatten() {
-            *column = column.get(from..to).unwrap_or_default().to_vec();
-        }
-    }
-    Recording::of_car(&run.case, &result, motions.as_ref(), Detail::Thinned)
 }
 
 fn summary(assessment: &Assessment, findings: &AssessmentFindings) -> Markup {
@@ -453,21 +438,12 @@ fn worst_of(assessment: &Assessment, findings: &AssessmentFindings, own: &WorstR
     let Some(run) = worst_run(&findings.runs, own.regime) else {
         return html! {};
     };
-    let summary = &own.run.result.summary;
     let heads = [
         Head::Words("wedge"),
         Head::Numbers("lost in friction"),
         Head::Numbers("no point slips"),
     ];
-    let rows = summary.wedge_losses.iter().map(|(name, loss)| {
-        let locked = summary.wedge_locked.get(name);
-        let locked = locked.map(|share| format!("{:.0} % of the time", 100.0 * share));
-        [
-            name.replace('_', " "),
-            in_unit(loss.value, &loss.unit),
-            locked.unwrap_or_else(|| "–".to_owned()),
-        ]
-    });
+    let (summary, wedges) = (own.run.summary(), own.run.wedges());
     html! {
         h3 { "The worst run: " (run.speed) ", " (assessment.conditions[run.condition].title) }
         (super::doubts_about("The run", summary))
@@ -475,9 +451,8 @@ fn worst_of(assessment: &Assessment, findings: &AssessmentFindings, own: &WorstR
             @if let Some((time, what)) = &own.worst { "From " (digits(*time)) " s on: " (what) ". " }
             a href={ (own.folder) "/" (super::FILE_NAME) } { "All of this run" } "."
         }
-        @if own.run.motions.is_some() { (moving_as(&summary.name, "The worst second, \
-                                                                            moving", own.regime == 0)) }
-        (table::wide(&heads, rows))
+        @if own.run.moves() { (moving_as(summary.name(), "The worst second, moving", own.regime == 0)) }
+        @if !wedges.is_empty() { (table::wide(&heads, wedges)) }
     }
 }
 
@@ -496,19 +471,17 @@ fn files() -> Markup {
 
 /// Returns the worst value of a run with its time, that of the limit that is kept least.
 #[must_use]
-pub fn worst_second(assessment: &Assessment, regime: usize, run: &CarRun) -> Option<(f64, String)> {
-    let summary = &run.result.summary;
-    if let Some(own) = &summary.derailed {
-        return Some((own.time, own.what.clone()));
+pub fn worst_second(assessment: &Assessment, regime: usize, run: &TrackRun) -> Option<(f64, String)> {
+    let summary = run.summary();
+    if let Some(own) = summary.derailed() {
+        return Some((own.time, own.reason));
     }
     let name = &assessment.regimes[regime].name;
     let own = assessment.limits.limits.iter().filter(|limit| limit.is_for(name));
-    let figures = CarFigures::of(&run.case.parameters);
-    let known = limits::known(&figures, &summary.statistics, summary.units);
     let found = own.filter_map(|limit| {
-        let (check, time) = limit.check(&summary.statistics, &known, (&run.case.rules, summary.units))?;
-        let what = format!("{}, {}", check.quantity, place_in_words(&check.statistic));
-        Some((check.margin, time?, what))
+        let check = summary.limits().iter().find(|own| own.name == limit.name)?;
+        let what = format!("{}, {}", check.quantity, check.worst_at());
+        Some((check.margin, check.time?, what))
     });
     let least = found.min_by(|a, b| a.0.total_cmp(&b.0));
     least.map(|(_, time, what)| (time, what))

@@ -1,6 +1,7 @@
 //! `index.html`: the report as one page that needs nothing else to be shown.
 
 pub mod assessment;
+mod by_rules;
 pub mod car_run;
 mod contents;
 pub mod explorer;

@@ -5,6 +5,7 @@ use study::vehicle::VehicleCase;
 use study::vehicle::run::VehicleResult;
 use study::vehicle::summary::VehicleSummary;
 
+use super::by_rules::by_rules;
 use super::table::{self, Head};
 use super::{figures, in_unit, ledger_note, run_page};
 use crate::figures::digits;
@@ -20,6 +21,7 @@ pub fn render(case: &VehicleCase, result: &VehicleResult) -> Result<String, serd
     let exhibits = exhibits(result);
     let recording = Recording::of_vehicle(case, result, Detail::Thinned);
     let sections = html! {
+        (by_rules(summary))
         section { h2 { "Natural vibrations" } (vibrations(summary)) }
         section { h2 { "At the start" } (start(summary)) }
         section { h2 { "Energy" } (energy(summary)) }

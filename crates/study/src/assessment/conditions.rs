@@ -51,17 +51,18 @@ impl Condition {
         &ALL
     }
 
-    /// Returns those that texts name: built-in ones by their names, or all of a file.
+    /// Returns those that texts name: built-in ones by their names, or all of a file, which is tried on a car
+    /// if they are for one: a vehicle has keys by the names of its parts.
     ///
     /// # Errors
     /// There are none of this name, or something in a file is wrong.
-    pub fn chosen(texts: &[String]) -> Result<Vec<Self>, CaseError> {
+    pub fn chosen(texts: &[String], for_car: bool) -> Result<Vec<Self>, CaseError> {
         let mut chosen: Vec<Self> = Vec::new();
         for text in texts {
             let text = if text == BEFORE[0] { BEFORE[1] } else { text };
             let found = match find("there is no condition", text, Self::all(), |own| &own.name)? {
                 BuiltInOrFile::BuiltIn(own) => vec![own.clone()],
-                BuiltInOrFile::File(path) => read(path)?,
+                BuiltInOrFile::File(path) => read(path, for_car)?,
             };
             for own in found {
                 if chosen.iter().any(|other| other.name == own.name) {
@@ -75,15 +76,15 @@ impl Condition {
     }
 }
 
-/// Reads a file of conditions, and tries each on the car of which nothing is given; mistakes are shown in the
-/// file.
-fn read(path: &Path) -> Result<Vec<Condition>, CaseError> {
+/// Reads a file of conditions, and tries each on the car of which nothing is given if they are for a car;
+/// mistakes are shown in the file.
+fn read(path: &Path, for_car: bool) -> Result<Vec<Condition>, CaseError> {
     let help = "`wedgelab regime --show conditions` prints conditions to begin with";
     let text = named::read(path, "file of conditions", &[FileType::Conditions], help)?;
     let source = path.display().to_string();
     let found = parse(&source, &text)?;
     let tree = tree::parse(&TomlSource::new(source, text.as_str())).map_err(CaseError::new)?;
-    for own in &found {
+    for own in found.iter().filter(|_| for_car) {
         let key = format!("conditions.{}.set", own.name);
         try_on_car(&own.set, |path| {
             let path = path.map(|path| format!("{key}.{path}"));

@@ -14,15 +14,16 @@
 //!
 //! NEAR is a choice.
 
-use car::{StartKind, Wheels};
+use car::{ProfiledWheels, StartKind, Wheels};
 use serde::Serialize;
-use wheelrail::contact::CreepLaw;
+use wheelrail::contact::{ContactLaw, CreepLaw};
 
 use super::{Assessment, LimitVerdict};
 use crate::car::CarCase;
 use crate::car::locked_in::name;
 use crate::models::AnyCase;
 use crate::records::{self, Record, Status};
+use crate::vehicle::VehicleCase;
 
 /// Margin, in parts of the limit, up to which a result is near it, kept or not.
 pub const NEAR: f64 = 0.15;
@@ -136,41 +137,53 @@ pub fn wanted(verdicts: &[LimitVerdict], frictions: &[f64]) -> Vec<(u64, Change)
     wanted
 }
 
+/// Gives wheels another friction, that of the rail where it is greatest; `None` if that changes nothing.
+fn rubbed(wheels: &mut ProfiledWheels, other: f64) -> Option<Changed> {
+    let creeps = |law: &ContactLaw| !matches!(law.creep, CreepLaw::Frictionless | CreepLaw::Linear);
+    let own = wheels.laws.iter().filter(|law| creeps(law));
+    let own = own.flat_map(|law| law.friction.all()).fold(0.0, f64::max);
+    if own <= 0.0 || (own - other).abs() < SAME {
+        return None;
+    }
+    for law in wheels.laws.iter_mut() {
+        law.friction = law.friction.scaled(other / own);
+    }
+    Some(Changed::Friction([own, other]))
+}
+
 impl Assessment {
     /// Computes a run of it, by its number and its case, with a change; `None` where that changes nothing: a
-    /// car on linear wheels has one start and no friction.
+    /// car on linear wheels has one start and no friction, a vehicle one start.
     #[must_use]
     pub fn varied(&self, run: u64, case: &AnyCase, change: Change) -> Option<Varied> {
-        let mut case = CarCase::clone(case.car()?);
-        let Wheels::OnRails(wheels) = &mut case.parameters.wheels else {
-            return None;
-        };
-        let changed = match change {
-            Change::Start => {
-                let own = case.parameters.start.kind;
-                let other = match own {
-                    StartKind::Shaken => StartKind::Equilibrium,
-                    StartKind::Equilibrium | StartKind::Nominal => StartKind::Shaken,
-                };
-                case.parameters.start.kind = other;
-                Changed::Start([own, other].map(name))
-            }
-            Change::Friction(other) => {
-                let creeps = |law: &wheelrail::contact::ContactLaw| {
-                    !matches!(law.creep, CreepLaw::Frictionless | CreepLaw::Linear)
-                };
-                let own = wheels.laws.iter().filter(|law| creeps(law));
-                let own = own.flat_map(|law| law.friction.all()).fold(0.0, f64::max);
-                if own <= 0.0 || (own - other).abs() < SAME {
+        let (case, changed): (AnyCase, Changed) = match (case, change) {
+            (AnyCase::Car(own), _) => {
+                let mut case = CarCase::clone(own);
+                let Wheels::OnRails(wheels) = &mut case.parameters.wheels else {
                     return None;
-                }
-                for law in wheels.laws.iter_mut() {
-                    law.friction = law.friction.scaled(other / own);
-                }
-                Changed::Friction([own, other])
+                };
+                let changed = match change {
+                    Change::Start => {
+                        let own = case.parameters.start.kind;
+                        let other = match own {
+                            StartKind::Shaken => StartKind::Equilibrium,
+                            StartKind::Equilibrium | StartKind::Nominal => StartKind::Shaken,
+                        };
+                        case.parameters.start.kind = other;
+                        Changed::Start([own, other].map(name))
+                    }
+                    Change::Friction(other) => rubbed(wheels, other)?,
+                };
+                (case.into(), changed)
             }
+            (AnyCase::Vehicle(own), Change::Friction(other)) => {
+                let mut case = VehicleCase::clone(own);
+                let changed = rubbed(&mut case.description.on_track.as_mut()?.wheels, other)?;
+                (case.into(), changed)
+            }
+            _ => return None,
         };
-        let record = records::run_case(&self.study, run, &case.into());
+        let record = records::run_case(&self.study, run, &case);
         Some(Varied { run, changed, record })
     }
 

@@ -1,16 +1,18 @@
 //! The text of an assessment's study: a row each regime, condition and speed.
 
 use std::fmt::Write;
+use std::sync::Arc;
 
 use super::Request;
 use super::conditions::Condition;
+use crate::car::CarCase;
 use crate::car::regime::{Regime, START, says_start};
 use crate::case::problem::TomlSource;
 use crate::case::{CaseError, overrides, tree};
 use crate::models::{AnyCase, CaseSource};
 
 /// Returns which conditions start shaken: those in which neither the case, nor --set, nor a regime, nor the
-/// condition says how the car starts. A car on linear wheels is never shaken.
+/// condition says how the car starts. A car on linear wheels and a vehicle are never shaken.
 pub(super) fn is_shaken(
     request: &Request,
     (source, base): (&CaseSource, &AnyCase),
@@ -21,13 +23,11 @@ pub(super) fn is_shaken(
         return Ok(vec![false; conditions.len()]);
     };
     let tree = tree::parse(&TomlSource::new(name.as_str(), text.as_str())).map_err(CaseError::new)?;
-    let linear = base
-        .car()
-        .is_some_and(|own| matches!(own.parameters.wheels, ::car::Wheels::Linear { .. }));
+    let on_rails = |own: &Arc<CarCase>| matches!(own.parameters.wheels, ::car::Wheels::OnRails(_));
     let said = tree.place_of(START).is_some()
         || says_start(&request.set)
         || regimes.iter().any(|own| says_start(&own.set))
-        || linear;
+        || !base.car().is_some_and(on_rails);
     Ok(conditions
         .iter()
         .map(|own| !said && !says_start(&own.set))
@@ -43,7 +43,7 @@ pub(super) fn text(
     car: &AnyCase,
     (output, shaken): (&[String], Vec<bool>),
 ) -> Result<String, CaseError> {
-    let is_empty = car.car().is_some_and(|own| own.parameters.lading.is_empty());
+    let is_empty = car.car().map(|own| own.parameters.lading.is_empty());
     let mut text = format!("case = \"{}\"\nsampling = \"list\"\n[set]\n", car.name());
     let lines = |text: &mut String, set: &[String]| {
         for own in set {
@@ -61,8 +61,8 @@ pub(super) fn text(
     for regime in regimes {
         let _ = writeln!(text, "[groups.regime.\"{}\"]", regime.name);
         let lading = match regime.lading.as_deref() {
-            Some("loaded") if is_empty => Some("loaded"),
-            Some("empty") if !is_empty => Some("empty"),
+            Some("loaded") if is_empty == Some(true) => Some("loaded"),
+            Some("empty") if is_empty == Some(false) => Some("empty"),
             _ => None,
         };
         if let Some(lading) = lading {

@@ -12,6 +12,7 @@ use wheelrail::profile::Profile;
 
 use super::statistics::Rules;
 use super::{CarCase, friction, rails};
+use crate::reader::CaseText;
 use crate::truck::assumptions::of_kinds;
 use crate::wedge_faces;
 
@@ -41,11 +42,11 @@ pub(crate) fn of_support(support: Option<&RailSupport>, own: &str, gravity: f64)
 
 /// Appends the assumptions about the profiles of wheels and rails: of all where they are alike, else of each
 /// side or each wheel.
-fn of_wheels(case: &CarCase, own: &ProfiledWheels, list: &mut Vec<String>) {
+pub(crate) fn of_wheels(text: &CaseText, own: &ProfiledWheels, list: &mut Vec<String>) {
     let typed = |paths: &[String]| {
         let found = paths
             .iter()
-            .map(|path| case.typed(path))
+            .map(|path| text.as_typed(path))
             .find(|typed| !typed.is_empty());
         found.unwrap_or_default().to_owned()
     };
@@ -86,7 +87,7 @@ fn of_wheels(case: &CarCase, own: &ProfiledWheels, list: &mut Vec<String>) {
 }
 
 /// Returns the assumption about the contacts of wheels on rails.
-fn of_contacts([law, right]: &[ContactLaw; 2], tables: bool) -> String {
+pub(crate) fn of_contacts([law, right]: &[ContactLaw; 2], tables: bool) -> String {
     let friction = match law.friction == right.friction {
         true => friction::in_words(&law.friction),
         false => format!(
@@ -144,6 +145,43 @@ fn of_warp(parameters: &Parameters) -> Option<String> {
     }
 }
 
+/// Returns the assumption about what holds the speed, by a force on a body.
+pub(crate) fn of_drive(drive: &Drive, body: &str) -> String {
+    match drive {
+        Drive::Held { .. } | Drive::Over { .. } => {
+            format!(
+                "A force on {body} along the track holds the speed; it stands for all that pulls and brakes."
+            )
+        }
+        Drive::History { .. } => {
+            format!(
+                "A force on {body} along the track holds the speed of the history at the place where a car \
+                 that follows it is; it stands for all that pulls and brakes."
+            )
+        }
+        Drive::Coasting => "No force holds the speed.".to_owned(),
+    }
+}
+
+/// Returns the assumption about the statistics.
+pub(crate) fn of_rules(rules: &Rules) -> String {
+    let remembered = Rules {
+        filtered_columns: rules.filtered_columns,
+        ..Rules::default()
+    };
+    match *rules == remembered {
+        true => {
+            "Filters, times, distances and limits of the statistics are remembered of AAR M-1001, chapter \
+                 XI, 49 CFR 213.333 and EN 14363:2005: check them against your edition."
+                .to_owned()
+        }
+        false => "Filters, times and distances of the statistics are the case's own ([output]); built-in \
+                  ones and limits are remembered of AAR M-1001, chapter XI, 49 CFR 213.333 and EN \
+                  14363:2005: check them against your edition."
+            .to_owned(),
+    }
+}
+
 /// Returns the wedges of both trucks with their names in words.
 pub(super) fn named(parameters: &Parameters) -> Vec<(String, &Wedge)> {
     let [front, rear] = &parameters.trucks;
@@ -161,7 +199,7 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
     ];
     match &p.wheels {
         Wheels::OnRails(own) => {
-            of_wheels(case, own, &mut list);
+            of_wheels(&case.text, own, &mut list);
             list.push(of_contacts(&own.laws, own.tables));
         }
         Wheels::Linear { .. } => list.push(
@@ -176,19 +214,7 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
     list.extend(wedge_faces::assumptions(&named(p)));
     list.extend(of_kinds(&wedges));
     list.extend(of_warp(p));
-    list.push(match &p.drive {
-        Drive::Held { .. } | Drive::Over { .. } => {
-            "A force on the car body along the track holds the speed; it stands for all that pulls and \
-             brakes."
-                .to_owned()
-        }
-        Drive::History { .. } => {
-            "A force on the car body along the track holds the speed of the history at the place where a \
-             car that follows it is; it stands for all that pulls and brakes."
-                .to_owned()
-        }
-        Drive::Coasting => "No force holds the speed.".to_owned(),
-    });
+    list.push(of_drive(&p.drive, "the car body"));
     let start = match p.start.kind {
         StartKind::Equilibrium => {
             "The car starts in equilibrium without friction, bristles undeflected, wheels rolling"
@@ -208,20 +234,6 @@ pub(super) fn of(case: &CarCase) -> Vec<String> {
         "{start}{moved}; statistics begin at {} s (start.settle).",
         p.start.settle
     ));
-    let remembered = Rules {
-        filtered_columns: case.rules.filtered_columns,
-        ..Rules::default()
-    };
-    list.push(match case.rules == remembered {
-        true => {
-            "Filters, times, distances and limits of the statistics are remembered of AAR M-1001, chapter \
-                 XI, 49 CFR 213.333 and EN 14363:2005: check them against your edition."
-                .to_owned()
-        }
-        false => "Filters, times and distances of the statistics are the case's own ([output]); built-in \
-                  ones and limits are remembered of AAR M-1001, chapter XI, 49 CFR 213.333 and EN \
-                  14363:2005: check them against your edition."
-            .to_owned(),
-    });
+    list.push(of_rules(&case.rules));
     list
 }

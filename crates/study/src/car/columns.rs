@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use car::{BuildError, Car, Derailment, Loads, Parameters, Wheels};
+use car::{BuildError, Car, ClimbLimits, Derailment, Loads, Parameters, Wheels};
 use mechanics::channel::{Channels, Seen, WithLoads};
 use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
@@ -12,8 +12,7 @@ use wheelrail::profile::SlicedProfile;
 use wheelrail::track::Track;
 
 use super::derailment;
-use super::figures::ClimbLimits;
-use super::statistics::{SIDES, TRUCK_PARTS, ratio};
+use super::statistics::{AxlePart, Parts, PlacePart, SIDES, TruckPart, in_words, ratio};
 use crate::truck::channels::{FACES, FRICTION, TruckChannels, losses_at, names_of_face, places_of};
 
 /// The table of a car's results, for any observation of its system.
@@ -27,6 +26,8 @@ pub struct CarTable {
     over: [Option<Arc<SlicedProfile>>; 2],
     /// What flanges climb at; none with linear wheels.
     climb: Option<Arc<ClimbLimits>>,
+    /// What statistics are taken of.
+    parts: Parts,
     /// Heights of the axles at the start, m.
     heights: [f64; 4],
     wedges_at_start: [[WedgeLoads; 4]; 2],
@@ -41,6 +42,7 @@ impl CarTable {
         let car = Car::new(parameters)?;
         let static_loads = derailment::static_loads(parameters);
         let climb = ClimbLimits::of(parameters).map(Arc::new);
+        let parts = parts_of(parameters, static_loads);
         let Table { columns, fixed } = Table::new(&car, &parameters.trucks, static_loads, climb.clone());
         let x = &car.initial_state;
         let seen = car.system.clone().observe(0.0, x);
@@ -55,6 +57,7 @@ impl CarTable {
             },
             car,
             climb,
+            parts,
             columns,
             fixed,
             static_loads,
@@ -89,6 +92,12 @@ impl CarTable {
     #[must_use]
     pub fn static_loads(&self) -> [[f64; 2]; 4] {
         self.static_loads
+    }
+
+    /// Returns what statistics are taken of.
+    #[must_use]
+    pub fn parts(&self) -> &Parts {
+        &self.parts
     }
 
     /// Returns what the flanges climb at; none with linear wheels.
@@ -132,6 +141,50 @@ impl CarTable {
         let left = self.left(&self.car.loads(observation, &rates))?;
         Some(left.words(&format!("{:.1} m", left.distance)))
     }
+}
+
+/// The parts of a truck that have accelerometers, in columns.
+pub(crate) const TRUCK_PARTS: [&str; 3] = ["bolster", "left_side_frame", "right_side_frame"];
+
+/// Returns what statistics of a car are taken of; static loads of the wheels are by axle, left and right, N.
+#[must_use]
+pub fn parts_of(parameters: &Parameters, static_loads: [[f64; 2]; 4]) -> Parts {
+    let [forward, ..] = parameters.center_of_gravity();
+    let half = 0.5 * parameters.truck_distance;
+    let axles = (0..4).map(|axle: usize| {
+        let base = parameters.trucks[axle / 2].geometry.axle();
+        AxlePart {
+            name: format!("axle_{}", axle + 1),
+            loads: static_loads[axle],
+            place: [half, -half][axle / 2] + [base, -base][axle % 2] - forward,
+        }
+    });
+    let trucks = [1, 2].map(|truck: usize| TruckPart {
+        name: format!("truck_{truck}"),
+        axles: vec![2 * truck - 2, 2 * truck - 1],
+    });
+    let on_bodies = [1, 2].map(|truck| PlacePart {
+        name: format!("body_at_truck_{truck}"),
+        words: format!("body over truck {truck}"),
+    });
+    Parts {
+        distance: "distance".to_owned(),
+        speed: "speed".to_owned(),
+        force: "",
+        axles: axles.collect(),
+        on_trucks: trucks.iter().flat_map(|own| on_truck(&own.name)).collect(),
+        trucks: trucks.to_vec(),
+        bodies: vec![PlacePart::named("body")],
+        on_bodies: on_bodies.to_vec(),
+    }
+}
+
+/// Returns the places of accelerometers on a truck.
+pub(crate) fn on_truck(name: &str) -> [PlacePart; 3] {
+    TRUCK_PARTS.map(|part| PlacePart {
+        name: format!("{name}_{part}"),
+        words: format!("{}, {}", in_words(name), in_words(part)),
+    })
 }
 
 /// Axes that signs refer to, by what a column is about.

@@ -21,8 +21,8 @@ pub mod mode_shape;
 pub mod motions;
 pub(crate) mod named;
 pub mod onset;
-mod output;
-mod peaks;
+pub(crate) mod output;
+pub(crate) mod peaks;
 pub(crate) mod profiles;
 pub(crate) mod rails;
 pub mod regime;
@@ -86,13 +86,6 @@ impl PartialEq for CarCase {
 model_case!(CarCase, Model::Car, trucks::complete, read);
 
 impl CarCase {
-    /// Returns a value of the case as typed or by default; empty if there is none at this path.
-    fn typed(&self, path: &str) -> &str {
-        let fields = self.text.fields.iter().flat_map(|section| &section.fields);
-        let found = fields.into_iter().find(|field| field.path == path);
-        found.map_or("", |field| field.text.as_str())
-    }
-
     /// Returns the speed at the start, m/s.
     #[must_use]
     pub fn speed(&self) -> f64 {

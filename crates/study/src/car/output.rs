@@ -1,4 +1,4 @@
-//! Reading `[output]` of a car: what statistics are taken, and how.
+//! Reading `[output]` of what runs on a track: what statistics are taken, and how.
 
 use quantity::{Kind, Quantity};
 
@@ -11,7 +11,7 @@ use crate::reader::schema::Form;
 use crate::reader::{CaseReader, QuantityForm};
 
 /// Reads `[output]`.
-pub(super) fn output(r: &mut CaseReader<'_>, rules: &mut Rules) {
+pub(crate) fn output(r: &mut CaseReader<'_>, rules: &mut Rules) {
     r.section(
         "output",
         "What statistics are taken, and how, and what is written. All values of statistics are remembered: \

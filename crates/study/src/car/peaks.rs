@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use integrate::{Family, Method};
 use quantity::{Kind, System as Units};
 
-use super::statistics::{SIDES, Statistic};
+use super::statistics::{Parts, SIDES, Statistic, in_words};
 use crate::run::RowTable;
 use crate::summary::SummaryValue;
 
@@ -26,26 +26,18 @@ pub(super) fn damps(method: Method) -> bool {
     method.tableau().family == Family::DiagonallyImplicit
 }
 
-/// Returns the warning about wheels that leave their rails and land with more than their static load (N, by
-/// axle, left and right) in a run by a method that damps.
-pub(super) fn warning(
-    table: &RowTable,
-    static_loads: [[f64; 2]; 4],
-    method: Method,
-    units: Units,
-) -> Option<String> {
+/// Returns the warning about wheels that leave their rails and land with more than their static load in a run
+/// by a method that damps.
+pub(crate) fn warning(table: &RowTable, parts: &Parts, (method, units): (Method, Units)) -> Option<String> {
     if !damps(method) {
         return None;
     }
     let mut all = Vec::new();
-    for (axle, loads) in (1..).zip(static_loads) {
-        for (side, load) in SIDES.into_iter().zip(loads) {
-            let forces = table.column(&format!("axle_{axle}_{side}_vertical"));
-            let own = landings(
-                &format!("{side} wheel of axle {axle}"),
-                table.column("time"),
-                forces,
-            );
+    for (axle, part) in parts.axles.iter().enumerate() {
+        for (side, load) in part.loads.into_iter().enumerate() {
+            let forces = table.column(&parts.force_of(axle, side, "vertical"));
+            let wheel = format!("{} wheel of {}", SIDES[side], in_words(&part.name));
+            let own = landings(&wheel, table.column("time"), forces);
             all.extend(own.into_iter().filter(|own| own.peak > load));
         }
     }
@@ -68,7 +60,7 @@ pub(super) fn warning(
 }
 
 /// Adds to the raw statistics of vertical accelerations what a method that damps does to them.
-pub(super) fn remark(statistics: &mut BTreeMap<String, Statistic>, method: Method) {
+pub(crate) fn remark(statistics: &mut BTreeMap<String, Statistic>, method: Method) {
     if !damps(method) {
         return;
     }
@@ -110,9 +102,21 @@ mod tests {
     use mechanics::output::Column;
 
     use super::*;
+    use crate::car::statistics::AxlePart;
 
     const POUND_FORCE: f64 = 4.448_221_615_260_5;
-    const LOADS: [[f64; 2]; 4] = [[29e3 * POUND_FORCE; 2]; 4];
+
+    fn parts() -> Parts {
+        let axles = (1..=4).map(|axle| AxlePart {
+            name: format!("axle_{axle}"),
+            loads: [29e3 * POUND_FORCE; 2],
+            place: 0.0,
+        });
+        Parts {
+            axles: axles.collect(),
+            ..Parts::default()
+        }
+    }
 
     /// Returns the rows of a car whose left wheel of axle 2 has these forces (lbf) every 5 ms, and whose
     /// other wheels carry 30 kip.
@@ -145,7 +149,7 @@ mod tests {
         forces[60..63].fill(0.0);
         let table = table(&forces);
         for method in [Method::TrBdf2, Method::Esdirk3] {
-            let told = warning(&table, LOADS, method, Units::Us).unwrap_or_default();
+            let told = warning(&table, &parts(), (method, Units::Us)).unwrap_or_default();
             for words in [
                 "land 2 times",
                 "first the left wheel of axle 2 at 0.100 s",
@@ -156,20 +160,29 @@ mod tests {
                 assert!(told.contains(words), "{words}: {told}");
             }
         }
-        assert_eq!(warning(&table, LOADS, Method::Rodas5P, Units::Us), None);
+        assert_eq!(warning(&table, &parts(), (Method::Rodas5P, Units::Us)), None);
     }
 
     #[test]
     fn issue_047_wheels_that_stay_down_or_do_not_land_are_no_landings() {
         let mut forces = vec![30e3; 100];
         forces[20..25].fill(10.0);
-        assert_eq!(warning(&table(&forces), LOADS, Method::TrBdf2, Units::Us), None);
+        assert_eq!(
+            warning(&table(&forces), &parts(), (Method::TrBdf2, Units::Us)),
+            None
+        );
         // It is let down gently.
         forces.fill(28e3);
         forces[20..25].fill(0.0);
-        assert_eq!(warning(&table(&forces), LOADS, Method::TrBdf2, Units::Us), None);
+        assert_eq!(
+            warning(&table(&forces), &parts(), (Method::TrBdf2, Units::Us)),
+            None
+        );
         // Off its rail to the end: derailed, or still in the air.
         forces[90..].fill(0.0);
-        assert_eq!(warning(&table(&forces), LOADS, Method::TrBdf2, Units::Us), None);
+        assert_eq!(
+            warning(&table(&forces), &parts(), (Method::TrBdf2, Units::Us)),
+            None
+        );
     }
 }

@@ -20,7 +20,8 @@ use super::figures::CarFigures;
 use super::limits::{LimitCheck, LimitSet};
 use super::motions::MotionTable;
 use super::static_table::static_table;
-use super::statistics::{self, Histories, SIDES, Statistic, Statistics};
+use super::statistics::filtered::{filtered, look_ahead, with_filtered};
+use super::statistics::{Histories, SIDES, Statistic, Statistics};
 use super::summary::{CarSummary, Derailed, SCHEMA};
 use super::{limits, locked_in, peaks};
 use crate::energy;
@@ -35,7 +36,6 @@ use crate::run::{
     Beginning, Recorder, Row, RowTable, Run, RunCase, RunError, RunSettings, SavedRows, findings,
 };
 use crate::run_error::{check_length, damaged};
-use crate::signal::LowPass;
 use crate::statics::StaticTable;
 use crate::summary::{Stopped, SummaryValue};
 use crate::wedge_faces;
@@ -99,7 +99,7 @@ impl RunCase for CarCase {
             x: car.initial_state.clone(),
             start_warning: car.start_warning.clone(),
             recorder: CarRecorder {
-                rows: RowTable::new(columns, |name| name == "speed" || statistics::need(name)),
+                rows: RowTable::new(columns, |name| table.parts().need(name)),
                 ahead: None,
                 rates: vec![0.0; x.len()],
                 motions: None,
@@ -116,14 +116,8 @@ impl RunCase for CarCase {
         })
     }
 
-    /// The time that the filters of wheel forces and of the body's accelerations look ahead; the band of
-    /// trucks takes what rows there are ([`statistics`]).
     fn look_ahead(&self) -> f64 {
-        let rules = &self.rules;
-        let interval = self.simulation.output_interval;
-        let filters = [rules.wheel_filter, rules.acceleration_filter].map(|own| LowPass::new(interval, own));
-        let rows = filters.iter().flatten().map(LowPass::rows_ahead).max();
-        rows.map_or(0.0, |rows| (rows + 1) as f64 * interval)
+        look_ahead(&self.rules, self.simulation.output_interval)
     }
 
     fn output(run: Run<Self>, stopped: Option<Stopped>) -> CarResult {
@@ -273,8 +267,11 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     warnings.extend(wedge_faces::warnings(&named));
     let method = run.case.simulation.method;
     if let Wheels::OnRails(_) = run.case.parameters.wheels {
-        let loads = run.recorder.table.static_loads();
-        warnings.extend(peaks::warning(&table, loads, method, units));
+        warnings.extend(peaks::warning(
+            &table,
+            run.recorder.table.parts(),
+            (method, units),
+        ));
     }
     let mut statistics = statistics_of(&run, &table);
     peaks::remark(&mut statistics.values, method);
@@ -283,11 +280,10 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
     let time = column("time");
     let mut extremes = table.summary_extremes(units);
     let mut filtered_columns = Vec::new();
-    if run.case.rules.filtered_columns {
-        for (column, values) in filtered(&run, &statistics, table.columns(), time.len()) {
-            extremes.extend(Extremes::of(time, &values).map(|own| own.named(&column, units)));
-            filtered_columns.push((column, values));
-        }
+    let of = (run.recorder.table.parts(), &run.case.rules);
+    for (column, values) in filtered(&statistics, of, table.columns(), time.len()) {
+        extremes.extend(Extremes::of(time, &values).map(|own| own.named(&column, units)));
+        filtered_columns.push((column, values));
     }
     let ends = |name: &str, kind: Kind| {
         let values = column(name);
@@ -375,23 +371,14 @@ pub(crate) fn in_curve(line: &CenterLine, distance: f64) -> bool {
 fn statistics_of(run: &Run<CarCase>, table: &RowTable) -> Statistics {
     let line = &run.case.parameters.track.center_line;
     let in_curve = |distance: f64| in_curve(line, distance);
-    let parameters = &run.case.parameters;
-    let [forward, ..] = parameters.center_of_gravity();
-    let half = 0.5 * parameters.truck_distance;
-    let axle_places = [0, 1, 2, 3].map(|axle| {
-        let base = parameters.trucks[axle / 2].geometry.axle();
-        [half, -half][axle / 2] + [base, -base][axle % 2] - forward
-    });
     let long = run.recorder.ahead.as_ref().unwrap_or(table);
     let histories = Histories {
         column: &|name| long.column(name),
         rows: table.column("time").len(),
         interval: run.case.simulation.output_interval,
         begin: run.case.parameters.start.settle,
-        static_loads: &run.recorder.table.static_loads(),
-        trucks: &[vec![0, 1], vec![2, 3]],
+        parts: run.recorder.table.parts(),
         climb: run.recorder.table.climb(),
-        axle_places: &axle_places,
         in_curve: &in_curve,
     };
     Statistics::of(&histories, &run.case.rules, run.case.simulation.output_units)
@@ -399,78 +386,8 @@ fn statistics_of(run: &Run<CarCase>, table: &RowTable) -> Statistics {
 
 /// Returns the columns of a car's run, filtered ones included.
 fn columns(case: &CarCase) -> Result<Vec<Column>, RunError> {
-    let raw = CarTable::new(&case.parameters)?.columns().to_vec();
-    let is_filtered = |column: &&Column| {
-        let of_wheels = column.name.starts_with("axle_")
-            && ["_vertical", "_l_over_v", "left_lateral", "right_lateral"]
-                .iter()
-                .any(|what| column.name.ends_with(what));
-        of_wheels || (column.name.starts_with("body_at_") && column.name.ends_with("_acceleration"))
-    };
-    let filtered = raw
-        .iter()
-        .filter(|_| case.rules.filtered_columns)
-        .filter(is_filtered);
-    let filtered = filtered.map(|column| Column {
-        name: format!("{}_filtered", column.name),
-        ..column.clone()
-    });
-    let filtered: Vec<Column> = filtered.collect();
-    Ok([raw, filtered].concat())
-}
-
-/// Returns the filtered columns with their values at all rows.
-fn filtered(
-    run: &Run<CarCase>,
-    statistics: &Statistics,
-    columns: &[Column],
-    rows: usize,
-) -> Vec<(Column, Vec<f64>)> {
-    let rules = &run.case.rules;
-    let mut all = Vec::new();
-    let mut append = |of: &str, own: Vec<f64>, cutoff: f64| {
-        let Some(raw) = columns.iter().find(|column| column.name == of).cloned() else {
-            return;
-        };
-        let column = Column {
-            name: format!("{of}_filtered"),
-            text: format!("{}; below {cutoff} Hz", raw.text),
-            ..raw
-        };
-        all.push((column, own));
-    };
-    let whole = |name: &str| -> Option<Vec<f64>> {
-        let own = statistics.filtered.iter().find(|own| own.of == name)?;
-        let mut values = own.values.clone();
-        // A last row that is nearer than the others has the value before it.
-        let last = values.last().copied().unwrap_or_default();
-        values.resize(rows, last);
-        Some(values)
-    };
-    for (axle, loads) in (1..).zip(run.recorder.table.static_loads()) {
-        for (side, load) in SIDES.into_iter().zip(loads) {
-            let stem = format!("axle_{axle}_{side}");
-            let names = ["vertical", "lateral"].map(|what| format!("{stem}_{what}"));
-            let [Some(vertical), Some(lateral)] = names.each_ref().map(|name| whole(name)) else {
-                continue;
-            };
-            let pairs = lateral.iter().zip(&vertical);
-            let ratios = pairs.map(|(l, v)| statistics::ratio(*l, *v, load)).collect();
-            let [vertical_name, lateral_name] = &names;
-            append(vertical_name, vertical, rules.wheel_filter);
-            append(lateral_name, lateral, rules.wheel_filter);
-            append(&format!("{stem}_l_over_v"), ratios, rules.wheel_filter);
-        }
-    }
-    for end in 1..=2 {
-        for direction in ["lateral", "vertical"] {
-            let name = format!("body_at_truck_{end}_{direction}_acceleration");
-            if let Some(own) = whole(&name) {
-                append(&name, own, rules.acceleration_filter);
-            }
-        }
-    }
-    all
+    let table = CarTable::new(&case.parameters)?;
+    Ok(with_filtered(table.columns(), table.parts(), &case.rules))
 }
 
 /// Returns the losses of the run until it reached a distance along the track (m).
@@ -506,18 +423,14 @@ fn losses(run: &mut Run<CarCase>) -> BTreeMap<String, SummaryValue> {
 
 /// Returns the rule of a case's limits, with its source.
 fn limits_of(case: &CarCase) -> String {
-    let set = limit_set(case);
-    set.map_or_else(String::new, |set| {
-        format!("{}; {}", set.title_with_edition(), set.source)
-    })
+    limit_set(case).map_or_else(String::new, LimitSet::title_with_source)
 }
 
 /// Returns the limits of a case beside the statistics of its run.
 fn checked(case: &CarCase, statistics: &BTreeMap<String, Statistic>, units: Units) -> Vec<LimitCheck> {
     let figures = CarFigures::of(&case.parameters);
-    let known = limits::known(&figures, statistics, units);
     limit_set(case).map_or_else(Vec::new, |set| {
-        limits::of(set, statistics, &known, (&case.rules, units))
+        limits::of(set, (&figures, statistics), (&case.rules, units))
     })
 }
 

@@ -23,17 +23,21 @@
 
 use std::collections::BTreeMap;
 
+use ::car::ClimbLimits;
 use quantity::{Kind, SixDigits, System as Units};
 use serde::{Deserialize, Serialize};
 
+pub(crate) use of_parts::in_words;
+pub use of_parts::{AxlePart, Of, Parts, PlacePart, TruckPart};
 pub use rules::Rules;
 
-use super::figures::ClimbLimits;
 use crate::signal::{LowPass, WindowValue};
 use crate::summary::SummaryValue;
 
 pub mod body;
 pub mod curves;
+pub mod filtered;
+mod of_parts;
 pub mod parts;
 mod rules;
 pub mod wheels;
@@ -43,8 +47,6 @@ const FOOT: f64 = 0.3048;
 pub const LEAST_SHARE: f64 = 0.01;
 /// The names of the sides in columns.
 pub const SIDES: [&str; 2] = ["left", "right"];
-/// The names of the parts of a truck that have accelerometers, in columns.
-pub const TRUCK_PARTS: [&str; 3] = ["bolster", "left_side_frame", "right_side_frame"];
 
 /// The beginning of the warning of a run without statistics.
 pub const NO_STATISTICS: &str = "there are no statistics";
@@ -62,15 +64,10 @@ pub struct Histories<'c> {
     pub interval: f64,
     /// The start of the statistics, s.
     pub begin: f64,
-    /// Static loads of the wheels, by axle from the front, left and right, N. The columns of axle 1 begin
-    /// with `axle_1_`, and so on.
-    pub static_loads: &'c [[f64; 2]],
-    /// The axles of each truck from the front, from 0. The columns of truck 1 begin with `truck_1_`.
-    pub trucks: &'c [Vec<usize>],
+    /// What they are taken of.
+    pub parts: &'c Parts,
     /// What flanges climb at; none with linear wheels.
     pub climb: Option<&'c ClimbLimits>,
-    /// Places of the axles before the place of the column `distance`, m.
-    pub axle_places: &'c [f64],
     /// True if a distance along the track (m) is in a full curve.
     pub in_curve: &'c dyn Fn(f64) -> bool,
 }
@@ -78,6 +75,12 @@ pub struct Histories<'c> {
 /// One number of a run, raw and filtered.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Statistic {
+    /// What it is taken of.
+    #[serde(default)]
+    pub of: Of,
+    /// Where it is taken, in words: "axle 2, right wheel"; empty in older summaries.
+    #[serde(default)]
+    pub place: String,
     /// From the rows.
     pub raw: Option<SummaryValue>,
     /// From filtered forces or accelerations.
@@ -142,6 +145,8 @@ struct Taker<'c, 'h> {
     taken: Statistics,
     /// Rows in full curves.
     curve: Vec<bool>,
+    /// What the statistics to be kept are of, and where, in words.
+    at: (Of, String),
 }
 
 /// Raw and filtered values of one quantity, from the settling time on.
@@ -204,10 +209,10 @@ impl Statistics {
             _ => all.len(),
         };
         let rows = histories.rows.min(even);
-        let names = Names::of(histories);
+        let parts = histories.parts;
         for (cutoff, names) in [
-            (rules.wheel_filter, names.wheel_forces()),
-            (rules.acceleration_filter, names.accelerations()),
+            (rules.wheel_filter, parts.wheel_forces()),
+            (rules.acceleration_filter, parts.accelerations()),
         ] {
             match LowPass::new(histories.interval, cutoff) {
                 Ok(filter) => own.filtered.extend(names.into_iter().map(|name| {
@@ -240,7 +245,7 @@ impl Statistics {
                 return own;
             }
         };
-        let distance = &column("distance")[from..rows];
+        let distance = &column(&parts.distance)[from..rows];
         let mut taker = Taker {
             histories,
             rules,
@@ -252,61 +257,13 @@ impl Statistics {
             range: (from, rows),
             taken: own,
             curve: distance.iter().map(|own| (histories.in_curve)(*own)).collect(),
+            at: (Of::Body, String::new()),
         };
         taker.wheels();
         taker.body();
         taker.trucks(even);
         taker.taken
     }
-}
-
-/// The columns that statistics are taken of.
-struct Names {
-    axles: usize,
-    trucks: usize,
-}
-
-impl Names {
-    fn of(histories: &Histories<'_>) -> Self {
-        Self {
-            axles: histories.static_loads.len(),
-            trucks: histories.trucks.len(),
-        }
-    }
-
-    /// The forces of wheels on rails.
-    fn wheel_forces(&self) -> Vec<String> {
-        let wheels = (1..=self.axles).flat_map(|axle| SIDES.map(|side| format!("axle_{axle}_{side}")));
-        let forces = wheels.flat_map(|wheel| ["vertical", "lateral"].map(|what| format!("{wheel}_{what}")));
-        forces.collect()
-    }
-
-    /// The accelerations of the body at the truck centers.
-    fn accelerations(&self) -> Vec<String> {
-        let ends =
-            (1..=self.trucks).flat_map(|end| ["lateral", "vertical"].map(|direction| (end, direction)));
-        let names = ends.map(|(end, direction)| format!("body_at_truck_{end}_{direction}_acceleration"));
-        names.collect()
-    }
-
-    /// The lateral accelerations of the parts of trucks.
-    fn truck_accelerations(&self) -> Vec<String> {
-        let parts = (1..=self.trucks).flat_map(|truck| TRUCK_PARTS.map(|part| (truck, part)));
-        let names = parts.map(|(truck, part)| format!("truck_{truck}_{part}_lateral_acceleration"));
-        names.collect()
-    }
-}
-
-/// Returns whether statistics need all rows of a column.
-pub(super) fn need(name: &str) -> bool {
-    let of_wheel = ["_vertical", "_lateral", "_lift"].iter().any(|ending| {
-        SIDES
-            .iter()
-            .any(|side| name.ends_with(&format!("_{side}{ending}")))
-    });
-    let others = ["distance", "body_roll"].contains(&name);
-    let of_axle = of_wheel || name.ends_with("_yaw");
-    others || (name.starts_with("axle_") && of_axle) || name.ends_with("_acceleration")
 }
 
 impl Taker<'_, '_> {
@@ -359,7 +316,10 @@ impl Taker<'_, '_> {
             ),
             _ => String::new(),
         };
+        let (of, place) = self.at.clone();
         let statistic = Statistic {
+            of,
+            place,
             time: found[1].or(found[0]).map(|own| own.start),
             raw: found[0].map(value),
             filtered: found[1].map(value),

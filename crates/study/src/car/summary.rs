@@ -13,7 +13,7 @@ use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::outcome::RunEnd;
 use crate::statics::StaticTable;
-use crate::summary::{LedgerSummary, Stopped, SummaryValue, ledger, run_summary};
+use crate::summary::{ByRules, LedgerSummary, Stopped, SummaryValue, by_rules, ledger, run_summary};
 use crate::wedge_rise::RiseSummary;
 
 /// The schema's name and version.
@@ -99,8 +99,8 @@ run_summary!(
     derailed: own.end_of_derailed(),
     reached: own.end_distance(),
     {
-        fn limits(&self) -> &[LimitCheck] {
-            &self.limits
+        fn by_rules(&self) -> Option<ByRules<'_>> {
+            Some(by_rules!(self))
         }
     }
 );

@@ -4,18 +4,8 @@ use std::collections::BTreeMap;
 
 use quantity::Kind;
 
-use super::statistics::Statistic;
+use super::statistics::{Of, Statistic};
 use crate::summary::SummaryValue;
-
-/// What a statistic is taken of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Of {
-    Wheels,
-    Axles,
-    /// Trucks, their sides and their parts.
-    Trucks,
-    Body,
-}
 
 /// The rule that selects from all statistics of one kind.
 #[derive(Debug, PartialEq)]
@@ -72,70 +62,56 @@ impl Worst {
     }
 }
 
-/// Returns what a statistic is taken of, by the beginning of its name.
-fn taken_of(statistic: &str) -> Option<Of> {
-    let mut parts = statistic.split('_');
-    match parts.next()? {
-        "body" => Some(Of::Body),
-        "truck" => Some(Of::Trucks),
-        "axle" => match parts.nth(1) {
-            Some("left" | "right") => Some(Of::Wheels),
-            _ => Some(Of::Axles),
-        },
-        _ => None,
-    }
-}
-
 /// All kinds.
 pub const WORST: [Worst; 38] = [
     greatest(
         "l_over_v_time",
         Kind::Dimensionless,
         "largest wheel L/V that lasts for the hold time",
-        (Of::Wheels, "_l_over_v_time"),
+        (Of::Wheel, "_l_over_v_time"),
     ),
     greatest(
         "l_over_v_distance",
         Kind::Dimensionless,
         "largest wheel L/V that lasts over the hold distance",
-        (Of::Wheels, "_l_over_v_distance"),
+        (Of::Wheel, "_l_over_v_distance"),
     ),
     greatest(
         "axle_sum_l_over_v_time",
         Kind::Dimensionless,
         "largest axle sum of L/V that lasts for the hold time",
-        (Of::Axles, "_sum_l_over_v_time"),
+        (Of::Axle, "_sum_l_over_v_time"),
     ),
     greatest(
         "side_l_over_v",
         Kind::Dimensionless,
         "largest L/V of a truck's side over the side distance",
-        (Of::Trucks, "_side_l_over_v"),
+        (Of::Truck, "_side_l_over_v"),
     ),
     greatest(
         "l_over_v_in_curves",
         Kind::Dimensionless,
         "largest percentile of wheel L/V in curves",
-        (Of::Wheels, "_l_over_v_in_curves"),
+        (Of::Wheel, "_l_over_v_in_curves"),
     ),
     greatest(
         "axle_sum_l_over_v_in_curves",
         Kind::Dimensionless,
         "largest percentile of axle sums of L/V in curves",
-        (Of::Axles, "_sum_l_over_v_in_curves"),
+        (Of::Axle, "_sum_l_over_v_in_curves"),
     ),
     greatest(
         "least_load_time",
         Kind::Dimensionless,
         "least wheel load that lasts for the hold time, % of the static one",
-        (Of::Wheels, "_least_load_time"),
+        (Of::Wheel, "_least_load_time"),
     )
     .least("%"),
     greatest(
         "body_roll_peak_to_peak",
         Kind::Angle,
         "greatest less least roll of the body",
-        (Of::Body, "body_roll_peak_to_peak"),
+        (Of::Body, "_roll_peak_to_peak"),
     )
     .raw(),
     greatest(
@@ -205,115 +181,115 @@ pub const WORST: [Worst; 38] = [
         Kind::RideAcceleration,
         "largest rms over the truck's rms time of the lateral acceleration of a bolster or side \
          frame, in the band of trucks",
-        (Of::Trucks, "_lateral_acceleration_rms"),
+        (Of::Truck, "_lateral_acceleration_rms"),
     ),
     greatest(
         "truck_lateral_acceleration_rmst",
         Kind::RideAcceleration,
         "the same about a straight line",
-        (Of::Trucks, "_lateral_acceleration_rmst"),
+        (Of::Truck, "_lateral_acceleration_rmst"),
     ),
     greatest(
         "nadal_share_time",
         Kind::Dimensionless,
         "largest share of Nadal's limit of L/V that lasts for the hold time",
-        (Of::Wheels, "_nadal_share_time"),
+        (Of::Wheel, "_nadal_share_time"),
     ),
     greatest(
         "weinstock_share_time",
         Kind::Dimensionless,
         "largest share of Weinstock's limit of the axle sum that lasts for the hold time",
-        (Of::Axles, "_weinstock_share_time"),
+        (Of::Axle, "_weinstock_share_time"),
     ),
     greatest(
         "climb_distance",
         Kind::Distance,
         "longest distance over which a wheel's L/V exceeds Nadal's limit",
-        (Of::Wheels, "_climb_distance"),
+        (Of::Wheel, "_climb_distance"),
     ),
     greatest(
         "climb_angle_of_attack",
         Kind::Angle,
         "mean size of the axle's yaw along that distance; zero where nothing climbs",
-        (Of::Wheels, "_climb_angle_of_attack"),
+        (Of::Wheel, "_climb_angle_of_attack"),
     )
     .where_worst_is("_climb_distance"),
     greatest(
         "wheel_lift",
         Kind::Length,
         "largest lift of a wheel off its rail",
-        (Of::Wheels, "_lift_largest"),
+        (Of::Wheel, "_lift_largest"),
     )
     .raw(),
     greatest(
         "net_axle_l_over_v",
         Kind::Dimensionless,
         "largest lateral force of an axle over its static load that lasts over the hold distance",
-        (Of::Axles, "_net_l_over_v"),
+        (Of::Axle, "_net_l_over_v"),
     ),
     greatest(
         "least_load_distance",
         Kind::Dimensionless,
         "least wheel load that lasts over the hold distance, % of the static one",
-        (Of::Wheels, "_least_load_distance"),
+        (Of::Wheel, "_least_load_distance"),
     )
     .least("%"),
     greatest(
         "least_side_load",
         Kind::Dimensionless,
         "least load of a truck's side that lasts over the side distance, % of the static one",
-        (Of::Trucks, "_least_side_load"),
+        (Of::Truck, "_least_side_load"),
     )
     .least("%"),
     greatest(
         "axle_lateral_force_mean",
         Kind::Force,
         "largest mean of an axle's lateral force over the mean distance",
-        (Of::Axles, "_lateral_force_mean"),
+        (Of::Axle, "_lateral_force_mean"),
     ),
     greatest(
         "axle_lateral_force_instability",
         Kind::Force,
         "largest rms of an axle's lateral force over a section's length, within 2 Hz of its dominant \
          frequency",
-        (Of::Axles, "_lateral_force_instability"),
+        (Of::Axle, "_lateral_force_instability"),
     ),
     greatest(
         "lateral_force_in_curves",
         Kind::Force,
         "largest quasi-static lateral force of a wheel: the median of a full curve",
-        (Of::Wheels, "_lateral_force_in_curves"),
+        (Of::Wheel, "_lateral_force_in_curves"),
     ),
     greatest(
         "vertical_force_in_curves",
         Kind::Force,
         "largest quasi-static vertical force of a wheel: the median of a full curve",
-        (Of::Wheels, "_vertical_force_in_curves"),
+        (Of::Wheel, "_vertical_force_in_curves"),
     ),
     greatest(
         "least_quasi_static_load",
         Kind::Dimensionless,
         "least mean load of a wheel in a full curve, % of the static one",
-        (Of::Wheels, "_quasi_static_load"),
+        (Of::Wheel, "_quasi_static_load"),
     )
     .least("%"),
     greatest(
         "l_over_v_sections",
         Kind::Dimensionless,
         "mean and deviations of wheel L/V over sections",
-        (Of::Wheels, "_l_over_v_sections"),
+        (Of::Wheel, "_l_over_v_sections"),
     ),
     greatest(
         "axle_lateral_force_sections",
         Kind::Force,
         "mean and deviations of an axle's lateral force over sections",
-        (Of::Axles, "_lateral_force_sections"),
+        (Of::Axle, "_lateral_force_sections"),
     ),
     greatest(
         "vertical_force_sections",
         Kind::Force,
         "mean and deviations of a wheel's vertical force over sections",
-        (Of::Wheels, "_vertical_force_sections"),
+        (Of::Wheel, "_vertical_force_sections"),
     ),
     greatest(
         "lateral_acceleration_sections",
@@ -334,32 +310,14 @@ pub const WORST: [Worst; 38] = [
 pub struct WorstStatistic<'s> {
     /// Its name.
     pub statistic: &'s str,
+    /// Where it is taken, in words.
+    pub place: &'s str,
     /// Its value: filtered, or raw where nothing is filtered.
     pub value: &'s SummaryValue,
     /// The start of that value, s.
     pub time: Option<f64>,
     /// True if the value is filtered.
     pub filtered: bool,
-}
-
-/// Returns where a statistic is taken, in words, by its name: `axle_2_right_l_over_v_time` is taken at axle
-/// 2, right wheel.
-#[must_use]
-pub fn place_in_words(statistic: &str) -> String {
-    let parts: Vec<&str> = statistic.split('_').collect();
-    match parts.as_slice() {
-        ["axle", axle, side @ ("left" | "right"), ..] => format!("axle {axle}, {side} wheel"),
-        ["axle", axle, ..] => format!("axle {axle}"),
-        ["truck", truck, side @ ("left" | "right"), "side", "frame", ..] => {
-            format!("truck {truck}, {side} side frame")
-        }
-        ["truck", truck, "bolster", ..] => format!("truck {truck}, bolster"),
-        ["truck", truck, side @ ("left" | "right"), ..] => format!("truck {truck}, {side} side"),
-        ["truck", truck, ..] => format!("truck {truck}"),
-        ["body", "at", "truck", truck, ..] => format!("body over truck {truck}"),
-        ["body", ..] => "body".to_owned(),
-        _ => statistic.replace('_', " "),
-    }
 }
 
 impl Worst {
@@ -402,7 +360,7 @@ fn worst<'s>(
 ) -> Option<WorstStatistic<'s>> {
     let own = statistics
         .iter()
-        .filter(|(name, _)| name.ends_with(ending) && taken_of(name) == Some(of));
+        .filter(|(name, own)| name.ends_with(ending) && own.of == of);
     let worse = |a: f64, b: f64| if least { a < b } else { a > b };
     let all = own.filter_map(|(name, own)| found(name, own));
     all.reduce(|worst, own| match worse(own.value.value, worst.value.value) {
@@ -414,6 +372,7 @@ fn worst<'s>(
 fn found<'s>(statistic: &'s str, own: &'s Statistic) -> Option<WorstStatistic<'s>> {
     Some(WorstStatistic {
         statistic,
+        place: &own.place,
         value: own.filtered.as_ref().or(own.raw.as_ref())?,
         time: own.time,
         filtered: own.filtered.is_some(),

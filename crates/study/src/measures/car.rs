@@ -5,11 +5,11 @@ use quantity::{Kind, System as Units};
 use truck::WEDGE_NAMES;
 
 use super::measuring::judged;
+use super::of_rules;
 use super::{Definitions, Judged, Measure, Measures, Unmeasured};
 use crate::car::CarCase;
 use crate::car::figures::CarFigures;
 use crate::car::run::CarResult;
-use crate::car::worst::WORST;
 use crate::models::StudyCase;
 use crate::run::findings;
 use crate::wedge_rise;
@@ -52,32 +52,8 @@ const OTHERS: [(&str, Kind, &str); 10] = [
     ("steps", Kind::Count, "accepted steps of the integrator"),
 ];
 
-/// What figures of the car are, in the order of [`CarFigures::NAMES`].
-const FIGURES: [&str; 6] = [
-    "least static load of an axle on level track",
-    "greatest static load of an axle on level track",
-    "least static load of a wheel on level track",
-    "greatest static load of a wheel on level track",
-    "least of the largest angles of the wheels' flanges",
-    "greatest friction of a wheel on its rail at the angle of its flange, where nothing slips",
-];
-
 impl StudyCase for CarCase {
     fn definitions(&self) -> Definitions {
-        let worst = WORST
-            .iter()
-            .map(|own| Measure::new(own.name, own.kind, own.text, false));
-        let kinds = [
-            Kind::Force,
-            Kind::Force,
-            Kind::Force,
-            Kind::Force,
-            Kind::Angle,
-            Kind::Dimensionless,
-        ];
-        let figures = CarFigures::NAMES.into_iter().zip(FIGURES).zip(kinds);
-        // Linear wheels have no flanges.
-        let figures = figures.map(|((name, text), kind)| Measure::new(name, kind, text, kind == Kind::Force));
         let others = OTHERS
             .iter()
             .map(|(name, kind, text)| Measure::new(*name, *kind, *text, true));
@@ -90,8 +66,8 @@ impl StudyCase for CarCase {
         let locked = of_wedges("locked_share", Kind::Dimensionless, text, false);
         let text = "lost in its friction";
         let losses = of_wedges("friction_loss", Kind::Energy, text, true);
-        let all = worst.chain(others).chain(locked).chain(losses);
-        Definitions(all.chain(figures).collect())
+        let all = of_rules::worst().chain(others).chain(locked).chain(losses);
+        Definitions(all.chain(of_rules::figures()).collect())
     }
 
     fn judge(&self) -> Result<Judged, Unmeasured> {
@@ -109,14 +85,7 @@ fn wedges() -> impl Iterator<Item = String> {
 
 fn measures(case: &CarCase, result: &CarResult) -> Measures {
     let summary = &result.summary;
-    // What limits compare is filtered: where rows are too far apart for that, there is no number.
-    let worst = WORST.iter().map(|own| {
-        let found = own.of(&summary.statistics);
-        found.filter(|found| found.filtered || !own.is_filtered())
-    });
-    let mut values: Vec<f64> = worst
-        .map(|found| found.map_or(f64::NAN, |own| own.value.value))
-        .collect();
+    let mut values = of_rules::values(&summary.statistics);
     let largest = |name: &str| {
         let values = result.column(name).unwrap_or_default();
         values.iter().fold(0.0, |most: f64, value| most.max(value.abs()))

@@ -26,6 +26,7 @@ mod car;
 mod contact_times;
 mod half_truck;
 mod measuring;
+mod of_rules;
 mod truck;
 mod vehicle;
 

@@ -14,6 +14,13 @@ pub struct CaseText {
 }
 
 impl CaseText {
+    /// Returns a value of the case as typed or by default; empty if there is none at this path.
+    pub fn as_typed(&self, path: &str) -> &str {
+        let fields = self.fields.iter().flat_map(|section| &section.fields);
+        let found = fields.into_iter().find(|field| field.path == path);
+        found.map_or("", |field| field.text.as_str())
+    }
+
     /// Returns the same of a case with another name, which stands in the line below that of the schema.
     #[must_use]
     pub fn named(&self, name: &str) -> Self {

@@ -9,14 +9,20 @@ pub mod builtin;
 mod elements;
 mod like;
 mod on_track;
+mod parts;
 pub mod run;
 pub mod summary;
+
+use std::sync::Arc;
 
 use quantity::Kind;
 use vehicle::{Description, StartKind};
 
 pub use elements::{OwnElement, OwnKey};
 
+use crate::car::limits::LimitSet;
+use crate::car::output;
+use crate::car::statistics::Rules;
 use crate::case::field::Reach;
 use crate::case::model::{Model, model_case, read_case};
 use crate::case::problem::Problem;
@@ -35,6 +41,12 @@ pub struct VehicleCase {
     pub title: String,
     /// The vehicle, SI.
     pub description: Description,
+    /// The rules of statistics of a vehicle on a track.
+    pub rules: Rules,
+    /// Time that it settles after the start, s: statistics leave this out.
+    pub settle: f64,
+    /// The limits that its summary compares with; `None`: those of freight cars, built in.
+    pub limits: Option<Arc<LimitSet>>,
     /// The files of its time histories.
     pub output_files: OutputFiles,
     /// The settings of the run.
@@ -110,9 +122,12 @@ fn read_with(r: &mut CaseReader<'_>, default_name: &str, own: &'static [OwnEleme
     let comment = "\"equilibrium\": at rest, motions and loads held as at time zero, wedges and dry friction \
                    without friction; \"nominal\": in the nominal layout. Offsets of bodies come on top";
     r.choice("kind", STARTS, &mut description.start, comment);
-    on_track::start(r, &mut description);
-    let mut output_files = OutputFiles::default();
-    r.section("output", "What is written.");
+    let settle = on_track::start(r, &mut description);
+    let (mut output_files, mut rules) = (OutputFiles::default(), Rules::default());
+    match description.on_track {
+        Some(_) => output::output(r, &mut rules),
+        None => r.section("output", "What is written."),
+    }
     output_files.read(r);
     let interval = "time between two rows of the result; steps are chosen freely";
     let units = "\"us\" (in, lbf) or \"si\" (m, N)";
@@ -128,6 +143,9 @@ fn read_with(r: &mut CaseReader<'_>, default_name: &str, own: &'static [OwnEleme
         name,
         title,
         description,
+        rules,
+        settle,
+        limits: None,
         output_files,
         simulation,
         doubts,

@@ -3,14 +3,15 @@
 use ::car::{Drive, Parameters, Wheels};
 use quantity::Kind;
 use truck::Lading;
-use vehicle::{Description, OnTrack, RigidBody, TruckPart, WheelsetPart};
+use vehicle::{Accelerometer, AccelerometerOf, Description, OnTrack, RigidBody, TruckPart, WheelsetPart};
 
 use super::like;
 use crate::car::{rails, sections, track as car_track, trucks, wheels};
-use crate::case::field::Reach;
-use crate::case::problem::Problem;
-use crate::case::section::Range;
+use crate::case::field::{Reach, Written};
+use crate::case::problem::{Problem, Problems};
+use crate::case::section::{CaseSection, Names, Range};
 use crate::case::tables::NamedFile;
+use crate::reader::schema::Form;
 use crate::reader::{CaseReader, QuantityForm};
 use crate::track::{Notes, Support};
 
@@ -47,9 +48,11 @@ pub(super) fn parts(r: &mut CaseReader<'_>, bodies: &[RigidBody]) -> Parts {
             &mut x,
             "along the track in the nominal layout, forward",
         );
+        let truck = group(r);
         parts.wheelsets.push(WheelsetPart {
             name: name.to_owned(),
             x,
+            truck,
         });
     }
     let coils = truck::coils::catalog();
@@ -92,6 +95,54 @@ pub(super) fn parts(r: &mut CaseReader<'_>, bodies: &[RigidBody]) -> Parts {
     parts
 }
 
+/// The name of the truck that a wheelset belongs to, if any.
+fn group(r: &mut CaseReader<'_>) -> Option<String> {
+    let comment = "its truck by any name: forces of a truck's side are those of all wheelsets that name it";
+    let read = |section: &CaseSection<'_>, problems: &mut Problems| {
+        let (name, node) = section.text("truck", problems)?;
+        let plain = |sign: char| sign.is_ascii_alphanumeric() || sign == '_';
+        if !name.chars().all(plain) {
+            let path = section.path_of("truck");
+            let problem = Problem::new(format!("`{path}` is no name"));
+            let help = "statistics begin with it: write letters, digits and _";
+            problems.push(problem.at(&node.place).label("not a name").help(help));
+            return None;
+        }
+        Some(name.to_owned())
+    };
+    let name = r.other("truck", Form::Text, comment, String::new(), read, |own| {
+        Written::text(own)
+    });
+    Some(name).filter(|own| !own.is_empty())
+}
+
+/// Reads `[accelerometers.NAME]`.
+fn accelerometers(r: &mut CaseReader<'_>, bodies: &[RigidBody]) -> Vec<Accelerometer> {
+    const TAKEN_AS: Names<AccelerometerOf> =
+        &[("body", AccelerometerOf::Body), ("truck", AccelerometerOf::Truck)];
+    let bodies: Vec<&str> = bodies.iter().map(|own| own.name.as_str()).collect();
+    let mut all = Vec::new();
+    for name in r.names("accelerometers") {
+        let about = "An accelerometer on a body. Bodies have one over the center of each truck besides.";
+        r.section(&format!("accelerometers.{name}"), about);
+        let body = r.name_among("on", &bodies, "the body that it is on");
+        let (mut at, mut of) = ([0.0; 3], AccelerometerOf::Body);
+        r.place("at", &mut at, "its place in the nominal layout");
+        let comment = "\"body\": ride, through the low-pass filter of accelerations; \"truck\": hunting of a \
+                       truck's frame, in the band of trucks";
+        r.choice("of", TAKEN_AS, &mut of, comment);
+        if let Some(body) = body {
+            all.push(Accelerometer {
+                name: name.to_owned(),
+                body: body + 1,
+                at,
+                of,
+            });
+        }
+    }
+    all
+}
+
 /// Reads `[rails]`, `[wheels]`, `[track]`, `[speed]`, `[drive]` of a vehicle that has wheelsets or trucks;
 /// returns files that were read, and what is doubtful.
 pub(super) fn track(
@@ -99,7 +150,7 @@ pub(super) fn track(
     parts: &mut Parts,
     bodies: &[RigidBody],
 ) -> (Option<OnTrack>, Vec<NamedFile>, Vec<String>) {
-    let sections = ["rails", "wheels", "track", "speed", "drive"];
+    let sections = ["rails", "wheels", "track", "speed", "drive", "accelerometers"];
     if parts.wheelsets.is_empty() && parts.trucks.is_empty() && !r.has("wheelsets") && !r.has("trucks") {
         for section in sections {
             if !r.has(section) {
@@ -108,7 +159,7 @@ pub(super) fn track(
             let problem = Problem::new(format!("[{section}] has no effect: the vehicle has no wheelsets"));
             let help = "write [wheelsets.NAME] or [trucks.NAME], or leave it out";
             r.problem(section, problem.label("no effect").help(help));
-            r.expect("", &["rails", "wheels", "track", "speed", "drive"]);
+            r.expect("", &sections);
         }
         return (None, Vec::new(), Vec::new());
     }
@@ -150,6 +201,7 @@ pub(super) fn track(
         &mut height,
         "above the top of rail: that of couplers",
     );
+    let accelerometers = accelerometers(r, bodies);
     let Some(read) = line else { return nothing };
     let Notes { mut doubts, files } = read.notes;
     doubts.extend(of_wheels);
@@ -174,26 +226,38 @@ pub(super) fn track(
         trucks: std::mem::take(&mut parts.trucks),
         drive: scratch.drive,
         driven: (driven, height),
+        accelerometers,
         distance: 0.0,
         speed: scratch.start.speed,
     };
     (Some(on), files, doubts)
 }
 
-/// Reads where a vehicle on a track starts, in the section `[start]`.
-pub(super) fn start(r: &mut CaseReader<'_>, description: &mut Description) {
+/// Reads where a vehicle on a track starts, in the section `[start]`; returns how long it settles, s.
+pub(super) fn start(r: &mut CaseReader<'_>, description: &mut Description) -> f64 {
+    let mut settle = 0.0;
     let Some(on) = &mut description.on_track else {
-        r.also_known("distance");
-        if r.gives("distance") {
-            let problem = Problem::new("`start.distance` has no effect: the vehicle has no wheelsets");
-            r.problem("start.distance", problem.label("no effect").help("leave it out"));
+        for key in ["distance", "settle"] {
+            r.also_known(key);
+            if r.gives(key) {
+                let message = format!("`start.{key}` has no effect: the vehicle has no wheelsets");
+                let problem = Problem::new(message).label("no effect");
+                r.problem(&format!("start.{key}"), problem.help("leave it out"));
+            }
         }
-        return;
+        return settle;
     };
     on.distance = on.reach() + 1.0;
     let form: QuantityForm = (Kind::Distance, Range::NotNegative, Reach::Positive);
     let comment = "of the layout's origin along the track, which is straight so far";
     r.quantity("distance", form, &mut on.distance, comment);
+    let form: QuantityForm = (Kind::Time, Range::NotNegative, Reach::FromZero(2.0));
+    r.quantity(
+        "settle",
+        form,
+        &mut settle,
+        "statistics leave out what is before it",
+    );
     if let Some(reason) = on.misplaced() {
         let problem = Problem::new(format!("the vehicle cannot start there: {reason}"));
         let help = "begin the track with a tangent that is longer than the vehicle, and start on it";
@@ -209,4 +273,5 @@ pub(super) fn start(r: &mut CaseReader<'_>, description: &mut Description) {
         let help = "leave free_coordinates out, and hold it by stiff bushings";
         r.problem(&path, problem.label("held").help(help));
     }
+    settle
 }

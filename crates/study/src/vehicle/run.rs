@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use ::car::ClimbLimits;
 use integrate::Problem;
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
@@ -10,8 +11,17 @@ use quantity::Kind;
 use vehicle::{Vehicle, View};
 
 use super::VehicleCase;
+use super::parts::parts;
 use super::summary::{SCHEMA, VehicleDerailed, VehicleSummary, VibrationSummary};
+use crate::car::assumptions::{of_contacts, of_drive, of_rules, of_support, of_wheels};
+use crate::car::figures::CarFigures;
+use crate::car::limits::{self, LimitCheck, LimitSet};
+use crate::car::peaks;
+use crate::car::run::in_curve;
+use crate::car::statistics::filtered::{filtered, look_ahead, with_filtered};
+use crate::car::statistics::{Histories, Parts, SIDES, Statistic, Statistics};
 use crate::energy;
+use crate::metrics::Extremes;
 use crate::models::ModelCase;
 use crate::output_files::OutputFiles;
 use crate::progress;
@@ -40,7 +50,11 @@ const LEDGER: [(&str, &str); 4] = [
 #[derive(Debug)]
 pub struct VehicleRecorder {
     vehicle: Vehicle,
+    /// What statistics are taken of, and what its flanges climb at; none without a track.
+    of_track: Option<(Parts, ClimbLimits)>,
     rows: RowTable,
+    /// The same rows and those after them that filtered values depend on, where the run has looked ahead.
+    ahead: Option<RowTable>,
     rates: Vec<f64>,
     /// The values of the channels at the start.
     start: Vec<f64>,
@@ -51,9 +65,17 @@ pub struct VehicleRecorder {
 }
 
 impl VehicleRecorder {
-    fn new(vehicle: Vehicle) -> Self {
+    fn new(case: &VehicleCase, vehicle: Vehicle) -> Self {
+        let on = case.description.on_track.as_ref();
+        let of_track = on.map(|on| {
+            let climb = ClimbLimits::of_wheels(&on.wheels).of_axles(vehicle.axles.len());
+            (parts(&case.description, on, &vehicle.static_loads), climb)
+        });
+        let need = |name: &str| of_track.as_ref().is_some_and(|(parts, _)| parts.need(name));
         let mut own = Self {
-            rows: RowTable::new(&columns_of(&vehicle), |_| false),
+            rows: RowTable::new(&columns_of(&vehicle), need),
+            ahead: None,
+            of_track,
             rates: vec![0.0; vehicle.initial_state.len()],
             start: Vec::new(),
             kinetic_at_start: 0.0,
@@ -121,8 +143,13 @@ impl RunCase for VehicleCase {
             system: vehicle.system.clone(),
             x: vehicle.initial_state.clone(),
             start_warning: vehicle.start_warning.clone(),
-            recorder: VehicleRecorder::new(vehicle),
+            recorder: VehicleRecorder::new(self, vehicle),
         })
+    }
+
+    fn look_ahead(&self) -> f64 {
+        let rules = self.description.on_track.as_ref().map(|_| &self.rules);
+        rules.map_or(0.0, |rules| look_ahead(rules, self.simulation.output_interval))
     }
 
     fn output(run: Run<Self>, stopped: Option<Stopped>) -> VehicleResult {
@@ -134,7 +161,15 @@ impl ModelCase for VehicleCase {
     type Summary = VehicleSummary;
 
     fn columns(&self) -> Result<Vec<Column>, RunError> {
-        Ok(columns_of(&self.vehicle()?))
+        let vehicle = self.vehicle()?;
+        let raw = columns_of(&vehicle);
+        Ok(match &self.description.on_track {
+            Some(on) => {
+                let parts = parts(&self.description, on, &vehicle.static_loads);
+                with_filtered(&raw, &parts, &self.rules)
+            }
+            None => raw,
+        })
     }
 
     fn output_files(&self) -> OutputFiles {
@@ -155,6 +190,10 @@ impl Recorder for VehicleRecorder {
 
     fn restore(&mut self, rows: SavedRows, _time: f64, times: &[f64]) -> Result<(), RunError> {
         self.rows.restore(rows, times)
+    }
+
+    fn see_ahead(&mut self, ahead: Self) {
+        self.ahead = Some(ahead.rows);
     }
 
     fn row(&mut self, system: &mut System, row: &Row<'_>) -> Result<Entries, RunError> {
@@ -214,6 +253,13 @@ fn output(mut run: Run<VehicleCase>, stopped: Option<Stopped>) -> VehicleResult 
             forces_at_start.insert(column.name.clone(), value);
         }
     }
+    let mut extremes = table.summary_extremes(units);
+    let taken = statistics_of(&run, &table);
+    warnings.extend(taken.warnings);
+    for (column, values) in &taken.filtered {
+        let own = Extremes::of(table.column("time"), values);
+        extremes.extend(own.map(|own| own.named(column, units)));
+    }
     let summary = VehicleSummary {
         schema: SCHEMA.to_owned(),
         program: ended.program,
@@ -229,14 +275,94 @@ fn output(mut run: Run<VehicleCase>, stopped: Option<Stopped>) -> VehicleResult 
         vibrations: vibrations.into_iter().map(VibrationSummary::of).collect(),
         forces_at_start,
         reached,
-        extremes: table.summary_extremes(units),
+        speed: taken.speed,
+        static_loads: taken.static_loads,
+        statistics: taken.statistics,
+        limits_of: taken.limits_of,
+        limits: taken.limits,
+        extremes,
         ledger,
         method: run.case.simulation.method.to_string(),
         relative_tolerance: run.case.simulation.relative_tolerance,
-        statistics: ended.statistics,
+        solver: ended.statistics,
         assumptions: assumptions(&run.case),
     };
-    table.into_result(summary)
+    let before = table.before();
+    let mut result = table.into_result(summary);
+    for (column, mut values) in taken.filtered {
+        result.columns.push(column);
+        result.values.push(values.split_off(before));
+    }
+    result
+}
+
+/// What rules ask of a run on a track.
+#[derive(Default)]
+struct Taken {
+    statistics: BTreeMap<String, Statistic>,
+    limits_of: String,
+    limits: Vec<LimitCheck>,
+    static_loads: BTreeMap<String, SummaryValue>,
+    speed: Option<[SummaryValue; 2]>,
+    /// Filtered columns.
+    filtered: Vec<(Column, Vec<f64>)>,
+    warnings: Vec<String>,
+}
+
+fn statistics_of(run: &Run<VehicleCase>, table: &RowTable) -> Taken {
+    let (case, units) = (&run.case, run.case.simulation.output_units);
+    let (Some(on), Some((parts, climb))) = (&case.description.on_track, &run.recorder.of_track) else {
+        return Taken::default();
+    };
+    let long = run.recorder.ahead.as_ref().unwrap_or(table);
+    let time = table.column("time");
+    let histories = Histories {
+        column: &|name| long.column(name),
+        rows: time.len(),
+        interval: case.simulation.output_interval,
+        begin: case.settle,
+        parts,
+        climb: Some(climb),
+        in_curve: &|distance| in_curve(&on.track.center_line, distance),
+    };
+    let mut own = Statistics::of(&histories, &case.rules, units);
+    let method = case.simulation.method;
+    peaks::remark(&mut own.values, method);
+    let mut warnings = own.remarks.clone();
+    warnings.extend(peaks::warning(table, parts, (method, units)));
+    let loads = &run.recorder.vehicle.static_loads;
+    if loads.is_empty() {
+        let text = "there are no static loads of wheels: the vehicle has no rest on straight track, or it starts \
+                    in its nominal layout without one; statistics in parts of them are left out";
+        warnings.push(text.to_owned());
+    }
+    let figures = CarFigures::with(loads, Some(climb));
+    let set = case.limits.as_deref().or(LimitSet::built_in().first());
+    let of_wheels = parts.axles.iter().flat_map(|own| {
+        let sides = SIDES.into_iter().zip(own.loads);
+        sides.map(|(side, load)| {
+            let load = SummaryValue::new(load, Kind::Force, units);
+            (format!("{}_{side}", own.name), load)
+        })
+    });
+    let speeds = table.column(&parts.speed);
+    let ends = [speeds.first(), speeds.last()].map(|own| own.copied());
+    Taken {
+        limits_of: set.map_or_else(String::new, LimitSet::title_with_source),
+        limits: set.map_or_else(Vec::new, |set| {
+            limits::of(set, (&figures, &own.values), (&case.rules, units))
+        }),
+        static_loads: of_wheels.filter(|_| !loads.is_empty()).collect(),
+        speed: match ends {
+            [Some(first), Some(last)] => {
+                Some([first, last].map(|own| SummaryValue::new(own, Kind::TravelSpeed, units)))
+            }
+            _ => None,
+        },
+        filtered: filtered(&own, (parts, &case.rules), table.columns(), time.len()),
+        statistics: own.values,
+        warnings,
+    }
 }
 
 /// Returns the assumptions of a vehicle's numbers.
@@ -256,6 +382,20 @@ fn assumptions(case: &VehicleCase) -> Vec<String> {
         }
         vehicle::StartKind::Nominal => "The run starts in the nominal layout.".to_owned(),
     });
+    if let Some(on) = &description.on_track {
+        of_wheels(&case.text, &on.wheels, &mut words);
+        words.push(of_contacts(&on.wheels.laws, on.wheels.tables));
+        let sprung = "Each wheel has a piece of rail of its own on springs";
+        words.push(of_support(on.support.as_ref(), sprung, description.gravity));
+        let driven = description.bodies.get(on.driven.0 - 1);
+        let driven = driven.map_or("the vehicle", |own| own.name.as_str());
+        words.push(of_drive(&on.drive, &driven.replace('_', " ")));
+        words.push(format!(
+            "Statistics begin at {} s (start.settle); static loads are those of the rest on straight track.",
+            case.settle
+        ));
+        words.push(of_rules(&case.rules));
+    }
     if description.bodies.iter().any(|own| own.free.contains(&true)) {
         words.push(
             "Natural vibrations are those of the equations linearized about the rest, or about the nominal \

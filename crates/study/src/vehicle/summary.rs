@@ -3,20 +3,24 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use integrate::Statistics;
+use integrate::Statistics as Counters;
 use quantity::System as Units;
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use vehicle::Vibration;
 
+use crate::car::limits::LimitCheck;
+use crate::car::statistics::Statistic;
 use crate::metrics::Extremes;
 use crate::outcome::RunEnd;
-use crate::summary::{LedgerSummary, Stopped, SummaryValue, ledger, run_summary};
+use crate::summary::{ByRules, LedgerSummary, Stopped, SummaryValue, by_rules, ledger, run_summary};
 
 /// The schema's name and version.
 pub const SCHEMA: &str = "wedgelab.vehicle/1";
 
 /// The numbers of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(remote = "Self")]
 pub struct VehicleSummary {
     /// [`SCHEMA`].
     pub schema: String,
@@ -48,6 +52,21 @@ pub struct VehicleSummary {
     /// Distance along the track of the first wheelset at the end, if it runs on one.
     #[serde(default)]
     pub reached: Option<SummaryValue>,
+    /// Speed at the start and at the end, if it runs on a track.
+    #[serde(default)]
+    pub speed: Option<[SummaryValue; 2]>,
+    /// Static load of each wheel on a track by its name: `leading_left`; none if there is no rest.
+    #[serde(default)]
+    pub static_loads: BTreeMap<String, SummaryValue>,
+    /// Statistics of a vehicle on a track by name: see the table in docs/car.md.
+    #[serde(default)]
+    pub statistics: BTreeMap<String, Statistic>,
+    /// The rule of the limits, its edition and source; empty without a track.
+    #[serde(default)]
+    pub limits_of: String,
+    /// Limits of that rule beside the worst value of each.
+    #[serde(default)]
+    pub limits: Vec<LimitCheck>,
     /// Least and greatest values of all columns, by their names with units.
     pub extremes: BTreeMap<String, Extremes>,
     /// The energy ledger at the end; losses by element.
@@ -57,22 +76,47 @@ pub struct VehicleSummary {
     /// Its relative tolerance.
     pub relative_tolerance: f64,
     /// Counters of the integrator.
-    pub statistics: Statistics,
+    pub solver: Counters,
     /// The assumptions of the numbers.
     pub assumptions: Vec<String>,
+}
+
+impl Serialize for VehicleSummary {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        Self::serialize(self, to)
+    }
+}
+
+impl<'de> Deserialize<'de> for VehicleSummary {
+    /// The counters of the solver were called `statistics` in earlier versions.
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let mut json = serde_json::Value::deserialize(from)?;
+        if let Some(fields) = json.as_object_mut()
+            && !fields.contains_key("solver")
+            && let Some(counters) = fields.remove("statistics")
+        {
+            fields.insert("solver".to_owned(), counters);
+        }
+        Self::deserialize(json).map_err(D::Error::custom)
+    }
 }
 
 run_summary!(
     VehicleSummary,
     |own| title: &own.title,
     ledger: ledger!(own.ledger, own.ledger.entries),
-    solver: (own.statistics.steps, own.relative_tolerance),
+    solver: (own.solver.steps, own.relative_tolerance),
     derailed: own.derailed.as_ref().map(|own| RunEnd {
         time: own.time,
         reason: own.what.clone(),
         distance: Some(own.distance.clone()),
     }),
-    reached: own.reached.clone()
+    reached: own.reached.clone(),
+    {
+        fn by_rules(&self) -> Option<ByRules<'_>> {
+            (!self.limits_of.is_empty()).then(|| by_rules!(self))
+        }
+    }
 );
 
 /// A wheel that left its rail.

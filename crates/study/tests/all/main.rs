@@ -7,6 +7,7 @@ mod parts;
 mod sections;
 mod signal;
 mod vehicle;
+mod vehicle_rules;
 mod wheelset;
 #[path = "../common/wheelsets.rs"]
 mod wheelsets;

@@ -448,7 +448,7 @@ fn analytic_the_example_of_ones_own_vehicle() {
 }
 
 /// The text of a car's completed case as a vehicle: a body and two trucks.
-fn written_out(car: &str) -> String {
+pub(crate) fn written_out(car: &str) -> String {
     let mut text = String::from(
         "model = \"vehicle\"\n[bodies.car_body]\nweight = \"43060 lbf\"\n\
          inertia = [\"375000 lbf in s^2\", \"3610000 lbf in s^2\", \"3610000 lbf in s^2\"]\n\

@@ -1,7 +1,7 @@
 //! Columns and statistics of derailment in runs.
 
 use study::car::CarCase;
-use study::car::figures::{CarFigures, ClimbLimits};
+use study::car::figures::CarFigures;
 use study::car::run::CarResult;
 use study::car::worst::{WORST, Worst};
 use study::case::Tables;
@@ -35,7 +35,7 @@ fn analytic_columns_of_a_car_that_climbs() {
     );
     let result = Run::new(&case).unwrap().finish(|_| ());
     assert!(result.summary.derailed.is_some());
-    let limits = ClimbLimits::of(&case.parameters).unwrap();
+    let limits = car::ClimbLimits::of(&case.parameters).unwrap();
     let rows = result.rows();
     let mut climbed = 0.0_f64;
     let mut lifted = 0;

@@ -67,7 +67,7 @@ fn input_friction_of_zones_and_rails() {
 /// outer wheel, and oil on its rail alone changes it.
 #[test]
 fn limits_conditions_of_friction() {
-    let of = |name: &str| Condition::chosen(&[name.to_owned()]).unwrap().remove(0).set;
+    let of = |name: &str| Condition::chosen(&[name.to_owned()], true).unwrap().remove(0).set;
     let zones = |name: &str| {
         let own = case("", &of(name));
         laws(&own)

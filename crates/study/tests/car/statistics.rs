@@ -4,11 +4,13 @@ use std::collections::BTreeMap;
 use std::f64::consts::{PI, SQRT_2};
 use std::sync::LazyLock;
 
+use ::car::ClimbLimits;
 use quantity::System;
 use study::car::CarCase;
-use study::car::figures::{CarFigures, ClimbLimits};
+use study::car::columns::parts_of;
+use study::car::figures::CarFigures;
 use study::car::limits::{self, LimitSet};
-use study::car::statistics::{Histories, Rules, Statistics, TRUCK_PARTS};
+use study::car::statistics::{Histories, Parts, Rules, Statistics};
 use study::car::worst::Worst;
 use study::case::Tables;
 use study::signal::{BandPass, LowPass};
@@ -20,6 +22,15 @@ const INTERVAL: f64 = 0.005;
 /// Wheels of AAR-1B, whose flanges have 75°, on rails with a friction of 0.5 on the left and 0.3 on the
 /// right.
 static CLIMB: LazyLock<ClimbLimits> = LazyLock::new(|| ClimbLimits::of(&car(0.5, 0.3).parameters).unwrap());
+
+/// The parts of a car whose wheels carry 100 kN each, axles beside its middle.
+static PARTS: LazyLock<Parts> = LazyLock::new(|| {
+    let mut parts = parts_of(&car(0.5, 0.3).parameters, [[100e3; 2]; 4]);
+    for axle in &mut parts.axles {
+        axle.place = 0.0;
+    }
+    parts
+});
 
 fn car(left: f64, right: f64) -> CarCase {
     let text = format!(
@@ -33,7 +44,7 @@ fn car(left: f64, right: f64) -> CarCase {
 fn quiet() -> BTreeMap<String, Vec<f64>> {
     let rows = 8001;
     let mut columns = BTreeMap::new();
-    let time: Vec<f64> = (0..rows).map(|row| f64::from(row) * INTERVAL).collect();
+    let time: Vec<f64> = (0..rows).map(|row: u32| f64::from(row) * INTERVAL).collect();
     columns.insert(
         "distance".to_owned(),
         time.iter().map(|t| 10.0 + 30.0 * t).collect(),
@@ -52,7 +63,7 @@ fn quiet() -> BTreeMap<String, Vec<f64>> {
         }
     }
     for truck in 1..=2 {
-        for part in TRUCK_PARTS {
+        for part in ["bolster", "left_side_frame", "right_side_frame"] {
             let name = format!("truck_{truck}_{part}_lateral_acceleration");
             columns.insert(name, vec![0.0; rows as usize]);
         }
@@ -73,10 +84,8 @@ fn statistics(columns: &BTreeMap<String, Vec<f64>>, rules: &Rules) -> Statistics
         rows: columns["time"].len(),
         interval: INTERVAL,
         begin: 2.0,
-        static_loads: &[[100e3; 2]; 4],
-        trucks: &[vec![0, 1], vec![2, 3]],
+        parts: &PARTS,
         climb: Some(&*CLIMB),
-        axle_places: &[0.0; 4],
         in_curve: &|distance| distance > 500.0,
     };
     Statistics::of(&histories, rules, System::Us)
@@ -237,8 +246,7 @@ fn analytic_limits_name_the_worst_statistic() {
     let statistics = statistics(&columns, &Rules::default());
     let limits = limits::of(
         &LimitSet::built_in()[0],
-        &statistics.values,
-        &|_| None,
+        (&CarFigures::with(&[], None), &statistics.values),
         (&Rules::default(), System::Us),
     );
     let of = |quantity: &str| {
@@ -546,10 +554,8 @@ fn analytic_quasi_static_forces_of_two_curves() {
         rows: columns["time"].len(),
         interval: INTERVAL,
         begin: 2.0,
-        static_loads: &[[100e3; 2]; 4],
-        trucks: &[vec![0, 1], vec![2, 3]],
+        parts: &PARTS,
         climb: None,
-        axle_places: &[0.0; 4],
         in_curve: &|own| (300.0..500.0).contains(&own) || (700.0..1000.0).contains(&own),
     };
     let statistics = Statistics::of(&histories, &Rules::default(), System::Si);

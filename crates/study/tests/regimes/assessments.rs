@@ -108,7 +108,7 @@ fn input_all_that_is_built_in_can_be_read() {
         assert!(Condition::all().iter().any(|own| own.name == name), "{name}");
     }
     // The older name of a friction of 0.25.
-    let named = |name: &str| Condition::chosen(&[name.to_owned()]).unwrap();
+    let named = |name: &str| Condition::chosen(&[name.to_owned()], true).unwrap();
     assert_eq!(named("worn"), named("mu_0.25"));
     // All of them make cases of loaded and of empty cars.
     let request = Request {

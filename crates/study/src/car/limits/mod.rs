@@ -167,15 +167,35 @@ pub struct LimitSet {
     pub text: String,
 }
 
+impl LimitCheck {
+    /// Returns where its statistic is taken, in words.
+    #[must_use]
+    pub fn worst_at(&self) -> String {
+        match self.place.as_str() {
+            "" => self.statistic.replace('_', " "),
+            place => place.to_owned(),
+        }
+    }
+}
+
 /// A limit beside the worst statistic of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LimitCheck {
+    /// The limit's name; empty in older summaries.
+    #[serde(default)]
+    pub name: String,
     /// The limited quantity.
     pub quantity: String,
     /// Regimes that it is set for.
     pub regimes: String,
     /// The statistic that is worst.
     pub statistic: String,
+    /// Where that is taken, in words; empty in older summaries.
+    #[serde(default)]
+    pub place: String,
+    /// When that begins, s.
+    #[serde(default)]
+    pub time: Option<f64>,
     /// Its value: filtered, or raw where nothing is filtered.
     pub value: f64,
     /// The limit.
@@ -243,29 +263,31 @@ impl Limit {
         }
     }
 
-    /// Returns it beside the worst of the statistics of a run, whose numbers are in these units, and when
-    /// that begins, s; `None` if the run has none of its kind.
+    /// Returns it beside the worst of the statistics of a run, whose numbers are in these units; `None` if the
+    /// run has none of its kind.
     #[must_use]
-    pub fn check(
+    fn check(
         &self,
         statistics: &BTreeMap<String, Statistic>,
         known: Known<'_>,
         (rules, units): (&Rules, Units),
-    ) -> Option<(LimitCheck, Option<f64>)> {
+    ) -> Option<LimitCheck> {
         let worst = self.measure.of(statistics)?;
         let value = self.in_unit(worst.value.value / self.measure.kind.from_si(units));
         let limit = self.number(known)?;
-        let check = LimitCheck {
+        Some(LimitCheck {
+            name: self.name.clone(),
+            time: worst.time,
             quantity: rules.in_words(&self.quantity),
             regimes: self.regimes_in_words(),
             statistic: worst.statistic.to_owned(),
+            place: worst.place.to_owned(),
             value,
             limit,
             unit: self.unit.clone(),
             margin: self.margin(value, limit),
             unfiltered: !worst.filtered && self.measure.is_filtered(),
-        };
-        Some((check, worst.time))
+        })
     }
 
     /// Returns the margin of a value to the limit, both in its unit: negative where it is not kept. Of a
@@ -329,6 +351,12 @@ impl LimitSet {
         self.not_covered.as_ref().is_some_and(Vec::is_empty) && !self.limits.iter().any(doubtful)
     }
 
+    /// Returns its title with its edition and its source.
+    #[must_use]
+    pub fn title_with_source(&self) -> String {
+        format!("{}; {}", self.title_with_edition(), self.source)
+    }
+
     /// Returns its title with its edition.
     #[must_use]
     pub fn title_with_edition(&self) -> String {
@@ -340,7 +368,7 @@ impl LimitSet {
 }
 
 /// Returns what is known of a car and a run, whose statistics are in these units, SI.
-pub fn known<'k>(
+fn known<'k>(
     figures: &'k CarFigures,
     statistics: &'k BTreeMap<String, Statistic>,
     units: Units,
@@ -354,18 +382,18 @@ pub fn known<'k>(
     }
 }
 
-/// Returns the limits of a set beside the worst of the statistics of a run, whose numbers are in these units,
-/// taken by these rules.
+/// Returns the limits of a set beside the worst of the statistics of a run of a vehicle with these figures,
+/// whose numbers are in these units, taken by these rules.
 #[must_use]
 pub fn of(
     set: &LimitSet,
-    statistics: &BTreeMap<String, Statistic>,
-    known: Known<'_>,
+    (figures, statistics): (&CarFigures, &BTreeMap<String, Statistic>),
     (rules, units): (&Rules, Units),
 ) -> Vec<LimitCheck> {
+    let known = known(figures, statistics, units);
     let limits = set.limits.iter();
-    let checks = limits.filter_map(|limit| limit.check(statistics, known, (rules, units)));
-    checks.map(|(check, _)| check).collect()
+    let checks = limits.filter_map(|limit| limit.check(statistics, &known, (rules, units)));
+    checks.collect()
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@
 
 use quantity::Kind;
 
-use super::{FOOT, In, Names, Pair, Rows, Taker, timed};
+use super::{FOOT, In, Of, Pair, Rows, Taker, timed};
 use crate::signal::{
     BandPass, WindowValue, largest_deviation, largest_range, largest_rms, largest_rmst, sustained,
 };
@@ -16,12 +16,19 @@ use crate::signal::{
 impl Taker<'_, '_> {
     pub(super) fn body(&mut self) {
         let (rows, rules) = (self.rows, self.rules);
-        if let Some(raw) = self.column("body_roll").map(<[f64]>::to_vec) {
-            let roll = Pair { raw, filtered: None };
-            self.set("body_roll_peak_to_peak", &roll, Kind::Angle, whole(rows));
+        let parts = self.histories.parts;
+        for own in &parts.bodies {
+            let name = format!("{}_roll", own.name);
+            if let Some(raw) = self.column(&name).map(<[f64]>::to_vec) {
+                self.at = (Of::Body, own.words.clone());
+                let roll = Pair { raw, filtered: None };
+                self.set(&format!("{name}_peak_to_peak"), &roll, Kind::Angle, whole(rows));
+            }
         }
         let kind = Kind::RideAcceleration;
-        for name in Names::of(self.histories).accelerations() {
+        // Two of each place.
+        for (number, name) in parts.accelerations().into_iter().enumerate() {
+            self.at = (Of::Body, parts.on_bodies[number / 2].words.clone());
             let own = self.pair(&name);
             self.set(&format!("{name}_peak_to_peak"), &own, kind, whole(rows));
             self.set(&format!("{name}_largest"), &own, kind, |values| {
@@ -60,18 +67,17 @@ impl Taker<'_, '_> {
     /// Accelerations of the parts of trucks; rows up to `even` are evenly apart.
     pub(super) fn trucks(&mut self, even: usize) {
         let (rows, rules, (from, to)) = (self.rows, self.rules, self.range);
-        let names = Names::of(self.histories).truck_accelerations();
-        let names: Vec<String> = names
-            .into_iter()
-            .filter(|name| self.column(name).is_some())
-            .collect();
+        let all = self.histories.parts.on_trucks.iter();
+        let names = all.map(|own| (format!("{}_lateral_acceleration", own.name), &own.words));
+        let names: Vec<(String, &String)> = names.filter(|(name, _)| self.column(name).is_some()).collect();
         let filter = BandPass::new(self.histories.interval, rules.truck_band);
         if let (Err(error), false) = (&filter, names.is_empty()) {
             self.taken.remarks.push(format!(
                 "{error}: accelerations of trucks are not filtered; shorten simulation.output_interval"
             ));
         }
-        for name in names {
+        for (name, words) in names {
+            self.at = (Of::Truck, words.clone());
             let all = (self.histories.column)(&name);
             let filtered = filter
                 .as_ref()

@@ -16,10 +16,11 @@
 //!
 //! The lateral force of an axle is that of the left wheel less that of the right one: positive to the left.
 
+use ::car::AxleLimits;
 use quantity::Kind;
 
-use super::{In, Pair, SIDES, Taker, ratio, timed};
-use crate::car::figures::AxleLimits;
+use super::of_parts::in_words;
+use super::{AxlePart, In, Of, Pair, SIDES, Taker, ratio, timed};
 use crate::signal::{Instability, Stretch, WindowValue, largest_mean, sustained};
 
 /// Lateral and vertical force of a wheel.
@@ -30,36 +31,41 @@ struct Wheel {
 
 impl Taker<'_, '_> {
     pub(super) fn wheels(&mut self) {
-        let loads = self.histories.static_loads;
+        let parts = self.histories.parts;
         let mut axles: Vec<[Wheel; 2]> = Vec::new();
-        for (axle, loads) in loads.iter().enumerate() {
-            let wheels = SIDES.map(|side| {
-                let [lateral, vertical] = ["lateral", "vertical"]
-                    .map(|what| self.pair(&format!("axle_{}_{side}_{what}", axle + 1)));
+        for axle in 0..parts.axles.len() {
+            let wheels = [0, 1].map(|side| {
+                let [lateral, vertical] =
+                    ["lateral", "vertical"].map(|what| self.pair(&parts.force_of(axle, side, what)));
                 Wheel { lateral, vertical }
             });
-            self.axle(axle, &wheels, *loads);
+            self.axle(axle, &wheels);
             axles.push(wheels);
         }
-        for (truck, own) in self.histories.trucks.iter().enumerate() {
+        for own in &parts.trucks {
             for (side, name) in SIDES.into_iter().enumerate() {
-                let wheels: Vec<&Wheel> = own.iter().map(|axle| &axles[*axle][side]).collect();
-                let load = own.iter().map(|axle| loads[*axle][side]).sum();
-                self.side(&format!("truck_{}_{name}", truck + 1), &wheels, load);
+                let wheels: Vec<&Wheel> = own.axles.iter().map(|axle| &axles[*axle][side]).collect();
+                let load = own.axles.iter().map(|axle| parts.axles[*axle].loads[side]).sum();
+                self.at = (Of::Truck, format!("{}, {name} side", in_words(&own.name)));
+                self.side(&format!("{}_{name}", own.name), &wheels, load);
             }
         }
     }
 
-    fn axle(&mut self, axle: usize, wheels: &[Wheel; 2], loads: [f64; 2]) {
+    fn axle(&mut self, axle: usize, wheels: &[Wheel; 2]) {
         let (rows, rules) = (self.rows, self.rules);
-        let stem = format!("axle_{}", axle + 1);
+        let AxlePart {
+            name: stem, loads, ..
+        } = &self.histories.parts.axles[axle];
         let limits = self.limits(axle);
         let number = Kind::Dimensionless;
         let ratios = [0, 1].map(|side| {
             let Wheel { lateral, vertical } = &wheels[side];
             Pair::of([lateral, vertical], |[l, v]| ratio(l, v, loads[side]))
         });
+        let words = in_words(stem);
         for (side, name) in SIDES.into_iter().enumerate() {
+            self.at = (Of::Wheel, format!("{words}, {name} wheel"));
             let stem = format!("{stem}_{name}");
             let (own, vertical) = (&ratios[side], &wheels[side].vertical);
             self.held(&format!("{stem}_l_over_v"), own);
@@ -78,6 +84,7 @@ impl Taker<'_, '_> {
                 self.set(&format!("{stem}_lift_largest"), &own, Kind::Length, largest);
             }
         }
+        self.at = (Of::Axle, words);
         let [left, right] = &ratios;
         let sum = Pair::of([left, right], |[l, r]| l.abs() + r.abs());
         let name = format!("{stem}_sum_l_over_v");
@@ -90,13 +97,13 @@ impl Taker<'_, '_> {
         }
         let [left, right] = wheels;
         let net = Pair::of([&left.lateral, &right.lateral], |[l, r]| l - r);
-        self.axle_force(&stem, &net, loads[0] + loads[1]);
+        self.axle_force(stem, &net, loads[0] + loads[1]);
     }
 
     /// What flanges of an axle climb at, at each row.
     fn limits(&self, axle: usize) -> Option<Vec<AxleLimits>> {
         let climb = self.histories.climb?;
-        let place = self.histories.axle_places.get(axle).copied().unwrap_or_default();
+        let place = self.histories.parts.axles[axle].place;
         let distances = self.rows.distance;
         Some(match climb.vary() {
             true => distances.iter().map(|own| climb.at(axle, own + place)).collect(),
@@ -107,14 +114,15 @@ impl Taker<'_, '_> {
     /// Shares of Nadal's limit, and the longest climb.
     fn climb(&mut self, axle: usize, side: usize, own: &Pair, limits: &[AxleLimits]) {
         let (rows, rules) = (self.rows, self.rules);
-        let stem = format!("axle_{}_{}", axle + 1, SIDES[side]);
+        let axle = &self.histories.parts.axles[axle].name;
+        let stem = format!("{axle}_{}", SIDES[side]);
         let limit = |row: usize| limits[row].nadal[side];
         let share = Pair::by_row([own], |row, [own]| own / limit(row));
         let name = format!("{stem}_nadal_share_time");
         self.set(&name, &share, Kind::Dimensionless, |values| {
             sustained(rows.time, values, rules.hold_time)
         });
-        let yaw = self.column(&format!("axle_{}_yaw", axle + 1));
+        let yaw = self.column(&format!("{axle}_yaw"));
         let sizes: Vec<f64> = yaw.unwrap_or_default().iter().map(|own| own.abs()).collect();
         // Where wheels have no flange, nothing is exceeded.
         let levels: Vec<f64> = (0..rows.time.len()).map(|row| limit(row).min(f64::MAX)).collect();
