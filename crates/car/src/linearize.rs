@@ -139,7 +139,7 @@ impl SteadyCar {
     }
 
     /// Returns its state at a speed (m/s): that of the run, with nothing moving but forward, and wheels that
-    /// roll.
+    /// roll as they do at its end.
     #[must_use]
     pub fn state(&self, speed: f64) -> Vec<f64> {
         let system = &self.car.system;
@@ -147,16 +147,18 @@ impl SteadyCar {
         let mut state = self.state.clone();
         state[layout.speeds..].fill(0.0);
         let start = &self.car.initial_state;
-        let numbers = &self.car.numbers;
-        let moving = (0..system.bodies().len()).flat_map(|body| (0..6).map(move |k| (body, k)));
-        for (body, k) in moving {
-            let Some(place) = system.position_of(body, k) else {
-                continue;
-            };
-            let rate = layout.speeds + place;
-            let spins = k == coordinate::SPIN && numbers.wheelsets.contains(&body);
-            let settled = if spins { self.state[rate] } else { start[rate] };
-            state[rate] = settled * speed / self.speed;
+        let rates = (0..system.bodies().len()).flat_map(|body| (0..6).map(move |k| (body, k)));
+        let rate_of = |body: usize, k: usize| Some(layout.speeds + system.position_of(body, k)?);
+        for rate in rates.filter_map(|(body, k)| rate_of(body, k)) {
+            state[rate] = start[rate] * speed / self.speed;
+        }
+        // What carries a wheelset has its coordinates, so that wheels come last. They roll as they settled, for
+        // the way that they then made.
+        for wheelset in self.car.numbers.wheelsets {
+            let own = [coordinate::FORWARD, coordinate::SPIN].map(|k| rate_of(wheelset, k));
+            if let [Some(forward), Some(spin)] = own {
+                state[spin] = self.state[spin] * state[forward] / self.state[forward];
+            }
         }
         state
     }

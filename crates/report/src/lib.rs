@@ -65,6 +65,7 @@ pub mod table;
 pub mod terminal;
 pub mod track_class;
 pub mod track_files;
+pub mod vehicle_stability_files;
 pub mod view;
 pub mod warp_files;
 pub mod wear_files;

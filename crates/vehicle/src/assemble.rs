@@ -20,7 +20,7 @@ use mechanics::vector::Vector;
 use quantity::STANDARD_GRAVITY;
 
 use crate::GROUND;
-use crate::body::RigidBody;
+use crate::body::{BodyStart, RigidBody};
 use crate::catalog::{Element, Place};
 use crate::channel::Channels;
 use crate::drawing::{Drawing, DrawnBody, DrawnElement, Solid};
@@ -86,6 +86,8 @@ pub struct Vehicle {
     /// Static loads of their wheels, left and right, at rest on straight perfect track, N; none if there is
     /// no rest.
     pub static_loads: Vec<[f64; 2]>,
+    /// The bodies that run along, with the number of the coordinate that is forward.
+    pub(crate) running: Vec<(usize, usize)>,
 }
 
 /// A vehicle at rest, on straight perfect track if it runs on one.
@@ -184,7 +186,28 @@ impl Vehicle {
             start_warning,
             axles: nominal.axles,
             static_loads,
+            running: nominal.running,
         })
+    }
+
+    /// Returns the vehicle in equilibrium on straight perfect track of a length (m) before it, if it has
+    /// wheelsets; it rolls at a speed (m/s), and nothing drives it.
+    ///
+    /// # Errors
+    /// As [`Vehicle::new`].
+    pub fn rolling(description: &Description, speed: f64, length: f64) -> Result<Self, VehicleError> {
+        let mut own = description.clone();
+        own.start = StartKind::Equilibrium;
+        for body in &mut own.bodies {
+            body.start = BodyStart::default();
+        }
+        if let Some(on) = &description.on_track {
+            own.on_track = Some(OnTrack {
+                speed,
+                ..on.standing(length)?.0
+            });
+        }
+        Self::new(&own)
     }
 
     /// Returns the columns of its channels.
@@ -257,7 +280,8 @@ fn on_rails(levels: &[(f64, [f64; 3])], [x, y, z]: [f64; 3], is_wheelset: bool) 
 
 /// Returns a vehicle at rest.
 fn at_rest(bodies: &[RigidBody], description: &Description) -> Result<Resting, VehicleError> {
-    let standing = description.on_track.as_ref().map(OnTrack::standing).transpose()?;
+    let standing = description.on_track.as_ref();
+    let standing = standing.map(|on| on.standing(0.0)).transpose()?;
     let on = standing.as_ref().map(|(on, _)| on);
     let mut nominal = Nominal::new(bodies, description, on, (&[], true))?;
     if let Some((_, middle)) = &standing {

@@ -1,6 +1,7 @@
 //! Linear vibrations of a vehicle about its rest.
 
 use mechanics::linear::NoVibration;
+use rolling::wheelset::coordinate;
 
 use crate::assemble::Vehicle;
 
@@ -35,7 +36,45 @@ impl Vehicle {
     /// The equations cannot be linearized there.
     pub fn vibrations(&mut self) -> Result<Vec<Vibration>, NoVibration> {
         let state = self.rest.clone();
-        let found = self.system.eigenvalues(0.0, &state, SHIFT)?;
+        self.vibrations_about(&state)
+    }
+
+    /// Takes a state in which it rolls steadily as that about which it vibrates: with the displacements of `x`
+    /// and with wheels rolling as there; all bodies move forward as at its rest before, and nothing else
+    /// moves; bristles are undeflected.
+    pub fn settle(&mut self, x: &[f64]) {
+        let layout = self.system.layout();
+        let before = std::mem::replace(&mut self.rest, x.to_vec());
+        self.rest[layout.speeds..].fill(0.0);
+        let rate_of = |body: usize, k: usize| Some(layout.speeds + self.system.position_of(body, k)?);
+        for (body, forward) in &self.running {
+            if let Some(rate) = rate_of(*body, *forward) {
+                self.rest[rate] = before[rate];
+            }
+        }
+        for axle in &self.axles {
+            let rates = [coordinate::FORWARD, coordinate::SPIN].map(|k| rate_of(axle.body, k));
+            if let [Some(forward), Some(spin)] = rates {
+                self.rest[spin] = x[spin] * before[forward] / x[forward];
+            }
+        }
+    }
+
+    /// Returns its vibrations where it rolls steadily at another speed, by so many times that of its rest.
+    ///
+    /// # Errors
+    /// As [`Vehicle::vibrations`].
+    pub fn vibrations_at(&mut self, times: f64) -> Result<Vec<Vibration>, NoVibration> {
+        let mut state = self.rest.clone();
+        let speeds = self.system.layout().speeds;
+        for rate in &mut state[speeds..2 * speeds] {
+            *rate *= times;
+        }
+        self.vibrations_about(&state)
+    }
+
+    fn vibrations_about(&mut self, state: &[f64]) -> Result<Vec<Vibration>, NoVibration> {
+        let found = self.system.eigenvalues(0.0, state, SHIFT)?;
         let own = found.into_iter().filter(|[_, frequency]| *frequency > SLOWEST);
         let mut own: Vec<Vibration> = own
             .map(|[growth, frequency]| Vibration { growth, frequency })

@@ -188,6 +188,28 @@ fn cross_code_critical_speed_of_trucks_alone() {
     }
 }
 
+/// Wheels with profiles do not roll at their nominal radius: in steady running they push neither forward nor
+/// back, at any speed.
+#[test]
+fn analytic_wheels_in_steady_running_do_not_creep() {
+    let parameters = empty(tangent(300.0), 10.0);
+    let steady = SteadyCar::new(&parameters).unwrap();
+    let mut system = steady.car().system.clone();
+    for speed in [10.0, 20.0, 40.0] {
+        let state = steady.state(speed);
+        let mut rates = vec![0.0; state.len()];
+        integrate::Problem::derivative(&mut system, 0.0, &state, &mut rates);
+        let seen = system.observe(0.0, &state);
+        let loads = steady.car().loads(&seen, &rates);
+        for wheel in loads.wheels.iter().flatten() {
+            assert!(wheel.longitudinal.abs() < 1e-3 * wheel.vertical, "{speed}: {wheel:?}");
+        }
+        // They roll on another radius than the nominal one.
+        let radius = speed / loads.axles[0].spin;
+        assert!((radius / parameters.axle_radius(0) - 1.0).abs() > 5e-4, "{radius}");
+    }
+}
+
 /// 65, 45 and 32 mph at conicities of 0.05, 0.1 and 0.2 with 17 kip·in/mrad of warp stiffness: from a
 /// separate linear model with nine coordinates.
 #[test]

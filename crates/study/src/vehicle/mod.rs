@@ -11,6 +11,7 @@ mod like;
 mod on_track;
 mod parts;
 pub mod run;
+pub mod stability;
 pub mod summary;
 
 use std::sync::Arc;

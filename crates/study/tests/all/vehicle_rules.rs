@@ -4,10 +4,12 @@ use std::path::{Path, PathBuf};
 
 use study::assessment::{Assessment, Request};
 use study::car::CarCase;
+use study::car::stability::stability;
 use study::models::{AnyCase, StudyCase, built_in};
 use study::run::Run;
 use study::vehicle::VehicleCase;
 use study::vehicle::run::VehicleResult;
+use study::vehicle::stability::over_speed;
 
 use crate::vehicle::written_out;
 
@@ -264,6 +266,34 @@ fn cross_code_a_vehicle_in_a_regime_has_the_values_of_the_car() {
         let within = if k == 3 { 30.0 * FOOT } else { 1e-3 * a.abs() };
         assert!((a - b).abs() < within, "{k}: {a} {b}");
     }
+}
+
+/// The vibrations of the empty car that grow most, friction stuck, are those of the same car written out, whose
+/// equations are linearized as a whole.
+#[test]
+fn cross_code_vibrations_over_speed_are_those_of_the_car() {
+    let text = built_in("car_hunting_empty").unwrap().text();
+    let start = ["start.kind=\"equilibrium\"".to_owned()];
+    let car = CarCase::parse("car.toml", text, Path::new(""), &start).unwrap();
+    let own = case(&written_out(car.to_toml()), &[]);
+    let speeds = [20.0, 35.0];
+    let go_on = |_: f64| std::ops::ControlFlow::Continue(());
+    let ours = over_speed(&own, &speeds, go_on).unwrap();
+    let theirs = stability(&car, &speeds, |share| match share < 0.1 {
+        true => std::ops::ControlFlow::Continue(()),
+        false => std::ops::ControlFlow::Break(()),
+    })
+    .unwrap();
+    let stuck = &theirs.branches[0];
+    for (ours, theirs) in ours.vibrations.iter().zip(&stuck.modes) {
+        for (ours, theirs) in ours.iter().zip(theirs).take(8) {
+            let frequency = ours.frequency / (2.0 * std::f64::consts::PI);
+            let size = (theirs.growth.powi(2) + (6.28 * theirs.frequency).powi(2)).sqrt();
+            let apart = (ours.growth - theirs.growth).hypot(6.28 * (frequency - theirs.frequency));
+            assert!(apart < 1e-3 * size, "{ours:?} {theirs:?}");
+        }
+    }
+    assert!(stuck.critical.is_none() && ours.critical.is_none());
 }
 
 /// What cannot be assessed, and keys that have no effect, are told with what to do.

@@ -20,6 +20,7 @@ pub mod reproduce;
 pub mod run;
 pub mod stability;
 mod stability_locus;
+mod stability_vehicle;
 pub mod study;
 pub mod track;
 pub mod warp;

@@ -15,13 +15,11 @@ use study::car::hunting::{Boundary, Hunting, HuntingError, HuntingSettings, hunt
 use study::car::onset::onset;
 use study::car::stability::{BEYOND, Branch, BranchKind, Stability, left_out, stability};
 use study::outcome::Outcome;
-use study::vehicle::VehicleCase;
-use study::vehicle::summary::VibrationSummary;
 
 use super::run::read_any;
 use super::stability_locus::{Around, VaryArguments};
+use super::stability_vehicle;
 use crate::drawn::Drawn;
-use crate::execute::started_with;
 use crate::failure::{Failure, Message};
 use crate::folders;
 use crate::interrupt;
@@ -29,8 +27,9 @@ use crate::progress::Progress;
 
 /// Stability of a car over speed: growth and frequency of its vibrations, critical speeds, hunting
 ///
-/// Of a vehicle of bodies and elements (model = "vehicle") it prints the natural vibrations about its rest.
-/// Of a car:
+/// Of a vehicle of bodies and elements (model = "vehicle") it prints the natural vibrations; if it runs on a
+/// track, also the critical speed of small motions, and it writes stability.csv, .json, .svg and .png: its
+/// vibrations at each speed, friction stuck. Of a car:
 ///
 /// Linearizes the car about steady running on straight track without irregularities, at each speed: with all
 /// friction of wedges, center plates, adapters and side bearings stuck (bristles are springs), without it,
@@ -148,36 +147,29 @@ fn threshold(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Prints the natural vibrations of a vehicle about its rest.
-fn vibrations(case: &VehicleCase) -> Result<ExitCode, Failure> {
-    let mut vehicle = started_with(case, case.vehicle())?;
-    let found = vehicle.vibrations().map_err(|error| {
-        let message = format!("{} has no natural vibrations: {error}", case.name);
-        Message::new(message, "look for values that are out of proportion")
-    })?;
-    let mut table = TerminalTable::new(0, &[("frequency", "Hz"), ("damping ratio", "")]);
-    for own in found.into_iter().map(VibrationSummary::of) {
-        table.row([
-            format!("{:.6}", own.frequency_hz),
-            format!("{:.6}", own.damping_ratio),
-        ]);
-    }
-    let mut out = io::stdout().lock();
-    table.write(&mut out)?;
-    writeln!(
-        out,
-        "\nNatural vibrations of {} about its rest; what is open or slips there does not hold.",
-        case.name
-    )?;
-    Ok(ExitCode::SUCCESS)
-}
-
 /// Executes the command.
 pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
     interrupt::listen();
     let any = read_any(&arguments.case, &arguments.set)?;
+    let around = Around {
+        path: &arguments.case,
+        set: &arguments.set,
+        speeds: arguments.speeds,
+        out: arguments.out.as_ref(),
+        force: arguments.force,
+        quiet: arguments.quiet,
+    };
+    let speeds = spaced(arguments.speeds, arguments.steps);
     if let Some(vehicle) = any.vehicle() {
-        return vibrations(vehicle);
+        if arguments.nonlinear || arguments.onset.is_some() || arguments.vary.is_given() {
+            let message = format!(
+                "{} is a vehicle; --nonlinear, --onset and --vary are for cars",
+                any.name()
+            );
+            let advice = "leave them out; a study varies its keys and has its slowest vibration";
+            return Err(Message::new(message, advice).into());
+        }
+        return stability_vehicle::execute(vehicle, &around, &speeds);
     }
     let Some(case) = any.car() else {
         let message = format!("{} is no car: hunting is what a car on track does", any.name());
@@ -189,14 +181,6 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         let advice = "leave them out, or write stability.body = \"free\"";
         return Err(Message::new(message, advice).into());
     }
-    let around = Around {
-        path: &arguments.case,
-        set: &arguments.set,
-        speeds: arguments.speeds,
-        out: arguments.out.as_ref(),
-        force: arguments.force,
-        quiet: arguments.quiet,
-    };
     if let Some(done) = arguments.vary.execute(case, around) {
         return done;
     }
@@ -220,7 +204,6 @@ pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
         names.extend(onset_files::NAMES);
     }
     let folder = folders::check(path, &names, arguments.force)?;
-    let speeds = spaced(arguments.speeds, arguments.steps);
     let progress = Progress::new(1, arguments.quiet);
     interrupt::stops_run();
     let mut reached = progress.of_run(1.0);

@@ -61,6 +61,11 @@ pub struct Around<'a> {
 }
 
 impl VaryArguments {
+    /// Returns whether a number is varied.
+    pub fn is_given(&self) -> bool {
+        self.vary.is_some()
+    }
+
     /// Executes the command if a parameter is varied; none if not.
     pub fn execute(&self, case: &CarCase, around: Around<'_>) -> Option<Result<ExitCode, Failure>> {
         let text = self.vary.as_ref()?;
