@@ -21,8 +21,8 @@ use vehicle::{Description, StartKind};
 pub use elements::{OwnElement, OwnKey};
 
 use crate::car::limits::LimitSet;
-use crate::car::{not_round, output};
 use crate::car::statistics::Rules;
+use crate::car::{not_round, output};
 use crate::case::field::Reach;
 use crate::case::model::{Model, model_case, read_case};
 use crate::case::problem::Problem;
