@@ -21,7 +21,7 @@ use rolling::track::{RailSupport, rail_bed, rail_body};
 use rolling::wheel::{Search, WheelOnRail};
 use rolling::wheelset::{WheelsetPlace, leave_spin_uncontrolled, marker};
 use truck::{Bolster, Mount, MountedTruck, WedgeKind, WedgeLoads};
-use wheelrail::contact::{ContactPair, ContactTable, Side, VaryingRail};
+use wheelrail::contact::{ContactPair, ContactTable, Side, VaryingRail, WheelForm};
 use wheelrail::track::RailLines;
 
 use crate::body::{Carried, Pose, angles};
@@ -224,36 +224,42 @@ pub fn searches(wheels: &Wheels) -> Result<Vec<[Search; 2]>, BuildError> {
         Some(first) => first.rails_over(wheels.rails_over.each_ref().map(Option::as_deref))?,
         None => [None, None],
     };
-    let search = |pair: &ContactPair, over: &Option<Arc<VaryingRail>>| -> Result<Search, BuildError> {
+    let search = |pair: &ContactPair, over: &Option<Arc<VaryingRail>>, form: &Option<WheelForm>| {
+        let mut pair = pair.clone();
         if let Some(rail) = over {
-            return Ok(Search::Exact(Arc::new(pair.on(rail.clone()))));
+            pair = pair.on(rail.clone());
         }
-        Ok(match wheels.tables {
-            false => Search::Exact(Arc::new(pair.clone())),
-            true => Search::Table(Arc::new(ContactTable::new(pair.clone(), OVERLAP)?)),
+        if let Some(form) = form {
+            pair = pair.under(form.clone());
+        }
+        Ok::<_, BuildError>(match wheels.tables {
+            false => Search::Exact(Arc::new(pair)),
+            true => Search::Table(Arc::new(ContactTable::new(pair, OVERLAP)?)),
         })
     };
+    let round = |w: usize| wheels.forms[w].iter().all(Option::is_none);
     let mut searches: Vec<[Search; 2]> = Vec::with_capacity(wheels.geometry.len());
     for (w, own) in wheels.geometry.iter().enumerate() {
-        let same = wheels.geometry[..w]
-            .iter()
-            .position(|other| Arc::ptr_eq(own, other));
-        let [left, right] = own.pairs();
+        let mut before = wheels.geometry[..w].iter().enumerate();
+        let same =
+            before.position(|(other, geometry)| Arc::ptr_eq(own, geometry) && round(other) && round(w));
+        let ([left, right], [left_form, right_form]) = (own.pairs(), &wheels.forms[w]);
         searches.push(match same {
             Some(same) => searches[same].clone(),
-            None => [search(left, &over[0])?, search(right, &over[1])?],
+            None => [
+                search(left, &over[0], left_form)?,
+                search(right, &over[1], right_form)?,
+            ],
         });
     }
     Ok(searches)
 }
 
-/// Returns the searches of a car that stands: `running` are those where it runs, on rails that may change
-/// along the track.
+/// Returns the searches of a car that stands: `running` are those with which it runs, on rails that may
+/// change along the track and wheels that may not be round.
 fn standing_searches(wheels: &Wheels, running: &[[Search; 2]]) -> Result<Vec<[Search; 2]>, BuildError> {
     match wheels {
-        Wheels::OnRails(own) if own.rails_over.iter().any(Option::is_some) => {
-            searches(&Wheels::OnRails(own.standing()))
-        }
+        Wheels::OnRails(own) if !own.stands() => searches(&Wheels::OnRails(own.standing())),
         _ => Ok(running.to_vec()),
     }
 }

@@ -93,6 +93,7 @@ impl ProfiledWheels {
             wheels: [[0; 2]; 4].map(|sides| sides.map(|_| wheel.clone())),
             rails: [0; 2].map(|_| rail.clone()),
             rails_over: [None, None],
+            forms: Default::default(),
             tape_distance: nominal::TAPE_DISTANCE,
             tables: false,
             laws: Box::new([0; 2].map(|_| ContactLaw {

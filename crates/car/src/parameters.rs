@@ -10,7 +10,7 @@ use quantity::length_hint;
 use rolling::track::RailSupport;
 use rolling::wheelset::WheelsetBody;
 use truck::{RigidBody, WedgeKind};
-use wheelrail::contact::{ContactLaw, LinearWheelset};
+use wheelrail::contact::{ContactLaw, LinearWheelset, WheelForm};
 use wheelrail::profile::{Profile, SlicedProfile};
 use wheelrail::track::Track;
 use wheelrail::wheelset::RigidWheelset;
@@ -60,6 +60,9 @@ pub struct ProfiledWheels {
     /// Rails whose sections change along the track, left and right. The car comes to rest on `rails`, which
     /// these are where it starts.
     pub rails_over: [Option<Arc<SlicedProfile>>; 2],
+    /// Forms of the left and the right wheel of each wheelset that are not round. The car comes to rest on
+    /// round wheels.
+    pub forms: [[Option<WheelForm>; 2]; 4],
     /// Distance of the tape circles, m.
     pub tape_distance: f64,
     /// True if patches come from tables: faster, for motion on treads only.
@@ -69,13 +72,40 @@ pub struct ProfiledWheels {
 }
 
 impl ProfiledWheels {
-    /// Returns the same on rails that do not change along the track.
+    /// Returns round wheels on rails that do not change along the track.
     #[must_use]
     pub fn standing(&self) -> Self {
         Self {
             rails_over: [None, None],
+            forms: Default::default(),
             ..self.clone()
         }
+    }
+
+    /// Returns whether wheels are round on rails that do not change along the track.
+    #[must_use]
+    pub fn stands(&self) -> bool {
+        self.rails_over.iter().all(Option::is_none) && self.forms.iter().flatten().all(Option::is_none)
+    }
+
+    /// Returns the height of a wheelset on wheels that are not round above that on round ones (m) with the
+    /// roll of its axle (rad, left side up), and their derivatives by the spin, at no spin.
+    #[must_use]
+    pub fn rise(&self, wheelset: usize) -> [[f64; 2]; 2] {
+        let of = |form: &Option<WheelForm>| form.as_ref().map_or([0.0; 2], |form| form.height(0.0));
+        let [left, right] = self.forms[wheelset].each_ref().map(of);
+        [0, 1].map(|order| {
+            let (left, right) = (left[order], right[order]);
+            [0.5 * (left + right), (left - right) / self.tape_distance]
+        })
+    }
+
+    /// Returns the longest step (s) that does not miss a flat or a wave at a speed (m/s); infinite of round
+    /// wheels.
+    #[must_use]
+    pub fn longest_step(&self, speed: f64) -> f64 {
+        let forms = self.forms.iter().flatten().flatten();
+        forms.map(WheelForm::finest).fold(f64::INFINITY, f64::min) / speed.abs()
     }
 }
 
@@ -109,6 +139,17 @@ pub enum Drive {
 }
 
 impl Drive {
+    /// Returns the largest speed that is asked for, m/s, from a start at a speed.
+    #[must_use]
+    pub fn fastest(&self, start: f64) -> f64 {
+        match self {
+            Self::Held { .. } | Self::Coasting => start,
+            Self::Over { speeds, .. } | Self::History { speeds, .. } => {
+                speeds.iter().map(|[_, speed]| *speed).fold(start, f64::max)
+            }
+        }
+    }
+
     /// Returns the force by speed, N·s/m; none of a car that coasts.
     #[must_use]
     pub fn gain(&self) -> Option<f64> {
@@ -450,6 +491,15 @@ impl Parameters {
         match &self.wheels {
             Wheels::OnRails(wheels) => wheels.geometry[wheelset].nominal_radius(),
             Wheels::Linear { wheelset, .. } => wheelset.geometry.radius,
+        }
+    }
+
+    /// Returns the longest step (s) that does not miss a flat or a wave of a wheel; infinite of round wheels.
+    #[must_use]
+    pub fn longest_step(&self) -> f64 {
+        match &self.wheels {
+            Wheels::OnRails(wheels) => wheels.longest_step(self.drive.fastest(self.start.speed)),
+            Wheels::Linear { .. } => f64::INFINITY,
         }
     }
 

@@ -10,13 +10,14 @@ use mechanics::orientation::fixed;
 use mechanics::system::{AtRest, NoEquilibrium, Observation, StaticFriction, System};
 use mechanics::vector::{Matrix, Vector};
 use rolling::wheel::Search;
+use rolling::wheelset::coordinate;
 use truck::{TruckFrame, WedgeLoads};
 use wheelrail::track::{CenterLine, Line, RailLines, Segment, Track};
 
 use crate::assemble::Nominal;
 use crate::body::{Carried, Pose, angles};
 use crate::error::BuildError;
-use crate::parameters::{Drive, Parameters};
+use crate::parameters::{Drive, Parameters, Wheels};
 use crate::tipping::has_tipped;
 
 /// The coordinates of a wheelset along its axle and about the vertical.
@@ -309,6 +310,13 @@ impl Placement {
             rates[4] = self.angular_velocities[group].0[2];
             if let Some(w) = wheelset {
                 rates[3] = parameters.start.speed / parameters.axle_radius(w);
+                if let Wheels::OnRails(wheels) = &parameters.wheels {
+                    let [rise, rate] = wheels.rise(w);
+                    for (k, own) in [coordinate::VERTICAL, coordinate::ROLL].into_iter().enumerate() {
+                        body.initial[own] += rise[k];
+                        rates[own] += rate[k] * rates[3];
+                    }
+                }
             }
             speeds.push((number, rates));
         }

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use study::car::CarCase;
 use study::car::columns::CarTable;
+use study::run::RunCase;
 
 use crate::Error;
 use crate::element::{Entries, Setting};
@@ -65,7 +66,7 @@ pub fn plant(case: &CarCase, setting: Option<&Setting>) -> Result<Plant, Error> 
         rolls: true,
         initial: Some(initial),
         driven: is_driven(setting),
-        ..Plant::new(system, entries, ports, case.simulation.options())
+        ..Plant::new(system, entries, ports, case.options())
     })
 }
 

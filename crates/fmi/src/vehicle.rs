@@ -5,6 +5,7 @@
 //! under each wheel and load the bodies. Outputs are the columns of its results.
 
 use mechanics::output::Column;
+use study::run::RunCase;
 use study::vehicle::VehicleCase;
 use vehicle::{Vehicle, View};
 
@@ -77,7 +78,7 @@ pub fn plant(case: &VehicleCase, setting: Option<&Setting>) -> Result<Plant, Err
         rolls: on_track,
         initial: Some(initial),
         driven,
-        ..Plant::new(system, entries, ports, case.simulation.options())
+        ..Plant::new(system, entries, ports, case.options())
     })
 }
 

@@ -15,7 +15,8 @@
 //! Where the rail's section changes along the track, that at the distance of the foot counts, in plan along
 //! the center line.
 //!
-//! The spin enters by its rate only, since a wheel is a body of revolution.
+//! The spin of a round wheel enters by its rate only; of one that is not round the angle that is down is
+//! read from the axes of marker A, which spin with the wheel.
 //!
 //! **Energy.** Stored is `Σ 2/5 k d^2.5` at the pose. What the elastic normal forces take and the energy does
 //! not hold is the element's work (`element_work` in the ledger): k changes with the place of a patch, shares
@@ -36,7 +37,7 @@ use wheelrail::contact::{
 use wheelrail::hertz::Material;
 use wheelrail::track::{Line, RailLines, TrackSection};
 
-use crate::ahead::ahead;
+use crate::ahead::{ahead, axis_ahead};
 
 /// The search for patches.
 #[derive(Clone, Debug)]
@@ -106,9 +107,16 @@ pub struct PatchState {
     pub normal: Vector<f64>,
 }
 
-/// Returns a pose in a section: the wheel's center and its axle (to the left) in the fixed axes of the track.
+/// Returns a pose in a section: the wheel's center, its axle (to the left) and, of one that is not round, the
+/// direction that is forward at zero spin, in the fixed axes of the track.
 #[inline(always)]
-fn pose_in<S: Real>(section: &TrackSection<S>, side: Side, center: [S; 3], axle: [S; 3]) -> WheelPose<S> {
+fn pose_in<S: Real>(
+    section: &TrackSection<S>,
+    side: Side,
+    center: [S; 3],
+    axle: [S; 3],
+    forward: Option<[S; 3]>,
+) -> WheelPose<S> {
     let arm = [0, 1, 2].map(|i| center[i] - section.origin[i]);
     let [_, y, z] = side.mirrored(section.of(arm));
     let left = section.of(axle);
@@ -120,7 +128,20 @@ fn pose_in<S: Real>(section: &TrackSection<S>, side: Side, center: [S; 3], axle:
         center: [y, z],
         axle: side.mirrored(axle),
         along: section.distance,
+        angle: forward.map_or(S::zero(), |forward| angle_down(left, section.of(forward))),
     }
+}
+
+/// Returns the angle in the wheel that is down, rad, from its axle to the left and the direction that is
+/// forward at zero spin, in the axes of the section.
+#[inline(always)]
+fn angle_down<S: Real>([x, y, z]: [S; 3], forward: [S; 3]) -> S {
+    let level = ((x * x - 1.0) * -1.0).sqrt();
+    let across = (y * y + z * z).sqrt();
+    let sine = (forward[1] * z - forward[2] * y) / across;
+    let cosine = (forward[0] * (level * level) - forward[1] * (x * y) - forward[2] * (x * z)) / level;
+    let angle = libm::atan2(sine.value(), cosine.value());
+    sine.chain(angle, cosine.value()) + cosine.chain(0.0, -sine.value())
 }
 
 /// The inputs of an evaluation.
@@ -146,13 +167,16 @@ impl WheelOnRail {
         let foot = self.lines.foot(self.line(), center.value().0);
         let section = foot.section(center.0);
         let [at, direction] = ahead(motion);
+        let turns = self.search.pair().form().is_some();
+        let forward = turns.then(|| motion.rotation.column(0).0);
+        let forward_ahead = turns.then(|| axis_ahead(motion, 0));
         Placed {
-            pose: pose_in(&section, self.side, center.0, axle.0),
+            pose: pose_in(&section, self.side, center.0, axle.0, forward),
             motion: WheelMotion {
                 velocity: section.of(motion.velocity.0),
                 angular_velocity: section.of(motion.angular_velocity.0),
             },
-            moving: pose_in(&foot.section(at), self.side, at, direction),
+            moving: pose_in(&foot.section(at), self.side, at, direction, forward_ahead),
             section,
         }
     }

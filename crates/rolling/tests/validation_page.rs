@@ -20,6 +20,6 @@ fn reproduction_the_validation_page_holds_what_is_computed() {
         );
     }
     assert_eq!(written.lines().count(), computed.lines().count());
-    assert_eq!(computed.matches("\n## ").count(), 8);
+    assert_eq!(computed.matches("\n## ").count(), 9);
     assert!(!computed.contains("NaN") && !computed.contains("MORE"));
 }

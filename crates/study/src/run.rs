@@ -111,6 +111,12 @@ impl<'c> RunSettings<'c> {
             options: simulation.options(),
         }
     }
+
+    /// Returns the same with steps no longer than this, s.
+    pub(crate) fn with_steps_of(mut self, longest: f64) -> Self {
+        self.options.maximum_step = self.options.maximum_step.min(longest);
+        self
+    }
 }
 
 /// The values with which a run begins.

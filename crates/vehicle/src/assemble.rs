@@ -238,9 +238,19 @@ fn roll(state: &mut [f64], system: &System, running: &[(usize, usize)], axles: &
             }
         }
     }
+    let spin = on.speed / on.radius();
+    let [rise, rate] = on.wheels.rise(0);
     for axle in axles {
-        if let Some(place) = system.position_of(axle.body, coordinate::SPIN) {
-            state[speeds + place] += on.speed / on.radius();
+        let moved = [
+            (coordinate::SPIN, 0.0, spin),
+            (coordinate::VERTICAL, rise[0], rate[0] * spin),
+            (coordinate::ROLL, rise[1], rate[1] * spin),
+        ];
+        for (own, way, speed) in moved {
+            if let Some(place) = system.position_of(axle.body, own) {
+                state[place] += way;
+                state[speeds + place] += speed;
+            }
         }
     }
 }

@@ -142,6 +142,12 @@ impl OnTrack {
         self.wheels.geometry[0].pairs()[0].nominal_radius()
     }
 
+    /// Returns the longest step (s) that does not miss a flat or a wave of a wheel; infinite of round wheels.
+    #[must_use]
+    pub fn longest_step(&self) -> f64 {
+        self.wheels.longest_step(self.drive.fastest(self.speed))
+    }
+
     /// Returns the rails of the track.
     pub(crate) fn lines(&self) -> Arc<RailLines> {
         let offsets = self.wheels.geometry[0].rail_origins();

@@ -73,6 +73,7 @@ fn one_wheelset() -> Option<Wheelset> {
         name: "wheelset".to_owned(),
         wheels: [nominal::aar_1b().ok()?, nominal::aar_1b().ok()?],
         rails_over: [None, None],
+        forms: [None, None],
         rails: [rail.clone(), rail],
         radii: [0.4572; 2],
         layout: Layout {

@@ -11,4 +11,5 @@ mod energy;
 mod hunting;
 mod impact;
 mod manchester;
+mod not_round;
 mod stability;

@@ -6,6 +6,7 @@ pub mod bushing;
 pub mod impact;
 pub mod manchester;
 pub mod nonlinear;
+pub mod not_round;
 pub mod suspended;
 
 use std::sync::Arc;

@@ -11,7 +11,7 @@ use wheelrail::creep::polach;
 use wheelrail::profile::Profile;
 
 use super::statistics::Rules;
-use super::{CarCase, friction, rails};
+use super::{CarCase, friction, not_round, rails};
 use crate::reader::CaseText;
 use crate::truck::assumptions::of_kinds;
 use crate::wedge_faces;
@@ -74,6 +74,7 @@ pub(crate) fn of_wheels(text: &CaseText, own: &ProfiledWheels, list: &mut Vec<St
         }
     }
     list.extend(rails::over_in_words(&own.rails_over));
+    list.extend(not_round::in_words(&own.forms));
     let [left, right] = &own.rails;
     if same(left, right) {
         let paths = ["rails.left.profile", "rails.profile"].map(str::to_owned);

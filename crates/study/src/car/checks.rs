@@ -7,7 +7,7 @@ use truck::SideBearing;
 use wheelrail::track::CenterLine;
 
 use super::lading::LadingKind;
-use super::rails;
+use super::{not_round, rails};
 use crate::case::Simulation;
 use crate::case::problem::Problem;
 use crate::geometry;
@@ -46,6 +46,7 @@ pub(super) fn all(
     }
     let mut doubts = geometry::of_car(parameters);
     doubts.extend(height(parameters));
+    doubts.extend(not_round::of_rows(parameters, simulation.output_interval));
     doubts
 }
 

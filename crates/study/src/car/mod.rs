@@ -20,6 +20,7 @@ pub mod locked_in;
 pub mod mode_shape;
 pub mod motions;
 pub(crate) mod named;
+pub(crate) mod not_round;
 pub mod onset;
 pub(crate) mod output;
 pub(crate) mod peaks;

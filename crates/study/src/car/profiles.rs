@@ -88,16 +88,17 @@ pub(super) fn profile(
     Some(made)
 }
 
-/// Returns whether a name is that of a list of sections of rails that exists.
-pub(super) fn is_list(r: &CaseReader<'_>, named: &NamedProfile) -> bool {
+/// Returns whether a name is that of a list of sections of this kind that exists.
+pub(super) fn is_list(r: &CaseReader<'_>, named: &NamedProfile, kind: ProfileKind) -> bool {
     let exists = || r.tables().locate(&named.name).is_ok_and(|file| file.exists());
-    SlicedProfile::kind_of(Path::new(&named.name)) == Some(ProfileKind::Rail) && exists()
+    SlicedProfile::kind_of(Path::new(&named.name)) == Some(kind) && exists()
 }
 
-/// Returns a list of sections of a rail, with its files.
+/// Returns a list of sections, with its files.
 pub(super) fn sliced(
     r: &mut CaseReader<'_>,
     named: &NamedProfile,
+    kind: ProfileKind,
     options: &ReadOptions,
     doubts: &mut Vec<String>,
 ) -> Option<SlicedProfile> {
@@ -112,7 +113,7 @@ pub(super) fn sliced(
         }
     }
     let NamedProfile { path, name } = named;
-    let file = located(r, path, name, ProfileKind::Rail)?;
+    let file = located(r, path, name, kind)?;
     let folder = Path::new(name).parent().unwrap_or(Path::new("")).to_owned();
     let tables = r.tables();
     let mut listed = Vec::new();
@@ -124,7 +125,7 @@ pub(super) fn sliced(
         Ok(found)
     });
     r.files.push(NamedFile {
-        key: key_of(ProfileKind::Rail),
+        key: key_of(kind),
         typed: name.to_owned(),
         path: file,
         listed,

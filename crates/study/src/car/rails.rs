@@ -183,7 +183,7 @@ fn made(
         ..ReadOptions::default()
     };
     let path = format!("{}.over_distance", rail.changes.0);
-    if profiles::is_list(r, &rail.named) {
+    if profiles::is_list(r, &rail.named, ProfileKind::Rail) {
         if !rail.changes.1.is_empty() {
             let message = format!(
                 "`{}` is a list of sections, and `{path}` gives profiles too",
@@ -193,7 +193,7 @@ fn made(
             r.problem(&path, Problem::new(message).help(help));
             return None;
         }
-        let list = sliced(r, &rail.named, &options, doubts)?.from(rail.slices_from);
+        let list = sliced(r, &rail.named, ProfileKind::Rail, &options, doubts)?.from(rail.slices_from);
         let list = match rail.inclination {
             0.0 => list,
             slope => list.inclined(slope),

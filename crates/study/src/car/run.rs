@@ -86,7 +86,7 @@ impl RunCase for CarCase {
     const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
 
     fn settings(&self) -> RunSettings<'_> {
-        RunSettings::of(&self.name, &self.simulation)
+        RunSettings::of(&self.name, &self.simulation).with_steps_of(self.parameters.longest_step())
     }
 
     fn begin(&self) -> Result<Beginning<CarRecorder>, RunError> {

@@ -6,19 +6,20 @@ use std::sync::Arc;
 use car::{Parameters, ProfiledWheels, Wheels};
 use quantity::Kind as Measure;
 use wheelrail::conicity::LinearGeometry;
-use wheelrail::contact::{ContactLaw, CreepCoefficients, CreepLaw, LinearWheelset, Side};
+use wheelrail::contact::{ContactLaw, CreepCoefficients, CreepLaw, LinearWheelset, Side, WheelForm};
 use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
 use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 use wheelrail::profile::figures::LEAST_CLEARANCE;
 use wheelrail::profile::{
-    Profile, ProfileError, ProfileKind, ReadOptions, WheelDatum, flangeway_clearance, nominal,
+    Profile, ProfileError, ProfileKind, ReadOptions, SlicedProfile, WheelDatum, flangeway_clearance, nominal,
 };
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
 use super::friction;
-use super::profiles::{DEVIATION, NamedProfile, SIDES, named, named_or, profile, wrong};
+use super::not_round::{self, Roundness, roundness};
+use super::profiles::{self, DEVIATION, NamedProfile, SIDES, named, named_or, profile, wrong};
 use super::rails::Rails;
 use crate::case::field::Reach;
 use crate::case::problem::Problem;
@@ -95,6 +96,7 @@ pub(crate) fn wheels(
             let help = "leave out rails.over_distance, or write wheels.geometry = \"profiles\"";
             r.problem("wheels.geometry", problem.label("the rails change").help(help));
         }
+        not_round::refuse_linear(r);
         let static_load = parameters.weight() / 4.0;
         parameters.wheels = linear_wheels(r, radius, static_load);
         return rails.doubts;
@@ -103,8 +105,9 @@ pub(crate) fn wheels(
                    \"aar_1:20\", \
                    \"s1002\", \"hollow_2mm\", \"cone_1:20\" of any slope, or a file: CSV with units, \
                    Simpack, MiniProf, \
-                   VAMPIRE";
+                   VAMPIRE, a list of sections around the wheel (.slcw)";
     let all = named(r, "wheels", "aar_1b", comment);
+    let round = roundness(r, "wheels", &Roundness::default());
     let mut tape_distance = nominal::TAPE_DISTANCE;
     r.quantity("tape_distance", LENGTH, &mut tape_distance, "of the tape circles");
     const DATUMS: Names<Option<WheelDatum>> = &[
@@ -139,7 +142,12 @@ pub(crate) fn wheels(
         r.problem("wheels.tables", problem.label("the rails change").help(help));
     }
     let law = contact_law(r, sprung);
-    let each = each_wheel(r, (all, radius));
+    let all = WheelKeys {
+        named: all,
+        radius,
+        round,
+    };
+    let each = each_wheel(r, &all);
     let laws = friction::laws(r, law);
     let mut doubts = rails.doubts;
     let options = ReadOptions {
@@ -156,10 +164,16 @@ pub(crate) fn wheels(
         gauge: rails.gauge,
         gauge_depth: rails.gauge_depth,
     };
-    for [(own, profile, radius), _] in &each {
+    for [
+        EachWheel {
+            keys: own, profile, ..
+        },
+        _,
+    ] in &each
+    {
         let stated = profile.stated();
         for (key, stated, used) in [
-            ("wheels.radius", stated.radius, *radius),
+            ("wheels.radius", stated.radius, own.radius),
             ("wheels.tape_distance", stated.tape_distance, tape_distance),
         ] {
             let Some(stated) = stated.filter(|stated| (stated - used).abs() > 1e-4) else {
@@ -169,7 +183,7 @@ pub(crate) fn wheels(
                 "the file of {} states {:.2} mm for {key}, and {:.2} mm is used: set {key} = \"{:.2} mm\" \
                  if the file \
                  is right",
-                own.path,
+                own.named.path,
                 1e3 * stated,
                 1e3 * used,
                 1e3 * stated
@@ -182,15 +196,17 @@ pub(crate) fn wheels(
     let mut geometry: Vec<Arc<RigidWheelset>> = Vec::with_capacity(4);
     for (w, own) in each.iter().enumerate() {
         let alike = |other: &[EachWheel; 2]| {
-            let same = |i: usize| Arc::ptr_eq(&other[i].1, &own[i].1) && other[i].2 == own[i].2;
+            let same = |i: usize| {
+                Arc::ptr_eq(&other[i].profile, &own[i].profile) && other[i].keys.radius == own[i].keys.radius
+            };
             same(0) && same(1)
         };
         if let Some(known) = each[..w].iter().position(alike) {
             geometry.push(geometry[known].clone());
             continue;
         }
-        let wheels = own.each_ref().map(|(_, profile, _)| &**profile);
-        let radii = own.each_ref().map(|(_, _, radius)| *radius);
+        let wheels = own.each_ref().map(|own| &*own.profile);
+        let radii = own.each_ref().map(|own| own.keys.radius);
         let on = rail_profiles.each_ref().map(|own| &**own);
         match RigidWheelset::new(wheels, radii, on, layout, STEEL) {
             Ok(made) => geometry.push(Arc::new(made)),
@@ -199,7 +215,7 @@ pub(crate) fn wheels(
                 let path = if of_rail {
                     "rails.profile"
                 } else {
-                    own[0].0.path.as_str()
+                    own[0].keys.named.path.as_str()
                 };
                 wrong(r, path, &error);
                 return doubts;
@@ -217,12 +233,26 @@ pub(crate) fn wheels(
             ));
         }
     }
+    let forms = each.each_ref().map(|sides| {
+        sides.each_ref().map(|own| {
+            let sliced = (own.sliced.as_deref(), own.keys.named.path.as_str());
+            let form = own.keys.round.form(r, own.keys.radius, sliced, &mut doubts);
+            if let (true, Some(WheelForm::Sliced(_))) = (tables, &form) {
+                let problem =
+                    Problem::new("tables of contacts are those of one section, and a wheel has several");
+                let help = "leave out wheels.tables, or name a single profile";
+                r.problem("wheels.tables", problem.label("a wheel changes").help(help));
+            }
+            form
+        })
+    });
     if let Ok(geometry) = <[Arc<RigidWheelset>; 4]>::try_from(geometry) {
         parameters.wheels = Wheels::OnRails(ProfiledWheels {
             geometry,
-            wheels: each.map(|sides| sides.map(|(_, profile, _)| profile)),
+            wheels: each.map(|sides| sides.map(|own| own.profile)),
             rails: rail_profiles,
             rails_over: rails.over,
+            forms,
             tape_distance,
             tables,
             laws: Box::new(laws),
@@ -231,47 +261,52 @@ pub(crate) fn wheels(
     doubts
 }
 
-/// A wheel: what names its profile, the profile, its nominal radius (m).
-type EachWheel = (NamedProfile, Arc<Profile>, f64);
+/// What is typed of a wheel.
+#[derive(Clone, Debug, PartialEq)]
+struct WheelKeys {
+    named: NamedProfile,
+    /// Nominal, m.
+    radius: f64,
+    round: Roundness,
+}
 
-/// Reads what is said of some wheels: names of profiles and nominal radii (m), left and right of each
-/// wheelset.
-fn each_wheel(r: &mut CaseReader<'_>, all: (NamedProfile, f64)) -> [[(NamedProfile, f64); 2]; 4] {
-    let mut read = |path: &str, about: &str, mut own: (NamedProfile, f64)| {
+/// A wheel with its profile, and with those around it, if they change.
+struct EachWheel {
+    keys: WheelKeys,
+    profile: Arc<Profile>,
+    sliced: Option<Arc<SlicedProfile>>,
+}
+
+/// Reads what is said of some wheels, left and right of each wheelset.
+fn each_wheel(r: &mut CaseReader<'_>, all: &WheelKeys) -> [[WheelKeys; 2]; 4] {
+    let mut read = |path: &str, about: &str, mut own: WheelKeys| {
         if r.overlay(path, about) {
-            own.0 = named_or(r, path, &own.0);
-            r.quantity("radius", LENGTH, &mut own.1, "nominal, at the tape circle");
+            own.named = named_or(r, path, &own.named);
+            r.quantity("radius", LENGTH, &mut own.radius, "nominal, at the tape circle");
+            own.round = roundness(r, path, &own.round);
         }
         own
     };
     let about = "All wheels of a side: what is not given is as in [wheels].";
-    let sides = SIDES.map(|side| {
-        let path = format!("wheels.{side}");
-        let own = read(&path, about, all.clone());
-        let said = own != all;
-        (own, said)
-    });
+    let sides = SIDES.map(|side| read(&format!("wheels.{side}"), about, all.clone()));
     [1, 2, 3, 4].map(|axle| {
         let path = format!("wheels.axle_{axle}");
         let about = "One wheelset: what is not given is as in [wheels.left], [wheels.right] or [wheels].";
         let wheelset = read(&path, about, all.clone());
         [0, 1].map(|i| {
-            let (side, _) = &sides[i];
+            let side = &sides[i];
             // What the wheelset says goes before what its side says.
-            let base = (
-                if wheelset.0 == all.0 {
-                    side.0.clone()
-                } else {
-                    wheelset.0.clone()
-                },
-                if wheelset.1 == all.1 { side.1 } else { wheelset.1 },
-            );
+            let mut base = wheelset.clone();
+            if wheelset.named == all.named {
+                base.named = side.named.clone();
+            }
+            if wheelset.radius == all.radius {
+                base.radius = side.radius;
+            }
+            base.round = base.round.over(&side.round, &all.round);
             let path = format!("wheels.axle_{axle}.{}", SIDES[i]);
-            read(
-                &path,
-                "One wheel: what is not given is as for its wheelset.",
-                base,
-            )
+            let about = "One wheel: what is not given is as for its wheelset.";
+            read(&path, about, base)
         })
     })
 }
@@ -279,34 +314,64 @@ fn each_wheel(r: &mut CaseReader<'_>, all: (NamedProfile, f64)) -> [[(NamedProfi
 /// Reads the profiles of all wheels, each file once. None if one is not made.
 fn profiles_of(
     r: &mut CaseReader<'_>,
-    each: [[(NamedProfile, f64); 2]; 4],
+    each: [[WheelKeys; 2]; 4],
     options: ReadOptions,
     doubts: &mut Vec<String>,
 ) -> Option<[[EachWheel; 2]; 4]> {
-    let alike = each.iter().all(|[left, right]| left.0.name == right.0.name);
-    let mut known: Vec<(String, Option<Side>, Option<Arc<Profile>>)> = Vec::new();
+    let alike = each
+        .iter()
+        .all(|[left, right]| left.named.name == right.named.name);
+    let mut known: Vec<(String, Option<Side>, Option<Made>)> = Vec::new();
     let made = each.map(|sides| {
         let mut i = 0;
-        sides.map(|(named, radius)| {
+        sides.map(|keys| {
             let side = (!alike).then_some([Side::Left, Side::Right][i]);
             i += 1;
             let found = known
                 .iter()
-                .find(|(name, of, _)| *name == named.name && *of == side);
+                .find(|(name, of, _)| *name == keys.named.name && *of == side);
             let made = match found {
                 Some((_, _, made)) => made.clone(),
                 None => {
                     let options = ReadOptions { side, ..options };
-                    let made = profile(r, &named, ProfileKind::Wheel, &options, doubts).map(Arc::new);
-                    known.push((named.name.clone(), side, made.clone()));
+                    let made = made(r, &keys.named, &options, doubts);
+                    known.push((keys.named.name.clone(), side, made.clone()));
                     made
                 }
             };
-            made.map(|made| (named, made, radius))
+            made.map(|(profile, sliced)| EachWheel {
+                keys,
+                profile,
+                sliced,
+            })
         })
     });
     let [a, b, c, d] = made.map(|[left, right]| left.zip(right).map(|(left, right)| [left, right]));
     Some([a?, b?, c?, d?])
+}
+
+/// A wheel's profile, and its sections around it, if they change.
+type Made = (Arc<Profile>, Option<Arc<SlicedProfile>>);
+
+/// Returns a wheel's profile: of a list of sections around it the one that is down at the start.
+fn made(
+    r: &mut CaseReader<'_>,
+    named: &NamedProfile,
+    options: &ReadOptions,
+    doubts: &mut Vec<String>,
+) -> Option<Made> {
+    if !profiles::is_list(r, named, ProfileKind::Wheel) {
+        let made = profile(r, named, ProfileKind::Wheel, options, doubts)?;
+        return Some((Arc::new(made), None));
+    }
+    let list = profiles::sliced(r, named, ProfileKind::Wheel, options, doubts)?;
+    match list.at(0.0) {
+        Ok(first) => Some((Arc::new(first), Some(Arc::new(list)))),
+        Err(error) => {
+            wrong(r, &named.path, &error);
+            None
+        }
+    }
 }
 
 fn contact_law(r: &mut CaseReader<'_>, sprung: bool) -> ContactLaw {

@@ -22,8 +22,8 @@ use vehicle::{Description, StartKind};
 pub use elements::{OwnElement, OwnKey};
 
 use crate::car::limits::LimitSet;
-use crate::car::output;
 use crate::car::statistics::Rules;
+use crate::car::{not_round, output};
 use crate::case::field::Reach;
 use crate::case::model::{Model, model_case, read_case};
 use crate::case::problem::Problem;
@@ -137,6 +137,11 @@ fn read_with(r: &mut CaseReader<'_>, default_name: &str, own: &'static [OwnEleme
         check_motions(r, duration);
     }
     doubts.extend(self::doubts(r, &description));
+    let on = description.on_track.as_ref();
+    doubts.extend(on.and_then(|on| {
+        let speed = on.drive.fastest(on.speed);
+        not_round::rows_too_far_apart(&on.wheels, speed, simulation.output_interval)
+    }));
     r.files.extend(files);
     let files = std::mem::take(&mut r.files);
     let text = r.finish("a vehicle's case");

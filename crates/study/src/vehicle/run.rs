@@ -8,7 +8,7 @@ use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
 use mechanics::system::{Observation, System};
 use quantity::Kind;
-use vehicle::{Vehicle, View};
+use vehicle::{OnTrack, Vehicle, View};
 
 use super::VehicleCase;
 use super::parts::parts;
@@ -134,7 +134,12 @@ impl RunCase for VehicleCase {
     const WHAT_TO_TRY: &'static str = progress::WHAT_TO_TRY;
 
     fn settings(&self) -> RunSettings<'_> {
-        RunSettings::of(&self.name, &self.simulation)
+        let longest = self
+            .description
+            .on_track
+            .as_ref()
+            .map_or(f64::INFINITY, OnTrack::longest_step);
+        RunSettings::of(&self.name, &self.simulation).with_steps_of(longest)
     }
 
     fn begin(&self) -> Result<Beginning<VehicleRecorder>, RunError> {

@@ -18,7 +18,7 @@ use rolling::rig::{Rig, RigError, RigStart, Setup, Wheels};
 use rolling::wheel::Search;
 use rolling::wheelset::WheelsetBody;
 use thiserror::Error;
-use wheelrail::contact::{ContactLaw, ContactTable, CreepLaw};
+use wheelrail::contact::{ContactLaw, ContactTable, CreepLaw, WheelForm};
 use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 use wheelrail::profile::{Profile, ProfileError, SlicedProfile};
@@ -26,6 +26,7 @@ use wheelrail::track::{RailLines, Track, TrackError};
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
 use crate::car::assumptions::{of_profile, of_support};
+use crate::car::not_round;
 use crate::track::{Support, TrackFile};
 
 /// Damping α of the normal forces, s/m, on rigid and on sprung track; guesses.
@@ -59,6 +60,8 @@ pub struct Wheelset {
     pub rails: [Profile; 2],
     /// The left and the right rail, where their sections change along the track.
     pub rails_over: [Option<Arc<SlicedProfile>>; 2],
+    /// The left and the right wheel, where they are not round.
+    pub forms: [Option<WheelForm>; 2],
     /// Nominal radii of the left and the right wheel, m.
     pub radii: [f64; 2],
     /// Distances of wheels and rails.
@@ -173,6 +176,13 @@ impl WheelsetError {
 }
 
 impl Wheelset {
+    /// Returns the longest step (s) that does not miss a flat or a wave of a wheel; infinite of round wheels.
+    #[must_use]
+    pub fn longest_step(&self) -> f64 {
+        let forms = self.forms.iter().flatten().map(WheelForm::finest);
+        forms.fold(f64::INFINITY, f64::min) / self.speed
+    }
+
     /// Returns the mean of the nominal radii, m.
     #[must_use]
     pub fn nominal_radius(&self) -> f64 {
@@ -232,6 +242,7 @@ impl WheelsetCase {
             }
         }
         words.extend(crate::car::rails::over_in_words(&own.rails_over));
+        words.extend(not_round::of_wheelset(&own.forms, "the wheelset"));
         words.push(
             "One wheelset under a carriage that follows the track: its springs are lateral and yaw springs \
              to the track's direction, its load acts square to the track, its drive holds the speed; no car \
@@ -324,6 +335,9 @@ fn setup(wheelset: &Wheelset, track: Track) -> Result<Setup, WheelsetError> {
         let mut pair = rigid.pairs()[index].clone();
         if let Some(rail) = &over[index] {
             pair = pair.on(rail.clone());
+        }
+        if let Some(form) = &wheelset.forms[index] {
+            pair = pair.under(form.clone());
         }
         Ok(match wheelset.search {
             SearchMode::Search => Search::Exact(Arc::new(pair)),

@@ -60,6 +60,7 @@ impl RunCase for WheelsetCase {
             units: self.wheelset.units,
             options: Options {
                 relative_tolerance: self.wheelset.relative_tolerance,
+                maximum_step: self.wheelset.longest_step(),
                 ..Options::default()
             },
         }

@@ -11,6 +11,7 @@ mod input;
 mod layout;
 mod locus;
 mod mode_shape;
+mod not_round;
 mod onset;
 #[path = "../common/problems.rs"]
 mod problems;

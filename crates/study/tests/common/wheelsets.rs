@@ -23,6 +23,7 @@ pub fn wheelset(track: &str, speed: f64) -> Wheelset {
         name: "test".to_owned(),
         wheels: [nominal::aar_1b().unwrap(), nominal::aar_1b().unwrap()],
         rails_over: [None, None],
+        forms: [None, None],
         rails: std::array::from_fn(|_| nominal::rail_136re().unwrap().inclined(nominal::INCLINATION)),
         radii: [18.0 * INCH; 2],
         layout: Layout {

@@ -1,6 +1,8 @@
 //! The options of a wheelset under a carriage, of all commands that run or linearize one.
 
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 use quantity::{Kind, Quantity, System as Units};
@@ -8,14 +10,14 @@ use rolling::rig::RigStart;
 use rolling::wheelset::WheelsetBody;
 use study::track::TrackFile;
 use study::wheelset::{SearchMode, Wheelset};
-use wheelrail::contact::CreepLaw;
+use wheelrail::contact::{CreepLaw, Flat, OutOfRound, WheelForm};
 use wheelrail::creep::fastsim::StripGrid;
 use wheelrail::creep::polach;
 use wheelrail::friction::Friction;
 use wheelrail::hertz::Material;
 
 use super::wheelrail_contact::Creep;
-use super::wheelrail_pair::{DEVIATION, ProfiledPair, WheelRailPair, word};
+use super::wheelrail_pair::{DEVIATION, ProfiledPair, WheelRailPair, word, wrong};
 use crate::failure::Failure;
 
 /// Steel.
@@ -62,6 +64,9 @@ pub struct SuspendedArguments {
     /// goes over from that of the tread [default: that of the tread]
     #[arg(long, value_name = "FRICTION")]
     gauge_face_friction: Option<f64>,
+    /// Length of a fresh flat on both wheels, up at the start
+    #[arg(long, value_name = "LENGTH", value_parser = of_length)]
+    flat: Option<Quantity>,
     /// Creep law
     #[arg(long, value_name = "LAW", value_enum, default_value_t = Creep::Polach)]
     creep: Creep,
@@ -96,6 +101,10 @@ struct Named {
 
 fn of(text: &str, kind: Kind) -> Result<Quantity, String> {
     Quantity::parse_as(text, kind).map_err(|error| format!("{error}; {}", error.help()))
+}
+
+fn of_length(text: &str) -> Result<Quantity, String> {
+    of(text, Kind::Length)
 }
 
 fn of_force(text: &str) -> Result<Quantity, String> {
@@ -146,12 +155,14 @@ impl SuspendedArguments {
     ) -> Result<Wheelset, Failure> {
         let cells = usize::from(self.cells);
         let read = pair.read_over(DEVIATION, over)?;
+        let forms = self.forms(read.radii)?;
         Ok(Wheelset {
             name,
             given: self.given(pair, &read, &track),
             wheels: read.wheels,
             rails: read.rails,
             rails_over: read.over,
+            forms,
             radii: read.radii,
             layout: read.layout,
             material: STEEL,
@@ -185,6 +196,24 @@ impl SuspendedArguments {
     }
 
     /// Returns the given values, in words.
+    /// Returns the forms of wheels of these radii (m) with flats.
+    fn forms(&self, radii: [f64; 2]) -> Result<[Option<WheelForm>; 2], Failure> {
+        let Some(length) = &self.flat else {
+            return Ok([None, None]);
+        };
+        let form = |radius: f64| -> Result<Option<WheelForm>, Failure> {
+            let flat = Flat {
+                length: length.to_si(),
+                depth: None,
+                angle: PI,
+            };
+            let made = OutOfRound::new(radius, vec![flat], Vec::new()).map_err(|error| wrong(&error))?;
+            Ok(Some(WheelForm::OutOfRound(Arc::new(made))))
+        };
+        let [left, right] = radii;
+        Ok([form(left)?, form(right)?])
+    }
+
     fn given(
         &self,
         pair: &WheelRailPair,
@@ -232,6 +261,10 @@ impl SuspendedArguments {
             ("yaw stiffness", self.yaw_stiffness.text.clone()),
             ("lateral damping", self.lateral_damping.to_string()),
             ("yaw damping", self.yaw_damping.to_string()),
+            (
+                "flat",
+                self.flat.as_ref().map_or("none".to_owned(), Quantity::to_string),
+            ),
             ("friction", {
                 let face = self.gauge_face_friction.filter(|face| *face != self.friction);
                 face.map_or(self.friction.to_string(), |face| {

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | a wheel and a rail prepared for the search; patches; rigid touch | [`ContactPair`], [`ContactPatch`] |
 //! | a rail whose section changes along the track | [`VaryingRail`] |
+//! | wheels that are not round: flats, harmonics, profiles that change around them | [`OutOfRound`], [`SlicedWheel`] |
 //! | tables of patches: a fast mode of the search | [`ContactTable`] |
 //! | where a wheel is; axes, which serve both sides | [`WheelPose`], [`Side`] |
 //! | normal force with damping, creepages, creep forces, the wrench on the wheel | [`ContactLaw`] |
@@ -31,18 +32,22 @@
 mod ellipse;
 mod force;
 mod linear;
+mod out_of_round;
 mod patch;
 mod pose;
 mod search;
 mod section;
 mod table;
+mod turned;
 mod varying;
 
 pub use ellipse::{Ellipse, Ellipses};
 pub use force::{ContactLaw, CreepLaw, PatchForces, WheelForces, WheelMotion, rolling_sense, stored_energy};
 pub use linear::{CreepCoefficients, LinearWheelset};
+pub use out_of_round::{Flat, HIGHEST_ORDER, Harmonic, LARGEST_AMPLITUDE, LONGEST_FLAT, OutOfRound};
 pub use patch::ContactPatch;
 pub use pose::{Side, WheelPose};
 pub use search::{AREAS, ContactPair, FindPatches, RigidTouch};
 pub use table::ContactTable;
+pub use turned::{SlicedWheel, WheelForm};
 pub use varying::VaryingRail;

@@ -183,7 +183,7 @@ impl ContactPair {
             return None;
         }
         let [(low, _), (valley, turns), (high, _)] = stations.map(|k| self.turning(plain, scan, k));
-        let at = |parameter: f64| frame.node(&self.wheel, S::from(parameter));
+        let at = |parameter: f64| frame.node(S::from(parameter));
         let (bottom, tops) = (at(valley), [low, high].map(|parameter| at(parameter).overlap));
         let smaller = if tops[0].value() < tops[1].value() {
             tops[0]
@@ -221,7 +221,7 @@ impl ContactPair {
         }; CELLS + 1];
         for (i, node) in nodes.iter_mut().enumerate() {
             let parameter = from + (to - from) * (i as f64 / CELLS as f64);
-            *node = frame.node(&self.wheel, parameter);
+            *node = frame.node(parameter);
         }
         let (mut squares, mut cubes, mut weight) = (zero, zero, zero);
         let mut means = [zero; 6];

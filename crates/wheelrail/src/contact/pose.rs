@@ -8,11 +8,12 @@
 //! **Silhouette.** A wheel is a body of revolution about the axle's direction e; a rail is a prism along x.
 //! Points of the wheel touch only where its normal is square to x: at the profile coordinate u with radius
 //! r(u), at the angle θ from the lowest point with `sin θ = τ r'(u)`, `τ = e_x / √(1 - e_x²)` (minus the
-//! tangent of yaw). The search compares this silhouette with the rail's section.
+//! tangent of yaw). The search compares this silhouette with the rail's section. A wheel that is not round
+//! has the radii of the angle that is down, and touches ahead of that silhouette where they grow.
 
 use numerics::scalar::Real;
 
-use super::section::WheelSection;
+use super::turned::TurnedWheel;
 use super::varying::Stretch;
 
 /// A side of the track.
@@ -53,6 +54,8 @@ pub struct WheelPose<S> {
     pub axle: [S; 3],
     /// Place of the wheel along the track, m: read where the rail's section changes along it.
     pub along: S,
+    /// Angle of the wheel that is down, rad, growing as it rolls forward: read where it is not round.
+    pub angle: S,
 }
 
 impl<S: Real> WheelPose<S> {
@@ -73,6 +76,7 @@ impl<S: Real> WheelPose<S> {
             center: [y, z],
             axle: side.mirrored(axle),
             along: S::zero(),
+            angle: S::zero(),
         }
     }
 
@@ -83,6 +87,7 @@ impl<S: Real> WheelPose<S> {
             center: self.center.map(Real::value),
             axle: self.axle.map(Real::value),
             along: self.along.value(),
+            angle: self.angle.value(),
         }
     }
 }
@@ -91,7 +96,9 @@ impl<S: Real> WheelPose<S> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame<'r, S> {
     rail: &'r Stretch<'r>,
+    pub wheel: &'r TurnedWheel<'r>,
     along_track: S,
+    angle: S,
     center: [S; 2],
     axle: [S; 3],
     /// τ.
@@ -122,16 +129,18 @@ pub(super) struct ProfileNode<S> {
 }
 
 impl<'r, S: Real> Frame<'r, S> {
-    /// Returns the frame of a pose over a rail, as it is at the pose.
+    /// Returns the frame of a pose of a wheel over a rail, both as they are at the pose.
     #[inline(always)]
-    pub fn new(pose: &WheelPose<S>, rail: &'r Stretch<'r>) -> Self {
+    pub fn new(pose: &WheelPose<S>, wheel: &'r TurnedWheel<'r>, rail: &'r Stretch<'r>) -> Self {
         let [x, y, z] = pose.axle;
         let square = (x * x - 1.0) * -1.0;
         let level = square.sqrt();
         let across = (y * y + z * z).sqrt();
         Self {
             rail,
+            wheel,
             along_track: pose.along,
+            angle: pose.angle,
             center: pose.center,
             axle: pose.axle,
             tangent: x / level,
@@ -146,7 +155,9 @@ impl<'r, S: Real> Frame<'r, S> {
         let lift = |value: S| T::from(value.value());
         Frame {
             rail: self.rail,
+            wheel: self.wheel,
             along_track: lift(self.along_track),
+            angle: lift(self.angle),
             center: self.center.map(lift),
             axle: self.axle.map(lift),
             tangent: lift(self.tangent),
@@ -157,8 +168,8 @@ impl<'r, S: Real> Frame<'r, S> {
 
     /// Returns the point of the silhouette at a parameter of the wheel's profile. Its sine θ is limited.
     #[inline(always)]
-    pub fn node(&self, wheel: &WheelSection, parameter: S) -> ProfileNode<S> {
-        let point = wheel.at(parameter);
+    pub fn node(&self, parameter: S) -> ProfileNode<S> {
+        let (point, ahead) = self.wheel.at(parameter, self.angle);
         let mut sine = self.tangent * point.slope;
         if sine.value().abs() > LARGEST_SINE {
             sine = S::from(LARGEST_SINE.copysign(sine.value()));
@@ -176,10 +187,11 @@ impl<'r, S: Real> Frame<'r, S> {
         let y = self.center[0] + point.y * self.axle[1] + point.radius * out[0];
         let z = self.center[1] + point.y * self.axle[2] + point.radius * out[1];
         let [height, slope] = self.rail.at(y, self.along_track);
+        let x = point.y * self.axle[0] + point.radius * sine * self.along[0];
         ProfileNode {
             overlap: height - z,
             overlap_slope: slope + normal[0] / normal[1],
-            place: [point.y * self.axle[0] + point.radius * sine * self.along[0], y, z],
+            place: [ahead.map_or(x, |ahead| x + ahead), y, z],
             slope,
             profile: point.y,
             radius: point.radius,

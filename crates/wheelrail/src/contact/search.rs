@@ -16,6 +16,7 @@ use super::ellipse::Ellipses;
 use super::patch::ContactPatch;
 use super::pose::{Frame, ProfileNode, WheelPose};
 use super::section::{RailSection, STATIONS, WheelSection};
+use super::turned::{TurnedWheel, WheelForm};
 use super::varying::{Stretch, VaryingRail};
 use crate::hertz::Material;
 use crate::profile::{Profile, ProfileError};
@@ -37,6 +38,8 @@ pub(super) const NOTHING: f64 = 1e-12;
 #[derive(Clone, Debug)]
 pub struct ContactPair {
     pub(super) wheel: WheelSection,
+    /// What the wheel is if it is not round.
+    form: Option<WheelForm>,
     pub(super) rail: Rail,
     pub(super) ellipses: Ellipses,
 }
@@ -128,7 +131,8 @@ impl FindPatches for ContactPair {
     /// The deepest area comes first.
     fn search<S: Real>(&self, pose: &WheelPose<S>, mut take: impl FnMut(ContactPatch<S>)) {
         let rail = self.rail.at(pose.along.value());
-        let frame = Frame::new(pose, &rail);
+        let wheel = self.turned(pose.angle.value());
+        let frame = Frame::new(pose, &wheel, &rail);
         let plain = frame.lifted::<f64>();
         self.areas(&plain, |scan, interval| {
             self.patches(&frame, &plain, scan, interval, &mut take);
@@ -144,8 +148,9 @@ impl FindPatches for ContactPair {
         mut also: impl FnMut(ContactPatch<T>),
     ) {
         let rail = self.rail.at(pose.along.value());
-        let frame = Frame::new(pose, &rail);
-        let beside = Frame::new(other, &rail);
+        let wheel = self.turned(pose.angle.value());
+        let frame = Frame::new(pose, &wheel, &rail);
+        let beside = Frame::new(other, &wheel, &rail);
         let plain = frame.lifted::<f64>();
         self.areas(&plain, |scan, interval| {
             self.patches(&frame, &plain, scan, interval, &mut take);
@@ -184,6 +189,7 @@ impl ContactPair {
         })?;
         Ok(Self {
             wheel: WheelSection::new(wheel, radius)?,
+            form: None,
             rail: Rail::Constant(Arc::new(RailSection::new(rail)?)),
             ellipses,
         })
@@ -195,6 +201,30 @@ impl ContactPair {
         Self {
             rail: Rail::Varying(rail),
             ..self.clone()
+        }
+    }
+
+    /// Returns the same rail under a wheel that is not round.
+    #[must_use]
+    pub fn under(&self, form: WheelForm) -> Self {
+        Self {
+            form: Some(form),
+            ..self.clone()
+        }
+    }
+
+    /// Returns the form of a wheel that is not round.
+    #[must_use]
+    pub fn form(&self) -> Option<&WheelForm> {
+        self.form.as_ref()
+    }
+
+    /// Returns the wheel at the angle that is down, rad.
+    #[inline(always)]
+    pub(super) fn turned(&self, angle: f64) -> TurnedWheel<'_> {
+        match &self.form {
+            None => TurnedWheel::Round(&self.wheel),
+            Some(form) => form.at(&self.wheel, angle),
         }
     }
 
@@ -261,7 +291,8 @@ impl ContactPair {
     #[must_use]
     pub fn touch(&self, pose: &WheelPose<f64>) -> Option<RigidTouch> {
         let rail = self.rail.at(pose.along);
-        let frame = Frame::new(pose, &rail);
+        let wheel = self.turned(pose.angle);
+        let frame = Frame::new(pose, &wheel, &rail);
         let scan = self.scan(&frame)?;
         let stations = scan.first..=scan.last;
         let highest = stations
@@ -278,8 +309,8 @@ impl ContactPair {
             if own < highest - BETWEEN_STATIONS || own < before || own < after {
                 continue;
             }
-            let at = self.stationary(&frame, self.around(&scan, k));
-            let node = frame.node(&self.wheel, at);
+            let at = self.stationary(&frame, around(&frame, &scan, k));
+            let node = frame.node(at);
             if best.is_none_or(|best| node.overlap > best.overlap) {
                 best = Some(RigidTouch {
                     overlap: node.overlap,
@@ -316,14 +347,14 @@ impl ContactPair {
         };
         let [low, high] = frame.rail_range();
         let mut reached = f64::NEG_INFINITY;
-        let stations = self.wheel.stations();
-        let [begin, end] = frame.reach([low - BEYOND, high + BEYOND], self.wheel.nominal_radius());
-        let begin = stations.partition_point(|station| station[0] < begin);
-        for (k, station) in stations.iter().enumerate().skip(begin) {
+        let wheel = frame.wheel;
+        let [begin, end] = frame.reach([low - BEYOND, high + BEYOND], wheel.nominal_radius());
+        for k in wheel.first_from(begin)..wheel.count() {
+            let station = wheel.station(k);
             if station[0] > end {
                 break;
             }
-            let Some([y, z]) = frame.station(*station) else {
+            let Some([y, z]) = frame.station(station) else {
                 continue;
             };
             // What turns back is hidden.
@@ -351,7 +382,7 @@ impl ContactPair {
             let [_, after] = scan.neighbors(k);
             let changes = (own > 0.0) != (before > 0.0) || (own > 0.0) != (after > 0.0);
             if own > f64::NEG_INFINITY && (near(own) || near(before) || near(after) || changes) {
-                let node = frame.node(&self.wheel, self.wheel.parameter(k));
+                let node = frame.node(frame.wheel.parameter(k));
                 (scan.overlap[k], scan.slope[k]) = (node.overlap, node.overlap_slope);
             }
             before = own;
@@ -367,9 +398,9 @@ impl ContactPair {
                     peak = peak.max(scan.overlap[k]);
                 }
                 let end = |inside: usize, outside: Option<usize>| {
-                    let at = self.wheel.parameter(inside);
+                    let at = frame.wheel.parameter(inside);
                     match outside.filter(|outside| scan.overlap[*outside] > f64::NEG_INFINITY) {
-                        Some(outside) => IntervalEnd::Root([self.wheel.parameter(outside), at]),
+                        Some(outside) => IntervalEnd::Root([frame.wheel.parameter(outside), at]),
                         None => IntervalEnd::Cut(at),
                     }
                 };
@@ -395,7 +426,7 @@ impl ContactPair {
         if !(near(own, BETWEEN_STATIONS) && near(next, BETWEEN_STATIONS)) {
             return;
         }
-        let [from, to] = [k, k + 1].map(|station| self.wheel.parameter(station));
+        let [from, to] = [k, k + 1].map(|station| frame.wheel.parameter(station));
         let slopes = [scan.slope[k], scan.slope[k + 1]];
         let simple = slopes[0] > 0.0 && slopes[1] < 0.0;
         // Rising or falling over both stations, the overlap may still have a maximum between them.
@@ -409,12 +440,12 @@ impl ContactPair {
                 true => (to, slopes[1]),
                 false => {
                     let at = from + (to - from) * piece as f64 / pieces as f64;
-                    (at, frame.node(&self.wheel, at).overlap_slope)
+                    (at, frame.node(at).overlap_slope)
                 }
             };
             if before.1 > 0.0 && after.1 < 0.0 {
                 let at = self.stationary(frame, [before.0, after.0]);
-                let peak = frame.node(&self.wheel, at).overlap;
+                let peak = frame.node(at).overlap;
                 if peak > NOTHING {
                     take(Interval {
                         ends: [before.0, after.0].map(|end| IntervalEnd::Root([end, at])),
@@ -427,21 +458,11 @@ impl ContactPair {
         }
     }
 
-    /// Parameters of the neighbors of a station, or of itself where there is none.
-    fn around(&self, scan: &Scan, k: usize) -> [f64; 2] {
-        let [before, after] = scan.neighbors(k);
-        let beside = |overlap: f64, other: usize| match overlap > f64::NEG_INFINITY {
-            true => self.wheel.parameter(other),
-            false => self.wheel.parameter(k),
-        };
-        [beside(before, k.saturating_sub(1)), beside(after, k + 1)]
-    }
-
     /// Returns the node at a parameter with derivatives by the parameter.
     #[inline(always)]
     pub(super) fn along(&self, frame: &Frame<'_, f64>, parameter: f64) -> ProfileNode<Dual<1>> {
         let lifted = frame.lifted::<Dual<1>>();
-        lifted.node(&self.wheel, Dual::variable(parameter, 0))
+        lifted.node(Dual::variable(parameter, 0))
     }
 
     /// Returns the parameter within an interval at which the overlap is largest or smallest: where its slope
@@ -457,8 +478,8 @@ impl ContactPair {
     /// station's own and false if the slope does not change its sign beside it.
     pub(super) fn turning(&self, frame: &Frame<'_, f64>, scan: &Scan, k: usize) -> (f64, bool) {
         let at = |station: usize| {
-            let parameter = self.wheel.parameter(station);
-            let node = frame.node(&self.wheel, parameter);
+            let parameter = frame.wheel.parameter(station);
+            let node = frame.node(parameter);
             (parameter, node.overlap_slope)
         };
         let (own, slope) = at(k);
@@ -483,11 +504,21 @@ impl ContactPair {
                 });
                 // Newton's step gives the derivatives of the root.
                 let slope = overlap(at).derivative[0];
-                let residual = frame.node(&self.wheel, S::from(at)).overlap;
+                let residual = frame.node(S::from(at)).overlap;
                 S::from(at) - residual * slope.recip()
             }
         }
     }
+}
+
+/// Parameters of the neighbors of a station, or of itself where there is none.
+fn around(frame: &Frame<'_, f64>, scan: &Scan, k: usize) -> [f64; 2] {
+    let [before, after] = scan.neighbors(k);
+    let beside = |overlap: f64, other: usize| match overlap > f64::NEG_INFINITY {
+        true => frame.wheel.parameter(other),
+        false => frame.wheel.parameter(k),
+    };
+    [beside(before, k.saturating_sub(1)), beside(after, k + 1)]
 }
 
 impl Scan {

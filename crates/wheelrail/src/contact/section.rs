@@ -17,7 +17,7 @@ const SPACING: f64 = 1e-4;
 /// Most stations of the scan.
 pub(super) const STATIONS: usize = 512;
 /// Least spacing of stations, in cubics.
-const STRIDE: usize = 5;
+pub(super) const STRIDE: usize = 5;
 
 /// Returns the cubic (from its constant on) with values and slopes at 0 and at `length`.
 pub(super) fn hermite(length: f64, [from, to]: [f64; 2], [slope, end_slope]: [f64; 2]) -> [f64; 4] {

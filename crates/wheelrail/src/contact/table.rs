@@ -21,6 +21,7 @@ use numerics::scalar::Real;
 use super::patch::ContactPatch;
 use super::pose::{Frame, ProfileNode, WheelPose};
 use super::search::{ContactPair, FindPatches};
+use super::turned::{TurnedWheel, WheelForm};
 use crate::hertz::Material;
 use crate::profile::ProfileError;
 
@@ -51,10 +52,13 @@ impl ContactTable {
     /// second.
     ///
     /// # Errors
-    /// The overlap is not admissible, or the rail's section changes along the track.
+    /// The overlap is not admissible, the rail's section changes along the track, or the wheel's around it.
     pub fn new(pair: ContactPair, overlap: f64) -> Result<Self, ProfileError> {
         if pair.varies() {
             return Err(ProfileError::Varying);
+        }
+        if let Some(WheelForm::Sliced(_)) = pair.form() {
+            return Err(ProfileError::Sliced);
         }
         if !(1e-6..=1e-3).contains(&overlap) {
             return Err(ProfileError::Number {
@@ -164,12 +168,15 @@ fn sample(
         center: [lateral - inclination * height, height],
         axle: [0.0, level, inclination],
         along: 0.0,
+        angle: 0.0,
     };
-    let frame = Frame::new(&pose, &rail);
+    // A wheel that is not round grows as a whole.
+    let wheel = TurnedWheel::Round(&pair.wheel);
+    let frame = Frame::new(&pose, &wheel, &rail);
     let count = ((to - from) / SAMPLE).ceil().max(1.0) as usize;
     let at = |i: usize| -> ProfileNode<f64> {
         let parameter = from + (to - from) * i as f64 / count as f64;
-        frame.node(&pair.wheel, parameter)
+        frame.node(parameter)
     };
     let highest = (0..=count)
         .map(|i| at(i).overlap)
@@ -223,11 +230,23 @@ impl FindPatches for ContactTable {
             return self.pair.search(pose, take);
         }
         let tangent = x / ((x * x - 1.0) * -1.0).sqrt();
+        let grown = match self.pair.turned(pose.angle.value()) {
+            TurnedWheel::Grown(_, [height, rate, bend]) => Some([(height, rate), (rate, bend)]),
+            _ => None,
+        };
+        let grown = grown.map(|both| both.map(|(value, slope)| pose.angle.chain(value, slope)));
         for part in 0..2 {
             let [touching, place, slope, profile, radius, curvature, share] = self.at(part, column, row);
             let curvature = curvature.exp();
             let lead = tangent * slope;
-            let depth = touching - pose.center[1] + radius * lead * lead * 0.5;
+            let mut depth = touching - pose.center[1] + radius * lead * lead * 0.5;
+            let mut ahead = profile * x - radius * lead;
+            let mut radius = radius;
+            if let Some([height, rate]) = grown {
+                depth += height;
+                radius += height;
+                ahead += rate;
+            }
             if depth.value() <= 0.0 || share.value() <= 0.0 {
                 continue;
             }
@@ -238,7 +257,7 @@ impl FindPatches for ContactTable {
             let down = pose.center[1] + profile * z - radius * y;
             take(ContactPatch {
                 share,
-                place: [profile * x - radius * lead, place, down],
+                place: [ahead, place, down],
                 slope,
                 cosine,
                 climb: None,

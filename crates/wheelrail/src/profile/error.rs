@@ -234,6 +234,9 @@ pub enum ProfileError {
     /// Tables of contacts are asked for on a rail whose section changes.
     #[error("tables of contacts are those of one section; the rail's section changes along the track")]
     Varying,
+    /// Tables of contacts are asked for with a wheel whose profile changes around it.
+    #[error("tables of contacts are those of one section; the wheel's profile changes around it")]
+    Sliced,
     /// Lines and arcs do not join.
     #[error("{place}: element {element} (from 1) {found}")]
     Joint {
@@ -292,6 +295,7 @@ impl ProfileError {
             | Self::ShortOfRails { .. }
             | Self::NoSlice { .. }
             | Self::Varying
+            | Self::Sliced
             | Self::Length { .. }
             | Self::Number { .. } => None,
         }
@@ -362,7 +366,7 @@ impl ProfileError {
                 None => "look at gauge, distance of the tape circles and the units of both profiles".into(),
             },
             Self::NoSlice { range, .. } => format!("name a place between {} and {}", range[0], range[1]),
-            Self::Varying => "search the contacts: no tables (`wheels.tables = false`)".into(),
+            Self::Varying | Self::Sliced => "search the contacts: no tables (`wheels.tables = false`)".into(),
             Self::Joint { remedy, .. } => (*remedy).into(),
             Self::Length { what, value, range } => length_hint(*value, *range)
                 .unwrap_or_else(|| format!("give a {what} between {} and {} m", range[0], range[1])),

@@ -70,6 +70,29 @@ impl SlicedProfile {
     /// # Errors
     /// There is no profile, or the places do not rise.
     pub fn of_rails(name: &str, slices: Vec<(f64, Arc<Profile>)>) -> Result<Self, ProfileError> {
+        Self::of(name, ProfileKind::Rail, "place of a rail's section (m)", slices)
+    }
+
+    /// Returns wheel profiles at angles around the wheel (rad), which must rise; `name` is what messages
+    /// call it.
+    ///
+    /// # Errors
+    /// There is no profile, or the angles do not rise.
+    pub fn of_wheels(name: &str, slices: Vec<(f64, Arc<Profile>)>) -> Result<Self, ProfileError> {
+        Self::of(
+            name,
+            ProfileKind::Wheel,
+            "angle of a wheel's section (rad)",
+            slices,
+        )
+    }
+
+    fn of(
+        name: &str,
+        kind: ProfileKind,
+        what: &'static str,
+        slices: Vec<(f64, Arc<Profile>)>,
+    ) -> Result<Self, ProfileError> {
         let (places, profiles): (Vec<f64>, Vec<Arc<Profile>>) = slices.into_iter().unzip();
         let rises = places
             .windows(2)
@@ -78,15 +101,12 @@ impl SlicedProfile {
             .map(|pair| pair[1])
             .or(places.is_empty().then_some(f64::NAN))
         {
-            return Err(ProfileError::Number {
-                what: "place of a rail's section (m)",
-                value,
-                must: "more than that of the one before",
-            });
+            let must = "more than that of the one before";
+            return Err(ProfileError::Number { what, value, must });
         }
         Ok(Self {
             name: name.to_owned(),
-            kind: ProfileKind::Rail,
+            kind,
             places,
             profiles,
             notices: Vec::new(),

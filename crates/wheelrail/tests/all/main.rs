@@ -18,6 +18,7 @@ mod hertz;
 mod kinds;
 mod linear_wheelset;
 mod measured;
+mod not_round;
 mod profile;
 mod profile_limits;
 mod rails;
