@@ -192,7 +192,7 @@ impl Mountable for Marked {
 
     #[inline(always)]
     fn tangent(&self, _: &Points, relative: &RelativeMotion<f64>, _: &mut [TangentColumns]) -> Tangent {
-        self.element.tangent(&self.turned(relative))
+        self.element.tangent(&self.turned(relative)).times(self.factor[0])
     }
 }
 

@@ -141,6 +141,8 @@ start.axle_shift = \"0.4 in\"";
         ("curve_with_dip", "loaded", 3),
         ("lean", "loaded", 5),
         ("static_curve", "empty", 0),
+        ("buff_curve", "empty", 3),
+        ("draft_curve", "empty", 3),
         ("fra_class_1", "loaded", 5),
         ("fra_class_1", "empty", 5),
         ("fra_class_2", "loaded", 5),
