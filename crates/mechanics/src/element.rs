@@ -156,6 +156,13 @@ impl Marked {
 
     /// Returns the wrench of the law itself times a factor.
     pub fn times<S: Scalar>(&self, factor: f64, body: &RelativeMotion<S>) -> Wrench<S> {
+        if factor == 0.0 {
+            return Wrench {
+                force: Vector::zero(),
+                moment: Vector::zero(),
+                powers: [S::zero(); 2],
+            };
+        }
         let wrench = S::evaluate(&*self.element, &self.turned(&body.at(self.marker.origin)));
         let arm: Vector<S> = body.rotation.apply(self.marker.origin);
         let moment = wrench.moment + arm.cross::<S, S>(wrench.force);

@@ -22,6 +22,8 @@ pub(crate) const KEYS: ModelKeys = ModelKeys {
         ("car_hunting_roller_empty", &[]),
         ("car_twist_and_roll_loaded", &[]),
         ("car_286k_loaded", &[]),
+        ("car_buff_curve_empty", &["couplers.direction=angle"]),
+        ("car_static_curve_empty", &[]),
         ("car_286k_loaded", &["truck.load_springs.height=9 in"]),
     ],
     // Each truck of a car takes the keys of both.

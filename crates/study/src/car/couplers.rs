@@ -58,7 +58,7 @@ pub(super) fn couplers(r: &mut CaseReader<'_>, own: &mut Couplers) {
     }
 }
 
-fn force(r: &mut CaseReader<'_>, own: &mut CouplerForce) {
+pub(crate) fn force(r: &mut CaseReader<'_>, own: &mut CouplerForce) {
     if r.gives("over_distance") {
         if r.gives("force") {
             let path = r.path("over_distance");

@@ -10,7 +10,7 @@ pub mod builtin;
 mod changes;
 mod checks;
 pub mod columns;
-mod couplers;
+pub(crate) mod couplers;
 mod derailment;
 pub mod figures;
 pub(crate) mod friction;
