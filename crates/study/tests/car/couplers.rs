@@ -111,7 +111,7 @@ fn limits_doubtful_couplers_are_told() {
             vec![
                 "couplers.force=1 kip",
                 "wheels.geometry=linear",
-                "track={ segments = [{ tangent = \"900 ft\" }], support = { kind = \"rigid\" } }",
+                "track={ segments = [{ tangent = \"1500 ft\" }], support = { kind = \"rigid\" } }",
             ],
             "linear wheels, which have no flanges",
         ),
