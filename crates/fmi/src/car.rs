@@ -1,10 +1,10 @@
 //! A freight car on its track, as data of [`crate::system`]: a case with `model = "car"`.
 //!
 //! The track is inside, and the drive of the case holds the speed. Inputs move what each rail lies on under
-//! each wheel, besides the track's own irregularities (a bridge, a rig), push the car body, and give the forces of
-//! its couplers, beside those of the case: a program of a train closes the loop over places and speeds of their
-//! pivots. Outputs are the fixed columns of its results: wheel forces, places of axles, accelerations, nests,
-//! wedges and couplers.
+//! each wheel, besides the track's own irregularities (a bridge, a rig), push the car body, and give the
+//! forces of its couplers, beside those of the case: a program of a train closes the loop over places and
+//! speeds of their pivots. Outputs are the fixed columns of its results: wheel forces, places of axles,
+//! accelerations, nests, wedges and couplers.
 
 use std::sync::Arc;
 
@@ -94,8 +94,8 @@ fn all(table: &CarTable) -> (Entries, Ports) {
             continue;
         };
         let text = format!(
-            "force of the {name} coupler along its line, positive in buff (it pushes the car), added to that of \
-             the case"
+            "force of the {name} coupler along its line, positive in buff (it pushes the car), added to that \
+             of the case"
         );
         let entry = QuantityEntry::of(Kind::Force, format!("force_of_coupler_{name}"), text);
         inputs.add_factor(along, 1.0, entry.starting(0.0));

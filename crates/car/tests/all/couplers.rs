@@ -37,8 +37,8 @@ fn lines(degree: f64, turn: f64) -> Arc<RailLines> {
     Arc::new(RailLines::new(curve(degree, turn, 0.0, 400.0), [30.0 * INCH; 2]))
 }
 
-/// Returns the motion of a pivot of a body that moves along its chord with its middle at a distance (m), turned
-/// by a small yaw (rad) about the middle.
+/// Returns the motion of a pivot of a body that moves along its chord with its middle at a distance (m),
+/// turned by a small yaw (rad) about the middle.
 fn on_chord(lines: &RailLines, own: &Coupler, distance: f64, yaw: f64) -> RelativeMotion<f64> {
     let [front, rear] =
         [HALF_TRUCKS, -HALF_TRUCKS].map(|at| Vector(lines.section_at(Line::Center, distance + at).origin));
@@ -189,9 +189,9 @@ fn late(ran: &Ran, of: impl Fn(&Loads) -> f64) -> f64 {
     late.map(|(_, own)| of(own)).sum::<f64>() / 80.0
 }
 
-/// In a steady run through 10 deg the lateral part is F (x_p + c/2)/R within 3 % in the mean of both ends, outward
-/// in buff, inward in draft, and the wheels carry the sum of both ends within 1 %. Yaw of the body takes from
-/// one end what it gives to the other: F 2 x_p/c for each rad.
+/// In a steady run through 10 deg the lateral part is F (x_p + c/2)/R within 3 % in the mean of both
+/// ends, outward in buff, inward in draft, and the wheels carry the sum of both ends within 1 %. Yaw of
+/// the body takes from one end what it gives to the other: F 2 x_p/c for each rad.
 #[test]
 fn analytic_wheels_carry_what_couplers_push_aside() {
     let steady = |force: f64| {

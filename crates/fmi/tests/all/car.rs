@@ -156,9 +156,9 @@ fn reproducible_a_saved_car_goes_on_with_the_same_bits() {
     );
 }
 
-/// Two cars that coast, and a program of a train: a locomotive pulls the first one, and a spring with a damper
-/// between the pivots of both is the draft gear. It comes to carry what accelerates the second car, half of the
-/// pull, and both gain the speed that the pull gives their masses.
+/// Two cars that coast, and a program of a train: a locomotive pulls the first one, and a spring with a
+/// damper between the pivots of both is the draft gear. It comes to carry what accelerates the second
+/// car, half of the pull, and both gain the speed that the pull gives their masses.
 #[test]
 fn analytic_a_train_program_drives_the_couplers() {
     const PULL: f64 = 60e3;

@@ -1,9 +1,9 @@
 //! A friction draft gear between the pivots of two couplers.
 //!
 //! With the compression s of the line between the points from its nominal length (as of a
-//! [strut](super::Strut)) and slack a towards extension, b towards compression, the gear is compressed in buff
-//! and in draft alike, by `x = s - b` where s > b, by `x = -s - a` where s < -a. It follows a loading curve
-//! L(x) on the way in and the share r of it on the way out:
+//! [strut](super::Strut)) and slack a towards extension, b towards compression, the gear is compressed in
+//! buff and in draft alike, by `x = s - b` where s > b, by `x = -s - a` where s < -a. It follows a
+//! loading curve L(x) on the way in and the share r of it on the way out:
 //!
 //! ```text
 //! F = L(x) ((1 + r)/2 + (1 - r)/2 tanh(x˙/v))

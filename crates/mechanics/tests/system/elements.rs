@@ -492,8 +492,8 @@ impl Element for Thrust {
     }
 }
 
-/// Under a factor a sin ωt a mass moves by `a/(m ω²) (ωt - sin ωt)`; the thrust's work is its kinetic energy. A factor
-/// set from outside holds until the next one.
+/// Under a factor a sin ωt a mass moves by `a/(m ω²) (ωt - sin ωt)`; the thrust's work is its kinetic
+/// energy. A factor set from outside holds until the next one.
 #[test]
 fn analytic_a_factor_over_time_moves_a_mass() {
     let (mass, amplitude, omega) = (7.0, 50.0, 3.0);

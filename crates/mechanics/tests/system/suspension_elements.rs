@@ -281,8 +281,8 @@ fn energy_and_momentum_of_two_free_bodies_are_kept() {
     assert!(residual.abs() < 1e-5 * start, "residual {residual} of {start} J");
 }
 
-/// The rating of Miner's TF-880: 2.93 in, 566,000 lbf, 45,520 ft lbf (product page), by a curve of the power 2.04
-/// in twelve pieces.
+/// The rating of Miner's TF-880: 2.93 in, 566,000 lbf, 45,520 ft lbf (product page), by a curve of the
+/// power 2.04 in twelve pieces.
 fn draft_gear() -> DraftGear {
     let (travel, reaction) = (2.93 * 0.0254, 566e3 * 4.448_221_615_260_5);
     let points = (0..=12).map(|k| {
@@ -299,8 +299,8 @@ fn draft_gear() -> DraftGear {
     }
 }
 
-/// The capacity of the usual curve is that of the rating; a slow cycle loses the share that is not returned, in buff
-/// and in draft, each beyond its slack.
+/// The capacity of the usual curve is that of the rating; a slow cycle loses the share that is not
+/// returned, in buff and in draft, each beyond its slack.
 #[test]
 fn analytic_a_draft_gear_takes_its_rated_energy() {
     let own = draft_gear();

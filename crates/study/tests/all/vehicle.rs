@@ -641,8 +641,9 @@ fn coupler_of_train(car: &str, middle: f64, end: f64) -> String {
 fn cross_code_like_neighbors_are_the_cars_of_a_train() {
     const PITCH: f64 = 637.0;
     let rest = "[track]\nsegments = [{ tangent = \"160 ft\" }, { spiral = \"150 ft\" }, \
-                { curve = \"500 ft\", degree = \"10 deg\", direction = \"left\", superelevation = \"4 in\" }]\n\
-                [speed]\nvalue = \"24 mph\"\n[simulation]\nduration = \"18 s\"\noutput_interval = \"0.02 s\"\n\
+                { curve = \"500 ft\", degree = \"10 deg\", direction = \"left\", \
+                superelevation = \"4 in\" }]\n[speed]\nvalue = \"24 mph\"\n[simulation]\n\
+                duration = \"18 s\"\noutput_interval = \"0.02 s\"\n\
                 relative_tolerance = 1e-4\nmethod = \"tr-bdf2\"\n";
     let alone = [
         "model = \"vehicle\"\n".to_owned(),

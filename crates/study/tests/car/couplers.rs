@@ -80,8 +80,8 @@ fn input_mistakes_of_couplers_are_named() {
 
 #[test]
 fn limits_doubtful_couplers_are_told() {
-    let curve = "track.segments=[{ tangent = \"300 ft\" }, { spiral = \"100 ft\" }, { curve = \"900 ft\", degree = \
-                 \"30 deg\", direction = \"left\" }]";
+    let curve = "track.segments=[{ tangent = \"300 ft\" }, { spiral = \"100 ft\" }, \
+                 { curve = \"900 ft\", degree = \"30 deg\", direction = \"left\" }]";
     for (set, words) in [
         (
             vec!["couplers.force=1.2e6 lbf"],

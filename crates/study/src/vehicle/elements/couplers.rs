@@ -14,8 +14,8 @@ use crate::reader::{CLEARANCE, CaseReader, LENGTH, QuantityForm, STIFFNESS};
 
 const INCH: f64 = 0.0254;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
-/// Travel (m) and reaction (N) of Miner's TF-880, M-901E: 45,520 ft lbf at 2.93 in and 566,000 lbf (product page,
-/// read 2026-11-28). A curve of the power 2.04 has this capacity (derived).
+/// Travel (m) and reaction (N) of Miner's TF-880, M-901E: 45,520 ft lbf at 2.93 in and 566,000 lbf
+/// (product page, read 2026-11-28). A curve of the power 2.04 has this capacity (derived).
 const RATING: [f64; 2] = [2.93 * INCH, 566e3 * POUND_FORCE];
 const POWER: f64 = 2.04;
 /// Pieces of the usual loading curve.
