@@ -38,8 +38,8 @@ const DIRECTIONS: Names<DirectionKind> = &[
 pub(super) fn couplers(r: &mut CaseReader<'_>, own: &mut Couplers) {
     r.section(
         "couplers",
-        "Forces at both ends of the car, positive in buff (they push it), negative in draft (they pull \
-         it).\n# [couplers.leading] and [couplers.trailing] take force, over_distance, direction and angle of one.",
+        "Forces at both ends, positive in buff (they push the car), negative in draft (they pull).\n\
+         # [couplers.leading] and [couplers.trailing] take force, over_distance, direction, angle of one.",
     );
     let comment = "from the pivot to the pulling face: remembered of AAR type F";
     r.quantity("length", LENGTH, &mut own.length, comment);
