@@ -25,12 +25,12 @@ use wheelrail::contact::{ContactPair, ContactTable, Side, VaryingRail, WheelForm
 use wheelrail::track::RailLines;
 
 use crate::body::{Carried, Pose, angles};
+use crate::coupler::{Coupler, CouplerPlace, Couplers, MountedCoupler};
 use crate::drive::{Between, SpeedControl, over_distance};
 use crate::error::BuildError;
 use crate::parameters::{Drive, Parameters, StartKind, Wheels};
 use crate::shaken::shaken;
 use crate::start::{Placement, at_rest, internal_states};
-use crate::statics::Couplers;
 
 /// Height of the couplers above the top of rail, at which the drive acts: 34.5 in, m.
 const COUPLERS: f64 = 34.5 * 0.0254;
@@ -102,6 +102,8 @@ pub struct Car {
     pub(crate) carried: Carried,
     pub(crate) truck_distance: f64,
     pub(crate) couplers: Couplers,
+    /// Couplers with a force, leading and trailing.
+    pub(crate) mounted_couplers: [Option<MountedCoupler>; 2],
     /// Heights of the center plates, m.
     pub(crate) plates: [f64; 2],
     /// Heights of the accelerometers above the truck centers, m.
@@ -162,6 +164,7 @@ impl Car {
                 (rest.poses, rest.internal, rest.warning, Some(found.before))
             }
         };
+        let mounted_couplers = [0, 1].map(|end| nominal.couple(parameters, &carried, &lines, end));
         let axes: Matrix<f64> = rotation_z(libm::sincos(heading));
         let start = Placement::new(parameters, &lines, axes);
         let speeds = start.put(&mut nominal, &poses, parameters);
@@ -195,7 +198,8 @@ impl Car {
             wheels: nominal.wheels,
             carried,
             truck_distance: parameters.truck_distance,
-            couplers: parameters.couplers,
+            couplers: parameters.couplers.clone(),
+            mounted_couplers,
             plates: parameters.plate_heights(),
             accelerometers: parameters
                 .accelerometer_height
@@ -397,6 +401,44 @@ impl Nominal {
             wheels,
             groups,
         }
+    }
+
+    /// Adds the coupler at an end (0 leading, 1 trailing), if a force can act there. A car rests without it.
+    fn couple(
+        &mut self,
+        parameters: &Parameters,
+        carried: &Carried,
+        lines: &Arc<RailLines>,
+        end: usize,
+    ) -> Option<MountedCoupler> {
+        let couplers = &parameters.couplers;
+        if !couplers.acts(end) {
+            return None;
+        }
+        let place = CouplerPlace {
+            pivot: [1.0, -1.0][end] * couplers.pivot(),
+            height: couplers.height,
+            length: couplers.length,
+            truck_distance: parameters.truck_distance,
+        };
+        let law = Coupler {
+            name: ["coupler_leading", "coupler_trailing"][end].to_owned(),
+            lines: lines.clone(),
+            place,
+            direction: couplers.ends[end].direction,
+            course: None,
+        };
+        let at = body_marker(carried, [place.pivot, 0.0, place.height]);
+        let track = Marker::new([0.0; 3], [0.0, 0.0, parameters.start.heading]);
+        let ends = ((self.numbers.body, at), (self.numbers.ground, track));
+        Some(MountedCoupler::add(
+            &mut self.model,
+            couplers,
+            law,
+            end,
+            ends.0,
+            ends.1,
+        ))
     }
 
     /// Lets carriers start where the wheelsets do.

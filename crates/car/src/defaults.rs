@@ -14,8 +14,8 @@ use wheelrail::profile::{Profile, ProfileError, nominal};
 use wheelrail::track::Track;
 use wheelrail::wheelset::{Layout, RigidWheelset};
 
+use crate::coupler::Couplers;
 use crate::parameters::{Drive, Mass, Parameters, ProfiledWheels, Start, StartKind, Wheels};
-use crate::statics::Couplers;
 
 /// in, in m.
 const INCH: f64 = 0.0254;

@@ -14,7 +14,7 @@
 //! | the linear benchmark of textbooks | [`Parameters::tied`] |
 //! | what one sees: wheel forces, places on the track, accelerations, trucks | [`Loads`] |
 //!
-//! Not in the model: flexible bodies, braking, coupler forces.
+//! Not in the model: flexible bodies, braking; draft gears of couplers, whose forces are given.
 //!
 //! ```
 //! use car::{Car, Parameters};
@@ -43,6 +43,7 @@ mod assemble;
 mod benchmark;
 mod body;
 mod climb;
+mod coupler;
 mod defaults;
 mod derailment;
 pub mod drive;
@@ -62,6 +63,9 @@ pub use amplitude::{Neutral, OverAmplitude};
 pub use assemble::{Car, Numbers, free as free_truck, massless_options, searches, upright};
 pub use benchmark::NoWarp;
 pub use climb::{AxleLimits, ClimbLimits};
+pub use coupler::{
+    Coupler, CouplerForce, CouplerLine, CouplerLoads, CouplerPlace, Couplers, Course, Direction,
+};
 pub use derailment::Derailment;
 pub use error::{BuildError, InvalidParameter};
 pub use linearize::{
@@ -73,5 +77,5 @@ pub use parameters::{
     ACCELEROMETER_HEIGHTS, Drive, Mass, Parameters, ProfiledWheels, Start, StartKind, TRUCK_DISTANCES, Wheels,
 };
 pub use shapes::name_of;
-pub use statics::{Couplers, Statics};
+pub use statics::Statics;
 pub use tipping::{Support, Tipping};

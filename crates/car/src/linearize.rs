@@ -80,6 +80,7 @@ impl SteadyCar {
     pub fn new(parameters: &Parameters) -> Result<Self, LinearizeError> {
         let mut running = parameters.clone();
         running.drive = Drive::Coasting;
+        running.couplers = running.couplers.idle();
         running.start.speed = SETTLING_SPEED;
         running.start.wheelset_shifts = [0.0; 4];
         running.start.body_shift = 0.0;
@@ -112,6 +113,7 @@ impl SteadyCar {
     pub fn with(&self, parameters: &Parameters) -> Result<Self, LinearizeError> {
         let mut other = parameters.clone();
         other.drive = Drive::Coasting;
+        other.couplers = other.couplers.idle();
         other.start = Start {
             kind: StartKind::Nominal,
             ..self.start.clone()

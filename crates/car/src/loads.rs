@@ -20,6 +20,7 @@ use truck::TruckFrame;
 use wheelrail::track::{Line, TrackSection};
 
 use crate::assemble::{Car, WheelElements, body_marker};
+use crate::coupler::CouplerLoads;
 
 /// A wheel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -137,6 +138,8 @@ pub struct Loads {
     pub ends: [EndMotion; 2],
     /// The trucks, front and rear, in axes of the track at their bolsters.
     pub trucks: [truck::Loads; 2],
+    /// The couplers, leading and trailing; none where no force can act.
+    pub couplers: [Option<CouplerLoads>; 2],
     /// Lateral accelerations of bolster, left and right side frame of each truck, m/s²: what an accelerometer
     /// at the body's center of gravity shows along its left, gravity's part included.
     pub truck_accelerations: [[f64; 3]; 2],
@@ -177,6 +180,7 @@ impl Car {
         for (t, end) in loads.ends.iter_mut().enumerate() {
             *end = self.end(t, body, &turned, rates);
         }
+        loads.couplers = [0, 1].map(|end| self.coupler(seen, end));
         for (t, truck) in self.trucks.iter().enumerate() {
             let bolster = &seen.bodies[self.numbers.bolsters[t]];
             loads.trucks[t] = truck.loads(seen, &self.frame_at(bolster.center_of_gravity));

@@ -15,8 +15,8 @@ use wheelrail::profile::{Profile, SlicedProfile};
 use wheelrail::track::Track;
 use wheelrail::wheelset::RigidWheelset;
 
+use crate::coupler::Couplers;
 use crate::error::InvalidParameter;
-use crate::statics::Couplers;
 
 /// A rigid mass that the car body carries, fastened to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -236,7 +236,7 @@ pub struct Parameters {
     /// Height of the accelerometers on the body above the truck centers, above the top of rail in the nominal
     /// layout, m; none: that of each truck's center plate.
     pub accelerometer_height: Option<f64>,
-    /// Where its couplers are.
+    /// Its couplers.
     pub couplers: Couplers,
     /// Front and rear truck. Each has wheelsets and a car body, of which the center plate and the side
     /// bearings count: mass, freedom and loads of the half body and of the wheelsets' motions are not used.

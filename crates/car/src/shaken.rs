@@ -108,6 +108,7 @@ fn shaking(parameters: &Parameters) -> Result<Parameters, BuildError> {
     };
     own.start = Start::at(reach + 1.0, SPEED);
     own.drive = Drive::Held { gain: GAIN };
+    own.couplers = own.couplers.idle();
     if let Wheels::OnRails(wheels) = &mut own.wheels {
         *wheels = wheels.standing();
         // Tables have no flanges.

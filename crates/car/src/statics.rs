@@ -6,27 +6,6 @@ use truck::TruckStatics;
 
 use crate::assemble::{Car, body_marker};
 
-/// Where the couplers are in the nominal layout, m.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Couplers {
-    /// Height above the top of rail.
-    pub height: f64,
-    /// From one pulling face to the other.
-    pub distance: f64,
-}
-
-impl Default for Couplers {
-    /// Returns 637 in between the pulling faces, as coal gondolas of 53 ft 1 in have them, and a height of
-    /// 32.5 in: a guess, with which the empty car has the 34.5 in that rules allow at the most (remembered).
-    fn default() -> Self {
-        const INCH: f64 = 0.0254;
-        Self {
-            height: 32.5 * INCH,
-            distance: 637.0 * INCH,
-        }
-    }
-}
-
 /// A car in a state, which should be one at rest on straight track, SI. Heights are above the track's plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Statics {

@@ -1,8 +1,10 @@
 //! A freight car on its track, as data of [`crate::system`]: a case with `model = "car"`.
 //!
 //! The track is inside, and the drive of the case holds the speed. Inputs move what each rail lies on under
-//! each wheel, besides the track's own irregularities (a bridge, a rig), and push the car body. Outputs are
-//! the fixed columns of its results: wheel forces, places of axles, accelerations, nests and wedges.
+//! each wheel, besides the track's own irregularities (a bridge, a rig), push the car body, and give the
+//! forces of its couplers, beside those of the case: a program of a train closes the loop over places and
+//! speeds of their pivots. Outputs are the fixed columns of its results: wheel forces, places of axles,
+//! accelerations, nests, wedges and couplers.
 
 use std::sync::Arc;
 
@@ -11,7 +13,9 @@ use study::car::columns::CarTable;
 use study::run::RunCase;
 
 use crate::Error;
-use crate::element::{Entries, Setting};
+use quantity::Kind;
+
+use crate::element::{Entries, QuantityEntry, Setting};
 use crate::source::{Made, Model};
 use crate::system::{
     Inputs, Plant, PortDirection, Ports, accumulators, contacts, internals, is_driven, ledger, load,
@@ -30,7 +34,9 @@ impl Model for CarModel {
     const CONVENTIONS: &'static str = "Fixed axes: x forward and y left where the track starts, z up. \
                                        Vertical wheel forces act on the rail, positive down; lateral ones \
                                        are positive where they spread the gauge. Places of axles are those \
-                                       against the track's center line, positive to the left.";
+                                       against the track's center line, positive to the left. Forces of \
+                                       couplers are positive in buff; their angles are positive where they \
+                                       point to the left of the car.";
 
     fn made(case: &CarCase, setting: Option<&Setting>) -> Result<Made, Error> {
         plant(case, setting)?.made(setting)
@@ -50,6 +56,7 @@ pub fn plant(case: &CarCase, setting: Option<&Setting>) -> Result<Plant, Error> 
         ));
     }
     parameters.movable_rails = true;
+    parameters.couplers.are_inputs = true;
     let table = CarTable::new(&parameters).map_err(Error::of)?;
     let car = table.car();
     let (system, initial) = (car.system.clone(), car.initial_state.clone());
@@ -82,6 +89,21 @@ fn all(table: &CarTable) -> (Entries, Ports) {
         let direction = PortDirection::along_axis((body, &system.bodies()[body]), axis);
         let text = "the car body with its lading from outside, at its center of gravity, fixed axes";
         inputs.add_load(direction, load("", "car_body", axis, text));
+    }
+    for (end, name) in ["leading", "trailing"].into_iter().enumerate() {
+        let Some([along, aside]) = car.coupler_inputs(end) else {
+            continue;
+        };
+        let text = format!(
+            "force of the {name} coupler along its line, positive in buff (it pushes the car), added to that \
+             of the case"
+        );
+        let entry = QuantityEntry::of(Kind::Force, format!("force_of_coupler_{name}"), text);
+        inputs.add_factor(along, 1.0, entry.starting(0.0));
+        let text = format!("force at the pivot of the {name} coupler on the car body, to its left");
+        let entry = QuantityEntry::of(Kind::Force, format!("lateral_force_of_coupler_{name}"), text);
+        // Marker A is pushed to the right by what points to the left.
+        inputs.add_factor(aside, -1.0, entry.starting(0.0));
     }
     let mut states = motions_along_axes(system, "");
     states.extend(internals(system));

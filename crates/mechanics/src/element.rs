@@ -19,6 +19,7 @@ use numerics::scalar::{Dual, Real};
 use self::reversed::Reversed;
 use self::tangent::Tangent;
 use crate::link::{Marker, RelativeMotion};
+use crate::motion::Motion;
 use crate::vector::Vector;
 
 /// The wrench of an element on the body with marker A.
@@ -126,6 +127,8 @@ pub(crate) struct Marked {
     pub marker: Marker,
     /// True if marker A is on the other body, which has no free coordinates.
     pub reversed: bool,
+    /// The factor of wrench and powers, and its rate by time.
+    pub factor: [f64; 2],
 }
 
 impl Clone for Marked {
@@ -148,11 +151,26 @@ impl Marked {
 
     /// Returns the wrench about the origin of the body that carries marker A, by the motion of that body.
     pub fn on_body<S: Scalar>(&self, body: &RelativeMotion<S>) -> Wrench<S> {
+        self.times(self.factor[0], body)
+    }
+
+    /// Returns the wrench of the law itself times a factor.
+    pub fn times<S: Scalar>(&self, factor: f64, body: &RelativeMotion<S>) -> Wrench<S> {
+        if factor == 0.0 {
+            return Wrench {
+                force: Vector::zero(),
+                moment: Vector::zero(),
+                powers: [S::zero(); 2],
+            };
+        }
         let wrench = S::evaluate(&*self.element, &self.turned(&body.at(self.marker.origin)));
         let arm: Vector<S> = body.rotation.apply(self.marker.origin);
+        let moment = wrench.moment + arm.cross::<S, S>(wrench.force);
+        let scaled = |v: Vector<S>| Vector(v.0.map(|own| own * factor));
         Wrench {
-            moment: wrench.moment + arm.cross::<S, S>(wrench.force),
-            ..wrench
+            force: scaled(wrench.force),
+            moment: scaled(moment),
+            powers: wrench.powers.map(|own| own * factor),
         }
     }
 }
@@ -164,14 +182,18 @@ pub struct Placement {
     pub(crate) markers: [Marker; 2],
     pub(crate) element: Box<dyn AnyElement>,
     pub(crate) reversed: Box<dyn AnyElement>,
+    /// The factor of its wrench over time; none: 1.
+    pub(crate) factor: Option<Motion>,
 }
 
 impl Clone for Placement {
     fn clone(&self) -> Self {
         Self {
+            ends: self.ends,
+            markers: self.markers,
             element: self.element.boxed(),
             reversed: self.reversed.boxed(),
-            ..*self
+            factor: self.factor.clone(),
         }
     }
 }
@@ -190,6 +212,10 @@ impl Placement {
             element,
             marker,
             reversed,
+            factor: self.factor.map_or([1.0, 0.0], |factor| {
+                let [value, rate, _] = factor.evaluate(0.0, 0.0);
+                [value, rate]
+            }),
         };
         (ends, seat, marked)
     }
@@ -206,6 +232,17 @@ impl Placement {
             markers: [marker_a, marker_b],
             reversed: Box::new(Reversed(element.clone())),
             element: Box::new(element),
+            factor: None,
+        }
+    }
+
+    /// Returns the same with wrench and powers times a factor over time, which may be changed between two
+    /// steps ([`crate::system::System::set_factor`]). The law must store no energy.
+    #[must_use]
+    pub fn over_time(self, factor: Motion) -> Self {
+        Self {
+            factor: Some(factor),
+            ..self
         }
     }
 }

@@ -3,6 +3,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod couplers;
 mod curving;
 mod drive;
 mod energy;

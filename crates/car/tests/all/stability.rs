@@ -202,11 +202,17 @@ fn analytic_wheels_in_steady_running_do_not_creep() {
         let seen = system.observe(0.0, &state);
         let loads = steady.car().loads(&seen, &rates);
         for wheel in loads.wheels.iter().flatten() {
-            assert!(wheel.longitudinal.abs() < 1e-3 * wheel.vertical, "{speed}: {wheel:?}");
+            assert!(
+                wheel.longitudinal.abs() < 1e-3 * wheel.vertical,
+                "{speed}: {wheel:?}"
+            );
         }
         // They roll on another radius than the nominal one.
         let radius = speed / loads.axles[0].spin;
-        assert!((radius / parameters.axle_radius(0) - 1.0).abs() > 5e-4, "{radius}");
+        assert!(
+            (radius / parameters.axle_radius(0) - 1.0).abs() > 5e-4,
+            "{radius}"
+        );
     }
 }
 

@@ -9,7 +9,7 @@ use mechanics::system::{EnergyTermKind, System, scales};
 use mechanics::vector::Vector;
 use quantity::Kind;
 
-use super::ports::{LoadPort, MotionPort, PortDirection, Ports, Reading, coordinates};
+use super::ports::{FactorPort, LoadPort, MotionPort, PortDirection, Ports, Reading, coordinates};
 use crate::element::{Entries, QuantityEntry, rate_input, relative_residual};
 
 /// Returns the kinds of a coordinate and of its rate.
@@ -75,6 +75,16 @@ impl Inputs {
         self.ports.loads.push(LoadPort {
             input: self.entries.len(),
             direction,
+        });
+        self.entries.push(entry);
+    }
+
+    /// Adds an input that is the factor of an element, times a sign.
+    pub fn add_factor(&mut self, element: usize, sign: f64, entry: QuantityEntry) {
+        self.ports.factors.push(FactorPort {
+            input: self.entries.len(),
+            element,
+            sign,
         });
         self.entries.push(entry);
     }

@@ -18,6 +18,8 @@ pub(super) struct InputLoads {
     places: Vec<(usize, usize)>,
     /// The coils that have their forces from inputs.
     coils: Vec<(usize, CoilLaw)>,
+    /// The factors of elements that have them from inputs.
+    factors: Vec<(usize, f64)>,
 }
 
 impl InputLoads {
@@ -30,6 +32,7 @@ impl InputLoads {
             loaded,
             places: coordinates(system),
             coils: Vec::new(),
+            factors: Vec::new(),
         }
     }
 
@@ -43,6 +46,11 @@ impl InputLoads {
                 *sum += entry * value;
             }
         }
+        let value = |input: usize| inputs.get(input).copied().unwrap_or(0.0);
+        let factors = ports.factors.iter();
+        self.factors = factors
+            .map(|port| (port.element, port.sign * value(port.input)))
+            .collect();
         let coils = ports.coils.iter();
         self.coils = coils
             .map(|port| {
@@ -58,6 +66,9 @@ impl InputLoads {
     pub fn put(&self, system: &mut System) -> Result<(), Error> {
         for &body in &self.loaded {
             system.set_load(body, self.on[body]).map_err(Error::of)?;
+        }
+        for &(element, factor) in &self.factors {
+            system.set_factor(element, factor).map_err(Error::of)?;
         }
         for (coil, law) in &self.coils {
             system.set_coil_law(*coil, law.clone()).map_err(Error::of)?;

@@ -452,7 +452,10 @@ impl Element for SystemElement {
     fn jacobian_vector_product(&mut self, states: &[f64], inputs: &[f64]) -> Result<Slopes, Error> {
         let none = || Error::new("there are no directional derivatives of bodies with linearized kinematics");
         let ports = &self.plant.ports;
-        if !(ports.loads.is_empty() && ports.outputs.iter().all(Reading::is_of_elements)) {
+        if !(ports.loads.is_empty()
+            && ports.factors.is_empty()
+            && ports.outputs.iter().all(Reading::is_of_elements))
+        {
             return Err(none());
         }
         self.evaluate();

@@ -156,6 +156,17 @@ impl CoilPort {
     }
 }
 
+/// An input that is the factor of an element's wrench, times a sign.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FactorPort {
+    /// The number of the input.
+    pub input: usize,
+    /// The number of the element.
+    pub element: usize,
+    /// By which the input is multiplied.
+    pub sign: f64,
+}
+
 /// A parameter that is the coefficient of friction of a face, and may change on the way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrictionPort {
@@ -247,6 +258,8 @@ pub struct Ports {
     pub motions: Vec<MotionPort>,
     /// Inputs that are stiffness or force of a coil.
     pub coils: Vec<CoilPort>,
+    /// Inputs that are factors of elements.
+    pub factors: Vec<FactorPort>,
     /// Parameters that are values at the start: the first ones, in their order.
     pub starts: Vec<StartPort>,
     /// Parameters that are coefficients of friction.

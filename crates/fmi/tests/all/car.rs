@@ -156,6 +156,73 @@ fn reproducible_a_saved_car_goes_on_with_the_same_bits() {
     );
 }
 
+/// Two cars that coast, and a program of a train: a locomotive pulls the first one, and a spring with a
+/// damper between the pivots of both is the draft gear. It comes to carry what accelerates the second
+/// car, half of the pull, and both gain the speed that the pull gives their masses.
+#[test]
+fn analytic_a_train_program_drives_the_couplers() {
+    const PULL: f64 = 60e3;
+    let car = |start: &str| {
+        case(&format!(
+            "lading.kind = \"empty\"\nspeed.kind = \"coasting\"\nspeed.value = \"20 mph\"\n\
+             start.distance = \"{start}\"\nsimulation.duration = \"3 s\"\n[[track.segments]]\n\
+             tangent = \"500 ft\"\n"
+        ))
+    };
+    let own = car("100 ft").parameters;
+    // Wheelsets turn as they gain speed.
+    let turning = own.wheelset.about_axle / own.wheel_radius().powi(2);
+    let mass = own.weight() / 9.80665 + 4.0 * turning;
+    let mut cars = ["153.0833333 ft", "100 ft"].map(|start| part(car(start), Interface::CoSimulation));
+    for own in &mut cars {
+        own.begin();
+    }
+    let [first, second] = &mut cars;
+    let both = 2.0 * 29.25 * 0.0254;
+    let before = first.get("coupler_leading_speed");
+    let (mut force, mut late) = (0.0, Vec::new());
+    for step in 0..500 {
+        let gap = first.get("coupler_trailing_distance") - second.get("coupler_leading_distance") - both;
+        let parting = first.get("coupler_trailing_speed") - second.get("coupler_leading_speed");
+        force = -(4e6 * gap + 2e5 * parting);
+        first.set("force_of_coupler_leading", -PULL);
+        first.set("force_of_coupler_trailing", force);
+        second.set("force_of_coupler_leading", force);
+        first.step();
+        second.step();
+        if step >= 300 {
+            late.push(force);
+        }
+    }
+    let mean = late.iter().sum::<f64>() / late.len() as f64;
+    assert!((mean / (-0.5 * PULL) - 1.0).abs() < 0.03, "{mean} N");
+    assert!((second.get("coupler_leading_force") - force).abs() < 1e-6 * PULL);
+    let time = 500.0 * INTERVAL;
+    for own in [first, second] {
+        let gained = own.get("coupler_leading_speed") - before;
+        let wanted = PULL / (2.0 * mass) * time;
+        assert!((gained / wanted - 1.0).abs() < 0.01, "{gained} m/s, {wanted} m/s");
+        let relative = own.get("ledger_relative_residual");
+        assert!(relative.abs() < 1e-2, "{relative}");
+    }
+}
+
+/// A lateral force at the pivot pushes the car body to the left, wherever its coupler points.
+#[test]
+fn limits_lateral_forces_of_couplers_push_to_the_left() {
+    let mut own = part(case(TRACK), Interface::CoSimulation);
+    own.set("lateral_force_of_coupler_trailing", 5e3);
+    own.begin();
+    for _ in 0..20 {
+        own.step();
+    }
+    assert!((own.get("coupler_trailing_lateral_force") - 5e3).abs() < 1.0);
+    assert!(own.get("coupler_trailing_force").abs() < 50.0);
+    // To the left, and the rear end first: its yaw is to the right.
+    assert!(own.get("car_body_minus_y") < 0.0);
+    assert!(own.get("coupler_trailing_angle").abs() < 0.01);
+}
+
 #[test]
 fn limits_every_variable_has_a_value_in_model_exchange() {
     let mut part = part(case(TRACK), Interface::ModelExchange);
@@ -183,8 +250,8 @@ fn limits_every_variable_has_a_value_in_model_exchange() {
         let found = part.get(name);
         assert!((found / wanted - 1.0).abs() < 1e-9, "{name}: {found}");
     }
-    // Rails under eight wheels, each along three axes with rates, and the load.
-    assert_eq!(entries.inputs.len(), 8 * 3 * 2 + 3);
+    // Rails under eight wheels, each along three axes with rates, the load, and two forces of each coupler.
+    assert_eq!(entries.inputs.len(), 8 * 3 * 2 + 3 + 4);
 }
 
 #[test]

@@ -111,6 +111,25 @@ impl Tangent {
         by: TangentColumns::NONE,
     };
 
+    /// Returns the tangent of the wrench and the powers times a factor.
+    #[inline(always)]
+    pub fn times(self, factor: f64) -> Self {
+        if factor == 1.0 {
+            return self;
+        }
+        let columns = |own: [TangentColumn; 3]| own.map(|column| column.map(|lanes| lanes * factor));
+        Self {
+            force: self.force.scale(factor),
+            moment: self.moment.scale(factor),
+            by: TangentColumns {
+                position: columns(self.by.position),
+                rotation: columns(self.by.rotation),
+                velocity: columns(self.by.velocity),
+                angular_velocity: columns(self.by.angular_velocity),
+            },
+        }
+    }
+
     /// Returns the tangent of a law that is written over any scalar.
     #[inline(always)]
     pub fn of(inputs: Inputs, relative: &RelativeMotion<f64>, law: &impl Element) -> Self {

@@ -1,6 +1,7 @@
 //! Force elements of suspensions, one law a file. Each implements [`Element`](crate::element::Element).
 
 mod bushing;
+mod draft_gear;
 mod radial_stop;
 mod shear_spring;
 mod stop;
@@ -8,6 +9,7 @@ mod strut;
 mod table_spring;
 
 pub use bushing::Bushing;
+pub use draft_gear::DraftGear;
 pub use radial_stop::RadialStop;
 pub use shear_spring::{ShearSpring, Solid};
 pub use stop::Stop;

@@ -177,8 +177,9 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         mounted_coils.push(assembler.attach(coil, &name, body, on, marker, kinds, 0)?);
     }
 
-    let mut mounted_elements = Vec::new();
-    for placement in elements {
+    let (mut mounted_elements, mut factors) = (Vec::new(), Vec::new());
+    for (number, placement) in elements.into_iter().enumerate() {
+        factors.extend(placement.factor.clone().map(|factor| (number, factor)));
         let is_free = |body: usize| matches!(free_number.get(body), Some(Some(_)));
         let ([body, on], marker, marked) = placement.mounted(is_free);
         let name = marked.element.name().to_owned();
@@ -263,7 +264,8 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
             motions: Box::new(own.frame.motions.clone()),
         })
         .collect();
-    let varies = applied.iter().any(|load| !load.applied.course.is_constant());
+    let varies = applied.iter().any(|load| !load.applied.course.is_constant())
+        || factors.iter().any(|(_, factor)| !factor.is_constant());
     let moves = frames.iter().any(|frame| !frame.fixed) || !moved.is_empty() || varies;
     let none = connections.is_empty() && mounted_elements.is_empty();
     let plain = none && mounted_faces.iter().all(|m| m.plain) && mounted_coils.iter().all(|m| m.plain);
@@ -316,6 +318,7 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         faces: mounted_faces,
         coils: mounted_coils,
         elements: mounted_elements,
+        factors,
         first_points,
         energy_terms: parts.energy_terms,
         layout,

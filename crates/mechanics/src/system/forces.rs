@@ -192,7 +192,10 @@ impl Mountable for Marked {
 
     #[inline(always)]
     fn tangent(&self, _: &Points, relative: &RelativeMotion<f64>, _: &mut [TangentColumns]) -> Tangent {
-        self.element.tangent(&self.turned(relative))
+        match self.factor[0] {
+            0.0 => Tangent::NONE,
+            factor => self.element.tangent(&self.turned(relative)).times(factor),
+        }
     }
 }
 

@@ -120,6 +120,27 @@ impl System {
         }
     }
 
+    /// Replaces the factor of the wrench of an element that was built with one
+    /// ([`crate::element::Placement::over_time`]), constant until the next call.
+    ///
+    /// # Errors
+    /// There is no such element, or it has no factor.
+    pub fn set_factor(&mut self, element: usize, value: f64) -> Result<(), InputError> {
+        let count = self.elements.len();
+        let found = self.factors.iter_mut().find(|(own, _)| *own == element);
+        let Some((_, factor)) = found else {
+            return Err(InputError::NoSuch {
+                what: "element with a factor",
+                number: element,
+                count,
+            });
+        };
+        *factor = Motion::Constant(value);
+        self.elements[element].element.factor = [value, 0.0];
+        self.invalidate_kinematics();
+        Ok(())
+    }
+
     /// Replaces the coefficient of friction of a face.
     ///
     /// # Errors

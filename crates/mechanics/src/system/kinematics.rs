@@ -34,6 +34,10 @@ impl System {
             for load in &mut self.applied {
                 load.jet = load.applied.course.evaluate(time, self.reference);
             }
+            for (element, factor) in &self.factors {
+                let [value, rate, _] = factor.evaluate(time, self.reference);
+                self.elements[*element].element.factor = [value, rate];
+            }
         }
         for number in 0..self.free.len() {
             self.update_free_body(number, x);

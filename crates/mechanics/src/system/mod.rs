@@ -177,6 +177,8 @@ pub struct System {
     faces: Vec<Mounted<ContactFace<Interface>>>,
     coils: Vec<Mounted<Coil>>,
     elements: Vec<Mounted<Marked>>,
+    /// Elements (their numbers) with a factor over time.
+    factors: Vec<(usize, Motion)>,
     /// The number of each face's first point among all points.
     first_points: Vec<usize>,
     energy_terms: Vec<EnergyTerm>,
@@ -403,6 +405,11 @@ impl Problem for System {
         let given = self.applied.iter();
         let end = motions
             .chain(given.filter_map(|load| load.applied.course.next_break(start)))
+            .chain(
+                self.factors
+                    .iter()
+                    .filter_map(|(_, factor)| factor.next_break(start)),
+            )
             .min_by(f64::total_cmp)
             .unwrap_or(f64::INFINITY);
         self.reference = if end.is_finite() {

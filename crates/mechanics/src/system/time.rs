@@ -7,8 +7,8 @@ use super::forces::Mountable;
 use super::jacobian::rates_along;
 use super::{FrameState, Mounted, System};
 use crate::body::Kinematics;
-use crate::element::Wrench;
 use crate::element::tangent::{Change, combined, force_of, moment_of, sum};
+use crate::element::{Marked, Wrench};
 use crate::frame::FrameMotion;
 use crate::link::{RelativeFrame, RelativeMotion};
 use crate::vector::{Matrix, Vector};
@@ -64,6 +64,10 @@ impl System {
         for element in self.elements.iter().filter(|element| element.moves) {
             let load_rate = &mut self.load_rate;
             element_in_time(element, bodies, &mut [], load_rate, d_quadratures);
+        }
+        for (number, _) in &self.factors {
+            let element = &self.elements[*number];
+            factor_in_time(element, &self.kinematics, &mut self.load_rate, d_quadratures);
         }
         for free in &self.free {
             let (mut force, mut moments) = self.load_rate[free.body];
@@ -147,6 +151,43 @@ fn element_in_time<E: Mountable>(
     }
     if mounted.prescribed {
         d_quadratures[0] += wrench.prescribed_power(&body, &relative_frame).derivative[0];
+    }
+}
+
+/// Adds the derivatives by time of an element's wrench and powers through its factor.
+fn factor_in_time(
+    mounted: &Mounted<Marked>,
+    kinematics: &[Kinematics<f64>],
+    load_rate: &mut [(Vector<f64>, [f64; 3])],
+    d_quadratures: &mut [f64],
+) {
+    let [_, rate] = mounted.element.factor;
+    if rate == 0.0 {
+        return;
+    }
+    let (frame, body) = (&mounted.relative_frame, &kinematics[mounted.body]);
+    let relative: RelativeMotion<f64> = frame.relative(body);
+    let wrench = mounted.element.times(rate, &relative);
+    let mut add = |number: usize, (force, moment): (Vector<f64>, Vector<f64>)| {
+        let (sum, moments) = &mut load_rate[number];
+        *sum += force;
+        let about = kinematics[number].about_axes(&moment);
+        for (sum, moment) in moments.iter_mut().zip(about) {
+            *sum += moment;
+        }
+    };
+    add(mounted.body, wrench.on_body(frame, body));
+    if mounted.on_free {
+        let on = &kinematics[mounted.on];
+        add(mounted.on, wrench.reaction(&relative, on, &mounted.marker));
+    }
+    for (energy_term, power) in mounted.energy_terms.iter().zip(wrench.powers) {
+        if let Some(energy_term) = energy_term {
+            d_quadratures[*energy_term] += power;
+        }
+    }
+    if mounted.prescribed {
+        d_quadratures[0] += wrench.prescribed_power(&relative, frame);
     }
 }
 

@@ -2,12 +2,12 @@
 //! with linearized kinematics.
 
 use crate::common::Random;
-use integrate::{Integrator, Options, Problem};
+use integrate::{Integrator, Method, Options, Problem};
 use mechanics::body::Body;
 use mechanics::coil::{Coil, CoilLaw};
 use mechanics::connection::{Connection, Law, SpringDamper};
 use mechanics::curve::Curve;
-use mechanics::element::{Element, Inputs, Wrench};
+use mechanics::element::{Element, Inputs, Placement, Wrench};
 use mechanics::frame::Frame;
 use mechanics::link::{Marker, RelativeMotion};
 use mechanics::motion::Motion;
@@ -466,4 +466,75 @@ fn analytic_either_body_of_an_element_may_be_prescribed() {
         "{}",
         end.residual(start)
     );
+}
+
+/// A thrust of 1 N along x of the ground, which does work.
+#[derive(Clone, Debug)]
+struct Thrust;
+
+impl Element for Thrust {
+    fn name(&self) -> &str {
+        "thrust"
+    }
+    fn does_work(&self) -> bool {
+        true
+    }
+    fn evaluate<S: Real>(&self, motion: &RelativeMotion<S>) -> Wrench<S> {
+        let force = Vector([S::from(1.0), S::zero(), S::zero()]);
+        Wrench {
+            force,
+            moment: Vector::zero(),
+            powers: [S::zero(), force.dot(motion.velocity)],
+        }
+    }
+    fn energy(&self, _: &RelativeMotion<f64>) -> f64 {
+        0.0
+    }
+}
+
+/// Under a factor a sin ωt a mass moves by `a/(m ω²) (ωt - sin ωt)`; the thrust's work is its kinetic
+/// energy. A factor set from outside holds until the next one.
+#[test]
+fn analytic_a_factor_over_time_moves_a_mass() {
+    let (mass, amplitude, omega) = (7.0, 50.0, 3.0);
+    let ground = Body::prescribed("ground", Frame::fixed([0.0; 3], [0.0; 3]));
+    let own = Body::free("mass", mass, [1.0; 3], [0.0; 6]);
+    let mut model = Model::new(vec![ground, own], [0.0; 3]);
+    let at = Marker::new([0.0; 3], [0.0; 3]);
+    let placed = Placement::new(Thrust, (1, at), (0, at));
+    model.elements.push(placed.over_time(Motion::Sine {
+        amplitude,
+        angular_frequency: omega,
+        phase: 0.0,
+    }));
+    let mut system = System::new(model).unwrap();
+    let state = system.initial_state();
+    for method in [Method::Rodas5P, Method::Esdirk3] {
+        let options = Options {
+            relative_tolerance: 1e-9,
+            ..Options::of(method)
+        };
+        let mut integrator = Integrator::new(system.clone(), options, 0.0, &state).unwrap();
+        while integrator.time() < 2.0 {
+            integrator.step_to(2.0).unwrap();
+        }
+        let phase: f64 = 2.0 * omega;
+        let exact = amplitude / (mass * omega * omega) * (phase - phase.sin());
+        let seen = system.observe(2.0, integrator.x());
+        let found = seen.bodies[1].origin.0[0];
+        assert!(
+            (found / exact - 1.0).abs() < 1e-7,
+            "{method:?}: {found} m, {exact} m"
+        );
+        let residual = seen.residual(0.0);
+        let most = 0.5 * mass * (2.0 * amplitude / (mass * omega)).powi(2);
+        assert!(residual.abs() < 1e-8 * most, "{residual} J of {most} J");
+    }
+    system.set_factor(0, -14.0).unwrap();
+    let mut rates = vec![0.0; state.len()];
+    system.derivative(0.5, &state, &mut rates);
+    let place = system.layout().speeds + system.position_of(1, 0).unwrap();
+    assert!((rates[place] + 2.0).abs() < 1e-12, "{}", rates[place]);
+    let error = system.set_factor(3, 1.0).unwrap_err();
+    assert!(error.to_string().contains("element with a factor 3"), "{error}");
 }

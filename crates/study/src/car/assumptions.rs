@@ -11,7 +11,7 @@ use wheelrail::creep::polach;
 use wheelrail::profile::Profile;
 
 use super::statistics::Rules;
-use super::{CarCase, friction, not_round, rails};
+use super::{CarCase, couplers, friction, not_round, rails};
 use crate::reader::CaseText;
 use crate::truck::assumptions::of_kinds;
 use crate::wedge_faces;
@@ -193,7 +193,7 @@ pub(super) fn named(parameters: &Parameters) -> Vec<(String, &Wedge)> {
 pub(super) fn of(case: &CarCase) -> Vec<String> {
     let p = &case.parameters;
     let mut list = vec![
-        "Out of scope: flexible bodies, braking, coupler forces.".to_owned(),
+        couplers::assumption(&p.couplers),
         "Bodies are rigid; coils, stops and faces are springs with dampers. The built-in stiffnesses of \
          contacts of wedges, center plates and adapters are guesses."
             .to_owned(),

@@ -22,6 +22,8 @@ pub(crate) const KEYS: ModelKeys = ModelKeys {
         ("car_hunting_roller_empty", &[]),
         ("car_twist_and_roll_loaded", &[]),
         ("car_286k_loaded", &[]),
+        ("car_buff_curve_empty", &["couplers.direction=angle"]),
+        ("car_static_curve_empty", &[]),
         ("car_286k_loaded", &["truck.load_springs.height=9 in"]),
     ],
     // Each truck of a car takes the keys of both.
@@ -141,6 +143,8 @@ start.axle_shift = \"0.4 in\"";
         ("curve_with_dip", "loaded", 3),
         ("lean", "loaded", 5),
         ("static_curve", "empty", 0),
+        ("buff_curve", "empty", 3),
+        ("draft_curve", "empty", 3),
         ("fra_class_1", "loaded", 5),
         ("fra_class_1", "empty", 5),
         ("fra_class_2", "loaded", 5),

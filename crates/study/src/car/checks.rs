@@ -6,6 +6,7 @@ use quantity::Number;
 use truck::SideBearing;
 use wheelrail::track::CenterLine;
 
+use super::couplers;
 use super::lading::LadingKind;
 use super::{not_round, rails};
 use crate::case::Simulation;
@@ -14,7 +15,7 @@ use crate::geometry;
 use crate::reader::CaseReader;
 
 const FOOT: f64 = 0.3048;
-const INCH: f64 = 0.0254;
+pub(super) const INCH: f64 = 0.0254;
 pub(super) const POUND_FORCE: f64 = 4.448_221_615_260_5;
 /// Coils that rise or sink by less are not spoken of, m.
 const SMALL_RISE: f64 = 0.05 * INCH;
@@ -47,6 +48,7 @@ pub(super) fn all(
     let mut doubts = geometry::of_car(parameters);
     doubts.extend(height(parameters));
     doubts.extend(not_round::of_rows(parameters, simulation.output_interval));
+    doubts.extend(couplers::checks(r, parameters, simulation.duration));
     doubts
 }
 

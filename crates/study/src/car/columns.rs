@@ -11,6 +11,7 @@ use truck::{WEDGE_NAMES, WedgeLoads};
 use wheelrail::profile::SlicedProfile;
 use wheelrail::track::Track;
 
+use super::couplers::ENDS;
 use super::derailment;
 use super::statistics::{AxlePart, Parts, PlacePart, SIDES, TruckPart, in_words, ratio};
 use crate::truck::channels::{FACES, FRICTION, TruckChannels, losses_at, names_of_face, places_of};
@@ -254,6 +255,7 @@ impl Table {
             own.truck(truck).nests();
             own.truck(truck).wedges();
         }
+        own.couplers(car);
         own.fixed = own.columns.columns.len();
         for (truck, parameters) in trucks.iter().enumerate() {
             let mut own = own.truck(truck);
@@ -338,6 +340,50 @@ impl Table {
             self.add(format!("{stem}_yaw"), Kind::Angle, TRACK, text, move |seen| {
                 seen.loads.axles[axle].yaw
             });
+        }
+    }
+
+    /// The couplers, where forces act or can act.
+    fn couplers(&mut self, car: &Car) {
+        for (end, name) in ENDS
+            .into_iter()
+            .enumerate()
+            .filter(|(end, _)| car.is_coupled(*end))
+        {
+            let stem = format!("coupler_{name}");
+            let at = move |seen: &Seen<'_, Loads>| seen.loads.couplers[end].unwrap_or_default();
+            let text = "force of the coupler along its line, positive in buff";
+            self.add(format!("{stem}_force"), Kind::Force, BODY, text, move |seen| {
+                at(seen).force
+            });
+            let text = "force of the coupler on the car body to its left";
+            self.add(
+                format!("{stem}_lateral_force"),
+                Kind::Force,
+                BODY,
+                text,
+                move |seen| at(seen).lateral,
+            );
+            let text = "of the coupler to the car body, positive where it points to the left of the car";
+            self.add(format!("{stem}_angle"), Kind::Angle, BODY, text, move |seen| {
+                at(seen).angle
+            });
+            let text = "of the pivot of the coupler along the track, in plan";
+            self.add(
+                format!("{stem}_distance"),
+                Kind::Distance,
+                TRACK,
+                text,
+                move |seen| at(seen).distance,
+            );
+            let text = "of the pivot of the coupler along the track";
+            self.add(
+                format!("{stem}_speed"),
+                Kind::TravelSpeed,
+                TRACK,
+                text,
+                move |seen| at(seen).speed,
+            );
         }
     }
 

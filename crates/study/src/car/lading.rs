@@ -203,9 +203,8 @@ pub(super) fn body(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
         "of the accelerometers over the truck centers, above the top of rail; left out: that of the center \
          plate",
     );
-    let Couplers { height, distance } = &mut parameters.couplers;
-    let comment =
-        "of the couplers above the top of rail in the nominal layout, for the static table: a guess";
+    let Couplers { height, distance, .. } = &mut parameters.couplers;
+    let comment = "of the couplers above the top of rail in the nominal layout: a guess";
     r.quantity("coupler_height", LENGTH, height, comment);
     let comment = "from one pulling face to the other: 53 ft 1 in";
     r.quantity("coupler_distance", LENGTH, distance, comment);

@@ -10,6 +10,7 @@ pub mod builtin;
 mod changes;
 mod checks;
 pub mod columns;
+pub(crate) mod couplers;
 mod derailment;
 pub mod figures;
 pub(crate) mod friction;

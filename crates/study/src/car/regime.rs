@@ -67,7 +67,7 @@ pub(crate) fn says_start(set: &[String]) -> bool {
 }
 
 /// The built-in regimes, in order.
-const BUILT_IN: [(&str, &str); 20] = built_in![
+const BUILT_IN: [(&str, &str); 22] = built_in![
     "",
     "hunting",
     "twist_and_roll",
@@ -84,6 +84,8 @@ const BUILT_IN: [(&str, &str); 20] = built_in![
     "curve_with_dip",
     "lean",
     "static_curve",
+    "buff_curve",
+    "draft_curve",
     "fra_class_1",
     "fra_class_2",
     "fra_class_3",

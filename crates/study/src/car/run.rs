@@ -23,7 +23,7 @@ use super::static_table::static_table;
 use super::statistics::filtered::{filtered, look_ahead, with_filtered};
 use super::statistics::{Histories, SIDES, Statistic, Statistics};
 use super::summary::{CarSummary, Derailed, SCHEMA};
-use super::{limits, locked_in, peaks};
+use super::{couplers, limits, locked_in, peaks};
 use crate::energy;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
@@ -99,7 +99,7 @@ impl RunCase for CarCase {
             x: car.initial_state.clone(),
             start_warning: car.start_warning.clone(),
             recorder: CarRecorder {
-                rows: RowTable::new(columns, |name| table.parts().need(name)),
+                rows: RowTable::new(columns, |name| couplers::need(name) || table.parts().need(name)),
                 ahead: None,
                 rates: vec![0.0; x.len()],
                 motions: None,
@@ -273,6 +273,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
             (method, units),
         ));
     }
+    warnings.extend(couplers::swung(&run.case.parameters, &table));
     let mut statistics = statistics_of(&run, &table);
     peaks::remark(&mut statistics.values, method);
     warnings.extend(statistics.remarks.iter().cloned());

@@ -6,6 +6,7 @@ use quantity::{Kind, Quantity, System};
 use rolling::track::RailSupport;
 
 use super::checks;
+use super::couplers;
 use super::lading::{self, LadingKind};
 use super::statistics::Rules;
 use super::{rails, track, trucks, wheels};
@@ -79,6 +80,7 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     let of_wheels = wheels::wheels(r, &mut parameters, rails, sprung);
     let nothing_to_raise = raised.and_then(|height| lading::raise(r, &mut parameters, height));
     speed(r, &mut parameters);
+    couplers::couplers(r, &mut parameters.couplers);
     start(r, &mut parameters);
     let mut rules = Rules::default();
     super::output::output(r, &mut rules);

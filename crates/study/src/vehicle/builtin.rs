@@ -14,6 +14,13 @@ pub(crate) const KEYS: ModelKeys = ModelKeys {
         ("vehicle_two_axles", &[]),
         ("vehicle_car_empty", &[]),
         (
+            "vehicle_two_axles",
+            &[concat!(
+                r#"elements.coupler={ kind = "coupler", a = "body", at = ["200 in", "0 in", "33 in"], "#,
+                r#"truck_distance = "236 in", direction = "angle" }"#
+            )],
+        ),
+        (
             "vehicle_catalog",
             &[r#"elements.spring.table=[["0 in", "0 lbf"], ["1 in", "3000 lbf"]]"#],
         ),

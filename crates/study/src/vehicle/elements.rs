@@ -1,5 +1,6 @@
 //! The elements of a vehicle's case: the kinds of the catalog, each with its keys.
 
+mod couplers;
 mod lines;
 mod seats;
 
@@ -75,6 +76,8 @@ enum ElementKind {
     ConstantContactSideBearing,
     Adapter,
     AdapterPad,
+    Coupler,
+    DraftGear,
     Force,
 }
 
@@ -96,6 +99,8 @@ const KINDS: Names<ElementKind> = &[
     ),
     ("adapter", ElementKind::Adapter),
     ("adapter_pad", ElementKind::AdapterPad),
+    ("coupler", ElementKind::Coupler),
+    ("draft_gear", ElementKind::DraftGear),
     ("force", ElementKind::Force),
 ];
 
@@ -140,7 +145,7 @@ fn element(r: &mut CaseReader<'_>, name: &str, (bodies, own, coils): Known<'_>) 
     let a = r.name_among("a", bodies, comment);
     let b = match kind {
         // Comes from outside.
-        Which::Catalog(ElementKind::Force) => Some(0),
+        Which::Catalog(ElementKind::Force | ElementKind::Coupler) => Some(0),
         _ => r.name_among("b", bodies, "the body with end b, or \"ground\""),
     };
     let is_line = match kind {
@@ -163,17 +168,19 @@ fn element(r: &mut CaseReader<'_>, name: &str, (bodies, own, coils): Known<'_>) 
     }
     let law: Arc<dyn CatalogElement> = match kind {
         Which::Own(own) => own_law(r, own),
-        Which::Catalog(kind) if lines::is_line(kind) => Arc::new(lines::line(r, kind)),
         Which::Catalog(ElementKind::Coil) => Arc::new(lines::coil(r)),
         Which::Catalog(ElementKind::Bushing) => Arc::new(bushing(r)),
         Which::Catalog(ElementKind::Stop) => Arc::new(stop(r)),
         Which::Catalog(ElementKind::DryFriction) => Arc::new(friction(r)),
         Which::Catalog(ElementKind::Wedge) => Arc::new(wedge(r, &path, coils)),
         Which::Catalog(ElementKind::Force) => force(r),
+        Which::Catalog(ElementKind::Coupler) => Arc::new(couplers::coupler(r)),
+        Which::Catalog(ElementKind::DraftGear) => Arc::new(couplers::draft_gear(r)),
+        Which::Catalog(kind) if lines::is_line(kind) => Arc::new(lines::line(r, kind)),
         Which::Catalog(kind) => seats::seat(r, &path, kind),
     };
     let (a, b) = (a?, b?);
-    let is_force = matches!(kind, Which::Catalog(ElementKind::Force));
+    let is_force = matches!(kind, Which::Catalog(ElementKind::Force | ElementKind::Coupler));
     if a == b && !is_force {
         let message = format!("{name} is between {} and itself", bodies[a]);
         let problem = Problem::new(message).label("both ends on one body");

@@ -605,3 +605,98 @@ relative_tolerance = 1e-8
     let force = result.column("push_force").unwrap();
     assert!(force.iter().any(|own| (own - 40e3).abs() < 1.0) && force[0] == 0.0);
 }
+
+/// A car of a train on 300 ft of a curve of 10 deg behind a spiral, under buff; `at` is its middle.
+fn car_of_train(name: &str, at: f64) -> String {
+    let truck = |end: &str, x: f64| {
+        format!(
+            "[trucks.{name}_{end}]\nat = \"{x} in\"\nunder = \"{name}\"\n\
+             side_bearing.kind = \"constant_contact\"\n"
+        )
+    };
+    format!(
+        "[bodies.{name}]\nweight = \"43060 lbf\"\nat = [\"{at} in\", \"0 in\", \"65 in\"]\n\
+         inertia = [\"375000 lbf in s^2\", \"3610000 lbf in s^2\", \"3610000 lbf in s^2\"]\n{}{}",
+        truck("front", at + 243.0),
+        truck("rear", at - 243.0)
+    )
+}
+
+/// A coupler towards a like neighbor at an end (1 or -1) of a car, buff of 150,000 lbf that grows when all
+/// cars of a train are in the curve: what friction holds then is the same in all.
+fn coupler_of_train(car: &str, middle: f64, end: f64) -> String {
+    format!(
+        "[elements.{car}_coupler_{}]\nkind = \"coupler\"\na = \"{car}\"\n\
+         at = [\"{} in\", \"0 in\", \"32.5 in\"]\ntruck_distance = \"486 in\"\nmiddle = \"{middle} in\"\n\
+         force = {{ shape = \"ramp\", amplitude = \"150000 lbf\", start = \"9.5 s\", duration = \"3 s\" }}\n",
+        if end > 0.0 { "leading" } else { "trailing" },
+        middle + end * 289.25
+    )
+}
+
+/// The wheel forces of the middle one of three equal cars, coupled by draft gears, are those of one car with
+/// like neighbors, in a curve under buff.
+#[test]
+#[ignore = "takes a minute; run by name"]
+fn cross_code_like_neighbors_are_the_cars_of_a_train() {
+    const PITCH: f64 = 637.0;
+    let rest = "[track]\nsegments = [{ tangent = \"160 ft\" }, { spiral = \"150 ft\" }, \
+                { curve = \"500 ft\", degree = \"10 deg\", direction = \"left\", \
+                superelevation = \"4 in\" }]\n[speed]\nvalue = \"24 mph\"\n[simulation]\n\
+                duration = \"18 s\"\noutput_interval = \"0.02 s\"\n\
+                relative_tolerance = 1e-4\nmethod = \"tr-bdf2\"\n";
+    let alone = [
+        "model = \"vehicle\"\n".to_owned(),
+        car_of_train("two", 0.0),
+        coupler_of_train("two", 0.0, 1.0),
+        coupler_of_train("two", 0.0, -1.0),
+        rest.to_owned(),
+        "[start]\ndistance = \"80 ft\"\n".to_owned(),
+    ];
+    let gear = |front: &str, rear: &str, middle: f64| {
+        format!(
+            "[elements.{front}_{rear}]\nkind = \"draft_gear\"\na = \"{front}\"\nb = \"{rear}\"\n\
+             at_a = [\"{} in\", \"0 in\", \"32.5 in\"]\nat_b = [\"{} in\", \"0 in\", \"32.5 in\"]\n",
+            middle + 29.25,
+            middle - 29.25
+        )
+    };
+    let train = [
+        "model = \"vehicle\"\n".to_owned(),
+        car_of_train("one", PITCH),
+        car_of_train("two", 0.0),
+        car_of_train("three", -PITCH),
+        coupler_of_train("one", PITCH, 1.0),
+        coupler_of_train("three", -PITCH, -1.0),
+        gear("one", "two", 0.5 * PITCH),
+        gear("two", "three", -0.5 * PITCH),
+        rest.to_owned(),
+        "[drive]\nbody = \"two\"\n[start]\ndistance = \"80 ft\"\n".to_owned(),
+    ];
+    let [alone, train] = [alone.concat(), train.concat()].map(|text| run(&text));
+    // Between the gears the train is shorter by their travel, and the middle car stands where the one does.
+    let late = |result: &VehicleResult, name: &str| {
+        let values = result.column(name).unwrap_or_else(|| panic!("{name}"));
+        let count = 100;
+        values[values.len() - count..].iter().sum::<f64>() / count as f64
+    };
+    let force = late(&train, "one_two_force");
+    assert!((force / (150e3 * POUND * G) - 1.0).abs() < 0.02, "{force} N");
+    let mut worst: f64 = 0.0;
+    for truck in ["front", "rear"] {
+        for axle in [1, 2] {
+            for side in ["left", "right"] {
+                let stem = format!("two_{truck}_wheelset_{axle}_{side}");
+                let mut total = 0.0;
+                for what in ["vertical", "lateral"] {
+                    let name = format!("{stem}_{what}_force");
+                    let [one, three] = [&alone, &train].map(|result| late(result, &name));
+                    eprintln!("{name}: {one:.0} N alone, {three:.0} N in the train");
+                    total = f64::max(total, late(&alone, &format!("{stem}_vertical_force")));
+                    worst = worst.max((one - three).abs() / total);
+                }
+            }
+        }
+    }
+    assert!(worst < 0.01, "{worst}");
+}

@@ -40,6 +40,8 @@ fn input_built_in_cars_read_back_to_the_same_case() {
         "car_curve_with_dip_loaded",
         "car_lean_loaded",
         "car_static_curve_empty",
+        "car_buff_curve_empty",
+        "car_draft_curve_empty",
         "car_fra_class_1_loaded",
         "car_fra_class_1_empty",
         "car_fra_class_2_loaded",

@@ -3,6 +3,7 @@
 
 mod assumptions;
 mod case;
+mod couplers;
 mod derailment;
 mod friction;
 mod geometry;

@@ -53,6 +53,8 @@ fn input_built_in_regimes_are_whole() {
         "curve_with_dip",
         "lean",
         "static_curve",
+        "buff_curve",
+        "draft_curve",
         "fra_class_1",
         "fra_class_2",
         "fra_class_3",

@@ -9,12 +9,16 @@
 //! | `dry_friction` | [`DryFriction`]: a bristle in series with a slider, in a plane |
 //! | `wedge` | [`FrictionWedge`]: a rigid body with faces on pocket and column, and its control coil |
 //! | `center_plate`, `side_bearing`, `adapter` | [`Plate`], [`Bearing`], [`AxleAdapter`] |
+//! | `coupler` | [`Coupler`]: a given force at the end of a car, towards a like neighbor |
+//! | `draft_gear` | [`DraftGear`]: a friction gear between two couplers |
 //! | `force` | [`AppliedForce`]: a force over time; [`ForceOverDistance`] |
 //!
 //! An element of one's own implements [`CatalogElement`].
 
 mod bushing;
 mod coil;
+mod coupler;
+mod draft_gear;
 mod force;
 mod force_over_distance;
 mod friction;
@@ -37,6 +41,8 @@ use wheelrail::track::RailLines;
 
 pub use bushing::Bushing;
 pub use coil::Coil;
+pub use coupler::Coupler;
+pub use draft_gear::DraftGear;
 pub use force::AppliedForce;
 pub use force_over_distance::ForceOverDistance;
 pub use friction::DryFriction;

@@ -47,7 +47,7 @@ fn input_a_run_of_a_car_writes_its_files() {
         summary["assumptions"][0]
             .as_str()
             .unwrap()
-            .contains("flexible bodies, braking, coupler forces")
+            .contains("flexible bodies, braking. No coupler forces act")
     );
     let csv = fs::read_to_string(at.join("a/result.csv")).unwrap();
     assert!(csv.starts_with("time_s,distance_ft,speed_mph,body_roll_rad\n"));

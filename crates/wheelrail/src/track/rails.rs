@@ -255,6 +255,20 @@ impl RailLines {
         }
     }
 
+    /// Returns the section of a line at a distance (m), with the derivatives of the distance.
+    #[must_use]
+    pub fn section_over<S: Real>(&self, line: Line, distance: S) -> TrackSection<S> {
+        let at = self.at(line, distance.value());
+        let rest = distance - distance.value();
+        let lift = |own: Dual<1>| rest.chain(own.value, own.derivative[0]);
+        TrackSection {
+            distance,
+            origin: at.origin.map(lift),
+            axes: at.axes.map(|axis| axis.map(lift)),
+            curvature: at.curvature,
+        }
+    }
+
     /// Returns the irregularities (m) of the left and the right rail at a distance (m): to the left, and up.
     #[must_use]
     pub fn irregularities(&self, distance: f64) -> [[f64; 2]; 2] {

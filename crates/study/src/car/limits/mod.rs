@@ -17,7 +17,7 @@
 //! remark = ""
 //! [[not_covered]]                           # what the rule asks for, and these limits do not have
 //! what = "impact tests"
-//! reason = "no model of couplers"
+//! reason = "not simulated"
 //! ```
 //!
 //! `not_covered = []` says that the limits are all that the rule asks for; without the key nobody says so.

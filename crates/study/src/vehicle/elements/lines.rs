@@ -14,8 +14,8 @@ use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, QuantityForm, STIFFN
 
 /// Returns whether an element of this kind has two places.
 pub(super) fn is_line(kind: ElementKind) -> bool {
-    use ElementKind::{Damper, Gap, Link, Spring};
-    matches!(kind, Spring | Damper | Link | Gap)
+    use ElementKind::{Damper, DraftGear, Gap, Link, Spring};
+    matches!(kind, Spring | Damper | Link | Gap | DraftGear)
 }
 
 /// Returns the curve of a table, SI.
