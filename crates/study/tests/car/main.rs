@@ -17,6 +17,7 @@ mod onset;
 mod problems;
 mod rails;
 mod run;
+mod shared_rails;
 mod stability;
 mod start;
 mod statics;
