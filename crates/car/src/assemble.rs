@@ -16,6 +16,7 @@ use mechanics::link::Marker;
 use mechanics::orientation::fixed;
 use mechanics::system::{Model, System};
 use mechanics::vector::{Matrix, Vector, rotation_z};
+use rolling::beam::RailBeam;
 use rolling::linear::LinearOnTrack;
 use rolling::track::{RailSupport, rail_bed, rail_body};
 use rolling::wheel::{Search, WheelOnRail};
@@ -109,6 +110,8 @@ pub struct Car {
     /// Heights of the accelerometers above the truck centers, m.
     pub(crate) accelerometers: [f64; 2],
     pub(crate) gravity: f64,
+    /// The rails as beams, and the wheelbases of both trucks, m.
+    pub(crate) beams: Option<(RailBeam, [f64; 2])>,
     /// The bodies of the front truck, the rear truck (0, 1) and the car body (2).
     pub(crate) groups: Vec<(usize, usize)>,
 }
@@ -205,6 +208,10 @@ impl Car {
                 .accelerometer_height
                 .map_or(parameters.plate_heights(), |own| [own; 2]),
             gravity: parameters.gravity,
+            beams: parameters.support.as_ref().and_then(|support| {
+                let wheelbases = parameters.trucks.each_ref().map(|own| own.geometry.wheelbase);
+                Some((support.beam.clone()?, wheelbases))
+            }),
         })
     }
 }
@@ -341,12 +348,29 @@ impl Nominal {
                     let mut rail = rail_body(support);
                     rail.name = format!("rail_{}_{side}", w + 1);
                     model.bodies.push(rail);
+                    let beam = support.beam.as_ref();
+                    let wheelbase = parts[w / 2].geometry.wheelbase;
+                    let ground = beam.map(|beam| beam.shared(support, wheelbase).ground);
                     let own = RailSupport {
                         name: format!("{}_{}_{}", support.name, w + 1, ["left", "right"][i]),
-                        ..support.clone()
+                        ..ground.unwrap_or(support.clone())
                     };
                     let on = beds.map_or(0, |beds| beds[w][i]);
                     model.add(own, (*number, track), (on, track));
+                }
+            }
+            for (t, pair) in parts.iter().enumerate() {
+                let shared = support.beam.as_ref();
+                let Some(shared) = shared.map(|beam| beam.shared(support, pair.geometry.wheelbase)) else {
+                    continue;
+                };
+                for (i, side) in ["left", "right"].into_iter().enumerate() {
+                    let [front, rear] = [0, 1].map(|axle| numbers[2 * t + axle][i]);
+                    let between = RailSupport {
+                        name: format!("{}_between_{}_and_{}_{side}", support.name, 2 * t + 1, 2 * t + 2),
+                        ..shared.between.clone()
+                    };
+                    model.add(between, (front, track), (rear, track));
                 }
             }
             rails = Some(numbers);

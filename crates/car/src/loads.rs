@@ -36,6 +36,8 @@ pub struct WheelLoads {
     /// Angle of the plane of the patch that carries most, in the section of its rail, rad: positive where it
     /// rises to the field side, as on treads and flanges. Zero without a patch, and with linear wheels.
     pub contact_angle: f64,
+    /// Roll of the rail under the wheel about its base, rad, outwards: zero where rails are no beams.
+    pub rail_roll: f64,
     /// How far the wheel must be lowered until it bears on its rail, m: zero while it bears, where it is
     /// beside its rail, and with linear wheels.
     pub lift: f64,
@@ -72,6 +74,7 @@ impl WheelLoads {
             longitudinal: -x,
             wear_number: if forward == 0.0 { 0.0 } else { creep },
             contact_angle: libm::atan(most[1]),
+            rail_roll: 0.0,
             lift: match bears {
                 true => 0.0,
                 false => wheel.lift(motion).unwrap_or(0.0),
@@ -105,6 +108,8 @@ pub struct AxleLoads {
     pub roll: f64,
     /// Rate of the spin, rad/s.
     pub spin: f64,
+    /// By how much the heads of both rails have moved apart under it, m: zero where rails do not give way.
+    pub gauge_widening: f64,
 }
 
 /// The body above a truck's center, at the height of the center plate.
@@ -167,9 +172,11 @@ impl Car {
                 yaw: -libm::asin(axle[0].clamp(-1.0, 1.0)),
                 roll: libm::asin(axle[2].clamp(-1.0, 1.0)),
                 spin: state.speeds[3],
+                gauge_widening: self.moved_apart(w, seen, &section),
             };
             loads.wheels[w] = self.wheels(w, seen, &section);
         }
+        self.roll_rails(seen, &mut loads);
         let turned = self.body_rotation(body);
         let axes = [0, 1, 2].map(|k| section.of(self.own(turned.column(k)).0));
         loads.body_angles = [
@@ -197,6 +204,12 @@ impl Car {
             });
         }
         loads
+    }
+
+    /// Returns whether rails are beams that the wheels of a truck share.
+    #[must_use]
+    pub fn has_beams(&self) -> bool {
+        self.beams.is_some()
     }
 
     /// Gives the patches of all wheels to `see`, with the number of the wheelset and of the side (left 0,
@@ -285,8 +298,47 @@ impl Car {
                     longitudinal: -0.5 * x,
                     wear_number: 0.0,
                     contact_angle: 0.0,
+                    rail_roll: 0.0,
                     lift: 0.0,
                 })
+            }
+        }
+    }
+
+    /// Returns by how much the rails under a wheelset have moved apart against what they lie on, m.
+    fn moved_apart(&self, w: usize, seen: &Observation, section: &TrackSection<f64>) -> f64 {
+        let Some(rails) = &self.numbers.rails else {
+            return 0.0;
+        };
+        let outwards = [1.0, -1.0].into_iter().enumerate().map(|(i, sign)| {
+            let bed = self.numbers.beds.map_or(self.numbers.ground, |beds| beds[w][i]);
+            let moved = seen.bodies[rails[w][i]].origin - seen.bodies[bed].origin;
+            sign * section.of(self.own(moved).0)[1]
+        });
+        outwards.sum()
+    }
+
+    /// Adds the roll of rails that are beams, and what it moves their heads beside what springs feel.
+    fn roll_rails(&self, seen: &Observation, loads: &mut Loads) {
+        let (Some((beam, wheelbases)), WheelElements::OnRails(wheels, half)) = (&self.beams, &self.wheels)
+        else {
+            return;
+        };
+        for (t, wheelbase) in wheelbases.iter().enumerate() {
+            for side in 0..2 {
+                let moments = [2 * t, 2 * t + 1].map(|w| {
+                    let mut moment = 0.0;
+                    let motion = self.wheel_motion(seen, w, side, *half);
+                    wheels[w][side].patches(&motion, |patch| moment += beam.moment(&patch));
+                    moment
+                });
+                let rolls = beam.rolls(moments, *wheelbase);
+                let unfelt = [0, 1].map(|k| moments[k] - beam.height * loads.wheels[2 * t + k][side].lateral);
+                let unfelt = beam.rolls(unfelt, *wheelbase);
+                for k in 0..2 {
+                    loads.wheels[2 * t + k][side].rail_roll = rolls[k];
+                    loads.axles[2 * t + k].gauge_widening += beam.height * unfelt[k];
+                }
             }
         }
     }

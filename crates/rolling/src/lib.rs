@@ -26,6 +26,7 @@
 #![warn(missing_docs)]
 
 mod ahead;
+pub mod beam;
 pub mod carriage;
 pub mod linear;
 mod linearize;

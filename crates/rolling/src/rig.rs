@@ -209,6 +209,8 @@ impl Rig {
                         body.name = format!("{} {}", support.name, ["left", "right"][index]);
                         body.initial[2] = sunk;
                         model.bodies.push(body);
+                        let alone = support.beam.as_ref().map(|beam| beam.alone(support));
+                        let support = alone.as_ref().unwrap_or(support);
                         let support = RailSupport {
                             name: format!("{}_{}", support.name, ["l", "r"][index]),
                             ..support.clone()

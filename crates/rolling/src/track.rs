@@ -6,7 +6,8 @@
 //! fixed. Springs and dampers to ground are equal in both level directions, so that they do not depend on the
 //! heading and the longitudinal displacement, which rails have too, needs no constraint of its own.
 //!
-//! Limits: each wheel has its own piece of rail, which does not know its neighbors; vertical is the vertical
+//! Limits: each wheel has its own piece of rail, which knows its neighbor under the same truck only by
+//! springs between them ([`RailBeam`](crate::beam::RailBeam)), if they are given; vertical is the vertical
 //! of gravity, not the normal of a canted track. A steady lateral force turns with the heading, and the
 //! damper of a rail in a curve of radius R at the speed V loses `c (F/k)² (V/R)²`: 0.0005 W for 30 kN in a
 //! curve of 10 deg.
@@ -22,6 +23,8 @@ use mechanics::motion::Motion;
 use mechanics::vector::Vector;
 use numerics::scalar::Real;
 
+use crate::beam::RailBeam;
+
 /// Springs and dampers under a rail.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RailSupport {
@@ -35,6 +38,9 @@ pub struct RailSupport {
     pub damping: [f64; 2],
     /// Upward force at rest, N: the weight of the mass, so that the rail lies in its place.
     pub preload: f64,
+    /// The rail as a beam, if the wheels of a truck share it: then the stiffnesses are those under one
+    /// wheel, the level one that of the base.
+    pub beam: Option<RailBeam>,
 }
 
 impl RailSupport {
@@ -48,6 +54,7 @@ impl RailSupport {
             stiffness: [stiffness / 3.0, stiffness],
             damping: [damping / 3.0, damping],
             preload: mass * gravity,
+            beam: None,
         }
     }
 }

@@ -11,6 +11,7 @@ use mechanics::body::Body;
 use mechanics::link::Marker;
 use mechanics::system::{BodyState, Model, Observation};
 use mechanics::vector::{Matrix, Vector};
+use rolling::beam::SharedSprings;
 use rolling::track::{RailSupport, rail_bed, rail_body};
 use rolling::wheel::{Search, WheelOnRail, motion_of};
 use rolling::wheelset::{WheelsetBody, WheelsetPlace, coordinate, marker};
@@ -146,6 +147,13 @@ impl OnTrack {
     #[must_use]
     pub fn longest_step(&self) -> f64 {
         self.wheels.longest_step(self.drive.fastest(self.speed))
+    }
+
+    /// Returns the springs of rails that the wheels of a truck share; none where rails are no beams.
+    fn shared(&self, truck: &TruckPart) -> Option<SharedSprings> {
+        let support = self.support.as_ref()?;
+        let wheelbase = truck.parameters.geometry.wheelbase;
+        Some(support.beam.as_ref()?.shared(support, wheelbase))
     }
 
     /// Returns the rails of the track.
@@ -323,10 +331,18 @@ pub(crate) fn add_wheels(
             })
         })
         .collect();
+    // The wheelsets of trucks come first. Rails that are beams are shared within trucks.
+    let shared: Vec<_> = on.trucks.iter().map(|truck| on.shared(truck)).collect();
+    let ground = |number: usize, support: &RailSupport| match (shared.get(number / 2), &support.beam) {
+        (Some(Some(own)), _) => own.ground.clone(),
+        (_, Some(beam)) => beam.alone(support),
+        (_, None) => support.clone(),
+    };
     let under: Vec<[usize; 2]> = wheelsets
         .iter()
         .zip(&beds)
-        .map(|((name, _), beds)| {
+        .enumerate()
+        .map(|(axle, ((name, _), beds))| {
             let beds = beds.unwrap_or([0; 2]);
             let Some(support) = &on.support else { return beds };
             [0, 1].map(|i| {
@@ -337,13 +353,24 @@ pub(crate) fn add_wheels(
                 model.bodies.push(rail);
                 let own = RailSupport {
                     name: format!("{name}_{side}_rail_support"),
-                    ..support.clone()
+                    ..ground(axle, support)
                 };
                 model.add(own, (number, track), (beds[i], track));
                 number
             })
         })
         .collect();
+    for (truck, shared) in shared.iter().enumerate() {
+        let Some(shared) = shared else { continue };
+        for (i, side) in SIDES.into_iter().enumerate() {
+            let [front, rear] = [2 * truck, 2 * truck + 1].map(|axle| under[axle][i]);
+            let between = RailSupport {
+                name: format!("{}_{side}_rails", on.trucks[truck].name),
+                ..shared.between.clone()
+            };
+            model.add(between, (front, track), (rear, track));
+        }
+    }
     let half = 0.5 * on.wheels.tape_distance;
     let axles = wheelsets.iter().zip(beds).zip(under);
     axles

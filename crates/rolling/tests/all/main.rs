@@ -1,6 +1,7 @@
 //! Tests of `rolling`, one program: what is linked once is not linked thirty times.
 #![allow(clippy::expect_used, clippy::unwrap_used, missing_docs)]
 
+mod beam;
 mod bogie;
 mod circle;
 mod climb;

@@ -24,11 +24,11 @@ pub fn out_of_round(radius: f64, flats: Vec<Flat>, harmonics: Vec<Harmonic>) -> 
     WheelForm::OutOfRound(Arc::new(OutOfRound::new(radius, flats, harmonics).unwrap()))
 }
 
-/// The nominal wheel beside its axle by this much (m), by 18 sections around it.
+/// The nominal wheel beside its axle by this much (m), by 36 sections around it.
 pub fn eccentric_by_slices(radius: f64, aside: f64) -> WheelForm {
     let wheel = nominal::aar_1b().unwrap();
-    let slices = (0..18).map(|k| {
-        let angle = std::f64::consts::TAU * f64::from(k) / 18.0;
+    let slices = (0..36).map(|k| {
+        let angle = std::f64::consts::TAU * f64::from(k) / 36.0;
         (angle, Arc::new(wheel.moved([0.0, -aside * libm::cos(angle)])))
     });
     let list = SlicedProfile::of_wheels("wheel", slices.collect()).unwrap();

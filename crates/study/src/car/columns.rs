@@ -265,6 +265,9 @@ impl Table {
             own.halves(parameters);
         }
         own.wear();
+        if car.has_beams() {
+            own.rails(static_loads);
+        }
         if let Some(limits) = climb {
             own.climb(static_loads, &limits);
         }
@@ -384,6 +387,42 @@ impl Table {
                 text,
                 move |seen| at(seen).speed,
             );
+        }
+    }
+
+    /// How rails give way that are beams.
+    fn rails(&mut self, static_loads: [[f64; 2]; 4]) {
+        for axle in 0..4 {
+            for (side, name) in SIDES.into_iter().enumerate() {
+                let name = format!("axle_{}_{name}_rail_roll", axle + 1);
+                let text = "roll of the rail under the wheel about its base, outwards";
+                self.add(name, Kind::Angle, TRACK, text, move |seen| {
+                    seen.loads.wheels[axle][side].rail_roll
+                });
+            }
+            let name = format!("axle_{}_gauge_widening", axle + 1);
+            let text = "how far the heads of both rails have moved apart under the axle";
+            self.add(name, Kind::Length, TRACK, text, move |seen| {
+                seen.loads.axles[axle].gauge_widening
+            });
+        }
+        for truck in 0..2 {
+            for (side, name) in SIDES.into_iter().enumerate() {
+                let name = format!("truck_{}_{name}_side_l_over_v", truck + 1);
+                let text = "lateral over vertical forces of both wheels of the side; zero below a \
+                            hundredth of the static load";
+                let axles = [2 * truck, 2 * truck + 1];
+                let load = axles.map(|axle| static_loads[axle][side]).iter().sum();
+                self.add(name, Kind::Dimensionless, TRACK, text, move |seen| {
+                    let of = |force: fn(&car::WheelLoads) -> f64| -> f64 {
+                        axles
+                            .map(|axle| force(&seen.loads.wheels[axle][side]))
+                            .iter()
+                            .sum()
+                    };
+                    ratio(of(|own| own.lateral), of(|own| own.vertical), load)
+                });
+            }
         }
     }
 

@@ -1,6 +1,7 @@
 //! The support of the rails: rigid, or sprung under each wheel.
 
 use quantity::{Kind, Quantity, STANDARD_GRAVITY};
+use rolling::beam::RailBeam;
 use rolling::track::RailSupport;
 
 use super::irregularity::named;
@@ -36,7 +37,7 @@ impl Support {
 
 /// Returns the section `[support]`.
 pub(super) fn support(section: &CaseSection<'_>, problems: &mut Problems) -> Option<Support> {
-    let kind = named(section, "kind", &["sprung", "rigid"], problems)?;
+    let kind = named(section, "kind", &["sprung", "shared_beams", "rigid"], problems)?;
     if kind == "rigid" {
         section.allow_in(&["kind"], &[], "a track", problems);
         return Some(Support::Rigid);
@@ -49,7 +50,24 @@ pub(super) fn support(section: &CaseSection<'_>, problems: &mut Problems) -> Opt
         "lateral_stiffness",
         "lateral_damping",
     ];
-    section.allow_in(&keys, &[], "a track", problems);
+    let of_beams = [
+        "vertical_bending",
+        "lateral_bending",
+        "torsion",
+        "roll_stiffness",
+        "height",
+        "base",
+    ];
+    let shared = kind == "shared_beams";
+    let all: Vec<&str> = keys
+        .into_iter()
+        .chain(of_beams.into_iter().filter(|_| shared))
+        .collect();
+    section.allow_in(&all, &[], "a track", problems);
+    let beam = match shared {
+        true => Some(beam(section, problems)?),
+        false => None,
+    };
     let usual = RailSupport::default_support("rail", STANDARD_GRAVITY);
     let mut value = |key: &str, kind: Kind, range: Range, usual: f64| match section.table.get(key) {
         Some(_) => section
@@ -89,6 +107,41 @@ pub(super) fn support(section: &CaseSection<'_>, problems: &mut Problems) -> Opt
         stiffness: stiffness?,
         damping: damping?,
         preload: mass * STANDARD_GRAVITY,
+        beam,
         ..usual
     }))
+}
+
+/// Returns the rail as a beam: stiffnesses are numbers in SI units.
+fn beam(section: &CaseSection<'_>, problems: &mut Problems) -> Option<RailBeam> {
+    let mut own = RailBeam::rail_136re();
+    let positive = Range::Between(1.0, 1e12, "positive");
+    let [lateral, vertical] = &mut own.bending;
+    for (key, value) in [
+        ("vertical_bending", vertical),
+        ("lateral_bending", lateral),
+        ("torsion", &mut own.torsion),
+        ("roll_stiffness", &mut own.roll_stiffness),
+    ] {
+        if section.table.get(key).is_some() {
+            *value = section.number(key, positive, "1e6", problems)?;
+        }
+    }
+    for (key, value, range) in [
+        (
+            "height",
+            &mut own.height,
+            Range::Between(1e-2, 1.0, "between 10 mm and 1 m"),
+        ),
+        (
+            "base",
+            &mut own.base,
+            Range::Between(-0.1, 0.1, "less than 100 mm"),
+        ),
+    ] {
+        if section.table.get(key).is_some() {
+            *value = section.quantity(key, Kind::Length, range, problems)?.to_si();
+        }
+    }
+    Some(own)
 }

@@ -18,6 +18,7 @@ mod onset;
 mod problems;
 mod rails;
 mod run;
+mod shared_rails;
 mod stability;
 mod start;
 mod statics;

@@ -126,8 +126,13 @@ impl Parts {
             sides(&format!("vertical{}", self.force)),
             sides(&format!("lateral{}", self.force)),
             sides("lift"),
+            sides("rail_roll"),
         ];
-        let of_axles = [of_wheels.concat(), vec!["yaw".to_owned()]].concat();
+        let of_axles = [
+            of_wheels.concat(),
+            ["yaw", "gauge_widening"].map(str::to_owned).to_vec(),
+        ]
+        .concat();
         let accelerations = DIRECTIONS.map(|direction| format!("{direction}_acceleration"));
         name == self.distance
             || name == self.speed

@@ -6,6 +6,7 @@
 //! | share of Nadal's limit | L/V over the limit of the wheel's own flange, with the friction of its rail there ([`wheelrail::climb`]); the largest that lasts for the hold time |
 //! | climb | the longest distance over which L/V exceeds that limit, and the mean size of the axle's yaw against the track on it; both zero where it never does |
 //! | lift | the largest distance of a wheel from its rail |
+//! | rail roll, gauge widening | the largest, where rails are beams that wheels share |
 //! | axle sum L/V | sum of the sizes of both wheels' L/V; the largest that lasts for the hold time |
 //! | share of Weinstock's limit | the same over the limit of the flange that bears and the other wheel's tread |
 //! | net axle L/V | size of the axle's lateral force on the track over its static load; the largest that lasts over the hold distance |
@@ -77,14 +78,11 @@ impl Taker<'_, '_> {
             if let Some(limits) = &limits {
                 self.climb(axle, side, own, limits);
             }
-            let lift = self.column(&format!("{stem}_lift")).map(<[f64]>::to_vec);
-            if let Some(raw) = lift {
-                let own = Pair { raw, filtered: None };
-                let largest = |values: &[f64]| sustained(rows.time, values, 0.0);
-                self.set(&format!("{stem}_lift_largest"), &own, Kind::Length, largest);
-            }
+            self.largest(&format!("{stem}_lift"), Kind::Length);
+            self.largest(&format!("{stem}_rail_roll"), Kind::Angle);
         }
         self.at = (Of::Axle, words);
+        self.largest(&format!("{stem}_gauge_widening"), Kind::Length);
         let [left, right] = &ratios;
         let sum = Pair::of([left, right], |[l, r]| l.abs() + r.abs());
         let name = format!("{stem}_sum_l_over_v");
@@ -98,6 +96,17 @@ impl Taker<'_, '_> {
         let [left, right] = wheels;
         let net = Pair::of([&left.lateral, &right.lateral], |[l, r]| l - r);
         self.axle_force(stem, &net, loads[0] + loads[1]);
+    }
+
+    /// Takes the largest value of a column, if there is one.
+    fn largest(&mut self, column: &str, kind: Kind) {
+        let Some(raw) = self.column(column).map(<[f64]>::to_vec) else {
+            return;
+        };
+        let rows = self.rows;
+        let own = Pair { raw, filtered: None };
+        let largest = |values: &[f64]| sustained(rows.time, values, 0.0);
+        self.set(&format!("{column}_largest"), &own, kind, largest);
     }
 
     /// What flanges of an axle climb at, at each row.
