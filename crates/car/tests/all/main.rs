@@ -1,6 +1,7 @@
 //! Tests of `car`, one program: what is linked once is not linked thirty times.
 #![allow(clippy::expect_used, clippy::unwrap_used, missing_docs)]
 
+mod carriers;
 #[path = "../common/mod.rs"]
 mod common;
 mod couplers;
