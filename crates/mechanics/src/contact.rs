@@ -195,6 +195,7 @@ impl ContactFace<Interface> {
                     .compose(contact.position, [contact.normal, t1, t2]);
                 sum.force += force;
                 sum.moment += contact.arm.cross(force);
+                sum.moment.0[2] += t1 * self.surface.first_arm;
                 sum.damping_loss += contact.damping_loss;
             }
             each(i, &contact);
@@ -231,7 +232,7 @@ impl ContactFace<Interface> {
             arm,
             gap: self.surface.shape.gap(position),
             gap_rate,
-            slip: [s1, s2],
+            slip: [s1 + relative.angular_velocity.0[2] * self.surface.first_arm, s2],
             normal: S::zero(),
             friction: Friction::none(),
             damping_loss: S::zero(),

@@ -253,6 +253,7 @@ impl Parameters {
             side_frames: [side_frame.clone(), side_frame],
             wheelsets: Some(Wheelsets {
                 motions: [NeighbourMotion::fixed(), NeighbourMotion::fixed()],
+                pitching: true,
                 adapter: Adapter::Friction(FrictionAdapter {
                     contact: contact(5e5, 1000.0),
                     ..steel_adapter()

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 
-use mechanics::elements::{RadialStop, ShearSpring, Stop, TableSpring};
+use mechanics::elements::{RadialStop, Raised, ShearSpring, Stop, TableSpring};
 use mechanics::link::Marker;
 use mechanics::motion::Motion;
 use mechanics::orientation::fixed;
@@ -39,6 +39,7 @@ pub(crate) enum Role {
 #[derive(Clone, Debug)]
 pub(crate) enum Law {
     Spring(ShearSpring),
+    Pad(Raised<ShearSpring>),
     Table(TableSpring),
     Stop(Stop),
     Rim(RadialStop),
@@ -48,6 +49,7 @@ impl Law {
     fn name(&mut self) -> &mut String {
         match self {
             Self::Spring(law) => &mut law.name,
+            Self::Pad(pad) => &mut pad.law.name,
             Self::Table(law) => &mut law.name,
             Self::Stop(law) => &mut law.name,
             Self::Rim(law) => &mut law.name,
@@ -58,6 +60,7 @@ impl Law {
     pub fn add(self, model: &mut Model, a: (usize, Marker), b: (usize, Marker)) {
         match self {
             Self::Spring(law) => model.add(law, a, b),
+            Self::Pad(law) => model.add(law, a, b),
             Self::Table(law) => model.add(law, a, b),
             Self::Stop(law) => model.add(law, a, b),
             Self::Rim(law) => model.add(law, a, b),
@@ -83,6 +86,8 @@ pub(crate) struct Added {
     pub coils: Range<usize>,
     /// The faces of the adapters, and that of the center plate.
     pub adapters: Range<usize>,
+    /// True if adapters pitch with the side frames, on bearings of axles that spin: these carry the points.
+    pub adapters_pitch: bool,
     pub center_plate: Option<usize>,
 }
 
@@ -239,6 +244,9 @@ impl Builder<'_> {
             };
             self.wedge(number);
         }
+        let on = self.mount.bodies[WHEELSETS];
+        let pitching = self.parameters.wheelsets.as_ref().is_some_and(|own| own.pitching);
+        self.added.adapters_pitch = pitching && self.model.carriers.iter().any(|[carrier, _]| *carrier == on);
         self.added.adapters.start = self.model.faces.len();
         for number in 0..2 {
             self.adapters(number);
@@ -285,6 +293,7 @@ impl Builder<'_> {
     /// Returns the joint of two bodies of the truck.
     fn between(&mut self, bodies: [usize; 2]) -> Joint<'_> {
         Joint {
+            pitching: true,
             bodies: bodies.map(|body| self.mount.bodies[body]),
             from: self.mount.center,
             model: &mut *self.model,
@@ -423,6 +432,7 @@ impl Builder<'_> {
                 continue;
             }
             let mut joint = self.between([SIDE_FRAMES + number, WHEELSETS + axle]);
+            joint.pitching = wheelsets.pitching;
             let all = joint.adapter(&name, place, &wheelsets.adapter, geometry.adapter);
             self.take(Role::Adapter(axle), all);
         }

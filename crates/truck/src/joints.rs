@@ -6,7 +6,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use mechanics::elements::{RadialStop, Stop};
+use mechanics::contact::Interface;
+use mechanics::elements::{RadialStop, Raised, Stop};
 use mechanics::link::Marker;
 use mechanics::system::Model;
 use wedge::parameters::{Contact, FaceFriction};
@@ -27,6 +28,8 @@ pub struct Joint<'m> {
     pub bodies: [usize; 2],
     /// The place from which places are counted, m.
     pub from: [f64; 3],
+    /// True if adapters pitch with the upper body where the lower one is the carrier of an axle that spins.
+    pub pitching: bool,
 }
 
 impl Joint<'_> {
@@ -159,6 +162,15 @@ impl Joint<'_> {
         }
     }
 
+    /// Returns the distance of the axle below an adapter at a height (m), if the lower body is the carrier of
+    /// an axle that spins. On such bearings adapters pitch with the upper body: forces along and up pass
+    /// through the axle, those across act at the adapter.
+    fn arm(&self, height: f64) -> Option<f64> {
+        let lower = self.bodies[1];
+        let spins = self.pitching && self.model.carriers.iter().any(|[carrier, _]| *carrier == lower);
+        spins.then(|| height + self.from[2] - self.model.bodies[lower].frame.origin[2])
+    }
+
     fn steel(
         &mut self,
         name: &str,
@@ -166,18 +178,35 @@ impl Joint<'_> {
         adapter: &FrictionAdapter,
         [points, stops]: [f64; 2],
     ) -> Vec<Joining> {
-        let points = [points, -points].map(|y_point| {
-            let (_, place) = self.marker(0, [x, y + y_point, height], [0.0; 3]);
+        let across = [points, -points];
+        let arm = self.arm(height);
+        let depth = adapter.preload / adapter.contact.stiffness;
+        // Points on the carrier, above its axle, or on the upper body.
+        let (carried, on) = if arm.is_some() { (1, 0) } else { (0, 1) };
+        let level = height - arm.unwrap_or(0.0);
+        let points = across.map(|y_point| {
+            let (_, place) = self.marker(carried, [x, y + y_point, level], [0.0; 3]);
             point(place.origin.0, &adapter.contact, 0.5)
         });
-        let top = height + adapter.preload / adapter.contact.stiffness;
-        let (lower, marker) = self.marker(1, [x, y, top], [0.0, -FRAC_PI_2, 0.0]);
+        let (top, tilt) = match arm {
+            Some(_) => (level - depth, FRAC_PI_2),
+            None => (height + depth, -FRAC_PI_2),
+        };
+        let (on, marker) = self.marker(on, [x, y, top], [0.0, tilt, 0.0]);
         let face = plane(name.to_owned(), points.to_vec(), &adapter.friction);
-        self.model.faces.push((self.bodies[0], lower, marker, face));
+        self.model.faces.push((self.bodies[carried], on, marker, face));
+        if let Some(arm) = arm {
+            // The normal points down, to the bearing.
+            let own = Interface {
+                first_arm: -arm,
+                ..Interface::default()
+            };
+            self.model.interfaces.push((self.model.faces.len() - 1, own));
+        }
         let mut all: Vec<Joining> = Vec::with_capacity(3);
         for across in [stops, -stops] {
             let name = format!("{name}_longitudinal_stop");
-            all.push(self.stop(name, [x, y + across, height], 0.0, &adapter.longitudinal));
+            all.push(self.stop(name, [x, y + across, level], 0.0, &adapter.longitudinal));
         }
         let name = format!("{name}_lateral_stop");
         all.push(self.stop(name, [x, y, height], FRAC_PI_2, &adapter.lateral));
@@ -195,7 +224,17 @@ impl Joint<'_> {
         let halves = [(pad.half_distance, "left"), (-pad.half_distance, "right")];
         let springs = halves.map(|(across, half_name)| {
             let name = format!("{name}_pad_{half_name}");
-            self.spring(name, [x, y + across, height], &half)
+            let Some(arm) = self.arm(height) else {
+                return self.spring(name, [x, y + across, height], &half);
+            };
+            // Upside down: it stands on the upper body, and carries the bearing.
+            let at = [x, y + across, height - arm];
+            let ends = [1, 0].map(|body| self.marker(body, at, [PI, 0.0, 0.0]));
+            let raised = Raised {
+                law: half.law(name),
+                height: -arm,
+            };
+            (Law::Pad(raised), ends)
         });
         springs.into()
     }

@@ -222,7 +222,10 @@ impl MountedTruck {
             }
         }
         for (i, adapter) in view.seen.faces[self.added.adapters.clone()].iter().enumerate() {
-            let on_side_frame = total(&adapter.friction_forces) + total(&adapter.normal_forces);
+            // Of adapters that pitch, the bearing carries the points.
+            let sign = if self.added.adapters_pitch { -1.0 } else { 1.0 };
+            let on_points = total(&adapter.friction_forces) + total(&adapter.normal_forces);
+            let on_side_frame: Vector<f64> = on_points.scale(sign);
             loads.interaxle_shear_moment += [arm, -arm][i % 2] * on_side_frame.0[1];
         }
         if let Some(plate) = self.added.center_plate {
@@ -319,6 +322,7 @@ impl MountedTruck {
             .get(number)
             .map_or("", |element| match &element.law {
                 Law::Spring(spring) => &spring.name,
+                Law::Pad(pad) => &pad.law.name,
                 Law::Table(spring) => &spring.name,
                 Law::Stop(stop) => &stop.name,
                 Law::Rim(rim) => &rim.name,
@@ -337,7 +341,7 @@ impl MountedTruck {
                     (d - upper).max(-d - lower)
                 }
                 Law::Rim(rim) => motion.position.0[0].hypot(motion.position.0[1]) - rim.clearance,
-                Law::Spring(_) | Law::Table(_) => f64::NEG_INFINITY,
+                Law::Spring(_) | Law::Pad(_) | Law::Table(_) => f64::NEG_INFINITY,
             }
         };
         let all = self.added.suspension.iter().enumerate();
@@ -359,6 +363,7 @@ impl MountedTruck {
         let (place, axes, motion) = relative_motion(&element.ends, &view.seen.bodies);
         let wrench: Wrench<f64> = match &element.law {
             Law::Spring(spring) => spring.evaluate(&motion),
+            Law::Pad(pad) => pad.evaluate(&motion),
             Law::Table(spring) => spring.evaluate(&motion),
             Law::Stop(stop) => stop.evaluate(&motion),
             Law::Rim(rim) => rim.evaluate(&motion),
@@ -383,7 +388,12 @@ impl MountedTruck {
             Role::Gib => &mut parts.gibs,
             Role::CarBody => return size,
             Role::Adapter(axle) => {
-                loads.interaxle_shear_moment += [self.axle, -self.axle][axle] * force.0[1];
+                // Pads that pitch carry the bearing.
+                let on_side_frame = match element.law {
+                    Law::Pad(_) => -force.0[1],
+                    _ => force.0[1],
+                };
+                loads.interaxle_shear_moment += [self.axle, -self.axle][axle] * on_side_frame;
                 return size;
             }
         };

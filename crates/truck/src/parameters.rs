@@ -71,6 +71,10 @@ pub struct Wheelsets {
     pub motions: [NeighbourMotion; 2],
     /// The adapters.
     pub adapter: Adapter,
+    /// True if adapters pitch with the side frames on the bearings of axles that spin, so that what they
+    /// carry along and up passes through the axle. Else forces along act at the adapters, and what moment
+    /// about the axle they have, nothing takes.
+    pub pitching: bool,
 }
 
 /// A coil spring on a seat: see [`mechanics::elements::ShearSpring`].

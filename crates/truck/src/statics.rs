@@ -97,7 +97,8 @@ impl MountedTruck {
                     load: spring.evaluate(&motion).force.0[2],
                     law: None,
                 },
-                Law::Stop(_) | Law::Rim(_) => continue,
+                // Of adapters.
+                Law::Pad(_) | Law::Stop(_) | Law::Rim(_) => continue,
             };
             let [(a, _), (b, _)] = element.ends;
             match element.role {

@@ -295,6 +295,7 @@ impl FaceProperties {
             directions: self.friction_directions,
             friction_factors: factors,
             hardening: self.pad.and_then(|pad| pad.hardening),
+            first_arm: 0.0,
         }
     }
 

@@ -2,6 +2,7 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, missing_docs)]
 
 mod beams;
+mod carriers;
 #[path = "../common/mod.rs"]
 mod common;
 mod couplers;

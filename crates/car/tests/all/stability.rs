@@ -339,7 +339,7 @@ fn on_linear_wheels(factor: f64) -> Parameters {
         },
         support: [1e9, 1e9 * HALF * HALF],
     };
-    // The separate model has wedges on their corners and softer adapters.
+    // The separate model has wedges on their corners and softer adapters, which do not pitch.
     let flat = truck::Parameters::new(Damping::Variable).wedges;
     for own in &mut parameters.trucks {
         own.wedges = flat.clone();
@@ -348,6 +348,7 @@ fn on_linear_wheels(factor: f64) -> Parameters {
             unreachable!("built-in adapters have friction");
         };
         adapter.contact.stiffness = 5e5 * POUND_FORCE / INCH;
+        wheelsets.pitching = false;
     }
     parameters
 }

@@ -66,6 +66,8 @@ pub(crate) struct Points {
     pub(super) bends: Vec<Bend<Lanes>>,
     /// True if all were open at the last evaluation of the forces; never with internal states.
     open: bool,
+    /// See [`Interface::first_arm`].
+    pub(super) first_arm: f64,
     pub(super) derivatives: Vec<PointDerivatives>,
 }
 
@@ -94,6 +96,7 @@ impl Points {
             kinematics: vec![nowhere; blocks.len()],
             bends: vec![flat; if curved { blocks.len() } else { 0 }],
             open: false,
+            first_arm: face.surface.first_arm,
             derivatives: vec![PointDerivatives::NONE; blocks.len()],
             blocks,
         }

@@ -74,6 +74,10 @@ pub struct Interface {
     pub friction_factors: Vec<f64>,
     /// Compression at which a pad's normal force is twice that of a linear spring, m.
     pub hardening: Option<f64>,
+    /// Distance along the normal from the points to where friction along the surface's first tangent acts, m:
+    /// its slip is that of the body with the points there. Planes only. So adapters pitch with the side
+    /// frame: normal force and friction along pass through the axle, friction across acts at the crown.
+    pub first_arm: f64,
 }
 
 impl Interface {

@@ -31,6 +31,8 @@ pub(crate) struct PlaneMotion {
     growth: [Vector<f64>; 3],
     /// From body axes to marker axes.
     rotation: Matrix<f64>,
+    /// See [`super::Interface::first_arm`].
+    first_arm: f64,
 }
 
 impl PlaneMotion {
@@ -38,17 +40,22 @@ impl PlaneMotion {
     /// With [`PlaneMotion::new`] instead a wedge takes 1 to 3 % more instructions (such shares:
     /// decision 0077).
     #[inline(always)]
-    pub fn of(relative_frame: &RelativeFrame<f64>, body: &Kinematics<f64>) -> Self {
+    pub fn of(relative_frame: &RelativeFrame<f64>, body: &Kinematics<f64>, first_arm: f64) -> Self {
         let rotation: Matrix<f64> = relative_frame.rotation.times(body.orientation.rotation);
         let position: Vector<f64> = relative_frame.rotation.apply(body.position);
         let velocity: Vector<f64> = relative_frame.rotation.apply(body.velocity);
         let [n, t1, t2] = rotation.0.map(Vector);
+        let mut speeds = relative_frame.velocity + velocity;
+        if first_arm != 0.0 {
+            speeds.0[1] += first_arm * t2.dot::<f64, f64>(body.spin);
+        }
         Self {
             distance: relative_frame.position.0[0] + position.0[0],
             normal: n,
-            speeds: (relative_frame.velocity + velocity).0,
+            speeds: speeds.0,
             growth: [n.cross(body.spin), t1.cross(body.spin), t2.cross(body.spin)],
             rotation,
+            first_arm,
         }
     }
 
@@ -67,16 +74,18 @@ impl PlaneMotion {
 
     /// Returns the plane's motion if marker B may rotate.
     #[inline(always)]
-    pub fn new(relative: &RelativeMotion<f64>) -> Self {
+    pub fn new(relative: &RelativeMotion<f64>, first_arm: f64) -> Self {
         let Matrix([n, t1, t2]) = relative.rotation;
         let [w0, w1, w2] = relative.angular_velocity.0;
         let mix = |a: f64, x: [f64; 3], b: f64, y: [f64; 3]| {
             Vector([a * x[0] - b * y[0], a * x[1] - b * y[1], a * x[2] - b * y[2]])
         };
+        let [x, y, z] = relative.velocity.0;
         Self {
+            first_arm,
             distance: relative.position.0[0],
             normal: Vector(n),
-            speeds: relative.velocity.0,
+            speeds: [x, y + first_arm * w2, z],
             growth: [mix(w1, t2, w2, t1), mix(w2, n, w0, t2), mix(w0, t1, w1, n)],
             rotation: relative.rotation,
         }
@@ -101,7 +110,12 @@ impl FaceMotion for PlaneMotion {
         let [t1, t2] = forces.friction.force;
         let force = Vector([forces.normal, t1, t2]);
         let own: Vector<Lanes> = self.rotation.transpose().apply(force);
-        let moment: Vector<Lanes> = position.cross(own);
+        let mut moment: Vector<Lanes> = position.cross(own);
+        if self.first_arm != 0.0 {
+            for (sum, axis) in moment.0.iter_mut().zip(self.rotation.0[2]) {
+                *sum += t1 * (self.first_arm * axis);
+            }
+        }
         let ([f1, f2, f3], [m1, m2, m3]) = (force.0, moment.0);
         [f1, f2, f3, m1, m2, m3, forces.friction.loss, forces.damping_loss]
     }

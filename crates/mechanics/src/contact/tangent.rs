@@ -7,7 +7,9 @@
 //! δr = φ × r,   δg = (d + δr)·n,   δv_P = δv + δω × r + ω × δr,   δM = r × δF + δr × F
 //! ```
 //!
-//! A plane's forces change neither with a displacement along it nor with one point's friction at another.
+//! Of a face whose first tangent has an arm a, that slip has `a ω_2` more, and the moment `a T_1` about
+//! the second. A plane's forces change neither with a displacement along it nor with one point's friction
+//! at another.
 
 use numerics::lanes::Lanes;
 use numerics::scalar::Number;
@@ -54,6 +56,7 @@ impl Points {
             let [x, y, z] = arm.0;
             let own = Vector(derivatives.force);
             let ([f0, f1, f2], [m0, m1, m2]) = (own.0, arm.cross::<Lanes, Lanes>(own).0);
+            let m2 = m2 + f1 * self.first_arm;
             for (sum, term) in sums.iter_mut().zip([f0, f1, f2, m0, m1, m2]) {
                 *sum += term;
             }
@@ -61,6 +64,7 @@ impl Points {
                 let force = Vector([out[0], out[1], out[2]]);
                 let moment: Vector<Lanes> = arm.cross::<Lanes, Lanes>(force) + carried;
                 let ([f0, f1, f2], [m0, m1, m2]) = (force.0, moment.0);
+                let m2 = m2 + f1 * self.first_arm;
                 [
                     Lanes::sums([f0, f1, f2, out[3]]),
                     Lanes::sums([m0, m1, m2, out[4]]),
@@ -100,7 +104,11 @@ impl Points {
                 by_velocity(derivatives, carried.0, &mut out);
                 add(&mut by.rotation[k], &mut rate.rotation[k], &out, moved.cross(own));
                 let mut out = [zero; OUTPUTS];
-                by_velocity(derivatives, moved.0, &mut out);
+                let mut velocity = moved.0;
+                if k == 2 {
+                    velocity[1] += Lanes::from(self.first_arm);
+                }
+                by_velocity(derivatives, velocity, &mut out);
                 let (by, rate) = (&mut by.angular_velocity[k], &mut rate.angular_velocity[k]);
                 add(by, rate, &out, none);
             }

@@ -3,6 +3,7 @@
 mod bushing;
 mod draft_gear;
 mod radial_stop;
+mod raised;
 mod shear_spring;
 mod stop;
 mod strut;
@@ -11,6 +12,7 @@ mod table_spring;
 pub use bushing::Bushing;
 pub use draft_gear::DraftGear;
 pub use radial_stop::RadialStop;
+pub use raised::Raised;
 pub use shear_spring::{ShearSpring, Solid};
 pub use stop::Stop;
 pub use strut::Strut;

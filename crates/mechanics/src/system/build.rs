@@ -364,6 +364,9 @@ fn by_face(
             faces.get(face).map(|own| own.3.points.len()),
         );
         match (points, all.get_mut(face)) {
+            (Some(_), Some(_)) if interface.first_arm != 0.0 && !interface.shape.is_flat() => {
+                return Err(ModelError::Arm { face });
+            }
             (Some(points), Some(place)) if factors == 0 || factors == points => *place = interface,
             _ => {
                 return Err(ModelError::Interface {

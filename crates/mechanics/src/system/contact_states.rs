@@ -127,9 +127,12 @@ impl System {
             return;
         }
         let plane = if face.plain {
-            PlaneMotion::of(&face.relative_frame, kinematics)
+            PlaneMotion::of(&face.relative_frame, kinematics, face.element.surface.first_arm)
         } else {
-            PlaneMotion::new(&face.relative_frame.relative(kinematics))
+            PlaneMotion::new(
+                &face.relative_frame.relative(kinematics),
+                face.element.surface.first_arm,
+            )
         };
         face.points.update(&plane);
     }

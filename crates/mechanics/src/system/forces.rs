@@ -79,7 +79,8 @@ impl Mountable for ContactFace<Interface> {
             let shape = &self.surface.shape;
             return self.wrench_on_body(points, &CurvedMotion { shape, relative }, internal, rates);
         }
-        self.wrench_on_body(points, &PlaneMotion::new(relative), internal, rates)
+        let motion = PlaneMotion::new(relative, self.surface.first_arm);
+        self.wrench_on_body(points, &motion, internal, rates)
     }
 
     #[inline(always)]
@@ -96,7 +97,8 @@ impl Mountable for ContactFace<Interface> {
         if points.update_if_open(relative_frame, body) {
             return BodyWrench::ZERO;
         }
-        self.wrench_on_body(points, &PlaneMotion::of(relative_frame, body), internal, rates)
+        let motion = PlaneMotion::of(relative_frame, body, self.surface.first_arm);
+        self.wrench_on_body(points, &motion, internal, rates)
     }
 
     #[inline(always)]

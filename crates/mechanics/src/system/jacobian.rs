@@ -342,7 +342,9 @@ pub(super) fn differentiate_internal(
         }
         let arm: Vector<f64> = relative.rotation.apply(slopes.position);
         for e in 0..2 {
-            let (force, moment) = (slopes.force[e], arm.cross::<f64, f64>(slopes.force[e]));
+            let force = slopes.force[e];
+            let mut moment: Vector<f64> = arm.cross(force);
+            moment.0[2] += face.element.surface.first_arm * force.0[1];
             for (side, free) in ends.iter().flatten().enumerate() {
                 let rows = chain.load(side, force, moment);
                 let n = free.free.len();

@@ -113,6 +113,14 @@ pub enum ModelError {
         /// Number of points of the face.
         points: usize,
     },
+    /// A face with an arm of its first tangent is curved.
+    #[error(
+        "face {face} (counted from 0) has an arm of its first tangent, but is curved; planes can have one"
+    )]
+    Arm {
+        /// The number of the face.
+        face: usize,
+    },
     /// No coordinate at all is free.
     #[error("no body has a free coordinate: nothing can move")]
     NothingFree,

@@ -389,6 +389,7 @@ fn with_refined_laws() {
         },
         friction_factors: factors,
         hardening: Some(0.4),
+        first_arm: 0.0,
     };
     let (one, two) = (FrictionDirections::One, FrictionDirections::Two);
     for (law, shape, directions) in [
@@ -406,5 +407,25 @@ fn with_refined_laws() {
         let counts = compare(&model, 800, 8, [0.25, 0.6, 0.05]);
         assert!(counts.open > 5 && counts.closed > 5);
         assert!(law == TANH || counts.slip > 1);
+    }
+}
+
+/// Planes of bodies that pitch with the body with the points.
+#[test]
+fn with_arms_of_the_first_tangent() {
+    for (seed, (law, rotating)) in [(TANH, true), (BRISTLE, true), (BRISTLE, false)]
+        .into_iter()
+        .enumerate()
+    {
+        let mut model = one_on_prescribed(ALL, law, 10.0, moving(rotating), [0.0; 6]);
+        for (face, first_arm) in [(0, 0.4), (1, -0.3)] {
+            let interface = Interface {
+                first_arm,
+                ..Interface::default()
+            };
+            model.interfaces.push((face, interface));
+        }
+        let counts = compare(&model, 900 + seed as u64, 8, [0.25, 0.6, 0.05]);
+        assert!(counts.open > 5 && counts.closed > 5);
     }
 }

@@ -3,7 +3,7 @@
 
 use integrate::{Integrator, Method, Options, Problem};
 use mechanics::body::Body;
-use mechanics::contact::{ContactFace, ContactPoint};
+use mechanics::contact::{ContactFace, ContactPoint, Interface};
 use mechanics::elements::ShearSpring;
 use mechanics::energy_balance::EnergyBalance;
 use mechanics::frame::Frame;
@@ -69,6 +69,11 @@ fn model(spin: f64) -> Model {
     };
     let up = Marker::new([0.0, 0.0, 0.3], [0.0, -std::f64::consts::FRAC_PI_2, 0.0]);
     model.faces.push((2, carrier, up, face));
+    let own = Interface {
+        first_arm: 0.3,
+        ..Interface::default()
+    };
+    model.interfaces.push((0, own));
     model
 }
 
@@ -161,7 +166,7 @@ fn energy_closes_with_elements_on_a_carrier() {
     let x = state(&system, 0.0, 20.0);
     let start = system.observe(0.0, &x).energies.total();
     let options = Options {
-        relative_tolerance: 1e-9,
+        relative_tolerance: 1e-10,
         ..Options::of(Method::Rodas5P)
     };
     let mut integrator = Integrator::new(system.clone(), options, 0.0, &x).unwrap();

@@ -333,6 +333,7 @@ fn energy_closes_on_crowns_with_refined_friction() {
         directions: FrictionDirections::One,
         friction_factors: (0..15).map(|i| 0.7 + 0.05 * f64::from(i)).collect(),
         hardening: Some(2e-4),
+        first_arm: 0.0,
     };
     let table = Spline::new(vec![-0.5, -0.2, 0.1, 0.5], vec![0.03, 0.004, 0.002, 0.04]).unwrap();
     for (interface, law) in [

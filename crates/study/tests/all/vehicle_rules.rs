@@ -220,13 +220,13 @@ fn analytic_a_vehicle_has_the_measures_of_limits() {
     assert_eq!(value("derailed"), 0.0);
 }
 
-/// A regime for empty cars.
+/// A regime for cars of either lading that sets nothing of a car alone.
 fn request(car: &str, set: &[&str]) -> Request {
     Request {
         car: PathBuf::from(car),
         set: set.iter().map(|own| (*own).to_owned()).collect(),
-        regimes: vec!["static_curve".to_owned()],
-        speeds: vec![quantity::Quantity::parse("10 mph").unwrap()],
+        regimes: vec!["lean".to_owned()],
+        speeds: vec![quantity::Quantity::parse("33 mph").unwrap()],
         conditions: Vec::new(),
         limits: "aar_chapter_xi".to_owned(),
         refine: false,

@@ -32,6 +32,7 @@ pub struct AxleAdapter {
 fn joint<'p>(place: &'p mut Place<'_>) -> Joint<'p> {
     let [(a, _), (b, _)] = place.ends;
     Joint {
+        pitching: true,
         bodies: [a, b],
         from: [0.0; 3],
         model: &mut *place.model,

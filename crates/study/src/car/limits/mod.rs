@@ -263,8 +263,8 @@ impl Limit {
         }
     }
 
-    /// Returns it beside the worst of the statistics of a run, whose numbers are in these units; `None` if the
-    /// run has none of its kind.
+    /// Returns it beside the worst of the statistics of a run, whose numbers are in these units; `None`
+    /// if the run has none of its kind.
     #[must_use]
     fn check(
         &self,

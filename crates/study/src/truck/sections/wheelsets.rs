@@ -18,6 +18,7 @@ enum AdapterKind {
 
 pub(in crate::truck) fn wheelsets(r: &mut CaseReader<'_>, parameters: &mut Parameters) {
     let mut wheelsets = Wheelsets {
+        pitching: true,
         motions: std::array::from_fn(|_| wedge::parameters::NeighbourMotion::fixed()),
         adapter: Adapter::friction(),
     };
