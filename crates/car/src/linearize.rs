@@ -154,8 +154,8 @@ impl SteadyCar {
         for rate in rates.filter_map(|(body, k)| rate_of(body, k)) {
             state[rate] = start[rate] * speed / self.speed;
         }
-        // What carries a wheelset has its coordinates, so that wheels come last. They roll as they settled, for
-        // the way that they then made.
+        // What carries a wheelset has its coordinates, so that wheels come last. They roll as they settled,
+        // by the way that they then made.
         for wheelset in self.car.numbers.wheelsets {
             let own = [coordinate::FORWARD, coordinate::SPIN].map(|k| rate_of(wheelset, k));
             if let [Some(forward), Some(spin)] = own {

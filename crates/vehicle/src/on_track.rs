@@ -162,8 +162,8 @@ impl OnTrack {
         Arc::new(RailLines::new(self.track.clone(), offsets))
     }
 
-    /// Returns the same on straight perfect track without a drive, with so much of it ahead (m), and the place
-    /// on it where the layout's origin then is, m.
+    /// Returns the same on straight perfect track without a drive, with so much of it ahead (m), and the
+    /// place on it where the layout's origin then is, m.
     pub(crate) fn standing(&self, ahead: f64) -> Result<(Self, f64), TrackError> {
         let middle = self.reach() + ROOM;
         let distance = self.track.center_line.rail_distance();

@@ -207,14 +207,14 @@ type ReadAxle = fn(&AxleState) -> f64;
 
 const VERTICAL: &str = "vertical force of the wheel on its rail, square to the track, down";
 const LATERAL: &str = "lateral force of the wheel on its rail, positive where it spreads the gauge";
-const OVER: &str = "lateral over vertical force; zero below a hundredth of the static load, or where it carries \
-                    nothing";
-const NADAL: &str = "L/V over Nadal's limit for the angle of the wheel's own flange and the friction of its rail \
-                     there, where nothing slips";
-const WEINSTOCK: &str = "sizes of both wheels' L/V over Weinstock's limit: Nadal's for the flange that bears, and \
-                         the friction of the other tread";
-const ANGLE: &str = "angle of the contact that carries most, against the track's plane, positive where it rises \
-                     to the field side; zero without contact";
+const OVER: &str = "lateral over vertical force; zero below a hundredth of the static load, or where it \
+                    carries nothing";
+const NADAL: &str = "L/V over Nadal's limit for the angle of the wheel's own flange and the friction of its \
+                     rail there, where nothing slips";
+const WEINSTOCK: &str = "sizes of both wheels' L/V over Weinstock's limit: Nadal's for the flange that \
+                         bears, and the friction of the other tread";
+const ANGLE: &str = "angle of the contact that carries most, against the track's plane, positive where it \
+                     rises to the field side; zero without contact";
 const LIFT: &str = "how far the wheel must be lowered until it bears on its rail; zero while it bears";
 const WEAR: &str = "energy that creep takes by the distance: creep forces times creepages";
 

@@ -39,8 +39,8 @@ impl Vehicle {
         self.vibrations_about(&state)
     }
 
-    /// Takes a state in which it rolls steadily as that about which it vibrates: with the displacements of `x`
-    /// and with wheels rolling as there; all bodies move forward as at its rest before, and nothing else
+    /// Takes a state in which it rolls steadily as that about which it vibrates: with the displacements of
+    /// `x` and with wheels rolling as there; all bodies move forward as at its rest before, and nothing else
     /// moves; bristles are undeflected.
     pub fn settle(&mut self, x: &[f64]) {
         let layout = self.system.layout();

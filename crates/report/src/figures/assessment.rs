@@ -76,8 +76,8 @@ pub fn over_speed(assessment: &Assessment, findings: &AssessmentFindings, regime
     panels.retain(|panel| !panel.curves.is_empty());
     let of_wedges = match measures.place("wedge_loss") {
         Some(_) => {
-            "; then the energy that the friction of all wedges took in a run, and the share of the time after \
-             settling in which no point of a wedge's faces slips, mean of all wedges"
+            "; then the energy that the friction of all wedges took in a run, and the share of the time \
+             after settling in which no point of a wedge's faces slips, mean of all wedges"
         }
         None => "",
     };

@@ -337,8 +337,8 @@ fn statistics_of(run: &Run<VehicleCase>, table: &RowTable) -> Taken {
     warnings.extend(peaks::warning(table, parts, (method, units)));
     let loads = &run.recorder.vehicle.static_loads;
     if loads.is_empty() {
-        let text = "there are no static loads of wheels: the vehicle has no rest on straight track, or it starts \
-                    in its nominal layout without one; statistics in parts of them are left out";
+        let text = "there are no static loads of wheels: the vehicle has no rest on straight track, or it \
+                    starts in its nominal layout without one; statistics in parts of them are left out";
         warnings.push(text.to_owned());
     }
     let figures = CarFigures::with(loads, Some(climb));

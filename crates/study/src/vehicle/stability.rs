@@ -1,12 +1,13 @@
 //! Linear stability of a vehicle on straight perfect track over the speed.
 //!
 //! From its equilibrium the vehicle rolls for a second at 20 m/s, so that creep forces and loads agree; with
-//! steady running all forces depend on creepages alone, so that other speeds have the same displacements. Its
-//! equations are linearized there, all friction stuck: bristles are springs. The critical speed is the lowest of the speeds asked for from which
-//! on a vibration of 0.05 to 30 Hz grows, refined by halving between it and the speed below.
+//! steady running all forces depend on creepages alone, so that other speeds have the same displacements.
+//! Its equations are linearized there, all friction stuck: bristles are springs. The critical speed is the
+//! lowest of the speeds asked for from which on a vibration of 0.05 to 30 Hz grows, refined by halving
+//! between it and the speed below.
 //!
-//! Limits: nothing about amplitudes (a car has them, [`crate::car::stability`]); what is open or has clearance
-//! at rest does not hold; motions without a frequency are left out.
+//! Limits: nothing about amplitudes (a car has them, [`crate::car::stability`]); what is open or has
+//! clearance at rest does not hold; motions without a frequency are left out.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -49,8 +50,8 @@ pub struct CriticalVibration {
     pub at_lowest: bool,
 }
 
-/// Returns the vibrations of a vehicle at these speeds (m/s, rising), and its critical speed. `go_on` receives
-/// the share that is done.
+/// Returns the vibrations of a vehicle at these speeds (m/s, rising), and its critical speed. `go_on`
+/// receives the share that is done.
 ///
 /// # Errors
 /// It has no equilibrium, or its equations cannot be linearized.

@@ -1,5 +1,6 @@
 //! Statistics, limits and assessments of vehicles on a track.
 
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 use study::assessment::{Assessment, Request};
@@ -268,8 +269,8 @@ fn cross_code_a_vehicle_in_a_regime_has_the_values_of_the_car() {
     }
 }
 
-/// The vibrations of the empty car that grow most, friction stuck, are those of the same car written out, whose
-/// equations are linearized as a whole.
+/// The vibrations of the empty car that grow most, friction stuck, are those of the same car written out,
+/// whose equations are linearized as a whole.
 #[test]
 fn cross_code_vibrations_over_speed_are_those_of_the_car() {
     let text = built_in("car_hunting_empty").unwrap().text();
@@ -287,9 +288,9 @@ fn cross_code_vibrations_over_speed_are_those_of_the_car() {
     let stuck = &theirs.branches[0];
     for (ours, theirs) in ours.vibrations.iter().zip(&stuck.modes) {
         for (ours, theirs) in ours.iter().zip(theirs).take(8) {
-            let frequency = ours.frequency / (2.0 * std::f64::consts::PI);
-            let size = (theirs.growth.powi(2) + (6.28 * theirs.frequency).powi(2)).sqrt();
-            let apart = (ours.growth - theirs.growth).hypot(6.28 * (frequency - theirs.frequency));
+            let frequency = ours.frequency / TAU;
+            let size = (theirs.growth.powi(2) + (TAU * theirs.frequency).powi(2)).sqrt();
+            let apart = (ours.growth - theirs.growth).hypot(TAU * (frequency - theirs.frequency));
             assert!(apart < 1e-3 * size, "{ours:?} {theirs:?}");
         }
     }

@@ -1,4 +1,5 @@
-//! What statistics are taken of: wheels, axles, trucks and bodies of a vehicle, and the names of their columns.
+//! What statistics are taken of: wheels, axles, trucks and bodies of a vehicle, and the names of their
+//! columns.
 
 use serde::{Deserialize, Serialize};
 
