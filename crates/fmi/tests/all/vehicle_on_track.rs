@@ -65,6 +65,7 @@ fn cross_code_a_wagon_gives_the_columns_of_its_run() {
     let set = [
         "simulation.duration=0.4 s",
         "simulation.relative_tolerance=1e-6",
+        "output.filtered_columns=false",
         "bodies.body.load.lateral={shape=\"ramp\",amplitude=\"500 lbf\",start=\"0.1 s\",duration=\"0.1 s\"}",
     ];
     let own = case("vehicle_two_axles", &set);
@@ -89,6 +90,7 @@ fn cross_code_trucks_give_the_columns_of_their_run() {
         let mut set = vec![
             "simulation.duration=0.1 s",
             "simulation.relative_tolerance=1e-7",
+            "output.filtered_columns=false",
             "start.distance=75 ft",
         ];
         set.extend(wedges);

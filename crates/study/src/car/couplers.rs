@@ -79,7 +79,8 @@ pub(crate) fn force(r: &mut CaseReader<'_>, own: &mut CouplerForce) {
             Course::Distance(_) => Motion::Constant(0.0),
         };
         let given = r.gives("force");
-        r.motion("force", Kind::Force, 1e6, &mut course, false);
+        let comment = "of the coupler along its line, positive in buff; over time as loads of bodies are";
+        r.course("force", (Kind::Force, 1e6), &mut course, false, comment);
         if given || matches!(own.course, Course::Time(_)) {
             own.course = Course::Time(course);
         }

@@ -69,8 +69,21 @@ impl CaseReader<'_> {
         }
     }
 
-    /// A motion or a load, suggested up to `most`; `free` says that its body must not be moved.
-    pub fn motion(&mut self, key: &'static str, kind: Kind, most: f64, value: &mut Motion, free: bool) {
+    /// A motion along a coordinate or a load, whose name says all, suggested up to `most`; `free` says that its
+    /// body must not be moved.
+    fn motion(&mut self, key: &'static str, kind: Kind, most: f64, value: &mut Motion, free: bool) {
+        self.course(key, (kind, most), value, free, "");
+    }
+
+    /// A course over time with its meaning, as [`CaseReader::motion`].
+    pub fn course(
+        &mut self,
+        key: &'static str,
+        (kind, most): (Kind, f64),
+        value: &mut Motion,
+        free: bool,
+        comment: &str,
+    ) {
         let path = self.path(key);
         let Some(node) = self.node(key, Form::Motion(kind)) else {
             if let (false, Motion::Constant(held)) = (self.overlay, &*value)
@@ -80,7 +93,7 @@ impl CaseReader<'_> {
                     key,
                     false,
                     Written::quantity(&held, kind, Reach::Signed(most)),
-                    "",
+                    comment,
                 );
             }
             return;
@@ -107,7 +120,12 @@ impl CaseReader<'_> {
                 .push(problem.label("this would have no effect").help(help));
         }
         if let motion::CaseMotion::Constant(held) = &typed {
-            self.line(key, true, Written::quantity(held, kind, Reach::Signed(most)), "");
+            self.line(
+                key,
+                true,
+                Written::quantity(held, kind, Reach::Signed(most)),
+                comment,
+            );
         } else {
             let mut embedded = typed.clone();
             for table in embedded.tables_mut() {
@@ -117,7 +135,7 @@ impl CaseReader<'_> {
                 page.line(
                     key,
                     Written::toml_in_units(|system| motion.to_toml_in(kind, system)),
-                    "",
+                    comment,
                 );
                 write_motion(page, key, motion, kind, most);
             }

@@ -435,7 +435,13 @@ fn force(r: &mut CaseReader<'_>) -> Arc<dyn CatalogElement> {
     }
     r.also_known("over_distance");
     let mut course = Motion::Constant(0.0);
-    r.motion("value", Kind::Force, 1e5, &mut course, false);
+    r.course(
+        "value",
+        (Kind::Force, 1e5),
+        &mut course,
+        false,
+        "along the axis, over time as loads are",
+    );
     let mut direction = [0.0; 3];
     direction[axis] = 1.0;
     Arc::new(AppliedForce { direction, course })
