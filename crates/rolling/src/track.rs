@@ -7,7 +7,7 @@
 //! heading and the longitudinal displacement, which rails have too, needs no constraint of its own.
 //!
 //! Limits: each wheel has its own piece of rail, which knows its neighbor under the same truck only by
-//! springs between them ([`RailBeam`](crate::beam::RailBeam)), if they are given; vertical is the vertical
+//! springs between them ([`RailBeam`]), if they are given; vertical is the vertical
 //! of gravity, not the normal of a canted track. A steady lateral force turns with the heading, and the
 //! damper of a rail in a curve of radius R at the speed V loses `c (F/k)² (V/R)²`: 0.0005 W for 30 kN in a
 //! curve of 10 deg.

@@ -60,11 +60,9 @@ pub(crate) fn critical_speeds() -> Result<String, Failure> {
     })?;
     out.extend(lines);
     out += "\nThe ramps above run from flange to flange with 1:20 down to 68 mph, with 1:10 down to 49 \
-             mph, and come \
-            to rest at 61 and 38 mph. With 1:20\nthe curve does not reach these motions: within a \
-            hundredth of \
-            an inch beyond 0.39 in the flanges bear, and harmonic linearization makes\nsteep cones of \
-            them that \
-            let the critical speed fall by 40 %, while a flange slides.\n";
+            mph, and come to rest at 61 and 38 mph. With 1:20\nthe curve from the equilibrium does not \
+            reach these motions, that from the shaken start ends there: within a hundredth of an inch \
+            beyond 0.39 in the\nflanges bear, and harmonic linearization makes steep cones of them that let \
+            the critical speed fall by 40 %, while a flange slides.\n";
     Ok(out)
 }
