@@ -69,8 +69,8 @@ impl CaseReader<'_> {
         }
     }
 
-    /// A motion along a coordinate or a load, whose name says all, suggested up to `most`; `free` says that its
-    /// body must not be moved.
+    /// A motion along a coordinate or a load, whose name says all, suggested up to `most`; `free` says that
+    /// its body must not be moved.
     fn motion(&mut self, key: &'static str, kind: Kind, most: f64, value: &mut Motion, free: bool) {
         self.course(key, (kind, most), value, free, "");
     }
