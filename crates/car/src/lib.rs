@@ -71,7 +71,7 @@ pub use error::{BuildError, InvalidParameter};
 pub use linearize::{
     CriticalSpeed, FrictionState, LinearizeError, Mode, SteadyCar, VIBRATIONS, growing, vibrations,
 };
-pub use loads::{AxleLoads, EndMotion, Loads, WheelLoads, accelerometer};
+pub use loads::{AxleLoads, EndMotion, Loads, TRUCK_PARTS, WheelLoads, accelerometer, ratio};
 pub use motions::{BodyMotion, Motions, TruckMotion, WheelsetAxes};
 pub use parameters::{
     ACCELEROMETER_HEIGHTS, Drive, Mass, Parameters, ProfiledWheels, Start, StartKind, TRUCK_DISTANCES, Wheels,

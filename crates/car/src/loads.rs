@@ -22,6 +22,21 @@ use wheelrail::track::{Line, TrackSection};
 use crate::assemble::{Car, WheelElements, body_marker};
 use crate::coupler::CouplerLoads;
 
+/// Share of the static load below which a wheel has no ratio of forces.
+const LEAST_SHARE: f64 = 0.01;
+/// The parts of a truck that have accelerometers, in columns and in [`Loads::truck_accelerations`].
+pub const TRUCK_PARTS: [&str; 3] = ["bolster", "left_side_frame", "right_side_frame"];
+
+/// Lateral over vertical force; zero where the wheel carries next to nothing.
+#[must_use]
+pub fn ratio(lateral: f64, vertical: f64, static_load: f64) -> f64 {
+    if vertical > LEAST_SHARE * static_load {
+        lateral / vertical
+    } else {
+        0.0
+    }
+}
+
 /// A wheel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WheelLoads {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use car::drive::{Between, SpeedControl, over_distance};
-use car::{ClimbLimits, Drive, Wheels, free_truck, massless_options, searches, upright};
+use car::{Drive, Wheels, free_truck, massless_options, searches, upright};
 use mechanics::connection::Law as ConnectionLaw;
 use mechanics::friction::FrictionLaw;
 use mechanics::link::Marker;
@@ -430,7 +430,7 @@ impl Nominal {
                 channels.push(seen::of_truck_parts(&own.name, parts, description.gravity));
                 numbers.extend(parts);
             }
-            let limits = Arc::new(ClimbLimits::of_wheels(&on.wheels).of_axles(axles.len()));
+            let limits = Arc::new(on.climb_limits());
             for (number, axle) in axles.iter().enumerate() {
                 axle.add(&mut model);
                 let loads = static_loads.get(number).copied().unwrap_or_default();

@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use car::{Drive, ProfiledWheels, WheelLoads};
+use car::{ClimbLimits, Drive, ProfiledWheels, WheelLoads};
 use mechanics::body::Body;
 use mechanics::link::Marker;
 use mechanics::system::{BodyState, Model, Observation};
@@ -128,6 +128,13 @@ impl OnTrack {
             }
         });
         above.chain(self.accelerometers.iter().cloned()).collect()
+    }
+
+    /// Returns what the flanges of all wheelsets climb at.
+    #[must_use]
+    pub fn climb_limits(&self) -> ClimbLimits {
+        let count = 2 * self.trucks.len() + self.wheelsets.len();
+        ClimbLimits::of_wheels(&self.wheels).of_axles(count)
     }
 
     /// Returns the largest distance of a wheelset from the layout's origin, m.

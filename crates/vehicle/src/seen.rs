@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use car::{ClimbLimits, WheelLoads};
+use car::{ClimbLimits, TRUCK_PARTS, WheelLoads, ratio};
 use mechanics::body::Body;
 use mechanics::orientation::fixed;
 use mechanics::output::Column;
@@ -17,10 +17,6 @@ use crate::body::RigidBody;
 use crate::channel::{Channels, View, column};
 use crate::on_track::{Accelerometer, Axle, AxleState, SIDES, section};
 
-/// The parts of a truck that have accelerometers, in columns.
-const TRUCK_PARTS: [&str; 3] = ["bolster", "left_side_frame", "right_side_frame"];
-/// Share of the static load below which a wheel has no ratio of forces.
-const LEAST_SHARE: f64 = 0.01;
 /// Names of coordinates in columns, with what they measure.
 const COORDINATES: [(&str, &str); 6] = [
     ("x", "forward"),
@@ -290,10 +286,7 @@ pub(crate) fn of_axle(
         let limits = limits.at(number, state.distance);
         let ratios = [0, 1].map(|side| {
             let wheel = &state.wheels[side];
-            match wheel.vertical > LEAST_SHARE * loads[side] {
-                true => wheel.l_over_v(),
-                false => 0.0,
-            }
+            ratio(wheel.lateral, wheel.vertical, loads[side])
         });
         for (side, wheel) in state.wheels.iter().enumerate() {
             row.extend(OF_WHEEL.map(|(.., read)| read(wheel)));

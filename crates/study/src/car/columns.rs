@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use car::{BuildError, Car, ClimbLimits, Derailment, Loads, Parameters, Wheels};
+use car::{BuildError, Car, ClimbLimits, Derailment, Loads, Parameters, TRUCK_PARTS, Wheels};
 use mechanics::channel::{Channels, Seen, WithLoads};
 use mechanics::output::Column;
 use mechanics::system::{EnergyTermKind, Observation, System};
@@ -143,9 +143,6 @@ impl CarTable {
         Some(left.words(&format!("{:.1} m", left.distance)))
     }
 }
-
-/// The parts of a truck that have accelerometers, in columns.
-pub(crate) const TRUCK_PARTS: [&str; 3] = ["bolster", "left_side_frame", "right_side_frame"];
 
 /// Returns what statistics of a car are taken of; static loads of the wheels are by axle, left and right, N.
 #[must_use]

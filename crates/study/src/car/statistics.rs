@@ -27,6 +27,7 @@ use ::car::ClimbLimits;
 use quantity::{Kind, SixDigits, System as Units};
 use serde::{Deserialize, Serialize};
 
+pub use ::car::ratio;
 pub(crate) use of_parts::in_words;
 pub use of_parts::{AxlePart, Of, Parts, PlacePart, TruckPart};
 pub use rules::Rules;
@@ -43,8 +44,6 @@ mod rules;
 pub mod wheels;
 
 const FOOT: f64 = 0.3048;
-/// Share of the static load below which a wheel has no ratio.
-pub const LEAST_SHARE: f64 = 0.01;
 /// The names of the sides in columns.
 pub const SIDES: [&str; 2] = ["left", "right"];
 
@@ -354,16 +353,6 @@ impl In {
                 unit: "%".to_owned(),
             },
         }
-    }
-}
-
-/// Lateral over vertical force; zero where the wheel carries next to nothing.
-#[must_use]
-pub fn ratio(lateral: f64, vertical: f64, static_load: f64) -> f64 {
-    if vertical > LEAST_SHARE * static_load {
-        lateral / vertical
-    } else {
-        0.0
     }
 }
 

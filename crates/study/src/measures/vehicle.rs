@@ -1,7 +1,6 @@
 //! The metrics of a vehicle's run in a study: of each of its columns the least, the greatest, the mean and
 //! the root mean square over all output times; its slowest natural vibration; what its run lost.
 
-use ::car::ClimbLimits;
 use ::vehicle::OnTrack;
 use mechanics::output::Column;
 use quantity::{Kind, System as Units};
@@ -135,8 +134,7 @@ fn measures(case: &VehicleCase, result: &VehicleResult) -> Measures {
 }
 
 fn figures(on: &OnTrack, summary: &VehicleSummary) -> CarFigures {
-    let count = on.all_wheelsets().len();
-    let climb = ClimbLimits::of_wheels(&on.wheels).of_axles(count);
+    let climb = on.climb_limits();
     let loads = on.all_wheelsets().into_iter().filter_map(|(name, _)| {
         let side = |side: &str| Some(summary.static_loads.get(&format!("{name}_{side}"))?.value);
         Some([side("left")?, side("right")?])

@@ -68,7 +68,7 @@ impl VehicleRecorder {
     fn new(case: &VehicleCase, vehicle: Vehicle) -> Self {
         let on = case.description.on_track.as_ref();
         let of_track = on.map(|on| {
-            let climb = ClimbLimits::of_wheels(&on.wheels).of_axles(vehicle.axles.len());
+            let climb = on.climb_limits();
             (parts(&case.description, on, &vehicle.static_loads), climb)
         });
         let need = |name: &str| of_track.as_ref().is_some_and(|(parts, _)| parts.need(name));
