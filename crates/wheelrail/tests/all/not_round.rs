@@ -1,12 +1,13 @@
 //! Wheels that are not round: flats, harmonics, profiles that change around them.
 
+use crate::varying_rail::motion;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use numerics::scalar::{Dual, Real};
 use wheelrail::contact::{
     ContactLaw, ContactPair, ContactTable, CreepLaw, FindPatches, Flat, Harmonic, OutOfRound, Side,
-    SlicedWheel, WheelForm, WheelMotion, WheelPose, stored_energy,
+    SlicedWheel, WheelForm, WheelPose, stored_energy,
 };
 use wheelrail::creep::polach;
 use wheelrail::profile::{SlicedProfile, nominal};
@@ -54,14 +55,6 @@ fn pose_at<S: Real>(angle: S, [y, z, yaw, roll]: [S; 4]) -> WheelPose<S> {
     WheelPose {
         angle,
         ..WheelPose::of(Side::Left, [y, z], yaw, roll)
-    }
-}
-
-fn motion<S: Real>(values: [f64; 6]) -> WheelMotion<S> {
-    let [a, b, c, d, e, f] = values.map(S::from);
-    WheelMotion {
-        velocity: [a, b, c],
-        angular_velocity: [d, e, f],
     }
 }
 

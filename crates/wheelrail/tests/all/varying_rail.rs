@@ -36,7 +36,7 @@ fn pose_at<S: Real>(along: S, [y, z, yaw, roll]: [S; 4]) -> WheelPose<S> {
     }
 }
 
-fn motion<S: Real>(values: [f64; 6]) -> WheelMotion<S> {
+pub(crate) fn motion<S: Real>(values: [f64; 6]) -> WheelMotion<S> {
     let [a, b, c, d, e, f] = values.map(S::from);
     WheelMotion {
         velocity: [a, b, c],
