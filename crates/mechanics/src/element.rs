@@ -7,7 +7,11 @@
 //!
 //! One of its two bodies must have free coordinates, whichever.
 //!
-//! Limits: such an element has no internal states and no events of its own; contact faces have both.
+//! **Internal states.** An element may have a pair of states of its own ([`Element::has_states`]), whose rates
+//! it gives with its wrench: the roll of a rail under a wheel, the force of a damper in series with a spring.
+//! The integrator counts them as deflections in m; one that is a rate comes as the way of 1 ms.
+//!
+//! Limits: such an element has no events of its own; contact faces have.
 
 mod reversed;
 pub(crate) mod tangent;
@@ -17,7 +21,7 @@ use std::fmt::Debug;
 use numerics::scalar::{Dual, Real};
 
 use self::reversed::Reversed;
-use self::tangent::Tangent;
+use self::tangent::{StateTangent, Tangent};
 use crate::link::{Marker, RelativeMotion};
 use crate::motion::Motion;
 use crate::vector::Vector;
@@ -52,6 +56,21 @@ pub trait Element: Clone + Debug + Send + Sync + 'static {
     /// It must not depend on anything else, so that momentum is conserved: the opposite wrench acts on B.
     fn evaluate<S: Real>(&self, motion: &RelativeMotion<S>) -> Wrench<S>;
 
+    /// Returns whether it has a pair of internal states.
+    fn has_states(&self) -> bool {
+        false
+    }
+
+    /// Returns the wrench and the powers at a motion and at internal states (m), and the rates of these, m/s.
+    fn evaluate_with<S: Real>(&self, motion: &RelativeMotion<S>, _: [S; 2]) -> (Wrench<S>, [S; 2]) {
+        (self.evaluate(motion), [S::zero(); 2])
+    }
+
+    /// Returns the stored energy at a motion and at internal states (m), J.
+    fn energy_with(&self, motion: &RelativeMotion<f64>, _: [f64; 2]) -> f64 {
+        self.energy(motion)
+    }
+
     /// Returns the stored energy at a relative motion, J. The power of the wrench must equal minus the rate
     /// of this energy minus the power lost, plus the power put in; otherwise the ledger does not close.
     fn energy(&self, motion: &RelativeMotion<f64>) -> f64;
@@ -68,13 +87,18 @@ pub trait Element: Clone + Debug + Send + Sync + 'static {
     }
 }
 
+/// A wrench, and the rates of internal states.
+type WithRates<S> = (Wrench<S>, [S; 2]);
+
 /// An element of any kind, by the scalars that the core uses.
 pub(crate) trait AnyElement: Debug + Send + Sync {
     fn name(&self) -> &str;
-    fn value(&self, motion: &RelativeMotion<f64>) -> Wrench<f64>;
-    fn derivative(&self, motion: &RelativeMotion<Dual<1>>) -> Wrench<Dual<1>>;
+    fn value(&self, motion: &RelativeMotion<f64>, states: [f64; 2]) -> WithRates<f64>;
+    fn derivative(&self, motion: &RelativeMotion<Dual<1>>, states: [Dual<1>; 2]) -> WithRates<Dual<1>>;
     fn tangent(&self, motion: &RelativeMotion<f64>) -> Tangent;
-    fn energy(&self, motion: &RelativeMotion<f64>) -> f64;
+    fn tangent_with(&self, motion: &RelativeMotion<f64>, states: [f64; 2]) -> (Tangent, StateTangent);
+    fn energy(&self, motion: &RelativeMotion<f64>, states: [f64; 2]) -> f64;
+    fn has_states(&self) -> bool;
     fn does_work(&self) -> bool;
     fn boxed(&self) -> Box<dyn AnyElement>;
 }
@@ -83,17 +107,23 @@ impl<E: Element> AnyElement for E {
     fn name(&self) -> &str {
         Element::name(self)
     }
-    fn value(&self, motion: &RelativeMotion<f64>) -> Wrench<f64> {
-        self.evaluate(motion)
+    fn value(&self, motion: &RelativeMotion<f64>, states: [f64; 2]) -> WithRates<f64> {
+        self.evaluate_with(motion, states)
     }
-    fn derivative(&self, motion: &RelativeMotion<Dual<1>>) -> Wrench<Dual<1>> {
-        self.evaluate(motion)
+    fn derivative(&self, motion: &RelativeMotion<Dual<1>>, states: [Dual<1>; 2]) -> WithRates<Dual<1>> {
+        self.evaluate_with(motion, states)
     }
     fn tangent(&self, motion: &RelativeMotion<f64>) -> Tangent {
         Tangent::of(self.inputs(), motion, self)
     }
-    fn energy(&self, motion: &RelativeMotion<f64>) -> f64 {
-        Element::energy(self, motion)
+    fn tangent_with(&self, motion: &RelativeMotion<f64>, states: [f64; 2]) -> (Tangent, StateTangent) {
+        Tangent::with_states(motion, states, self)
+    }
+    fn energy(&self, motion: &RelativeMotion<f64>, states: [f64; 2]) -> f64 {
+        self.energy_with(motion, states)
+    }
+    fn has_states(&self) -> bool {
+        Element::has_states(self)
     }
     fn does_work(&self) -> bool {
         Element::does_work(self)
@@ -105,18 +135,30 @@ impl<E: Element> AnyElement for E {
 
 /// A scalar over which elements of any kind can be evaluated.
 pub(crate) trait Scalar: Real {
-    fn evaluate(element: &dyn AnyElement, motion: &RelativeMotion<Self>) -> Wrench<Self>;
+    fn evaluate(
+        element: &dyn AnyElement,
+        motion: &RelativeMotion<Self>,
+        states: [Self; 2],
+    ) -> WithRates<Self>;
 }
 
 impl Scalar for f64 {
-    fn evaluate(element: &dyn AnyElement, motion: &RelativeMotion<Self>) -> Wrench<Self> {
-        element.value(motion)
+    fn evaluate(
+        element: &dyn AnyElement,
+        motion: &RelativeMotion<Self>,
+        states: [Self; 2],
+    ) -> WithRates<Self> {
+        element.value(motion, states)
     }
 }
 
 impl Scalar for Dual<1> {
-    fn evaluate(element: &dyn AnyElement, motion: &RelativeMotion<Self>) -> Wrench<Self> {
-        element.derivative(motion)
+    fn evaluate(
+        element: &dyn AnyElement,
+        motion: &RelativeMotion<Self>,
+        states: [Self; 2],
+    ) -> WithRates<Self> {
+        element.derivative(motion, states)
     }
 }
 
@@ -149,29 +191,37 @@ impl Marked {
         }
     }
 
-    /// Returns the wrench about the origin of the body that carries marker A, by the motion of that body.
-    pub fn on_body<S: Scalar>(&self, body: &RelativeMotion<S>) -> Wrench<S> {
-        self.times(self.factor[0], body)
+    /// Returns the motion of marker A by that of the body that carries it.
+    pub fn of_marker<S: Scalar>(&self, body: &RelativeMotion<S>) -> RelativeMotion<S> {
+        self.turned(&body.at(self.marker.origin))
     }
 
-    /// Returns the wrench of the law itself times a factor.
-    pub fn times<S: Scalar>(&self, factor: f64, body: &RelativeMotion<S>) -> Wrench<S> {
-        if factor == 0.0 {
-            return Wrench {
+    /// Returns the wrench about the origin of the body that carries marker A, by the motion of that body,
+    /// and the rates of the internal states.
+    pub fn on_body<S: Scalar>(&self, body: &RelativeMotion<S>, states: [S; 2]) -> WithRates<S> {
+        self.times(self.factor[0], body, states)
+    }
+
+    /// Returns the wrench of the law itself times a factor, and the rates of the internal states.
+    pub fn times<S: Scalar>(&self, factor: f64, body: &RelativeMotion<S>, states: [S; 2]) -> WithRates<S> {
+        if factor == 0.0 && !self.element.has_states() {
+            let none = Wrench {
                 force: Vector::zero(),
                 moment: Vector::zero(),
                 powers: [S::zero(); 2],
             };
+            return (none, [S::zero(); 2]);
         }
-        let wrench = S::evaluate(&*self.element, &self.turned(&body.at(self.marker.origin)));
+        let (wrench, rates) = S::evaluate(&*self.element, &self.of_marker(body), states);
         let arm: Vector<S> = body.rotation.apply(self.marker.origin);
         let moment = wrench.moment + arm.cross::<S, S>(wrench.force);
         let scaled = |v: Vector<S>| Vector(v.0.map(|own| own * factor));
-        Wrench {
+        let wrench = Wrench {
             force: scaled(wrench.force),
             moment: scaled(moment),
             powers: wrench.powers.map(|own| own * factor),
-        }
+        };
+        (wrench, rates)
     }
 }
 

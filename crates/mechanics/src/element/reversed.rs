@@ -25,6 +25,18 @@ fn inverse<S: Real>(motion: &RelativeMotion<S>) -> RelativeMotion<S> {
     }
 }
 
+/// Returns the wrench on marker B in the axes of A, from that on A, of the motion of B relative to A and its
+/// inverse.
+#[inline(always)]
+fn on_other<S: Real>(motion: &RelativeMotion<S>, own: &RelativeMotion<S>, wrench: &Wrench<S>) -> Wrench<S> {
+    let moment = wrench.moment + own.position.cross::<S, S>(wrench.force);
+    Wrench {
+        force: -motion.rotation.apply::<S, S>(wrench.force),
+        moment: -motion.rotation.apply::<S, S>(moment),
+        powers: wrench.powers,
+    }
+}
+
 impl<E: Element> Element for Reversed<E> {
     fn name(&self) -> &str {
         self.0.name()
@@ -33,13 +45,22 @@ impl<E: Element> Element for Reversed<E> {
     #[inline(always)]
     fn evaluate<S: Real>(&self, motion: &RelativeMotion<S>) -> Wrench<S> {
         let own = inverse(motion);
-        let wrench = self.0.evaluate(&own);
-        let moment = wrench.moment + own.position.cross::<S, S>(wrench.force);
-        Wrench {
-            force: -motion.rotation.apply::<S, S>(wrench.force),
-            moment: -motion.rotation.apply::<S, S>(moment),
-            powers: wrench.powers,
-        }
+        on_other(motion, &own, &self.0.evaluate(&own))
+    }
+
+    fn has_states(&self) -> bool {
+        self.0.has_states()
+    }
+
+    #[inline(always)]
+    fn evaluate_with<S: Real>(&self, motion: &RelativeMotion<S>, states: [S; 2]) -> (Wrench<S>, [S; 2]) {
+        let own = inverse(motion);
+        let (wrench, rates) = self.0.evaluate_with(&own, states);
+        (on_other(motion, &own, &wrench), rates)
+    }
+
+    fn energy_with(&self, motion: &RelativeMotion<f64>, states: [f64; 2]) -> f64 {
+        self.0.energy_with(&inverse(motion), states)
     }
 
     fn energy(&self, motion: &RelativeMotion<f64>) -> f64 {

@@ -76,6 +76,26 @@ pub(crate) struct Tangent {
     pub by: TangentColumns,
 }
 
+/// Derivatives of and by the pair of internal states of an element.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StateTangent {
+    /// Of both rates, in the first place of both halves, by the relative motion.
+    pub rates: TangentColumns,
+    /// Of wrench and powers by the states.
+    pub wrench: [TangentColumn; 2],
+    /// Of the rates by the states, row by row.
+    pub own: [f64; 4],
+}
+
+impl StateTangent {
+    /// No derivatives.
+    pub const NONE: Self = Self {
+        rates: TangentColumns::NONE,
+        wrench: [NO_CHANGE; 2],
+        own: [0.0; 4],
+    };
+}
+
 /// `Σ_i weights_i columns_i`.
 #[inline(always)]
 pub(crate) fn combined(columns: &[TangentColumn; 3], weights: Vector<f64>) -> TangentColumn {
@@ -134,64 +154,110 @@ impl Tangent {
     #[inline(always)]
     pub fn of(inputs: Inputs, relative: &RelativeMotion<f64>, law: &impl Element) -> Self {
         match inputs {
-            Inputs::Points => Self::seeded::<6>(relative, law),
-            Inputs::Motion => Self::seeded::<12>(relative, law),
+            Inputs::Points => Self::by_columns(&law.evaluate(&seeded::<6>(relative))),
+            Inputs::Motion => {
+                let (wrench, _) = law.evaluate_with(&seeded::<12>(relative), [Dual::from(0.0); 2]);
+                Self::by_columns(&wrench)
+            }
         }
     }
 
-    /// Returns the tangent by numbers with `N` derivatives: by position and velocity, and from 12 on by
+    /// Returns the tangent of a law with internal states, and the derivatives of and by these.
+    pub fn with_states(
+        relative: &RelativeMotion<f64>,
+        states: [f64; 2],
+        law: &impl Element,
+    ) -> (Self, StateTangent) {
+        let (wrench, rates) = law.evaluate_with(&seeded::<12>(relative), states.map(Dual::from));
+        let of_rates = |k: usize| rates.map(|rate| Lanes::new([rate.derivative[k], 0.0, 0.0, 0.0]));
+        let rows = |first: usize| [0, 1, 2].map(|k| of_rates(first + k));
+        // By one state at a time: numbers with 14 derivatives of every law would be more code.
+        let lifted = RelativeMotion {
+            position: Vector::lift(relative.position),
+            rotation: Matrix::lift(relative.rotation),
+            velocity: Vector::lift(relative.velocity),
+            angular_velocity: Vector::lift(relative.angular_velocity),
+        };
+        let [(first, by_first), (second, by_second)] = [0, 1].map(|k| {
+            let mut own = states.map(Dual::<1>::from);
+            own[k] = Dual::variable(states[k], 0);
+            let (wrench, rates) = law.evaluate_with(&lifted, own);
+            (column(&wrench, 0), rates.map(|rate| rate.derivative[0]))
+        });
+        let states = StateTangent {
+            rates: TangentColumns {
+                position: rows(0),
+                velocity: rows(3),
+                rotation: rows(6),
+                angular_velocity: rows(9),
+            },
+            wrench: [first, second],
+            own: [by_first[0], by_second[0], by_first[1], by_second[1]],
+        };
+        (Self::by_columns(&wrench), states)
+    }
+
+    /// Returns the tangent of a wrench with `N` derivatives: by position and velocity, and from 12 on by
     /// rotation and angular velocity.
     #[inline(always)]
-    fn seeded<const N: usize>(relative: &RelativeMotion<f64>, law: &impl Element) -> Self {
-        let seed = |vector: Vector<f64>, first: usize| {
-            Vector(std::array::from_fn(|i| {
-                Dual::<N>::variable(vector.0[i], first + i)
-            }))
-        };
-        let mut rotation = Matrix::<Dual<N>>::lift(relative.rotation);
-        let mut angular_velocity = Vector::lift(relative.angular_velocity);
-        if N == 12 {
-            angular_velocity = seed(relative.angular_velocity, 9);
-            for j in 0..3 {
-                let [x, y, z] = relative.rotation.column(j).0;
-                // e_k × column, for the three axes
-                for (k, moved) in [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]].into_iter().enumerate() {
-                    for (i, moved) in moved.into_iter().enumerate() {
-                        rotation.0[i][j].derivative[6 + k] = moved;
-                    }
-                }
-            }
-        }
-        let wrench = law.evaluate(&RelativeMotion {
-            position: seed(relative.position, 0),
-            rotation,
-            velocity: seed(relative.velocity, 3),
-            angular_velocity,
-        });
+    fn by_columns<const N: usize>(wrench: &Wrench<Dual<N>>) -> Self {
         let mut tangent = Self {
             force: wrench.force.value(),
             moment: wrench.moment.value(),
             ..Self::NONE
         };
-        let column = |k: usize| {
-            let lanes = |v: &Vector<Dual<N>>, power: &Dual<N>| {
-                let [x, y, z] = &v.0;
-                Lanes::new([x, y, z, power].map(|value| value.derivative[k]))
-            };
-            [
-                lanes(&wrench.force, &wrench.powers[0]),
-                lanes(&wrench.moment, &wrench.powers[1]),
-            ]
-        };
         for k in 0..3 {
-            tangent.by.position[k] = column(k);
-            tangent.by.velocity[k] = column(3 + k);
-            if N == 12 {
-                tangent.by.rotation[k] = column(6 + k);
-                tangent.by.angular_velocity[k] = column(9 + k);
+            tangent.by.position[k] = column(wrench, k);
+            tangent.by.velocity[k] = column(wrench, 3 + k);
+            if N >= 12 {
+                tangent.by.rotation[k] = column(wrench, 6 + k);
+                tangent.by.angular_velocity[k] = column(wrench, 9 + k);
             }
         }
         tangent
+    }
+}
+
+/// Returns the derivatives of a wrench and its powers by the input with this number.
+#[inline(always)]
+fn column<const N: usize>(wrench: &Wrench<Dual<N>>, k: usize) -> TangentColumn {
+    let lanes = |v: &Vector<Dual<N>>, power: &Dual<N>| {
+        let [x, y, z] = &v.0;
+        Lanes::new([x, y, z, power].map(|value| value.derivative[k]))
+    };
+    [
+        lanes(&wrench.force, &wrench.powers[0]),
+        lanes(&wrench.moment, &wrench.powers[1]),
+    ]
+}
+
+/// Returns a motion as variables: position and velocity, and from 12 on rotation and angular velocity.
+#[inline(always)]
+fn seeded<const N: usize>(relative: &RelativeMotion<f64>) -> RelativeMotion<Dual<N>> {
+    let seed = |vector: Vector<f64>, first: usize| {
+        Vector(std::array::from_fn(|i| {
+            Dual::<N>::variable(vector.0[i], first + i)
+        }))
+    };
+    let mut rotation = Matrix::<Dual<N>>::lift(relative.rotation);
+    let mut angular_velocity = Vector::lift(relative.angular_velocity);
+    if N >= 12 {
+        angular_velocity = seed(relative.angular_velocity, 9);
+        for j in 0..3 {
+            let [x, y, z] = relative.rotation.column(j).0;
+            // e_k × column, for the three axes
+            for (k, moved) in [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]].into_iter().enumerate() {
+                for (i, moved) in moved.into_iter().enumerate() {
+                    rotation.0[i][j].derivative[6 + k] = moved;
+                }
+            }
+        }
+    }
+    RelativeMotion {
+        position: seed(relative.position, 0),
+        rotation,
+        velocity: seed(relative.velocity, 3),
+        angular_velocity,
     }
 }
 

@@ -8,7 +8,7 @@ use super::model::ModelError;
 use super::mounted::Mounted;
 use crate::body::{Body, Kinematics};
 use crate::contact::Points;
-use crate::element::tangent::{Tangent, TangentColumns};
+use crate::element::tangent::{StateTangent, Tangent, TangentColumns};
 use crate::energy::{EnergyTerm, EnergyTermKind};
 use crate::link::{Marker, RelativeFrame, Translation};
 use crate::parts::Parts;
@@ -74,8 +74,10 @@ impl ElementAssembler<'_> {
             parts
                 .internal_pairs
                 .push([Some(number), on_number].into_iter().flatten().collect());
-            // Friction loss and the work of the motion depend on the bristle.
-            for quadrature in [energy_terms[0].unwrap_or(0), 0] {
+            // Friction loss and the work of the motion depend on the bristle; what an element puts in, too.
+            let [first, second] = energy_terms;
+            let work = second.filter(|_| matches!(kinds[1], Some(EnergyTermKind::ElementWork)));
+            for quadrature in [first, Some(0), work].into_iter().flatten() {
                 parts.quadrature_pairs.push((quadrature, pair));
             }
         }
@@ -91,6 +93,7 @@ impl ElementAssembler<'_> {
         Ok(Mounted {
             plain: on_number.is_none() && (!moves || translation.is_some()),
             tangent: Tangent::NONE,
+            state_tangent: StateTangent::NONE,
             mobilities: Vec::new(),
             rate_tangents: vec![TangentColumns::NONE; pairs.div_ceil(LANES)],
             translation,

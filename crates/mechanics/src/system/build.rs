@@ -185,7 +185,8 @@ pub(super) fn build(model: Model) -> Result<System, ModelError> {
         let name = marked.element.name().to_owned();
         let work = marked.element.does_work().then_some(EnergyTermKind::ElementWork);
         let kinds = [Some(EnergyTermKind::ElementLoss), work];
-        mounted_elements.push(assembler.attach(marked, &name, body, on, marker, kinds, 0)?);
+        let pairs = usize::from(marked.element.has_states());
+        mounted_elements.push(assembler.attach(marked, &name, body, on, marker, kinds, pairs)?);
     }
 
     let applied: Vec<MountedLoad> = loads

@@ -48,7 +48,7 @@ impl System {
             energies.coil += mounted.element.stored_energy(coil.length);
         }
         for mounted in &self.elements {
-            energies.element += self.element_energy(mounted);
+            energies.element += self.element_energy(mounted, internal);
         }
         if !self.connections.is_empty() {
             let coordinates = (&self.positions[..], &self.rates[..]);

@@ -153,7 +153,15 @@ impl System {
         }
         for mounted in &self.elements {
             let motion = inputs.element_kinematics(mounted);
-            let wrench = mounted.element.on_body(&motion.relative);
+            let own = mounted.first_internal..mounted.first_internal + mounted.internal_count;
+            let states = match inputs.internal[own.clone()] {
+                [first, second] => [S::from(first), S::from(second)],
+                _ => [S::zero(); 2],
+            };
+            let (wrench, rates) = mounted.element.on_body(&motion.relative, states);
+            if let [first, second] = &mut out.internal_rates[own] {
+                [*first, *second] = rates;
+            }
             inputs.add(mounted, &motion, &wrench, out);
         }
     }

@@ -6,12 +6,12 @@ use numerics::partitioned::Partitioned;
 use numerics::scalar::Real;
 
 use super::chain::Chain;
-use super::jacobian::differentiate_internal;
+use super::jacobian::{differentiate_internal, differentiate_states};
 use super::{FreeBody, Mounted, System};
 use crate::body::{Kinematics, Rigid};
 use crate::coil::{Coil, CoilForce};
 use crate::contact::{ContactFace, CurvedMotion, FaceResultant, Interface, PlaneMotion, Points};
-use crate::element::tangent::{Tangent, TangentColumns};
+use crate::element::tangent::{StateTangent, Tangent, TangentColumns};
 use crate::element::{Element, Marked, Wrench};
 use crate::frame::FrameMotion;
 use crate::link::{BodyWrench, Marker, RelativeFrame, RelativeMotion};
@@ -43,13 +43,14 @@ pub(super) trait Mountable: Sized {
         Vector::zero()
     }
 
-    /// Returns the tangent by the motion of marker A; `rates` receives the derivatives of the rates of
-    /// internal states, four pairs at a time.
+    /// Returns the tangent by the motion of marker A; the derivatives of the rates of internal states, four
+    /// pairs at a time, and those by the states go to `rates`.
     fn tangent(
         &self,
         points: &Points,
         relative: &RelativeMotion<f64>,
-        rates: &mut [TangentColumns],
+        internal: &[f64],
+        rates: (&mut [TangentColumns], &mut StateTangent),
     ) -> Tangent;
 
     /// The derivatives by the internal states.
@@ -106,7 +107,8 @@ impl Mountable for ContactFace<Interface> {
         &self,
         points: &Points,
         relative: &RelativeMotion<f64>,
-        rates: &mut [TangentColumns],
+        _: &[f64],
+        (rates, _): (&mut [TangentColumns], &mut StateTangent),
     ) -> Tangent {
         points.tangent(relative, rates)
     }
@@ -155,7 +157,13 @@ impl Mountable for Coil {
     }
 
     #[inline(always)]
-    fn tangent(&self, _: &Points, relative: &RelativeMotion<f64>, _: &mut [TangentColumns]) -> Tangent {
+    fn tangent(
+        &self,
+        _: &Points,
+        relative: &RelativeMotion<f64>,
+        _: &[f64],
+        _: (&mut [TangentColumns], &mut StateTangent),
+    ) -> Tangent {
         Tangent::of(self.inputs(), relative, self)
     }
 }
@@ -166,10 +174,13 @@ impl Mountable for Marked {
         &self,
         _: &mut Points,
         relative: &RelativeMotion<f64>,
-        _: &[f64],
-        _: &mut [f64],
+        internal: &[f64],
+        rates: &mut [f64],
     ) -> BodyWrench {
-        let wrench = self.on_body(relative);
+        let (wrench, own) = self.on_body(relative, pair_of(internal));
+        if let Some(rates) = rates.first_chunk_mut() {
+            *rates = own;
+        }
         BodyWrench {
             force: wrench.force,
             moment: relative.rotation.apply_transposed(wrench.moment),
@@ -193,12 +204,41 @@ impl Mountable for Marked {
     }
 
     #[inline(always)]
-    fn tangent(&self, _: &Points, relative: &RelativeMotion<f64>, _: &mut [TangentColumns]) -> Tangent {
-        match self.factor[0] {
+    fn tangent(
+        &self,
+        _: &Points,
+        relative: &RelativeMotion<f64>,
+        internal: &[f64],
+        (rates, by_states): (&mut [TangentColumns], &mut StateTangent),
+    ) -> Tangent {
+        let (factor, relative) = (self.factor[0], self.turned(relative));
+        if let [rates, ..] = rates {
+            let tangent;
+            (tangent, *by_states) = self.element.tangent_with(&relative, pair_of(internal));
+            *rates = by_states.rates;
+            return tangent.times(factor);
+        }
+        match factor {
             0.0 => Tangent::NONE,
-            factor => self.element.tangent(&self.turned(relative)).times(factor),
+            factor => self.element.tangent(&relative).times(factor),
         }
     }
+
+    fn differentiate_internal(
+        mounted: &Mounted<Self>,
+        chain: &Chain<'_>,
+        relative: &RelativeMotion<f64>,
+        ends: &[Option<&FreeBody>; 2],
+        jacobian: &mut Partitioned,
+    ) {
+        differentiate_states(mounted, chain, relative, ends, jacobian);
+    }
+}
+
+/// Returns the pair of internal states of an element; zeros of one without.
+#[inline(always)]
+pub(super) fn pair_of<S: Real>(internal: &[S]) -> [S; 2] {
+    internal.first_chunk().copied().unwrap_or([S::zero(); 2])
 }
 
 impl<S: Real> Wrench<S> {
@@ -337,9 +377,11 @@ impl System {
                 apply(coil, &self.kinematics, &[], &mut [], loads, powers);
             }
             for element in &mut self.elements {
+                let internal = &internal[element.first_internal..][..element.internal_count];
+                let rates = &mut d_internal[element.first_internal..][..element.internal_count];
                 let loads = (&mut self.force[..], &mut self.moment[..]);
                 let powers = (&mut *d_quadratures, &mut work);
-                apply(element, &self.kinematics, &[], &mut [], loads, powers);
+                apply(element, &self.kinematics, internal, rates, loads, powers);
             }
         }
         for free in self.free.iter().filter(|free| free.loaded) {

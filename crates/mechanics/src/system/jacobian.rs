@@ -16,7 +16,8 @@ use crate::body::Kinematics;
 use crate::body::RotationAxes;
 use crate::connection;
 use crate::contact::{ContactFace, Interface};
-use crate::element::tangent::{Change, TangentColumns};
+use crate::element::Marked;
+use crate::element::tangent::{Change, TangentColumns, force_of, moment_of};
 use crate::link::RelativeMotion;
 use crate::vector::Vector;
 
@@ -82,14 +83,15 @@ impl System {
             let deflections = &internal[face.first_internal..][..face.internal_count];
             face.element.linearize(&mut face.points, deflections);
             if face.points.are_active() {
-                differentiate_element(face, &bodies, &mut self.gathered, &mut self.jacobian);
+                differentiate_element(face, deflections, &bodies, &mut self.gathered, &mut self.jacobian);
             }
         }
         for coil in &mut self.coils {
-            differentiate_element(coil, &bodies, &mut self.gathered, &mut self.jacobian);
+            differentiate_element(coil, &[], &bodies, &mut self.gathered, &mut self.jacobian);
         }
         for element in &mut self.elements {
-            differentiate_element(element, &bodies, &mut self.gathered, &mut self.jacobian);
+            let states = &internal[element.first_internal..][..element.internal_count];
+            differentiate_element(element, states, &bodies, &mut self.gathered, &mut self.jacobian);
         }
         for number in 0..self.free.len() {
             let free = &self.free[number];
@@ -237,6 +239,7 @@ impl System {
 #[inline(always)]
 fn differentiate_element<E: Mountable>(
     mounted: &mut Mounted<E>,
+    internal: &[f64],
     bodies: &Bodies<'_>,
     gathered: &mut [Gathered],
     jacobian: &mut Partitioned,
@@ -244,9 +247,10 @@ fn differentiate_element<E: Mountable>(
     let body: RelativeMotion<f64> = mounted.relative_frame.relative(&bodies.kinematics[mounted.body]);
     let point = mounted.element.marker();
     let (arm, relative) = (body.rotation.apply(point), body.at(point));
+    let rates = (&mut mounted.rate_tangents[..], &mut mounted.state_tangent);
     mounted.tangent = mounted
         .element
-        .tangent(&mounted.points, &relative, &mut mounted.rate_tangents);
+        .tangent(&mounted.points, &relative, internal, rates);
     let ends = [mounted.body, mounted.on].map(|body| bodies.free_number[body]);
     let [Some(a), b] = ends else {
         return;
@@ -359,6 +363,43 @@ pub(super) fn differentiate_internal(
             }
         }
     });
+}
+
+/// The derivatives by the pair of internal states of an element: of their own rates, of the forces, of the
+/// powers.
+pub(super) fn differentiate_states(
+    mounted: &Mounted<Marked>,
+    chain: &Chain<'_>,
+    relative: &RelativeMotion<f64>,
+    ends: &[Option<&FreeBody>; 2],
+    jacobian: &mut Partitioned,
+) {
+    let (group, row, by) = (
+        mounted.first_internal / 2,
+        mounted.first_internal_row,
+        &mounted.state_tangent,
+    );
+    let factor = mounted.element.factor[0];
+    *jacobian.internal_mut(group) = by.own;
+    for (e, column) in by.wrench.iter().enumerate() {
+        let (force, moment) = (force_of(column).scale(factor), moment_of(column).scale(factor));
+        for (side, free) in ends.iter().flatten().enumerate() {
+            let rows = chain.load(side, force, moment);
+            let n = free.free.len();
+            let [_, _, f_t] = jacobian.side_mut(group, side);
+            for (index, target) in f_t[e * n..][..n].iter_mut().enumerate() {
+                let (part, component) = free.row(index);
+                *target = rows[part].at(component);
+            }
+        }
+        jacobian.internal_row_mut(row)[e] = factor * column[0].at(3);
+        if mounted.prescribed {
+            jacobian.internal_row_mut(row + 1)[e] = mounted.prescribed_power(relative, force, moment);
+        }
+        if mounted.energy_terms[1].is_some() {
+            jacobian.internal_row_mut(row + 2)[e] = factor * column[1].at(3);
+        }
+    }
 }
 
 impl<E> Mounted<E> {

@@ -19,7 +19,9 @@ impl System {
         let layout = self.layout;
         let n = layout.speeds;
         let mut state = x.to_vec();
-        state[2 * n..2 * n + layout.internals].fill(0.0);
+        let kept = self.pairs_of_elements();
+        let relaxed = (0..layout.internals).filter(|i| !kept.contains(&(i / 2)));
+        relaxed.for_each(|i| state[2 * n + i] = 0.0);
         let rules = FrictionRules {
             surfaces: FrictionRule::Stuck,
             wedges: FrictionRule::Stuck,
@@ -50,7 +52,14 @@ impl System {
         model
     }
 
-    /// Returns mass matrix, `∂Q/∂q` and `∂Q/∂q˙` of the last linearization.
+    /// Returns the numbers of the pairs of internal states that belong to elements which are no faces.
+    pub(super) fn pairs_of_elements(&self) -> Vec<usize> {
+        let with_states = self.elements.iter().filter(|own| own.internal_count > 0);
+        with_states.map(|own| own.first_internal / 2).collect()
+    }
+
+    /// Returns mass matrix, `∂Q/∂q` and `∂Q/∂q˙` of the last linearization. Internal states of elements that
+    /// are no faces follow the bodies at once.
     pub(super) fn matrices(&mut self) -> SecondOrder {
         let n = self.layout.speeds;
         let [mut mass, mut stiffness, mut damping] = [(); 3].map(|()| DMatrix::zeros(n, n));
@@ -69,6 +78,27 @@ impl System {
                     let place = (row.offset + at / width, column.offset + at % width);
                     stiffness[place] += *k;
                     damping[place] += *d;
+                }
+            }
+        }
+        for group in self.pairs_of_elements() {
+            let [a, b, c, d] = *self.jacobian.internal_mut(group);
+            let determinant = a * d - b * c;
+            // -G⁻¹, by which states follow what drives their rates.
+            let follow = [[-d, b], [c, -a]].map(|row| row.map(|own| own / determinant));
+            let ends = self.internal_ends[group].clone();
+            for (side, &i) in ends.iter().enumerate() {
+                let force = self.jacobian.side_mut(group, side)[2].to_vec();
+                for (other, &j) in ends.iter().enumerate() {
+                    let (height, width) = (self.free[i].free.len(), self.free[j].free.len());
+                    let [by_position, by_speed, _] = self.jacobian.side_mut(group, other);
+                    for (matrix, by) in [(&mut stiffness, by_position), (&mut damping, by_speed)] {
+                        for (r, c) in (0..height).flat_map(|r| (0..width).map(move |c| (r, c))) {
+                            let states = follow.map(|[first, second]| first * by[c] + second * by[width + c]);
+                            let value = force[r] * states[0] + force[height + r] * states[1];
+                            matrix[(self.free[i].offset + r, self.free[j].offset + c)] += value;
+                        }
+                    }
                 }
             }
         }

@@ -1,8 +1,18 @@
 //! An element in a system: between which bodies it is, and where its states and energies are.
 
+use super::forces::pair_of;
 use crate::contact::Points;
-use crate::element::tangent::{Tangent, TangentColumns};
+use crate::element::Marked;
+use crate::element::tangent::{StateTangent, Tangent, TangentColumns};
 use crate::link::{Marker, RelativeFrame, Translation};
+
+impl Mounted<Marked> {
+    /// Returns the pair of its internal states among those of the system; zeros if it has none.
+    #[inline(always)]
+    pub(super) fn states(&self, internal: &[f64]) -> [f64; 2] {
+        pair_of(&internal[self.first_internal..][..self.internal_count])
+    }
+}
 
 /// An element between two bodies of a system.
 #[derive(Clone, Debug)]
@@ -38,6 +48,8 @@ pub struct Mounted<E> {
     /// pairs.
     pub(super) tangent: Tangent,
     pub(super) rate_tangents: Vec<TangentColumns>,
+    /// Its derivatives by internal states, of an element that is no face.
+    pub(super) state_tangent: StateTangent,
     /// Bounds of how much a force at each of its points accelerates the point, 1/kg.
     pub(super) mobilities: Vec<f64>,
     /// Coupling blocks (body, on) and (on, body).

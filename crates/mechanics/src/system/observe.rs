@@ -108,6 +108,8 @@ pub struct ElementState {
     pub moment: Vector<f64>,
     /// Stored energy, J.
     pub energy: f64,
+    /// Its internal states, m: zeros of one without.
+    pub states: [f64; 2],
 }
 
 /// All derived quantities of a state.
@@ -210,7 +212,8 @@ impl System {
                 energy,
             });
         }
-        let elements: Vec<ElementState> = self.elements.iter().map(|own| self.element_state(own)).collect();
+        let elements = self.elements.iter().map(|own| self.element_state(own, internal));
+        let elements: Vec<ElementState> = elements.collect();
         for element in &elements {
             energies.element += element.energy;
         }
@@ -311,9 +314,10 @@ impl System {
         }
     }
 
-    fn element_state(&self, mounted: &Mounted<Marked>) -> ElementState {
+    fn element_state(&self, mounted: &Mounted<Marked>, internal: &[f64]) -> ElementState {
         let body: RelativeMotion<f64> = mounted.relative_frame.relative(&self.kinematics[mounted.body]);
-        let wrench = mounted.element.on_body(&body);
+        let states = mounted.states(internal);
+        let (wrench, _) = mounted.element.on_body(&body, states);
         let (axes, _) = self.marker_pose(mounted.on, &mounted.marker);
         let (mut force, mut moment): (Vector<f64>, Vector<f64>) =
             (axes.apply(wrench.force), axes.apply(wrench.moment));
@@ -326,17 +330,18 @@ impl System {
         ElementState {
             force,
             moment,
-            energy: self.element_energy(mounted),
+            energy: self.element_energy(mounted, internal),
+            states,
         }
     }
 
     /// Returns the energy stored in an element of another kind, J.
-    pub(super) fn element_energy(&self, mounted: &Mounted<Marked>) -> f64 {
+    pub(super) fn element_energy(&self, mounted: &Mounted<Marked>, internal: &[f64]) -> f64 {
         let body: RelativeMotion<f64> = mounted.relative_frame.relative(&self.kinematics[mounted.body]);
         let marked = &mounted.element;
         marked
             .element
-            .energy(&marked.turned(&body.at(marked.marker.origin)))
+            .energy(&marked.of_marker(&body), mounted.states(internal))
     }
 
     fn face_state(&self, index: usize, internal: &[f64]) -> FaceState {

@@ -62,12 +62,19 @@ impl System {
             element_in_time(coil, bodies, &mut [], &mut self.load_rate, d_quadratures);
         }
         for element in self.elements.iter().filter(|element| element.moves) {
+            let rates = &mut d_internal[element.first_internal..][..element.internal_count];
             let load_rate = &mut self.load_rate;
-            element_in_time(element, bodies, &mut [], load_rate, d_quadratures);
+            element_in_time(element, bodies, rates, load_rate, d_quadratures);
         }
         for (number, _) in &self.factors {
             let element = &self.elements[*number];
-            factor_in_time(element, &self.kinematics, &mut self.load_rate, d_quadratures);
+            let states = element.states(layout.split(x)[2]);
+            factor_in_time(
+                element,
+                (&self.kinematics, states),
+                &mut self.load_rate,
+                d_quadratures,
+            );
         }
         for free in &self.free {
             let (mut force, mut moments) = self.load_rate[free.body];
@@ -157,7 +164,7 @@ fn element_in_time<E: Mountable>(
 /// Adds the derivatives by time of an element's wrench and powers through its factor.
 fn factor_in_time(
     mounted: &Mounted<Marked>,
-    kinematics: &[Kinematics<f64>],
+    (kinematics, states): (&[Kinematics<f64>], [f64; 2]),
     load_rate: &mut [(Vector<f64>, [f64; 3])],
     d_quadratures: &mut [f64],
 ) {
@@ -167,7 +174,7 @@ fn factor_in_time(
     }
     let (frame, body) = (&mounted.relative_frame, &kinematics[mounted.body]);
     let relative: RelativeMotion<f64> = frame.relative(body);
-    let wrench = mounted.element.times(rate, &relative);
+    let (wrench, _) = mounted.element.times(rate, &relative, states);
     let mut add = |number: usize, (force, moment): (Vector<f64>, Vector<f64>)| {
         let (sum, moments) = &mut load_rate[number];
         *sum += force;

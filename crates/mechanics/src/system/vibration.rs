@@ -85,7 +85,11 @@ impl System {
         let matrices = self.matrices();
         let mut stiffness = -matrices.stiffness;
         // A bristle that sticks follows the bodies: e = G_u q, so that F e is a stiffness.
+        let of_elements = self.pairs_of_elements();
         for (group, ends) in self.internal_ends.iter().enumerate() {
+            if of_elements.contains(&group) {
+                continue;
+            }
             for (row_side, &i) in ends.iter().enumerate() {
                 for (column_side, &j) in ends.iter().enumerate() {
                     let (m, w) = (self.free[i].free.len(), self.free[j].free.len());

@@ -2,6 +2,7 @@
 //! with linearized kinematics.
 
 use crate::common::Random;
+use crate::internal_states::ABSORBER;
 use integrate::{Integrator, Method, Options, Problem};
 use mechanics::body::Body;
 use mechanics::coil::{Coil, CoilLaw};
@@ -102,8 +103,8 @@ fn moving(random: &mut Random) -> Frame {
     frame
 }
 
-/// Returns two free bodies and a prescribed one, bushings between all of them, a coil; frames at rest or
-/// moving.
+/// Returns two free bodies and a prescribed one, bushings and elements with internal states between all of
+/// them, a coil; frames at rest or moving.
 fn chain(random: &mut Random, frames: [Frame; 2]) -> System {
     let [first, second] = frames;
     let bodies = vec![
@@ -116,6 +117,9 @@ fn chain(random: &mut Random, frames: [Frame; 2]) -> System {
     model.add(BUSHING, (1, marker()), (0, marker()));
     model.add(BUSHING, (2, marker()), (1, marker()));
     model.add(Strut(coil()), (1, marker()), (2, marker()));
+    for (a, b) in [(2, 1), (1, 0), (0, 2)] {
+        model.add(ABSORBER, (a, marker()), (b, marker()));
+    }
     model.coils = vec![(2, 1, marker(), coil())];
     System::new(model).unwrap()
 }
@@ -128,6 +132,9 @@ fn state(system: &System, random: &mut Random) -> Vec<f64> {
     }
     for value in &mut x[n..2 * n] {
         *value = random.between(-1.0, 1.0);
+    }
+    for value in &mut x[2 * n..2 * n + system.layout().internals] {
+        *value = random.between(-1e-3, 1e-3);
     }
     x
 }

@@ -14,6 +14,7 @@ mod elements;
 mod energy;
 mod equations_of_motion;
 mod input;
+mod internal_states;
 mod limits;
 mod mixed_kinematics;
 mod parts;
