@@ -19,7 +19,7 @@ use mechanics::vector::{Matrix, Vector, rotation_z};
 use rolling::beam::RailBeam;
 use rolling::linear::LinearOnTrack;
 use rolling::track::{RailSupport, rail_bed, rail_body};
-use rolling::wheel::{Search, WheelOnRail};
+use rolling::wheel::{Search, WheelElement, WheelOnRail};
 use rolling::wheelset::{WheelsetPlace, leave_spin_uncontrolled, marker};
 use truck::{Bolster, Mount, MountedTruck, WedgeKind, WedgeLoads};
 use wheelrail::contact::{ContactPair, ContactTable, Side, VaryingRail, WheelForm};
@@ -120,7 +120,7 @@ pub struct Car {
 #[derive(Clone, Debug)]
 pub(crate) enum WheelElements {
     /// Of each wheelset the left and the right wheel, and half the distance of the tape circles (m).
-    OnRails(Box<[[WheelOnRail; 2]; 4]>, f64),
+    OnRails(Box<[[WheelElement; 2]; 4]>, f64),
     Linear(Box<LinearOnTrack>),
 }
 
@@ -583,14 +583,11 @@ fn wheels(
                         side: [Side::Left, Side::Right][i],
                         search: searches[w][i].clone(),
                         law: own.laws[i].clone(),
+                        roll: parameters.support.as_ref().and_then(RailSupport::rolling),
                     };
                     let on = rails.map_or(0, |rails| rails[w][i]);
-                    model.add(
-                        wheel.clone(),
-                        (wheelsets[w], marker([half, -half][i])),
-                        (on, track),
-                    );
-                    wheel
+                    let at = (wheelsets[w], marker([half, -half][i]));
+                    WheelElement::add(model, wheel, at, (on, track))
                 })
             });
             WheelElements::OnRails(Box::new(elements), half)

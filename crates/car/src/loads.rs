@@ -59,21 +59,22 @@ pub struct WheelLoads {
 }
 
 impl WheelLoads {
-    /// Returns those of a wheel on the left (0) or the right (1) rail at its motion on it, in a section of
-    /// the track.
+    /// Returns those of a wheel on the left (0) or the right (1) rail at its motion on it and its internal
+    /// states, in a section of the track.
     #[must_use]
     pub fn of(
         (wheel, side): (&WheelOnRail, usize),
-        motion: &RelativeMotion<f64>,
+        (motion, states): (&RelativeMotion<f64>, [f64; 2]),
         section: &TrackSection<f64>,
     ) -> Self {
-        let wrench = wheel.evaluate::<f64>(motion);
+        let (wrench, _) = wheel.evaluate_with::<f64>(motion, states);
+        let [rail_roll, _] = wheel.rail_roll(states);
         let [x, y, z] = section.of(wrench.force.0);
         let [forward, ..] = section.of(motion.velocity.0);
         // Power of creep alone, without that of the contact's damping; the patch that carries most.
         let (mut creep, mut most) = (0.0, [0.0; 2]);
         let mut bears = false;
-        wheel.patches(motion, |patch| {
+        wheel.patches(motion, states, |patch| {
             bears = true;
             let carried = patch.forces.normal * patch.patch.share;
             if carried > most[0] {
@@ -89,10 +90,10 @@ impl WheelLoads {
             longitudinal: -x,
             wear_number: if forward == 0.0 { 0.0 } else { creep },
             contact_angle: libm::atan(most[1]),
-            rail_roll: 0.0,
+            rail_roll,
             lift: match bears {
                 true => 0.0,
-                false => wheel.lift(motion).unwrap_or(0.0),
+                false => wheel.lift(motion, states).unwrap_or(0.0),
             },
         }
     }
@@ -191,7 +192,7 @@ impl Car {
             };
             loads.wheels[w] = self.wheels(w, seen, &section);
         }
-        self.roll_rails(seen, &mut loads);
+        self.roll_rails(&mut loads);
         let turned = self.body_rotation(body);
         let axes = [0, 1, 2].map(|k| section.of(self.own(turned.column(k)).0));
         loads.body_angles = [
@@ -237,7 +238,9 @@ impl Car {
         for (w, pair) in wheels.iter().enumerate() {
             for (i, wheel) in pair.iter().enumerate() {
                 let motion = self.wheel_motion(seen, w, i, *half);
-                wheel.patches(&motion, |patch| see(w, i, patch));
+                wheel
+                    .wheel
+                    .patches(&motion, wheel.states(seen), |patch| see(w, i, patch));
             }
         }
     }
@@ -296,7 +299,8 @@ impl Car {
         match &self.wheels {
             WheelElements::OnRails(wheels, half) => [0, 1].map(|i| {
                 let motion = self.wheel_motion(seen, w, i, *half);
-                WheelLoads::of((&wheels[w][i], i), &motion, section)
+                let own = &wheels[w][i];
+                WheelLoads::of((&own.wheel, i), (&motion, own.states(seen)), section)
             }),
             WheelElements::Linear(element) => {
                 let state = &seen.bodies[self.numbers.wheelsets[w]];
@@ -333,26 +337,19 @@ impl Car {
         outwards.sum()
     }
 
-    /// Adds the roll of rails that are beams, and what it moves their heads beside what springs feel.
-    fn roll_rails(&self, seen: &Observation, loads: &mut Loads) {
-        let (Some((beam, wheelbases)), WheelElements::OnRails(wheels, half)) = (&self.beams, &self.wheels)
-        else {
+    /// Adds to the roll of rails that are beams what the other wheel of the truck adds, and to the gauge what
+    /// the rolls make.
+    fn roll_rails(&self, loads: &mut Loads) {
+        let Some((beam, wheelbases)) = &self.beams else {
             return;
         };
         for (t, wheelbase) in wheelbases.iter().enumerate() {
             for side in 0..2 {
-                let moments = [2 * t, 2 * t + 1].map(|w| {
-                    let mut moment = 0.0;
-                    let motion = self.wheel_motion(seen, w, side, *half);
-                    wheels[w][side].patches(&motion, |patch| moment += beam.moment(&patch));
-                    moment
-                });
-                let rolls = beam.rolls(moments, *wheelbase);
-                let unfelt = [0, 1].map(|k| moments[k] - beam.height * loads.wheels[2 * t + k][side].lateral);
-                let unfelt = beam.rolls(unfelt, *wheelbase);
-                for k in 0..2 {
-                    loads.wheels[2 * t + k][side].rail_roll = rolls[k];
-                    loads.axles[2 * t + k].gauge_widening += beam.height * unfelt[k];
+                let axles = [2 * t, 2 * t + 1];
+                let rolls = beam.rolls(axles.map(|w| loads.wheels[w][side].rail_roll), *wheelbase);
+                for (w, roll) in axles.into_iter().zip(rolls) {
+                    loads.wheels[w][side].rail_roll = roll;
+                    loads.axles[w].gauge_widening += beam.height * roll;
                 }
             }
         }

@@ -333,6 +333,7 @@ fn continuity() -> Result<(), Failure> {
         side: Side::Left,
         search: search[0].clone(),
         law: law.clone(),
+        roll: None,
     };
     let at = |lateral: f64| {
         let motion = RelativeMotion {
@@ -342,7 +343,9 @@ fn continuity() -> Result<(), Failure> {
             angular_velocity: Vector([0.0, SPEED / (18.0 * INCH), 0.0]),
         };
         let mut count = 0;
-        wheel.patches(&motion, |patch| count += usize::from(patch.patch.share > 0.0));
+        wheel.patches(&motion, [0.0; 2], |patch| {
+            count += usize::from(patch.patch.share > 0.0)
+        });
         (wheel.evaluate(&motion), count)
     };
     println!(

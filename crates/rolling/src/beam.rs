@@ -10,26 +10,31 @@
 //! A moment M about the rail's base, against a roll stiffness of the foundation k_r per length, rolls it by
 //! `T(d) M = M exp(-α d) / (2 √(GJ k_r))` with `α = √(k_r / GJ)`. The stiffness under one wheel, K, is that
 //! of [`RailSupport`]: alone under a wheel a beam is as stiff as the piece of rail without it, but for roll.
-//! A lateral force acts at the rail's head, h above the base: the head moves by `F(d) + h² T(d)`.
+//!
+//! **Roll** is a coordinate of its own ([`RailRoll`]): under its wheel the rail turns about its base against
+//! `1 / T(0)`, with the moment of all of the wheel's forces, and the wheel rolls on a head that is turned and
+//! moved aside. The inertia is that of the shape exp(-α |x|), `j / α` with j per length.
 //!
 //! **Two wheels.** With the flexibility a of the own and b of the other wheel, both pieces of rail are tied
 //! to the ground by `1 / (a + b)` and to each other by `b / (a² - b²)`: the inverse of the flexibility
 //! matrix. Both are springs of the family of [`RailSupport`], and may be negative between the pieces where a
 //! beam rises beside a load.
 //!
-//! **Columns.** Roll and gauge are observed: `θ_i = Σ_j T_ij M_j` with the moments of both wheels' forces
-//! about the base, lateral and vertical ones. The head has moved by the piece's own displacement and by h
-//! times the roll of what the springs do not feel.
+//! **Columns.** The roll under a wheel is its own one and `exp(-α d)` times that under the other wheel of the
+//! truck; the head has moved by the displacement of the base and by h times the roll.
 //!
 //! **Limits.** Quasi-static: no waves run along the rail, masses and dampers are those of pieces under the
-//! wheels. Wheels of other trucks are not felt; the distance is the wheelbase. Springs feel the roll that
-//! lateral forces make at the head, not that of vertical forces beside the rail's axis, and a wheel rolls on
-//! a head that moves aside but does not turn: 3 mrad on a crown of 10 in would move a contact by 0.8 mm.
-//! Level springs are the same in all directions, as those of [`RailSupport`]. Where what pieces lie on is
+//! wheels. Wheels of other trucks are not felt; the distance is the wheelbase. A wheel rolls on a head that
+//! its own forces roll, not on what the roll under the other wheel adds (1.6 % of that at 70 in). Level springs are the same in all directions, as those of [`RailSupport`]. Where what pieces lie on is
 //! moved, the spring between them feels that too.
 
 use super::track::RailSupport;
-use crate::wheel::PatchState;
+
+/// Mass moment of inertia of a rail 136RE about its base, kg·m²/m: 7,850 kg/m³ times the moments of inertia of
+/// its section, 14.7 + 94.9 in⁴, and its 13.35 in² at 3.35 in (remembered).
+const ROLL_INERTIA: f64 = 0.85;
+/// Damping of the roll, a share of the critical one (guess).
+const ROLL_DAMPING: f64 = 0.1;
 
 /// A rail as a beam.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +49,21 @@ pub struct RailBeam {
     pub height: f64,
     /// Place of the middle of the base to the field side of the origin of the rail's profile, m.
     pub base: f64,
+}
+
+/// The roll of a rail under a wheel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RailRoll {
+    /// Height of the origin of the rail's profile above the axis of the roll, m.
+    pub height: f64,
+    /// Place of the axis to the field side of that origin, m.
+    pub base: f64,
+    /// Stiffness, N·m/rad.
+    pub stiffness: f64,
+    /// Moment of inertia, kg·m².
+    pub inertia: f64,
+    /// Damping, N·m·s/rad.
+    pub damping: f64,
 }
 
 /// Springs of the two pieces of rail under a side of a truck.
@@ -89,14 +109,23 @@ impl RailBeam {
         libm::exp(-rate * distance) / (2.0 * (self.torsion * self.roll_stiffness).sqrt())
     }
 
-    /// Returns the flexibility of the head at a distance (m), lateral and vertical, m/N.
+    /// Returns the roll of a rail under a wheel.
+    #[must_use]
+    pub fn rolling(&self) -> RailRoll {
+        let stiffness = 1.0 / self.roll(0.0);
+        let inertia = ROLL_INERTIA * (self.torsion / self.roll_stiffness).sqrt();
+        RailRoll {
+            height: self.height,
+            base: self.base,
+            stiffness,
+            inertia,
+            damping: 2.0 * ROLL_DAMPING * (stiffness * inertia).sqrt(),
+        }
+    }
+
+    /// Returns the flexibility of the base at a distance (m), lateral and vertical, m/N.
     fn flexibility(&self, support: &RailSupport, distance: f64) -> [f64; 2] {
-        let [lateral, vertical] =
-            [0, 1].map(|i| Self::deflection(support.stiffness[i], self.bending[i], distance));
-        [
-            lateral + self.height * self.height * self.roll(distance),
-            vertical,
-        ]
+        [0, 1].map(|i| Self::deflection(support.stiffness[i], self.bending[i], distance))
     }
 
     /// Returns the springs of two pieces under wheels at a distance (m).
@@ -120,33 +149,11 @@ impl RailBeam {
         }
     }
 
-    /// Returns the springs of a piece whose neighbors carry nothing.
+    /// Returns the rolls (rad, outwards) under both wheels of a truck on a side, at a distance (m), from what
+    /// each wheel rolls it under itself.
     #[must_use]
-    pub fn alone(&self, support: &RailSupport) -> RailSupport {
-        RailSupport {
-            stiffness: self.flexibility(support, 0.0).map(f64::recip),
-            ..support.clone()
-        }
-    }
-
-    /// Returns the moment about the base of what a patch's forces do to the rail, N·m: positive where it
-    /// rolls the rail outwards.
-    #[must_use]
-    pub fn moment(&self, seen: &PatchState) -> f64 {
-        let (patch, forces) = (&seen.patch, &seen.forces);
-        let ([_, y, z], normal, across) = (patch.place, patch.normal(), patch.across());
-        let of = |i: usize| (normal[i] * forces.normal + across[i] * forces.creep.y) * patch.share;
-        // Forces on the wheel, y to the field side: on the rail they are the opposite ones.
-        let (outwards, down) = (-of(1), of(2));
-        outwards * (z + self.height) + down * (y - self.base)
-    }
-
-    /// Returns the rolls (rad, outwards) of both rails of a truck's side under moments about their bases
-    /// (N·m) at a distance (m).
-    #[must_use]
-    pub fn rolls(&self, moments: [f64; 2], distance: f64) -> [f64; 2] {
-        let [own, other] = [0.0, distance].map(|at| self.roll(at));
-        let [a, b] = moments;
-        [own * a + other * b, other * a + own * b]
+    pub fn rolls(&self, own: [f64; 2], distance: f64) -> [f64; 2] {
+        let share = self.roll(distance) / self.roll(0.0);
+        [own[0] + share * own[1], own[1] + share * own[0]]
     }
 }

@@ -14,7 +14,7 @@ use wheelrail::track::{Line, RailLines};
 use crate::carriage::Carriage;
 use crate::linear::LinearOnTrack;
 use crate::track::{RailSupport, rail_body};
-use crate::wheel::{PatchState, Search, WheelOnRail, motion_of};
+use crate::wheel::{PatchState, Search, WheelElement, WheelOnRail, motion_of};
 use crate::wheelset::{WheelsetBody, WheelsetPlace, coordinate, leave_spin_uncontrolled, marker};
 
 /// The support of the wheelset.
@@ -96,9 +96,12 @@ pub struct Rig {
     pub system: System,
     /// The state at the start.
     pub start: Vec<f64>,
-    wheels: Option<([WheelOnRail; 2], f64)>,
+    wheels: Option<([WheelElement; 2], f64)>,
     axes: Matrix<f64>,
 }
+
+/// A wheel, its motion on its rail, its internal states.
+type Rolling<'r> = (&'r WheelOnRail, RelativeMotion<f64>, [f64; 2]);
 
 /// Number of the ground among the bodies.
 pub const GROUND: usize = 0;
@@ -200,6 +203,7 @@ impl Rig {
             };
             model.add(element, middle, (GROUND, track));
         }
+        let mut elements = Vec::new();
         if let Some((wheels, half)) = &wheels {
             for (index, wheel) in wheels.iter().enumerate() {
                 let on = match &setup.support {
@@ -209,8 +213,6 @@ impl Rig {
                         body.name = format!("{} {}", support.name, ["left", "right"][index]);
                         body.initial[2] = sunk;
                         model.bodies.push(body);
-                        let alone = support.beam.as_ref().map(|beam| beam.alone(support));
-                        let support = alone.as_ref().unwrap_or(support);
                         let support = RailSupport {
                             name: format!("{}_{}", support.name, ["l", "r"][index]),
                             ..support.clone()
@@ -220,7 +222,8 @@ impl Rig {
                     }
                 };
                 let left = [*half, -half][index];
-                model.add(wheel.clone(), (WHEELSET, marker(left)), (on, track));
+                let at = (WHEELSET, marker(left));
+                elements.push(WheelElement::add(&mut model, wheel.clone(), at, (on, track)));
             }
         }
         let mut system = System::new(model)?;
@@ -244,7 +247,7 @@ impl Rig {
         Ok(Self {
             system,
             start: x,
-            wheels,
+            wheels: wheels.and_then(|(_, half)| Some((<[_; 2]>::try_from(elements).ok()?, half))),
             axes,
         })
     }
@@ -270,8 +273,8 @@ impl Rig {
 
     /// Gives the patches of both wheels to `see`, with the side: none of linear wheels.
     pub fn patches(&self, seen: &Observation, mut see: impl FnMut(Side, PatchState)) {
-        for (wheel, motion) in self.motions(seen).into_iter().flatten() {
-            wheel.patches(&motion, |patch| see(wheel.side, patch));
+        for (wheel, motion, states) in self.motions(seen).into_iter().flatten() {
+            wheel.patches(&motion, states, |patch| see(wheel.side, patch));
         }
     }
 
@@ -280,14 +283,16 @@ impl Rig {
         self.axes.apply_transposed::<f64, f64>(vector)
     }
 
-    /// Returns both wheels with their motions on their rails; none of linear wheels.
-    pub(crate) fn motions(&self, seen: &Observation) -> Option<[(&WheelOnRail, RelativeMotion<f64>); 2]> {
-        let ([left, right], half) = self.wheels.as_ref()?;
-        let of = |index: usize, left: f64| {
+    /// Returns both wheels with their motions on their rails and their internal states; none of linear wheels.
+    pub(crate) fn motions(&self, seen: &Observation) -> Option<[Rolling<'_>; 2]> {
+        let (wheels, half) = self.wheels.as_ref()?;
+        Some([0, 1].map(|index| {
+            let own = &wheels[index];
             let rail = seen.bodies.get(RAILS[index]).unwrap_or(&seen.bodies[GROUND]);
-            motion_of(&seen.bodies[WHEELSET], left, rail, self.axes)
-        };
-        Some([(left, of(0, *half)), (right, of(1, -half))])
+            let left = [*half, -half][index];
+            let motion = motion_of(&seen.bodies[WHEELSET], left, rail, self.axes);
+            (&own.wheel, motion, own.states(seen))
+        }))
     }
 }
 
@@ -324,7 +329,7 @@ fn still(wheels: &[WheelOnRail; 2], half: f64) -> impl Fn(Vector<f64>, Matrix<f6
                 angular_velocity: Vector::zero(),
             };
             let (mut force, mut sums) = (0.0, [0.0; 2]);
-            still[index].patches(&motion, |seen| {
+            still[index].patches(&motion, [0.0; 2], |seen| {
                 let normal = seen.forces.normal * seen.patch.share;
                 force += normal * seen.normal.0[2];
                 sums[0] += normal;
@@ -351,6 +356,7 @@ fn on_rails(setup: &Setup) -> Option<([WheelOnRail; 2], f64)> {
         side,
         search: search.clone(),
         law: law.clone(),
+        roll: setup.support.as_ref().and_then(RailSupport::rolling),
     };
     let wheels = [
         wheel("wheel_l", Side::Left, left),

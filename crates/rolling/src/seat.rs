@@ -27,19 +27,19 @@ impl Search {
 }
 
 impl WheelOnRail {
-    /// Returns the seat of the wheel.
+    /// Returns the seat of the wheel, at internal states.
     #[must_use]
-    pub fn seat(&self, motion: &RelativeMotion<f64>) -> Seat {
+    pub fn seat(&self, motion: &RelativeMotion<f64>, states: [f64; 2]) -> Seat {
         let pair = self.search.pair();
         let mut most: Option<(f64, f64)> = None;
-        self.patches(motion, |seen| {
+        self.patches(motion, states, |seen| {
             let normal = seen.forces.normal * seen.patch.share;
             if normal > most.map_or(0.0, |(force, _)| force) {
                 most = Some((normal, seen.patch.profile));
             }
         });
         let Some((_, profile)) = most else {
-            let pose = self.placed(motion).pose;
+            let pose = self.placed(motion, states).pose;
             let [low, high] = pair.rail_range(pose.along);
             let touch = pair.touch(&pose);
             return match touch {
@@ -65,6 +65,6 @@ impl Rig {
         let Some(motions) = self.motions(seen) else {
             return [Seat::OnRail; 2];
         };
-        motions.map(|(wheel, motion)| wheel.seat(&motion))
+        motions.map(|(wheel, motion, states)| wheel.seat(&motion, states))
     }
 }

@@ -1,6 +1,7 @@
 //! A sprung rail that follows its wheel.
 //!
-//! The rail under a wheel is a body with a mass and three displacements; it does not turn, and the wheel's
+//! The rail under a wheel is a body with a mass and three displacements; it does not turn (the roll of a beam
+//! is a state of the wheel on it, [`RailBeam::rolling`]), and the wheel's
 //! place relative to the rail is its place relative to the undeformed track less these displacements. So the
 //! body needs not be carried along: what runs with the wheel is a displacement of the track, whose axes are
 //! fixed. Springs and dampers to ground are equal in both level directions, so that they do not depend on the
@@ -23,7 +24,7 @@ use mechanics::motion::Motion;
 use mechanics::vector::Vector;
 use numerics::scalar::Real;
 
-use crate::beam::RailBeam;
+use crate::beam::{RailBeam, RailRoll};
 
 /// Springs and dampers under a rail.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,6 +57,14 @@ impl RailSupport {
             preload: mass * gravity,
             beam: None,
         }
+    }
+}
+
+impl RailSupport {
+    /// Returns how the rail rolls under a wheel; none where it is no beam.
+    #[must_use]
+    pub fn rolling(&self) -> Option<RailRoll> {
+        self.beam.as_ref().map(RailBeam::rolling)
     }
 }
 

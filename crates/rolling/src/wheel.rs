@@ -18,6 +18,17 @@
 //! The spin of a round wheel enters by its rate only; of one that is not round the angle that is down is
 //! read from the axes of marker A, which spin with the wheel.
 //!
+//! **Roll of the rail.** Where the rail rolls under the wheel ([`RailRoll`]), the roll θ is an internal state
+//! of the element: outwards about an axis along the rail, which lies `base` to the field side of the
+//! profile's origin and `height` below it. Marker B is then the base, the section is turned by θ about that
+//! axis, velocities are those relative to the head, and
+//!
+//! ```text
+//! J θ¨ = M - k θ - c θ˙,   M: moment of the wheel's forces on the rail about the axis.
+//! ```
+//!
+//! States are `height θ` and `height θ˙` times 1 ms.
+//!
 //! **Energy.** Stored is `Σ 2/5 k d^2.5` at the pose. What the elastic normal forces take and the energy does
 //! not hold is the element's work (`element_work` in the ledger): k changes with the place of a patch, shares
 //! change where patches merge, and the normal of a section leaves out how the section turns along the track.
@@ -27,9 +38,10 @@
 use std::sync::Arc;
 
 use mechanics::element::{Element, Wrench};
-use mechanics::link::RelativeMotion;
+use mechanics::link::{Marker, RelativeMotion};
+use mechanics::system::{Model, Observation};
 use mechanics::vector::{Matrix, Vector};
-use numerics::scalar::{Dual, Real};
+use numerics::scalar::{Dual, Number, Real};
 use wheelrail::contact::{
     ContactLaw, ContactPair, ContactPatch, ContactTable, FindPatches, PatchForces, Side, WheelMotion,
     WheelPose, stored_energy,
@@ -38,6 +50,10 @@ use wheelrail::hertz::Material;
 use wheelrail::track::{Line, RailLines, TrackSection};
 
 use crate::ahead::{ahead, axis_ahead};
+use crate::beam::RailRoll;
+
+/// The time whose way stands for a rate among internal states, s.
+const WAY: f64 = 1e-3;
 
 /// The search for patches.
 #[derive(Clone, Debug)]
@@ -92,6 +108,33 @@ pub struct WheelOnRail {
     pub search: Search,
     /// The laws of the contact.
     pub law: ContactLaw,
+    /// How the rail rolls under it; none: not at all.
+    pub roll: Option<RailRoll>,
+}
+
+/// A wheel among the elements of a system.
+#[derive(Clone, Debug)]
+pub struct WheelElement {
+    /// The wheel.
+    pub wheel: WheelOnRail,
+    /// Its number among the elements.
+    number: usize,
+}
+
+impl WheelElement {
+    /// Adds a wheel between markers on a wheelset and on what the rail is.
+    #[must_use]
+    pub fn add(model: &mut Model, wheel: WheelOnRail, on: (usize, Marker), rail: (usize, Marker)) -> Self {
+        let number = model.elements.len();
+        model.add(wheel.clone(), on, rail);
+        Self { wheel, number }
+    }
+
+    /// Returns its internal states at an observation of the system.
+    #[must_use]
+    pub fn states(&self, seen: &Observation) -> [f64; 2] {
+        seen.elements[self.number].states
+    }
 }
 
 /// A patch with its forces.
@@ -144,9 +187,43 @@ fn angle_down<S: Real>([x, y, z]: [S; 3], forward: [S; 3]) -> S {
     sine.chain(angle, cosine.value()) + cosine.chain(0.0, -sine.value())
 }
 
+/// Returns a section that is rolled outwards, by the sine and the cosine of the angle.
+#[inline(always)]
+fn rolled<S: Real>(
+    section: TrackSection<S>,
+    side: Side,
+    own: &RailRoll,
+    (sine, cosine): (S, S),
+) -> TrackSection<S> {
+    let [along, left, up] = section.axes;
+    let out = match side {
+        Side::Left => left,
+        Side::Right => left.map(|component| -component),
+    };
+    let turned_out = [0, 1, 2].map(|i| out[i] * cosine - up[i] * sine);
+    let turned_up = [0, 1, 2].map(|i| out[i] * sine + up[i] * cosine);
+    let moved = |i: usize| (out[i] - turned_out[i]) * own.base + (turned_up[i] - up[i]) * own.height;
+    TrackSection {
+        origin: [0, 1, 2].map(|i| section.origin[i] + moved(i)),
+        axes: [
+            along,
+            match side {
+                Side::Left => turned_out,
+                Side::Right => turned_out.map(|component| -component),
+            },
+            turned_up,
+        ],
+        ..section
+    }
+}
+
 /// The inputs of an evaluation.
 pub(crate) struct Placed<S> {
     section: TrackSection<S>,
+    /// The axes of the section of a rail that has not rolled.
+    unrolled: [[S; 3]; 3],
+    /// Marker A to the left and above the axis about which the rail rolls.
+    arm: [S; 2],
     pub(crate) pose: WheelPose<S>,
     motion: WheelMotion<S>,
     /// The pose with its change in time.
@@ -161,29 +238,76 @@ impl WheelOnRail {
         }
     }
 
+    /// Returns the roll of the rail (rad, outwards) and its rate from internal states.
+    #[must_use]
+    pub fn rail_roll(&self, states: [f64; 2]) -> [f64; 2] {
+        self.roll.map_or([0.0; 2], |own| {
+            [states[0] / own.height, states[1] / (WAY * own.height)]
+        })
+    }
+
     #[inline(always)]
-    pub(crate) fn placed<S: Real>(&self, motion: &RelativeMotion<S>) -> Placed<S> {
+    pub(crate) fn placed<S: Real>(&self, motion: &RelativeMotion<S>, states: [S; 2]) -> Placed<S> {
         let (center, axle) = (motion.position, motion.rotation.column(1));
         let foot = self.lines.foot(self.line(), center.value().0);
-        let section = foot.section(center.0);
         let [at, direction] = ahead(motion);
         let turns = self.search.pair().form().is_some();
         let forward = turns.then(|| motion.rotation.column(0).0);
         let forward_ahead = turns.then(|| axis_ahead(motion, 0));
+        let (mut section, mut section_ahead) = (foot.section(center.0), foot.section(at));
+        let (mut velocity, mut angular_velocity) = (motion.velocity.0, motion.angular_velocity.0);
+        let (unrolled, mut arm) = (section.axes, [S::zero(); 2]);
+        if let Some(own) = &self.roll {
+            let [angle, rate] = [
+                states[0] * (1.0 / own.height),
+                states[1] * (1.0 / (WAY * own.height)),
+            ];
+            let sign = self.sign();
+            let [_, left, up] = section.of([0, 1, 2].map(|i| center.0[i] - section.origin[i]));
+            arm = [left + -sign * own.base, up + own.height];
+            // The head turns about the axis: relative to it the wheel moves the other way.
+            let [along, across, above] = unrolled;
+            for i in 0..3 {
+                velocity[i] = velocity[i] - (across[i] * arm[1] - above[i] * arm[0]) * (rate * sign);
+                angular_velocity[i] += along[i] * (rate * sign);
+            }
+            section = rolled(section, self.side, own, angle.sin_cos());
+            let moving = Dual {
+                value: angle.value(),
+                derivative: [rate.value()],
+            };
+            section_ahead = rolled(section_ahead, self.side, own, moving.sin_cos());
+        }
         Placed {
             pose: pose_in(&section, self.side, center.0, axle.0, forward),
             motion: WheelMotion {
-                velocity: section.of(motion.velocity.0),
-                angular_velocity: section.of(motion.angular_velocity.0),
+                velocity: section.of(velocity),
+                angular_velocity: section.of(angular_velocity),
             },
-            moving: pose_in(&foot.section(at), self.side, at, direction, forward_ahead),
+            moving: pose_in(&section_ahead, self.side, at, direction, forward_ahead),
             section,
+            unrolled,
+            arm,
         }
     }
 
-    /// Gives all patches with their forces to `see`; returns the distance of the wheel along the track, m.
-    pub fn patches(&self, motion: &RelativeMotion<f64>, mut see: impl FnMut(PatchState)) -> f64 {
-        let placed = self.placed(motion);
+    /// Returns 1 on the left, -1 on the right.
+    fn sign(&self) -> f64 {
+        match self.side {
+            Side::Left => 1.0,
+            Side::Right => -1.0,
+        }
+    }
+
+    /// Gives all patches with their forces to `see`, at internal states; returns the distance of the wheel
+    /// along the track, m.
+    pub fn patches(
+        &self,
+        motion: &RelativeMotion<f64>,
+        states: [f64; 2],
+        mut see: impl FnMut(PatchState),
+    ) -> f64 {
+        let placed = self.placed(motion, states);
         let section = &placed.section;
         self.law.on_wheel(
             &self.search,
@@ -208,8 +332,8 @@ impl WheelOnRail {
     /// where it is not over it. What a contact in the plane of the axle says: with yaw or on a rail that
     /// changes along the track it is that of the silhouette there.
     #[must_use]
-    pub fn lift(&self, motion: &RelativeMotion<f64>) -> Option<f64> {
-        let pose = self.placed(motion).pose;
+    pub fn lift(&self, motion: &RelativeMotion<f64>, states: [f64; 2]) -> Option<f64> {
+        let pose = self.placed(motion, states).pose;
         match &self.search {
             Search::Exact(pair) => pair.lift(&pose),
             Search::Table(table) => table.pair().lift(&pose),
@@ -226,27 +350,60 @@ impl Element for WheelOnRail {
         true
     }
 
+    fn has_states(&self) -> bool {
+        self.roll.is_some()
+    }
+
     #[inline(always)]
     fn evaluate<S: Real>(&self, motion: &RelativeMotion<S>) -> Wrench<S> {
-        let placed = self.placed(motion);
+        self.evaluate_with(motion, [S::zero(); 2]).0
+    }
+
+    #[inline(always)]
+    fn evaluate_with<S: Real>(&self, motion: &RelativeMotion<S>, states: [S; 2]) -> (Wrench<S>, [S; 2]) {
+        let placed = self.placed(motion, states);
         let (found, rate) = self.law.on_moving_wheel(
             &self.search,
             self.side,
             (&placed.pose, &placed.motion),
             &placed.moving,
         );
-        Wrench {
+        let mut wrench = Wrench {
             force: Vector(placed.section.fixed(found.force)),
             moment: Vector(placed.section.fixed(found.moment)),
             powers: [
                 found.creep_power + found.damping_power,
                 (found.elastic_power - rate) * -1.0,
             ],
-        }
+        };
+        let Some(own) = &self.roll else {
+            return (wrench, [S::zero(); 2]);
+        };
+        // What the wheel does to the rail about the axis, outwards: arms are square to the line.
+        let [along, left, up] = placed.unrolled;
+        let [across, above] = [left, up].map(|axis| Vector(axis).dot::<S, S>(wrench.force));
+        let about = Vector(along).dot::<S, S>(wrench.moment);
+        let outwards = (about + placed.arm[0] * above - placed.arm[1] * across) * self.sign();
+        let [angle, turning] = [
+            states[0] * (1.0 / own.height),
+            states[1] * (1.0 / (WAY * own.height)),
+        ];
+        let acceleration = (outwards - angle * own.stiffness - turning * own.damping) * (1.0 / own.inertia);
+        wrench.powers[0] += turning * turning * own.damping;
+        let rates = [states[1] * (1.0 / WAY), acceleration * (WAY * own.height)];
+        (wrench, rates)
     }
 
     fn energy(&self, motion: &RelativeMotion<f64>) -> f64 {
-        stored_energy(&self.search, &self.placed(motion).pose)
+        self.energy_with(motion, [0.0; 2])
+    }
+
+    fn energy_with(&self, motion: &RelativeMotion<f64>, states: [f64; 2]) -> f64 {
+        let stored = stored_energy(&self.search, &self.placed(motion, states).pose);
+        let [angle, rate] = self.rail_roll(states);
+        self.roll.map_or(stored, |own| {
+            stored + 0.5 * (own.stiffness * angle * angle + own.inertia * rate * rate)
+        })
     }
 }
 

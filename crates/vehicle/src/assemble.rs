@@ -25,7 +25,7 @@ use crate::catalog::{Element, Place};
 use crate::channel::Channels;
 use crate::drawing::{Drawing, DrawnBody, DrawnElement, Solid};
 use crate::error::VehicleError;
-use crate::on_track::{Axle, OnTrack, add_wheels, wheelset_body};
+use crate::on_track::{Axle, OnTrack, add_wheels, mount_wheels, wheelset_body};
 use crate::seen;
 
 /// The start of a vehicle.
@@ -431,10 +431,18 @@ impl Nominal {
                 numbers.extend(parts);
             }
             let limits = Arc::new(on.climb_limits());
+            mount_wheels(&mut model, &mut axles, on);
             for (number, axle) in axles.iter().enumerate() {
-                axle.add(&mut model);
                 let loads = static_loads.get(number).copied().unwrap_or_default();
                 channels.push(seen::of_axle((axle, number), loads, &limits));
+            }
+            for (number, (truck, pair)) in on.trucks.iter().zip(axles.chunks_exact(2)).enumerate() {
+                let [front, rear] = [&pair[0], &pair[1]];
+                if front.is_on_beams() {
+                    let own = [2 * number, 2 * number + 1];
+                    let loads = own.map(|axle| static_loads.get(axle).copied().unwrap_or_default());
+                    channels.push(seen::of_sides(&truck.name, [front, rear], loads));
+                }
             }
             for own in on.all_accelerometers(&names_of(bodies)) {
                 let center = bodies.get(own.body - 1).map_or(own.at, |body| body.place);

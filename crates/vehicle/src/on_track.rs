@@ -243,9 +243,23 @@ pub struct Axle {
     /// The bodies under its left and right wheel.
     under: [usize; 2],
     wheels: [WheelOnRail; 2],
+    /// The numbers of the wheels among the elements.
+    elements: [usize; 2],
+    /// The rails under it, if they are beams.
+    beam: Option<UnderAxle>,
     half: f64,
     radius: f64,
     lines: Arc<RailLines>,
+}
+
+/// Rails that are beams, under a wheelset.
+#[derive(Clone, Copy, Debug)]
+struct UnderAxle {
+    /// Height of the heads, m.
+    height: f64,
+    /// The share of the rolls under another wheelset that is felt here, and the numbers of its wheels among
+    /// the elements.
+    neighbor: Option<(f64, [usize; 2])>,
 }
 
 /// A wheelset against the track, with its wheels on the rails.
@@ -265,6 +279,8 @@ pub struct AxleState {
     pub spin: f64,
     /// The left and the right wheel on their rails.
     pub wheels: [WheelLoads; 2],
+    /// By how much the heads of both rails have moved apart under it, m: zero where rails do not give way.
+    pub gauge_widening: f64,
 }
 
 impl Axle {
@@ -284,8 +300,33 @@ impl Axle {
             yaw: -libm::asin(axle[0].clamp(-1.0, 1.0)),
             ..AxleState::default()
         };
-        state.wheels = [0, 1].map(|i| WheelLoads::of((&self.wheels[i], i), &self.motion(seen, i), &section));
+        state.wheels = [0, 1].map(|i| {
+            let motion = self.motion(seen, i);
+            WheelLoads::of((&self.wheels[i], i), (&motion, self.states(seen, i)), &section)
+        });
+        if let Some(beam) = &self.beam {
+            for (i, sign) in [1.0, -1.0].into_iter().enumerate() {
+                let roll = &mut state.wheels[i].rail_roll;
+                if let Some((share, elements)) = beam.neighbor {
+                    let states = seen.elements[elements[i]].states;
+                    *roll += share * self.wheels[i].rail_roll(states)[0];
+                }
+                let bed = self.beds.map_or(0, |beds| beds[i]);
+                let moved = seen.bodies[self.under[i]].origin - seen.bodies[bed].origin;
+                state.gauge_widening += sign * section.of(moved.0)[1] + beam.height * *roll;
+            }
+        }
         state
+    }
+
+    fn states(&self, seen: &Observation, side: usize) -> [f64; 2] {
+        seen.elements[self.elements[side]].states
+    }
+
+    /// Returns whether the rails under it are beams.
+    #[must_use]
+    pub fn is_on_beams(&self) -> bool {
+        self.beam.is_some()
     }
 
     fn motion(&self, seen: &Observation, side: usize) -> mechanics::link::RelativeMotion<f64> {
@@ -298,7 +339,9 @@ impl Axle {
     /// words.
     #[must_use]
     pub fn left_rail(&self, seen: &Observation) -> Option<(f64, String)> {
-        let left = |side: &usize| self.wheels[*side].seat(&self.motion(seen, *side)) != Seat::OnRail;
+        let left = |side: &usize| {
+            self.wheels[*side].seat(&self.motion(seen, *side), self.states(seen, *side)) != Seat::OnRail
+        };
         let side = SIDES[[0, 1].into_iter().find(left)?];
         let (at, name) = (self.state(seen).distance, self.name.replace('_', " "));
         let words = format!("the {side} wheel of {name} left its rail at {at:.1} m along the track");
@@ -340,10 +383,9 @@ pub(crate) fn add_wheels(
         .collect();
     // The wheelsets of trucks come first. Rails that are beams are shared within trucks.
     let shared: Vec<_> = on.trucks.iter().map(|truck| on.shared(truck)).collect();
-    let ground = |number: usize, support: &RailSupport| match (shared.get(number / 2), &support.beam) {
-        (Some(Some(own)), _) => own.ground.clone(),
-        (_, Some(beam)) => beam.alone(support),
-        (_, None) => support.clone(),
+    let ground = |number: usize, support: &RailSupport| match shared.get(number / 2) {
+        Some(Some(own)) => own.ground.clone(),
+        _ => support.clone(),
     };
     let under: Vec<[usize; 2]> = wheelsets
         .iter()
@@ -392,7 +434,10 @@ pub(crate) fn add_wheels(
                 side: [Side::Left, Side::Right][i],
                 search: searches[i].clone(),
                 law: on.wheels.laws[i].clone(),
+                roll: on.support.as_ref().and_then(RailSupport::rolling),
             }),
+            elements: [0; 2],
+            beam: None,
             half,
             radius: on.radius(),
             lines: lines.clone(),
@@ -400,14 +445,27 @@ pub(crate) fn add_wheels(
         .collect()
 }
 
-impl Axle {
-    /// Adds the elements of its wheels.
-    pub(crate) fn add(&self, model: &mut Model) {
-        let track = Marker::new([0.0; 3], [0.0; 3]);
+/// Adds the elements of all wheels; wheelsets of trucks, which come first, share rails that are beams.
+pub(crate) fn mount_wheels(model: &mut Model, axles: &mut [Axle], on: &OnTrack) {
+    let track = Marker::new([0.0; 3], [0.0; 3]);
+    for axle in &mut *axles {
         for i in 0..2 {
-            let left = [self.half, -self.half][i];
-            let at = (self.body, marker(left));
-            model.add(self.wheels[i].clone(), at, (self.under[i], track));
+            let left = [axle.half, -axle.half][i];
+            let at = (axle.body, marker(left));
+            axle.elements[i] = model.elements.len();
+            model.add(axle.wheels[i].clone(), at, (axle.under[i], track));
         }
+    }
+    let Some(beam) = on.support.as_ref().and_then(|support| support.beam.as_ref()) else {
+        return;
+    };
+    let elements: Vec<[usize; 2]> = axles.iter().map(|axle| axle.elements).collect();
+    for (number, axle) in axles.iter_mut().enumerate() {
+        let neighbor = on.trucks.get(number / 2).and_then(|truck| {
+            let share = beam.roll(truck.parameters.geometry.wheelbase) / beam.roll(0.0);
+            Some((share, *elements.get(number ^ 1)?))
+        });
+        let height = beam.height;
+        axle.beam = Some(UnderAxle { height, neighbor });
     }
 }

@@ -212,6 +212,8 @@ const WEINSTOCK: &str = "sizes of both wheels' L/V over Weinstock's limit: Nadal
 const ANGLE: &str = "angle of the contact that carries most, against the track's plane, positive where it \
                      rises to the field side; zero without contact";
 const LIFT: &str = "how far the wheel must be lowered until it bears on its rail; zero while it bears";
+const RAIL_ROLL: &str = "roll of the rail under the wheel about its base, outwards";
+const WIDENING: &str = "how far the heads of both rails have moved apart under the wheelset";
 const WEAR: &str = "energy that creep takes by the distance: creep forces times creepages";
 
 /// Columns of a wheelset, the wheels' after these.
@@ -279,6 +281,12 @@ pub(crate) fn of_axle(
         columns.push(own(&format!("{side}_nadal_share"), Kind::Dimensionless, NADAL));
     }
     columns.push(own("weinstock_share", Kind::Dimensionless, WEINSTOCK));
+    let on_beams = axle.is_on_beams();
+    if on_beams {
+        let of_sides = SIDES.map(|side| own(&format!("{side}_rail_roll"), Kind::Angle, RAIL_ROLL));
+        columns.extend(of_sides);
+        columns.push(own("gauge_widening", Kind::Length, WIDENING));
+    }
     let (axle, limits) = (axle.clone(), limits.clone());
     Channels::new(columns, move |view, row| {
         let state = axle.state(view.seen);
@@ -293,6 +301,30 @@ pub(crate) fn of_axle(
             row.extend([ratios[side], ratios[side] / limits.nadal[side]]);
         }
         row.push(limits.weinstock_share(ratios));
+        if on_beams {
+            row.extend(state.wheels.map(|wheel| wheel.rail_roll));
+            row.push(state.gauge_widening);
+        }
+    })
+}
+
+/// Returns the ratios of the sides of a truck, whose wheels have these static loads (N; zero: not known).
+pub(crate) fn of_sides(name: &str, axles: [&Axle; 2], loads: [[f64; 2]; 2]) -> Channels {
+    let columns = SIDES.map(|side| {
+        let text = format!(
+            "{name}: lateral over vertical forces of both wheels of the side; zero below a hundredth of the \
+             static load"
+        );
+        column(format!("{name}_{side}_side_l_over_v"), Kind::Dimensionless, text)
+    });
+    let axles = axles.map(Clone::clone);
+    Channels::new(columns.to_vec(), move |view, row| {
+        let states = axles.each_ref().map(|axle| axle.state(view.seen).wheels);
+        row.extend([0, 1].map(|side| {
+            let sum = |force: fn(&WheelLoads) -> f64| force(&states[0][side]) + force(&states[1][side]);
+            let load = loads[0][side] + loads[1][side];
+            ratio(sum(|own| own.lateral), sum(|own| own.vertical), load)
+        }));
     })
 }
 

@@ -45,6 +45,7 @@ fn largest_ratio(law: ContactLaw, attack: f64, load: f64) -> [f64; 2] {
         side: Side::Left,
         search: search[0].clone(),
         law,
+        roll: None,
     };
     let rotation: Matrix<f64> = rotation_z(libm::sincos(attack));
     let axle: Vector<f64> = rotation.column(1);
@@ -72,7 +73,7 @@ fn largest_ratio(law: ContactLaw, attack: f64, load: f64) -> [f64; 2] {
         let own = free(shift, zero([0.45, 0.465], up));
         let [_, lateral, vertical] = wheel.evaluate(&own).force.0;
         let mut most = (0.0, 0.0);
-        wheel.patches(&own, |patch| {
+        wheel.patches(&own, [0.0; 2], |patch| {
             let [x, y, z] = patch.normal.0;
             if patch.forces.normal > most.0 {
                 most = (patch.forces.normal, libm::hypot(x, y) / z);

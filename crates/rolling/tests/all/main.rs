@@ -13,4 +13,5 @@ mod hunting;
 mod impact;
 mod manchester;
 mod not_round;
+mod rolled_rail;
 mod stability;

@@ -12,8 +12,10 @@ pub mod suspended;
 use std::sync::Arc;
 
 use integrate::{Integrator, Options};
+use rolling::beam::RailBeam;
 use rolling::carriage::Carriage;
 use rolling::rig::{Rig, RigStart, Setup, Wheels};
+use rolling::track::RailSupport;
 use rolling::wheel::Search;
 use rolling::wheelset::WheelsetBody;
 use wheelrail::conicity::LinearGeometry;
@@ -108,6 +110,18 @@ pub fn on_rails(
         support: None,
         gravity: 9.81,
         heading: 0.0,
+    }
+}
+
+/// Puts a setup on rails 136RE as beams on the default support.
+pub fn on_beams(setup: Setup) -> Setup {
+    let support = RailSupport {
+        beam: Some(RailBeam::rail_136re()),
+        ..RailSupport::default_support("rail", setup.gravity)
+    };
+    Setup {
+        support: Some(support),
+        ..setup
     }
 }
 
