@@ -154,11 +154,13 @@ impl Car {
         let lines = Arc::new(RailLines::new(parameters.track.clone(), offsets));
         let heading = parameters.start.heading;
         let mut nominal = Nominal::new(parameters, &carried, &searches, &lines, heading);
+        let mut states = Vec::new();
         let (poses, internal, start_warning, before_shaking) = match parameters.start.kind {
             StartKind::Nominal => (nominal.poses(), Vec::new(), None, None),
             StartKind::Equilibrium => {
                 let standing = standing_searches(&parameters.wheels, &searches)?;
                 let found = at_rest(parameters, &carried, &standing, offsets)?;
+                states = found.states;
                 (found.poses, Vec::new(), found.warning, None)
             }
             StartKind::Shaken => {
@@ -180,6 +182,7 @@ impl Car {
         if internal.len() == own.len() {
             initial_state[own].copy_from_slice(&internal);
         }
+        system.set_element_states(&states, &mut initial_state);
         let first = system.layout().speeds;
         for (body, rates) in speeds {
             for (k, rate) in rates.into_iter().enumerate() {

@@ -148,6 +148,7 @@ impl SteadyCar {
         let layout = system.layout();
         let mut state = self.state.clone();
         state[layout.speeds..].fill(0.0);
+        system.set_element_states(&system.element_states(&self.state), &mut state);
         let start = &self.car.initial_state;
         let rates = (0..system.bodies().len()).flat_map(|body| (0..6).map(move |k| (body, k)));
         let rate_of = |body: usize, k: usize| Some(layout.speeds + system.position_of(body, k)?);

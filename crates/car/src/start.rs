@@ -30,6 +30,8 @@ pub(crate) struct Resting {
     pub poses: Vec<Pose>,
     /// The internal states: deflections of bristles and accumulators, m.
     pub internal: Vec<f64>,
+    /// Those of elements, such as the rolls of rails.
+    pub states: Vec<(String, [f64; 2])>,
     /// The wedges of both trucks.
     pub wedges: [[WedgeLoads; 4]; 2],
     /// The warning of a state that is nearly at rest.
@@ -120,6 +122,7 @@ impl Standing {
             has_tipped: has_tipped(&mut system, body, &state),
             poses,
             internal: state[own].to_vec(),
+            states: system.element_states(&state),
             wedges,
             warning,
         })

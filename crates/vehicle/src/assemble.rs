@@ -93,6 +93,8 @@ pub struct Vehicle {
 /// A vehicle at rest, on straight perfect track if it runs on one.
 struct Resting {
     positions: Vec<f64>,
+    /// Internal states of elements, such as the rolls of rails.
+    states: Vec<(String, [f64; 2])>,
     /// The warning of a state that is nearly at rest.
     warning: Option<String>,
     /// Vertical forces of the wheels of each wheelset on the rails, left and right, N.
@@ -159,6 +161,7 @@ impl Vehicle {
         if let (StartKind::Equilibrium, Some(rest)) = (description.start, rest) {
             start_warning = rest.warning;
             initial_state[..speeds].copy_from_slice(&rest.positions);
+            system.set_element_states(&rest.states, &mut initial_state);
         }
         let rest = initial_state.clone();
         let on_track = description.on_track.is_some();
@@ -325,6 +328,7 @@ fn at_rest(bodies: &[RigidBody], description: &Description) -> Result<Resting, V
         }
     }
     Ok(Resting {
+        states: still.element_states(&rest.state),
         positions,
         warning: rest.warning,
         loads,

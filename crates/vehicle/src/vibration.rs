@@ -45,7 +45,9 @@ impl Vehicle {
     pub fn settle(&mut self, x: &[f64]) {
         let layout = self.system.layout();
         let before = std::mem::replace(&mut self.rest, x.to_vec());
+        let states = self.system.element_states(x);
         self.rest[layout.speeds..].fill(0.0);
+        self.system.set_element_states(&states, &mut self.rest);
         let rate_of = |body: usize, k: usize| Some(layout.speeds + self.system.position_of(body, k)?);
         for (body, forward) in &self.running {
             if let Some(rate) = rate_of(*body, *forward) {

@@ -30,19 +30,14 @@ fn analytic_rails_under_a_car_at_rest() {
     };
     let ([near, far], [aside, far_aside]) = (flexibility(1), flexibility(0));
     let rails = car.numbers.rails.unwrap();
-    // Moments of the patches about the base, the other way round than the car's: by hand.
+    // Moments of the patches about the base, in axes of the head.
     let mut moments = [[0.0; 2]; 4];
     car.patches(&seen, |w, side, patch| {
-        let sign = [1.0, -1.0][side];
-        let share = patch.patch.share;
-        let normal = patch.normal.0.map(|own| -own * patch.forces.normal * share);
-        let across = patch.patch.across();
-        let creep = [across[1], across[2]].map(|own| -own * patch.forces.creep.y * share);
-        let ([outwards, up], place) = (
-            [sign * normal[1] + creep[0], normal[2] + creep[1]],
-            patch.patch.place,
-        );
-        moments[w][side] += outwards * (place[2] + beam.height) - up * (place[1] - beam.base);
+        let (normal, across, place) = (patch.patch.normal(), patch.patch.across(), patch.patch.place);
+        let on_rail = |k: usize| {
+            -(normal[k] * patch.forces.normal + across[k] * patch.forces.creep.y) * patch.patch.share
+        };
+        moments[w][side] += on_rail(1) * (place[2] + beam.height) - on_rail(2) * (place[1] - beam.base);
     });
     let roll = |at: f64| {
         let rate = (beam.roll_stiffness / beam.torsion).sqrt();

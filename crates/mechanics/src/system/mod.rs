@@ -324,6 +324,28 @@ impl System {
             .map(|j| free.offset + j)
     }
 
+    /// Returns the internal states (m) in a state of the system of all elements that have some and are no
+    /// faces, with their names.
+    #[must_use]
+    pub fn element_states(&self, x: &[f64]) -> Vec<(String, [f64; 2])> {
+        let internal = self.internal(x);
+        let with_states = self.elements.iter().filter(|own| own.internal_count > 0);
+        with_states
+            .map(|own| (own.element.element.name().to_owned(), own.states(internal)))
+            .collect()
+    }
+
+    /// Writes these into a state of a system with elements of these names.
+    pub fn set_element_states(&self, states: &[(String, [f64; 2])], x: &mut [f64]) {
+        let first = 2 * self.layout.speeds;
+        for own in self.elements.iter().filter(|own| own.internal_count > 0) {
+            let found = states.iter().find(|(name, _)| name == own.element.element.name());
+            if let Some((_, states)) = found {
+                x[first + own.first_internal..][..2].copy_from_slice(states);
+            }
+        }
+    }
+
     /// Leaves the error of a body's coordinate (0..6) out of the error control, as that of the angle of a
     /// wheel that spins: its error is without consequence, while its rate's has some. Returns false if it is
     /// not free.
