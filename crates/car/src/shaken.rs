@@ -151,7 +151,10 @@ fn compute(own: &Parameters) -> Result<Shaken, BuildError> {
     let searches: Vec<[Search; 2]> = searches(&own.wheels)?;
     let offsets = own.rail_offsets();
     let before = at_rest(own, &carried, &searches, offsets)?;
-    let (car, mut poses, internal) = run(own)?;
+    let (car, mut poses, mut state) = run(own)?;
+    // Wheels stand on the track as before, and rails under them roll as before.
+    car.system.set_element_states(&before.states, &mut state);
+    let internal = state[internal_states(&car.system)].to_vec();
     let wheelsets = car.numbers.wheelsets;
     let [from, to] = [&poses, &before.poses].map(|own| frames(own, wheelsets, false));
     let rails = car.numbers.rails.into_iter().flatten().flatten();
@@ -215,8 +218,7 @@ fn run(own: &Parameters) -> Result<(Car, Vec<Pose>, Vec<f64>), BuildError> {
         place: state.origin,
         rotation: state.rotation,
     });
-    let internal = x[internal_states(&system)].to_vec();
-    Ok((car, poses.collect(), internal))
+    Ok((car, poses.collect(), x.to_vec()))
 }
 
 /// Returns the axes of front truck, rear truck and body that go with their wheelsets: forward, left, up;

@@ -7,9 +7,9 @@
 //!
 //! One of its two bodies must have free coordinates, whichever.
 //!
-//! **Internal states.** An element may have a pair of states of its own ([`Element::has_states`]), whose rates
-//! it gives with its wrench: the roll of a rail under a wheel, the force of a damper in series with a spring.
-//! The integrator counts them as deflections in m; one that is a rate comes as the way of 1 ms.
+//! **Internal states.** An element may have a coordinate of its own and its velocity ([`Element::has_states`]),
+//! whose rates it gives with its wrench: the roll of a rail under a wheel, the place of a mass that swings
+//! beside a body. The integrator counts both as deflections in m: the velocity comes as the way of 1 ms.
 //!
 //! Limits: such an element has no events of its own; contact faces have.
 
@@ -56,7 +56,7 @@ pub trait Element: Clone + Debug + Send + Sync + 'static {
     /// It must not depend on anything else, so that momentum is conserved: the opposite wrench acts on B.
     fn evaluate<S: Real>(&self, motion: &RelativeMotion<S>) -> Wrench<S>;
 
-    /// Returns whether it has a pair of internal states.
+    /// Returns whether it has a coordinate of its own and its velocity as internal states.
     fn has_states(&self) -> bool {
         false
     }

@@ -1,6 +1,7 @@
 //! analytic, energy: cars on rails that the wheels of a truck share as beams.
 
-use car::{Car, Parameters};
+use car::{Car, Parameters, StartKind};
+use integrate::Problem;
 use rolling::beam::RailBeam;
 
 use crate::common::{at_start, curve, loaded, run, tangent};
@@ -85,4 +86,24 @@ fn energy_a_curve_on_shared_rails() {
     );
     assert!(last.axles[0].gauge_widening > 1e-4, "{:?}", last.axles[0]);
     assert!(last.axles[0].gauge_widening < 0.01, "{:?}", last.axles[0]);
+}
+
+/// What friction holds after shaking holds on rails that roll: the car comes to rest and starts so, as well as
+/// on pieces of rail.
+#[test]
+fn limits_a_shaken_car_rests_on_shared_rails() {
+    let shaken = |mut parameters: Parameters| {
+        parameters.start.kind = StartKind::Shaken;
+        let car = Car::new(&parameters).map_err(|error| error.to_string()).unwrap();
+        assert_eq!(car.start_warning, None);
+        let mut system = car.system.clone();
+        let mut rates = vec![0.0; car.initial_state.len()];
+        system.derivative(0.0, &car.initial_state, &mut rates);
+        let speeds = system.layout().speeds;
+        let own = &rates[speeds..2 * speeds];
+        own.iter().fold(0.0, |most: f64, own| most.max(own.abs()))
+    };
+    let pieces = loaded(tangent(200.0), 0.0);
+    let [on_pieces, shared] = [pieces.clone(), on_beams(pieces)].map(shaken);
+    assert!(shared < 0.1 && shared < 2.0 * on_pieces, "{shared} {on_pieces}");
 }

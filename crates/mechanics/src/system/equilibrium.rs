@@ -166,6 +166,13 @@ impl System {
         if friction == StaticFriction::Without {
             x[states.clone()].fill(0.0);
         }
+        // Velocities of elements' own coordinates stay zero, as the speeds of bodies do.
+        let mut moves: Vec<usize> = (0..n).chain(states.clone()).collect();
+        for group in self.pairs_of_elements() {
+            let velocity = states.start + 2 * group + 1;
+            x[velocity] = 0.0;
+            moves.retain(|own| *own != velocity);
+        }
         let mut dx = vec![0.0; x.len()];
         let mut unused = vec![0.0; x.len()];
         let mut trial = x.clone();
@@ -196,7 +203,7 @@ impl System {
             let mut next = f64::NAN;
             if self.factor(1.0 / step).is_ok() {
                 self.solve(&mut change);
-                for i in (0..n).chain(states.clone()) {
+                for &i in &moves {
                     trial[i] = x[i] + change[i];
                 }
                 self.derivative(time, &trial, &mut dx);
