@@ -171,19 +171,15 @@ impl Tangent {
         let (wrench, rates) = law.evaluate_with(&seeded::<12>(relative), states.map(Dual::from));
         let of_rates = |k: usize| rates.map(|rate| Lanes::new([rate.derivative[k], 0.0, 0.0, 0.0]));
         let rows = |first: usize| [0, 1, 2].map(|k| of_rates(first + k));
-        // By one state at a time: numbers with 14 derivatives of every law would be more code.
+        // On their own: numbers with 14 derivatives of every law would be more code.
         let lifted = RelativeMotion {
             position: Vector::lift(relative.position),
             rotation: Matrix::lift(relative.rotation),
             velocity: Vector::lift(relative.velocity),
             angular_velocity: Vector::lift(relative.angular_velocity),
         };
-        let [(first, by_first), (second, by_second)] = [0, 1].map(|k| {
-            let mut own = states.map(Dual::<1>::from);
-            own[k] = Dual::variable(states[k], 0);
-            let (wrench, rates) = law.evaluate_with(&lifted, own);
-            (column(&wrench, 0), rates.map(|rate| rate.derivative[0]))
-        });
+        let own = [0, 1].map(|k| Dual::<2>::variable(states[k], k));
+        let (by_states, [first, second]) = law.evaluate_with(&lifted, own);
         let states = StateTangent {
             rates: TangentColumns {
                 position: rows(0),
@@ -191,8 +187,13 @@ impl Tangent {
                 rotation: rows(6),
                 angular_velocity: rows(9),
             },
-            wrench: [first, second],
-            own: [by_first[0], by_second[0], by_first[1], by_second[1]],
+            wrench: [0, 1].map(|k| column(&by_states, k)),
+            own: [
+                first.derivative[0],
+                first.derivative[1],
+                second.derivative[0],
+                second.derivative[1],
+            ],
         };
         (Self::by_columns(&wrench), states)
     }

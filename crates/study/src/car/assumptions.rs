@@ -35,8 +35,8 @@ pub(crate) fn of_support(support: Option<&RailSupport>, own: &str, gravity: f64)
         None => "Rails do not give way.".to_owned(),
         Some(support) if support.beam.is_some() => {
             "Rails are beams on springs, of which the wheels of a truck on a side share one, quasi-static \
-             and without waves; springs feel the roll that lateral forces make at the head, and a wheel does \
-             not see the head turn; the roll stiffness of the foundation and the torsional stiffness of the \
+             and without waves; the rail rolls about its base under its wheel, which does not see what the \
+             other wheel's roll adds; the roll stiffness of the foundation and the torsional stiffness of the \
              rail are guesses unless given."
                 .to_owned()
         }
