@@ -80,9 +80,7 @@ impl WheelLoads {
             if carried > most[0] {
                 most = [carried, patch.patch.slope];
             }
-            let (own, slip) = (&patch.forces.creep, &patch.forces.creepage);
-            let lost = own.x * slip.longitudinal + own.y * slip.lateral + own.spin_moment * slip.spin;
-            creep -= lost * patch.patch.share;
+            creep += patch.wear_number;
         });
         Self {
             vertical: z,

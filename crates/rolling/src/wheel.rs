@@ -148,6 +148,20 @@ pub struct PatchState {
     pub place: Vector<f64>,
     /// The unit normal from the rail into the wheel, axes of marker B.
     pub normal: Vector<f64>,
+    /// What creep takes by the distance, N: creep forces times creepages, with the patch's share.
+    pub wear_number: f64,
+    /// The speed that creepages are relative to, m/s.
+    pub speed: f64,
+    /// Friction where it slides.
+    pub friction: f64,
+}
+
+impl PatchState {
+    /// Returns the power that creep takes, W.
+    #[must_use]
+    pub fn power(&self) -> f64 {
+        self.wear_number * self.speed
+    }
 }
 
 /// Returns a pose in a section: the wheel's center, its axle (to the left) and, of one that is not round, the
@@ -317,7 +331,15 @@ impl WheelOnRail {
             |patch, forces| {
                 let [x, y, z] = self.side.mirrored(patch.place);
                 let arm = section.fixed([x, y, z]);
+                let (own, slip) = (&forces.creep, &forces.creepage);
+                let lost = own.x * slip.longitudinal + own.y * slip.lateral + own.spin_moment * slip.spin;
+                let [forward, ..] = placed.motion.velocity;
+                let speed = libm::hypot(forward, self.law.slowest);
+                let sliding = [slip.longitudinal * speed, slip.lateral * speed];
                 see(PatchState {
+                    wear_number: -lost * patch.share,
+                    speed,
+                    friction: self.law.friction.at(patch.slope, placed.pose.along, sliding),
                     patch: *patch,
                     forces: *forces,
                     place: Vector([0, 1, 2].map(|i| section.origin[i] + arm[i])),

@@ -22,6 +22,7 @@ pub mod case;
 pub mod closed_form;
 pub mod contacts;
 pub mod cycles;
+pub mod damage;
 pub mod design;
 pub mod energy;
 mod finite;

@@ -34,6 +34,7 @@ pub mod climb;
 pub mod conicity;
 pub mod contact;
 pub mod creep;
+pub mod damage;
 pub mod free_rolling;
 pub mod friction;
 pub mod hertz;

@@ -47,6 +47,7 @@ use car::Parameters;
 use crate::case::Simulation;
 use crate::case::model::{Model, model_case};
 use crate::case::tables::NamedFile;
+use crate::damage::DamageLaws;
 use crate::output_files::OutputFiles;
 use crate::reader::{CaseReader, CaseText};
 use limits::LimitSet;
@@ -63,6 +64,8 @@ pub struct CarCase {
     pub parameters: Parameters,
     /// The rules of statistics.
     pub rules: Rules,
+    /// The laws of damage of wheels and rails.
+    pub damage: DamageLaws,
     /// The limits that its summary compares with; `None`: those of freight cars, built in.
     pub limits: Option<Arc<LimitSet>>,
     /// The files of its time histories.
@@ -104,6 +107,7 @@ fn read(r: &mut CaseReader<'_>, default_name: &str) -> Option<CarCase> {
     let sections::CarSections {
         parameters,
         rules,
+        damage,
         output_files,
         simulation,
         stability,
@@ -114,6 +118,7 @@ fn read(r: &mut CaseReader<'_>, default_name: &str) -> Option<CarCase> {
         title,
         parameters,
         rules,
+        damage,
         limits: None,
         output_files,
         simulation,

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use car::Wheels;
+use car::{Loads, Wheels};
 use integrate::Problem;
 use mechanics::energy_balance::Entries;
 use mechanics::output::Column;
-use mechanics::system::{ContactState, System};
+use mechanics::system::{ContactState, Observation, System};
 use quantity::{Kind, System as Units};
 use serde::{Deserialize, Serialize};
 use truck::WEDGE_NAMES;
@@ -24,6 +24,7 @@ use super::statistics::filtered::{filtered, look_ahead, with_filtered};
 use super::statistics::{Histories, SIDES, Statistic, Statistics};
 use super::summary::{CarSummary, Derailed, SCHEMA};
 use super::{couplers, limits, locked_in, peaks};
+use crate::damage::{Damage, SavedDamage, Weighed};
 use crate::energy;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
@@ -62,6 +63,10 @@ pub struct CarRecorder {
     counts: CarCounts,
     /// The start of the statistics, s.
     settle: f64,
+    /// Damage of wheels and rails; none with linear wheels.
+    damage: Option<Damage>,
+    /// The time of the row before.
+    before: f64,
     /// Poses of its bodies and forces of their faces, if asked for.
     motions: Option<MotionTable>,
 }
@@ -75,6 +80,9 @@ pub struct CarCounts {
     locked: Vec<u64>,
     /// The rows themselves, as far as the summary needs them.
     table: SavedRows,
+    /// Damage of wheels and rails.
+    #[serde(default)]
+    damage: SavedDamage,
 }
 
 impl RunCase for CarCase {
@@ -103,6 +111,8 @@ impl RunCase for CarCase {
                 ahead: None,
                 rates: vec![0.0; x.len()],
                 motions: None,
+                damage: damage_of(self),
+                before: 0.0,
                 counts: CarCounts {
                     locked: vec![0; points.len()],
                     ..CarCounts::default()
@@ -181,6 +191,7 @@ impl Recorder for CarRecorder {
     fn counts(&self) -> CarCounts {
         CarCounts {
             table: self.rows.saved(),
+            damage: self.damage.as_ref().map(Damage::saved).unwrap_or_default(),
             ..self.counts.clone()
         }
     }
@@ -195,6 +206,13 @@ impl Recorder for CarRecorder {
             return damaged("counts.locked", own, format!("at most {settled}"));
         }
         self.rows.restore(std::mem::take(&mut counts.table), times)?;
+        let saved = std::mem::take(&mut counts.damage);
+        if let Some(damage) = &mut self.damage
+            && !damage.restore(&saved)
+        {
+            return damaged("counts.damage", "sums over other profiles", "those of the case's");
+        }
+        self.before = times.last().copied().unwrap_or_default();
         self.counts = counts;
         Ok(())
     }
@@ -226,12 +244,15 @@ impl Recorder for CarRecorder {
             motions.take(self.table.car(), &observation);
         }
         if row.time >= self.settle {
+            let time = row.time - self.before.max(self.settle);
+            self.wear(&observation, &loads, time);
             self.counts.rows += 1;
             for ((_, points), locked) in self.points.iter().zip(&mut self.counts.locked) {
                 let slips = |place: &usize| row.contact_states[*place] == ContactState::Slip as u8;
                 *locked += u64::from(!points.iter().any(slips));
             }
         }
+        self.before = row.time;
         if let Some(own) = self.table.left(&loads) {
             let distance = SummaryValue::new(own.distance, Kind::Distance, self.units);
             let what = own.words(&format!("{:.1} {}", distance.value, distance.unit));
@@ -250,6 +271,33 @@ impl Recorder for CarRecorder {
     fn has_derailed(&self) -> bool {
         self.derailed.is_some()
     }
+}
+
+impl CarRecorder {
+    /// Takes the damage along that a row stands for, which is so long (s).
+    fn wear(&mut self, observation: &Observation, loads: &Loads, time: f64) {
+        let Some(damage) = &mut self.damage else { return };
+        damage.go(loads.speed * time);
+        self.table.car().patches(observation, |wheelset, side, patch| {
+            damage.take((wheelset, side), &patch, (time, loads.speed * time));
+        });
+    }
+}
+
+/// Returns damage of a case's wheels and rails, none so far; nothing with linear wheels.
+fn damage_of(case: &CarCase) -> Option<Damage> {
+    let Wheels::OnRails(own) = &case.parameters.wheels else {
+        return None;
+    };
+    let wheels = own.geometry.iter().enumerate().map(|(w, geometry)| {
+        let name = |side: usize| format!("axle_{}_{}", w + 1, SIDES[side]);
+        [0, 1].map(|side| {
+            let pair = &geometry.pairs()[side];
+            (name(side), pair.nominal_radius(), pair.wheel_range())
+        })
+    });
+    let rails = [0, 1].map(|side| own.geometry[0].pairs()[side].rail_range(0.0));
+    Some(Damage::new(case.damage.clone(), wheels.collect(), rails))
 }
 
 fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
@@ -302,6 +350,9 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         }
     }
     let wedge_losses = losses(&mut run);
+    let weight = run.case.parameters.weight();
+    let damage = run.recorder.damage.as_ref();
+    let damage = damage.and_then(|own| own.summary(Weighed { weight, units }));
     let counts = &run.recorder.counts;
     let shares = counts.locked.iter().map(|own| *own as f64 / counts.rows as f64);
     let wedges = run.recorder.points.iter().map(|(wedge, _)| wedge.clone());
@@ -336,6 +387,7 @@ fn output(mut run: Run<CarCase>, stopped: Option<Stopped>) -> CarResult {
         start: locked_in::name(run.case.parameters.start.kind).to_owned(),
         locked_in: locked_in::summary(&run.recorder.table, units),
         statics,
+        damage,
         energy,
         extremes,
         ledger,

@@ -15,6 +15,7 @@ use crate::case::problem::{Problem, Problems};
 use crate::case::section::{CaseSection, Names, Range, quantity};
 use crate::case::tree::NodeValue;
 use crate::case::{Simulation, page};
+use crate::damage::{self, DamageLaws};
 use crate::output_files::OutputFiles;
 use crate::reader::schema::Form;
 use crate::reader::{CaseReader, DAMPING, QuantityForm};
@@ -24,6 +25,7 @@ use crate::track::{Notes, Support};
 pub(super) struct CarSections {
     pub parameters: Parameters,
     pub rules: Rules,
+    pub damage: DamageLaws,
     pub output_files: OutputFiles,
     pub simulation: Simulation,
     pub stability: StabilityKeys,
@@ -82,6 +84,7 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     speed(r, &mut parameters);
     couplers::couplers(r, &mut parameters.couplers);
     start(r, &mut parameters);
+    let damage = damage::read(r);
     let mut rules = Rules::default();
     super::output::output(r, &mut rules);
     let mut output_files = OutputFiles::of_car();
@@ -97,6 +100,7 @@ pub(super) fn everything(r: &mut CaseReader<'_>) -> Option<CarSections> {
     Some(CarSections {
         parameters,
         rules,
+        damage,
         output_files,
         simulation,
         stability,

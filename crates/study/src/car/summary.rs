@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::limits::LimitCheck;
 use super::locked_in::{self, LockedIn};
 use super::statistics::Statistic;
+use crate::damage::DamageSummary;
 use crate::losses::EnergySummary;
 use crate::metrics::Extremes;
 use crate::outcome::RunEnd;
@@ -75,6 +76,9 @@ pub struct CarSummary {
     /// The car at the start: weight, wheels, heights, coils.
     #[serde(default)]
     pub statics: StaticTable,
+    /// Damage of wheels and rails by rolling; none of linear wheels and of older summaries.
+    #[serde(default)]
+    pub damage: Option<DamageSummary>,
     /// Sources and sinks of the energy of the run.
     pub energy: EnergySummary,
     /// Least and greatest values of all columns, by their names with units.

@@ -4,6 +4,7 @@
 mod assumptions;
 mod case;
 mod couplers;
+mod damage;
 mod derailment;
 mod friction;
 mod geometry;

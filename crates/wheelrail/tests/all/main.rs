@@ -10,6 +10,7 @@ mod contact_benchmark;
 mod contact_limits;
 mod contact_table;
 mod creep;
+mod damage;
 mod figures;
 mod formats;
 mod free_rolling;
