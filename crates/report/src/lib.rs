@@ -54,6 +54,7 @@ pub mod page;
 pub mod parquet;
 pub mod plot;
 pub mod result_parquet;
+pub mod route_files;
 pub mod run_files;
 pub mod run_folder;
 pub mod stability_files;

@@ -45,6 +45,7 @@ pub mod progress;
 mod reader;
 pub mod records;
 pub mod result;
+pub mod route;
 mod rows;
 pub mod run;
 mod run_error;

@@ -22,8 +22,8 @@ use numerics::processor::{OldProcessor, check};
 
 use commands::{
     assess, case, compare, completions, curves, energy, explore, fit, fmu, lock_up, man, nucars, plot,
-    quasi_static, regime, report as report_command, reproduce, run, stability, study, track, warp, wear,
-    wheelrail,
+    quasi_static, regime, report as report_command, reproduce, route, run, stability, study, track, warp,
+    wear, wheelrail,
 };
 use failure::Failure;
 
@@ -81,6 +81,7 @@ enum Command {
     Curves(curves::Arguments),
     Energy(energy::Arguments),
     Wear(wear::Arguments),
+    Route(route::Arguments),
     Stability(stability::Arguments),
     Regime(regime::Arguments),
     #[command(alias = assess::BEFORE)]
@@ -111,6 +112,7 @@ impl Cli {
             Command::Curves(arguments) => curves::execute(&arguments),
             Command::Energy(arguments) => energy::execute(&arguments),
             Command::Wear(arguments) => wear::execute(&arguments),
+            Command::Route(arguments) => route::execute(&arguments),
             Command::Stability(arguments) => stability::execute(&arguments),
             Command::Regime(arguments) => regime::execute(&arguments),
             Command::Assess(arguments) => assess::execute(&arguments),

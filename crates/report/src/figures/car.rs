@@ -4,6 +4,7 @@ use ::study::car::CarCase;
 use ::study::car::motions::MotionTable;
 use ::study::car::run::CarResult;
 use ::study::car::statistics::SIDES;
+use ::study::damage::PlaceDamage;
 use ::study::truck::WEDGE_NAMES;
 use quantity::{Kind, System as Units};
 
@@ -86,9 +87,57 @@ fn wheels(run: &CarRun, truck: usize, what: &str) -> Vec<(String, String)> {
         .collect()
 }
 
+/// Returns the figure of depths over the profiles; none of a run without damage.
+fn damage(run: &CarRun) -> Option<Exhibit> {
+    let damage = run.result.summary.damage.as_ref()?;
+    let units = run.units();
+    let over = |places: &[PlaceDamage]| -> Vec<(f64, f64)> {
+        places.iter().map(|place| (place.y, place.depth)).collect()
+    };
+    let wheels = damage.wheels.iter().enumerate().map(|(number, (name, own))| {
+        PlotCurve::new(name.replace('_', " "), distinct(number), over(&own.profile))
+    });
+    let rails = damage.rails.iter().enumerate().map(|(number, (side, own))| {
+        PlotCurve::new(format!("{side} rail"), distinct(number), over(&own.profile))
+    });
+    let panel = |title: &str, place: &str, curves: Vec<PlotCurve>| {
+        Panel::new(
+            title,
+            axis(place, Kind::Length, units),
+            axis("depth", Kind::Length, units),
+            curves,
+        )
+    };
+    let panels = vec![
+        panel(
+            "(a) wheels, 100,000 miles",
+            "to the field side of the tape circle",
+            wheels.collect(),
+        ),
+        panel(
+            "(b) rails, 1,000,000 tons",
+            "to the field side of the origin",
+            rails.collect(),
+        ),
+    ];
+    let caption = "Depth that wheels wear over 100,000 miles, and rails over 1,000,000 gross tons, of this run \
+                   again and again on profiles as they are: Archard's law by the map of [damage].";
+    let name = run.case.name.as_str();
+    Some(Exhibit::new(
+        format!("{name}_damage"),
+        Figure::new(format!("{name}: wear over the profiles"), caption, panels).in_columns(2),
+    ))
+}
+
 /// Returns the figures of a run.
 #[must_use]
 pub fn exhibits(run: &CarRun) -> Vec<Exhibit> {
+    let mut all = over_distance(run);
+    all.extend(damage(run));
+    all
+}
+
+fn over_distance(run: &CarRun) -> Vec<Exhibit> {
     let name = run.case.name.as_str();
     let exhibit = |what: &str, title: &str, caption: &str, panels: Vec<Panel>| {
         Exhibit::new(

@@ -6,7 +6,7 @@ use study::car::summary::CarSummary;
 
 use super::by_rules::{by_rules, shown};
 use super::table::{self, Head};
-use super::{figures, ledger_note, run_page, statics};
+use super::{damage, figures, ledger_note, run_page, statics};
 use crate::figures::car::{CarRun, exhibits};
 use crate::view::run::{Detail, Recording};
 
@@ -23,6 +23,7 @@ pub fn render(run: &CarRun) -> Result<String, serde_json::Error> {
         (figures(&exhibits))
         section { h2 { "At the start" } (statics::section(&summary.statics, summary.units)) }
         section { h2 { "Wedges" } (wedges(summary)) }
+        @if let Some(own) = &summary.damage { section { h2 { "Wear and fatigue" } (damage::section(own)) } }
     };
     run_page(
         summary,

@@ -4,6 +4,7 @@ pub mod assessment;
 mod by_rules;
 pub mod car_run;
 mod contents;
+mod damage;
 pub mod explorer;
 pub mod half_truck_run;
 pub mod packed;

@@ -21,7 +21,7 @@ pub use factor::{Factor, Group, Levels, Value};
 pub use latin_hypercube::LatinHypercube;
 pub use sobol::{DIMENSIONS, Sobol};
 
-pub(crate) use read::settings;
+pub(crate) use read::{case_source, settings};
 
 use crate::case::CaseError;
 use crate::measures::Definitions;

@@ -414,7 +414,12 @@ fn whole(top: &CaseSection<'_>, key: &str, least: f64, problems: &mut Problems) 
 }
 
 /// Returns the text of the case that is varied.
-fn case_source(case: &str, node: &TreeNode, folder: &Path, problems: &mut Problems) -> Option<CaseSource> {
+pub(crate) fn case_source(
+    case: &str,
+    node: &TreeNode,
+    folder: &Path,
+    problems: &mut Problems,
+) -> Option<CaseSource> {
     let path = folder.join(case);
     match CaseSource::half_truck(folder, Path::new(case)) {
         Ok(None) => {}

@@ -17,6 +17,7 @@ pub mod quasi_static;
 pub mod regime;
 pub mod report;
 pub mod reproduce;
+pub mod route;
 pub mod run;
 pub mod stability;
 mod stability_locus;

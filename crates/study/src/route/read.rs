@@ -1,0 +1,242 @@
+//! From the text of a route file to the route, with every mistake shown where it was written.
+
+use std::path::Path;
+
+use input::file::{Expected, read_text};
+use input::{FileType, limits};
+use quantity::Kind;
+
+use super::{Route, RoutePart, WedgeLaw, WheelWear, car_of};
+use crate::case::CaseError;
+use crate::case::name;
+use crate::case::problem::{Problem, Problems, TomlSource};
+use crate::case::section::{CaseSection, Names, Range};
+use crate::case::tree::{self, NodeValue, TableNode};
+use crate::design::{case_source, settings};
+
+const KEYS: [&str; 10] = [
+    "name", "title", "case", "service", "steps", "wheels", "set", "wedges", "tracks", "seasons",
+];
+const WHEELS: Names<WheelWear> = &[
+    ("mean", WheelWear::Mean),
+    ("each", WheelWear::Each),
+    ("none", WheelWear::Nothing),
+];
+/// The service of a route that says none: 100,000 miles, m.
+const SERVICE: f64 = 1e5 * 1_609.344;
+/// Shares may miss 1 by this much, as rounded ones do.
+const ROUNDED: f64 = 0.005;
+
+pub(super) fn file(path: &Path) -> Result<Route, CaseError> {
+    const ROUTE: Expected = Expected {
+        what: "route file",
+        types: &[FileType::Study, FileType::Case],
+        most: limits::TEXT_FILE,
+    };
+    let text = read_text(path, &ROUTE).map_err(|error| {
+        let help = error
+            .help()
+            .unwrap_or_else(|| "docs/route.md has a route to begin with".to_owned());
+        Problem::new(error.to_string()).help(help)
+    })?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    self::text(&path.display().to_string(), &text, folder)
+}
+
+pub(super) fn text(file: &str, text: &str, folder: &Path) -> Result<Route, CaseError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let failed = |problems| CaseError::new(problems).of("route");
+    let tree = tree::parse(&TomlSource::new(file, text)).map_err(failed)?;
+    let mut problems = Problems::new();
+    let top = CaseSection {
+        path: String::new(),
+        table: &tree,
+        place: None,
+    };
+    top.allow_in(&KEYS, &[], "a route", &mut problems);
+    let given = |key: &str| tree.get(key).is_some();
+    let stem = Path::new(file).file_stem().and_then(|stem| stem.to_str());
+    let mut own_name = stem
+        .filter(|stem| name::problem(stem).is_none())
+        .unwrap_or("route")
+        .to_owned();
+    if given("name")
+        && let Some((text, node)) = top.text("name", &mut problems)
+    {
+        problems.extend(name::problem(text).map(|problem| problem.at(&node.place)));
+        own_name = text.to_owned();
+    }
+    let title = match given("title") {
+        true => top.text("title", &mut problems).map_or("", |(text, _)| text),
+        false => "",
+    };
+    let mut service = SERVICE;
+    if given("service") {
+        let found = top.quantity("service", Kind::Distance, Range::Positive, &mut problems);
+        service = found.map_or(service, |own| own.to_si());
+    }
+    let mut steps = 1;
+    if given("steps") {
+        let range = Range::Between(1.0, 1000.0, "between 1 and 1000");
+        let found = top.number("steps", range, "4", &mut problems);
+        if found.is_some_and(|own| own.fract() != 0.0) {
+            let problem = Problem::new("`steps` is no whole number");
+            problems.push(problem.help("write for example steps = 4"));
+        }
+        steps = found.map_or(steps, |own| own as u32);
+    }
+    let wheels = match given("wheels") {
+        true => top
+            .choice("wheels", WHEELS, &mut problems)
+            .unwrap_or(WheelWear::Mean),
+        false => WheelWear::Mean,
+    };
+    let wedges = match tree.entry("wedges") {
+        Some(_) => top
+            .section("wedges", &mut problems)
+            .map(|own| WedgeLaw::read(&own, &mut problems)),
+        None => None,
+    };
+    let set = match tree.entry("set") {
+        Some(_) => top
+            .section("set", &mut problems)
+            .map_or(Vec::new(), |own| settings(own.table)),
+        None => Vec::new(),
+    };
+    let tracks = parts(&top, "tracks", &mut problems);
+    if !given("tracks") {
+        let help = "write [tracks.NAME] with a share, and below [tracks.NAME.set] keys of a car's case";
+        problems.push(Problem::new("the route has no tracks").help(help));
+    }
+    let mut seasons = parts(&top, "seasons", &mut problems);
+    if seasons.is_empty() {
+        seasons.push(RoutePart {
+            name: String::new(),
+            title: String::new(),
+            share: 1.0,
+            set: Vec::new(),
+        });
+    }
+    let help = "write case = \"car_tangent_loaded\", or the name of a car's case file beside the route";
+    let source = match top.require("case", help, &mut problems) {
+        Some(_) => top
+            .text("case", &mut problems)
+            .and_then(|(case, node)| case_source(case, node, folder, &mut problems)),
+        None => None,
+    };
+    let Some(source) = source.filter(|_| problems.is_empty()) else {
+        return Err(failed(problems));
+    };
+    let route = Route {
+        name: own_name,
+        title: title.to_owned(),
+        service,
+        steps,
+        wheels,
+        wedges,
+        set,
+        tracks,
+        seasons,
+        source,
+    };
+    car_of(&route.source, &[])?;
+    try_parts(&route, &tree)?;
+    Ok(route)
+}
+
+/// Tries each track and each season on the car; mistakes are shown in the route.
+fn try_parts(route: &Route, tree: &TableNode) -> Result<(), CaseError> {
+    let mut problems = Problems::new();
+    let mut try_one = |key: &str, set: &[String]| {
+        let all = [route.set.as_slice(), set].concat();
+        let Err(error) = car_of(&route.source, &all) else {
+            return;
+        };
+        problems.append(error.into_problems().map(|problem| {
+            let path = problem.set_path().map(|path| format!("{key}.{path}"));
+            let place = path.and_then(|path| tree.place_of(&path)).or(tree.place_of(key));
+            match place {
+                Some(place) => problem.moved_to(place),
+                None => problem,
+            }
+        }));
+    };
+    try_one("set", &[]);
+    for (kind, all) in [("tracks", &route.tracks), ("seasons", &route.seasons)] {
+        for own in all.iter().filter(|own| !own.set.is_empty()) {
+            try_one(&format!("{kind}.{}.set", own.name), &own.set);
+        }
+    }
+    match problems.is_empty() {
+        true => Ok(()),
+        false => Err(CaseError::new(problems).of("route")),
+    }
+}
+
+/// Reads tracks or seasons; their shares must sum to 1.
+fn parts(top: &CaseSection<'_>, key: &str, problems: &mut Problems) -> Vec<RoutePart> {
+    if top.table.entry(key).is_none() {
+        return Vec::new();
+    }
+    let Some(section) = top.section(key, problems) else {
+        return Vec::new();
+    };
+    let before = problems.is_empty();
+    let mut found = Vec::new();
+    for entry in &section.table.entries {
+        let path = format!("{key}.{}", entry.key);
+        let NodeValue::Table(table) = &entry.node.value else {
+            let message = format!("`{path}` is {}", entry.node.value.describe());
+            let help = format!("write [{path}] with a share, and below [{path}.set] keys of a car's case");
+            let problem = Problem::new(message).at(&entry.node.place);
+            problems.push(problem.label("a table is expected").help(help));
+            continue;
+        };
+        if let Some(problem) = name::problem(&entry.key) {
+            problems.push(problem.at(&entry.key_place));
+        }
+        let own = CaseSection {
+            path: path.clone(),
+            table,
+            place: Some(entry.key_place.clone()),
+        };
+        own.allow(&["title", "share", "set"], &[], problems);
+        let title = match table.get("title") {
+            Some(_) => own.text("title", problems).map_or("", |(text, _)| text),
+            None => "",
+        };
+        let help = "write for example share = 0.25: of the distance";
+        let share = match own.require("share", help, problems) {
+            Some(_) => {
+                let range = Range::Between(0.0, 1.0, "between 0 and 1");
+                own.number("share", range, "0.25", problems)
+            }
+            None => None,
+        };
+        let set = match table.entry("set") {
+            Some(_) => own
+                .section("set", problems)
+                .map_or(Vec::new(), |own| settings(own.table)),
+            None => Vec::new(),
+        };
+        found.push(RoutePart {
+            name: entry.key.clone(),
+            title: title.to_owned(),
+            share: share.unwrap_or_default(),
+            set,
+        });
+    }
+    let sum: f64 = found.iter().map(|own| own.share).sum();
+    if before && problems.is_empty() && (sum - 1.0).abs() > ROUNDED {
+        let message = format!("the shares of `{key}` sum to {sum:.4}, not to 1");
+        let problem = Problem::new(message).help("they are shares of the distance: give all of it");
+        problems.push(match section.place {
+            Some(place) => problem.at(&place).label("these"),
+            None => problem,
+        });
+    }
+    for own in &mut found {
+        own.share /= sum;
+    }
+    found
+}

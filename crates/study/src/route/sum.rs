@@ -1,0 +1,497 @@
+//! Damage of a route: the mean of its runs by their shares, step by step.
+
+use std::collections::BTreeMap;
+
+use quantity::{Kind, System as Units};
+use serde::{Deserialize, Serialize};
+
+use super::worn::{WornProfile, WornWedge};
+use super::{Route, RouteRun, WheelWear, Worn};
+use crate::car::CarCase;
+use crate::car::summary::CarSummary;
+use crate::damage::{PlaceDamage, RailDamage, WheelDamage};
+use crate::summary::{RunSummary, SummaryValue};
+
+/// The schema's name and version.
+pub const SCHEMA: &str = "wedgelab.route/1";
+/// Places of summed profiles are at multiples of this, to both sides up to [`REACH`] of them, m.
+const PLACE: f64 = 1e-3;
+const REACH: i32 = 100;
+/// The distance of wheels' numbers: 100,000 miles, m.
+const OF_WHEELS: f64 = 1e5 * 1_609.344;
+/// A step that wears a wheel deeper than this, or a wedge's rise higher, is called long, m.
+const LONG: [f64; 2] = [0.3e-3, 3e-3];
+
+/// A run with its outcome.
+#[derive(Clone, Debug)]
+pub struct OfRun {
+    /// The run.
+    pub run: RouteRun,
+    /// Its summary.
+    pub summary: CarSummary,
+}
+
+/// The outcome of a route.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RouteSummary {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// Version of the program that wrote it.
+    pub program: String,
+    /// The route's name.
+    pub name: String,
+    /// Its title.
+    pub title: String,
+    /// Units of the numbers.
+    pub units: Units,
+    /// The distance of service.
+    pub service: SummaryValue,
+    /// What is doubtful.
+    pub warnings: Vec<String>,
+    /// Its steps.
+    pub steps: Vec<RouteStep>,
+    /// The assumptions.
+    pub assumptions: Vec<String>,
+}
+
+/// A step of a route: damage at its pace at the step's start, depths at its end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RouteStep {
+    /// Service at its start and at its end.
+    pub service: [SummaryValue; 2],
+    /// What creep takes by the distance, all wheels: the mean.
+    pub creep_resistance: SummaryValue,
+    /// Wheels by their names, over 100,000 miles.
+    pub wheels: BTreeMap<String, WheelDamage>,
+    /// Rails, `left` and `right`, over 1,000,000 gross tons.
+    pub rails: BTreeMap<String, RailDamage>,
+    /// Depths of wedges at its end, by their names; empty where they do not wear.
+    pub wedges: BTreeMap<String, WedgeDepth>,
+    /// Its runs.
+    pub runs: Vec<RouteTrack>,
+}
+
+/// Depths of a wedge's faces with their counterfaces.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WedgeDepth {
+    /// At the column.
+    pub column: SummaryValue,
+    /// At the slope.
+    pub slope: SummaryValue,
+    /// By how much it stands higher: (column cos θ + slope) / sin θ.
+    pub rise: SummaryValue,
+}
+
+/// A run of a step in numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RouteTrack {
+    /// Its name.
+    pub name: String,
+    /// Its share of the distance.
+    pub share: f64,
+    /// Its outcome in a word.
+    pub outcome: String,
+    /// What creep takes by the distance.
+    pub creep_resistance: SummaryValue,
+    /// The largest depth of a wheel over 100,000 miles of it, and the wheel.
+    pub largest_depth: SummaryValue,
+    /// That wheel.
+    pub wheel: String,
+}
+
+/// The wear of a car along a route.
+#[derive(Clone, Debug)]
+pub struct RouteWear<'r> {
+    route: &'r Route,
+    base: CarCase,
+    /// Depths of wheels over the places, m.
+    wheels: BTreeMap<String, Vec<f64>>,
+    /// Depths of wedges, column and slope, m.
+    wedges: BTreeMap<String, [f64; 2]>,
+    /// The outcome so far.
+    pub summary: RouteSummary,
+}
+
+fn places() -> impl Iterator<Item = f64> {
+    (-REACH..=REACH).map(|k| PLACE * f64::from(k))
+}
+
+/// Returns a number of a summary in SI.
+fn si(own: &SummaryValue, kind: Kind, units: Units) -> f64 {
+    own.value / kind.from_si(units)
+}
+
+/// Adds damage over a profile times a share to that at the places; numbers in units of the summary.
+fn add(to: &mut [[f64; 2]], places_of: &[PlaceDamage], share: f64, length: f64) {
+    for (sum, y) in to.iter_mut().zip(places()) {
+        let at = y * length;
+        let next = places_of.partition_point(|own| own.y <= at);
+        let Some([before, after]) = next
+            .checked_sub(1)
+            .and_then(|k| places_of.get(k..k + 2))
+            .map(|own| {
+                let [a, b] = [&own[0], &own[1]];
+                [a, b]
+            })
+        else {
+            continue;
+        };
+        // Places without damage are left out of summaries.
+        if after.y - before.y > 1.5 * PLACE * length {
+            continue;
+        }
+        let part = (at - before.y) / (after.y - before.y);
+        sum[0] += share * (before.depth + part * (after.depth - before.depth));
+        sum[1] += share * (before.fatigue + part * (after.fatigue - before.fatigue));
+    }
+}
+
+/// What is known of a surface from runs: sums of three numbers, and over the places.
+struct Sum {
+    numbers: [f64; 2],
+    over: Vec<[f64; 2]>,
+}
+
+impl Sum {
+    fn new() -> Self {
+        Self {
+            numbers: [0.0; 2],
+            over: places().map(|_| [0.0; 2]).collect(),
+        }
+    }
+
+    fn profile(&self, length: f64) -> Vec<PlaceDamage> {
+        let each = places()
+            .zip(&self.over)
+            .filter(|(_, own)| own[0] > 0.0 || own[1] != 0.0);
+        each.map(|(y, [depth, fatigue])| PlaceDamage {
+            y: y * length,
+            depth: *depth,
+            fatigue: *fatigue,
+        })
+        .collect()
+    }
+
+    /// Returns the largest depth with its place, and the largest fatigue.
+    fn largest(&self, length: f64) -> ([f64; 2], f64) {
+        let each = places().zip(&self.over);
+        let deepest = each.fold([0.0, 0.0], |most: [f64; 2], (y, own)| match own[0] > most[0] {
+            true => [own[0], y * length],
+            false => most,
+        });
+        (
+            deepest,
+            self.over.iter().fold(0.0, |most: f64, own| most.max(own[1])),
+        )
+    }
+}
+
+impl<'r> RouteWear<'r> {
+    /// Returns the car of a route, not worn yet.
+    #[must_use]
+    pub fn new(route: &'r Route, base: CarCase) -> Self {
+        let units = base.simulation.output_units;
+        let summary = RouteSummary {
+            schema: SCHEMA.to_owned(),
+            program: env!("CARGO_PKG_VERSION").to_owned(),
+            name: route.name.clone(),
+            title: route.title.clone(),
+            units,
+            service: SummaryValue::new(route.service, Kind::Distance, units),
+            warnings: Vec::new(),
+            steps: Vec::new(),
+            assumptions: assumptions(route),
+        };
+        Self {
+            route,
+            base,
+            wheels: BTreeMap::new(),
+            wedges: BTreeMap::new(),
+            summary,
+        }
+    }
+
+    /// Returns the car as it is worn so far; nothing at the start.
+    #[must_use]
+    pub fn worn(&self) -> Worn {
+        let mut worn = Worn::default();
+        let car::Wheels::OnRails(own) = &self.base.parameters.wheels else {
+            return worn;
+        };
+        let depths = |own: &[f64]| -> Vec<[f64; 2]> { places().zip(own).map(|(y, own)| [y, *own]).collect() };
+        match self.route.wheels {
+            WheelWear::Nothing => {}
+            WheelWear::Each => {
+                for (name, own_depths) in &self.wheels {
+                    let parts = name.strip_prefix("axle_").and_then(|own| own.split_once('_'));
+                    let Some((axle, side)) = parts else { continue };
+                    let number = axle.parse::<usize>().ok().and_then(|axle| axle.checked_sub(1));
+                    let Some(pair) = number.and_then(|w| own.wheels.get(w)) else {
+                        continue;
+                    };
+                    let profile = &pair[usize::from(side == "right")];
+                    let wheel = format!("axle_{axle}.{side}");
+                    worn.profiles
+                        .push(WornProfile::new(&wheel, profile, &depths(own_depths)));
+                }
+            }
+            WheelWear::Mean => {
+                if let Some(own_depths) = self.wheels.get("") {
+                    worn.profiles
+                        .push(WornProfile::new("", &own.wheels[0][0], &depths(own_depths)));
+                }
+            }
+        }
+        worn.wedges = self
+            .wedges
+            .iter()
+            .map(|(name, depths)| WornWedge {
+                name: name.clone(),
+                depths: *depths,
+            })
+            .collect();
+        worn
+    }
+
+    /// Takes the runs of the next step along.
+    pub fn step(&mut self, runs: &[OfRun]) {
+        let units = self.summary.units;
+        let length = Kind::Length.from_si(units);
+        let number = self.summary.steps.len() as f64;
+        let part = self.route.service / f64::from(self.route.steps);
+        let value = |own: f64, kind: Kind| SummaryValue::new(own, kind, units);
+        let mut wheels: BTreeMap<String, Sum> = BTreeMap::new();
+        let mut rails: BTreeMap<String, Sum> = BTreeMap::new();
+        let (mut resistance, mut told) = (0.0, Vec::new());
+        for OfRun { run, summary } in runs {
+            let mut track = RouteTrack {
+                name: run.name.clone(),
+                share: run.share,
+                outcome: summary.outcome().word().to_owned(),
+                creep_resistance: value(0.0, Kind::Force),
+                largest_depth: value(0.0, Kind::Length),
+                wheel: String::new(),
+            };
+            if let Some(said) = summary.outcome().told() {
+                self.warn(format!("{}: the run {said}", run.name));
+            }
+            let Some(damage) = &summary.damage else {
+                self.warn(format!(
+                    "{}: no damage: wheels are linear, or the run ends before it has settled",
+                    run.name
+                ));
+                told.push(track);
+                continue;
+            };
+            track.creep_resistance = damage.creep_resistance.clone();
+            resistance += run.share * damage.creep_resistance.value;
+            for (name, own) in &damage.wheels {
+                if own.largest_depth.value > track.largest_depth.value {
+                    (track.largest_depth, track.wheel) = (own.largest_depth.clone(), name.clone());
+                }
+                let sum = wheels.entry(name.clone()).or_insert_with(Sum::new);
+                sum.numbers[0] += run.share * own.wear_number.value;
+                sum.numbers[1] += run.share * own.worn_mass.value;
+                add(&mut sum.over, &own.profile, run.share, length);
+            }
+            for (name, own) in &damage.rails {
+                let sum = rails.entry(name.clone()).or_insert_with(Sum::new);
+                sum.numbers[0] += run.share * own.wear_number.value;
+                sum.numbers[1] += run.share * own.worn_over_an_inch.value;
+                add(&mut sum.over, &own.profile, run.share, length);
+            }
+            told.push(track);
+        }
+        self.wear_wheels(&wheels, part);
+        self.wear_wedges(runs, part);
+        let unit = |kind: Kind| kind.label(units).to_owned();
+        let shown = |own: f64, kind: Kind| SummaryValue {
+            value: own,
+            unit: unit(kind),
+        };
+        let of_wheels = wheels.into_iter().map(|(name, sum)| {
+            let ([depth, place], fatigue) = sum.largest(length);
+            let damage = WheelDamage {
+                wear_number: shown(sum.numbers[0], Kind::Force),
+                worn_mass: shown(sum.numbers[1], Kind::Mass),
+                largest_depth: shown(depth, Kind::Length),
+                place: shown(place, Kind::Length),
+                fatigue,
+                profile: sum.profile(length),
+            };
+            (name, damage)
+        });
+        let of_rails = rails.into_iter().map(|(name, sum)| {
+            let ([depth, place], fatigue) = sum.largest(length);
+            let damage = RailDamage {
+                wear_number: shown(sum.numbers[0], Kind::Force),
+                worn_over_an_inch: shown(sum.numbers[1], Kind::Length),
+                largest_depth: shown(depth, Kind::Length),
+                place: shown(place, Kind::Length),
+                fatigue,
+                profile: sum.profile(length),
+            };
+            (name, damage)
+        });
+        let wedges = self.wedges.iter().map(|(name, [column, slope])| {
+            let depth = WedgeDepth {
+                column: value(*column, Kind::Length),
+                slope: value(*slope, Kind::Length),
+                rise: value(self.rise(name, [*column, *slope]), Kind::Length),
+            };
+            (name.clone(), depth)
+        });
+        let step = RouteStep {
+            service: [number, number + 1.0].map(|own| value(own * part, Kind::Distance)),
+            creep_resistance: shown(resistance, Kind::Force),
+            wheels: of_wheels.collect(),
+            rails: of_rails.collect(),
+            wedges: wedges.collect(),
+            runs: told,
+        };
+        self.summary.steps.push(step);
+    }
+
+    fn warn(&mut self, words: String) {
+        if !self.summary.warnings.contains(&words) {
+            self.summary.warnings.push(words);
+        }
+    }
+
+    /// Wears wheels over a way, m.
+    fn wear_wheels(&mut self, sums: &BTreeMap<String, Sum>, way: f64) {
+        let length = Kind::Length.from_si(self.summary.units);
+        let by = way / (OF_WHEELS * length);
+        let (share, each) = match self.route.wheels {
+            WheelWear::Nothing => return,
+            WheelWear::Each => (by, true),
+            WheelWear::Mean => (by / sums.len().max(1) as f64, false),
+        };
+        let mut grown: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+        for (name, sum) in sums {
+            let key = if each { name.clone() } else { String::new() };
+            let own = grown.entry(key).or_insert_with(|| vec![0.0; sum.over.len()]);
+            for (own, [depth, _]) in own.iter_mut().zip(&sum.over) {
+                *own += share * depth;
+            }
+        }
+        let most = grown
+            .values()
+            .flatten()
+            .fold(0.0, |most: f64, own| most.max(*own));
+        if most > LONG[0] {
+            self.warn(format!(
+                "a step wears a wheel by up to {:.2} mm, and the contacts move with it: the next profile is that \
+                 of one place worn on and on. Take more steps: some {:.0}",
+                1e3 * most,
+                (f64::from(self.route.steps) * most / LONG[0]).ceil()
+            ));
+        }
+        for (name, grown) in grown {
+            let own = self.wheels.entry(name).or_insert_with(|| vec![0.0; grown.len()]);
+            own.iter_mut().zip(grown).for_each(|(own, grown)| *own += grown);
+        }
+    }
+
+    /// Wears wedges over a way, m.
+    fn wear_wedges(&mut self, runs: &[OfRun], way: f64) {
+        let Some(law) = self.route.wedges else { return };
+        let mut grown: BTreeMap<String, [f64; 2]> = BTreeMap::new();
+        for OfRun { run, summary } in runs {
+            let units = summary.units;
+            let [from, to] = summary
+                .distance
+                .each_ref()
+                .map(|own| si(own, Kind::Distance, units));
+            if to <= from {
+                continue;
+            }
+            for name in summary.wedge_losses.keys() {
+                let Some((friction, areas)) = self.faces(name) else {
+                    continue;
+                };
+                let own = grown.entry(name.clone()).or_default();
+                for (face, which) in ["column", "slope"].into_iter().enumerate() {
+                    let entry = summary
+                        .ledger
+                        .entries
+                        .get(&format!("{name}_{which}_friction_loss"));
+                    let energy = entry.map_or(0.0, |own| si(own, Kind::Energy, units));
+                    own[face] +=
+                        run.share * law.depth(energy * way / (to - from), friction[face], areas[face]);
+                }
+            }
+        }
+        if grown.values().flatten().all(|own| *own == 0.0) {
+            self.warn(
+                "wedges do not wear: their friction takes nothing, or they have no mass and no faces"
+                    .to_owned(),
+            );
+        }
+        let mut most: f64 = 0.0;
+        for (name, [column, slope]) in grown {
+            most = most.max(self.rise(&name, [column, slope]));
+            let own = self.wedges.entry(name).or_default();
+            own[0] += column;
+            own[1] += slope;
+        }
+        if most > LONG[1] {
+            self.warn(format!(
+                "a step lets a wedge rise by {:.1} mm: take more steps, some {:.0}",
+                1e3 * most,
+                (f64::from(self.route.steps) * most / LONG[1]).ceil()
+            ));
+        }
+    }
+
+    fn wedge(&self, name: &str) -> Option<&truck::Wedge> {
+        let (truck, wedge) = match name.strip_prefix("truck_1_") {
+            Some(wedge) => (0, wedge),
+            None => (1, name.strip_prefix("truck_2_")?),
+        };
+        let place = truck::WEDGE_NAMES.iter().position(|own| *own == wedge)?;
+        self.base.parameters.trucks[truck].wedges.get(place)
+    }
+
+    /// Returns friction and areas (m²) of the faces of a wedge, column and slope.
+    fn faces(&self, name: &str) -> Option<([f64; 2], [f64; 2])> {
+        let own = self.wedge(name)?;
+        let friction = [own.column_friction.coefficient, own.slope_friction.coefficient];
+        let column = own.width * own.height;
+        Some((friction, [column, column / libm::cos(own.angle)]))
+    }
+
+    /// Returns the rise (m) of a wedge by depths at column and slope, m.
+    fn rise(&self, name: &str, [column, slope]: [f64; 2]) -> f64 {
+        self.wedge(name).map_or(0.0, |own| {
+            let (sine, cosine) = libm::sincos(own.angle);
+            (column * cosine + slope) / sine
+        })
+    }
+}
+
+fn assumptions(route: &Route) -> Vec<String> {
+    let mut all = vec![
+        "Every track is passed as in its run again and again; depths of a step are those of its start's pace."
+            .to_owned(),
+        match route.wheels {
+            WheelWear::Mean => "All wheels wear alike, by the mean of all: cars run both ways round.".to_owned(),
+            WheelWear::Each => "Each wheel wears by its own damage: the car always runs the same way.".to_owned(),
+            WheelWear::Nothing => "Profiles of wheels stay as they are.".to_owned(),
+        },
+        "Rails keep their profiles. Wear by Archard's map of [damage] and fatigue by its function are remembered \
+         from publications and measured dry: they rank, they do not give a life."
+            .to_owned(),
+    ];
+    all.push(match &route.wedges {
+        None => "Wedges do not wear: the route has no [wedges].".to_owned(),
+        Some(law) => format!(
+            "Wedges wear by the energy of their friction with K = {:e} on a hardness of {:.0} MPa, one depth a face; \
+             column and pocket wear {} times what the wedge does. K is a guess, known to an order of magnitude.",
+            law.coefficient,
+            1e-6 * law.hardness,
+            law.counterface
+        ),
+    });
+    all
+}

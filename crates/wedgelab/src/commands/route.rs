@@ -1,0 +1,201 @@
+//! `wedgelab route`: a car on the tracks of a route, in seasons, over many miles, with wheels and wedges that
+//! wear.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Mutex;
+use std::sync::PoisonError;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use clap::Args;
+use report::route_files::{self as files, NAMES};
+use staging::Folder;
+use study::car::CarCase;
+use study::car::summary::CarSummary;
+use study::route::{OfRun, Route, RouteRun, RouteWear, Worn};
+use study::run::Run;
+
+use crate::drawn::Drawn;
+use crate::execute::jobs;
+use crate::failure::{Failure, Message};
+use crate::interrupt;
+use crate::progress::Steady;
+
+/// Run a car along a route: wear and fatigue of wheels and rails, wear of wedges, step by step
+///
+/// A route file names a car, tracks and seasons with their shares of the distance, and what each sets: track,
+/// speed, lading, friction. Every track is run in every season; damage of a mile is the mean by the shares.
+/// The service is cut into steps, after each of which wheels have their worn profiles and wedges their depths,
+/// and all is run again. Writes route.json, route.csv, route.svg, route.png, route.txt; runs/ holds the summary
+/// and case of each run, worn/ the profiles. The same command continues a route that was stopped or killed.
+///
+/// Coefficients of wear and fatigue are remembered from publications, that of wedges is a guess: they rank cars
+/// and tracks.
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+Examples:
+  wedgelab route my_route.toml
+  wedgelab route my_route.toml --out softer --jobs 2")]
+pub struct Arguments {
+    /// Route file
+    route: PathBuf,
+    /// Folder to write into, or to continue in [default: NAME_route]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Number of runs at a time [default: number of processors]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// No progress
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// Executes the command.
+pub fn execute(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    interrupt::listen();
+    let route = Route::read(&arguments.route)?;
+    let path = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(format!("{}_route", route.name)));
+    let kept = "the runs that were computed are kept; the same command continues";
+    interrupt::stops(&format!("stopping: {kept} (once more: ends at once)"), kept);
+    let runs = route.runs();
+    let all = runs.len() as u64 * u64::from(route.steps);
+    let base = route.case([0, 0], &[])?;
+    let mut wear = RouteWear::new(&route, base);
+    let progress = Steady::new("runs", all, 0, arguments.quiet);
+    for step in 1..=route.steps {
+        let worn = wear.worn();
+        let profiles = path.join("worn").join(format!("step_{step}"));
+        write_profiles(&worn, &profiles)?;
+        let set = route.worn_settings(&worn, &profiles);
+        let folder = path.join("runs").join(format!("step_{step}"));
+        let cases = runs.iter().map(|run| route.case(run.of, &set));
+        let cases: Vec<CarCase> = cases.collect::<Result<_, _>>()?;
+        let found = step_of((&runs, &cases), &folder, jobs(arguments.jobs), &progress)?;
+        wear.step(&found);
+    }
+    progress.finish();
+    let summary = &wear.summary;
+    let figure = Drawn::of(&files::figure(summary))?;
+    let words = files::words(summary);
+    let folder = Folder::check(&path, &NAMES, true)?;
+    folder.write(|all| {
+        all.add(files::SUMMARY, |out| files::write_summary(summary, out))?;
+        all.add(files::TABLE, |out| files::write_table(summary, out))?;
+        figure.add(all, files::FIGURE, files::PICTURE)?;
+        all.add(files::WORDS, |out| out.write_all(words.as_bytes()))
+    })?;
+    let mut out = io::stdout().lock();
+    writeln!(
+        out,
+        "{words}\nWritten into {}: {}.",
+        path.display(),
+        NAMES.join(", ")
+    )?;
+    let incomplete = summary
+        .steps
+        .iter()
+        .flat_map(|step| &step.runs)
+        .filter(|run| run.outcome != "complete");
+    match incomplete.count() {
+        0 => Ok(ExitCode::SUCCESS),
+        count => {
+            let message = format!("{count} runs of the route did not come to their end");
+            let advice = "what they have worn until then counts; look at the warnings";
+            Err(Failure::Failed(Message::new(message, advice).into()))
+        }
+    }
+}
+
+/// Writes the profiles of worn wheels.
+fn write_profiles(worn: &Worn, path: &Path) -> Result<(), Failure> {
+    if worn.profiles.is_empty() {
+        return Ok(());
+    }
+    let names: Vec<String> = worn.profiles.iter().map(|own| own.file()).collect();
+    let listed: Vec<&str> = names.iter().map(String::as_str).collect();
+    let folder = Folder::check(path, &listed, true)?;
+    folder.write(|all| {
+        for (own, name) in worn.profiles.iter().zip(&names) {
+            all.add(name, |out| out.write_all(own.csv().as_bytes()))?;
+        }
+        Ok(())
+    })?;
+    Ok(())
+}
+
+/// Returns the runs of a step: those that are kept in a folder, the others computed and kept there.
+fn step_of(
+    (runs, cases): (&[RouteRun], &[CarCase]),
+    folder: &Path,
+    jobs: usize,
+    progress: &Steady,
+) -> Result<Vec<OfRun>, Failure> {
+    let found: Vec<Mutex<Option<Result<CarSummary, Failure>>>> =
+        runs.iter().map(|_| Mutex::new(None)).collect();
+    let next = AtomicUsize::new(0);
+    std::thread::scope(|scope| {
+        for _ in 0..jobs.min(runs.len()) {
+            scope.spawn(|| {
+                loop {
+                    let number = next.fetch_add(1, Ordering::Relaxed);
+                    let (Some(run), false) = (runs.get(number), interrupt::wanted()) else {
+                        return;
+                    };
+                    let own = kept(&cases[number], &folder.join(&run.name))
+                        .map_or_else(|| compute(&cases[number], &folder.join(&run.name)), Ok);
+                    progress.done();
+                    *found[number].lock().unwrap_or_else(PoisonError::into_inner) = Some(own);
+                }
+            });
+        }
+    });
+    let found = runs.iter().zip(found).map(|(run, own)| {
+        let own = own.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let summary = own.unwrap_or_else(|| Err(stopped()))?;
+        Ok(OfRun {
+            run: run.clone(),
+            summary,
+        })
+    });
+    found.collect()
+}
+
+fn stopped() -> Failure {
+    let advice = "the runs that were computed are kept; the same command continues";
+    Failure::Interrupted(Message::new("the route was interrupted", advice).into())
+}
+
+const CASE: &str = "case.toml";
+const SUMMARY: &str = "summary.json";
+
+/// Returns the summary of a run that is kept in a folder, if it is one of this case.
+fn kept(case: &CarCase, folder: &Path) -> Option<CarSummary> {
+    let text = fs::read_to_string(folder.join(CASE)).ok()?;
+    let same = text == case.to_toml_embedded();
+    let summary = same.then(|| fs::read(folder.join(SUMMARY)).ok())??;
+    serde_json::from_slice(&summary).ok()
+}
+
+/// Runs a case and keeps its summary.
+fn compute(case: &CarCase, path: &Path) -> Result<CarSummary, Failure> {
+    let run = Run::new(case).map_err(|error| {
+        let message = format!("the run of {} cannot begin: {error}", path.display());
+        Failure::Failed(Message::new(message, "look at what its track sets").into())
+    })?;
+    let result = run.finish_while(|_| interrupt::go_on());
+    if interrupt::is_reason(result.summary.stopped.as_ref()) {
+        return Err(stopped());
+    }
+    let summary = result.summary;
+    let folder = Folder::check(path, &[CASE, SUMMARY], true)?;
+    folder.write(|all| {
+        all.add(CASE, |out| out.write_all(case.to_toml_embedded().as_bytes()))?;
+        all.add(SUMMARY, |out| Ok(serde_json::to_writer(out, &summary)?))
+    })?;
+    Ok(summary)
+}
