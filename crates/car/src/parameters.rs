@@ -468,15 +468,6 @@ impl Parameters {
         self.trucks.iter().any(has)
     }
 
-    /// Returns whether side bearings have hysteresis.
-    #[must_use]
-    pub fn has_hysteresis(&self) -> bool {
-        let bodies = self.trucks.iter().flat_map(|own| &own.car_body);
-        bodies
-            .into_iter()
-            .any(|own| own.side_bearings.kind.hysteresis().is_some())
-    }
-
     /// Returns the distances of the rails' origins from the middle of the track, left and right, m.
     #[must_use]
     pub fn rail_offsets(&self) -> [f64; 2] {

@@ -46,18 +46,13 @@ impl Model for CarModel {
 /// Returns the car of a case under these settings; inputs can move its rails.
 ///
 /// # Errors
-/// The case makes no car, or has wedges without mass or side bearings with hysteresis.
+/// The case makes no car, or has wedges without mass.
 pub fn plant(case: &CarCase, setting: Option<&Setting>) -> Result<Plant, Error> {
     let mut parameters = case.parameters.clone();
     if parameters.has_connections() {
         return Err(Error::new(
             "FMUs of cars have wedges with mass, and those of the case have none or an empirical warp \
              spring; take wedge bodies",
-        ));
-    }
-    if parameters.has_hysteresis() {
-        return Err(Error::new(
-            "FMUs of cars have side bearings without hysteresis: write side_bearing.hysteresis = \"0 lbf\"",
         ));
     }
     parameters.movable_rails = true;

@@ -46,8 +46,8 @@ fn energy_closes_on_rough_track_and_in_curves() {
     }
 }
 
-/// The empty car on side bearings with hysteresis: they begin without force of it, in the equilibrium of a car
-/// without, lose energy on rough track, and the ledger closes.
+/// The empty car on side bearings with hysteresis: they begin without force of it, in the equilibrium of a
+/// car without, lose energy on rough track, and the ledger closes.
 #[test]
 fn energy_closes_with_hysteresis_of_side_bearings() {
     let standing = empty(tangent(60.0), 15.0);

@@ -526,8 +526,8 @@ impl Table {
             ),
             (
                 "friction_loss",
-                "energy lost in the friction of wedges, adapters, center plates and side bearings, hysteresis \
-                 included, since the start",
+                "energy lost in the friction of wedges, adapters, center plates and side bearings, with \
+                 hysteresis, since the start",
                 places_of(system, |kind, _| FRICTION.contains(&kind)),
             ),
             (

@@ -94,8 +94,8 @@ fn moved(amplitude: f64, frequency: f64, cycles: usize) -> Moved {
     moved
 }
 
-/// A slider of limit F behind a spring K, moved by ±X, loses 4 F (X - F/K) in a cycle; the force on the way in
-/// lies above that on the way out by 2 F, and their mean is that of the elastic bearing.
+/// A slider of limit F behind a spring K, moved by ±X, loses 4 F (X - F/K) in a cycle; the force on the way
+/// in lies above that on the way out by 2 F, and their mean is that of the elastic bearing.
 #[test]
 fn analytic_a_cycle_loses_the_area_of_the_loop() {
     let amplitude = 0.25 * INCH;
