@@ -87,6 +87,7 @@ impl Parameters {
                     travel: FREE,
                     solid: stiff,
                     friction,
+                    hysteresis: None,
                 };
             }
             truck.gib.clearance = FREE;

@@ -155,9 +155,12 @@ pub(crate) fn at_rest(
             face.law = FrictionLaw::Tanh { reference_speed: 1.0 };
         }
     }
+    // Hysteresis has none either.
     for connection in &mut nominal.model.connections {
-        if let Law::Wedge(wedge) = &mut connection.law {
-            (wedge.column_friction, wedge.slope_friction) = (0.0, 0.0);
+        match &mut connection.law {
+            Law::Wedge(wedge) => (wedge.column_friction, wedge.slope_friction) = (0.0, 0.0),
+            Law::Surface(surface) => surface.coefficient = 0.0,
+            Law::Springs(_) | Law::Gap(..) => {}
         }
     }
     let found = standing.rest(&[], |system, body, error| {

@@ -7,6 +7,8 @@ use car::Wheels;
 use truck::Geometry;
 use wedge::parameters::Wear;
 
+use crate::truck::sections::doubts_of_bearing;
+
 const INCH: f64 = 0.0254;
 /// Angles of wedges, rad: 15 and 60 deg.
 const ANGLES: [f64; 2] = [
@@ -69,6 +71,11 @@ pub(crate) fn of_truck(own: &truck::Parameters, wheels: Option<[f64; 2]>) -> Vec
     if let Some(wheels) = wheels {
         found.extend(beside_wheels(at, wheels));
     }
+    found.extend(
+        own.car_body
+            .iter()
+            .flat_map(|car| doubts_of_bearing(&car.side_bearings.kind)),
+    );
     found
 }
 

@@ -31,7 +31,7 @@ pub(crate) const NUMBERS: usize = 14;
 pub struct Truck {
     /// The equations of motion. Faces: column and slope of each wedge; with wheelsets the adapters of each
     /// side frame, leading and trailing; with a car body the center plate, and constant-contact side
-    /// bearings. Connections: wedges without mass, and empirical warp springs.
+    /// bearings. Connections: wedges without mass, empirical warp springs, hysteresis of side bearings.
     pub system: System,
     /// The state at time zero.
     pub initial_state: Vec<f64>,
@@ -173,8 +173,12 @@ fn without_friction(parameters: &Parameters) -> Parameters {
     }
     if let Some(car) = &mut parameters.car_body {
         car.center_plate.friction = none;
-        if let SideBearing::ConstantContact { friction, .. } = &mut car.side_bearings.kind {
+        if let SideBearing::ConstantContact {
+            friction, hysteresis, ..
+        } = &mut car.side_bearings.kind
+        {
             *friction = none;
+            *hysteresis = None;
         }
     }
     parameters

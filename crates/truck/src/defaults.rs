@@ -9,9 +9,9 @@ use wedge::parameters::{Contact, Damping, FaceFriction, NeighbourMotion, STANDAR
 
 use crate::geometry::Geometry;
 use crate::parameters::{
-    Adapter, AdapterPad, Bolster, CarBody, CenterPlate, Clearance, ControlCoil, FrictionAdapter, Lading,
-    NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Split, Spring, Wedge, WedgeKind,
-    Wheelsets, unloaded,
+    Adapter, AdapterPad, Bolster, CarBody, CenterPlate, Clearance, ControlCoil, FrictionAdapter, Hysteresis,
+    Lading, NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Split, Spring, Wedge,
+    WedgeKind, Wheelsets, unloaded,
 };
 use crate::units::{INCH, POUND, POUND_FORCE, POUND_INCH, POUND_PER_INCH, inches};
 
@@ -143,7 +143,19 @@ impl SideBearings {
                 travel: 0.625 * INCH,
                 solid: contact(1e6, 500.0),
                 friction: bristle(0.3, 1e5, 100.0),
+                hysteresis: None,
             },
+        }
+    }
+}
+
+impl Default for Hysteresis {
+    /// Returns none yet: a limit of 0, behind 30,000 lbf/in, five times the rate of the bearing (a guess).
+    fn default() -> Self {
+        Self {
+            limit: 0.0,
+            stiffness: 3e4 * POUND_PER_INCH,
+            damping: 30.0 * POUND_PER_INCH,
         }
     }
 }

@@ -89,6 +89,17 @@ pub(crate) struct Added {
     /// True if adapters pitch with the side frames, on bearings of axles that spin: these carry the points.
     pub adapters_pitch: bool,
     pub center_plate: Option<usize>,
+    /// The left and the right side bearing, if they have hysteresis.
+    pub side_bearings: [Option<BearingPlace>; 2],
+}
+
+/// The place of a side bearing with hysteresis in a model.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BearingPlace {
+    /// The face of its spring; that of its solid stop follows.
+    pub face: usize,
+    /// Its connection.
+    pub hysteresis: usize,
 }
 
 /// The place of a wedge in a model.
@@ -259,8 +270,15 @@ impl Builder<'_> {
         if let Some(car) = &self.parameters.car_body {
             self.added.center_plate = Some(self.model.faces.len());
             self.center_plate(car);
-            for (side, name) in [(1.0, "left"), (-1.0, "right")] {
+            for (number, (side, name)) in [(1.0, "left"), (-1.0, "right")].into_iter().enumerate() {
+                let place = BearingPlace {
+                    face: self.model.faces.len(),
+                    hysteresis: self.model.connections.len(),
+                };
                 self.side_bearing(car, side * car.side_bearings.distance, name);
+                if self.model.connections.len() > place.hysteresis {
+                    self.added.side_bearings[number] = Some(place);
+                }
             }
         }
         self.added

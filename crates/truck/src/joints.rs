@@ -6,14 +6,18 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use mechanics::contact::Interface;
+use mechanics::connection::{Accumulator, Connection, Law as ConnectionLaw, SurfaceFriction};
+use mechanics::contact::{FrictionDirections, Interface};
+use mechanics::curve::Curve;
 use mechanics::elements::{RadialStop, Raised, Stop};
 use mechanics::link::Marker;
 use mechanics::system::Model;
 use wedge::parameters::{Contact, FaceFriction};
 
 use crate::elements::Law;
-use crate::parameters::{Adapter, AdapterPad, CenterPlate, Clearance, FrictionAdapter, SideBearing, Spring};
+use crate::parameters::{
+    Adapter, AdapterPad, CenterPlate, Clearance, FrictionAdapter, Hysteresis, SideBearing, Spring,
+};
 use crate::wedge_mount::{plane, point};
 
 /// An element between the two bodies, with its markers.
@@ -138,13 +142,54 @@ impl Joint<'_> {
                 travel,
                 solid,
                 friction,
+                hysteresis,
             } => {
                 let depth = preload / contact.stiffness;
                 self.face(name.clone(), &[at], depth, contact, friction, middle);
                 self.face(format!("{name}_solid"), &[at], -travel, solid, friction, middle);
+                if let Some(hysteresis) = hysteresis {
+                    self.hysteresis(name, at, [*preload, contact.stiffness], hysteresis);
+                }
                 None
             }
         }
+    }
+
+    /// Adds the hysteresis of a spring of this preload (N) and stiffness (N/m) along z of the lower body: a
+    /// slider whose limit is never more than the spring's force.
+    fn hysteresis(&mut self, name: String, at: [f64; 3], [preload, stiffness]: [f64; 2], own: &Hysteresis) {
+        let ends = [0, 1].map(|body| self.marker(body, at, [0.0; 3]));
+        let [(a, marker_a), (b, marker_b)] = ends;
+        if a == b {
+            return;
+        }
+        // Between markers it acts at any heading; bodies whose frames move have differences of coordinates.
+        let rest = [a, b]
+            .iter()
+            .all(|body| self.model.bodies[*body].frame.is_fixed());
+        self.model.connections.push(Connection {
+            account: name.clone(),
+            name,
+            a,
+            b,
+            point: std::array::from_fn(|k| at[k] + self.from[k]),
+            markers: rest.then_some([marker_a, marker_b]),
+            law: ConnectionLaw::Surface(SurfaceFriction {
+                coordinates: [2, 0, 2],
+                directions: FrictionDirections::One,
+                // By the extension, negative in compression.
+                spring: Curve::linear(stiffness)
+                    .scaled(1.0, -preload)
+                    .clamped(-own.limit, 0.0),
+                damper: None,
+                coefficient: 1.0,
+                accumulator: Accumulator::Bristle {
+                    stiffness: own.stiffness,
+                    damping: own.damping,
+                },
+                clamped: true,
+            }),
+        });
     }
 
     /// Adds the face of an adapter of steel; returns its stops, or the springs of a pad. `across` are the

@@ -43,14 +43,14 @@ pub use defaults::{CROWN_RADIUS, SERVICE_GRID};
 pub use elements::{Mount, add_elements, mounted};
 pub use geometry::Geometry;
 pub use joints::Joint;
-pub use loads::{CenterPlateLoads, HalfLoads, Loads, WarpMoment, WedgeLoads};
+pub use loads::{CenterPlateLoads, HalfLoads, Loads, SideBearingLoads, WarpMoment, WedgeLoads};
 pub use massless::empirical_warp;
 pub use motions::{FaceForce, Motions};
 pub use mounted::{MountedTruck, TruckFrame};
 pub use parameters::{
     Adapter, AdapterPad, Applied, Bolster, CarBody, CenterPlate, Clearance, ControlCoil, FrictionAdapter,
-    Lading, NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Split, Spring, Wedge,
-    WedgeKind, Wheelsets, unloaded,
+    Hysteresis, Lading, NestCoil, Parameters, RigidBody, SideBearing, SideBearings, SideFrame, Split, Spring,
+    Wedge, WedgeKind, Wheelsets, unloaded,
 };
 pub use split::{HALVES, WedgePart};
 pub use statics::{CoilGroup, TruckStatics};

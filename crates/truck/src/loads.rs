@@ -97,6 +97,15 @@ pub struct CenterPlateLoads {
     pub moment: [f64; 3],
 }
 
+/// A constant-contact side bearing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SideBearingLoads {
+    /// Whole force on the car body along z of the bolster, N: spring, solid stop and hysteresis.
+    pub force: f64,
+    /// The part of the hysteresis, N: positive in compression.
+    pub hysteresis: f64,
+}
+
 /// Loads and angles of a truck, SI.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Loads {
@@ -115,6 +124,8 @@ pub struct Loads {
     pub wedges: [WedgeLoads; 4],
     /// The center plate; zero without a car body.
     pub center_plate: CenterPlateLoads,
+    /// Left and right side bearing with hysteresis; zero for others.
+    pub side_bearings: [SideBearingLoads; 2],
     /// The coil or stop with the largest force, as [`Truck::suspension_name`] knows it, and its force, N.
     pub largest: (usize, f64),
 }
@@ -239,6 +250,15 @@ impl MountedTruck {
             loads.center_plate = CenterPlateLoads {
                 load: normal(face),
                 moment: moment.0,
+            };
+        }
+        for (own, place) in loads.side_bearings.iter_mut().zip(&self.added.side_bearings) {
+            let Some(place) = place else { continue };
+            let [spring, solid] = [place.face, place.face + 1].map(|face| normal(&view.seen.faces[face]));
+            let hysteresis = -view.seen.connections[place.hysteresis].forces[2];
+            *own = SideBearingLoads {
+                force: spring + solid + hysteresis,
+                hysteresis,
             };
         }
         loads

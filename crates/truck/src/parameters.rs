@@ -314,7 +314,22 @@ pub enum SideBearing {
         solid: Contact,
         /// Friction.
         friction: FaceFriction,
+        /// The hysteresis of its elastomer; none: it gives back all that it takes.
+        hysteresis: Option<Hysteresis>,
     },
+}
+
+/// The hysteresis of an elastomer: a spring in series with a slider, beside the elastic spring. The force on
+/// the way in is greater than that on the way out by twice its limit, whatever the speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hysteresis {
+    /// Force at which the slider slips, half the height of the loop, N. It is never more than the spring's
+    /// force, so that the bearing does not pull.
+    pub limit: f64,
+    /// Stiffness of its spring, N/m.
+    pub stiffness: f64,
+    /// Damping of its spring, N·s/m; it must be positive.
+    pub damping: f64,
 }
 
 /// A truck.
@@ -373,6 +388,17 @@ impl Spring {
                 at: -travel,
                 stiffness,
             }),
+        }
+    }
+}
+
+impl SideBearing {
+    /// Returns its hysteresis, if it has one.
+    #[must_use]
+    pub fn hysteresis(&self) -> Option<&Hysteresis> {
+        match self {
+            Self::Roller(_) => None,
+            Self::ConstantContact { hysteresis, .. } => hysteresis.as_ref(),
         }
     }
 }

@@ -2,7 +2,9 @@
 
 use crate::common;
 use car::{Car, StartKind, Wheels};
-use common::{INCH, curve, loaded, massless, run, run_by, tangent};
+use common::{
+    INCH, POUND_FORCE, at_start, curve, empty, loaded, massless, run, run_by, tangent, with_hysteresis,
+};
 use integrate::{Method, Problem};
 use mechanics::system::EnergyTermKind;
 use rolling::wheelset::coordinate;
@@ -40,6 +42,44 @@ fn energy_closes_on_rough_track_and_in_curves() {
         for parameters in [massless(bodies.clone()), bodies] {
             let ran = run(&parameters, duration, 0.05, 1e-6);
             assert!(ran.residual < 1e-4, "{name}: {}", ran.residual);
+        }
+    }
+}
+
+/// The empty car on side bearings with hysteresis: they begin without force of it, in the equilibrium of a
+/// car without, lose energy on rough track, and the ledger closes.
+#[test]
+fn energy_closes_with_hysteresis_of_side_bearings() {
+    let standing = empty(tangent(60.0), 15.0);
+    let [without, with] = [standing.clone(), with_hysteresis(standing)].map(|own| Car::new(&own).unwrap());
+    let n = with.system.layout().speeds;
+    for (a, b) in without.initial_state[..n].iter().zip(&with.initial_state) {
+        assert!((a - b).abs() < 1e-7, "{a} {b}");
+    }
+    for own in at_start(&with)
+        .trucks
+        .iter()
+        .flat_map(|truck| truck.side_bearings)
+    {
+        assert!(own.hysteresis.abs() < 1e-6, "{}", own.hysteresis);
+        let preload = 6000.0 * POUND_FORCE;
+        assert!((own.force / preload - 1.0).abs() < 0.1, "{}", own.force);
+    }
+    let ran = run(&with_hysteresis(empty(rough(), 15.0)), 3.0, 0.05, 1e-6);
+    assert!(ran.residual < 1e-4, "{}", ran.residual);
+    let mut system = ran.car.system.clone();
+    let seen = system.observe(ran.time, &ran.state);
+    let terms = system.energy_terms().iter().zip(&seen.quadratures);
+    let own = terms.filter(|(term, _)| term.kind == EnergyTermKind::SurfaceFriction);
+    let lost: Vec<f64> = own.map(|(_, lost)| *lost).collect();
+    assert!(lost.len() == 4 && lost.iter().all(|own| *own > 0.1), "{lost:?}");
+    let limit = 600.0 * POUND_FORCE;
+    for (time, loads) in &ran.loads {
+        for own in loads.trucks.iter().flat_map(|truck| truck.side_bearings) {
+            assert!(
+                own.hysteresis.abs() <= limit * (1.0 + 1e-9) && own.force > 0.0,
+                "{time} {own:?}"
+            );
         }
     }
 }

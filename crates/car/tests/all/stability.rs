@@ -4,10 +4,10 @@ use crate::common;
 use std::f64::consts::TAU;
 
 use car::{FrictionState, Mode, Neutral, OverAmplitude, Parameters, SteadyCar, Wheels};
-use common::{INCH, MPH, POUND_FORCE, empty, loaded, tangent};
-use mechanics::linear::SecondOrder;
+use common::{INCH, MPH, POUND_FORCE, empty, loaded, tangent, with_hysteresis};
+use mechanics::linear::{LinearMode, SecondOrder, SliderPlace};
 use nalgebra::DMatrix;
-use truck::{Adapter, Spring};
+use truck::{Adapter, Hysteresis, SideBearing, Spring};
 use wedge::parameters::Damping;
 use wheelrail::conicity::LinearGeometry;
 use wheelrail::contact::{CreepCoefficients, LinearWheelset};
@@ -444,6 +444,45 @@ fn cross_code_linear_models_are_the_ends_of_the_whole_system() {
                 apart < 1e-6 * frequency.hypot(growth)
             });
             assert!(near, "{friction:?}: {growth} {frequency}");
+        }
+    }
+}
+
+/// About steady running stuck hysteresis of side bearings is a spring beside theirs, and absent it is none.
+#[test]
+fn cross_code_hysteresis_is_a_spring_or_nothing() {
+    let plain = empty(tangent(300.0), 10.0);
+    let parameters = with_hysteresis(plain.clone());
+    let mut stiffer = plain.clone();
+    let bodies = stiffer.trucks.iter_mut().flat_map(|own| &mut own.car_body);
+    for body in bodies {
+        if let SideBearing::ConstantContact { contact, .. } = &mut body.side_bearings.kind {
+            contact.stiffness += Hysteresis::default().stiffness;
+        }
+    }
+    let mut car = SteadyCar::new(&parameters).unwrap();
+    let speed = 50.0 * MPH;
+    let sliders = car.model(speed).unwrap().sliders;
+    let own = sliders
+        .iter()
+        .filter(|own| matches!(own.place, SliderPlace::Connection(_)));
+    let limits: Vec<f64> = own.map(|own| own.slider.limit / POUND_FORCE).collect();
+    assert_eq!(limits.len(), 4);
+    assert!(limits.iter().all(|own| (own - 600.0).abs() < 1e-6), "{limits:?}");
+    for (friction, same) in [(FrictionState::Stuck, stiffer), (FrictionState::Absent, plain)] {
+        let found = car.vibrations(speed, friction).unwrap();
+        let expected = SteadyCar::new(&same)
+            .unwrap()
+            .vibrations(speed, friction)
+            .unwrap();
+        assert!(expected.len() > 5, "{friction:?}: {}", expected.len());
+        for other in expected {
+            let apart = |own: &LinearMode| {
+                (own.growth() - other.growth()).hypot(TAU * (own.frequency() - other.frequency()))
+            };
+            let nearest = found.iter().map(apart).fold(f64::INFINITY, f64::min);
+            let scale = other.growth().hypot(TAU * other.frequency());
+            assert!(nearest < 2e-3 * scale, "{friction:?}: {nearest} of {scale}");
         }
     }
 }

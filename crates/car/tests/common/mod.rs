@@ -6,7 +6,7 @@ use std::sync::Arc;
 use car::{Car, Loads, Parameters, Wheels};
 use integrate::{Integrator, Method, Options, Problem};
 use mechanics::energy_balance::EnergyBalance;
-use truck::{Lading, WedgeKind};
+use truck::{Hysteresis, Lading, SideBearing, WedgeKind};
 use wheelrail::hertz::Material;
 use wheelrail::track::{CenterLine, CurveElements, Segment, SpiralForm, Track};
 use wheelrail::wheelset::{Layout, RigidWheelset};
@@ -53,6 +53,19 @@ pub fn empty(track: Track, speed: f64) -> Parameters {
 pub fn massless(mut parameters: Parameters) -> Parameters {
     for wedge in parameters.trucks.iter_mut().flat_map(|own| &mut own.wedges) {
         wedge.kind = WedgeKind::Massless;
+    }
+    parameters
+}
+
+/// Returns the same car with 600 lbf of hysteresis in its constant-contact side bearings.
+pub fn with_hysteresis(mut parameters: Parameters) -> Parameters {
+    for body in parameters.trucks.iter_mut().flat_map(|own| &mut own.car_body) {
+        if let SideBearing::ConstantContact { hysteresis, .. } = &mut body.side_bearings.kind {
+            *hysteresis = Some(Hysteresis {
+                limit: 600.0 * POUND_FORCE,
+                ..Hysteresis::default()
+            });
+        }
     }
     parameters
 }

@@ -36,9 +36,8 @@ const DIP: &str = "[[track.irregularities]]\nshape = \"dip\"\nrails = \"both\"\n
 
 /// With inputs left alone the FMU does what the run does: it starts moving, and is integrated by the method
 /// of its case. Steps end at communication points too, so that not all bits are the same.
-#[test]
-fn cross_code_a_car_gives_the_columns_of_its_run() {
-    let own = case(&format!("simulation.relative_tolerance = 1e-5\n{TRACK}{DIP}"));
+fn gives_the_columns_of_its_run(lines: &str, more: &[&str]) {
+    let own = case(lines);
     let result = run(&own);
     let mut part = part(own, Interface::CoSimulation);
     part.begin();
@@ -52,7 +51,8 @@ fn cross_code_a_car_gives_the_columns_of_its_run() {
         "truck_1_leading_left_column_normal",
         "truck_2_trailing_right_slope_normal",
     ];
-    let mut worst = [0.0_f64; 8];
+    let names = [&names[..], more].concat();
+    let mut worst = vec![0.0_f64; names.len()];
     for row in 0..result.rows() {
         if row > 0 {
             part.step();
@@ -70,6 +70,22 @@ fn cross_code_a_car_gives_the_columns_of_its_run() {
     let relative = part.get("ledger_relative_residual");
     let wanted = result.summary.ledger.largest_relative_residual;
     assert!(relative.abs() < 2.0 * wanted, "{relative} {wanted}");
+}
+
+#[test]
+fn cross_code_a_car_gives_the_columns_of_its_run() {
+    gives_the_columns_of_its_run(
+        &format!("simulation.relative_tolerance = 1e-5\n{TRACK}{DIP}"),
+        &[],
+    );
+}
+
+/// The same with hysteresis in the side bearings, whose sliders are connections with states.
+#[test]
+fn cross_code_side_bearings_with_hysteresis() {
+    let bearing = "truck.side_bearing = { kind = \"constant_contact\", hysteresis = \"600 lbf\" }\n";
+    let lines = format!("simulation.relative_tolerance = 1e-6\n{bearing}{TRACK}{DIP}");
+    gives_the_columns_of_its_run(&lines, &["truck_1_left_side_bearing_hysteresis"]);
 }
 
 /// On rails that do not give way, a wheel over a dip has the forces of a wheel whose rail is moved by the

@@ -7,6 +7,7 @@ use super::options::{Branch, Options, SlopeDirection};
 use super::wedge::ColumnFace;
 use super::{Connection, Law};
 use crate::body::Body;
+use crate::contact::FrictionDirections;
 
 /// Reasons why a connection makes no element.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -222,9 +223,16 @@ impl Connection {
             Law::Surface(_) => (3, "be 0, 1 or 2 (x, y, z), each once"),
             _ => (6, "lie between 0 and 5 (x, y, z, roll, pitch, yaw)"),
         };
-        let surface = end == 3;
+        // Friction in one direction may act along the normal coordinate.
+        let twice = |i: usize| match law {
+            Law::Surface(own) => {
+                let along = i == 2 && own.directions == FrictionDirections::One;
+                coordinates[usize::from(along)..i].contains(&coordinates[i])
+            }
+            _ => false,
+        };
         for (i, &coordinate) in coordinates.iter().enumerate() {
-            if coordinate >= end || (surface && coordinates[..i].contains(&coordinate)) {
+            if coordinate >= end || twice(i) {
                 return Err(ConnectionError::Coordinate {
                     index,
                     name: name(),

@@ -9,6 +9,10 @@
 //! A clamped surface lies between two others that press from both sides: their normal forces cancel, and
 //! friction alone acts.
 //!
+//! Friction acts against the whole slip, or along the second of the two other coordinates alone
+//! ([`FrictionDirections::One`]). That coordinate may then be the normal one: a clamped surface whose limit
+//! follows the extension along which it slips, as the hysteresis of an elastomer that must not pull.
+//!
 //! Energy: the integral of K (not of a clamped one), the accumulator's `K_a e²/2`, its losses, and those of
 //! the damper.
 //!
@@ -19,14 +23,18 @@
 use numerics::scalar::Real;
 
 use super::accumulator::{Accumulator, Friction, FrictionRule, SpatialForce, friction_of};
+use crate::contact::FrictionDirections;
 use crate::curve::Curve;
 use crate::friction::Friction as Slip;
 
 /// Friction on a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceFriction {
-    /// The normal coordinate and the two of the surface (0 to 2: x, y, z).
+    /// The normal coordinate and the two of the surface (0 to 2: x, y, z), each once. With friction in one
+    /// direction the last one may be the first.
     pub coordinates: [usize; 3],
+    /// The directions in which friction acts: in both, or along the last coordinate alone.
+    pub directions: FrictionDirections,
     /// Force by the normal extension, N by m; negative where the surfaces press.
     pub spring: Curve,
     /// Force by the normal extension's rate, N by m/s.
@@ -45,6 +53,7 @@ pub(crate) struct Surface {
     normal: Curve,
     damper: Option<Curve>,
     coefficient: f64,
+    directions: FrictionDirections,
     pub accumulator: Accumulator,
     clamped: bool,
 }
@@ -55,6 +64,7 @@ impl Surface {
             normal: law.spring.scaled(-1.0, 0.0).clamped(0.0, f64::INFINITY),
             damper: law.damper.clone().filter(|curve| !curve.is_zero()),
             coefficient: law.coefficient,
+            directions: law.directions,
             accumulator: law.accumulator.with_damping(damping),
             clamped: law.clamped,
         }
@@ -87,7 +97,7 @@ impl Surface {
             &self.accumulator,
             rule.limit(normal * self.coefficient, normal.value()),
             rule,
-            [rates[1], rates[2]],
+            self.directions.seen([rates[1], rates[2]]),
             deflection,
         );
         let (across, lost) = match self.clamped {

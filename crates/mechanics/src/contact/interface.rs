@@ -51,6 +51,17 @@ pub enum FrictionDirections {
     One,
 }
 
+impl FrictionDirections {
+    /// Returns the slip that the law of friction sees.
+    #[inline(always)]
+    pub(crate) fn seen<S: Number>(self, slip: [S; 2]) -> [S; 2] {
+        match self {
+            Self::Two => slip,
+            Self::One => [S::zero(), slip[1]],
+        }
+    }
+}
+
 impl Default for Sliding {
     fn default() -> Self {
         Self {
@@ -111,10 +122,7 @@ impl Interface {
     /// Returns the slip that the law of friction sees.
     #[inline(always)]
     pub(crate) fn seen<S: Number>(&self, slip: [S; 2]) -> [S; 2] {
-        match self.directions {
-            FrictionDirections::Two => slip,
-            FrictionDirections::One => [S::zero(), slip[1]],
-        }
+        self.directions.seen(slip)
     }
 
     /// Returns the friction limit of a point from that of a plain face, N.

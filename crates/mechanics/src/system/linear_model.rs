@@ -139,6 +139,10 @@ impl System {
             };
             let limit = match (&connection.law, &found.wedge) {
                 (_, Some(inside)) => inside.friction_limit,
+                // The normal forces of a clamp cancel.
+                (Law::Surface(own), _) if own.clamped => {
+                    own.coefficient * (-own.spring.evaluate(found.extensions[0])).max(0.0)
+                }
                 (Law::Surface(own), _) => own.coefficient * found.forces[0].abs(),
                 _ => continue,
             };

@@ -7,6 +7,7 @@ use mechanics::body::Body;
 use mechanics::connection::{
     Accumulator, ColumnFace, Connection, GapDamper, Law, SpringDamper, SurfaceFriction, Wedge,
 };
+use mechanics::contact::FrictionDirections;
 use mechanics::curve::Curve;
 use mechanics::motion::Motion;
 use mechanics::system::Model;
@@ -173,6 +174,7 @@ pub fn model(constant: bool, spatial: bool) -> Model {
             for y in [42.5, 36.5] {
                 let law = SurfaceFriction {
                     clamped: false,
+                    directions: FrictionDirections::Two,
                     coordinates: [2, 0, 1],
                     spring: curve(&[[0.0, -15691.0], [0.031382, 0.0], [1.0, 0.0]]),
                     damper: None,

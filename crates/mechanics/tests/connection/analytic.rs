@@ -3,6 +3,7 @@
 use mechanics::connection::{
     Accumulator, ColumnFace, GapDamper, Law, Options, SpringDamper, SurfaceFriction,
 };
+use mechanics::contact::FrictionDirections;
 use mechanics::curve::Curve;
 use mechanics::system::ContactState;
 use mechanics::system::System;
@@ -185,6 +186,7 @@ fn strokes_follow_the_levers() {
 fn surface_friction_holds_and_slips_on_one_circle() {
     let law = SurfaceFriction {
         clamped: false,
+        directions: FrictionDirections::Two,
         coordinates: [2, 0, 1],
         spring: Curve::new(vec![[0.0, -100.0], [0.5, 0.0], [1.0, 0.0]]).unwrap(),
         damper: None,

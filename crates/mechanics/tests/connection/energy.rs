@@ -5,6 +5,7 @@ use mechanics::body::Body;
 use mechanics::connection::{
     Accumulator, ColumnFace, GapDamper, Law, Options, SpringDamper, SurfaceFriction,
 };
+use mechanics::contact::FrictionDirections;
 use mechanics::curve::Curve;
 use mechanics::motion::Motion;
 use mechanics::system::{EnergyTermKind, Model, System};
@@ -58,6 +59,7 @@ fn body_on_wedges(constant: bool, toe: f64, options: Options) -> Model {
     };
     let bearing = SurfaceFriction {
         clamped: false,
+        directions: FrictionDirections::Two,
         coordinates: [2, 0, 1],
         spring: curve(&[[0.0, -2000.0], [0.03, 0.0], [1.0, 0.0]]),
         damper: Some(curve(&[[0.0, 0.0], [1.0, 100.0]])),

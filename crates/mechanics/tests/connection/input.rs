@@ -4,6 +4,7 @@ use mechanics::body::Body;
 use mechanics::connection::{
     Accumulator, ColumnFace, ConnectionError, GapDamper, Law, Options, SpringDamper, SurfaceFriction,
 };
+use mechanics::contact::FrictionDirections;
 use mechanics::curve::{Curve, CurveError};
 use mechanics::system::{Model, ModelError, System};
 
@@ -61,6 +62,7 @@ fn wrong_models_are_refused() {
     ));
     let twice = SurfaceFriction {
         clamped: false,
+        directions: FrictionDirections::Two,
         coordinates: [2, 1, 1],
         spring: Curve::linear(1.0),
         damper: None,

@@ -7,6 +7,7 @@ use mechanics::connection::{
     Accumulator, Branch, ColumnFace, GapDamper, Law, NegativeRise, Options, SpringDamper, SurfaceFriction,
     Wedge,
 };
+use mechanics::contact::FrictionDirections;
 use mechanics::curve::Curve;
 use mechanics::motion::Motion;
 use mechanics::system::ContactState;
@@ -55,6 +56,7 @@ fn everything(options: Options, accumulator: Accumulator) -> Model {
     };
     let surface = SurfaceFriction {
         clamped: false,
+        directions: FrictionDirections::Two,
         coordinates: [2, 0, 1],
         spring: curve(&[[-1.0, -150.0], [0.0, -60.0], [0.2, 0.0], [1.0, 0.0]]),
         damper: Some(curve(&[[0.0, 0.0], [1.0, 4.0]])),

@@ -9,6 +9,7 @@ use mechanics::connection::{
     Accumulator, ColumnFace, Connection, GapDamper, Law, Options, SlopeDirection, SpringDamper,
     SurfaceFriction, Wedge,
 };
+use mechanics::contact::FrictionDirections;
 use mechanics::curve::Curve;
 use mechanics::frame::Frame;
 use mechanics::link::Marker;
@@ -46,16 +47,26 @@ fn laws(accumulator: Accumulator) -> Vec<Law> {
     };
     let surface = SurfaceFriction {
         clamped: false,
+        directions: FrictionDirections::Two,
         coordinates: [2, 0, 1],
         spring: curve(&[[-1.0, -150.0], [0.0, -60.0], [0.2, 0.0], [1.0, 0.0]]),
         damper: Some(curve(&[[0.0, 0.0], [1.0, 4.0]])),
         coefficient: 0.5,
         accumulator,
     };
+    // Its limit follows the extension along which it slips.
+    let hysteresis = SurfaceFriction {
+        clamped: true,
+        directions: FrictionDirections::One,
+        coordinates: [2, 0, 2],
+        damper: None,
+        ..surface.clone()
+    };
     vec![
         Law::Springs((0..6).map(|k| (k, spring.clone())).collect()),
         Law::Gap(2, gap),
         Law::Surface(surface),
+        Law::Surface(hysteresis),
         Law::Wedge(wedge(accumulator)),
     ]
 }

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use mechanics::body::Body;
 use mechanics::connection::{Accumulator, ColumnFace, Law, SpringDamper, SurfaceFriction};
+use mechanics::contact::FrictionDirections;
 use mechanics::curve::Curve;
 use mechanics::system::{Held, StaticFriction, System};
 
@@ -62,6 +63,7 @@ fn a_body_on_four_springs() {
     let (held, coupled) = (4e4, 2.0);
     let surface = SurfaceFriction {
         clamped: false,
+        directions: FrictionDirections::Two,
         coordinates: [2, 0, 1],
         spring: Curve::new(vec![[-1.0, -100.0], [1.0, -100.0]]).unwrap(),
         damper: None,

@@ -6,6 +6,7 @@ use mechanics::body::Body;
 use mechanics::connection::{
     Accumulator, ColumnFace, Connection, GapDamper, Law, SpringDamper, SurfaceFriction, Wedge,
 };
+use mechanics::contact::FrictionDirections;
 use mechanics::curve::{Curve, CurveError};
 use mechanics::motion::Motion;
 use mechanics::system::Model;
@@ -355,6 +356,7 @@ impl Laws<'_> {
         let both = (INCH, POUND);
         Ok(Law::Surface(SurfaceFriction {
             clamped: false,
+            directions: FrictionDirections::Two,
             coordinates,
             spring: self
                 .curve(**normal, both)?

@@ -258,6 +258,7 @@ impl Table {
             let mut own = own.truck(truck);
             own.warp_moment();
             own.center_plate();
+            own.side_bearings(parameters);
             own.rises();
             own.halves(parameters);
         }
@@ -525,8 +526,8 @@ impl Table {
             ),
             (
                 "friction_loss",
-                "energy lost in the friction of wedges, adapters, center plates and side bearings since the \
-                 start",
+                "energy lost in the friction of wedges, adapters, center plates and side bearings, with \
+                 hysteresis, since the start",
                 places_of(system, |kind, _| FRICTION.contains(&kind)),
             ),
             (

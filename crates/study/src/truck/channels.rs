@@ -8,9 +8,10 @@ use truck::{HALVES, HalfLoads, Loads, Parameters, WEDGE_NAMES, WedgeKind, WedgeL
 
 /// Names of the sides in columns.
 pub(crate) const SIDES: [&str; 2] = ["left", "right"];
-/// The energy terms of friction, with the kinematics of massless wedges.
-pub(crate) const FRICTION: [EnergyTermKind; 4] = [
+/// The energy terms of friction, with the kinematics of massless wedges and the hysteresis of side bearings.
+pub(crate) const FRICTION: [EnergyTermKind; 5] = [
     EnergyTermKind::FrictionLoss,
+    EnergyTermKind::SurfaceFriction,
     EnergyTermKind::ColumnFriction,
     EnergyTermKind::SlopeFriction,
     EnergyTermKind::WedgeKinematics,
@@ -182,6 +183,27 @@ impl<L: 'static> TruckChannels<'_, L> {
             let name = format!("center_plate_{name}_moment");
             self.add(name, Kind::Moment, text, move |loads| {
                 loads.center_plate.moment[k]
+            });
+        }
+    }
+
+    /// Forces of side bearings, if they have hysteresis.
+    pub fn side_bearings(&mut self, parameters: &Parameters) {
+        let car = parameters.car_body.as_ref();
+        if car.and_then(|own| own.side_bearings.kind.hysteresis()).is_none() {
+            return;
+        }
+        for (side, name) in SIDES.into_iter().enumerate() {
+            let text = "force of the side bearing on the car body along z of the bolster: spring, solid stop \
+                        and hysteresis";
+            let force = format!("{name}_side_bearing_force");
+            self.add(force, Kind::Force, text, move |loads| {
+                loads.side_bearings[side].force
+            });
+            let text = "its part of the hysteresis, positive in compression";
+            let hysteresis = format!("{name}_side_bearing_hysteresis");
+            self.add(hysteresis, Kind::Force, text, move |loads| {
+                loads.side_bearings[side].hysteresis
             });
         }
     }

@@ -170,6 +170,7 @@ impl<'t> Table<'t> {
         if parameters.car_body.is_some() {
             others.push((CAR_BODY, "car_body"));
             own.common().center_plate();
+            own.common().side_bearings(parameters);
         }
         for (body, name) in others {
             own.body(body, name, &[0, 1, 2, 3, 4, 5]);

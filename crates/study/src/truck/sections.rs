@@ -12,7 +12,7 @@ use truck::{Bolster, Clearance, Geometry, Lading, Parameters, RigidBody, WedgeKi
 use wedge::parameters::{Damping, FaceFriction};
 
 pub(super) use car_body::car_body;
-pub(crate) use car_body::{bearing_keys, center_plate, plate_keys, side_bearings};
+pub(crate) use car_body::{bearing_keys, center_plate, doubts_of_bearing, plate_keys, side_bearings};
 pub(crate) use coils::{
     coils, counts as coil_counts, height as coil_height, kind as coil_kind, together as coils_together,
 };

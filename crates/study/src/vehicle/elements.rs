@@ -112,11 +112,16 @@ const FORCES: QuantityForm = (Kind::Force, Range::Any, Reach::Signed(1e4));
 const STIFFNESSES: QuantityForm = (Kind::Stiffness, Range::NotNegative, Reach::Wide);
 const TURNED: QuantityForm = (Kind::Angle, Range::Any, Reach::Signed(1.6));
 
-/// Reads `[elements.NAME]`; `bodies` are the names that their ends may have, the ground first.
-pub(super) fn all(r: &mut CaseReader<'_>, bodies: &[&str], own: &'static [OwnElement]) -> Vec<Element> {
+/// Reads `[elements.NAME]`; `bodies` are the names that their ends may have, the ground first. Returns them,
+/// and what is doubtful.
+pub(super) fn all(
+    r: &mut CaseReader<'_>,
+    bodies: &[&str],
+    own: &'static [OwnElement],
+) -> (Vec<Element>, Vec<String>) {
     let names = r.names("elements");
     let coils = truck::coils::catalog();
-    let mut all = Vec::with_capacity(names.len());
+    let (mut all, mut doubts) = (Vec::with_capacity(names.len()), Vec::new());
     for name in names {
         if bodies.contains(&name) {
             let problem = Problem::new(format!("a body and an element are both named `{name}`"));
@@ -124,14 +129,19 @@ pub(super) fn all(r: &mut CaseReader<'_>, bodies: &[&str], own: &'static [OwnEle
             let path = format!("elements.{name}");
             r.problem_at_key(&path, problem.label("two parts of one name").help(help));
         }
-        all.extend(element(r, name, (bodies, own, &coils)));
+        all.extend(element(r, name, (bodies, own, &coils), &mut doubts));
     }
-    all
+    (all, doubts)
 }
 
 type Known<'k> = (&'k [&'k str], &'static [OwnElement], &'k [CoilKind]);
 
-fn element(r: &mut CaseReader<'_>, name: &str, (bodies, own, coils): Known<'_>) -> Option<Element> {
+fn element(
+    r: &mut CaseReader<'_>,
+    name: &str,
+    (bodies, own, coils): Known<'_>,
+    doubts: &mut Vec<String>,
+) -> Option<Element> {
     let path = format!("elements.{name}");
     r.section(&path, "An element. Forces are those on the body with end a.");
     if like::is_told(r, &path) {
@@ -177,7 +187,11 @@ fn element(r: &mut CaseReader<'_>, name: &str, (bodies, own, coils): Known<'_>) 
         Which::Catalog(ElementKind::Coupler) => Arc::new(couplers::coupler(r)),
         Which::Catalog(ElementKind::DraftGear) => Arc::new(couplers::draft_gear(r)),
         Which::Catalog(kind) if lines::is_line(kind) => Arc::new(lines::line(r, kind)),
-        Which::Catalog(kind) => seats::seat(r, &path, kind),
+        Which::Catalog(kind) => {
+            let (law, doubtful) = seats::seat(r, &path, kind);
+            doubts.extend(doubtful.into_iter().map(|words| format!("{name}: {words}")));
+            law
+        }
     };
     let (a, b) = (a?, b?);
     let is_force = matches!(kind, Which::Catalog(ElementKind::Force | ElementKind::Coupler));

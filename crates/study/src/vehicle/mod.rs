@@ -116,7 +116,8 @@ fn read_with(r: &mut CaseReader<'_>, default_name: &str, own: &'static [OwnEleme
         .chain(description.bodies.iter().map(|own| own.name.as_str()))
         .chain(parts.names.iter().map(String::as_str))
         .collect();
-    description.elements = elements::all(r, &names, own);
+    let (elements, doubtful) = elements::all(r, &names, own);
+    description.elements = elements;
     let (on_track, files, mut doubts) = on_track::track(r, &mut parts, &description.bodies);
     description.on_track = on_track;
     r.section("start", "How the run starts.");
@@ -136,6 +137,7 @@ fn read_with(r: &mut CaseReader<'_>, default_name: &str, own: &'static [OwnEleme
     if let Some(duration) = &duration {
         check_motions(r, duration);
     }
+    doubts.extend(doubtful);
     doubts.extend(self::doubts(r, &description));
     let on = description.on_track.as_ref();
     doubts.extend(on.and_then(|on| {

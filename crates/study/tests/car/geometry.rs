@@ -195,6 +195,20 @@ fn input_doubtful_geometry_is_told() {
              in\"], inertia = [\"1e6 lbf in s^2\", \"1e7 lbf in s^2\", \"1e7 lbf in s^2\"] }] }",
             "the lading \"tank\" is 8.0 in above the top of rail",
         ),
+        (
+            "truck.side_bearing={ kind = \"constant_contact\", hysteresis = \"4000 lbf\" }",
+            "is 67 % of its preload",
+        ),
+        (
+            "truck.side_bearing={ kind = \"constant_contact\", hysteresis = \"600 lbf\", \
+             hysteresis_stiffness = \"3000 lbf/in\" }",
+            "slips only after 0.200 in of its travel of 0.625 in",
+        ),
+        (
+            "truck.side_bearing={ kind = \"constant_contact\", hysteresis = \"600 lbf\", \
+             hysteresis_damping = \"3000 lbf s/in\" }",
+            "lags by 0.100 s",
+        ),
     ] {
         let doubts = read(&[set]).unwrap().doubts;
         assert!(
@@ -202,6 +216,8 @@ fn input_doubtful_geometry_is_told() {
             "{set}: {doubts:?}"
         );
     }
+    let bearing = "truck.side_bearing={ kind = \"constant_contact\", hysteresis = \"600 lbf\" }";
+    assert_eq!(read(&[bearing]).unwrap().doubts, Vec::<String>::new());
 }
 
 /// Wedge angles that no truck has are told of cars and of single wedges.

@@ -186,6 +186,27 @@ fn input_messages_say_what_is_wrong_and_what_to_write() {
             &["more than the", "lift it off the center plate"],
         ),
         (
+            "lading.kind = \"empty\"\ntruck.side_bearing.hysteresis = \"7000 lbf\"",
+            &[
+                "hysteresis of a side bearing is 7000 lbf, more than its preload of 6000 lbf",
+                "would not follow the body back",
+                "half the height of the loop",
+            ],
+        ),
+        (
+            "lading.kind = \"empty\"\ntruck.side_bearing.hysteresis = \"600 lbf\"\n\
+             truck.side_bearing.damping = \"10 lbf s/in\"",
+            &["two losses of one elastomer", "leave out its damping"],
+        ),
+        (
+            "lading.kind = \"empty\"\ntruck.side_bearing.hysteresis = \"-600 lbf\"",
+            &["`truck.side_bearing.hysteresis` is -600 lbf; it must be zero or greater"],
+        ),
+        (
+            "truck.side_bearing.kind = \"roller\"\ntruck.side_bearing.hysteresis = \"600 lbf\"",
+            &["there is no key `hysteresis` in `truck.side_bearing`"],
+        ),
+        (
             "wheels.geometry = \"linear\"",
             &[
                 "linear wheels roll on rails that do not give way",

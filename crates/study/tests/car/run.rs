@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use quantity::System;
 use study::car::CarCase;
+use study::car::columns::CarTable;
 use study::car::run::CarResult;
 use study::case::Tables;
 use study::design::{Study, StudySource};
@@ -377,4 +378,25 @@ simulation.duration = \"0.3 s\"
     ] {
         assert!(own.text.contains(part), "{}", own.text);
     }
+}
+
+/// Side bearings with hysteresis have columns of their force and of its part; without it there are none, and
+/// 0 lbf is without.
+#[test]
+fn input_hysteresis_of_side_bearings_has_columns() {
+    let columns = |lines: &str| -> Vec<String> {
+        let case = case(&format!("lading.kind = \"empty\"\n{lines}"));
+        let table = CarTable::new(&case.parameters).unwrap();
+        let names = table.columns().iter().map(|own| own.name.clone());
+        names.filter(|name| name.contains("side_bearing")).collect()
+    };
+    let none = columns("truck.side_bearing.hysteresis = \"0 lbf\"");
+    assert!(columns("").is_empty() && none.is_empty(), "{none:?}");
+    let some = columns("truck.side_bearing.hysteresis = \"600 lbf\"");
+    let expected = [1, 2].map(|truck| {
+        ["left", "right"].map(|side| {
+            ["force", "hysteresis"].map(|what| format!("truck_{truck}_{side}_side_bearing_{what}"))
+        })
+    });
+    assert_eq!(some, expected.as_flattened().as_flattened());
 }

@@ -11,5 +11,6 @@ mod geometry;
 mod massless;
 mod momentum;
 mod nest;
+mod side_bearing;
 mod spatial_wedge;
 mod split_wedge;

@@ -6,6 +6,7 @@ use common::{INCH, KIP_INCH, POUND_FORCE, at, run};
 use integrate::{Integrator, Method, Options};
 use mechanics::body::Body;
 use mechanics::connection::{Accumulator, Connection, Law, SpringDamper, SurfaceFriction};
+use mechanics::contact::FrictionDirections;
 use mechanics::curve::Curve;
 use mechanics::friction::FrictionLaw;
 use mechanics::motion::Motion;
@@ -346,6 +347,7 @@ fn linearized(parameters: &Parameters) -> System {
             for across in [3.0 * INCH, -3.0 * INCH] {
                 let law = SurfaceFriction {
                     clamped: false,
+                    directions: FrictionDirections::Two,
                     coordinates: [2, 0, 1],
                     spring: Curve::linear(adapter.contact.stiffness).scaled(1.0, -adapter.preload),
                     damper: Some(Curve::linear(adapter.contact.damping)),

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use mechanics::connection::{Accumulator, Connection, Law, SurfaceFriction};
+use mechanics::contact::FrictionDirections;
 use mechanics::curve::Curve;
 use quantity::Kind;
 
@@ -45,6 +46,7 @@ impl CatalogElement for DryFriction {
                 damping: self.bristle_damping,
             },
             clamped: !self.pushes,
+            directions: FrictionDirections::Two,
         };
         // Between markers it acts at any heading; bodies whose frames move have differences of coordinates.
         let rest = [a, b]

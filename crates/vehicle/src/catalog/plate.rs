@@ -1,7 +1,10 @@
 //! Center plates, side bearings and adapters, as trucks have them: see [`truck::Joint`].
 
+use std::sync::Arc;
+
 use mechanics::friction::FrictionLaw;
-use truck::{Adapter, CenterPlate, Joint, SideBearing};
+use quantity::Kind;
+use truck::{Adapter, CenterPlate, Hysteresis, Joint, SideBearing};
 use wedge::parameters::FaceFriction;
 
 use super::{CatalogElement, Place};
@@ -68,12 +71,31 @@ impl CatalogElement for Plate {
 impl CatalogElement for Bearing {
     fn add(&self, place: &mut Place<'_>) -> Result<(), String> {
         let (name, [(_, at), _]) = (place.name, place.ends);
-        let face = place.model.faces.len();
+        let (face, connection) = (place.model.faces.len(), place.model.connections.len());
         joint(place).add_side_bearing(name, at, &self.0);
         if place.model.faces.len() > face {
             place.face_channels("", face);
         }
+        if place.model.connections.len() > connection {
+            let text = "force of the hysteresis on end A along z of end B, positive in compression";
+            place.channel("hysteresis_force", Kind::Force, text, move |view| {
+                -view.seen.connections[connection].forces[2]
+            });
+        }
         Ok(())
+    }
+
+    fn at_rest(&self) -> Option<Arc<dyn CatalogElement>> {
+        let SideBearing::ConstantContact { hysteresis, .. } = &self.0 else {
+            return None;
+        };
+        hysteresis.map(|own| {
+            let mut resting = self.clone();
+            if let SideBearing::ConstantContact { hysteresis, .. } = &mut resting.0 {
+                *hysteresis = Some(Hysteresis { limit: 0.0, ..own });
+            }
+            Arc::new(resting) as Arc<dyn CatalogElement>
+        })
     }
 
     fn drawn(&self) -> Drawn {

@@ -1,7 +1,8 @@
 //! The energy ledger of all elements together, and momentum between bodies.
 
 use mechanics::motion::Motion;
-use truck::{Adapter, CarBody, Lading, Parameters, SideBearings, Spring};
+use mechanics::system::EnergyTermKind;
+use truck::{Adapter, CarBody, Hysteresis, Lading, Parameters, SideBearing, SideBearings, Spring};
 use vehicle::StartKind;
 use vehicle::catalog::{
     AppliedForce, AxisStop, AxleAdapter, Bearing, Bushing, Coil, DryFriction, FrictionWedge, Line, Plate,
@@ -131,7 +132,14 @@ fn energy_the_ledger_of_the_parts_of_trucks_closes() {
         plate: usual.center_plate,
         load: 4e5,
     };
-    let bearing = Bearing(usual.side_bearings.kind);
+    let mut kind = usual.side_bearings.kind;
+    if let SideBearing::ConstantContact { hysteresis, .. } = &mut kind {
+        *hysteresis = Some(Hysteresis {
+            limit: 50.0,
+            ..Hysteresis::default()
+        });
+    }
+    let bearing = Bearing(kind);
     let bolster = body("bolster", 4e4, 2e4, [0.0, 0.0, 0.5], &[2, 4]);
     let mut frame = body("frame", 1.0, 1.0, [0.0, 0.0, 0.4], &[]);
     frame.motion.coordinates[2] = Motion::Sine {
@@ -183,10 +191,10 @@ fn energy_the_ledger_of_the_parts_of_trucks_closes() {
         .observe(0.0, &own.initial_state)
         .energies
         .total();
-    let mut lost = 0.0;
+    let (mut lost, mut quadratures) = (0.0, Vec::new());
     run(&own, &[0.25, 0.5, 1.0], 1e-7, |time, seen, _| {
         let residual = seen.residual(start).abs();
-        lost = seen.losses;
+        (lost, quadratures) = (seen.losses, seen.quadratures.clone());
         assert!(
             residual < 1e-3 * seen.losses,
             "{time}: {residual:.3e} of {:.3e}",
@@ -194,4 +202,12 @@ fn energy_the_ledger_of_the_parts_of_trucks_closes() {
         );
     });
     assert!(lost > 100.0, "{lost}");
+    let terms = own.system.energy_terms().iter().zip(&quadratures);
+    for name in ["bearing_left", "bearing_right"] {
+        let mut own = terms
+            .clone()
+            .filter(|(term, _)| term.kind == EnergyTermKind::SurfaceFriction && term.element == name);
+        let (_, hysteresis) = own.next().unwrap();
+        assert!(*hysteresis > 0.01, "{name}: {hysteresis} J");
+    }
 }

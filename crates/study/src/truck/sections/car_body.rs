@@ -1,12 +1,22 @@
 //! A car body on center plate and side bearings.
 
-use truck::{CarBody, CenterPlate, Lading, Parameters, SideBearing, SideBearings};
+use quantity::Kind;
+use truck::{CarBody, CenterPlate, Hysteresis, Lading, Parameters, SideBearing, SideBearings};
 
 use super::{HEIGHT, Load, clearance, friction, rigid_body};
+use crate::case::field::Reach;
 use crate::case::problem::Problem;
 use crate::case::read::contact;
-use crate::case::section::Names;
-use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, PRELOAD, STIFFNESS};
+use crate::case::section::{Names, Range};
+use crate::reader::{CLEARANCE, CaseReader, DAMPING, LENGTH, PRELOAD, QuantityForm, STIFFNESS};
+
+const INCH: f64 = 0.0254;
+const POUND_FORCE: f64 = 4.448_221_615_260_5;
+/// Part of the preload beyond which hysteresis is doubtful, and part of the travel before it slips.
+const MOST_OF_PRELOAD: f64 = 0.5;
+const MOST_OF_TRAVEL: f64 = 0.2;
+/// Longest lag of hysteresis, s: at 2 Hz an eighth of the force of the spring in series.
+const LONGEST_LAG: f64 = 0.01;
 
 pub(in crate::truck) fn car_body(
     r: &mut CaseReader<'_>,
@@ -134,6 +144,7 @@ pub(crate) fn bearing_keys(r: &mut CaseReader<'_>, bearing: &mut SideBearing) {
             travel,
             solid,
             friction: law,
+            hysteresis,
         } => {
             r.quantity("preload", PRELOAD, preload, "in the nominal layout");
             contact(r, soft, "until it is solid");
@@ -141,6 +152,78 @@ pub(crate) fn bearing_keys(r: &mut CaseReader<'_>, bearing: &mut SideBearing) {
             r.quantity("solid_stiffness", STIFFNESS, &mut solid.stiffness, "beyond it");
             r.quantity("solid_damping", DAMPING, &mut solid.damping, "beyond it");
             friction(r, law);
+            let mut own = hysteresis.unwrap_or_default();
+            hysteresis_keys(r, &mut own);
+            *hysteresis = (own.limit > 0.0).then_some(own);
+            if own.limit > *preload {
+                let message = format!(
+                    "the hysteresis of a side bearing is {:.0} lbf, more than its preload of {:.0} lbf: in \
+                     the nominal layout the bearing would not follow the body back",
+                    own.limit / POUND_FORCE,
+                    *preload / POUND_FORCE
+                );
+                let help = "give half the height of the loop of force over travel, less than the preload";
+                let problem = Problem::new(message).label("more than the preload").help(help);
+                r.problem_at(&r.path("hysteresis"), problem);
+            }
+            if own.limit > 0.0 && soft.damping > 0.0 {
+                let message = "a side bearing has damping and hysteresis: two losses of one elastomer, which \
+                               together could pull";
+                let help = "leave out its damping, or its hysteresis";
+                let problem = Problem::new(message).label("one of two").help(help);
+                r.problem_at(&r.path("damping"), problem);
+            }
         }
     }
+}
+
+fn hysteresis_keys(r: &mut CaseReader<'_>, own: &mut Hysteresis) {
+    const LIMIT: QuantityForm = (Kind::Force, Range::NotNegative, Reach::FromZero(4448.0));
+    const BRISTLE_DAMPING: QuantityForm = (Kind::Damping, Range::Positive, Reach::Wide);
+    let comment = "half the height of the loop of its vertical force: at any speed an elastomer pushes back \
+                   less than it was pressed in by twice this force. 0: none";
+    r.quantity("hysteresis", LIMIT, &mut own.limit, comment);
+    let comment = "of the spring in series with the slider of the hysteresis: a guess";
+    r.quantity("hysteresis_stiffness", STIFFNESS, &mut own.stiffness, comment);
+    let comment = "of that spring, for the solver: small beside its stiffness times the time of a motion";
+    r.quantity("hysteresis_damping", BRISTLE_DAMPING, &mut own.damping, comment);
+}
+
+/// Returns the doubts about the hysteresis of a side bearing.
+pub(crate) fn doubts_of_bearing(bearing: &SideBearing) -> Vec<String> {
+    let SideBearing::ConstantContact {
+        preload,
+        travel,
+        hysteresis: Some(own),
+        ..
+    } = bearing
+    else {
+        return Vec::new();
+    };
+    let mut doubts = Vec::new();
+    if own.limit > MOST_OF_PRELOAD * preload {
+        doubts.push(format!(
+            "the hysteresis of a side bearing, {:.0} lbf, is {:.0} % of its preload: an elastomer would lose \
+             more than it gives back; hysteresis is half the height of the loop",
+            own.limit / POUND_FORCE,
+            100.0 * own.limit / preload
+        ));
+    }
+    let held = own.limit / own.stiffness;
+    if held > MOST_OF_TRAVEL * travel {
+        doubts.push(format!(
+            "the hysteresis of a side bearing slips only after {:.3} in of its travel of {:.3} in, and loses \
+             nothing before: raise hysteresis_stiffness",
+            held / INCH,
+            travel / INCH
+        ));
+    }
+    let lag = own.damping / own.stiffness;
+    if lag > LONGEST_LAG {
+        doubts.push(format!(
+            "the hysteresis of a side bearing lags by {lag:.3} s, so that its loop depends on speed: lower \
+             hysteresis_damping"
+        ));
+    }
+    doubts
 }

@@ -10,10 +10,25 @@ use super::ElementKind;
 use crate::case::field::Reach;
 use crate::case::section::Range;
 use crate::reader::{CLEARANCE, CaseReader, PRELOAD, QuantityForm};
-use crate::truck::sections::{adapter_keys, bearing_keys, plate_keys};
+use crate::truck::sections::{adapter_keys, bearing_keys, doubts_of_bearing, plate_keys};
 
 /// The keys of a center plate, a side bearing or an adapter; a is the body above.
-pub(super) fn seat(r: &mut CaseReader<'_>, path: &str, kind: ElementKind) -> Arc<dyn CatalogElement> {
+/// Returns the element and what is doubtful.
+pub(super) fn seat(
+    r: &mut CaseReader<'_>,
+    path: &str,
+    kind: ElementKind,
+) -> (Arc<dyn CatalogElement>, Vec<String>) {
+    if let ElementKind::RollerSideBearing = kind {
+        return bearing(r, SideBearings::rollers());
+    }
+    if let ElementKind::ConstantContactSideBearing = kind {
+        return bearing(r, SideBearings::constant_contact());
+    }
+    (without_doubts(r, path, kind), Vec::new())
+}
+
+fn without_doubts(r: &mut CaseReader<'_>, path: &str, kind: ElementKind) -> Arc<dyn CatalogElement> {
     match kind {
         ElementKind::CenterPlate => {
             let usual = CarBody::new(Lading::Loaded, SideBearings::rollers());
@@ -25,8 +40,6 @@ pub(super) fn seat(r: &mut CaseReader<'_>, path: &str, kind: ElementKind) -> Arc
             plate_keys(r, path, &mut own.plate);
             Arc::new(own)
         }
-        ElementKind::RollerSideBearing => bearing(r, SideBearings::rollers()),
-        ElementKind::ConstantContactSideBearing => bearing(r, SideBearings::constant_contact()),
         ElementKind::AdapterPad => adapter(r, Adapter::pad(), [0.0; 2]),
         _ => {
             let form: QuantityForm = (Kind::Length, Range::NotNegative, Reach::FromZero(0.1));
@@ -40,10 +53,11 @@ pub(super) fn seat(r: &mut CaseReader<'_>, path: &str, kind: ElementKind) -> Arc
     }
 }
 
-fn bearing(r: &mut CaseReader<'_>, usual: SideBearings) -> Arc<dyn CatalogElement> {
+fn bearing(r: &mut CaseReader<'_>, usual: SideBearings) -> (Arc<dyn CatalogElement>, Vec<String>) {
     let mut own = usual.kind;
     bearing_keys(r, &mut own);
-    Arc::new(Bearing(own))
+    let doubts = doubts_of_bearing(&own);
+    (Arc::new(Bearing(own)), doubts)
 }
 
 fn adapter(r: &mut CaseReader<'_>, usual: Adapter, across: [f64; 2]) -> Arc<dyn CatalogElement> {
