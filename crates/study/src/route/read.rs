@@ -4,7 +4,6 @@ use std::path::Path;
 
 use input::file::{Expected, read_text};
 use input::{FileType, limits};
-use quantity::Kind;
 
 use super::{Route, RoutePart, WedgeLaw, WheelWear, car_of};
 use crate::case::CaseError;
@@ -14,8 +13,18 @@ use crate::case::section::{CaseSection, Names, Range};
 use crate::case::tree::{self, NodeValue, TableNode};
 use crate::design::{case_source, settings};
 
-const KEYS: [&str; 10] = [
-    "name", "title", "case", "service", "steps", "wheels", "set", "wedges", "tracks", "seasons",
+const KEYS: [&str; 11] = [
+    "name",
+    "title",
+    "case",
+    "miles",
+    "kilometers",
+    "steps",
+    "wheels",
+    "set",
+    "wedges",
+    "tracks",
+    "seasons",
 ];
 const WHEELS: Names<WheelWear> = &[
     ("mean", WheelWear::Mean),
@@ -71,9 +80,16 @@ pub(super) fn text(file: &str, text: &str, folder: &Path) -> Result<Route, CaseE
         false => "",
     };
     let mut service = SERVICE;
-    if given("service") {
-        let found = top.quantity("service", Kind::Distance, Range::Positive, &mut problems);
-        service = found.map_or(service, |own| own.to_si());
+    for (key, unit) in [("miles", 1_609.344), ("kilometers", 1e3)] {
+        if given(key) {
+            let range = Range::Between(1.0, 1e9, "between 1 and 1e9");
+            let found = top.number(key, range, "100000", &mut problems);
+            service = found.map_or(service, |own| own * unit);
+        }
+    }
+    if given("miles") && given("kilometers") {
+        let problem = Problem::new("the service is given twice, in `miles` and in `kilometers`");
+        problems.push(problem.help("leave one of them out"));
     }
     let mut steps = 1;
     if given("steps") {

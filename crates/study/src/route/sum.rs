@@ -116,6 +116,18 @@ fn places() -> impl Iterator<Item = f64> {
     (-REACH..=REACH).map(|k| PLACE * f64::from(k))
 }
 
+/// Returns a way of service (m) in miles or kilometers.
+fn of_service(si: f64, units: Units) -> SummaryValue {
+    let (unit, name) = match units {
+        Units::Us => (1_609.344, "mi"),
+        Units::Si => (1e3, "km"),
+    };
+    SummaryValue {
+        value: si / unit,
+        unit: name.to_owned(),
+    }
+}
+
 /// Returns a number of a summary in SI.
 fn si(own: &SummaryValue, kind: Kind, units: Units) -> f64 {
     own.value / kind.from_si(units)
@@ -197,7 +209,7 @@ impl<'r> RouteWear<'r> {
             name: route.name.clone(),
             title: route.title.clone(),
             units,
-            service: SummaryValue::new(route.service, Kind::Distance, units),
+            service: of_service(route.service, units),
             warnings: Vec::new(),
             steps: Vec::new(),
             assumptions: assumptions(route),
@@ -342,7 +354,7 @@ impl<'r> RouteWear<'r> {
             (name.clone(), depth)
         });
         let step = RouteStep {
-            service: [number, number + 1.0].map(|own| value(own * part, Kind::Distance)),
+            service: [number, number + 1.0].map(|own| of_service(own * part, units)),
             creep_resistance: shown(resistance, Kind::Force),
             wheels: of_wheels.collect(),
             rails: of_rails.collect(),

@@ -18,6 +18,7 @@ mod onset;
 #[path = "../common/problems.rs"]
 mod problems;
 mod rails;
+mod route;
 mod run;
 mod shared_rails;
 mod stability;

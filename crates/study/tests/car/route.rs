@@ -1,0 +1,173 @@
+//! analytic, limits, input: routes.
+
+use std::path::Path;
+
+use study::car::CarCase;
+use study::route::{OfRun, Route, RouteWear, WedgeLaw, WornProfile};
+use study::run::Run;
+use wheelrail::profile::{Points, Profile, ProfileKind, nominal};
+
+use crate::problems::in_words;
+
+const ROUTE: &str = "title = \"two tracks\"\ncase = \"car_constant_curve_loaded\"\nmiles = 40000\nsteps = \
+                     2\n[set]\nsimulation.duration = \"4 s\"\nsimulation.output_interval = \"10 \
+                     ms\"\nstart.settle = \"1 s\"\n[wedges]\ncoefficient = 2e-6\n[tracks.curve]\nshare = \
+                     0.25\n[tracks.tangent]\nshare = 0.75\n[tracks.tangent.set]\ntrack.segments = [{ tangent = \"600 \
+                     ft\" }]\n";
+
+fn parse(text: &str) -> Result<Route, String> {
+    let error = |error: study::case::CaseError| in_words(error.problems());
+    Route::parse("route.toml", text, Path::new("")).map_err(error)
+}
+
+fn run(case: &CarCase) -> study::car::summary::CarSummary {
+    Run::new(case).unwrap().finish(|_| ()).summary
+}
+
+/// Damage of a mile is the mean of the runs by their shares; wheels lose what the step's pace says, and the
+/// worn car runs on with it; wedges lose K E / (μ H A).
+#[test]
+fn analytic_a_step_is_the_mean_of_its_runs() {
+    let route = parse(ROUTE).unwrap();
+    let base = route.case([0, 0], &[]).unwrap();
+    let mut wear = RouteWear::new(&route, base.clone());
+    assert!(wear.worn().profiles.is_empty() && wear.worn().wedges.is_empty());
+    let runs: Vec<OfRun> = route
+        .runs()
+        .into_iter()
+        .map(|own| OfRun {
+            summary: run(&route.case(own.of, &[]).unwrap()),
+            run: own,
+        })
+        .collect();
+    assert_eq!(
+        runs.iter().map(|own| own.run.name.as_str()).collect::<Vec<_>>(),
+        ["curve", "tangent"]
+    );
+    wear.step(&runs);
+    let step = &wear.summary.steps[0];
+    let of = |number: usize| runs[number].summary.damage.as_ref().unwrap();
+    let mean = |read: &dyn Fn(&study::damage::DamageSummary) -> f64| 0.25 * read(of(0)) + 0.75 * read(of(1));
+    let near = |found: f64, expected: f64, within: f64| {
+        assert!((found / expected - 1.0).abs() < within, "{found} {expected}");
+    };
+    near(
+        step.creep_resistance.value,
+        mean(&|own| own.creep_resistance.value),
+        1e-12,
+    );
+    let name = "axle_1_right";
+    near(
+        step.wheels[name].worn_mass.value,
+        mean(&|own| own.wheels[name].worn_mass.value),
+        1e-12,
+    );
+    // Depths over the profile hold the volume.
+    let sum = |places: &[study::damage::PlaceDamage]| places.iter().map(|place| place.depth).sum::<f64>();
+    let depths: f64 = sum(&step.wheels[name].profile);
+    near(depths, mean(&|own| sum(&own.wheels[name].profile)), 0.03);
+    // The rate of a wheel in the curve is more than that on the tangent.
+    assert!(of(0).wheels[name].worn_mass.value > 5.0 * of(1).wheels[name].worn_mass.value);
+
+    let worn = wear.worn();
+    let [profile] = &worn.profiles[..] else {
+        panic!("{}", worn.profiles.len())
+    };
+    assert_eq!(profile.wheel, "");
+    let law = WedgeLaw {
+        coefficient: 2e-6,
+        ..WedgeLaw::default()
+    };
+    let own = &base.parameters.trucks[0].wedges[0];
+    let energy = |number: usize| {
+        let summary = &runs[number].summary;
+        let way = (summary.distance[1].value - summary.distance[0].value) * 0.3048;
+        let entry = &summary.ledger.entries["truck_1_leading_left_column_friction_loss"];
+        entry.value * 0.112_984_829_027_6 / way
+    };
+    let taken = (0.25 * energy(0) + 0.75 * energy(1)) * 20_000.0 * 1609.344;
+    let expected = law.depth(taken, own.column_friction.coefficient, own.width * own.height);
+    let found = worn
+        .wedges
+        .iter()
+        .find(|own| own.name == "truck_1_leading_left")
+        .unwrap();
+    assert_eq!(found.key(), "front_truck.wedge.leading_left");
+    near(found.depths[0], expected, 1e-9);
+
+    // The worn car is a car: wedges stand higher, and it runs.
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join(profile.file()), profile.csv()).unwrap();
+    let set = route.worn_settings(&worn, folder.path());
+    let case = route.case([0, 0], &set).unwrap();
+    near(case.parameters.trucks[0].wedges[0].wear.column, expected, 1e-6);
+    let after = run(&case);
+    assert!(after.complete, "{:?}", after.stopped);
+    assert!(after.damage.is_some());
+}
+
+/// A profile loses depths along its normals; what is written is read as the same profile.
+#[test]
+fn analytic_a_worn_profile_has_lost_its_depth() {
+    let profile = nominal::aar_1b().unwrap();
+    let depths: Vec<[f64; 2]> = (-70..=70).map(|k| [1e-3 * f64::from(k), 0.5e-3]).collect();
+    let worn = WornProfile::new("axle_1.left", &profile, &depths);
+    assert_eq!(worn.file(), "axle_1_left.csv");
+    let points = Points::from_csv("worn.csv", &worn.csv()).unwrap();
+    let read = Profile::of_points(&points, ProfileKind::Wheel, 20e-6).unwrap();
+    // The tread of 1:20 stands 0.5 mm higher, square to it; so does the flange's face, to the back.
+    let height = |own: &Profile, y: f64| {
+        own.curve()
+            .sample(1e-4)
+            .iter()
+            .map(|(_, point)| point.position)
+            .fold([f64::INFINITY, 0.0], |best: [f64; 2], [at, z]| {
+                if (at - y).abs() < best[0] {
+                    [(at - y).abs(), z]
+                } else {
+                    best
+                }
+            })[1]
+    };
+    let lost = height(&read, 0.02) - height(&profile, 0.02);
+    assert!((lost - 0.5e-3 * (1.0 + 1.0 / 800.0)).abs() < 2e-5, "{lost}");
+    let face = |own: &Profile| own.flange_face(0.012).unwrap();
+    let thinner = face(&read) - face(&profile);
+    let angle = 75.0_f64.to_radians();
+    assert!((thinner.abs() - 0.5e-3 / angle.sin()).abs() < 5e-5, "{thinner}");
+}
+
+#[test]
+fn input_routes() {
+    let with = |old: &str, new: &str| parse(&ROUTE.replace(old, new)).unwrap_err();
+    for (old, new, expected) in [
+        ("share = 0.25", "share = 0.2", "sum to 0.95"),
+        ("share = 0.25", "share = 2", "between 0 and 1"),
+        ("share = 0.25\n", "", "share"),
+        ("steps = 2", "steps = 1.5", "whole"),
+        ("miles = 40000", "miles = \"40000 mi\"", "number"),
+        ("miles = 40000", "miles = 40000\nkilometers = 3", "twice"),
+        ("car_constant_curve_loaded", "truck_vertical_variable", "truck"),
+        ("case = \"car_constant_curve_loaded\"\n", "", "case"),
+        ("simulation.duration", "simulation.durations", "durations"),
+        ("track.segments", "track.segment", "segment"),
+        ("coefficient = 2e-6", "K = 2e-6", "K"),
+        ("steps = 2", "wheels = \"all\"", "mean"),
+        ("[tracks.curve]", "[track.curve]", "track"),
+    ] {
+        let words = with(old, new);
+        assert!(words.contains(expected), "{new}: {words}");
+    }
+    let seasons = format!(
+        "{ROUTE}[seasons.dry]\nshare = 0.5\nset = {{ wheels.friction = 0.5 }}\n[seasons.wet]\nshare = 0.5\n"
+    );
+    let names: Vec<String> = parse(&seasons)
+        .unwrap()
+        .runs()
+        .into_iter()
+        .map(|own| own.name)
+        .collect();
+    assert_eq!(names, ["curve.dry", "curve.wet", "tangent.dry", "tangent.wet"]);
+    let no_share = with("[tracks.curve]", "[tracks.a.b]\nshare = 0.1\n[tracks.curve]");
+    assert!(no_share.contains("share"), "{no_share}");
+}
