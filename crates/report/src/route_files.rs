@@ -128,7 +128,7 @@ pub fn figure(route: &RouteSummary) -> Figure {
     let on_rails = on_rails.map(|(number, (name, own))| {
         PlotCurve::new(format!("{name} rail"), distinct(number), depths(&own.profile))
     });
-    let service = format!("service, {}", route.service.unit);
+    let service = format!("service ({})", route.service.unit);
     let depth = axis("depth", Kind::Length, units);
     let place = axis("to the field side", Kind::Length, units);
     let mut panels = vec![

@@ -104,7 +104,7 @@ fn input_keys_of_damage() {
     let again = CarCase::parse("case.toml", case.to_toml_embedded(), Tables::nowhere(), &[]).unwrap();
     assert_eq!(case.damage, again.damage);
     for (section, expected) in [
-        ("[damage]\nhardness = \"0 MPa\"", "positive"),
+        ("[damage]\nhardness = \"0 MPa\"", "greater than zero"),
         ("[damage]\nhardness = 3e9", "unit"),
         ("[damage]\nwear_slow = -1", "zero"),
         ("[damage]\nmiddling_from = \"0.9 m/s\"", "end before they begin"),

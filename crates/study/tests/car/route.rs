@@ -9,11 +9,22 @@ use wheelrail::profile::{Points, Profile, ProfileKind, nominal};
 
 use crate::problems::in_words;
 
-const ROUTE: &str = "title = \"two tracks\"\ncase = \"car_constant_curve_loaded\"\nmiles = 40000\nsteps = \
-                     2\n[set]\nsimulation.duration = \"4 s\"\nsimulation.output_interval = \"10 \
-                     ms\"\nstart.settle = \"1 s\"\n[wedges]\ncoefficient = 2e-6\n[tracks.curve]\nshare = \
-                     0.25\n[tracks.tangent]\nshare = 0.75\n[tracks.tangent.set]\ntrack.segments = [{ tangent = \"600 \
-                     ft\" }]\n";
+const ROUTE: &str = "title = \"two tracks\"\ncase = \"car_constant_curve_loaded\"\nmiles = 40\nsteps = 2
+[set]
+simulation.duration = \"8 s\"
+simulation.output_interval = \"10 ms\"
+start.settle = \"5 s\"
+[wedges]
+coefficient = 2e-6
+[tracks.curve]
+share = 0.25
+[tracks.curve.set]
+track.segments = [{ tangent = \"60 ft\" }, { spiral = \"100 ft\" }, { curve = \"600 ft\", degree = \"8 deg\" }]
+[tracks.tangent]
+share = 0.75
+[tracks.tangent.set]
+track.segments = [{ tangent = \"800 ft\" }]
+";
 
 fn parse(text: &str) -> Result<Route, String> {
     let error = |error: study::case::CaseError| in_words(error.problems());
@@ -85,7 +96,7 @@ fn analytic_a_step_is_the_mean_of_its_runs() {
         let entry = &summary.ledger.entries["truck_1_leading_left_column_friction_loss"];
         entry.value * 0.112_984_829_027_6 / way
     };
-    let taken = (0.25 * energy(0) + 0.75 * energy(1)) * 20_000.0 * 1609.344;
+    let taken = (0.25 * energy(0) + 0.75 * energy(1)) * 20.0 * 1609.344;
     let expected = law.depth(taken, own.column_friction.coefficient, own.width * own.height);
     let found = worn
         .wedges
@@ -145,8 +156,8 @@ fn input_routes() {
         ("share = 0.25", "share = 2", "between 0 and 1"),
         ("share = 0.25\n", "", "share"),
         ("steps = 2", "steps = 1.5", "whole"),
-        ("miles = 40000", "miles = \"40000 mi\"", "number"),
-        ("miles = 40000", "miles = 40000\nkilometers = 3", "twice"),
+        ("miles = 40", "miles = \"40000 mi\"", "number"),
+        ("miles = 40", "miles = 40\nkilometers = 3", "twice"),
         ("car_constant_curve_loaded", "truck_vertical_variable", "truck"),
         ("case = \"car_constant_curve_loaded\"\n", "", "case"),
         ("simulation.duration", "simulation.durations", "durations"),
